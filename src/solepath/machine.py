@@ -1,0 +1,177 @@
+"""Saving and restoring: every machine is a plain record, and a plain record is JSON.
+
+A machine is an attrs class whose fields are floats, ints, strings, booleans, None, bytes, enums, tuples, lists, dicts
+with string or enum keys, and other such records. `save` turns it into a JSON-able value, `load` builds it again from
+the type annotations; a field typed as a union of records carries the class name. Nothing else may be held across two
+samples: no generators, closures, rebound methods or arrays.
+
+    feed(...) -> list of what came out     advance(now) -> the same     finish() -> the same
+"""
+
+from __future__ import annotations
+
+import types
+import typing
+from collections.abc import Callable
+from enum import Enum
+from math import isfinite
+from typing import Any, TypeVar
+
+import attrs
+
+T = TypeVar("T")
+
+Json = None | bool | int | float | str | list["Json"] | dict[str, "Json"]
+_Saver = Callable[[Any], Json]
+_Loader = Callable[[Any], Any]
+
+
+class SnapshotError(ValueError):
+    """A snapshot is not one of ours, is of another version, or does not fit the records of this release."""
+
+
+def save(record: object) -> Json:
+    """A JSON-able copy of `record`, an attrs instance. TypeError when a field holds what cannot be saved."""
+    return _codec(type(record))[0](record)
+
+
+def load(cls: type[T], value: Json) -> T:
+    """The record of class `cls` that `save` turned into `value`. SnapshotError when it does not fit."""
+    try:
+        loaded: T = _codec(cls)[1](value)
+    except SnapshotError:
+        raise
+    except (TypeError, ValueError, KeyError, IndexError, AttributeError) as error:
+        raise SnapshotError(f"not a snapshot of {cls.__name__}: {error}") from error
+    return loaded
+
+
+_CODECS: dict[Any, tuple[_Saver, _Loader]] = {}
+
+
+def _codec(annotation: Any) -> tuple[_Saver, _Loader]:
+    codec = _CODECS.get(annotation)
+    if codec is None:
+        codec = _CODECS[annotation] = _make_codec(annotation)
+    return codec
+
+
+def _make_codec(annotation: Any) -> tuple[_Saver, _Loader]:
+    origin, arguments = typing.get_origin(annotation), typing.get_args(annotation)
+    if annotation is float:
+        return _save_float, _load_float
+    if annotation in (int, str, bool):
+        return _exactly(annotation), _exactly(annotation)
+    if annotation is None or annotation is type(None):
+        return _exactly(type(None)), _exactly(type(None))
+    if annotation is bytes:
+        return bytes.hex, bytes.fromhex
+    if isinstance(annotation, type) and issubclass(annotation, Enum):
+        return (lambda member: member.value), annotation
+    if isinstance(annotation, type) and attrs.has(annotation):
+        return _record_codec(annotation)
+    if origin in (typing.Union, types.UnionType):
+        return _union_codec(arguments)
+    if origin is tuple and len(arguments) == 2 and arguments[1] is Ellipsis:
+        save_item, load_item = _codec(arguments[0])
+        return (lambda v: [save_item(i) for i in v]), (lambda v: tuple([load_item(i) for i in _list(v)]))
+    if origin is tuple:
+        return _fixed_tuple_codec(arguments)
+    if origin is list:
+        save_item, load_item = _codec(arguments[0])
+        return (lambda v: [save_item(i) for i in v]), (lambda v: [load_item(i) for i in _list(v)])
+    if origin is dict:
+        (save_key, load_key), (save_item, load_item) = _codec(arguments[0]), _codec(arguments[1])
+        return (
+            lambda v: {typing.cast(str, save_key(k)): save_item(i) for k, i in v.items()},
+            lambda v: {load_key(k): load_item(i) for k, i in v.items()},
+        )
+    raise TypeError(f"a snapshot cannot hold {annotation!r}")
+
+
+def _list(value: Any) -> list[Any]:
+    if not isinstance(value, list):
+        raise SnapshotError(f"expected a list, found {type(value).__name__}")
+    return value
+
+
+def _exactly(kind: type) -> Callable[[Any], Any]:
+    def check(value: Any) -> Any:
+        if type(value) is not kind:
+            raise SnapshotError(f"expected {kind.__name__}, found {value!r}")
+        return value
+
+    return check
+
+
+def _save_float(value: Any) -> Json:
+    number = float(value)
+    if not isfinite(number):
+        raise SnapshotError(f"a snapshot cannot hold {number}")
+    return number
+
+
+def _load_float(value: Any) -> float:
+    if type(value) is not float and type(value) is not int:
+        raise SnapshotError(f"expected a number, found {value!r}")
+    return float(value)
+
+
+def _fixed_tuple_codec(arguments: tuple[Any, ...]) -> tuple[_Saver, _Loader]:
+    codecs = [_codec(a) for a in arguments]
+
+    def load_tuple(value: Any) -> tuple[Any, ...]:
+        if len(_list(value)) != len(codecs):
+            raise SnapshotError(f"expected {len(codecs)} items, found {len(value)}")
+        return tuple([load_item(i) for (_, load_item), i in zip(codecs, value, strict=True)])
+
+    return (lambda value: [save_item(i) for (save_item, _), i in zip(codecs, value, strict=True)]), load_tuple
+
+
+def _record_codec(cls: type) -> tuple[_Saver, _Loader]:
+    hints = typing.get_type_hints(cls)
+    fields = [(f.name, f.alias, *_codec(hints[f.name])) for f in attrs.fields(cls)]
+
+    def save_record(record: Any) -> Json:
+        return {name: save_field(getattr(record, name)) for name, _, save_field, _ in fields}
+
+    def load_record(value: Any) -> Any:
+        if not isinstance(value, dict):
+            raise SnapshotError(f"expected {cls.__name__}, found {type(value).__name__}")
+        unknown = value.keys() - {name for name, *_ in fields}
+        missing = {name for name, *_ in fields} - value.keys()
+        if unknown or missing:
+            raise SnapshotError(f"{cls.__name__} does not have the fields {sorted(unknown | missing)}")
+        record = cls.__new__(cls)
+        for name, _, _, load_field in fields:
+            object.__setattr__(record, name, load_field(value[name]))
+        return record
+
+    return save_record, load_record
+
+
+def _union_codec(arguments: tuple[Any, ...]) -> tuple[_Saver, _Loader]:
+    """None | float and the like are told apart by their JSON type, records by the name of their class."""
+    records = {a.__name__: a for a in arguments if isinstance(a, type) and attrs.has(a)}
+    others = [a for a in arguments if a is not type(None) and not (isinstance(a, type) and attrs.has(a))]
+    if len(others) > 1 or (others and records):
+        raise TypeError(f"a snapshot cannot tell apart {arguments!r}")
+
+    def save_union(value: Any) -> Json:
+        if value is None:
+            return None
+        if others:
+            return _codec(others[0])[0](value)
+        saved = _codec(type(value))[0](value)
+        return {"kind": type(value).__name__, "is": saved} if len(records) > 1 else saved
+
+    def load_union(value: Any) -> Any:
+        if value is None:
+            return None
+        if others:
+            return _codec(others[0])[1](value)
+        if len(records) == 1:
+            return _codec(next(iter(records.values())))[1](value)
+        return _codec(records[value["kind"]])[1](value["is"])
+
+    return save_union, load_union

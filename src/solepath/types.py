@@ -1,0 +1,123 @@
+"""The nouns that every room shares: feet and sites, packets and samples, vectors and layouts.
+
+Units are SI (s, m/s^2, rad/s, N, Pa, T); times are floats in seconds on one clock.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from attrs import field, frozen
+
+Vec3 = tuple[float, float, float]
+"""(x, y, z) in the frame that the docstring names."""
+
+Quat = tuple[float, float, float, float]
+"""Unit quaternion (w, x, y, z), turning sensor coordinates into world coordinates."""
+
+
+class Foot(Enum):
+    LEFT = "left"
+    RIGHT = "right"
+
+
+class Site(Enum):
+    """Where on the body a sensor sits."""
+
+    LEFT_FOOT = "left_foot"
+    RIGHT_FOOT = "right_foot"
+    PELVIS = "pelvis"
+    LEFT_THIGH = "left_thigh"
+    RIGHT_THIGH = "right_thigh"
+    LEFT_SHANK = "left_shank"
+    RIGHT_SHANK = "right_shank"
+
+    @property
+    def foot(self) -> Foot | None:
+        """The foot that this site is, or None for the sites above the ankle."""
+        return _FOOT_OF_SITE.get(self)
+
+
+_FOOT_OF_SITE = {Site.LEFT_FOOT: Foot.LEFT, Site.RIGHT_FOOT: Foot.RIGHT}
+SITE_OF_FOOT = {Foot.LEFT: Site.LEFT_FOOT, Foot.RIGHT: Site.RIGHT_FOOT}
+
+
+class Phase(Enum):
+    """What one foot is doing; each phase begins with the event in brackets."""
+
+    LOADING = "LOADING"  # HeelStrike
+    STATIONARY = "STATIONARY"  # FootFlat
+    PUSH_OFF = "PUSH_OFF"  # HeelOff
+    SWING = "SWING"  # ToeOff
+
+
+class Support(Enum):
+    """Which feet carry the body."""
+
+    DOUBLE = "DOUBLE"
+    LEFT = "LEFT"
+    RIGHT = "RIGHT"
+    FLIGHT = "FLIGHT"
+
+
+@frozen
+class Packet:
+    """One notification (or one value read from a device) as it came in.
+
+    `t` is the arrival time in s on the receiver's clock; `channel` names the format of `data`
+    ("insole/frame", "cc2650/movement", ...), so that a recording describes itself.
+    """
+
+    t: float
+    site: Site
+    channel: str
+    data: bytes = field(repr=lambda data: data.hex())
+
+
+@frozen
+class Sample:
+    """What the sensors of one site measured at one instant; what was not measured is None.
+
+    `t`: when it was measured, s. `known_at`: when it arrived, s; for samples that never were packets it is `t`.
+    `acc`: specific force in m/s^2, sensor frame (+9.81 upwards at rest). `gyro`: rad/s, sensor frame.
+    `pressure`: one value per cell in the layout's order and unit (N when the device declares a scale, otherwise
+    counts; more is more load). `quat`: the device's own attitude, where it sends one. `mag`: T, sensor frame.
+    `air_pressure`: Pa.
+    """
+
+    t: float
+    site: Site
+    acc: Vec3 | None = None
+    gyro: Vec3 | None = None
+    pressure: tuple[float, ...] | None = None
+    quat: Quat | None = None
+    mag: Vec3 | None = None
+    air_pressure: float | None = None
+    known_at: float | None = None
+
+
+@frozen
+class Cell:
+    """One pressure cell: its centre in the foot frame (x to the toe, y to the left, m; origin at the heel's rear end
+    on the insole's midline) and its area in m^2."""
+
+    x: float
+    y: float
+    area: float = 1e-4
+
+
+@frozen
+class Layout:
+    """The pressure cells of one insole, in the order in which samples carry them.
+
+    `length`: heel to toe in m. `scale`: N per count of the wire (1.0 when the values are newtons already, None when
+    nobody knows: then loads are in counts). `full_scale`: the largest value that a cell can report, in the unit of
+    the samples.
+    """
+
+    id: int
+    foot: Foot
+    cells: tuple[Cell, ...]
+    length: float
+    scale: float | None = None
+    full_scale: float = 4095.0
