@@ -1,0 +1,50 @@
+"""What every record of the insole protocol has around it: magic, version and type in front, CRC-16 behind."""
+
+from __future__ import annotations
+
+from binascii import crc_hqx
+
+from ..events import Rejection
+from .error import WireError
+from .fields import LONGEST_VALUE, malformed
+
+MAGIC = 0xF5
+FRAME = 0x10
+"""Version 1, type 0."""
+INFO = 0x11
+"""Version 1, type 1."""
+
+CRC_SIZE = 2
+
+
+def crc16(data: bytes) -> int:
+    """CRC-16/CCITT-FALSE: polynomial 0x1021, start 0xFFFF, not reflected, no final XOR; "123456789" gives 0x29B1."""
+    return crc_hqx(data, 0xFFFF)
+
+
+def check_start(data: bytes, kind: int, header_size: int) -> None:
+    """WireError unless `data` begins as a record of `kind` and has its whole header."""
+    if len(data) > 0 and data[0] != MAGIC:
+        raise malformed(f"begins with {data[0]:#04x}, not {MAGIC:#04x}")
+    if len(data) > 1 and data[1] != kind:
+        raise malformed(f"version {data[1] >> 4} type {data[1] & 15}, not version {kind >> 4} type {kind & 15}")
+    if len(data) < header_size:
+        raise WireError(Rejection.TRUNCATED, f"{len(data)} bytes, the header has {header_size}")
+
+
+def check_end(data: bytes, size: int) -> None:
+    """WireError unless `data` is as long as its header says and its CRC is right."""
+    if len(data) < size:
+        raise WireError(Rejection.TRUNCATED, f"{len(data)} of {size} bytes")
+    if len(data) > min(size, LONGEST_VALUE):
+        raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes where {min(size, LONGEST_VALUE)} belong")
+    stated, computed = int.from_bytes(data[-CRC_SIZE:], "little"), crc16(data[:-CRC_SIZE])
+    if stated != computed:
+        raise WireError(Rejection.CHECKSUM, f"CRC {stated:#06x}, computed {computed:#06x}")
+
+
+def seal(body: bytes) -> bytes:
+    """`body` and its CRC. ValueError when that is longer than any attribute value may be."""
+    if len(body) + CRC_SIZE > LONGEST_VALUE:
+        raise ValueError(f"{len(body) + CRC_SIZE} bytes, an attribute value has at most {LONGEST_VALUE}")
+    return body + crc16(body).to_bytes(CRC_SIZE, "little")
