@@ -1,0 +1,192 @@
+"""The insole's INFO record (protocol/insole.md): which cells where, what a count is worth, how fast it ticks."""
+
+from __future__ import annotations
+
+from itertools import groupby
+from math import isfinite
+from typing import Any
+
+from attrs import frozen
+from construct import Array, Bytes, Struct, Terminated
+
+from ..types import Cell, Foot
+from .cells import Packed12, packed_size
+from .envelope import CRC_SIZE, INFO, MAGIC, check_end, check_start, seal
+from .fields import Fields, build_whole, malformed, parse_whole
+from .insole import MAX_CELLS
+
+_RIGHT = 1
+_RESERVED_FLAGS = 0xFE
+_Y_ZERO = 2048
+_PER_METRE = 10_000  # x, y and length count 0.1 mm
+_PER_SQUARE_METRE = 10_000_000  # areas count 0.1 mm^2
+
+
+@frozen
+class InsoleInfo:
+    """What an insole says of itself.
+
+    `tick_rate`: ticks per second, nominal. `interval`: ticks between samples. `acc_scale`: m/s^2 per count.
+    `gyro_scale`: rad/s per count. `pressure_scale`: N per count. A scale of 0 means that there is no such sensor, or
+    for pressure that nobody calibrated it. `length`: heel to toe, m. `cells`: in the order of the samples, in the foot
+    frame; x 0 to 0.4095 m, y -0.2048 to 0.2047 m, area up to 6.5535e-3 m^2, 0 where unknown.
+    """
+
+    foot: Foot
+    layout: int
+    serial: int
+    tick_rate: int
+    interval: int
+    acc_scale: float
+    gyro_scale: float
+    pressure_scale: float
+    length: float
+    cells: tuple[Cell, ...]
+    firmware: str = ""
+
+
+@frozen
+class _Header:
+    magic: int
+    kind: int
+    flags: int
+    layout: int
+    serial: int
+    tick_rate: int
+    interval: int
+    acc_scale: float
+    gyro_scale: float
+    pressure_scale: float
+    length: int
+    cells: int
+    runs: int
+    firmware_size: int
+
+    @property
+    def size(self) -> int:
+        """Of the whole record with its CRC."""
+        return _HEADER_SIZE + packed_size(2 * self.cells) + 3 * self.runs + self.firmware_size + CRC_SIZE
+
+
+@frozen
+class _Run:
+    """So many cells in a row have this area."""
+
+    cells: int
+    area: int
+
+
+def _coordinate_count(context: Any) -> int:
+    return 2 * int(context.header.cells)
+
+
+def _run_count(context: Any) -> int:
+    return int(context.header.runs)
+
+
+def _firmware_size(context: Any) -> int:
+    return int(context.header.firmware_size)
+
+
+_HEADER = Fields("<BBBBIIHfffHBBB", _Header)
+_HEADER_SIZE = 31
+
+_BODY = Struct(
+    "header" / _HEADER,
+    "coordinates" / Packed12(_coordinate_count),
+    "runs" / Array(_run_count, Fields("<BH", _Run)),
+    "firmware" / Bytes(_firmware_size),
+    Terminated,
+)
+"""Everything but the CRC that follows it."""
+
+
+def parse_info(data: bytes) -> InsoleInfo:
+    """The INFO record in `data`. WireError when it is not one, whatever the bytes."""
+    data = bytes(data)
+    check_start(data, INFO, _HEADER_SIZE)
+    header: _Header = _HEADER.parse(data)
+    check_end(data, header.size)
+    body = parse_whole(_BODY, data[:-CRC_SIZE])
+    problem = _problem(header, body.runs)
+    if problem:
+        raise malformed(problem)
+    areas = [run.area / _PER_SQUARE_METRE for run in body.runs for _ in range(run.cells)]
+    try:
+        firmware = body.firmware.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise malformed(f"the firmware name is not UTF-8: {error}") from error
+    return InsoleInfo(
+        foot=Foot.RIGHT if header.flags & _RIGHT else Foot.LEFT,
+        layout=header.layout,
+        serial=header.serial,
+        tick_rate=header.tick_rate,
+        interval=header.interval,
+        acc_scale=header.acc_scale,
+        gyro_scale=header.gyro_scale,
+        pressure_scale=header.pressure_scale,
+        length=header.length / _PER_METRE,
+        cells=tuple(
+            Cell(x / _PER_METRE, (y - _Y_ZERO) / _PER_METRE, area)
+            for x, y, area in zip(body.coordinates[0::2], body.coordinates[1::2], areas, strict=True)
+        ),
+        firmware=firmware,
+    )
+
+
+def build_info(info: InsoleInfo) -> bytes:
+    """The bytes of `info`, the inverse of `parse_info` for values on the record's grid; others go to the nearest.
+
+    ValueError when something does not fit: too many cells, a cell too far out, a firmware name too long.
+    """
+    coordinates = [
+        c for cell in info.cells for c in (_counts(cell.x, _PER_METRE), _counts(cell.y, _PER_METRE) + _Y_ZERO)
+    ]
+    areas = [_counts(cell.area, _PER_SQUARE_METRE) for cell in info.cells]
+    runs = [_Run(len(list(equal)), area) for area, equal in groupby(areas)]
+    firmware = info.firmware.encode("utf-8")
+    header = _Header(
+        MAGIC,
+        INFO,
+        _RIGHT if info.foot is Foot.RIGHT else 0,
+        info.layout,
+        info.serial,
+        info.tick_rate,
+        info.interval,
+        info.acc_scale,
+        info.gyro_scale,
+        info.pressure_scale,
+        _counts(info.length, _PER_METRE),
+        len(info.cells),
+        len(runs),
+        len(firmware),
+    )
+    problem = _problem(header, runs)
+    if problem:
+        raise ValueError(problem)
+    body = {"header": header, "coordinates": coordinates, "runs": runs, "firmware": firmware}
+    return seal(build_whole(_BODY, body))
+
+
+def _counts(value: float, per_unit: int) -> int:
+    if not isfinite(value):
+        raise ValueError(f"{value} is not finite")
+    return round(value * per_unit)
+
+
+def _problem(header: _Header, runs: list[_Run]) -> str:
+    """What contradicts the format although length and CRC are right; "" when nothing does."""
+    scales = (header.acc_scale, header.gyro_scale, header.pressure_scale)
+    if header.flags & _RESERVED_FLAGS:
+        return f"reserved flags are set: {header.flags:#04x}"
+    if header.cells > MAX_CELLS:
+        return f"{header.cells} cells, at most {MAX_CELLS}"
+    if header.tick_rate == 0 or header.interval == 0:
+        return "a tick rate or interval of zero"
+    if not all(isfinite(scale) and scale >= 0.0 for scale in scales):
+        return f"scales that are negative or not finite: {scales}"
+    if sum(run.cells for run in runs) != header.cells or any(run.cells == 0 for run in runs):
+        return f"areas for {sum(run.cells for run in runs)} of {header.cells} cells"
+    if any(a.area == b.area for a, b in zip(runs, runs[1:], strict=False)):
+        return "neighbouring areas that should be one run"
+    return ""
