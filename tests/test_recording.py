@@ -1,0 +1,207 @@
+"""Recordings of packets: protocol/recording.md, clause by clause."""
+
+import json
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath.recording import PacketWriter, RecordingError, RecordingWarning, read_packets
+from solepath.types import Packet, Site
+
+HEADER = '{"format": "solepath-packets", "version": 1}\n'
+PACKETS = [
+    Packet(12.5, Site.LEFT_FOOT, "device/battery", b"\x63"),
+    Packet(12.5, Site.RIGHT_FOOT, "insole/frame", bytes(range(256))),
+    Packet(0.1 + 12.65, Site.PELVIS, "cc2650/keys", b""),
+]
+
+
+def written(path: Path, packets=PACKETS) -> Path:
+    with PacketWriter(path) as writer:
+        for packet in packets:
+            writer.write(packet)
+    return path
+
+
+def line_of(**fields) -> str:
+    return json.dumps({"t": 1.0, "site": "left_foot", "channel": "insole/frame", "data": "f5"} | fields) + "\n"
+
+
+def read_what_there_is(path: Path) -> tuple[list[Packet], str]:
+    """The packets before the damage, and the one sentence about it."""
+    packets = []
+    with pytest.raises(RecordingError) as caught:
+        for packet in read_packets(path):
+            packets.append(packet)
+    sentence = str(caught.value)
+    assert "\n" not in sentence and sentence.startswith(str(path))
+    return packets, sentence
+
+
+def test_what_was_written_is_read_back(tmp_path):
+    assert list(read_packets(written(tmp_path / "walk.jsonl"))) == PACKETS
+
+
+arrivals = st.lists(st.floats(allow_nan=False, allow_infinity=False), max_size=8).map(sorted)
+
+
+@given(
+    times=arrivals,
+    contents=st.lists(
+        st.tuples(st.sampled_from(Site), st.text(st.characters(codec="utf-8"), max_size=20), st.binary(max_size=64)),
+        min_size=8,
+        max_size=8,
+    ),
+)
+def test_any_packets_in_order_of_arrival_survive_writing_and_reading(tmp_path_factory, times, contents):
+    packets = [Packet(t, *content) for t, content in zip(times, contents, strict=False)]
+    path = written(tmp_path_factory.mktemp("recordings") / "any.jsonl", packets)
+    assert list(read_packets(path)) == packets
+
+
+
+def test_the_example_of_the_specification_is_read(tmp_path):
+    text = (Path(__file__).parent.parent / "protocol" / "recording.md").read_text()
+    path = tmp_path / "example.jsonl"
+    path.write_text(text.split("## Example")[1].split("```")[1].strip() + "\n")
+    battery, keys = read_packets(path)
+    assert battery == Packet(12.5, Site.LEFT_FOOT, "device/battery", b"c")
+    assert keys == Packet(12.75, Site.RIGHT_FOOT, "cc2650/keys", b"\x01")
+
+
+def test_every_line_is_on_its_way_to_the_disk_before_the_next_packet(tmp_path):
+    path = tmp_path / "walk.jsonl"
+    with PacketWriter(path) as writer:
+        for count, packet in enumerate(PACKETS, start=1):
+            writer.write(packet)
+            assert path.read_bytes().count(b"\n") == 1 + count
+
+
+def test_unknown_keys_are_ignored_in_header_and_packets(tmp_path):
+    path = tmp_path / "walk.jsonl"
+    path.write_text('{"version": 1, "note": "x", "format": "solepath-packets"}\n' + line_of(rssi=-60, t=2))
+    assert list(read_packets(path)) == [Packet(2.0, Site.LEFT_FOOT, "insole/frame", b"\xf5")]
+
+
+def test_a_header_alone_is_a_recording_of_nothing(tmp_path):
+    assert list(read_packets(written(tmp_path / "walk.jsonl", []))) == []
+
+
+def test_upper_case_digits_and_blank_lines_are_read(tmp_path):
+    path = tmp_path / "walk.jsonl"
+    path.write_text(HEADER + "\n  \n" + line_of(data="F5aB"))
+    assert [packet.data for packet in read_packets(path)] == [b"\xf5\xab"]
+
+
+@given(cut=st.integers(min_value=1, max_value=10_000))
+def test_cut_anywhere_after_the_header_no_packet_before_the_cut_is_lost(tmp_path_factory, cut):
+    path = written(tmp_path_factory.mktemp("recordings") / "walk.jsonl")
+    whole = path.read_bytes()
+    first = whole.index(b"\n") + 1
+    kept = whole[: first + cut % (len(whole) - first)]
+    path.write_bytes(kept)
+    reports = []
+    packets = list(read_packets(path, report=reports.append))
+    whole_lines = sum(line.endswith(b"}") for line in kept[first:].split(b"\n"))
+    assert packets == PACKETS[:whole_lines]
+    torn = not kept.endswith((b"\n", b"}"))
+    assert len(reports) == torn
+    if torn:
+        assert f"line {whole_lines + 2}: cut off" in reports[0]
+
+
+def test_a_torn_last_line_warns_when_nobody_asked_for_the_report(tmp_path):
+    path = written(tmp_path / "walk.jsonl")
+    path.write_bytes(path.read_bytes()[:-9])
+    with pytest.warns(RecordingWarning, match="line 4: cut off in the middle; everything before it is used"):
+        assert list(read_packets(path)) == PACKETS[:2]
+
+
+@pytest.mark.parametrize(
+    ("line", "complaint"),
+    [
+        ("hello\n", "is not JSON"),
+        ("[1, 2]\n", "is not a JSON object but [1, 2]"),
+        ('{"t": NaN}\n', "NaN is not JSON"),
+        ("\x00\x01\n", "is not JSON"),
+        ("[" * 30_000 + "\n", "is not JSON"),
+        ('{"t": 1.0, "site": "left_foot", "channel": "x"}\n', '"data" is missing'),
+        (line_of(t="1"), '"t" is not a number but "1"'),
+        (line_of(t=True), '"t" is not a number but true'),
+        (line_of().replace("1.0", "1e999"), '"t" is not a finite number'),
+        (line_of(t=10**400), '"t" is not a finite number'),
+        (line_of(site="hand"), '"site" is not one of left_foot'),
+        (line_of(site=["left_foot"]), '"site" is not one of left_foot'),
+        (line_of(channel=7), '"channel" is not text but 7'),
+        (line_of(data="f5 0"), '"data" is not pairs of hexadecimal digits but "f5 0"'),
+        (line_of(data="f5f"), '"data" is not pairs'),
+        (line_of(data=None), '"data" is not pairs'),
+        (line_of(data="00" * 40_000), "is longer than 65536 bytes"),
+        (line_of(t=0.25), "time runs backwards, from 0.5 s to 0.25 s"),
+    ],
+)
+def test_a_bad_line_is_named_after_everything_before_it_was_read(tmp_path, line, complaint):
+    path = tmp_path / "walk.jsonl"
+    path.write_text(HEADER + line_of(t=0.5) + line + line_of(t=9.0))
+    packets, sentence = read_what_there_is(path)
+    assert [packet.t for packet in packets] == [0.5]
+    assert f": line 3: {complaint}" in sentence
+    assert sentence.isprintable() and len(sentence) < 400
+
+
+def test_bytes_that_are_not_text_are_named(tmp_path):
+    path = tmp_path / "walk.jsonl"
+    path.write_bytes(HEADER.encode() + b'{"t": \xff}\n')
+    assert "line 2: is not text" in read_what_there_is(path)[1]
+
+
+@pytest.mark.parametrize("version", [2, 0, "1", 1.0, True, None])
+def test_an_unknown_version_is_refused(tmp_path, version):
+    path = tmp_path / "walk.jsonl"
+    path.write_text(json.dumps({"format": "solepath-packets", "version": version}) + "\n" + line_of())
+    packets, sentence = read_what_there_is(path)
+    assert packets == []
+    assert f"line 1: is of version {json.dumps(version)}; this release reads version 1" in sentence
+
+
+@pytest.mark.parametrize("first", ['{"format": "solepath-pack', line_of(), "hello", '"x"\n'])
+def test_a_file_without_a_whole_header_is_refused(tmp_path, first):
+    path = tmp_path / "walk.jsonl"
+    path.write_text(first)
+    assert "line 1: " in read_what_there_is(path)[1]
+
+
+@pytest.mark.parametrize("nothing", ["", "\n\n"])
+def test_an_empty_file_is_called_empty(tmp_path, nothing):
+    path = tmp_path / "walk.jsonl"
+    path.write_text(nothing)
+    assert read_what_there_is(path)[1].endswith("is empty")
+
+
+def test_a_missing_file_and_a_directory_are_named(tmp_path):
+    assert read_what_there_is(tmp_path / "none.jsonl")[1].endswith("no such file or directory")
+    assert read_what_there_is(tmp_path)[1].endswith("is a directory, not a recording")
+
+
+def test_progress_ends_at_the_size_of_the_file(tmp_path):
+    path = written(tmp_path / "walk.jsonl")
+    read = []
+    list(read_packets(path, progress=read.append))
+    assert read == sorted(read) and read[-1] == path.stat().st_size
+
+
+def test_packets_that_no_recording_can_hold_are_refused_and_leave_it_whole(tmp_path):
+    path = tmp_path / "walk.jsonl"
+    with PacketWriter(path) as writer:
+        writer.write(PACKETS[0])
+        for unfit in (
+            Packet(float("nan"), Site.LEFT_FOOT, "insole/frame", b""),
+            Packet(12.0, Site.LEFT_FOOT, "insole/frame", b""),
+            Packet(13.0, Site.LEFT_FOOT, "insole/frame", bytes(40_000)),
+        ):
+            with pytest.raises(ValueError):
+                writer.write(unfit)
+        writer.write(PACKETS[1])
+    assert list(read_packets(path)) == PACKETS[:2]

@@ -1,0 +1,342 @@
+"""Recorded samples: what is read from .npz and .csv, and the one sentence about each thing that cannot be."""
+
+import io
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from solepath.recording import RecordingError, RecordingWarning
+from solepath.samples import load_samples, read_samples
+from solepath.types import Foot, Sample, Site
+
+
+def still(n=20, rate=100.0, start=0.0) -> dict[str, np.ndarray]:
+    """A foot at rest, with two cells under it."""
+    return {
+        "t": start + np.arange(n) / rate,
+        "acc": np.tile([0.25, -0.5, 9.75], (n, 1)),
+        "gyro": np.tile([0.125, 0.0, -0.0625], (n, 1)),
+        "pressure": np.tile([100.0, 200.0], (n, 1)),
+    }
+
+
+def named(columns: dict[str, np.ndarray], foot: str) -> dict[str, np.ndarray]:
+    return {f"{key}_{foot}": value for key, value in columns.items()}
+
+
+def npz(path: Path, **columns) -> Path:
+    np.savez(path, **columns)
+    return path
+
+
+def sheet(path: Path, columns: dict[str, np.ndarray]) -> Path:
+    names, values = [], []
+    for key, value in columns.items():
+        if value.ndim == 1:
+            names.append(key)
+            values.append(value)
+        else:
+            quantity, _, foot = key.partition("_")
+            for c in range(value.shape[1]):
+                component = str(c) if quantity == "pressure" else "xyz"[c]
+                names.append("_".join(filter(None, (quantity, component, foot))))
+                values.append(value[:, c])
+    rows = [",".join(repr(float(v)) for v in row) for row in zip(*values, strict=True)]
+    path.write_text("\n".join([",".join(names), *rows]) + "\n")
+    return path
+
+
+def refusal(path: Path, foot: Foot | None = None) -> tuple[list[Sample], str]:
+    """The samples that came before the fault, and the one sentence about it."""
+    samples: list[Sample] = []
+    with pytest.raises(RecordingError) as caught:
+        for sample in read_samples(path, foot):
+            samples.append(sample)
+    sentence = str(caught.value)
+    assert sentence.startswith(str(path)) and sentence.isprintable() and len(sentence) < 400
+    return samples, sentence
+
+
+# --- what is read ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", ["npz", "csv"])
+def test_one_foot_is_the_right_one_unless_told_otherwise(tmp_path, kind):
+    columns = still() | {"gt_pos": np.zeros((20, 3)), "activity": np.zeros(20)}
+    path = npz(tmp_path / "one.npz", **columns) if kind == "npz" else sheet(tmp_path / "one.csv", columns)
+    expected = Sample(0.01, Site.RIGHT_FOOT, (0.25, -0.5, 9.75), (0.125, 0.0, -0.0625), (100.0, 200.0))
+    samples = list(read_samples(path))
+    assert len(samples) == len(load_samples(path)) == 20 and samples[1] == expected
+    assert {sample.site for sample in read_samples(path, Foot.LEFT)} == {Site.LEFT_FOOT}
+
+
+@pytest.mark.parametrize("kind", ["npz", "csv"])
+def test_both_feet_on_a_shared_clock_come_left_then_right_at_each_instant(tmp_path, kind):
+    columns = {"t": still()["t"], **named(still(), "left"), **named(still(), "right")}
+    del columns["t_left"], columns["t_right"]
+    path = npz(tmp_path / "two.npz", **columns) if kind == "npz" else sheet(tmp_path / "two.csv", columns)
+    samples = list(read_samples(path))
+    assert [s.site for s in samples[:4]] == [Site.LEFT_FOOT, Site.RIGHT_FOOT] * 2
+    assert [s.t for s in samples] == sorted(s.t for s in samples)
+    assert {s.site for s in read_samples(path, Foot.LEFT)} == {Site.LEFT_FOOT}
+
+
+def test_feet_with_times_and_rates_of_their_own_are_merged_by_time(tmp_path):
+    path = npz(tmp_path / "two.npz", **named(still(10, 50.0), "left"), **named(still(30, 100.0, 0.005), "right"))
+    samples = list(read_samples(path))
+    assert len(samples) == 40
+    assert [s.t for s in samples] == sorted(s.t for s in samples)
+
+
+def test_a_foot_without_a_gyroscope_and_a_file_of_pressure_alone_are_read(tmp_path):
+    columns = {"t": still()["t"], **named(still(), "left"), **named(still(), "right")}
+    del columns["gyro_left"]
+    samples = list(read_samples(npz(tmp_path / "no_gyro.npz", **columns)))
+    assert samples[0].gyro is None and samples[1].gyro == (0.125, 0.0, -0.0625)
+    soles = {"t": still()["t"], "pressure_left": still()["pressure"], "pressure_right": still()["pressure"]}
+    samples = list(read_samples(npz(tmp_path / "soles.npz", **soles)))
+    assert samples[0] == Sample(0.0, Site.LEFT_FOOT, None, None, (100.0, 200.0))
+
+
+def test_whole_numbers_and_short_floats_become_floats(tmp_path):
+    columns = {k: v.astype(np.float32) for k, v in still().items()} | {"pressure": np.full((20, 2), 7, np.uint16)}
+    columns["t"] = still()["t"]
+    sample = next(read_samples(npz(tmp_path / "one.npz", **columns)))
+    assert sample.pressure == (7.0, 7.0) and type(sample.pressure[0]) is float and type(sample.acc[0]) is float
+
+
+def test_a_sheet_may_put_the_foot_before_the_axis_and_number_the_axes(tmp_path):
+    path = tmp_path / "two.csv"
+    path.write_text(
+        "\ufeffnote,T,acc_left_0,acc_left_1,acc_left_2,pressure_1_right,pressure_2_right\n"
+        '"a, b",0.00,0,0,9.8,1,2\nx,0.01,0,0,9.8,3,4\n',
+        encoding="utf-8",
+    )
+    left, right = list(read_samples(path))[:2]
+    assert left == Sample(0.0, Site.LEFT_FOOT, (0.0, 0.0, 9.8))
+    assert right == Sample(0.0, Site.RIGHT_FOOT, None, None, (1.0, 2.0))
+
+
+def test_blank_cells_of_one_foot_mean_no_sample_of_that_foot(tmp_path):
+    path = tmp_path / "two.csv"
+    names = [f"acc_{axis}_{foot}" for foot in ("left", "right") for axis in "xyz"]
+    path.write_text(",".join(["t", *names]) + "\n0.00,0,0,9.8,0,0,9.8\n0.01,,,,0,0,9.8\n0.02,0,0,9.8,,,\n")
+    assert [(s.t, s.site.foot) for s in read_samples(path)] == [
+        (0.0, Foot.LEFT), (0.0, Foot.RIGHT), (0.01, Foot.RIGHT), (0.02, Foot.LEFT)
+    ]  # fmt: skip
+
+
+@given(
+    acc=arrays(np.float64, (5, 3), elements=st.floats(5.0, 15.0)),
+    steps=st.lists(st.floats(1e-3, 0.1), min_size=5, max_size=5),
+)
+def test_a_sheet_and_an_archive_of_the_same_numbers_give_the_same_samples(tmp_path_factory, acc, steps):
+    folder = tmp_path_factory.mktemp("same")
+    columns = {"t": np.cumsum(steps), "acc": acc}
+    archive, table = npz(folder / "a.npz", **columns), sheet(folder / "a.csv", columns)
+    assert list(read_samples(archive)) == list(read_samples(table))
+
+
+def test_every_recording_of_the_data_folder_is_read_to_its_end(data_dir):
+    paths = sorted(data_dir.glob("*/*.npz"))
+    assert paths
+    for path in paths:
+        with np.load(path) as archive:
+            rows = sum(len(archive[k]) for k in archive.files if k in ("acc", "acc_left", "acc_right"))
+            if not rows:
+                rows = sum(len(archive[k]) for k in archive.files if k.startswith("pressure"))
+        assert len(load_samples(path)) == rows
+
+
+# --- what is refused at once: nothing in the file can be trusted ------------------------------------------------------
+
+
+def without(columns: dict[str, np.ndarray], *keys: str) -> dict[str, np.ndarray]:
+    return {k: v for k, v in columns.items() if k not in keys}
+
+
+FAULTY = {
+    "no t": (without(still(), "t"), 'has no key "t"'),
+    "no t of a foot": (without(named(still(), "left"), "t_left"), 'has no key "t" and no key t_left'),
+    "nothing measured": ({"t": still()["t"], "mag": np.ones((20, 3))}, "has no key acc or pressure"),
+    "gyro alone": (without(still(), "acc"), "has the key gyro but no key acc"),
+    "both kinds of name": (still() | named(still(), "left"), "holds both acc and acc_left"),
+    "acc of two axes": (still() | {"acc": np.ones((20, 2))}, "acc: has the shape (20, 2) instead of (n, 3)"),
+    "acc lying down": (still() | {"acc": np.ones((3, 20))}, "acc: has the shape (3, 20) instead of (n, 3)"),
+    "flat pressure": (still() | {"pressure": np.ones(20)}, "pressure: has the shape (20,) instead of (n, cells)"),
+    "no cells": (still() | {"pressure": np.ones((20, 0))}, "pressure: has the shape (20, 0)"),
+    "t of two columns": (still() | {"t": np.ones((20, 2))}, "t: has the shape (20, 2) instead of (n,)"),
+    "t a number": (still() | {"t": np.float64(1.0)}, "t: has the shape () instead of (n,)"),
+    "one gyro row less": (still() | {"gyro": still(19)["gyro"]}, "gyro: has 19 rows but t has 20"),
+    "words": (still() | {"acc": np.full((20, 3), "x")}, "acc: holds <U1, not numbers"),
+    "complex": (still() | {"acc": np.full((20, 3), 1j)}, "acc: holds complex128, not numbers"),
+    "no rows": ({k: v[:0] for k, v in still().items()}, "t: holds no samples"),
+    "first row not finite": (still() | {"acc": np.full((20, 3), np.nan)}, "acc, row 0: is nan, not a finite number"),
+    "g": (still() | {"acc": still()["acc"] / 9.81}, "|acc| is 0.996 m/s^2, not about 9.8: this looks like g"),
+    "milli-g": (still() | {"acc": still()["acc"] * 102.0}, "this looks like milli-g"),
+    "counts": (still() | {"acc": still()["acc"] * 1670.0}, "this looks like raw counts"),
+    "huge": (still() | {"acc": still()["acc"] * 1e300}, "this looks like raw counts"),
+    "no gravity": (still() | {"acc": still()["acc"] * 0.0}, "gravity removed?"),
+    "deg/s": (still() | {"gyro": np.full((20, 3), 57.3)}, "gyro: |gyro| reaches 99.2 rad/s, faster than any foot turns"),
+    "gyro counts": (still() | {"gyro": np.full((20, 3), 9000.0)}, "gyro: |gyro| reaches 1.56e+04 rad/s"),
+    "milliseconds": (still() | {"t": still()["t"] * 1000.0}, "between samples is 10 s: this looks like milliseconds"),
+    "time stands still": (still() | {"t": np.zeros(20)}, "t: the median time between samples is 0 s"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("fault", FAULTY)
+def test_an_archive_with_a_fault_of_the_whole_is_refused_in_one_sentence(tmp_path, fault):
+    columns, complaint = FAULTY[fault]
+    samples, sentence = refusal(npz(tmp_path / "bad.npz", **columns))
+    assert samples == [] and complaint in sentence
+
+
+def test_pickled_arrays_are_not_loaded(tmp_path):
+    acc = np.array([[{"a": 1}] * 3] * 20, dtype=object)
+    assert "acc: cannot be read (Object arrays" in refusal(npz(tmp_path / "bad.npz", **still() | {"acc": acc}))[1]
+    path = tmp_path / "pickle.npz"
+    path.write_bytes(pickle.dumps({"t": [0.0]}))
+    assert refusal(path)[1].endswith("is not an .npz archive")
+
+
+def test_pickled_truth_is_no_obstacle_for_it_is_never_opened(tmp_path):
+    path = npz(tmp_path / "good.npz", **still(), gt_notes=np.array([{"a": 1}], dtype=object))
+    assert len(list(read_samples(path))) == 20
+
+
+@pytest.mark.parametrize("share", [0.02, 0.3, 0.9, 0.999])
+def test_an_archive_cut_off_is_refused(tmp_path, share):
+    path = npz(tmp_path / "bad.npz", **still())
+    data = path.read_bytes()
+    path.write_bytes(data[: int(len(data) * share)])
+    assert "is not a whole .npz archive" in refusal(path)[1]
+
+
+@given(damage=st.lists(st.tuples(st.integers(0, 5000), st.integers(0, 255)), min_size=1, max_size=5))
+def test_whatever_bytes_of_an_archive_are_damaged_only_recording_error_is_raised(tmp_path_factory, damage):
+    stream = io.BytesIO()
+    np.savez_compressed(stream, **still())
+    data = bytearray(stream.getvalue())
+    for place, value in damage:
+        data[place % len(data)] = value
+    path = tmp_path_factory.mktemp("damaged") / "bad.npz"
+    path.write_bytes(data)
+    try:
+        assert len(list(read_samples(path))) <= 20
+    except RecordingError as error:
+        assert str(error).isprintable()
+
+
+@pytest.mark.parametrize("name", ["empty.npz", "empty.csv"])
+def test_an_empty_file_is_called_empty(tmp_path, name):
+    (tmp_path / name).write_bytes(b"")
+    assert refusal(tmp_path / name)[1].endswith("is empty")
+
+
+@pytest.mark.parametrize("name", ["walk.npz", "walk.csv"])
+def test_a_missing_file_and_a_directory_are_named(tmp_path, name):
+    assert refusal(tmp_path / name)[1].endswith("no such file or directory")
+    (tmp_path / name).mkdir()
+    assert refusal(tmp_path / name)[1].endswith("is a directory, not a recording")
+
+
+def test_another_kind_of_file_holds_no_samples(tmp_path):
+    assert "is neither .npz nor .csv" in refusal(tmp_path / "walk.mat")[1]
+
+
+def test_the_foot_that_a_file_does_not_hold_is_missed(tmp_path):
+    path = npz(tmp_path / "left.npz", **named(still(), "left"))
+    assert refusal(path, Foot.RIGHT)[1].endswith("holds nothing of the right foot")
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("t,acc_x,acc_y,acc_z\n", "holds no samples"),
+        ("0.0,1.0,2.0,9.8\n0.1,1,2,9.8\n", "line 1: names no column acc_x or pressure_0 (it names 0.0, 1.0, 2.0, 9.8)"),
+        ("t;acc_x;acc_y;acc_z\n0;0;0;9.8\n", "line 1: names no column acc_x or pressure_0"),
+        ("acc_x,acc_y,acc_z\n0,0,9.8\n", "line 1: names no column t"),
+        ("t,acc_x,acc_z\n0,0,9.8\n", "line 1: names no column acc_y"),
+        ("t,acc_x,acc_y,acc_z,acc_3\n0,0,0,9.8,1\n", "line 1: names more than three columns of acc"),
+        ("t,acc_x,acc_y,acc_z,acc_x\n0,0,0,9.8,0\n", "line 1: names the column acc_x twice"),
+        ("t,pressure_0,pressure_2\n0,0,0\n", "line 1: names no column pressure_1"),
+        ("t,gyro_x,gyro_y,gyro_z,pressure_0\n0,0,0,0,0\n", "line 1: names gyro but not acc"),
+        ("t,acc_x,acc_y,acc_z,pressure_0_left\n0,0,0,9.8,0\n", "is it of one foot or of two?"),
+        ("t,acc_x,acc_y,acc_z\nzero,0,0,9.8\n1,0,0,9.8\n", 'line 2: t is "zero", not a number'),
+        ("\x1b[31m\x00\xff,\n1,2\n", "line 1: names no column acc_x"),
+    ],
+)
+def test_a_sheet_with_a_fault_of_the_whole_is_refused_in_one_sentence(tmp_path, text, complaint):
+    path = tmp_path / "bad.csv"
+    path.write_bytes(text.encode("latin-1"))
+    samples, sentence = refusal(path)
+    assert samples == [] and complaint in sentence
+
+
+# --- what is wrong from one row on: the rows before are used ----------------------------------------------------------
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("quantity", ["acc", "gyro", "pressure"])
+@pytest.mark.parametrize("kind", ["npz", "csv"])
+def test_a_value_that_is_not_finite_is_named_after_the_rows_before_it(tmp_path, kind, quantity, value):
+    columns = still()
+    columns[quantity][7, 1] = value
+    path = npz(tmp_path / "bad.npz", **columns) if kind == "npz" else sheet(tmp_path / "bad.csv", columns)
+    samples, sentence = refusal(path)
+    assert len(samples) == 7
+    place = f"{quantity}, row 7" if kind == "npz" else f"line 9, {quantity}"
+    assert f"{place}: is {value}, not a finite number (t = 0.07 s)" in sentence
+
+
+def test_time_that_runs_backwards_is_named_after_the_rows_before_it(tmp_path):
+    columns = still()
+    columns["t"][7:] -= 0.05
+    samples, sentence = refusal(npz(tmp_path / "bad.npz", **columns))
+    assert len(samples) == 7
+    assert "t, row 7: time runs backwards, from 0.06 s to 0.02" in sentence
+
+
+def test_equal_times_are_left_to_the_session(tmp_path):
+    columns = still()
+    columns["t"][7] = columns["t"][6]
+    assert len(list(read_samples(npz(tmp_path / "twice.npz", **columns)))) == 20
+
+
+def test_a_bad_row_of_one_foot_ends_both_feet_at_that_time_and_loses_nothing_before(tmp_path):
+    left, right = named(still(), "left"), named(still(), "right")
+    left["acc_left"][7, 0] = np.nan
+    samples, sentence = refusal(npz(tmp_path / "bad.npz", **left, **right))
+    assert [(s.t, s.site.foot) for s in samples[-2:]] == [(0.06, Foot.LEFT), (0.06, Foot.RIGHT)]
+    assert "acc_left, row 7" in sentence
+
+
+@pytest.mark.parametrize(
+    ("row", "complaint"),
+    [
+        ("0.03,0,0", "line 5: has 3 columns instead of 4"),
+        ("0.03,0,0,9.8,1", "line 5: has 5 columns instead of 4"),
+        ("0.03,0,,9.8", "line 5: acc_y is blank, not a number"),
+        ("0.03,0,n/a,9.8", 'line 5: acc_y is "n/a", not a number'),
+        ('0.03,0,"0,9.8', "line 5: has 3 columns instead of 4"),
+    ],
+)
+def test_a_row_that_is_no_row_is_named_after_the_rows_before_it(tmp_path, row, complaint):
+    path = tmp_path / "bad.csv"
+    good = [f"{0.01 * n:.2f},0,0,9.8" for n in range(6)]
+    good[3] = row
+    path.write_text("\n".join(["t,acc_x,acc_y,acc_z", *good]) + "\n")
+    samples, sentence = refusal(path)
+    assert [s.t for s in samples] == [0.0, 0.01, 0.02] and complaint in sentence
+
+
+def test_a_sheet_cut_in_the_middle_of_a_line_keeps_every_line_before(tmp_path):
+    path = sheet(tmp_path / "cut.csv", still())
+    path.write_bytes(path.read_bytes()[:-12])
+    with pytest.warns(RecordingWarning, match="line 21: cut off in the middle; everything before it is used"):
+        assert len(list(read_samples(path))) == 19
