@@ -130,12 +130,12 @@ def _complaints(t: Floats, columns: Mapping[str, Floats]) -> Iterator[tuple[str,
         median = float(np.median(_lengths(columns["acc"])))
         low, high = ACC_AT_REST
         if not low <= median <= high:
-            yield "acc", f"the median of |acc| is {median:.3g} m/s^2, not about 9.8: this looks like {_acc_unit(median)}"
+            yield "acc", f"the median of |acc| is {median:.3g} m/s^2, not 9.8: this looks like {_acc_unit(median)}"
     if "gyro" in columns:
         high = float(np.percentile(_lengths(columns["gyro"]), 99.0))
         if high > GYRO_FASTEST:
             unit = "deg/s" if high < 4000.0 else "raw counts"
-            yield "gyro", f"|gyro| reaches {high:.3g} rad/s, faster than any foot turns: this looks like {unit}"
+            yield "gyro", f"|gyro| reaches {high:.3g} rad/s, faster than a foot turns: this looks like {unit}"
 
 
 def _acc_unit(median: float) -> str:

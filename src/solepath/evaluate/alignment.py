@@ -1,0 +1,84 @@
+"""Laying a track over the truth, and how far apart they then are.
+
+The heading and the origin of a foot's own track are its own choice, so a turn about the vertical and a shift are taken
+out before an error is measured: never a scale, never a mirror image.
+"""
+
+from __future__ import annotations
+
+from math import atan2, cos, sin, sqrt
+from typing import Any
+
+import numpy as np
+from attrs import frozen
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+@frozen
+class Alignment:
+    """Turn by `yaw` rad about z (counter-clockwise), then shift by `x`, `y` m."""
+
+    yaw: float
+    x: float
+    y: float
+
+    def apply(self, track: NDArray[Any]) -> Floats:
+        """`track` (n,2) or (n,3) turned and shifted; heights stay as they are."""
+        moved = np.array(track, dtype=np.float64)
+        c, s = cos(self.yaw), sin(self.yaw)
+        moved[:, 0] = c * track[:, 0] - s * track[:, 1] + self.x
+        moved[:, 1] = s * track[:, 0] + c * track[:, 1] + self.y
+        return moved
+
+
+def align(track: NDArray[Any], truth: NDArray[Any]) -> Alignment:
+    """The turn and shift that bring the horizontal points of `track` nearest to `truth` in the least-squares sense.
+
+    Both (n,2) or (n,3), row by row the same instants. Closed form: with both centred on their means, the sum of squared
+    distances is least at yaw = atan2(sum of cross products, sum of dot products).
+    """
+    ours, theirs = np.asarray(track, np.float64)[:, :2], np.asarray(truth, np.float64)[:, :2]
+    our_mean, their_mean = ours.mean(axis=0), theirs.mean(axis=0)
+    a, b = ours - our_mean, theirs - their_mean
+    yaw = atan2(float(np.sum(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])), float(np.sum(a * b)))
+    turned = Alignment(yaw, 0.0, 0.0).apply(our_mean[None, :])[0]
+    return Alignment(yaw, float(their_mean[0] - turned[0]), float(their_mean[1] - turned[1]))
+
+
+def rms_distance(track: NDArray[Any], truth: NDArray[Any]) -> float:
+    """Root mean square of the Euclidean distance between rows, m."""
+    return sqrt(float(np.mean(np.sum((np.asarray(track, np.float64) - truth) ** 2, axis=1))))
+
+
+def path_length(points: NDArray[Any]) -> float:
+    """Length of the line through the points, m."""
+    return float(np.sum(np.linalg.norm(np.diff(np.asarray(points, np.float64), axis=0), axis=1)))
+
+
+@frozen
+class TrackError:
+    """How far a track is from the truth over a trial, after the best turn and shift; m."""
+
+    rms_2d: float
+    """Root mean square of the horizontal Euclidean distance."""
+    rms_3d: float
+    """The same with heights, whose mean difference is taken out as the third part of the shift."""
+
+    @property
+    def armse_2d(self) -> float:
+        """pyshoe's figure, the root mean square over samples and both axes: the Euclidean one / sqrt 2."""
+        return self.rms_2d / sqrt(2.0)
+
+
+def track_error(track: NDArray[Any], truth: NDArray[Any]) -> TrackError:
+    """Error of `track` (n,3) against `truth` (n,3), row by row the same instants."""
+    moved = align(track, truth).apply(track)
+    moved[:, 2] += float(np.mean(truth[:, 2] - moved[:, 2]))
+    return TrackError(rms_2d=rms_distance(moved[:, :2], truth[:, :2]), rms_3d=rms_distance(moved, truth))
+
+
+def at_times(t: Floats, positions: Floats, wanted: NDArray[Any]) -> Floats:
+    """`positions` (n,3) known at `t` (n,), at the times `wanted` (m,): linear between, held before and after."""
+    return np.column_stack([np.interp(wanted, t, positions[:, axis]) for axis in range(positions.shape[1])])

@@ -1,0 +1,68 @@
+"""Found events against true ones: matched one to one within 250 ms; F1, median offset and its spread."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from attrs import frozen
+
+TOLERANCE = 0.25
+"""s; design: "matched within 250 ms"."""
+
+
+@frozen
+class Matching:
+    """What became of the true and the found events of one kind. `offsets`: found minus true, s, of each match."""
+
+    n_true: int = 0
+    n_found: int = 0
+    offsets: tuple[float, ...] = ()
+
+    def __add__(self, other: Matching) -> Matching:
+        return Matching(self.n_true + other.n_true, self.n_found + other.n_found, self.offsets + other.offsets)
+
+    @property
+    def f1(self) -> float | None:
+        """2 x matched / (true + found); None where there was nothing to find and nothing found."""
+        total = self.n_true + self.n_found
+        return 2.0 * len(self.offsets) / total if total else None
+
+    @property
+    def bias(self) -> float | None:
+        """Median offset, s: positive when we are late."""
+        return float(np.median(self.offsets)) if self.offsets else None
+
+    @property
+    def mad(self) -> float | None:
+        """Median absolute deviation of the offsets from their median, s."""
+        return float(np.median(np.abs(np.array(self.offsets) - np.median(self.offsets)))) if self.offsets else None
+
+
+def match(
+    true: Iterable[float],
+    found: Iterable[float],
+    *,
+    windows: Sequence[tuple[float, float]] | None = None,
+    tolerance: float = TOLERANCE,
+) -> Matching:
+    """Pairs of true and found times, the closest first, each used once, none further apart than `tolerance` s.
+
+    `windows`: the spans of time that are labelled, s; a found event that lies outside all of them, each widened by the
+    tolerance, is neither right nor wrong and is left out. None: from the first to the last true event.
+    """
+    truth = sorted(true)
+    if windows is None:
+        windows = [(truth[0], truth[-1])] if truth else []
+    inside = sorted(t for t in found if any(a - tolerance <= t <= b + tolerance for a, b in windows))
+    near = [
+        (abs(f - t), i, j) for i, t in enumerate(truth) for j, f in enumerate(inside) if abs(f - t) <= tolerance
+    ]
+    free_true, free_found = set(range(len(truth))), set(range(len(inside)))
+    offsets: list[tuple[int, float]] = []
+    for _, i, j in sorted(near):
+        if i in free_true and j in free_found:
+            free_true.discard(i)
+            free_found.discard(j)
+            offsets.append((i, inside[j] - truth[i]))
+    return Matching(len(truth), len(inside), tuple(offset for _, offset in sorted(offsets)))

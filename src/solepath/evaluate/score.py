@@ -1,0 +1,84 @@
+"""What the scores of one recording are, and what they come to over several."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import reduce
+from operator import add
+
+import numpy as np
+from attrs import field, frozen
+
+from .matching import Matching
+from .strides import StrideScore
+
+Figures = dict[str, float | None]
+
+
+@frozen
+class Scored:
+    """The scores of one recording. `figures` are averaged over recordings; events and strides are pooled."""
+
+    recording: str
+    figures: Figures = field(factory=dict)
+    events: dict[str, Matching] = field(factory=dict)
+    """By kind: heel_strike, toe_off."""
+    strides: StrideScore | None = None
+    groups: tuple[str, ...] = ("all",)
+    """The averages that this recording belongs to."""
+    samples: int = 0
+    seconds: float = 0.0
+
+    def flat(self) -> Figures:
+        """Every figure of this recording by its name in tables and JSON."""
+        return self.figures | pooled_figures(self.events, self.strides)
+
+
+def pooled_figures(events: dict[str, Matching], strides: StrideScore | None) -> Figures:
+    flat: Figures = {}
+    for kind, matching in events.items():
+        flat |= {
+            f"{kind}_true": matching.n_true,
+            f"{kind}_found": matching.n_found,
+            f"{kind}_f1": matching.f1,
+            f"{kind}_bias": matching.bias,
+            f"{kind}_mad": matching.mad,
+        }
+    if strides is not None:
+        flat |= {
+            "strides_true": strides.n_true,
+            "strides_found": strides.n_found,
+            "strides_invented": strides.n_invented,
+            "stride_error": strides.mean_error,
+            "stride_error_median": strides.median_error,
+            "stride_error_track": strides.mean_track_error,
+        }
+    return flat
+
+
+@frozen
+class Summary:
+    """Of one group of recordings."""
+
+    group: str
+    count: int
+    mean: Figures
+    median: Figures
+    together: Figures
+    """Figures of the pooled events and strides."""
+
+
+def summarise(scores: Sequence[Scored], group: str) -> Summary:
+    members = [score for score in scores if group in score.groups]
+    keys = list(dict.fromkeys(key for score in members for key in score.figures))
+    values = {key: [v for s in members if (v := s.figures.get(key)) is not None] for key in keys}
+    kinds = list(dict.fromkeys(kind for score in members for kind in score.events))
+    events = {kind: reduce(add, [s.events[kind] for s in members if kind in s.events]) for kind in kinds}
+    strides = [score.strides for score in members if score.strides is not None]
+    return Summary(
+        group=group,
+        count=len(members),
+        mean={key: float(np.mean(v)) for key, v in values.items() if v},
+        median={key: float(np.median(v)) for key, v in values.items() if v},
+        together=pooled_figures(events, reduce(add, strides) if strides else None),
+    )

@@ -1,0 +1,110 @@
+"""Surveyed strides: each footprint was measured on the floor.
+
+`times[k]` is the end of the rest before stride k + 1, `places[k]` the surveyed point on which the foot rested then. So
+stride k + 1 lasts from times[k] to times[k + 1], and a step of ours belongs to the stride in which it ends: our step
+ends at foot-flat, early in the rest whose end the survey's time is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import attrs
+import numpy as np
+from attrs import frozen
+from numpy.typing import NDArray
+
+from .alignment import Floats, align, at_times
+
+ALIGNED_OVER = 2.0
+"""m; design: "after aligning the first two metres"."""
+
+
+@frozen
+class StrideScore:
+    """Strides against the survey. Errors are relative to each surveyed length (0.01 is 1 %)."""
+
+    n_true: int = 0
+    n_found: int = 0
+    n_invented: int = 0
+    """Steps of ours beyond the first in one surveyed stride."""
+    step_errors: tuple[float, ...] = ()
+    """(our stride_length - surveyed) / surveyed of each stride found."""
+    track_errors: tuple[float, ...] = ()
+    """The same for the live track between the survey's times, of every stride."""
+
+    def __add__(self, other: StrideScore) -> StrideScore:
+        return StrideScore(
+            self.n_true + other.n_true,
+            self.n_found + other.n_found,
+            self.n_invented + other.n_invented,
+            self.step_errors + other.step_errors,
+            self.track_errors + other.track_errors,
+        )
+
+    @property
+    def mean_error(self) -> float | None:
+        """Mean absolute relative error of our steps' stride lengths."""
+        return mean_magnitude(self.step_errors)
+
+    @property
+    def median_error(self) -> float | None:
+        return float(np.median(np.abs(self.step_errors))) if self.step_errors else None
+
+    @property
+    def mean_track_error(self) -> float | None:
+        """Mean absolute relative error of the distances between the live positions at the survey's times."""
+        return mean_magnitude(self.track_errors)
+
+
+def mean_magnitude(errors: Sequence[float]) -> float | None:
+    return float(np.mean(np.abs(errors))) if len(errors) else None
+
+
+def stride_score(times: NDArray[Any], lengths: NDArray[Any], steps: Sequence[tuple[float, float]]) -> StrideScore:
+    """True strides between `times` (n+1,) of the true `lengths` (n,) in m against `steps`, pairs of (t_end,
+    stride_length). Steps that end before the first time or after the last are left out; a length that is not known
+    (NaN) counts as a stride but gives no error.
+
+    Where several steps end in one true stride the longest counts as found and the others as invented.
+    """
+    true_lengths: list[float] = np.asarray(lengths, np.float64).tolist()
+    ends: list[list[float]] = [[] for _ in true_lengths]
+    for t_end, stride_length in steps:
+        stride = int(np.searchsorted(times, t_end, side="left")) - 1  # times[stride] < t_end <= times[stride + 1]
+        if 0 <= stride < len(ends):
+            ends[stride].append(stride_length)
+    return StrideScore(
+        n_true=len(ends),
+        n_found=sum(1 for found in ends if found),
+        n_invented=sum(len(found) - 1 for found in ends if found),
+        step_errors=tuple(max(f) / true - 1.0 for f, true in zip(ends, true_lengths, strict=True) if f and true > 0),
+    )
+
+
+def surveyed_score(
+    times: NDArray[Any],
+    places: NDArray[Any],
+    track_t: Floats,
+    track: Floats,
+    steps: Sequence[tuple[float, float]],
+) -> StrideScore:
+    """Surveyed `places` (n+1,2) at `times` (n+1,) against `steps` as above and the live `track` (m,3) at `track_t`."""
+    lengths = np.linalg.norm(np.diff(np.asarray(places, np.float64)[:, :2], axis=0), axis=1)
+    live = at_times(track_t, track[:, :2], times)
+    live_lengths = np.linalg.norm(np.diff(live, axis=0), axis=1)
+    known = lengths > 0.0
+    track_errors = live_lengths[known] / lengths[known] - 1.0
+    return attrs.evolve(stride_score(times, lengths, steps), track_errors=tuple(track_errors.tolist()))
+
+
+def position_errors(times: NDArray[Any], places: NDArray[Any], track_t: Floats, track: Floats) -> Floats:
+    """Horizontal distance (n+1,) in m from each surveyed place to the live track at its time, after the turn and shift
+    that fit the surveyed places of the first two metres best (up to the first that is two metres along the path)."""
+    truth = np.asarray(places, np.float64)[:, :2]
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(truth, axis=0), axis=1))])
+    first = max(2, int(np.searchsorted(along, ALIGNED_OVER)) + 1)
+    live = at_times(track_t, track[:, :2], times)
+    moved = align(live[:first], truth[:first]).apply(live)
+    return np.asarray(np.linalg.norm(moved - truth, axis=1), dtype=np.float64)

@@ -1,0 +1,31 @@
+"""Plain text tables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+
+def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Columns padded with blanks: the first to the left, the others to the right. A row of no cells is a rule."""
+    widths = [max(len(row[c]) for row in (header, *rows) if row) for c in range(len(header))]
+    rule = "  ".join("-" * width for width in widths)
+    lines = [_line(header, widths), rule, *(_line(row, widths) if row else rule for row in rows)]
+    return "\n".join(lines)
+
+
+def _line(cells: Sequence[str], widths: Sequence[int]) -> str:
+    first, *others = cells
+    return "  ".join([first.ljust(widths[0]), *(c.rjust(w) for c, w in zip(others, widths[1:], strict=True))]).rstrip()
+
+
+def number(value: float | None, digits: int = 2) -> str:
+    """`value` with so many digits after the point; a dash where there is none."""
+    return "-" if value is None else f"{value:.{digits}f}"
+
+
+def percent(share: float | None, digits: int = 1) -> str:
+    return "-" if share is None else f"{100.0 * share:.{digits}f}"
+
+
+def milliseconds(seconds: float | None) -> str:
+    return "-" if seconds is None else f"{1000.0 * seconds:.0f}"

@@ -1,0 +1,227 @@
+"""The scores, on tracks and events whose errors are known by hand."""
+
+from math import cos, pi, sin, sqrt
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from solepath.evaluate.alignment import Alignment, align, at_times, path_length, rms_distance, track_error
+from solepath.evaluate.contacts import merged, switch_contacts
+from solepath.evaluate.matching import Matching, match
+from solepath.evaluate.score import Scored, summarise
+from solepath.evaluate.strides import StrideScore, position_errors, stride_score, surveyed_score
+
+SQUARE = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]])
+
+tracks = arrays(np.float64, (6, 3), elements=st.floats(-50, 50).map(lambda x: round(x, 3)))
+yaws = st.floats(-pi, pi)
+metres = st.floats(-100, 100)
+
+
+def turned(track: np.ndarray, yaw: float, x: float, y: float) -> np.ndarray:
+    c, s = cos(yaw), sin(yaw)
+    return track @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]) + [x, y, 0.0]
+
+
+# --- tracks -----------------------------------------------------------------------------------------------------------
+
+
+@given(truth=tracks, yaw=yaws, x=metres, y=metres)
+def test_a_track_that_is_only_turned_and_shifted_has_no_error(truth, yaw, x, y):
+    error = track_error(turned(truth, yaw, x, y), truth)
+    assert error.rms_2d == pytest.approx(0.0, abs=1e-9)
+    assert error.rms_3d == pytest.approx(0.0, abs=1e-9)
+
+
+@given(track=tracks, truth=tracks, yaw=yaws, x=metres, y=metres)
+def test_the_error_does_not_depend_on_the_frame_of_the_track(track, truth, yaw, x, y):
+    before, after = track_error(track, truth), track_error(turned(track, yaw, x, y), truth)
+    assert after.rms_2d == pytest.approx(before.rms_2d, abs=1e-6)
+    assert after.rms_3d == pytest.approx(before.rms_3d, abs=1e-6)
+
+
+@given(track=tracks, truth=tracks, yaw=yaws, x=st.floats(-1, 1), y=st.floats(-1, 1))
+def test_no_other_turn_and_shift_fits_better(track, truth, yaw, x, y):
+    best = align(track, truth)
+    other = Alignment(best.yaw + yaw, best.x + x, best.y + y)
+    fitted = rms_distance(best.apply(track)[:, :2], truth[:, :2])
+    assert fitted <= rms_distance(other.apply(track)[:, :2], truth[:, :2]) + 1e-9
+
+
+def test_a_square_walked_a_tenth_too_large_is_a_tenth_of_its_half_diagonal_wrong():
+    # every corner is 10 % of sqrt(2) m too far from the centre
+    error = track_error(SQUARE * 1.1, SQUARE)
+    assert error.rms_2d == pytest.approx(0.1 * sqrt(2.0))
+    assert error.armse_2d == pytest.approx(0.1)  # pyshoe's: the mean over both axes
+
+
+def test_a_mirror_image_is_not_forgiven():
+    bent = np.array([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 2.0, 0.0]])
+    assert track_error(bent * [1.0, -1.0, 1.0], bent).rms_2d > 0.5
+
+
+def test_height_counts_in_the_3d_error_only_and_its_mean_not_at_all():
+    climbing = SQUARE + np.array([[0, 0, 5.0], [0, 0, 5.0], [0, 0, 6.0], [0, 0, 6.0]])
+    error = track_error(climbing, SQUARE)
+    assert error.rms_2d == pytest.approx(0.0, abs=1e-12)
+    assert error.rms_3d == pytest.approx(0.5)
+
+
+def test_a_track_is_read_between_its_samples_and_held_outside_them():
+    at = at_times(np.array([1.0, 2.0]), np.array([[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]]), np.array([0.0, 1.25, 9.0]))
+    assert at.tolist() == [[0.0, 0.0, 0.0], [0.25, 0.5, 0.75], [1.0, 2.0, 3.0]]
+
+
+def test_the_path_around_three_sides_of_a_square_is_six_metres():
+    assert path_length(SQUARE) == pytest.approx(6.0)
+
+
+# --- events -----------------------------------------------------------------------------------------------------------
+
+
+def test_events_within_a_quarter_of_a_second_match_and_give_bias_and_spread():
+    matching = match([1.0, 2.0, 3.0, 4.0], [1.0, 2.0625, 3.125, 4.5])
+    # 4.5 is outside the labelled time (4.0 + 0.25), so it is neither right nor wrong, but 4.0 is missed
+    assert matching == Matching(4, 3, (0.0, 0.0625, 0.125))
+    assert matching.f1 == pytest.approx(2 * 3 / 7)
+    assert matching.bias == 0.0625
+    assert matching.mad == 0.0625
+
+
+def test_the_tolerance_is_a_quarter_of_a_second():
+    assert match([1.0], [1.25]).offsets == (0.25,)
+    assert match([1.0], [1.2501]).offsets == ()
+
+
+def test_an_event_found_twice_counts_once_and_the_nearer_one_matches():
+    matching = match([1.0, 2.0], [1.125, 1.0625, 2.0])
+    assert matching == Matching(2, 3, (0.0625, 0.0))
+
+
+def test_only_labelled_windows_are_judged():
+    matching = match([1.0, 2.0, 8.0], [1.0, 2.0, 4.0, 5.0, 8.0], windows=[(1.0, 2.0), (7.5, 8.0)])
+    assert matching == Matching(3, 3, (0.0, 0.0, 0.0))
+
+
+def test_nothing_to_find_and_nothing_found_is_no_score():
+    assert match([], [1.0]).f1 is None
+    assert match([1.0], []).f1 == 0.0
+    assert match([1.0], []).bias is None and match([1.0], []).mad is None
+
+
+@given(
+    true=st.lists(st.integers(0, 400).map(lambda n: n / 16), unique=True, max_size=12),
+    found=st.lists(st.integers(0, 400).map(lambda n: n / 16), max_size=12),
+)
+def test_matching_is_one_to_one_and_never_better_than_perfect(true, found):
+    matching = match(true, found)
+    assert len(matching.offsets) <= min(matching.n_true, matching.n_found)
+    assert all(abs(offset) <= 0.25 for offset in matching.offsets)
+    assert matching.f1 is None or 0.0 <= matching.f1 <= 1.0
+
+
+@given(true=st.lists(st.integers(0, 400).map(lambda n: n / 16), unique=True, min_size=1, max_size=12))
+def test_what_is_true_matches_itself(true):
+    assert match(true, true) == Matching(len(true), len(true), (0.0,) * len(true))
+
+
+def test_pooled_events_count_together():
+    assert Matching(2, 1, (0.0,)) + Matching(1, 2, (0.125,)) == Matching(3, 3, (0.0, 0.125))
+
+
+# --- strides ----------------------------------------------------------------------------------------------------------
+
+TIMES = np.array([1.0, 2.0, 3.0, 4.0])
+PLACES = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 2.0]])
+
+
+def test_each_step_belongs_to_the_stride_in_which_it_ends():
+    # 0.9 is before the survey, 1.8 and 2.0 are in the first stride, none in the second, 3.7 in the third, 4.1 after it
+    score = stride_score(
+        TIMES, np.array([1.0, 1.0, 2.0]), [(0.9, 1.0), (1.8, 0.25), (2.0, 1.125), (3.7, 1.5), (4.1, 1.0)]
+    )
+    assert (score.n_true, score.n_found, score.n_invented) == (3, 2, 1)
+    assert score.step_errors == (0.125, -0.25)
+    assert score.mean_error == 0.1875 and score.median_error == 0.1875
+
+
+def test_a_stride_of_unknown_length_is_found_without_an_error():
+    score = stride_score(TIMES, np.array([1.0, np.nan, 2.0]), [(1.5, 1.0), (2.5, 1.0), (3.5, 2.0)])
+    assert score.n_found == 3 and score.step_errors == (0.0, 0.0)
+
+
+def test_the_live_track_is_measured_between_the_surveys_instants():
+    t = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
+    track = np.array([[9.0, 9, 0], [0, 0, 0], [1.25, 0, 0], [2.25, 0, 0], [2.25, 1.0, 0]])
+    score = surveyed_score(TIMES, PLACES, t, track, [])
+    assert score.track_errors == (0.25, 0.0, -0.5)
+    assert score.mean_track_error == 0.25
+    assert score.mean_error is None and score.n_found == 0
+
+
+def test_a_survey_is_aligned_on_its_first_two_metres_only():
+    # right for the first two metres, then it goes on straight where the survey turns left
+    t = TIMES
+    track = turned(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0], [4, 0, 0]]), 1.0, 5.0, -3.0)
+    errors = position_errors(TIMES, PLACES, t, track)
+    assert errors == pytest.approx([0.0, 0.0, 0.0, sqrt(8.0)], abs=1e-9)
+
+
+def test_a_heading_error_grows_along_the_survey():
+    places = np.column_stack([np.arange(11.0), np.zeros(11)])
+    track = np.column_stack([places, np.zeros(11)])
+    track[3:, 1] = 0.1 * (track[3:, 0] - 2.0)  # veers off after two metres, a tenth aside for each metre on
+    errors = position_errors(np.arange(11.0), places, np.arange(11.0), track)
+    assert errors == pytest.approx([0.0, 0.0, 0.0, *(0.1 * n for n in range(1, 9))], abs=1e-9)
+
+
+# --- contact switches -------------------------------------------------------------------------------------------------
+
+
+def switch(*spans: tuple[float, float], height: float = 1000.0) -> tuple[np.ndarray, np.ndarray]:
+    t = np.arange(0, 800) / 100.0
+    counts = np.full(len(t), 50.0)
+    for begin, end in spans:
+        counts[(t >= begin - 1e-9) & (t < end - 1e-9)] += height
+    return t, counts
+
+
+def test_a_switch_closes_and_opens_once_a_step():
+    spans = [(1.0, 1.6), (2.1, 2.7), (3.2, 3.8)]
+    assert switch_contacts(*switch(*spans)) == pytest.approx(spans)
+
+
+def test_a_bouncing_contact_is_one_contact():
+    assert switch_contacts(*switch((1.0, 1.3), (1.36, 1.6), (2.1, 2.7))) == pytest.approx([(1.0, 1.6), (2.1, 2.7)])
+
+
+def test_contacts_whose_edges_were_not_recorded_are_left_out():
+    assert switch_contacts(*switch((0.0, 0.5), (1.0, 1.6), (7.5, 9.0))) == pytest.approx([(1.0, 1.6)])
+
+
+def test_a_dead_switch_tells_nothing():
+    assert switch_contacts(*switch((1.0, 1.6), (2.1, 2.7), height=100.0)) is None
+
+
+def test_spans_that_touch_are_joined():
+    assert merged([(3.0, 4.0), (1.0, 2.0), (2.0, 2.5)]) == [(1.0, 2.5), (3.0, 4.0)]
+
+
+# --- over recordings --------------------------------------------------------------------------------------------------
+
+
+def test_figures_are_averaged_and_events_and_strides_are_pooled():
+    scores = [
+        Scored("a", {"rms": 1.0}, {"heel_strike": Matching(2, 2, (0.0, 0.0))}, StrideScore(2, 2, 0, (0.1, -0.1))),
+        Scored("b", {"rms": 2.0}, {"heel_strike": Matching(1, 1, (0.25,))}, StrideScore(2, 1, 0, (0.4,))),
+        Scored("c", {"rms": 6.0}, groups=("all", "odd")),
+    ]
+    summary = summarise(scores, "all")
+    assert summary.count == 3
+    assert summary.mean == {"rms": 3.0} and summary.median == {"rms": 2.0}
+    assert summary.together["heel_strike_f1"] == 1.0 and summary.together["heel_strike_bias"] == 0.0
+    assert summary.together["strides_found"] == 3 and summary.together["stride_error"] == pytest.approx(0.2)
+    assert summarise(scores, "odd").mean == {"rms": 6.0}
