@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import Any
 
 from attrs import frozen
@@ -150,7 +151,9 @@ def parse_barometer(data: bytes) -> Barometer:
 
 
 def build_barometer(barometer: Barometer) -> bytes:
-    """The bytes nearest to `barometer`. ValueError when they do not fit in 24 bits."""
+    """The bytes nearest to `barometer`. ValueError when it is not finite or does not fit in 24 bits."""
+    if not (isfinite(barometer.temperature) and isfinite(barometer.pressure)):
+        raise ValueError(f"{barometer} is not finite")
     counts = {"temperature": round(barometer.temperature * 100), "pressure": round(barometer.pressure)}
     return build_whole(_BAROMETER, counts)
 

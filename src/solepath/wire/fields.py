@@ -54,7 +54,7 @@ class Fields(Definition):
         values = obj if self._make is None else attrs.astuple(obj, recurse=False)
         try:
             stream.write(self._struct.pack(*values))
-        except struct.error as error:
+        except (struct.error, OverflowError) as error:  # the latter: a float beyond binary32
             raise FormatFieldError(f"{values} do not fit: {error}", path=path) from error
         return obj
 

@@ -43,12 +43,12 @@ def is_fragment(data: bytes) -> bool:
 def parse_fragment(data: bytes) -> Fragment:
     """The fragment in `data`. WireError when it is not one, whatever the bytes."""
     data = bytes(data)
-    if len(data) > LONGEST_VALUE:
-        raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes, at most {LONGEST_VALUE}")
     if data and not is_fragment(data):
         raise malformed(f"frame id {data[0] >> 5}: not a fragment")
     if len(data) < 2:
         raise WireError(Rejection.TRUNCATED, "a fragment without a body")
+    if len(data) > LONGEST_VALUE:
+        raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes, at most {LONGEST_VALUE}")
     parsed = parse_whole(_FRAGMENT, data)
     return Fragment(parsed.head.frame_id, parsed.head.last, parsed.head.index, parsed.body)
 
@@ -57,7 +57,7 @@ def build_fragment(fragment: Fragment) -> bytes:
     """The bytes of `fragment`. ValueError when it does not fit the format."""
     if not 0 <= fragment.frame_id < FRAME_IDS:
         raise ValueError(f"frame id {fragment.frame_id}, 0 to {FRAME_IDS - 1} are allowed")
-    if not 0 < len(fragment.body) < LONGEST_VALUE:
+    if not 0 < len(fragment.body) <= LONGEST_VALUE - 1:
         raise ValueError(f"a fragment with a body of {len(fragment.body)} bytes")
     head = {"frame_id": fragment.frame_id, "last": fragment.last, "index": fragment.index}
     return build_whole(_FRAGMENT, {"head": head, "body": fragment.body})

@@ -1,0 +1,56 @@
+"""Polynomials over a unit interval, as coefficient arrays (constant first), and how to join them smoothly."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+DEGREE = 7
+"""Of every curve here: a quintic for the two ends, and two degrees more for what happens in between."""
+
+BUMP: Array = np.array([0.0, 0.0, 0.0, 64.0, -192.0, 192.0, -64.0, 0.0])
+"""64 s^3 (1 - s)^3: 1 in the middle; value, slope and curvature are 0 at both ends."""
+
+
+EVEN_OUT: Array = np.array([0.0, 0.0, 0.0, 1.0, -5.0, 9.0, -7.0, 2.0])
+"""s^3 (1 - s)^3 (1 - 2 s): starts earlier, is slower in the middle and stops later; nothing changes at both ends."""
+
+
+def constant(value: float) -> Array:
+    curve = np.zeros(DEGREE + 1)
+    curve[0] = value
+    return curve
+
+
+def join(start: tuple[float, float, float], end: tuple[float, float, float], duration: float) -> Array:
+    """The quintic in s = t / duration with the given value, velocity and acceleration (per s) at either end."""
+    p0, v0, a0 = start[0], start[1] * duration, start[2] * duration**2
+    p1, v1, a1 = end[0], end[1] * duration, end[2] * duration**2
+    rest, slope, curve = p1 - p0 - v0 - 0.5 * a0, v1 - v0 - a0, a1 - a0
+    return np.array(
+        [
+            p0,
+            v0,
+            0.5 * a0,
+            10.0 * rest - 4.0 * slope + 0.5 * curve,
+            -15.0 * rest + 7.0 * slope - curve,
+            6.0 * rest - 3.0 * slope + 0.5 * curve,
+            0.0,
+            0.0,
+        ]
+    )
+
+
+def part(curve: Array, start: float, end: float) -> Array:
+    """The same curve between s = start and s = end, over a unit interval of its own."""
+    whole = np.polynomial.Polynomial(curve)(np.polynomial.Polynomial([start, end - start]))
+    found = np.zeros(DEGREE + 1)
+    found[: len(whole.coef)] = whole.coef
+    return found
+
+
+def evaluate(curve: Array, s: Array | float, order: int = 0) -> Array:
+    """Value of one curve (or of its derivative of `order` by s) at s."""
+    return np.asarray(np.polynomial.polynomial.polyval(s, np.polynomial.polynomial.polyder(curve, order)))

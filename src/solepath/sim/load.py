@@ -1,0 +1,190 @@
+"""How the body's weight stands on the feet, and where under each foot.
+
+Vertical force only. Walking, the two feet together carry the weight times 1 + A cos, once per step with its top in the
+middle of double support: each foot then shows the two humps and the trough of a force plate (about 1.1, 0.8 and
+1.1 body weights at 1.3 m/s; Perry, Gait Analysis, 1992), and the mean over a step is the weight. In double support the
+share goes from the trailing to the leading foot.
+
+Under the foot the load starts at the heel with heel-strike, reaches the forefoot with foot-flat, leaves the heel with
+heel-off and ends under the toes with toe-off.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from attrs import frozen
+
+from ..types import Foot, Layout
+from ..vector import GRAVITY
+from .curves import Array
+from .gait import SETTLING, Plan, Wearer
+from .motion import FootMotion
+
+BOUNCE = 0.17
+"""Amplitude of the force's swing about the weight at 1.3 m/s; it grows with the square of the speed."""
+_EVER = 1e6
+
+
+@frozen(eq=False)
+class Zone:
+    """A patch of the sole: centre (part of the sole's length; lateral, part of its width) and half-axes likewise."""
+
+    x: float
+    y: float
+    half_length: float
+    half_width: float
+
+
+HEEL = Zone(0.17, 0.0, 0.17, 0.34)
+MIDFOOT = Zone(0.47, 0.14, 0.15, 0.20)
+FOREFOOT = Zone(0.67, 0.00, 0.14, 0.48)
+TOES = Zone(0.86, -0.16, 0.11, 0.34)
+
+
+@frozen(eq=False)
+class Loads:
+    """The vertical load under both feet over time.
+
+    Shares pass from one foot to the other in hand-overs: `begin`, `end` (s) and the left foot's share `before` and
+    `after` each. `beat` (s) are the middles of double support and `bounce` the amplitude up to the next one.
+    `stances` are heel-strike, foot-flat, heel-off and toe-off of each stance of a foot, (n, 4).
+    """
+
+    weight: float
+    begin: Array
+    end: Array
+    before: Array
+    after: Array
+    beat: Array
+    bounce: Array
+    stances: dict[Foot, Array]
+
+    def total(self, foot: Foot, t: Array) -> Array:
+        """Load under one foot, N."""
+        left = self._left_share(t)
+        share = left if foot is Foot.LEFT else 1.0 - left
+        return np.asarray(share * self.body(t))
+
+    def body(self, t: Array) -> Array:
+        """Load under both feet together, N."""
+        if len(self.beat) < 2:
+            return np.full_like(t, self.weight)
+        k = np.clip(np.searchsorted(self.beat, t, side="right") - 1, 0, len(self.beat) - 2)
+        phase = np.clip((t - self.beat[k]) / (self.beat[k + 1] - self.beat[k]), 0.0, 1.0)
+        # 1 - cos starts and ends at zero slope where standing begins and ends; between steps the tops meet.
+        swing = (self.bounce[k] + (self.bounce[k + 1] - self.bounce[k]) * phase) * np.cos(2.0 * np.pi * phase)
+        return np.asarray(self.weight * (1.0 + swing))
+
+    def cells(self, layout: Layout, width: float, motion: FootMotion, t: Array) -> Array:
+        """Load on every cell of `layout`, (N, cells), N; a row's sum is the foot's total."""
+        foot = layout.foot
+        shares = self._zones(foot, t)
+        pitch = motion.pitch(t)
+        heel = -0.035 * np.sin(np.maximum(pitch, 0.0)) / layout.length
+        fore = 0.025 * np.sin(np.maximum(-pitch, 0.0)) / layout.length
+        inward = -0.10 * fore / fore.max(initial=1e-9)
+        total = self.total(foot, t)
+        found = np.zeros((len(t), len(layout.cells)))
+        still = np.zeros_like(t)
+        moves = ((HEEL, heel, still), (MIDFOOT, still, still), (FOREFOOT, fore, inward), (TOES, fore, still))
+        for (zone, ahead, aside), share in zip(moves, shares, strict=True):
+            busy = np.flatnonzero(share * total > 0.0)
+            pattern = _pattern(layout, width, zone, ahead[busy], aside[busy])
+            found[busy] += (share * total)[busy, None] * pattern
+        return found
+
+    def _left_share(self, t: Array) -> Array:
+        if not len(self.begin):
+            return np.full_like(t, 0.5)
+        k = np.searchsorted(self.begin, t, side="right") - 1
+        known = np.maximum(k, 0)
+        s = (t - self.begin[known]) / (self.end[known] - self.begin[known])
+        share = self.before[known] + (self.after[known] - self.before[known]) * hand_over(s)
+        return np.where(k < 0, self.before[0], share)
+
+    def _zones(self, foot: Foot, t: Array) -> tuple[Array, Array, Array, Array]:
+        """Shares of heel, midfoot, forefoot and toes in the foot's load; they add up to one."""
+        stances = self.stances[foot]
+        row = stances[np.maximum(np.searchsorted(stances[:, 0], t, side="right") - 1, 0)]
+        flat, lift, off = row[:, 1], row[:, 2], row[:, 3]
+        ramp = np.minimum(lift - flat, SETTLING)
+        rolled = 0.45 * hand_over((t - flat) / ramp) + 0.55 * hand_over((t - lift + ramp) / ramp)
+        middle = 0.5 * rolled * (1.0 - rolled)
+        front = rolled - 0.5 * middle
+        toes = front * (0.05 + 0.10 * rolled + 0.60 * hand_over((t - lift) / (off - lift)))
+        return 1.0 - rolled - 0.5 * middle, middle, front - toes, toes
+
+
+def loads(plan: Plan, wearer: Wearer) -> Loads:
+    """The loads that go with a plan."""
+    hand_overs, beats = _hand_overs(plan)
+    table = np.array(hand_overs).reshape(-1, 4)
+    beat = np.array(beats).reshape(-1, 2)
+    return Loads(
+        weight=wearer.mass * GRAVITY,
+        begin=table[:, 0],
+        end=table[:, 1],
+        before=table[:, 2],
+        after=table[:, 3],
+        beat=beat[:, 0],
+        bounce=np.minimum(BOUNCE * (beat[:, 1] / 1.3) ** 2, 0.35),
+        stances={foot: _stances(plan, foot) for foot in Foot},
+    )
+
+
+def hand_over(s: Array) -> Array:
+    """From 0 to 1 over the unit interval, with a slope at once at both ends, as force plates show it."""
+    s = np.clip(s, 0.0, 1.0)
+    return np.asarray(0.5 * s + s * s * (1.5 - s))
+
+
+def _hand_overs(plan: Plan) -> tuple[list[tuple[float, float, float, float]], list[tuple[float, float]]]:
+    strides = sorted((s.heel_strike, foot.value, s, foot) for foot in Foot for s in plan.strides[foot])
+    steps = [(stride, foot) for _, _, stride, foot in strides]
+    hand_overs: list[tuple[float, float, float, float]] = []
+    beats: list[tuple[float, float]] = []
+    level = 0.5
+    for began, ended in plan.bouts:
+        bout = [(stride, foot) for stride, foot in steps if began <= stride.heel_strike <= ended]
+        first, mover = bout[0]
+        away = 0.0 if mover is Foot.LEFT else 1.0
+        hand_overs.append((began, first.toe_off, level, away))
+        beats.append((began, 0.0))
+        level = away
+        for (stride, foot), (following, _) in zip(bout, bout[1:], strict=False):
+            onto = 1.0 if foot is Foot.LEFT else 0.0
+            hand_overs.append((stride.heel_strike, following.toe_off, level, onto))
+            beats.append((0.5 * (stride.heel_strike + following.toe_off), stride.speed))
+            level = onto
+        last, _ = bout[-1]
+        hand_overs.append((last.heel_strike, last.heel_strike + SETTLING, level, 0.5))
+        beats.append((last.heel_strike + 0.5 * SETTLING, 0.0))
+        level = 0.5
+    return hand_overs, beats
+
+
+def _stances(plan: Plan, foot: Foot) -> Array:
+    strides = plan.strides[foot]
+    lands = [(-_EVER, -_EVER), *((s.heel_strike, s.foot_flat) for s in strides)]
+    leaves = [*((s.heel_off, s.toe_off) for s in strides), (_EVER, _EVER + 1.0)]
+    return np.array([(*land, *leave) for land, leave in zip(lands, leaves, strict=True)])
+
+
+def _pattern(layout: Layout, width: float, zone: Zone, ahead: Array, aside: Array) -> Array:
+    """How a zone's load is spread over the cells at each instant, (N, cells); rows add up to one.
+
+    The pressure falls off with the square of the distance and is zero outside the ellipse. The faint rest only decides
+    when no cell at all lies in it.
+    """
+    lateral = 1.0 if layout.foot is Foot.LEFT else -1.0
+    x = np.array([cell.x for cell in layout.cells]) / layout.length
+    y = np.array([cell.y for cell in layout.cells]) * lateral / width
+    area = np.array([cell.area for cell in layout.cells])
+    dx = (x - zone.x - ahead[:, None]) / zone.half_length
+    dy = (y - zone.y - aside[:, None]) / zone.half_width
+    r2 = dx * dx + dy * dy
+    spread = area * np.where(r2 < 1.0, 1.0 - r2, 0.0)
+    empty = ~spread.any(axis=1)
+    if empty.any():
+        spread[empty] = np.exp(-8.0 * (r2[empty] - r2[empty].min(axis=1, keepdims=True)))
+    return np.asarray(spread / spread.sum(axis=1, keepdims=True))

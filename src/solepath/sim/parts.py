@@ -1,0 +1,142 @@
+"""Error figures of named parts, from their data sheets.
+
+A tolerance that a sheet gives as +-x is taken as two standard deviations between parts. No sheet says how a bias
+wanders; here it follows the temperature: the sheet's drift per kelvin times WARMING, slowly. Where a sheet is silent
+the comment says what is assumed.
+"""
+
+from __future__ import annotations
+
+from math import radians
+
+from attrs import frozen
+
+from ..vector import GRAVITY
+
+WARMING = 2.0
+"""K: how far a worn device's temperature wanders (assumed)."""
+
+_G = GRAVITY
+_MG = 1e-3 * GRAVITY
+_DPS = radians(1.0)
+
+
+@frozen
+class Triad:
+    """Three axes of one kind. m/s^2 for accelerometers, rad/s for gyroscopes, T for magnetometers; sigmas over parts.
+
+    `density`: white noise per sqrt(Hz). `bias`: at turn-on. `wander`: of the bias, first-order Gauss-Markov over
+    `memory` s. `scale`, `cross`: relative scale and cross-axis errors. `bandwidth`: of the part's own low pass
+    (second order), Hz. `bits`: of a reading. `g_effect`: output per m/s^2 of acceleration.
+    """
+
+    density: float
+    bias: float
+    wander: float
+    scale: float
+    cross: float
+    bandwidth: float
+    memory: float = 300.0
+    bits: int = 16
+    g_effect: float = 0.0
+
+
+@frozen
+class Imu:
+    """Accelerometer and gyroscope of a device."""
+
+    name: str
+    acc: Triad
+    gyro: Triad
+
+
+LSM6DSOX = Imu(
+    "LSM6DSOX",
+    # ST DS12814, table 2 (typical): noise density 110 ug/sqrt(Hz) at +-16 g, zero-g offset +-20 mg, 0.1 mg/K,
+    # sensitivity tolerance +-1 %; the low pass at ODR/2 is set by the device. Cross axis is not given: 1 % assumed.
+    Triad(density=110e-6 * _G, bias=10 * _MG, wander=0.1 * WARMING * _MG, scale=0.005, cross=0.005, bandwidth=400.0),
+    # Same table: 3.8 mdps/sqrt(Hz), zero-rate level +-1 dps, 0.010 dps/K, sensitivity tolerance +-1 %.
+    Triad(
+        density=3.8e-3 * _DPS, bias=0.5 * _DPS, wander=0.010 * WARMING * _DPS, scale=0.005, cross=0.005, bandwidth=400.0
+    ),
+)
+
+MPU9250 = Imu(
+    "MPU-9250",
+    # InvenSense PS-MPU-9250A-01 rev. 1.0, table 2: 300 ug/sqrt(Hz), zero-g +-60 mg (x, y) and +-80 mg (z) of which the
+    # smaller is used for all, 1.5 mg/K, initial tolerance +-3 %, cross axis +-2 %, low pass up to 260 Hz.
+    Triad(density=300e-6 * _G, bias=30 * _MG, wander=1.5 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=260.0),
+    # Table 1: 0.01 dps/sqrt(Hz), ZRO +-5 dps, +-30 dps over 125 K (0.24 dps/K as the extreme, half of it as sigma),
+    # scale +-3 %, cross axis +-2 %, low pass up to 250 Hz.
+    Triad(
+        density=0.01 * _DPS, bias=2.5 * _DPS, wander=0.12 * WARMING * _DPS, scale=0.015, cross=0.010, bandwidth=250.0
+    ),
+)
+
+KXTJ9_IMU3000 = Imu(
+    "KXTJ9 and IMU-3000",
+    # Kionix KXTJ9: 8 bits a reading; zero-g offset +-125 mg at the most, 0.2 mg/K, cross axis 2 %, ODR 50 Hz at reset
+    # with the low pass at ODR/2. Noise 750 ug/sqrt(Hz) and scale +-3 % are figures of the family, and far below one
+    # count of 1/16 g.
+    Triad(
+        density=750e-6 * _G, bias=60 * _MG, wander=0.2 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=25.0, bits=8
+    ),
+    # InvenSense PS-IMU-3000A rev. 1.1: 0.01 dps/sqrt(Hz), initial ZRO +-20 dps, +-0.03 dps/K, scale +-3 %,
+    # cross axis 2 %, linear acceleration sensitivity 0.1 dps/g, low pass up to 256 Hz.
+    Triad(
+        density=0.01 * _DPS,
+        bias=10.0 * _DPS,
+        wander=0.03 * WARMING * _DPS,
+        scale=0.015,
+        cross=0.010,
+        bandwidth=188.0,
+        g_effect=0.1 * _DPS / _G,
+    ),
+)
+
+AK8963 = Triad(density=0.15e-6, bias=10e-6, wander=0.2e-6, scale=0.025, cross=0.01, bandwidth=50.0)
+"""AKM MS1356-E (inside the MPU-9250): 0.15 uT a count, scale +-5 %. The bias, the shoe's own iron, is assumed."""
+
+MAG3110 = Triad(density=0.25e-6, bias=10e-6, wander=0.2e-6, scale=0.025, cross=0.01, bandwidth=40.0)
+"""Freescale MAG3110: 0.25 uT rms noise, 0.1 uT a count, cross axis +-1 %. The bias is assumed, as above."""
+
+
+@frozen
+class BarometerPart:
+    """`noise`: of one reading, Pa rms. `offset`: between parts, Pa. `wander`: Pa over `memory` s, weather included."""
+
+    name: str
+    noise: float
+    offset: float
+    wander: float = 8.0
+    memory: float = 600.0
+
+
+BMP280 = BarometerPart("BMP280", noise=1.3, offset=50.0)
+"""Bosch BST-BMP280-DS001: 1.3 Pa rms in standard resolution without filter, absolute accuracy +-1 hPa."""
+
+T5400 = BarometerPart("T5400", noise=6.0, offset=50.0)
+"""EPCOS T5400: absolute accuracy +-1 hPa; the noise of a low-power reading is taken as 6 Pa (0.5 m)."""
+
+
+@frozen
+class CellPart:
+    """One pressure cell read by a 12-bit converter; sigmas over cells.
+
+    `gain`: relative spread. `preload`: mean in-shoe load that is always there, N, spread over cells from 0 to twice of
+    it. `noise`: N rms of a reading. `lag`: rise time of the cell and its foam, s.
+    """
+
+    name: str
+    gain: float
+    preload: float
+    noise: float
+    lag: float
+
+
+RESISTIVE = CellPart("FSR", gain=0.03, preload=0.5, noise=0.12, lag=0.003)
+"""Interlink FSR 400 series integration guide: part-to-part repeatability +-6 %, break force 0.2 N. Noise of 2 to 3
+counts, the lag of the cover and the in-shoe preload are assumed."""
+
+CAPACITIVE = CellPart("capacitive", gain=0.025, preload=0.3, noise=0.06, lag=0.002)
+"""Accuracy +-5 % of calibrated capacitive insoles (novel pedar); the rest as above."""

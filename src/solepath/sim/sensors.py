@@ -1,0 +1,147 @@
+"""From what truly happens to what a part reports: errors, low pass, saturation, counts.
+
+Signals are worked out at several instants per sample and pass the part's low pass before they are sampled, so that what
+is too fast for the sample rate aliases or is rounded off as it is in the part.
+"""
+
+from __future__ import annotations
+
+from math import ceil, exp, pi, sqrt
+
+import numpy as np
+from attrs import frozen
+
+from .curves import Array
+from .parts import BarometerPart, CellPart, Triad
+
+INTERNAL_RATE = 800.0
+"""Hz: instants per second at which a signal is worked out before it is filtered, at least."""
+
+
+@frozen(eq=False)
+class Instants:
+    """When a device samples: `taken` (N) in true time, s, and `fine`, the finer instants that lead up to them.
+
+    `every` fine instants make one sample, and `before` of them precede the first one for the filter to settle.
+    """
+
+    taken: Array
+    fine: Array
+    every: int
+    before: int
+
+    @property
+    def rate(self) -> float:
+        """Of the fine instants, Hz."""
+        return 1.0 / float(self.fine[1] - self.fine[0])
+
+
+def instants(first: float, interval: float, count: int) -> Instants:
+    """`count` samples from `first` at `interval` s."""
+    every = max(1, ceil(INTERNAL_RATE * interval))
+    step = interval / every
+    before = ceil(0.12 / step)
+    fine = first + step * np.arange(-before, (count - 1) * every + 1, dtype=np.float64)
+    return Instants(first + interval * np.arange(count, dtype=np.float64), fine, every, before)
+
+
+@frozen(eq=False)
+class Reading:
+    """`counts` (N, axes) as the part gives them, and where at least one axis was at its limit (N)."""
+
+    counts: np.ndarray[tuple[int, ...], np.dtype[np.int64]]
+    saturated: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+
+
+def read_triad(
+    true: Array,
+    when: Instants,
+    part: Triad,
+    count: float,
+    rng: np.random.Generator,
+    *,
+    force: Array | None = None,
+    bandwidth: float | None = None,
+) -> Reading:
+    """What a triad reports of `true` (fine instants, 3); `count` is what one count is worth.
+
+    `force` is the specific force at the same instants, for gyroscopes that feel it. `bandwidth` overrides the part's.
+    """
+    limit = 2 ** (part.bits - 1)
+    signal = errors(true, when, part, rng, force)
+    passed = sample(low_pass(signal, when.rate, bandwidth or part.bandwidth), when)
+    counts = np.rint(passed / count)
+    clipped = np.clip(counts, -limit, limit - 1)
+    return Reading(clipped.astype(np.int64), np.any(np.abs(counts) >= limit - 1, axis=1))
+
+
+def errors(true: Array, when: Instants, part: Triad, rng: np.random.Generator, force: Array | None = None) -> Array:
+    """Scale, misalignment, bias, its wander, and white noise added to `true`; nothing is filtered or clipped yet."""
+    mixing = np.eye(3) + np.diag(part.scale * rng.standard_normal(3))
+    mixing += part.cross * rng.standard_normal((3, 3)) * (1.0 - np.eye(3))
+    signal = true @ mixing.T
+    signal += part.bias * rng.standard_normal(3)
+    signal += part.wander * wander(when.fine, part.memory, 3, rng)
+    if force is not None and part.g_effect:
+        signal += part.g_effect * force * rng.choice([-1.0, 1.0], 3)
+    # White noise of density d has sigma d sqrt(rate / 2) when it fills the band up to half the fine rate.
+    signal += part.density * sqrt(0.5 * when.rate) * rng.standard_normal(true.shape)
+    return np.asarray(signal)
+
+
+def low_pass(signal: Array, rate: float, bandwidth: float) -> Array:
+    """A second-order Butterworth low pass as its impulse response; causal, so it delays by sqrt(2) / (2 pi f)."""
+    if bandwidth >= 0.45 * rate:
+        return signal
+    w = 2.0 * pi * bandwidth
+    t = np.arange(ceil(8.0 * sqrt(2.0) / w * rate)) / rate
+    response = np.exp(-w * t / sqrt(2.0)) * np.sin(w * t / sqrt(2.0))
+    response /= response.sum()
+    return np.stack([np.convolve(axis, response)[: len(axis)] for axis in signal.T], axis=1)
+
+
+def sample(signal: Array, when: Instants) -> Array:
+    """The values at the instants when samples are taken."""
+    return signal[when.before :: when.every]
+
+
+def wander(t: Array, memory: float, axes: int, rng: np.random.Generator) -> Array:
+    """A first-order Gauss-Markov process of unit sigma that is 0 at the start, (N, axes).
+
+    Worked out every second and joined by lines: far below the noise at any rate that matters.
+    """
+    nodes = np.arange(float(t[0]), float(t[-1]) + 2.0)
+    keep = exp(-1.0 / memory)
+    kicks = sqrt(1.0 - keep * keep) * rng.standard_normal((len(nodes), axes))
+    path = np.zeros((len(nodes), axes))
+    for k in range(1, len(nodes)):
+        path[k] = keep * path[k - 1] + kicks[k]
+    return np.stack([np.interp(t, nodes, axis) for axis in path.T], axis=1)
+
+
+def read_cells(
+    true: Array, when: Array, part: CellPart, count: float, rng: np.random.Generator, full: int = 4095
+) -> Reading:
+    """What the cells of an insole report of their true loads `true` (N, cells), N, taken at `when` (N)."""
+    cells = true.shape[1]
+    gain = 1.0 + part.gain * np.clip(rng.standard_normal(cells), -3.0, 3.0)
+    preload = part.preload * rng.uniform(0.0, 2.0, cells)
+    lagged = true.copy()
+    interval = float(when[1] - when[0]) if len(when) > 1 else 1.0
+    follow = 1.0 - exp(-interval / part.lag)
+    for k in range(1, len(lagged)):
+        lagged[k] = lagged[k - 1] + follow * (true[k] - lagged[k - 1])
+    counts = np.rint((gain * lagged + preload + part.noise * rng.standard_normal(true.shape)) / count)
+    return Reading(np.clip(counts, 0, full).astype(np.int64), np.any(counts >= full, axis=1))
+
+
+def air_pressure(height: Array) -> Array:
+    """Pa at a height in m, by the international standard atmosphere (ISO 2533)."""
+    return np.asarray(101325.0 * (1.0 - 2.25577e-5 * height) ** 5.25588)
+
+
+def read_barometer(height: Array, t: Array, part: BarometerPart, rng: np.random.Generator) -> Array:
+    """Pa that a barometer reports at heights (N) and instants (N)."""
+    pressure = air_pressure(height) + part.offset * rng.standard_normal()
+    pressure += part.wander * wander(t, part.memory, 1, rng)[:, 0]
+    return np.asarray(pressure + part.noise * rng.standard_normal(len(t)))
