@@ -55,14 +55,19 @@ def match(
     if windows is None:
         windows = [(truth[0], truth[-1])] if truth else []
     inside = sorted(t for t in found if any(a - tolerance <= t <= b + tolerance for a, b in windows))
-    near = [
-        (abs(f - t), i, j) for i, t in enumerate(truth) for j, f in enumerate(inside) if abs(f - t) <= tolerance
-    ]
-    free_true, free_found = set(range(len(truth))), set(range(len(inside)))
-    offsets: list[tuple[int, float]] = []
-    for _, i, j in sorted(near):
+    matched = pairs(truth, inside, tolerance)
+    return Matching(len(truth), len(inside), tuple(inside[j] - truth[i] for i, j in matched))
+
+
+def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> list[tuple[int, int]]:
+    """(index in `true`, index in `found`) of the pairs no further apart than `tolerance`, the closest first served,
+    each used once; in the order of `true`."""
+    near = sorted((abs(f - t), i, j) for i, t in enumerate(true) for j, f in enumerate(found) if abs(f - t) <= tolerance)
+    free_true, free_found = set(range(len(true))), set(range(len(found)))
+    chosen: list[tuple[int, int]] = []
+    for _, i, j in near:
         if i in free_true and j in free_found:
             free_true.discard(i)
             free_found.discard(j)
-            offsets.append((i, inside[j] - truth[i]))
-    return Matching(len(truth), len(inside), tuple(offset for _, offset in sorted(offsets)))
+            chosen.append((i, j))
+    return sorted(chosen)
