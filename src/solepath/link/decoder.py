@@ -1,0 +1,180 @@
+"""Packets of one site in, samples and link events out.
+
+The device is known from the channel's prefix, the first time that a packet of it can be used. What all devices have
+in common is here: whether a packet's arrival time is sound, silence, battery and firmware. Bytes and clocks are the
+business of insole.py, cc2650.py and cc2541.py.
+
+Arrival time must not run backwards: such packets are rejected, but a receiver's clock that was set back for good must
+not end the stream, so the twentieth in a row is taken as ClockReset and times begin anew there, before the old ones.
+That count is the only thing that a rejected packet changes.
+"""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from attrs import define, field
+
+from ..events import BatteryLevel, ClockReset, LinkEvent, PacketRejected, Rejection, StreamResumed, StreamStale
+from ..types import Packet, Sample, Site
+from ..wire.device import parse_battery, parse_firmware
+from ..wire.error import WireError
+from .cc2541 import AXIS_MAPS, Cc2541Link, cc2541_link
+from .cc2650 import Cc2650Link
+from .insole import InsoleLink
+from .profile import CC2541, CC2650, INSOLE, Profile
+
+SET_BACK = 20
+"""Packets in a row from before the newest arrival, after which the receiver's clock is taken to have been set back."""
+LATEST = 1e11
+"""s; an arrival time beyond this (or before minus this) is no time."""
+
+Output = list[Sample | LinkEvent]
+DeviceLink = InsoleLink | Cc2650Link | Cc2541Link
+
+_PROFILES = {"insole": INSOLE, "cc2650": CC2650, "cc2541": CC2541}
+_CHANNELS = {prefix: frozenset(c.name for c in profile.channels) for prefix, profile in _PROFILES.items()}
+
+
+@define
+class Decoder:
+    """The link of one site. `axes` names one of cc2541.AXIS_MAPS; ValueError when there is none of that name.
+
+    `feed` is total: whatever a packet holds gives events, never an exception, and a rejected one changes nothing (but
+    see above). Sample times strictly increase from one ClockReset to the next; `known_at` is the arrival that settled
+    the sample, or `t` where that is later.
+    """
+
+    site: Site
+    axes: str = field(default="raw")
+    """How a CC2541's raw axes turn into the sensor frame."""
+    link: InsoleLink | Cc2650Link | Cc2541Link | None = None
+    """The device, once a packet of it was used."""
+    firmware: str = ""
+    arrived: float | None = None
+    """Newest arrival of a packet that was used, s."""
+    backwards: int = 0
+    """Packets rejected in a row because their arrival was before it."""
+    heard: float | None = None
+    """Newest arrival on a channel that must not fall silent, s."""
+    stale: bool = False
+
+    @axes.validator
+    def _axes_exist(self, _attribute: object, value: str) -> None:
+        if value not in AXIS_MAPS:
+            raise ValueError(f"no axis map {value!r}; there are {', '.join(AXIS_MAPS)}")
+
+    def feed(self, packet: Packet) -> Output:
+        """Samples and events of one packet, in order of their being known."""
+        t = packet.t
+        if not isfinite(t):
+            return self._reject(packet, Rejection.NOT_FINITE, f"arrival time {t}")
+        if not -LATEST <= t <= LATEST:
+            return self._reject(packet, Rejection.ABSURD, f"arrival time {t:g} s")
+        if packet.site is not self.site:
+            return self._reject(packet, Rejection.WRONG_SITE, f"of {packet.site.value}, not {self.site.value}")
+        out: Output = []
+        if self.arrived is not None and t < self.arrived:
+            if self.backwards + 1 < SET_BACK:
+                self.backwards += 1
+                return self._reject(packet, Rejection.TIME_BACKWARDS, f"{self.arrived - t:.6g} s before the newest")
+            out = self._set_back(t)
+        try:
+            return out + self._use(packet)
+        except WireError as error:
+            return out + self._reject(packet, error.reason, error.detail)
+
+    def advance(self, now: float) -> Output:
+        """Let time pass to `now`, s, with nothing arriving. What is not a time is passed over."""
+        link, heard = self.link, self.heard
+        if link is None or heard is None or self.stale or link.silence_is_legal or not isfinite(now):
+            return []
+        limit = self._profile().stale_after
+        if now - heard <= limit:
+            return []
+        self.stale = True
+        out = link.flush(now)
+        out.append(StreamStale(t=heard + limit, known_at=now, site=self.site, silent_for=now - heard))
+        return out
+
+    def finish(self) -> Output:
+        """What still waits, at the end of all data."""
+        return [] if self.link is None or self.arrived is None else self.link.flush(self.arrived)
+
+    def _profile(self) -> Profile:
+        match self.link:
+            case Cc2650Link():
+                return CC2650
+            case Cc2541Link():
+                return CC2541
+        return INSOLE
+
+    def _use(self, packet: Packet) -> Output:
+        """WireError, before anything has changed, when the packet cannot be used."""
+        prefix = packet.channel.partition("/")[0]
+        if prefix == "device":
+            out = self._standard(packet)
+            return self._heed(packet.t, False) + out
+        profile = _PROFILES.get(prefix)
+        if profile is None or packet.channel not in _CHANNELS[prefix]:
+            raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
+        link = self.link
+        if link is None:
+            link = self._make(prefix)
+        elif profile is not self._profile():
+            raise WireError(Rejection.UNKNOWN_CHANNEL, f"{packet.channel!r} at a site with a {self._profile().name}")
+        out = link.feed(packet.channel, packet.data, packet.t)
+        self.link = link
+        return self._heed(packet.t, packet.channel in profile.streams) + out
+
+    def _make(self, prefix: str) -> DeviceLink:
+        if prefix == "insole":
+            return InsoleLink(self.site)
+        if prefix == "cc2650":
+            return Cc2650Link(self.site)
+        return cc2541_link(self.site, self.axes, self.firmware)
+
+    def _standard(self, packet: Packet) -> Output:
+        """Battery and firmware, which any device may have."""
+        if packet.channel == "device/battery":
+            level = parse_battery(packet.data) / 100.0
+            return [BatteryLevel(t=packet.t, known_at=packet.t, site=self.site, level=level)]
+        if packet.channel != "device/firmware":
+            raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
+        self.firmware = parse_firmware(packet.data).rstrip("\0")
+        if isinstance(self.link, Cc2541Link):
+            self.link.learn_firmware(self.firmware)
+        return []
+
+    def _heed(self, t: float, streams: bool) -> Output:
+        """A packet that was used arrived at `t`; `streams` when it breaks a silence."""
+        self.arrived, self.backwards = t, 0
+        if not streams:
+            return self.advance(t)
+        out: Output = []
+        if self.heard is not None:
+            silent_for, limit = t - self.heard, self._profile().stale_after
+            if not self.stale and silent_for > limit and self.link is not None and not self.link.silence_is_legal:
+                self.stale = True
+                begun = self.heard + limit
+                out.append(StreamStale(t=begun, known_at=t, site=self.site, silent_for=silent_for))
+            if self.stale:
+                self.stale = False
+                out.append(StreamResumed(t=t, known_at=t, site=self.site, silent_for=silent_for))
+        self.heard = t
+        return out
+
+    def _set_back(self, t: float) -> Output:
+        self.arrived, self.heard, self.stale, self.backwards = None, None, False, 0
+        if self.link is not None:
+            self.link.forget_clock()
+        return [ClockReset(t=t, known_at=t, site=self.site, restarted=False)]
+
+    def _reject(self, packet: Packet, reason: Rejection, detail: str) -> Output:
+        newest = 0.0 if self.arrived is None else self.arrived
+        t = packet.t if -LATEST <= packet.t <= LATEST else newest
+        return [
+            PacketRejected(
+                t=t, known_at=max(t, newest), site=packet.site, channel=packet.channel, reason=reason, detail=detail
+            )
+        ]

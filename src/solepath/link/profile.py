@@ -1,0 +1,176 @@
+"""What there is to know about each device before it is connected: GATT ids, channels, setup writes, rates. Only data.
+
+The ids and values are those of protocol/insole.md, protocol/cc2650.md and protocol/cc2541.md. To start a device:
+subscribe to every `notify` channel that is wanted, read `reads`, then make the writes of `setup` in order, each
+followed by its own reads. What was read and written is recorded as packets of the same channels, so that a decoder
+(and a recording) knows the ranges and periods in force.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from attrs import frozen
+
+
+class How(Enum):
+    """What a host does with a characteristic."""
+
+    NOTIFY = "notify"
+    READ = "read"
+    WRITE = "write"
+
+
+@frozen
+class Channel:
+    """One characteristic and the name that its packets carry. UUIDs in full, lower case."""
+
+    name: str
+    service: str
+    characteristic: str
+    how: How
+
+
+@frozen
+class Write:
+    """One value to be written; `then_read` names channels to be read right after it."""
+
+    channel: str
+    value: bytes
+    then_read: tuple[str, ...] = ()
+
+
+@frozen
+class Profile:
+    """One kind of device.
+
+    `names`, `services`: what its advertisement may say (complete names; service UUIDs). `setup`: writes in order.
+    `reads`: channels to be read once after connecting, where the device has them. `nominal_rate`: samples a second
+    after `setup`. `streams`: the channels that must not fall silent, and `stale_after`: s after which they have.
+    """
+
+    name: str
+    names: tuple[str, ...]
+    services: tuple[str, ...]
+    channels: tuple[Channel, ...]
+    setup: tuple[Write, ...]
+    reads: tuple[str, ...]
+    nominal_rate: float
+    streams: tuple[str, ...]
+    stale_after: float
+
+    def channel(self, name: str) -> Channel:
+        """The channel of this name. KeyError when there is none."""
+        for channel in self.channels:
+            if channel.name == name:
+                return channel
+        raise KeyError(name)
+
+
+def _insole(short: int) -> str:
+    return f"6016{short:04x}-c8fb-4908-9b03-31fbe15925c4"
+
+
+def _ti(short: int) -> str:
+    return f"f000{short:04x}-0451-4000-b000-000000000000"
+
+
+def _standard(short: int) -> str:
+    return f"0000{short:04x}-0000-1000-8000-00805f9b34fb"
+
+
+_FIRMWARE = Channel("device/firmware", _standard(0x180A), _standard(0x2A26), How.READ)
+_BATTERY = Channel("device/battery", _standard(0x180F), _standard(0x2A19), How.NOTIFY)
+
+INSOLE = Profile(
+    name="insole",
+    names=(),
+    services=(_insole(1),),
+    channels=(
+        Channel("insole/frame", _insole(1), _insole(2), How.NOTIFY),
+        Channel("insole/info", _insole(1), _insole(3), How.READ),
+        Channel("insole/control", _insole(1), _insole(4), How.WRITE),
+        _BATTERY,
+        _FIRMWARE,
+    ),
+    setup=(Write("insole/control", b"\x01"),),
+    reads=("insole/info", "device/firmware", "device/battery"),
+    nominal_rate=100.0,
+    streams=("insole/frame",),
+    stale_after=1.0,
+)
+
+CC2650 = Profile(
+    name="cc2650",
+    names=("CC2650 SensorTag", "SensorTag 2.0"),
+    services=(_standard(0xAA80),),
+    channels=(
+        Channel("cc2650/movement", _ti(0xAA80), _ti(0xAA81), How.NOTIFY),
+        Channel("cc2650/movement-config", _ti(0xAA80), _ti(0xAA82), How.WRITE),
+        Channel("cc2650/movement-period", _ti(0xAA80), _ti(0xAA83), How.WRITE),
+        Channel("cc2650/barometer", _ti(0xAA40), _ti(0xAA41), How.NOTIFY),
+        Channel("cc2650/barometer-config", _ti(0xAA40), _ti(0xAA42), How.WRITE),
+        Channel("cc2650/barometer-period", _ti(0xAA40), _ti(0xAA44), How.WRITE),
+        Channel("cc2650/keys", _standard(0xFFE0), _standard(0xFFE1), How.NOTIFY),
+        _BATTERY,
+        _FIRMWARE,
+    ),
+    setup=(
+        Write("cc2650/movement-period", b"\x0a"),
+        Write("cc2650/movement-config", b"\x7f\x02"),  # all axes, 8 g
+        Write("cc2650/barometer-period", b"\x64"),
+        Write("cc2650/barometer-config", b"\x01"),
+    ),
+    reads=("device/firmware", "device/battery"),
+    nominal_rate=10.0,
+    streams=("cc2650/movement",),
+    stale_after=2.0,
+)
+
+
+def _cc2541(name: str, period: bytes, nominal_rate: float) -> Profile:
+    return Profile(
+        name=name,
+        names=("SensorTag", "TI BLE Sensor Tag"),
+        services=(),
+        channels=(
+            Channel("cc2541/accelerometer", _ti(0xAA10), _ti(0xAA11), How.NOTIFY),
+            Channel("cc2541/accelerometer-config", _ti(0xAA10), _ti(0xAA12), How.WRITE),
+            Channel("cc2541/accelerometer-period", _ti(0xAA10), _ti(0xAA13), How.WRITE),
+            Channel("cc2541/magnetometer", _ti(0xAA30), _ti(0xAA31), How.NOTIFY),
+            Channel("cc2541/magnetometer-config", _ti(0xAA30), _ti(0xAA32), How.WRITE),
+            Channel("cc2541/magnetometer-period", _ti(0xAA30), _ti(0xAA33), How.WRITE),
+            Channel("cc2541/barometer", _ti(0xAA40), _ti(0xAA41), How.NOTIFY),
+            Channel("cc2541/barometer-config", _ti(0xAA40), _ti(0xAA42), How.WRITE),
+            Channel("cc2541/barometer-calibration", _ti(0xAA40), _ti(0xAA43), How.READ),
+            Channel("cc2541/barometer-period", _ti(0xAA40), _ti(0xAA44), How.WRITE),
+            Channel("cc2541/gyroscope", _ti(0xAA50), _ti(0xAA51), How.NOTIFY),
+            Channel("cc2541/gyroscope-config", _ti(0xAA50), _ti(0xAA52), How.WRITE),
+            Channel("cc2541/gyroscope-period", _ti(0xAA50), _ti(0xAA53), How.WRITE),
+            Channel("cc2541/keys", _standard(0xFFE0), _standard(0xFFE1), How.NOTIFY),
+            _FIRMWARE,
+        ),
+        setup=(
+            Write("cc2541/accelerometer-period", period),
+            Write("cc2541/accelerometer-config", b"\x03"),  # 8 g: the one value on which drivers agree most
+            Write("cc2541/gyroscope-period", period),
+            Write("cc2541/gyroscope-config", b"\x07"),
+            Write("cc2541/magnetometer-period", b"\x64"),
+            Write("cc2541/magnetometer-config", b"\x01"),
+            Write("cc2541/barometer-period", b"\x64"),
+            Write("cc2541/barometer-config", b"\x02", then_read=("cc2541/barometer-calibration",)),
+            Write("cc2541/barometer-config", b"\x01"),
+        ),
+        reads=("device/firmware",),
+        nominal_rate=nominal_rate,
+        streams=("cc2541/accelerometer", "cc2541/gyroscope"),
+        stale_after=2.0,
+    )
+
+
+CC2541 = _cc2541("cc2541", b"\x0a", 10.0)
+CC2541_20HZ = _cc2541("cc2541-20hz", b"\x05", 20.0)
+"""Firmware rebuilt with a lower minimum period; from its advertisement it cannot be told from the stock one."""
+
+PROFILES = (INSOLE, CC2650, CC2541, CC2541_20HZ)
+BY_NAME = {profile.name: profile for profile in PROFILES}

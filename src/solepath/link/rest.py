@@ -1,0 +1,67 @@
+"""Does the accelerometer read 1 g at rest? The one check that tells a wrong range or scale from a right one."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from attrs import define
+
+from ..types import Vec3
+from ..vector import GRAVITY
+
+WINDOW = 1.5
+"""Seconds without motion that count as rest."""
+STILL = 0.06
+"""How far each axis may range in a still window, as a fraction of the reading's magnitude."""
+TOLERANCE = 0.15
+"""Of 1 g; more than this off and the scale is suspect (ranges differ by factors of two)."""
+RANGES = (2, 4, 8, 16)
+"""Full scales of accelerometers, g."""
+
+
+@define
+class RestCheck:
+    """Finds one still window, compares its mean with 1 g, and is done. `grain`: the size of one count, m/s^2."""
+
+    grain: float
+    done: bool = False
+    started: float = 0.0
+    count: int = 0
+    low: Vec3 = (0.0, 0.0, 0.0)
+    high: Vec3 = (0.0, 0.0, 0.0)
+    total: Vec3 = (0.0, 0.0, 0.0)
+
+    def feed(self, t: float, acc: Vec3) -> float | None:
+        """Mean |acc| in m/s^2 when it is known to be wrong, else None. Call with every sample until `done`."""
+        x, y, z = acc
+        if self.count == 0:
+            self._begin(t, acc)
+            return None
+        (lx, ly, lz), (hx, hy, hz), (sx, sy, sz) = self.low, self.high, self.total
+        self.low = lx, ly, lz = (min(lx, x), min(ly, y), min(lz, z))
+        self.high = hx, hy, hz = (max(hx, x), max(hy, y), max(hz, z))
+        self.total = sx, sy, sz = (sx + x, sy + y, sz + z)
+        self.count += 1
+        magnitude = sqrt(sx * sx + sy * sy + sz * sz) / self.count
+        if max(hx - lx, hy - ly, hz - lz) > STILL * magnitude + 2.5 * self.grain:
+            self._begin(t, acc)
+            return None
+        if t - self.started < WINDOW or self.count < 8:
+            return None
+        self.done = True
+        return magnitude if abs(magnitude - GRAVITY) > TOLERANCE * GRAVITY else None
+
+    def _begin(self, t: float, acc: Vec3) -> None:
+        self.started, self.count = t, 1
+        self.low = self.high = self.total = acc
+
+
+def suggestion(magnitude: float, assumed: float) -> str:
+    """What a reading of `magnitude` m/s^2 at rest says, when a full scale of `assumed` g was taken for granted."""
+    if magnitude < 0.05 * GRAVITY:
+        return "reads nothing at rest: is the accelerometer switched on?"
+    ratio = magnitude / GRAVITY
+    for full in RANGES:
+        if abs(ratio * full / assumed - 1.0) <= TOLERANCE:
+            return f"reads {ratio:.2f} g at rest with {assumed:g} g full scale assumed; {full} g would fit"
+    return f"reads {ratio:.2f} g at rest with {assumed:g} g full scale assumed; no usual range fits"
