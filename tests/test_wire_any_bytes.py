@@ -9,13 +9,16 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from solepath.types import Cell, Foot
 from solepath.wire import cc2541, cc2650, cells, device, fragment, insole, insole_control, insole_info, period
 from solepath.wire.envelope import MAGIC
 from solepath.wire.error import WireError
+
+UNHURRIED = settings(deadline=None)
+"""A busy machine is no reason to fail."""
 
 VECTORS = Path(__file__).parent.parent / "protocol" / "vectors"
 
@@ -78,18 +81,21 @@ def read(name: str, data: bytes) -> None:
 
 
 @pytest.mark.parametrize("name", CODECS)
+@UNHURRIED
 @given(data=st.binary(max_size=600))
 def test_any_bytes_are_a_record_or_a_wire_error(name: str, data: bytes) -> None:
     read(name, data)
 
 
 @pytest.mark.parametrize("name", CODECS)
+@UNHURRIED
 @given(data=st.data())
 def test_any_damaged_packet_is_a_record_or_a_wire_error(name: str, data: st.DataObject) -> None:
     read(name, data.draw(damaged(SEEDS[name], resealed=False)))
 
 
 @pytest.mark.parametrize("name", ["insole-frame", "insole-info"])
+@UNHURRIED
 @given(data=st.data())
 def test_damage_under_a_right_crc_is_a_record_or_a_wire_error(name: str, data: st.DataObject) -> None:
     read(name, data.draw(damaged(SEEDS[name], resealed=True)))
@@ -145,11 +151,13 @@ def frames(draw: st.DrawFn) -> insole.InsoleFrame:
     )
 
 
+@UNHURRIED
 @given(frames())
 def test_every_frame_is_read_as_it_was_written(frame: insole.InsoleFrame) -> None:
     assert insole.parse_frame(insole.build_frame(frame)) == frame
 
 
+@UNHURRIED
 @given(frames(), st.integers(2, 600), st.integers(0, 6))
 def test_every_frame_that_is_cut_can_be_joined(frame: insole.InsoleFrame, payload: int, frame_id: int) -> None:
     data = insole.build_frame(frame)
@@ -165,6 +173,7 @@ def test_every_frame_that_is_cut_can_be_joined(frame: insole.InsoleFrame, payloa
     assert insole.parse_frame(data) == frame
 
 
+@UNHURRIED
 @given(frames(), st.integers(0, 10_000), st.integers(1, 255))
 def test_no_frame_survives_a_changed_byte(frame: insole.InsoleFrame, position: int, change: int) -> None:
     data = bytearray(insole.build_frame(frame))
@@ -173,6 +182,7 @@ def test_no_frame_survives_a_changed_byte(frame: insole.InsoleFrame, position: i
         insole.parse_frame(bytes(data))
 
 
+@UNHURRIED
 @given(frames(), st.integers(0, 10_000))
 def test_no_frame_is_read_from_a_part_of_it(frame: insole.InsoleFrame, length: int) -> None:
     data = insole.build_frame(frame)
@@ -203,6 +213,7 @@ INFOS = st.builds(
 )
 
 
+@UNHURRIED
 @given(INFOS)
 def test_every_info_is_read_as_it_was_written(info: insole_info.InsoleInfo) -> None:
     assert insole_info.parse_info(insole_info.build_info(info)) == info
@@ -247,6 +258,7 @@ OTHERS = {
 
 
 @pytest.mark.parametrize("name", OTHERS)
+@UNHURRIED
 @given(data=st.data())
 def test_every_other_record_is_read_as_it_was_written(name: str, data: st.DataObject) -> None:
     parse, build = CODECS[name]
@@ -254,6 +266,7 @@ def test_every_other_record_is_read_as_it_was_written(name: str, data: st.DataOb
     assert parse(build(record)) == record
 
 
+@UNHURRIED
 @given(st.lists(st.integers(0, 4095), max_size=260))
 def test_twelve_bit_values_are_unpacked_as_they_were_packed(values: list[int]) -> None:
     packed = cells.pack12(values)
@@ -261,6 +274,7 @@ def test_twelve_bit_values_are_unpacked_as_they_were_packed(values: list[int]) -
     assert cells.unpack12(packed, len(values)) == tuple(values)
 
 
+@UNHURRIED
 @given(st.lists(st.integers(0, 4095), min_size=1, max_size=130), st.data())
 def test_each_cell_lies_where_its_number_says(values: list[int], data: st.DataObject) -> None:
     number = data.draw(st.integers(0, len(values) - 1))
