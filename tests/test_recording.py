@@ -44,18 +44,15 @@ def test_what_was_written_is_read_back(tmp_path):
     assert list(read_packets(written(tmp_path / "walk.jsonl"))) == PACKETS
 
 
-arrivals = st.lists(st.floats(allow_nan=False, allow_infinity=False), max_size=8).map(sorted)
-
-
 @given(
-    times=arrivals,
+    times=st.lists(st.floats(allow_nan=False, allow_infinity=False), max_size=8),
     contents=st.lists(
         st.tuples(st.sampled_from(Site), st.text(st.characters(codec="utf-8"), max_size=20), st.binary(max_size=64)),
         min_size=8,
         max_size=8,
     ),
 )
-def test_any_packets_in_order_of_arrival_survive_writing_and_reading(tmp_path_factory, times, contents):
+def test_any_packets_survive_writing_and_reading(tmp_path_factory, times, contents):
     packets = [Packet(t, *content) for t, content in zip(times, contents, strict=False)]
     path = written(tmp_path_factory.mktemp("recordings") / "any.jsonl", packets)
     assert list(read_packets(path)) == packets
@@ -139,7 +136,6 @@ def test_a_torn_last_line_warns_when_nobody_asked_for_the_report(tmp_path):
         (line_of(data="f5f"), '"data" is not pairs'),
         (line_of(data=None), '"data" is not pairs'),
         (line_of(data="00" * 40_000), "is longer than 65536 bytes"),
-        (line_of(t=0.25), "time runs backwards, from 0.5 s to 0.25 s"),
     ],
 )
 def test_a_bad_line_is_named_after_everything_before_it_was_read(tmp_path, line, complaint):
@@ -185,6 +181,12 @@ def test_a_missing_file_and_a_directory_are_named(tmp_path):
     assert read_what_there_is(tmp_path)[1].endswith("is a directory, not a recording")
 
 
+def test_a_receivers_clock_that_was_set_back_is_left_to_the_decoder(tmp_path):
+    path = tmp_path / "walk.jsonl"
+    path.write_text(HEADER + line_of(t=9.0) + line_of(t=0.5))
+    assert [packet.t for packet in read_packets(path)] == [9.0, 0.5]
+
+
 def test_progress_ends_at_the_size_of_the_file(tmp_path):
     path = written(tmp_path / "walk.jsonl")
     read = []
@@ -198,7 +200,6 @@ def test_packets_that_no_recording_can_hold_are_refused_and_leave_it_whole(tmp_p
         writer.write(PACKETS[0])
         for unfit in (
             Packet(float("nan"), Site.LEFT_FOOT, "insole/frame", b""),
-            Packet(12.0, Site.LEFT_FOOT, "insole/frame", b""),
             Packet(13.0, Site.LEFT_FOOT, "insole/frame", bytes(40_000)),
         ):
             with pytest.raises(ValueError):

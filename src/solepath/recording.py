@@ -72,7 +72,6 @@ def read_packets(
     path = Path(path)
     with open_file(path) as file:
         read = number = 0
-        latest: float | None = None
         header_seen = False
         while line := file.readline(LONGEST_LINE + 1):
             number += 1
@@ -89,8 +88,6 @@ def read_packets(
                     header_seen = True
                     continue
                 packet = _packet(fields)
-                if latest is not None and packet.t < latest:
-                    raise _Flaw(f"time runs backwards, from {latest!r} s to {packet.t!r} s")
             except _NotAnObject as flaw:
                 # an object ends with its brace, so a line that was cut is never an object
                 if header_seen and not line.endswith(b"\n") and len(line) <= LONGEST_LINE:
@@ -99,7 +96,6 @@ def read_packets(
                 raise RecordingError(path, str(flaw), where) from None
             except _Flaw as flaw:
                 raise RecordingError(path, str(flaw), where) from None
-            latest = packet.t
             yield packet
         if not header_seen:
             raise RecordingError(path, "is empty")
@@ -176,24 +172,20 @@ class PacketWriter:
             writer.write(packet)
 
     An existing file is replaced. `OSError` when it cannot be written; `ValueError` for a packet that no recording can
-    hold (a time that is not finite or falls, a line that would be too long).
+    hold (a time that is not finite, a line that would be too long).
     """
 
     def __init__(self, path: Path | str, **header: Any) -> None:
         """`header`: further keys for the first line, for instance a note."""
         first = json.dumps({"format": FORMAT, "version": VERSION, **header}, allow_nan=False)
-        self._latest: float | None = None
         self._file = Path(path).open("wb")  # noqa: SIM115 - this class is the context manager
         self._put(first)
 
     def write(self, packet: Packet) -> None:
         if not isfinite(packet.t):
             raise ValueError(f"a packet at {packet.t} s cannot be recorded")
-        if self._latest is not None and packet.t < self._latest:
-            raise ValueError(f"packets are recorded in order of arrival: {packet.t} s after {self._latest} s")
         line = {"t": packet.t, "site": packet.site.value, "channel": packet.channel, "data": packet.data.hex()}
         self._put(json.dumps(line, allow_nan=False))
-        self._latest = packet.t
 
     def _put(self, line: str) -> None:
         encoded = line.encode("utf-8") + b"\n"

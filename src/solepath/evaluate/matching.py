@@ -62,7 +62,8 @@ def match(
 def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> list[tuple[int, int]]:
     """(index in `true`, index in `found`) of the pairs no further apart than `tolerance`, the closest first served,
     each used once; in the order of `true`."""
-    near = sorted((abs(f - t), i, j) for i, t in enumerate(true) for j, f in enumerate(found) if abs(f - t) <= tolerance)
+    candidates = ((abs(f - t), i, j) for i, t in enumerate(true) for j, f in enumerate(found))
+    near = sorted(candidate for candidate in candidates if candidate[0] <= tolerance)
     free_true, free_found = set(range(len(true))), set(range(len(found)))
     chosen: list[tuple[int, int]] = []
     for _, i, j in near:

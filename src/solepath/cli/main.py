@@ -1,0 +1,62 @@
+"""`solepath`: the parser, and what every command does about errors.
+
+Exit status: 0 done; 2 the command line or a file is wrong, said in one line on stderr; 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+
+from . import demo, evaluate, track
+from .failure import Failure
+
+COMMANDS = (demo, track, evaluate)
+
+
+def parser() -> argparse.ArgumentParser:
+    top = argparse.ArgumentParser(
+        prog="solepath", description="Gait events and indoor tracks from foot-worn sensors: bytes in, steps out."
+    )
+    top.add_argument("--version", action="store_true", help="print the version and exit")
+    commands = top.add_subparsers(metavar="COMMAND", dest="command")
+    for command in COMMANDS:
+        command.add_to(commands)
+    return top
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; the exit status."""
+    top = parser()
+    options = top.parse_args(arguments)
+    if options.version:
+        from importlib.metadata import version
+
+        print(f"solepath {version('solepath')}")
+        return 0
+    if options.command is None:
+        top.print_help()
+        return 0
+    try:
+        status: int = options.run(options)
+        sys.stdout.flush()
+    except Failure as failure:
+        return complain(str(failure))
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        # whoever read our output has seen enough; Python would complain once more when it closes stdout
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except OSError as error:
+        return complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+    return status
+
+
+def complain(sentence: str) -> int:
+    """One line on stderr; the exit status that goes with it."""
+    sys.stdout.flush()
+    print(f"solepath: {sentence}", file=sys.stderr)
+    return 2

@@ -1,0 +1,88 @@
+"""`solepath track FILE`: a recording through a session, summed up and written out."""
+
+from __future__ import annotations
+
+import argparse
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+from .failure import Failure, known_recipe, note
+
+LONG = 4_000_000
+"""Bytes of packets from which on there is a progress bar ..."""
+LONG_SAMPLES = 40_000
+"""... or samples: a second or so of computing."""
+
+
+def add_to(commands: Any) -> None:
+    command: argparse.ArgumentParser = commands.add_parser(
+        "track",
+        help="run a recording and print a summary",
+        description="Run a recording of packets (JSON Lines) or of samples (.npz, .csv) and print a summary.",
+    )
+    command.add_argument("file", metavar="FILE", type=Path, help="the recording")
+    command.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
+    command.add_argument(
+        "--foot",
+        choices=["left", "right"],
+        help="whose the samples of a recording of one foot are (default: right); of other recordings, the foot to use",
+    )
+    command.add_argument(
+        "--out", metavar="DIR", type=Path, help="write events.jsonl, track.csv and steps.csv into this directory"
+    )
+    command.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    from time import perf_counter
+
+    from .. import recipes
+    from ..output import TrackFiles
+    from ..recording import RecordingError
+    from ..session import Session
+    from ..source import open_source
+    from ..tally import Tally
+    from ..types import Foot, Sample
+    from ..view.progress import progress_bar
+    from ..view.summary import summary
+
+    recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
+    try:
+        source = open_source(options.file, Foot(options.foot) if options.foot else None, report=note)
+    except RecordingError as error:
+        raise Failure(str(error)) from None
+    session = Session(recipe, poses=True)
+    tally = Tally()
+    failure: Failure | None = None
+    began = perf_counter()
+    with ExitStack() as stack:
+        files = stack.enter_context(TrackFiles(options.out)) if options.out else None
+        long = source.total > (LONG if source.samples is None else LONG_SAMPLES)
+        show = stack.enter_context(progress_bar(options.file.name, source.total, wanted=long))
+        try:
+            for item in source:
+                if isinstance(item, Sample):
+                    tally.fed_sample(item)
+                else:
+                    tally.fed_packet(item)
+                for event in session.feed(item):
+                    tally.add(event)
+                    if files is not None:
+                        files.write(event)
+                show(source.done)
+        except RecordingError as error:
+            failure = Failure(str(error))
+        # what came before a fault in the file is a walk of its own: it is finished and written like any other
+        for event in session.finish():
+            tally.add(event)
+            if files is not None:
+                files.write(event)
+    if failure is None or tally.first is not None:
+        title = f"{options.file.name}, recipe {recipe.name}"
+        print(summary(tally, title=title, seconds=perf_counter() - began))
+        if options.out:
+            print(f"written to {options.out}")
+    if failure is not None:
+        raise failure
+    return 0

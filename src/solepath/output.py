@@ -1,0 +1,102 @@
+"""What `track` writes: events.jsonl, track.csv and steps.csv.
+
+Times are the recording's own, written so that reading gives the same float again; places in m to the micrometre.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+from contextlib import ExitStack
+from enum import Enum
+from math import isfinite
+from pathlib import Path
+from types import TracebackType
+from typing import Any, TextIO
+
+import attrs
+from attrs import define, field
+
+from .events import Event, FootMoved, StepTaken
+
+EVENTS, TRACK, STEPS = "events.jsonl", "track.csv", "steps.csv"
+TRACK_COLUMNS = ("t", "foot", "x", "y", "z", "phase")
+STEP_COLUMNS = (
+    "foot", "t_start", "t_end", "x", "y", "z", "stride_length", "heading_change", "height_change", "degraded",
+)  # fmt: skip
+FIRST_KEYS = ("t", "known_at", "final", "foot")
+
+
+def plain(value: Any) -> Any:
+    """`value` as JSON knows it: records as objects, enums by what they are called, tuples as lists, bytes as hex, and
+    null for a number that is none."""
+    match value:
+        case Enum():
+            return plain(value.value)
+        case float():
+            return value if isfinite(value) else None
+        case bytes():
+            return value.hex()
+        case tuple() | list():
+            return [plain(item) for item in value]
+        case dict():
+            return {str(plain(key)): plain(item) for key, item in value.items()}
+        case _ if attrs.has(type(value)):
+            return {a.name: plain(getattr(value, a.name)) for a in attrs.fields(type(value))}
+        case _:
+            return value
+
+
+def event_record(event: Event) -> dict[str, Any]:
+    """One event as a JSON object: its class's name, its times, its foot where it has one, then its own fields."""
+    fields = plain(event)
+    first = {key: fields.pop(key) for key in FIRST_KEYS if key in fields}
+    return {"event": type(event).__name__, **first, **fields}
+
+
+@define
+class TrackFiles:
+    """The three files in `directory`, which is made when there is none. Files of an earlier run are replaced.
+
+    A FootMoved is a row of track.csv, a final StepTaken one of steps.csv, and every event but FootMoved a line of
+    events.jsonl.
+    """
+
+    directory: Path
+    _stack: ExitStack = field(factory=ExitStack, init=False)
+    _events: TextIO = field(init=False)
+    _track: TextIO = field(init=False)
+    _steps: Any = field(init=False)
+
+    def __attrs_post_init__(self) -> None:
+        self.directory.mkdir(parents=True, exist_ok=True)
+        self._events, self._track, steps = (self._open(name) for name in (EVENTS, TRACK, STEPS))
+        self._track.write(",".join(TRACK_COLUMNS) + "\n")
+        self._steps = csv.writer(steps, lineterminator="\n")
+        self._steps.writerow(STEP_COLUMNS)
+
+    def _open(self, name: str) -> TextIO:
+        return self._stack.enter_context((self.directory / name).open("w", encoding="utf-8", newline=""))
+
+    def write(self, event: Event) -> None:
+        if isinstance(event, FootMoved):
+            x, y, z = event.position
+            self._track.write(f"{event.t!r},{event.foot.value},{x:.6f},{y:.6f},{z:.6f},{event.phase.value}\n")
+            return
+        self._events.write(json.dumps(event_record(event), allow_nan=False) + "\n")
+        if isinstance(event, StepTaken) and event.final:
+            x, y, z = event.position
+            lengths = (x, y, z, event.stride_length, event.heading_change, event.height_change)
+            row = [event.foot.value, repr(event.t_start), repr(event.t_end), *(f"{v:.6f}" for v in lengths)]
+            self._steps.writerow([*row, int(event.degraded)])
+
+    def close(self) -> None:
+        self._stack.close()
+
+    def __enter__(self) -> TrackFiles:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()

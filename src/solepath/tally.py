@@ -1,0 +1,145 @@
+"""Counting what a session says, for a summary."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from attrs import define, field
+
+from .events import (
+    ClockReset,
+    Event,
+    FootFlat,
+    FootMoved,
+    HeelOff,
+    HeelStrike,
+    Limitation,
+    PacketRejected,
+    PacketsLost,
+    SampleGap,
+    SampleRejected,
+    ScaleSuspect,
+    StepTaken,
+    StreamStale,
+    ToeOff,
+)
+from .types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Vec3
+
+
+@define
+class FootTally:
+    """What became known of one foot. Lengths in m, times in s."""
+
+    samples: int = 0
+    """Samples that were fed, or, of packets, those with a position."""
+    first: float | None = None
+    last: float | None = None
+    gap_time: float = 0.0
+    steps: int = 0
+    degraded: int = 0
+    distance: float = 0.0
+    """Sum of the stride lengths."""
+    heel_strikes: int = 0
+    foot_flats: int = 0
+    heel_offs: int = 0
+    toe_offs: int = 0
+    phase: Phase | None = None
+    position: Vec3 | None = None
+
+    def seen(self, t: float) -> None:
+        self.samples += 1
+        self.first = t if self.first is None else self.first
+        self.last = t
+
+    @property
+    def rate(self) -> float | None:
+        """Samples a second outside gaps."""
+        if self.first is None or self.last is None or self.samples < 2:
+            return None
+        span = self.last - self.first - self.gap_time
+        return (self.samples - 1) / span if span > 0.0 else None
+
+
+@define
+class Tally:
+    """Counts over a whole recording, or so far."""
+
+    feet: dict[Foot, FootTally] = field(factory=dict)
+    packets: int = 0
+    first: float | None = None
+    last: float | None = None
+    gaps: Counter[Site] = field(factory=Counter)
+    lost: Counter[Site] = field(factory=Counter)
+    rejected: Counter[tuple[str, str]] = field(factory=Counter)
+    """By ("packets" | "samples", reason)."""
+    clock_resets: int = 0
+    stale: int = 0
+    limitations: list[str] = field(factory=list)
+    suspects: list[str] = field(factory=list)
+
+    @property
+    def duration(self) -> float:
+        return 0.0 if self.first is None or self.last is None else self.last - self.first
+
+    def foot(self, foot: Foot) -> FootTally:
+        return self.feet.setdefault(foot, FootTally())
+
+    def fed(self, t: float) -> None:
+        """Something with the time `t` was fed, s."""
+        self.first = t if self.first is None else min(self.first, t)
+        self.last = t if self.last is None else max(self.last, t)
+
+    def fed_packet(self, packet: Packet) -> None:
+        self.fed(packet.t)
+        self.packets += 1
+
+    def fed_sample(self, sample: Sample) -> None:
+        self.fed(sample.t)
+        if (foot := sample.site.foot) is not None:
+            self.foot(foot).seen(sample.t)
+
+    def add(self, event: Event) -> None:
+        match event:
+            case FootMoved():
+                one = self.foot(event.foot)
+                one.phase, one.position = event.phase, event.position
+                if self.packets:
+                    one.seen(event.t)
+            case StepTaken(final=True):
+                one = self.foot(event.foot)
+                one.steps += 1
+                one.degraded += event.degraded
+                one.distance += event.stride_length
+            case HeelStrike(foot=foot):
+                self.foot(foot).heel_strikes += 1
+            case FootFlat(foot=foot):
+                self.foot(foot).foot_flats += 1
+            case HeelOff(foot=foot):
+                self.foot(foot).heel_offs += 1
+            case ToeOff(foot=foot):
+                self.foot(foot).toe_offs += 1
+            case SampleGap(site=site, duration=duration):
+                self.gaps[site] += 1
+                if site.foot is not None:
+                    self.foot(site.foot).gap_time += duration
+            case PacketRejected(reason=reason):
+                self.rejected["packets", reason.value] += 1
+            case SampleRejected(reason=reason):
+                self.rejected["samples", reason.value] += 1
+            case PacketsLost(site=site, count=count):
+                self.lost[site] += count
+            case ClockReset():
+                self.clock_resets += 1
+            case StreamStale():
+                self.stale += 1
+            case Limitation(site=site, what=what):
+                self.limitations.append(what if site is None else f"{site.value.replace('_', ' ')}: {what}")
+            case ScaleSuspect(site=site, magnitude=magnitude, suggestion=suggestion):
+                where = site.value.replace("_", " ")
+                told = f": {suggestion}" if suggestion else ""
+                self.suspects.append(f"{where}: |acc| is {magnitude:.2f} m/s^2 at rest{told}")
+            case _:
+                pass
+
+    def gaps_of(self, foot: Foot) -> int:
+        return self.gaps[SITE_OF_FOOT[foot]]

@@ -1,0 +1,41 @@
+"""A progress bar on stderr, where there is somebody to see it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from time import monotonic
+
+EVERY = 0.1
+"""s between two looks at the clock's hand."""
+
+
+@contextmanager
+def progress_bar(what: str, total: int, *, wanted: bool = True) -> Iterator[Callable[[int], None]]:
+    """A function that takes how much of `total` is done. It shows nothing when stderr is no terminal, when rich (the
+    `live` extra) is not installed, or when it is not `wanted`."""
+    if not wanted or not sys.stderr.isatty():
+        yield _ignore
+        return
+    try:
+        from rich.console import Console
+        from rich.progress import Progress
+    except ImportError:
+        yield _ignore
+        return
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(what, total=total)
+        shown = 0.0
+
+        def show(done: int) -> None:
+            nonlocal shown
+            if (now := monotonic()) - shown > EVERY:
+                shown = now
+                bar.update(task, completed=done)
+
+        yield show
+
+
+def _ignore(done: int) -> None:
+    """Nobody is looking."""

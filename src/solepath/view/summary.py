@@ -1,0 +1,54 @@
+"""A tally in words."""
+
+from __future__ import annotations
+
+from ..tally import Tally
+from ..types import Foot
+from .table import number, table
+
+
+def summary(tally: Tally, *, title: str, seconds: float) -> str:
+    """The summary of one recording; `seconds` is the wall time that it took."""
+    lines = [f"{title}: {tally.duration:.1f} s"]
+    feet = [foot for foot in Foot if foot in tally.feet]
+    if feet:
+        header = ["foot", "samples", "Hz", "steps", "distance m", "heel-strikes", "foot-flats", "heel-offs", "toe-offs"]
+        rows = []
+        for foot in feet:
+            one = tally.feet[foot]
+            counts = (one.heel_strikes, one.foot_flats, one.heel_offs, one.toe_offs)
+            told = [foot.value, str(one.samples), number(one.rate, 1), str(one.steps), number(one.distance)]
+            rows.append([*told, *map(str, counts)])
+        lines += ["", table(header, rows), ""]
+    for foot in feet:
+        one = tally.feet[foot]
+        if gaps := tally.gaps_of(foot):
+            lines.append(f"{foot.value}: {gaps} gap{'s'[: gaps > 1]}, {one.gap_time:.2f} s in all")
+        if one.degraded:
+            lines.append(f"{foot.value}: {one.degraded} of {one.steps} steps degraded by missing or saturated samples")
+    lines += link_health(tally)
+    lines += [f"does without {what}" for what in tally.limitations]
+    lines += [f"suspect scale, {what}" for what in tally.suspects]
+    samples = sum(one.samples for one in tally.feet.values())
+    if seconds > 0.0 and samples:
+        pace = f", {1e6 * seconds / samples:.0f} us a sample"
+        lines.append(f"computed in {seconds:.2f} s: {tally.duration / seconds:.0f} times as fast as walked{pace}")
+    return "\n".join(lines)
+
+
+def link_health(tally: Tally) -> list[str]:
+    """What the links did wrong, a line each; nothing when all went well."""
+    lines = []
+    if lost := tally.lost.total():
+        share = f" of {lost + tally.packets}" if tally.packets else ""
+        lines.append(f"{lost}{share} packets lost")
+    for kind in ("packets", "samples"):
+        reasons = {reason: count for (what, reason), count in tally.rejected.items() if what == kind}
+        if reasons:
+            detail = ", ".join(f"{reason} {count}" for reason, count in sorted(reasons.items()))
+            lines.append(f"{sum(reasons.values())} {kind} rejected ({detail})")
+    if tally.clock_resets:
+        lines.append(f"{tally.clock_resets} clock resets")
+    if tally.stale:
+        lines.append(f"{tally.stale} times a stream fell silent")
+    return lines
