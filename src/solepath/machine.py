@@ -1,7 +1,7 @@
 """Saving and restoring: every machine is a plain record, and a plain record is JSON.
 
 A machine is an attrs class whose fields are floats, ints, strings, booleans, None, bytes, enums, tuples, lists, dicts
-with string or enum keys, and other such records. `save` turns it into a JSON-able value, `load` builds it again from
+with string or enum keys, deques, and other such records. `save` turns it into a JSON-able value, `load` builds it again from
 the type annotations; a field typed as a union of records carries the class name. Nothing else may be held across two
 samples: no generators, closures, rebound methods or arrays.
 
@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import types
 import typing
+from collections import deque
 from collections.abc import Callable
 from enum import Enum
 from math import isfinite
@@ -80,6 +81,9 @@ def _make_codec(annotation: Any) -> tuple[_Saver, _Loader]:
     if origin is list:
         save_item, load_item = _codec(arguments[0])
         return (lambda v: [save_item(i) for i in v]), (lambda v: [load_item(i) for i in _list(v)])
+    if origin is deque:
+        save_item, load_item = _codec(arguments[0])
+        return (lambda v: [save_item(i) for i in v]), (lambda v: deque([load_item(i) for i in _list(v)]))
     if origin is dict:
         (save_key, load_key), (save_item, load_item) = _codec(arguments[0]), _codec(arguments[1])
         return (

@@ -1,0 +1,137 @@
+"""What a sensor at rest tells: which way is up, what its gyroscope adds, how long its metre is.
+
+`Levelling` finds the first attitude, whatever the mounting. `Rest` goes on learning: the gyroscope's bias and the
+accelerometer's scale, from spans in which the foot lies as still as only a standing foot does.
+"""
+
+from __future__ import annotations
+
+from attrs import define, field
+
+from ..types import Quat, Vec3
+from ..vector import GRAVITY, ZERO, levelling
+
+
+@define
+class Span:
+    """Running sums over one span of samples."""
+
+    count: int = 0
+    acc: Vec3 = ZERO
+    gyro: Vec3 = ZERO
+    acc_squares: float = 0.0
+    gyro_squares: float = 0.0
+
+    def add(self, acc: Vec3, gyro: Vec3) -> None:
+        ax, ay, az = acc
+        gx, gy, gz = gyro
+        x, y, z = self.acc
+        self.acc = (x + ax, y + ay, z + az)
+        x, y, z = self.gyro
+        self.gyro = (x + gx, y + gy, z + gz)
+        self.acc_squares += ax * ax + ay * ay + az * az
+        self.gyro_squares += gx * gx + gy * gy + gz * gz
+        self.count += 1
+
+    def means(self) -> tuple[Vec3, Vec3]:
+        k = 1.0 / self.count
+        (ax, ay, az), (gx, gy, gz) = self.acc, self.gyro
+        return (ax * k, ay * k, az * k), (gx * k, gy * k, gz * k)
+
+    def variances(self) -> tuple[float, float]:
+        """Of acc, (m/s^2)^2, and of gyro, (rad/s)^2, summed over the axes."""
+        (ax, ay, az), (gx, gy, gz) = self.means()
+        return (
+            max(0.0, self.acc_squares / self.count - (ax * ax + ay * ay + az * az)),
+            max(0.0, self.gyro_squares / self.count - (gx * gx + gy * gy + gz * gz)),
+        )
+
+
+@define
+class Levelling:
+    """The first attitude: gravity over the first quiet quarter of a second, or after `patience` over any.
+
+    Heading is left as it is (the smallest turn that takes the measured up to up).
+    """
+
+    length: float = 0.25
+    quiet_acc: float = 0.6
+    """Standard deviation of acc that still counts as quiet, m/s^2; eight-bit accelerometers flicker by 0.3."""
+    quiet_gyro: float = 0.25
+    """The same of the angular rate itself, rad/s."""
+    patience: float = 2.0
+    # state
+    span: Span = field(factory=Span, init=False)
+    span_start: float = field(default=0.0, init=False)
+    begun: float | None = field(default=None, init=False)
+
+    def update(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[Quat, float] | None:
+        """(attitude, standard deviation of its tilt in rad) once it is known."""
+        if self.begun is None:
+            self.begun = self.span_start = t
+        self.span.add(acc, gyro)
+        if t - self.span_start < self.length or self.span.count < 3:
+            return None
+        mean_acc, mean_gyro = self.span.means()
+        acc_variance, gyro_variance = self.span.variances()
+        gx, gy, gz = mean_gyro
+        turning = gyro_variance + gx * gx + gy * gy + gz * gz
+        quiet = acc_variance < self.quiet_acc**2 and turning < self.quiet_gyro**2
+        self.span = Span()
+        self.span_start = t
+        if quiet:
+            return levelling(mean_acc), 0.02
+        if t - self.begun >= self.patience:
+            return levelling(mean_acc), 0.2
+        return None
+
+
+@define
+class Rest:
+    """Gyroscope bias and accelerometer scale, learnt from spans of rest."""
+
+    length: float = 0.5
+    still_acc: float = 0.35
+    """Largest standard deviation of acc at rest, m/s^2."""
+    still_gyro: float = 0.02
+    """Largest standard deviation of the rate at rest, rad/s: a standing foot, not one in mid-stance."""
+    largest_bias: float = 0.15
+    """A steadier rate than noise and yet larger than this is a turn, not a bias, rad/s."""
+    # state
+    span: Span = field(factory=Span, init=False)
+    span_start: float | None = field(default=None, init=False)
+    bias: Vec3 = field(default=ZERO, init=False)
+    """Of the gyroscope, rad/s."""
+    scale: float = field(default=1.0, init=False)
+    """What to multiply acc by so that it reads 1 g at rest."""
+    count: int = field(default=0, init=False)
+    magnitude: float | None = field(default=None, init=False)
+    """|acc| of the last rest, m/s^2."""
+
+    def update(self, t: float, acc: Vec3, gyro: Vec3) -> bool:
+        """One raw sample; True when a span of rest was learnt from."""
+        if self.span_start is None:
+            self.span_start = t
+        self.span.add(acc, gyro)
+        if t - self.span_start < self.length or self.span.count < 4:
+            return False
+        (ax, ay, az), (gx, gy, gz) = self.span.means()
+        acc_variance, gyro_variance = self.span.variances()
+        self.span = Span()
+        self.span_start = t
+        if acc_variance > self.still_acc**2 or gyro_variance > self.still_gyro**2:
+            return False
+        if max(abs(gx), abs(gy), abs(gz)) > self.largest_bias:
+            return False
+        self.magnitude = (ax * ax + ay * ay + az * az) ** 0.5
+        scale = GRAVITY / self.magnitude if self.magnitude > 0.0 else 0.0
+        # a scale beyond 10 % is a wrong range, not a scale error; later than the first rests, a change of more than
+        # 2 % is a lift starting or stopping
+        if 0.9 < scale < 1.1 and (self.count < 4 or abs(scale / self.scale - 1.0) < 0.02):
+            self.scale += (scale - self.scale) / (min(self.count, 19) + 1)
+        # the bias wanders, so the last ten seconds of rest count
+        weight = 1.0 / (min(self.count, 19) + 1)
+        x, y, z = self.bias
+        self.bias = (x + (gx - x) * weight, y + (gy - y) * weight, z + (gz - z) * weight)
+        self.count += 1
+        return True

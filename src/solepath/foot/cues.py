@@ -1,0 +1,191 @@
+"""From numbers to cues: what a foot was seen to do, with hysteresis and debounce.
+
+`InertialCues` reads stillness and the sagittal angular rate (about the axis that points to the wearer's left, so that
+positive is toe down). Of a step that rate shows: a rise as the heel lifts, a peak of several rad/s as the toe pushes
+off, a long negative hump while the leg swings, and a return through zero as the heel lands. Toe-off is where the rate
+has fallen to 65 % of its peak, heel-strike where it comes up through zero after the hump: on the hand-checked events of
+10 m walks these places lie within a sample or two of the truth. Landmarks of this kind are common in gait analysis
+(Sabatini et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., IEEE Trans. Biomed. Eng. 60, 2013).
+
+`PressureCues` reads the load on the insole.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import NamedTuple
+
+from attrs import define, field
+
+from ..types import Phase, Vec3
+from ..vector import ZERO
+from .phase import Cue
+from .stance import Load
+
+
+class Seen(NamedTuple):
+    cue: Cue
+    t: float
+    """When it happened, s."""
+
+
+@define
+class InertialCues:
+    """Latency: heel-strike and toe-off one sample; foot-flat and heel-off `settle` s."""
+
+    settle: float = 0.03
+    """Stillness, or its loss, must last this long, s."""
+    push: float = 1.5
+    """A push-off's peak rate is at least this, rad/s."""
+    past_peak: float = 0.65
+    """Toe-off is where the rate has fallen to this share of its peak."""
+    hump: float = 1.0
+    """The swing's negative hump is at least this, rad/s."""
+    shortest_swing: float = 0.1
+    """No heel-strike sooner than this after toe-off, s."""
+    shuffle_speed: float = 0.35
+    """A foot that moves this fast for `shuffle_time` is in swing, however it got there, m/s."""
+    shuffle_time: float = 0.15
+    # state
+    still_since: float | None = field(default=None, init=False)
+    moving_since: float | None = field(default=None, init=False)
+    fast_since: float | None = field(default=None, init=False)
+    axis: Vec3 | None = field(default=None, init=False)
+    """Unit vector to the wearer's left, sensor frame; learnt from how the foot turns as the heel lifts."""
+    turned: Vec3 = field(default=ZERO, init=False)
+    """Turn since the foot began to move, rad, sensor frame."""
+    peak: float = field(default=0.0, init=False)
+    trough: float = field(default=0.0, init=False)
+    toe_off: float = field(default=0.0, init=False)
+    sagittal: float = field(default=0.0, init=False)
+    """Sagittal rate of the last sample, rad/s; the whole rate while the axis is unknown."""
+
+    def update(self, t: float, dt: float, gyro: Vec3, still: bool, speed: float, phase: Phase) -> Seen | None:
+        """`gyro` in rad/s without bias, `still`: the evidence of zero velocity was believed, `speed` in m/s."""
+        before = self.sagittal
+        gx, gy, gz = gyro
+        if self.axis is None:
+            now = sqrt(gx * gx + gy * gy + gz * gz)
+        else:
+            x, y, z = self.axis
+            now = x * gx + y * gy + z * gz
+        self.sagittal = now
+        if still:
+            self.moving_since = self.fast_since = None
+            if self.still_since is None:
+                self.still_since = t
+        else:
+            self.still_since = None
+            if self.moving_since is None:
+                self.moving_since = t
+                self.turned = ZERO
+                self.peak = 0.0
+            if speed < self.shuffle_speed:
+                self.fast_since = None
+            elif self.fast_since is None:
+                self.fast_since = t
+        if phase is Phase.SWING:
+            return self._in_swing(t, dt, before, now)
+        if self.still_since is not None:
+            if phase is not Phase.STATIONARY and t - self.still_since >= min(self.settle, 1.9 * dt):
+                return Seen(Cue.FLAT, self.still_since)
+            return None
+        x, y, z = self.turned
+        self.turned = (x + gx * dt, y + gy * dt, z + gz * dt)
+        if phase is Phase.STATIONARY:
+            self.peak = max(self.peak, now)
+            if self.moving_since is not None and t - self.moving_since >= min(self.settle, 1.9 * dt):
+                return Seen(Cue.LIFT, self.moving_since)
+            return None
+        return self._in_push_off(t, dt, before, now, phase)
+
+    def _in_push_off(self, t: float, dt: float, before: float, now: float, phase: Phase) -> Seen | None:
+        if now > self.peak:
+            self.peak = now
+        limit = self.past_peak * self.peak
+        if phase is Phase.PUSH_OFF and self.peak > self.push and now < limit and self._learn_axis():
+            # between the last two samples, where a straight line meets the limit
+            share = (before - limit) / (before - now) if before > limit > now else 1.0
+            return self._clear(t - dt * (1.0 - share))
+        if self.fast_since is not None and t - self.fast_since >= self.shuffle_time:
+            return self._clear(self.fast_since)
+        return None
+
+    def _in_swing(self, t: float, dt: float, before: float, now: float) -> Seen | None:
+        self.trough = min(self.trough, now)
+        if self.still_since is not None:
+            if t - self.still_since >= min(self.settle, 1.9 * dt):
+                return Seen(Cue.CONTACT, self.still_since)
+            return None
+        landed = self.axis is not None and self.trough < -self.hump and t - self.toe_off >= self.shortest_swing
+        if landed and before < 0.0 <= now:
+            self.peak = 0.0
+            self.turned = ZERO
+            return Seen(Cue.CONTACT, t - dt * now / (now - before))
+        return None
+
+    def _clear(self, t: float) -> Seen:
+        self.toe_off = t
+        self.trough = self.peak = 0.0
+        return Seen(Cue.CLEAR, t)
+
+    def _learn_axis(self) -> bool:
+        """The heel lifts by a turn about the axis to the left; True when it turned far enough to be a push-off."""
+        x, y, z = self.turned
+        angle = sqrt(x * x + y * y + z * z)
+        if angle < 0.25:
+            return False
+        x, y, z = x / angle, y / angle, z / angle
+        if self.axis is None:
+            self.axis = (x, y, z)
+            return True
+        u, v, w = self.axis
+        if u * x + v * y + w * z < 0.5:
+            return False  # turned about another axis: not how this wearer pushes off
+        u, v, w = u + 0.2 * (x - u), v + 0.2 * (y - v), w + 0.2 * (z - w)
+        k = 1.0 / sqrt(u * u + v * v + w * w)
+        self.axis = (u * k, v * k, w * k)
+        return True
+
+
+@define
+class PressureCues:
+    """Contact and clear from the total load, flat and lift from heel and forefoot. Latency: one sample."""
+
+    on: float = 0.05
+    """Contact: the load rises above this share of the wearer's full load."""
+    off: float = 0.03
+    """Clear: it falls below this."""
+    area_on: float = 0.06
+    """The same for the heel and for the forefoot alone."""
+    area_off: float = 0.03
+    # state
+    before: float = field(default=0.0, init=False)
+
+    def update(self, t: float, dt: float, load: Load, phase: Phase) -> Seen | None:
+        before, now = self.before, load.total
+        self.before = now
+        if phase is Phase.SWING:
+            return Seen(Cue.CONTACT, _crossing(t, dt, before, now, self.on)) if now > self.on else None
+        if now < self.off:
+            return Seen(Cue.CLEAR, _crossing(t, dt, before, now, self.off))
+        return None
+
+    def areas(self, t: float, load: Load, phase: Phase) -> Seen | None:
+        """For an insole without an inertial sensor: heel and forefoot say what stillness would have said."""
+        if load.heel is None or load.forefoot is None:
+            return None
+        if phase is Phase.LOADING and load.heel > self.area_off and load.forefoot > self.area_on:
+            return Seen(Cue.FLAT, t)
+        if phase is Phase.STATIONARY and load.heel < self.area_off and load.forefoot > self.area_on:
+            return Seen(Cue.LIFT, t)
+        if phase is Phase.PUSH_OFF and load.heel > self.area_on and load.forefoot > self.area_on:
+            return Seen(Cue.FLAT, t)
+        return None
+
+
+def _crossing(t: float, dt: float, before: float, now: float, level: float) -> float:
+    """When the straight line between the last two samples met the level, s."""
+    if (before - level) * (now - level) >= 0.0:
+        return t
+    return t - dt * (now - level) / (now - before)

@@ -1,0 +1,89 @@
+"""Stance evidence judged within each gait cycle, the default.
+
+No single threshold serves a stroll and a run: between a stroll's stance and its swing the SHOE statistic goes from 10^3
+to 10^7, in a run from 10^5 to 10^8. So what is still is judged against the wearer's own last cycle: in logarithms, the
+threshold lies a fixed share of the way from the quietest to the loudest moment of the last 1.2 to 1.6 s. The noise of
+the evidence comes from the motion itself: a foot that turns at w about a point of the sole r away moves the sensor at
+r w, and the steeper second term keeps early and late stance, when the foot rolls, from outvoting mid-stance.
+"""
+
+from __future__ import annotations
+
+from math import exp, inf, log, sqrt
+
+from attrs import define, field
+
+from ..types import Phase, Vec3
+from ..vector import ZERO
+from .stance import SIGMA_ACC, SIGMA_GYRO, Load, Shoe, Stance
+
+
+@define
+class Cycle:
+    """SHOE's statistic against a threshold learnt from the last cycle, with noise from the motion. Latency: 25 ms."""
+
+    share: float = 0.45
+    """Where the threshold lies between the log of the lowest and of the highest statistic."""
+    floor: float = 2e4
+    """The threshold is never below this; what a standing foot shows."""
+    ceiling: float = 3e6
+    """Nor above this; no stance of the recordings seen is louder."""
+    certain: float = 5e3
+    """Below this the foot is still whatever the filter believes."""
+    sigma: float = 0.01
+    """Noise of a foot that does not move at all, m/s."""
+    arm: float = 0.06
+    """Velocity noise for each rad/s, m."""
+    arm2: float = 0.3
+    """Velocity noise for each (rad/s)^2, m s: the rolling foot."""
+    off_gravity: float = 0.02
+    """Velocity noise for each m/s^2 off gravity, s."""
+    bucket: float = 0.4
+    """Length of one of the four spans over which the extremes are kept, s."""
+    # state
+    shoe: Shoe = field(factory=Shoe, init=False)
+    bucket_end: float | None = field(default=None, init=False)
+    lows: tuple[float, float, float] = field(default=(1e12, 1e12, 1e12), init=False)
+    highs: tuple[float, float, float] = field(default=(0.0, 0.0, 0.0), init=False)
+    low: float = field(default=1e12, init=False)
+    high: float = field(default=0.0, init=False)
+    past_low: float = field(default=1e12, init=False)
+    past_high: float = field(default=0.0, init=False)
+
+    def update(self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None) -> Stance:
+        force, rate = self.shoe.parts(t, acc, gyro)
+        statistic = force / SIGMA_ACC**2 + rate / SIGMA_GYRO**2
+        self._remember(t, statistic)
+        if load is not None and load.airborne:
+            return Stance(ZERO, inf, statistic, Phase.SWING)
+        if statistic < self.floor:
+            hint = Phase.STATIONARY if statistic < self.certain else None
+        elif statistic > self.ceiling or statistic > self._threshold():
+            return Stance(ZERO, inf, statistic, None)
+        else:
+            hint = None
+        variance = (
+            self.sigma * self.sigma
+            + (self.arm * self.arm + self.arm2 * self.arm2 * rate) * rate
+            + self.off_gravity * self.off_gravity * force
+        )
+        return Stance(ZERO, sqrt(variance), statistic, hint)
+
+    def _threshold(self) -> float:
+        low = min(self.low, self.past_low)
+        high = max(self.high, self.past_high)
+        return exp((1.0 - self.share) * log(max(low, 1.0)) + self.share * log(max(high, 1.0)))
+
+    def _remember(self, t: float, statistic: float) -> None:
+        if self.bucket_end is None or t >= self.bucket_end:
+            if self.bucket_end is not None:
+                self.lows = (self.lows[1], self.lows[2], self.low)
+                self.highs = (self.highs[1], self.highs[2], self.high)
+                self.past_low = min(self.lows)
+                self.past_high = max(self.highs)
+            self.bucket_end = t + self.bucket
+            self.low = self.high = statistic
+        elif statistic < self.low:
+            self.low = statistic
+        elif statistic > self.high:
+            self.high = statistic

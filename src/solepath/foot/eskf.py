@@ -1,0 +1,178 @@
+"""The nine-state error-state filter: position, velocity and attitude errors, corrected by stance evidence.
+
+After Foxlin, "Pedestrian tracking with shoe-mounted inertial sensors" (2005) and Sola, "Quaternion kinematics for the
+error-state Kalman filter" (arXiv:1711.02508, 2017, section 7 with global angular errors). Gyroscope bias is not a
+state: it is learnt at rest (attitude.py), which costs less and, on short walks, errs less than a 15-state filter.
+
+Between corrections the covariance is carried in one stroke (covariance.py), so a swing costs no more than its
+integration. Evidence that the motion so far makes too unlikely is refused, since a slow swing can look as still as a
+fast stance; but a filter that has refused everything for a while is lost and takes the quietest moment there is.
+"""
+
+from __future__ import annotations
+
+from math import inf
+
+from attrs import define, field
+
+from ..types import Phase, Quat, Vec3
+from ..vector import GRAVITY, ZERO, normalise
+from .covariance import TILT_X, TILT_Y, VELOCITY_X, VELOCITY_Y, VELOCITY_Z, YAW, Covariance, propagate, update
+from .navigate import LONGEST_BRIDGE, Strapdown
+from .stance import Stance
+
+REFERENCE_INTERVAL = 0.005
+"""The spacing of updates that a Stance's sigma is meant for, s; other spacings scale its variance."""
+SHORTEST_INTERVAL = 0.0035
+"""Corrections closer together than this are left out: neighbouring samples say the same, s."""
+_STRETCH = (0, 1, 2, 3, 4, 5, YAW, 17, 20, 23)
+"""Where position covariance, yaw variance and position-yaw covariance stand in a Covariance."""
+
+
+@define
+class ErrorStateFilter(Strapdown):
+    acc_noise: float = 0.05
+    """Accelerometer noise with all that stands for it (scale, g-sensitivity), m/s^2/sqrt(Hz)."""
+    gyro_noise: float = 0.002
+    """Gyroscope noise, rad/s/sqrt(Hz)."""
+    in_motion: float = 0.001
+    """Added noise as a share of the motion: scale and alignment errors, 1/sqrt(Hz)."""
+    clipping: float = 8.5
+    """Rates beyond this may be clipped (many foot sensors end at 500 deg/s), rad/s."""
+    clipped_noise: float = 0.3
+    """Noise of a rate that may be clipped, rad/s/sqrt(Hz)."""
+    refuse: float = 16.0
+    """Largest normalised innovation squared (chi-square, three degrees of freedom)."""
+    patience: float = 1.2
+    """After refusing everything for this long the filter is lost, s."""
+    # state
+    uncertainty: Covariance = field(default=(0.0,) * 45, init=False)
+    since: float = field(default=0.0, init=False)
+    """Time since the covariance was last carried forward, s."""
+    start_velocity: Vec3 = field(default=ZERO, init=False)
+    start_position: Vec3 = field(default=ZERO, init=False)
+    acc_variance: float = field(default=0.0, init=False)
+    gyro_variance: float = field(default=0.0, init=False)
+    accepted: float | None = field(default=None, init=False)
+    quietest: float = field(default=1e12, init=False)
+
+    def start(self, attitude: Quat, tilt_sigma: float) -> None:
+        self.attitude = attitude
+        self.velocity = self.position = self.start_velocity = self.start_position = ZERO
+        self.force = self.rate = None
+        covariance = [0.0] * 45
+        covariance[VELOCITY_X] = covariance[VELOCITY_Y] = covariance[VELOCITY_Z] = 1e-4
+        covariance[TILT_X] = covariance[TILT_Y] = tilt_sigma * tilt_sigma
+        self.uncertainty = tuple(covariance)
+        self.since = self.acc_variance = self.gyro_variance = 0.0
+        self.accepted = None
+        self.quietest = 1e12
+
+    def predict(self, dt: float, acc: Vec3, gyro: Vec3) -> None:
+        ax, ay, az = self.integrate(dt, acc, gyro)
+        gx, gy, gz = gyro
+        share = self.in_motion * self.in_motion
+        self.acc_variance += (self.acc_noise * self.acc_noise + share * (ax * ax + ay * ay + az * az)) * dt
+        turning = gx * gx + gy * gy + gz * gz
+        noise = self.gyro_noise * self.gyro_noise + share * turning
+        limit = self.clipping
+        if turning > limit * limit and (abs(gx) > limit or abs(gy) > limit or abs(gz) > limit):
+            noise += self.clipped_noise * self.clipped_noise
+        self.gyro_variance += noise * dt
+        self.since += dt
+
+    def correct(self, t: float, stance: Stance) -> bool:
+        sigma = stance.sigma
+        if sigma == inf:
+            return False
+        if self.since < SHORTEST_INTERVAL:
+            return self.accepted is not None and self.quietest >= 1e12  # as the sample before was judged
+        r = sigma * sigma * REFERENCE_INTERVAL / self.since
+        self._carry()
+        certain = stance.hint is Phase.STATIONARY
+        if self.accepted is None:
+            self.accepted = t
+        if not certain and t - self.accepted > self.patience and stance.statistic <= 3.0 * self.quietest:
+            self._doubt(velocity=0.3, tilt=0.03)
+        rx, ry, rz = stance.v_ref
+        vx, vy, vz = self.velocity
+        outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if certain else self.refuse)
+        if outcome is None:
+            self.quietest = min(self.quietest, stance.statistic)
+            return False
+        self.uncertainty, error = outcome
+        self._inject(error)
+        self.accepted = t
+        self.quietest = 1e12
+        return True
+
+    def bridge(self, dt: float) -> float:
+        # a foot accelerates by some 10 m/s^2 and turns by some rad/s; what happened in between is anyone's guess
+        if dt <= LONGEST_BRIDGE:
+            self.acc_variance += 4.0 * dt
+            self.gyro_variance += 0.25 * dt
+            return dt
+        self._carry()
+        self.velocity = self.start_velocity = ZERO
+        self.force = self.rate = None
+        self._doubt(velocity=1.0, tilt=0.2)
+        return 0.0
+
+    def anchor(self) -> tuple[float, ...]:
+        self._carry()
+        covariance = list(self.uncertainty)
+        stretch = tuple([covariance[i] for i in _STRETCH])
+        # position and yaw are exact again by definition, so nothing is correlated with them: pp, pv, pt and all of yaw
+        for i in (*range(24), 32, 35, 38, 41, 43, 44):
+            covariance[i] = 0.0
+        self.uncertainty = tuple(covariance)
+        return stretch
+
+    def covariance(self) -> tuple[float, ...]:
+        covariance = self._carried() if self.since > 0.0 else self.uncertainty
+        return tuple([covariance[i] for i in _STRETCH])
+
+    def _carried(self) -> Covariance:
+        t = self.since
+        vx, vy, vz = self.velocity
+        ux, uy, uz = self.start_velocity
+        x, y, z = self.position
+        ox, oy, oz = self.start_position
+        # S = dv + g T, D = dp - v0 T + g T^2 / 2: the integrals of the specific force, out of what it did
+        s = (vx - ux, vy - uy, vz - uz + GRAVITY * t)
+        d = (x - ox - ux * t, y - oy - uy * t, z - oz - uz * t + 0.5 * GRAVITY * t * t)
+        q = self.acc_variance
+        return propagate(self.uncertainty, t, s, d, q * t * t / 3.0, q * t / 2.0, q, self.gyro_variance)
+
+    def _carry(self) -> None:
+        if self.since > 0.0:
+            self.uncertainty = self._carried()
+            self._here()
+
+    def _here(self) -> None:
+        self.since = self.acc_variance = self.gyro_variance = 0.0
+        self.start_velocity = self.velocity
+        self.start_position = self.position
+
+    def _doubt(self, velocity: float, tilt: float) -> None:
+        """Add these standard deviations, m/s and rad, to what is known."""
+        covariance = list(self.uncertainty)
+        for i in (VELOCITY_X, VELOCITY_Y, VELOCITY_Z):
+            covariance[i] += velocity * velocity
+        for i in (TILT_X, TILT_Y):
+            covariance[i] += tilt * tilt
+        self.uncertainty = tuple(covariance)
+
+    def _inject(self, error: tuple[float, float, float, float, float, float, float, float, float]) -> None:
+        px, py, pz, vx, vy, vz, tx, ty, tz = error
+        x, y, z = self.position
+        self.position = self.start_position = (x + px, y + py, z + pz)
+        x, y, z = self.velocity
+        self.velocity = self.start_velocity = (x + vx, y + vy, z + vz)
+        # q <- dq(theta) * q with a global attitude error (Sola, eq. 309)
+        w, x, y, z = self.attitude
+        tx, ty, tz = 0.5 * tx, 0.5 * ty, 0.5 * tz
+        self.attitude = normalise(
+            (w - tx * x - ty * y - tz * z, x + tx * w + ty * z - tz * y,
+             y + ty * w + tz * x - tx * z, z + tz * w + tx * y - ty * x)
+        )  # fmt: skip

@@ -1,0 +1,117 @@
+"""Pressure cells as the foot room uses them: tare, load, centre of pressure and areas.
+
+Nobody calibrates an insole before walking. The tare is what the cells show when the foot is in the air (a shoe presses
+on them even then), the full load what they show when it carries the body; both are learnt from the signal, so newtons
+and counts serve alike. Until the load has once fallen to a fraction of itself nothing is known and there is no `Load`.
+"""
+
+from __future__ import annotations
+
+from attrs import define, field
+
+from ..types import Layout
+from .stance import Load
+
+HEEL = 0.33
+"""Cells behind this share of the insole's length are the heel's."""
+FOREFOOT = 0.55
+"""Cells in front of this share are the forefoot's."""
+
+
+@define
+class Extremes:
+    """The lowest and highest value of the last 8 to 10 s, from five spans of 2 s. O(1) a sample."""
+
+    span: float = 2.0
+    # state
+    ends: float | None = field(default=None, init=False)
+    lows: list[float] = field(factory=list, init=False)
+    highs: list[float] = field(factory=list, init=False)
+    low: float = field(default=0.0, init=False)
+    high: float = field(default=0.0, init=False)
+
+    def update(self, t: float, value: float) -> None:
+        if self.ends is None or t >= self.ends:
+            self.ends = t + self.span
+            self.lows = [*self.lows[-4:], value]
+            self.highs = [*self.highs[-4:], value]
+        else:
+            if value < self.lows[-1]:
+                self.lows[-1] = value
+            if value > self.highs[-1]:
+                self.highs[-1] = value
+        self.low = min(self.lows)
+        self.high = max(self.highs)
+
+
+@define
+class Insole:
+    """One insole: cell values in, `Load` out."""
+
+    contrast: float = 0.2
+    """Lowest and highest load must differ by this share of the highest before they mean anything."""
+    airborne: float = 0.02
+    """Below this share of the full load the foot is in the air."""
+    # state
+    layout: Layout | None = field(default=None, init=False)
+    heel_cells: list[int] = field(factory=list, init=False)
+    forefoot_cells: list[int] = field(factory=list, init=False)
+    total: Extremes = field(factory=Extremes, init=False)
+    heel: Extremes = field(factory=Extremes, init=False)
+    forefoot: Extremes = field(factory=Extremes, init=False)
+    highest: float = field(default=0.0, init=False)
+    tare: list[float] = field(factory=list, init=False)
+    """Each cell in the air, unit of the samples."""
+    unloaded: bool = field(default=False, init=False)
+
+    def wear(self, layout: Layout) -> None:
+        """The device said where its cells are."""
+        self.layout = layout
+        self.heel_cells = [i for i, cell in enumerate(layout.cells) if cell.x < HEEL * layout.length]
+        self.forefoot_cells = [i for i, cell in enumerate(layout.cells) if cell.x > FOREFOOT * layout.length]
+
+    def update(self, t: float, cells: tuple[float, ...]) -> Load | None:
+        """The load as shares of the wearer's full load, or None while that is not known."""
+        total = sum(cells)
+        self.total.update(t, total)
+        self.highest = max(self.highest * 0.9999, max(cells, default=0.0))
+        low, high = self.total.low, self.total.high
+        reach = high - low
+        if reach <= self.contrast * high or reach <= 0.0:
+            return None
+        share = (total - low) / reach
+        airborne = share < self.airborne
+        if airborne and not self.unloaded:
+            self.tare = list(cells)
+        self.unloaded = airborne
+        heel = forefoot = None
+        if self.layout is not None and len(cells) == len(self.layout.cells):
+            heel = self._area(t, cells, self.heel_cells, self.heel, reach)
+            forefoot = self._area(t, cells, self.forefoot_cells, self.forefoot, reach)
+        highest = max(cells) / self.highest if self.highest > 0.0 else 0.0
+        return Load(share, heel, forefoot, highest, airborne)
+
+    @staticmethod
+    def _area(t: float, cells: tuple[float, ...], indices: list[int], extremes: Extremes, reach: float) -> float | None:
+        if not indices:
+            return None
+        value = sum([cells[i] for i in indices])
+        extremes.update(t, value)
+        return (value - extremes.low) / reach
+
+    def centre_of_pressure(self, cells: tuple[float, ...]) -> tuple[float, float] | None:
+        """(x, y) in the foot frame, m: the mean of the cells' places weighted by their load above tare; None in the air
+        or without a layout. Equations (2) and (3) of the smart-insole papers, with load in place of pressure."""
+        if self.layout is None or len(cells) != len(self.layout.cells):
+            return None
+        tare = self.tare if len(self.tare) == len(cells) else [0.0] * len(cells)
+        sum_load = sum_x = sum_y = 0.0
+        for cell, value, zero in zip(self.layout.cells, cells, tare, strict=True):
+            load = value - zero
+            if load > 0.0:
+                sum_load += load
+                sum_x += load * cell.x
+                sum_y += load * cell.y
+        if sum_load <= 0.0:
+            return None
+        return (sum_x / sum_load, sum_y / sum_load)

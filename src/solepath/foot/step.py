@@ -1,0 +1,163 @@
+"""From foot-flat to foot-flat: the record of one step and the uncertainty of the way so far."""
+
+from __future__ import annotations
+
+from math import atan2, hypot, pi
+
+from attrs import define, field
+
+from ..events import StepFeatures, StepTaken
+from ..types import Foot, Quat, Vec3
+from ..vector import IDENTITY, ZERO, conjugate, multiply
+
+COP_POINTS = 32
+
+
+@define
+class Way:
+    """Covariance of position and heading along a chain of stretches, by dead-reckoning's rule.
+
+    A stretch d (m) of covariance C begins with the heading uncertain by s (rad): its end errs by C and by s times d
+    turned by 90 degrees. O(1) memory however long the way.
+    """
+
+    position: tuple[float, float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    """xx, xy, xz, yy, yz, zz in m^2."""
+    yaw: float = 0.0
+    """rad^2."""
+    mixed: tuple[float, float] = (0.0, 0.0)
+    """Position x, y with yaw, m rad."""
+
+    def extended(self, displacement: Vec3, stretch: tuple[float, ...]) -> Way:
+        """The way with one more stretch (`Corrector.anchor`), both in the same frame."""
+        dx, dy, _ = displacement
+        px, py = -dy, dx
+        sxx, sxy, sxz, syy, syz, szz, yaw, yx, yy, _ = stretch
+        xx, xy, xz, y2, yz, zz = self.position
+        mx, my = self.mixed
+        v = self.yaw
+        return Way(
+            (
+                xx + sxx + 2.0 * mx * px + v * px * px,
+                xy + sxy + mx * py + my * px + v * px * py,
+                xz + sxz,
+                y2 + syy + 2.0 * my * py + v * py * py,
+                yz + syz,
+                zz + szz,
+            ),
+            v + yaw,
+            (mx + v * px + yx, my + v * py + yy),
+        )
+
+
+@define
+class StepBuilder:
+    """Gathers one foot's step while it happens."""
+
+    foot: Foot
+    shortest: float = 0.06
+    """A foot that comes down this near to where it stood has not taken a step, m, unless it turned."""
+    least_turn: float = 0.35
+    """By this much, rad."""
+    # state
+    number: int = field(default=0, init=False)
+    t_start: float | None = field(default=None, init=False)
+    start: Vec3 = field(default=ZERO, init=False)
+    attitude: Quat = field(default=IDENTITY, init=False)
+    t_toe_off: float | None = field(default=None, init=False)
+    t_heel_strike: float | None = field(default=None, init=False)
+    degraded: bool = field(default=False, init=False)
+    highest: float = field(default=0.0, init=False)
+    fastest: float = field(default=0.0, init=False)
+    pitch: float = field(default=0.0, init=False)
+    pitch_low: float = field(default=0.0, init=False)
+    pitch_high: float = field(default=0.0, init=False)
+    load_sum: float = field(default=0.0, init=False)
+    load_count: int = field(default=0, init=False)
+    cop: list[tuple[float, float]] = field(factory=list, init=False)
+    cop_stride: int = field(default=1, init=False)
+    cop_skipped: int = field(default=0, init=False)
+
+    def begin(self, t: float, position: Vec3, attitude: Quat) -> None:
+        """The foot is flat here: a step may start."""
+        self.t_start = t
+        self.start = position
+        self.attitude = attitude
+        self.t_toe_off = self.t_heel_strike = None
+        self.degraded = False
+        self.highest = position[2]
+        self.fastest = self.pitch = self.pitch_low = self.pitch_high = 0.0
+        self.load_sum = 0.0
+        self.load_count = 0
+        self.cop = []
+        self.cop_stride = 1
+        self.cop_skipped = 0
+
+    def moved(self, dt: float, height: float, speed: float, sagittal: float) -> None:
+        """One sample: height in m, speed in m/s, sagittal rate in rad/s."""
+        if height > self.highest:
+            self.highest = height
+        if speed > self.fastest:
+            self.fastest = speed
+        pitch = self.pitch = self.pitch + sagittal * dt
+        if pitch < self.pitch_low:
+            self.pitch_low = pitch
+        elif pitch > self.pitch_high:
+            self.pitch_high = pitch
+
+    def loaded(self, total: float, cop: tuple[float, float] | None) -> None:
+        """One sample of a foot on the ground. Keeps at most COP_POINTS points, evenly spaced, by thinning."""
+        self.load_sum += total
+        self.load_count += 1
+        if cop is None:
+            return
+        self.cop_skipped += 1
+        if self.cop_skipped < self.cop_stride:
+            return
+        self.cop_skipped = 0
+        self.cop.append(cop)
+        if len(self.cop) > COP_POINTS:
+            self.cop = self.cop[::2]
+            self.cop_stride *= 2
+
+    def finish(
+        self, t: float, known_at: float, position: Vec3, attitude: Quat, covariance: tuple[float, ...]
+    ) -> StepTaken | None:
+        """The foot is flat again: the step, if it was one."""
+        if self.t_start is None or self.t_toe_off is None:
+            return None
+        (x, y, z), (u, v, w) = position, self.start
+        dx, dy, dz = displacement = (x - u, y - v, z - w)
+        length = hypot(dx, dy)
+        # the twist about the vertical of the turn from the first attitude to the second
+        q, _, _, k = multiply(attitude, conjugate(self.attitude))
+        turn = 2.0 * atan2(k, q)
+        turn = turn - 2.0 * pi if turn > pi else turn + 2.0 * pi if turn <= -pi else turn
+        if hypot(length, dz) < self.shortest and abs(turn) < self.least_turn:
+            return None
+        self.number += 1
+        xx, xy, xz, yy, yz, zz = covariance[:6]
+        return StepTaken(
+            t=t,
+            known_at=known_at,
+            foot=self.foot,
+            number=self.number,
+            t_start=self.t_start,
+            t_end=t,
+            displacement=displacement,
+            position=position,
+            stride_length=length,
+            heading_change=turn,
+            height_change=dz,
+            covariance=(xx, xy, xz, yy, yz, zz),
+            t_toe_off=self.t_toe_off,
+            t_heel_strike=self.t_heel_strike,
+            degraded=self.degraded,
+            features=StepFeatures(
+                clearance=self.highest - max(z, w),
+                peak_speed=self.fastest,
+                swing_pitch=self.pitch_high - self.pitch_low,
+                contact_load=self.load_sum / self.load_count if self.load_count else None,
+                cop=tuple(self.cop),
+            ),
+        )

@@ -1,0 +1,288 @@
+"""One foot, one sample at a time: evidence, navigation, phases and steps.
+
+Order within a sample: gap, calibration, prediction, evidence, correction, cues, phase, step. Everything that happens
+is an event; the live position is read from `position` after each sample.
+"""
+
+from __future__ import annotations
+
+from math import inf, isfinite, sqrt
+
+from attrs import define, field
+
+from ..events import Event, FootMoved, Limitation, Rejection, SampleGap, SampleRejected, ScaleSuspect, StepTaken
+from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
+from ..vector import GRAVITY, ZERO, sub
+from .attitude import Levelling, Rest
+from .cues import InertialCues, PressureCues, Seen
+from .cycle import Cycle
+from .dedrift import LinearDedrift
+from .eskf import ErrorStateFilter
+from .phase import BEGINS, PHASES, Cue
+from .pressure import Insole
+from .pressure_stance import MaximumPressure, TwoArea
+from .stance import AngularRate, Graph, Load, MovingVariance, Shoe
+from .step import StepBuilder, Way
+from .world import FIRST_WAY, Covariance3, World
+
+AnyDetector = Cycle | Shoe | AngularRate | MovingVariance | Graph | TwoArea | MaximumPressure
+AnyCorrector = ErrorStateFilter | LinearDedrift
+
+ABSURD_ACC = 500.0
+"""No foot sensor measures more, m/s^2."""
+ABSURD_GYRO = 100.0
+"""Nor this, rad/s."""
+
+
+@define
+class FootTracker:
+    """Feed it the samples of one foot in the order of their time."""
+
+    foot: Foot
+    detector: AnyDetector
+    corrector: AnyCorrector
+    poses: bool = False
+    """Emit FootMoved for every navigated sample."""
+    # state
+    t: float | None = field(default=None, init=False)
+    interval: float | None = field(default=None, init=False)
+    """Usual time between samples, s."""
+    phase: Phase = field(default=Phase.STATIONARY, init=False)
+    levelling: Levelling = field(factory=Levelling, init=False)
+    levelled: bool = field(default=False, init=False)
+    rest: Rest = field(factory=Rest, init=False)
+    insole: Insole = field(factory=Insole, init=False)
+    inertial_cues: InertialCues = field(factory=InertialCues, init=False)
+    pressure_cues: PressureCues = field(factory=PressureCues, init=False)
+    step: StepBuilder = field(init=False)
+    way: Way = field(factory=Way, init=False)
+    """In the navigation frame, up to `anchored`."""
+    anchored: Vec3 = field(default=ZERO, init=False)
+    """Position of the last anchor, navigation frame, m."""
+    world: World = field(factory=World, init=False)
+    said: list[str] = field(factory=list, init=False)
+    scale_suspected: bool = field(default=False, init=False)
+
+    def __attrs_post_init__(self) -> None:
+        self.step = StepBuilder(self.foot)
+
+    # --- what it knows ---
+
+    @property
+    def position(self) -> Vec3:
+        """Live position of the sensor, world frame, m; where it was first seen is the origin."""
+        return self.world.vector(self.corrector.position)
+
+    @property
+    def velocity(self) -> Vec3:
+        """Live velocity of the sensor, world frame, m/s."""
+        return self.world.vector(self.corrector.velocity)
+
+    @property
+    def attitude(self) -> Quat:
+        """Sensor to world."""
+        return self.world.attitude(self.corrector.attitude)
+
+    @property
+    def covariance(self) -> Covariance3:
+        """Of `position`, m^2."""
+        way = self.way.extended(sub(self.corrector.position, self.anchored), self.corrector.covariance())
+        return self.world.covariance(way.position)
+
+    # --- samples ---
+
+    def wear(self, layout: Layout) -> None:
+        """The device said where its pressure cells are."""
+        self.insole.wear(layout)
+
+    def interrupt(self) -> None:
+        """The clock of the samples begins anew, before or after the old one; what the foot did between is unknown."""
+        if self.t is not None and self.levelled:
+            self.corrector.bridge(inf)
+        self.t = None
+        self.step.degraded = True
+
+    def feed(self, sample: Sample) -> list[Event]:
+        """One sample of this foot. A sample that cannot be used changes nothing and is named in an event."""
+        t = sample.t
+        known_at = t if sample.known_at is None else sample.known_at
+        refusal = self._refusal(sample)
+        if refusal is not None:
+            reason, detail = refusal
+            site = SITE_OF_FOOT[self.foot]
+            now = known_at if isfinite(known_at) else (self.t or 0.0)
+            when = t if isfinite(t) else now
+            return [SampleRejected(t=when, known_at=max(now, when), site=site, reason=reason, detail=detail)]
+        if sample.acc is None and sample.gyro is None and sample.pressure is None:
+            return []  # a barometer's or magnetometer's: not a matter of the foot
+        events: list[Event] = []
+        dt = 0.0
+        if self.t is not None:
+            dt = self._watch_for_gaps(t - self.t, known_at, events)
+        self.t = t
+        load: Load | None = None
+        if sample.pressure is not None:
+            load = self.insole.update(t, sample.pressure)
+            if self.phase is not Phase.SWING and load is not None:
+                self.step.loaded(sum(sample.pressure), self.insole.centre_of_pressure(sample.pressure))
+        if sample.acc is not None and sample.gyro is not None:
+            self._inertial(t, dt, known_at, sample.acc, sample.gyro, load, events)
+        else:
+            self._pressure_alone(t, dt, known_at, sample, load, events)
+        return events
+
+    def _refusal(self, sample: Sample) -> tuple[Rejection, str] | None:
+        t = sample.t
+        if not isfinite(t) or (sample.known_at is not None and not isfinite(sample.known_at)):
+            return Rejection.NOT_FINITE, "time is not a number"
+        if self.t is not None and t <= self.t:
+            if t == self.t:
+                return Rejection.DUPLICATE, f"a second sample for {t:.6g} s"
+            return Rejection.TIME_BACKWARDS, f"{self.t - t:.6g} s before the sample before"
+        for name, vector, limit in (("acc", sample.acc, ABSURD_ACC), ("gyro", sample.gyro, ABSURD_GYRO)):
+            if vector is None:
+                continue
+            x, y, z = vector
+            largest = abs(x) + abs(y) + abs(z)
+            if not largest < limit:
+                if not isfinite(largest):
+                    return Rejection.NOT_FINITE, f"{name} is not a number"
+                return Rejection.ABSURD, f"{name} of {largest:.4g}"
+        if sample.pressure is not None and not isfinite(sum(sample.pressure)):
+            return Rejection.NOT_FINITE, "pressure is not a number"
+        return None
+
+    def _watch_for_gaps(self, dt: float, known_at: float, events: list[Event]) -> float:
+        """Name a gap; returns the time to integrate over, s."""
+        usual = self.interval
+        if usual is None:
+            self.interval = dt
+        elif dt > 1.75 * usual and dt - usual > 0.004:
+            last = known_at if self.t is None else self.t
+            events.append(SampleGap(t=last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=dt))
+            self.step.degraded = True
+            if self.levelled:
+                dt = self.corrector.bridge(dt)
+        if usual is not None:
+            # the usual interval follows slowly and mistrusts the unusual
+            self.interval = usual + 0.02 * (min(max(dt, 0.5 * usual), 2.0 * usual) - usual)
+        return dt
+
+    def _inertial(
+        self, t: float, dt: float, known_at: float, acc: Vec3, gyro: Vec3, load: Load | None, events: list[Event]
+    ) -> None:
+        rest = self.rest
+        if rest.update(t, acc, gyro):
+            self._check_scale(t, known_at, events)
+        k = rest.scale
+        x, y, z = acc
+        acc = (x * k, y * k, z * k)
+        x, y, z = gyro
+        bx, by, bz = rest.bias
+        gyro = (x - bx, y - by, z - bz)
+        corrector = self.corrector
+        stance = self.detector.update(t, dt, acc, gyro, load)
+        if not self.levelled:
+            first = self.levelling.update(t, acc, gyro)
+            if first is not None:
+                corrector.start(*first)
+                self.levelled = True
+                self.step.begin(t, ZERO, corrector.attitude)
+            self._say_where(t, known_at, events)
+            return
+        corrector.predict(dt, acc, gyro)
+        still = corrector.correct(t, stance)
+        vx, vy, vz = corrector.velocity
+        speed = sqrt(vx * vx + vy * vy + vz * vz)
+        cues = self.inertial_cues
+        seen = cues.update(t, dt, gyro, still, speed, self.phase)
+        if load is not None:
+            seen = self._with_pressure(t, dt, load, seen)
+        self.step.moved(dt, corrector.position[2], speed, cues.sagittal if cues.axis is not None else 0.0)
+        if seen is not None:
+            self._see(seen, known_at, events)
+        elif self.world.north is None:
+            self._find_north()
+        self._say_where(t, known_at, events)
+
+    def _say_where(self, t: float, known_at: float, events: list[Event]) -> None:
+        if self.poses:
+            here, velocity = self.position, self.velocity
+            events.append(
+                FootMoved(t=t, known_at=known_at, foot=self.foot, position=here, velocity=velocity, phase=self.phase)
+            )
+
+    def _with_pressure(self, t: float, dt: float, load: Load, seen: Seen | None) -> Seen | None:
+        """Contact and clear are the pressure's to say; flat and lift the inertial sensor's."""
+        pressed = self.pressure_cues.update(t, dt, load, self.phase)
+        if pressed is not None:
+            return pressed
+        if seen is not None and seen.cue in (Cue.CONTACT, Cue.CLEAR):
+            return None
+        return seen
+
+    def _pressure_alone(
+        self, t: float, dt: float, known_at: float, sample: Sample, load: Load | None, events: list[Event]
+    ) -> None:
+        lacking = "accelerometer" if sample.acc is None else "gyroscope"
+        if lacking not in self.said:
+            self.said.append(lacking)
+            what = f"no {lacking} on the {self.foot.value} foot: no steps and no track from it"
+            events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[self.foot], what=what))
+        if load is None:
+            return
+        seen = self.pressure_cues.update(t, dt, load, self.phase) or self.pressure_cues.areas(t, load, self.phase)
+        if seen is not None:
+            self._see(seen, known_at, events)
+
+    # --- phases and steps ---
+
+    def _see(self, seen: Seen, known_at: float, events: list[Event]) -> None:
+        phase = PHASES[self.phase][seen.cue]
+        if phase is self.phase:
+            return
+        self.phase = phase
+        events.append(BEGINS[phase](t=seen.t, known_at=max(known_at, seen.t), foot=self.foot))
+        if phase is Phase.SWING:
+            self.step.t_toe_off = seen.t
+        elif phase is Phase.LOADING:
+            self.step.t_heel_strike = seen.t
+        elif phase is Phase.PUSH_OFF and self.levelled:
+            self._anchor()
+        elif phase is Phase.STATIONARY and self.levelled:
+            self._flat(seen.t, known_at, events)
+
+    def _flat(self, t: float, known_at: float, events: list[Event]) -> None:
+        if self.world.north is None and self.step.t_toe_off is not None:
+            self._find_north(least=0.0)
+        covariance = self.world.covariance(self.corrector.covariance()[:6])
+        position, attitude = self.position, self.attitude
+        taken: StepTaken | None = self.step.finish(t, known_at, position, attitude, covariance)
+        if taken is not None:
+            events.append(taken)
+        self.step.begin(t, position, attitude)
+
+    def _anchor(self) -> None:
+        position = self.corrector.position
+        stretch = self.corrector.anchor()
+        self.way = self.way.extended(sub(position, self.anchored), stretch)
+        self.anchored = position
+
+    def _find_north(self, least: float = FIRST_WAY) -> None:
+        if self.world.find(self.corrector.position, least) and self.step.t_start is not None:
+            # what the step remembers was said in the frame without a heading
+            self.step.start = self.world.vector(self.step.start)
+            self.step.attitude = self.world.attitude(self.step.attitude)
+
+    def _check_scale(self, t: float, known_at: float, events: list[Event]) -> None:
+        magnitude = self.rest.magnitude
+        if magnitude is None or self.scale_suspected or 0.85 < magnitude / GRAVITY < 1.15:
+            return
+        self.scale_suspected = True
+        ratio = GRAVITY / magnitude if magnitude > 0.0 else inf
+        suggestion = f"multiply acc by {ratio:.3g}" if isfinite(ratio) else "acc reads nothing at all"
+        events.append(
+            ScaleSuspect(
+                t=t, known_at=known_at, site=SITE_OF_FOOT[self.foot], magnitude=magnitude, suggestion=suggestion
+            )
+        )

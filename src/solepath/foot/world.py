@@ -1,0 +1,64 @@
+"""The world frame of one foot: z up, x along the first heading, y left, origin where the sensor was first seen.
+
+Navigation begins before anybody knows where the wearer will go, in a frame with an arbitrary heading. The first
+heading is known once the foot has moved a little; from then on everything is reported in the world frame. What was
+reported before lies within `FIRST_WAY` of the origin and was not final.
+"""
+
+from __future__ import annotations
+
+from math import atan2, cos, hypot, sin
+
+from attrs import define, field
+
+from ..types import Quat, Vec3
+from ..vector import from_yaw, multiply
+
+FIRST_WAY = 0.15
+"""The first heading is the direction in which the foot is this far from where it first stood, m."""
+
+Covariance3 = tuple[float, float, float, float, float, float]
+"""xx, xy, xz, yy, yz, zz."""
+
+
+@define
+class World:
+    """The turn from the navigation frame to the world frame."""
+
+    north: tuple[float, float] | None = field(default=None, init=False)
+    """cos and sin of the turn; None until the first heading is known."""
+
+    def find(self, position: Vec3, least: float = FIRST_WAY) -> bool:
+        """Take the direction of `position` (navigation frame, m) as the first heading if it is far enough."""
+        x, y, _ = position
+        if hypot(x, y) < max(least, 1e-6):
+            return False
+        heading = atan2(y, x)
+        self.north = (cos(heading), -sin(heading))
+        return True
+
+    def vector(self, v: Vec3) -> Vec3:
+        if self.north is None:
+            return v
+        c, s = self.north
+        x, y, z = v
+        return (c * x - s * y, s * x + c * y, z)
+
+    def attitude(self, q: Quat) -> Quat:
+        if self.north is None:
+            return q
+        return multiply(from_yaw(atan2(self.north[1], self.north[0])), q)
+
+    def covariance(self, covariance: tuple[float, ...]) -> Covariance3:
+        xx, xy, xz, yy, yz, zz = covariance
+        if self.north is None:
+            return (xx, xy, xz, yy, yz, zz)
+        c, s = self.north
+        return (
+            c * c * xx - 2.0 * c * s * xy + s * s * yy,
+            c * s * (xx - yy) + (c * c - s * s) * xy,
+            c * xz - s * yz,
+            s * s * xx + 2.0 * c * s * xy + c * c * yy,
+            s * xz + c * yz,
+            zz,
+        )

@@ -1,0 +1,224 @@
+"""The session: what an app holds. Packets or samples in, events out.
+
+    session = Session(recipes.DEFAULT)
+    for event in session.feed(packet):
+        ...
+
+A session opens no socket, reads no clock, starts no thread. It is a plain record, so it can be saved at any moment and
+go on elsewhere; the same input gives the same events on every machine, however it is cut.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from copy import deepcopy
+from math import isfinite
+from typing import Any
+
+from attrs import define, field, frozen
+
+from .events import ClockReset, Event, LayoutKnown, Limitation
+from .foot.phase import SUPPORT
+from .foot.tracker import FootTracker
+from .foot.world import Covariance3
+from .link.decoder import Decoder
+from .machine import Json, SnapshotError, load, save
+from .recipes import DEFAULT, Recipe
+from .types import Foot, Packet, Phase, Sample, Site, Support, Vec3
+
+SNAPSHOT_VERSION = 1
+
+
+@frozen
+class Position:
+    """Where the wearer is: world frame, m, with covariance xx, xy, xz, yy, yz, zz in m^2, at `t` s."""
+
+    t: float
+    position: Vec3
+    covariance: Covariance3
+
+
+@define
+class _State:
+    """All that a session remembers."""
+
+    recipe: Recipe
+    poses: bool
+    now: float | None = None
+    """The latest moment that anything is known of, s."""
+    decoders: dict[Site, Decoder] = field(factory=dict)
+    feet: dict[Foot, FootTracker] = field(factory=dict)
+    unused: list[Site] = field(factory=list)
+    """Sites whose samples the recipe has no use for; said once."""
+    finished: bool = False
+
+
+class Session:
+    """One wearer. `recipe`: which parts to use. `poses`: also emit FootMoved, the live position at every sample.
+
+    `feed`, `advance` and `finish` return the events that became known, in the order in which they did. `feed` is
+    total: any bytes give events, never an exception. TypeError for what is neither a packet nor a sample, ValueError
+    for a time that is not finite in `advance` and for feeding after `finish`.
+
+    Latency: zero velocity and live position with the sample; heel-strike and toe-off one sample where the foot's axis
+    is known; foot-flat, heel-off and the step that ends 30 ms (two samples below 60 Hz).
+    """
+
+    __slots__ = ("_state",)
+
+    def __init__(self, recipe: Recipe = DEFAULT, *, poses: bool = False) -> None:
+        if not isinstance(recipe, Recipe):
+            raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}")
+        self._state = _State(recipe, poses)
+
+    # --- in ---
+
+    def feed(self, data: Packet | Sample | Iterable[Packet | Sample]) -> list[Event]:
+        """Take packets (as they arrive) or samples (in the order of their time)."""
+        if self._state.finished:
+            raise ValueError("this session is finished")
+        if isinstance(data, Packet):
+            return self._packet(data)
+        if isinstance(data, Sample):
+            return self._sample(data)
+        if not isinstance(data, Iterable) or isinstance(data, str | bytes):
+            raise TypeError(f"feed takes packets or samples, not {type(data).__name__}")
+        events: list[Event] = []
+        for item in data:
+            if isinstance(item, Packet):
+                events += self._packet(item)
+            elif isinstance(item, Sample):
+                events += self._sample(item)
+            else:
+                raise TypeError(f"feed takes packets or samples, not {type(item).__name__}")
+        return events
+
+    def advance(self, now: float) -> list[Event]:
+        """Nothing arrived, but it is `now` (s, the clock of the packets): silence may have become an event."""
+        if not isfinite(now):
+            raise ValueError(f"now is {now}")
+        state = self._state
+        if state.now is None or now > state.now:
+            state.now = now
+        events: list[Event] = []
+        for decoder in state.decoders.values():
+            self._take(decoder.site, decoder.advance(now), events)
+        return events
+
+    def finish(self) -> list[Event]:
+        """No more will come: whatever was held back comes out. The session can still be read, but no longer fed."""
+        events: list[Event] = []
+        if not self._state.finished:
+            for decoder in self._state.decoders.values():
+                self._take(decoder.site, decoder.finish(), events)
+            self._state.finished = True
+        return events
+
+    def _packet(self, packet: Packet) -> list[Event]:
+        state, events = self._state, list[Event]()
+        if not isinstance(packet.data, bytes | bytearray | memoryview) or not isinstance(packet.site, Site):
+            raise TypeError("a packet holds bytes and a Site")
+        if isfinite(packet.t):
+            for site, other in state.decoders.items():
+                if site is not packet.site:
+                    self._take(site, other.advance(packet.t), events)
+            if state.now is None or packet.t > state.now:
+                state.now = packet.t
+        decoder = state.decoders.get(packet.site)
+        if decoder is None:
+            decoder = state.decoders[packet.site] = Decoder(packet.site)
+        self._take(packet.site, decoder.feed(packet), events)
+        return events
+
+    def _sample(self, sample: Sample) -> list[Event]:
+        state, events = self._state, list[Event]()
+        if isfinite(sample.t) and (state.now is None or sample.t > state.now):
+            state.now = sample.t
+        self._take(sample.site, [sample], events)
+        return events
+
+    def _take(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:
+        """Hand samples to the foot that they are of, and events to it where they matter to it."""
+        foot = site.foot
+        for item in items:
+            if isinstance(item, Sample):
+                if foot is None:
+                    self._say_unused(item, events)
+                else:
+                    events += self._tracker(foot).feed(item)
+                continue
+            events.append(item)
+            if foot is not None and isinstance(item, LayoutKnown):
+                self._tracker(foot).wear(item.layout)
+            elif foot is not None and isinstance(item, ClockReset):
+                self._tracker(foot).interrupt()
+
+    def _tracker(self, foot: Foot) -> FootTracker:
+        state = self._state
+        tracker = state.feet.get(foot)
+        if tracker is None:
+            recipe = deepcopy(state.recipe)
+            tracker = state.feet[foot] = FootTracker(foot, recipe.detector, recipe.corrector, state.poses)
+        return tracker
+
+    def _say_unused(self, sample: Sample, events: list[Event]) -> None:
+        if sample.site not in self._state.unused:
+            self._state.unused.append(sample.site)
+            known_at = sample.t if sample.known_at is None else sample.known_at
+            what = f"recipe {self._state.recipe.name} has no use for a sensor at the {sample.site.value}"
+            events.append(Limitation(t=sample.t, known_at=known_at, site=sample.site, what=what))
+
+    # --- out ---
+
+    @property
+    def recipe(self) -> Recipe:
+        return self._state.recipe
+
+    @property
+    def feet(self) -> dict[Foot, FootTracker]:
+        """The trackers of the feet heard of so far: live position, velocity, attitude, covariance, phase. Read only."""
+        return dict(self._state.feet)
+
+    @property
+    def position(self) -> Position | None:
+        """Where the wearer is: the mean of the feet, each in the world frame of its own first heading. None before any
+        sample."""
+        known = [foot for foot in self._state.feet.values() if foot.t is not None]
+        if not known:
+            return None
+        k = 1.0 / len(known)
+        x, y, z = (sum([foot.position[axis] for foot in known]) * k for axis in range(3))
+        covariances = [foot.covariance for foot in known]
+        xx, xy, xz, yy, yz, zz = (sum([c[i] for c in covariances]) * k * k for i in range(6))
+        t = max([foot.t for foot in known if foot.t is not None])
+        return Position(t, (x, y, z), (xx, xy, xz, yy, yz, zz))
+
+    @property
+    def support(self) -> Support | None:
+        """Which feet carry the body; None until both were heard of."""
+        left, right = self._state.feet.get(Foot.LEFT), self._state.feet.get(Foot.RIGHT)
+        if left is None or right is None:
+            return None
+        return SUPPORT[left.phase][right.phase]
+
+    def phase(self, foot: Foot) -> Phase | None:
+        """What the foot is doing; None until it was heard of."""
+        tracker = self._state.feet.get(foot)
+        return None if tracker is None else tracker.phase
+
+    # --- elsewhere ---
+
+    def snapshot(self) -> dict[str, Json]:
+        """Everything the session remembers, as plain data for JSON or any other encoder. Costs about 1 ms."""
+        return {"solepath": SNAPSHOT_VERSION, "state": save(self._state)}
+
+    @classmethod
+    def restore(cls, saved: Any) -> Session:
+        """A session that goes on where `saved` was taken. SnapshotError when it is not a snapshot of this version."""
+        if not isinstance(saved, dict) or "solepath" not in saved or "state" not in saved:
+            raise SnapshotError("not a snapshot of a session")
+        if saved["solepath"] != SNAPSHOT_VERSION:
+            raise SnapshotError(f"snapshot version {saved['solepath']!r}; this release reads {SNAPSHOT_VERSION}")
+        session = cls.__new__(cls)
+        session._state = load(_State, saved["state"])
+        return session

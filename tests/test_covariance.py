@@ -1,0 +1,70 @@
+"""The straight-line covariance code does what the matrices say."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from solepath.foot.covariance import Covariance, propagate, update
+
+BLOCKS = [(0, 0), (0, 3), (0, 6), (3, 3), (3, 6), (6, 6)]
+
+
+def places() -> list[tuple[int, int]]:
+    """The matrix indices of a Covariance's numbers, in order."""
+    return [
+        (row + i, column + j)
+        for row, column in BLOCKS
+        for i in range(3)
+        for j in range(3)
+        if row != column or j >= i
+    ]
+
+
+def flat(matrix: np.ndarray) -> Covariance:
+    return tuple(float(matrix[i, j]) for i, j in places())
+
+
+def square(covariance: Covariance) -> np.ndarray:
+    matrix = np.zeros((9, 9))
+    for value, (i, j) in zip(covariance, places(), strict=True):
+        matrix[i, j] = matrix[j, i] = value
+    return matrix
+
+
+def cross_matrix(v: np.ndarray) -> np.ndarray:
+    return np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_propagation_is_f_p_ft_plus_q(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    root = rng.normal(size=(9, 9))
+    p, s, d, dt = root @ root.T, rng.normal(size=3), rng.normal(size=3), float(rng.uniform(0.001, 1))
+    f = np.eye(9)
+    f[:3, 3:6] = dt * np.eye(3)
+    f[:3, 6:] = -cross_matrix(d)
+    f[3:6, 6:] = -cross_matrix(s)
+    q = np.diag([0.1] * 3 + [0.3] * 3 + [0.4] * 3)
+    q[:3, 3:6] = q[3:6, :3] = 0.2 * np.eye(3)
+    found = propagate(flat(p), dt, tuple(s.tolist()), tuple(d.tolist()), 0.1, 0.2, 0.3, 0.4)
+    np.testing.assert_allclose(square(found), f @ p @ f.T + q, rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_velocity_update_is_the_kalman_update(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    root = rng.normal(size=(9, 9))
+    p, z, r = root @ root.T, rng.normal(size=3), 0.07
+    h = np.zeros((3, 9))
+    h[:, 3:6] = np.eye(3)
+    innovation = h @ p @ h.T + r * np.eye(3)
+    gain = p @ h.T @ np.linalg.inv(innovation)
+    outcome = update(flat(p), *z.tolist(), r, 1e9)
+    assert outcome is not None
+    np.testing.assert_allclose(square(outcome[0]), (np.eye(9) - gain @ h) @ p, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(outcome[1], gain @ z, rtol=1e-9, atol=1e-9)
+
+    likelihood = float(z @ np.linalg.inv(innovation) @ z)
+    assert update(flat(p), *z.tolist(), r, likelihood * 0.999) is None
+    assert update(flat(p), *z.tolist(), r, likelihood * 1.001) is not None
