@@ -22,6 +22,8 @@ from .clock import Clock
 
 HOLE = 1.5
 """Periods between two arrivals, from which on a loss is possible."""
+LATE = 0.9
+"""Periods behind its slot, from which on a packet may be one of a later slot."""
 QUIET = 5.0
 """The same in mean jitters."""
 DOUBTFUL = 12
@@ -29,7 +31,7 @@ DOUBTFUL = 12
 AHEAD = 0.15
 """Seconds (and one period) by which a time given out may be after the arrival."""
 SETTLED = 40
-"""Packets after which a packet half a period early means a miscount, not that the first packets were late."""
+"""Packets until the fit is good enough to judge lateness by; before, only holes count."""
 SLIPPED = 8
 """Packets in a row that stay behind before a slip is a loss."""
 FAST = 0.24
@@ -113,8 +115,9 @@ class Periodic:
             not self.doubtful or behind >= (0.0 if settled else -0.3 * period)
         ):  # a slot that may be a wrong guess teaches nothing
             self.clock.observe(self.slot, arrival)
-            late = max(0.0, min(4.0 * period, arrival - self.clock.fitted(self.slot)))
-            self.jitter += (late - self.jitter) / 16.0
+            if settled:
+                late = max(0.0, min(4.0 * period, arrival - self.clock.fitted(self.slot)))
+                self.jitter += (late - self.jitter) / 16.0
         return Arrival(self.clock.time(self.slot), lost, t_missing)
 
     def change(self, period: float) -> None:
@@ -125,14 +128,12 @@ class Periodic:
             self.clock = Clock(1.0 / period)
 
     def _lost(self, hole: float, behind: float, period: float) -> int:
-        # Once the fit is settled, a packet after a loss is at least a whole period behind; before, the first packet's
-        # own delay may hide some of it.
-        slack = 0.1 if self.settled >= SETTLED else 0.2
-        late = (1.0 - slack) * period
-        if hole >= HOLE * period and behind >= late and behind >= QUIET * self.jitter:
+        if self.settled < SETTLED:  # how far behind cannot be told from a slow device yet; the hole alone must do
+            return round(hole / period) - 1 if hole >= HOLE * period and behind >= 0.75 * period else 0
+        if hole >= HOLE * period and behind >= LATE * period and behind >= QUIET * self.jitter:
             self.slipped = 0
-            return floor(behind / period + slack)
-        if behind < late:
+            return floor(behind / period + 1.0 - LATE)
+        if behind < LATE * period:
             self.slipped = 0
             return 0
         if self.slipped == 0:
@@ -142,7 +143,7 @@ class Periodic:
         if self.slipped < SLIPPED:
             return 0
         self.slipped, self.jitter = 0, self.calm
-        return floor(self.slip / period + slack)
+        return floor(self.slip / period + 1.0 - LATE)
 
     def _other_rate(self, arrival: float, hole: float) -> bool:
         """Whether the period was wrong; then it is put right."""
