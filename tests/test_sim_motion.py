@@ -102,7 +102,7 @@ def test_position_and_velocity_never_jump(winding: Walker) -> None:
 
 
 def test_the_shoe_rolls_without_slip_over_heel_and_forefoot(straight: Walker) -> None:
-    """The velocity of the sensor is omega x (sensor - contact), with the contact on the ground below the arc's centre."""
+    """The velocity of the sensor is omega x (sensor - contact), the contact being below the arc's centre."""
     motion = straight.motions[Foot.LEFT]
     for stride in straight.plan.strides[Foot.LEFT]:
         spans = ((stride.heel_off, stride.toe_off), (stride.heel_strike + IMPACT, stride.foot_flat))

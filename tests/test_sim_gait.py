@@ -1,0 +1,187 @@
+"""Routes become footfalls: in order, alternating, with double support, ending where the route ends."""
+
+from itertools import pairwise
+from math import cos, degrees, hypot, pi, radians, sin
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath.sim.gait import Stance, Wearer, cadence, step_length, step_time
+from solepath.sim.route import Pivot, Route, Turn, legs
+from solepath.sim.walker import Walker
+from solepath.types import Foot
+
+moves = st.one_of(
+    st.tuples(st.just("walk"), st.floats(0.5, 8.0), st.floats(0.6, 1.8)),
+    st.tuples(st.just("bend"), st.floats(-3.0, 3.0).filter(lambda a: abs(a) > 0.2), st.floats(0.8, 4.0)),
+    st.tuples(st.just("pivot"), st.floats(-3.2, 3.2), st.just(0.0)),
+    st.tuples(st.just("stand"), st.floats(0.05, 3.0), st.just(0.0)),
+)
+
+
+@st.composite
+def routes(draw: st.DrawFn) -> Route:
+    route = Route().stand(1.0)
+    for kind, a, b in draw(st.lists(moves, min_size=1, max_size=5)):
+        match kind:
+            case "walk":
+                route = route.walk(a, b)
+            case "bend":
+                route = route.turn(a, b)
+            case "pivot":
+                route = route.turn(a)
+            case _:
+                route = route.stand(a)
+    return route.stop(1.0)
+
+
+def all_steps(walker: Walker) -> list[tuple[float, Foot]]:
+    return sorted((s.heel_strike, foot) for foot in Foot for s in walker.plan.strides[foot])
+
+
+@settings(max_examples=60, deadline=None)
+@given(routes(), st.integers(0, 2**16))
+def test_every_foot_goes_heel_off_toe_off_heel_strike_foot_flat_over_and_over(route: Route, seed: int) -> None:
+    walker = Walker(route, seed=seed)
+    for foot in Foot:
+        before = 0.0
+        for stride in walker.plan.strides[foot]:
+            assert before < stride.heel_off < stride.toe_off < stride.heel_strike < stride.foot_flat < walker.duration
+            before = stride.foot_flat
+
+
+@settings(max_examples=60, deadline=None)
+@given(routes(), st.integers(0, 2**16))
+def test_feet_alternate_and_one_is_always_on_the_ground(route: Route, seed: int) -> None:
+    walker = Walker(route, seed=seed)
+    steps = sorted(
+        ((s, foot) for foot in Foot for s in walker.plan.strides[foot]), key=lambda step: step[0].heel_strike
+    )
+    for (one, foot), (two, other) in pairwise(steps):
+        assert foot is not other
+        assert two.toe_off > one.heel_strike  # double support between them
+
+
+@settings(max_examples=60, deadline=None)
+@given(routes(), st.integers(0, 2**16))
+def test_a_walk_ends_with_the_feet_together_at_the_end_of_the_route(route: Route, seed: int) -> None:
+    steady = Wearer(width_variation=0.0, angle_variation=0.0)
+    walker = Walker(route, steady, seed=seed)
+    end = route.end
+    for foot, side in ((Foot.LEFT, 1.0), (Foot.RIGHT, -1.0)):
+        strides = walker.plan.strides[foot]
+        at = strides[-1].end if strides else walker.plan.starts[foot]
+        out = side * 0.5 * steady.step_width
+        assert (at.x, at.y) == pytest.approx((end.x - out * sin(end.heading), end.y + out * cos(end.heading)), abs=1e-9)
+        assert at.yaw == pytest.approx(end.heading + side * steady.toe_out)
+
+
+def test_a_straight_walk_ends_after_its_distance() -> None:
+    walker = Walker(Route().stand(1).walk(37.0, 1.3).stop(1), seed=5)
+    for foot in Foot:
+        moved = walker.truth().pose(foot, walker.duration).position[0]
+        assert moved == pytest.approx([37.0, 0.0, 0.0], abs=0.06)
+
+
+def test_a_square_ends_where_it_began() -> None:
+    side = Route().stand(1)
+    for _ in range(4):
+        side = side.walk(5.0, 1.2).turn(radians(90))
+    walker = Walker(side.stop(1), Wearer(width_variation=0.0, angle_variation=0.0), seed=5)
+    truth = walker.truth()
+    for foot in Foot:
+        assert truth.pose(foot, walker.duration).position[0] == pytest.approx([0.0, 0.0, 0.0], abs=1e-9)
+        assert sum(step.heading_change for step in truth.steps(foot)) == pytest.approx(2 * pi)
+
+
+def test_steps_of_a_foot_add_up_to_where_it_is() -> None:
+    truth = Walker(Route().stand(1).walk(8.0, 1.3).turn(radians(120), 2.0).walk(4.0).stop(1), seed=9).truth()
+    for foot in Foot:
+        steps = truth.steps(foot)
+        total = [sum(step.displacement[axis] for step in steps) for axis in range(3)]
+        assert truth.pose(foot, steps[-1].t_end).position[0] == pytest.approx(total, abs=1e-9)
+        assert truth.pose(foot, 0.0).position[0] == pytest.approx([0.0, 0.0, 0.0], abs=1e-12)
+        for one, two in pairwise(steps):
+            assert one.t_end == two.t_start and two.number == one.number + 1
+
+
+def test_a_turn_on_the_spot_is_made_in_small_steps_around_the_body() -> None:
+    walker = Walker(Route().stand(1).turn(radians(180)).stop(1), seed=2)
+    steps = [step for foot in Foot for step in walker.truth().steps(foot)]
+    assert len(steps) == 6  # five of 36 degrees, and the other foot beside the last
+    assert all(abs(degrees(step.heading_change)) < 90.0 for step in steps)
+    assert all(step.length < 0.45 for step in steps)
+
+
+def test_the_outer_foot_walks_further_around_a_bend() -> None:
+    walker = Walker(Route().stand(1).turn(2 * pi, 2.0, speed=1.2).stop(1), seed=2)
+    left, right = (sum(step.length for step in walker.truth().steps(foot)) for foot in Foot)
+    assert right - left == pytest.approx(2 * pi * walker.wearer.step_width, rel=0.25)
+
+
+def test_walks_begin_and_end_with_half_steps() -> None:
+    for foot_first in Foot:
+        walker = Walker(Route().stand(1).walk(12.0, 1.3).stop(1), Wearer(first=foot_first), seed=3)
+        assert all_steps(walker)[0][1] is foot_first
+        truth = walker.truth()
+        steps = sorted((step.t_heel_strike, step.length) for foot in Foot for step in truth.steps(foot))
+        lengths = [length for _, length in steps]
+        middle = sum(lengths[2:-2]) / len(lengths[2:-2])
+        assert lengths[0] == pytest.approx(0.5 * middle, rel=0.15)
+        assert lengths[-1] == pytest.approx(0.5 * middle, rel=0.15)
+
+
+def test_speed_is_step_length_times_cadence() -> None:
+    for speed in (0.7, 1.0, 1.3, 1.7):
+        assert step_length(speed, Wearer()) / step_time(speed, Wearer()) == pytest.approx(speed)
+    assert 105 < cadence(1.3, Wearer()) < 115
+    walker = Walker(Route().stand(1).walk(60.0, 1.3).stop(1), seed=6)
+    one, two = (walker.truth().steps(Foot.LEFT)[k] for k in (3, -3))
+    gone = walker.truth().pose(Foot.LEFT, [one.t_end, two.t_end]).position[:, 0]
+    assert (gone[1] - gone[0]) / (two.t_end - one.t_end) == pytest.approx(1.3, rel=0.02)
+
+
+def test_strides_vary_by_a_few_per_cent_and_no_more() -> None:
+    lengths = [step.length for step in Walker(Route().stand(1).walk(100, 1.3).stop(1), seed=7).truth().steps(Foot.LEFT)]
+    inner = lengths[1:-1]
+    mean = sum(inner) / len(inner)
+    spread = (sum((x - mean) ** 2 for x in inner) / len(inner)) ** 0.5
+    assert 0.008 < spread / mean < 0.04
+
+
+def test_toes_point_outwards() -> None:
+    walker = Walker(Route().stand(1).walk(20, 1.3).stop(1), seed=7)
+    for foot, side in ((Foot.LEFT, 1.0), (Foot.RIGHT, -1.0)):
+        yaws = [stride.end.yaw * side for stride in walker.plan.strides[foot]]
+        assert 0.05 < sum(yaws) / len(yaws) < 0.2
+
+
+def test_a_route_knows_its_length_and_its_halts() -> None:
+    route = Route().stand(1).walk(10, 1.3).turn(pi, 2.0).turn(pi / 2).walk(3).stop(1)
+    assert route.length == pytest.approx(10 + 2 * pi + 3)
+    assert [type(leg).__name__ for leg in legs(route)] == ["Stand", "Path", "Pivot", "Path", "Stand"]
+    assert route.end.heading == pytest.approx(1.5 * pi)
+    assert hypot(route.end.x - 10, route.end.y - 1) == pytest.approx(
+        0.0, abs=1e-9
+    )  # the pivot turned it down the y axis
+    assert isinstance(legs(route)[2], Pivot) and isinstance(route.actions[2], Turn)
+
+
+def test_a_route_of_standing_only_has_no_steps() -> None:
+    walker = Walker(Route().stand(4.0))
+    assert walker.duration == pytest.approx(4.0)
+    assert all(not walker.truth().steps(foot) for foot in Foot)
+    assert isinstance(walker.plan.starts[Foot.LEFT], Stance)
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, float("nan"), float("inf")])
+def test_nonsense_in_a_route_is_refused(bad: float) -> None:
+    with pytest.raises(ValueError):
+        Route().stand(bad)
+    with pytest.raises(ValueError):
+        Route().walk(bad)
+    with pytest.raises(ValueError):
+        Route().walk(1.0, bad)
+    with pytest.raises(ValueError):
+        Route().turn(1.0, bad if bad != 0.0 else -0.5)
