@@ -16,8 +16,9 @@ from attrs import frozen
 from ..types import Foot
 from .alignment import at_times, path_length, track_error
 from .contacts import merged, switch_contacts
+from .gathered import FootRun
 from .matching import Matching, match
-from .run import FootRun, Run, run
+from .run import Run, run
 from .score import Figures, Scored
 from .strides import StrideScore, position_errors, stride_score, surveyed_score
 

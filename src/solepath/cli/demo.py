@@ -1,0 +1,87 @@
+"""`solepath demo`: an emulated wearer through the whole path, live, and a table against the truth at the end."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .failure import note, positive
+
+if TYPE_CHECKING:
+    from ..demo import Demo
+
+REPORT_EVERY = 10.0
+"""s of the walk between two lines where there is no terminal."""
+
+
+def add_to(commands: Any) -> None:
+    command: argparse.ArgumentParser = commands.add_parser(
+        "demo",
+        help="walk an emulated route and compare with the truth",
+        description="An emulated wearer walks a scripted route with both insoles over a lossy radio; shown live in a "
+        "terminal, and as fast as it can be computed where there is none.",
+    )
+    command.add_argument("--seed", metavar="N", type=int, default=1, help="another walk of the same route (default: 1)")
+    command.add_argument(
+        "--speed", metavar="X", type=positive, default=2.0, help="times real time in a terminal (default: 2)"
+    )
+    command.add_argument("--record", metavar="FILE", type=Path, help="write the packets as a recording for `track`")
+    command.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    from ..demo import RADIO, ROUTE, make_demo
+    from ..view.comparison import comparison_table
+
+    demo = make_demo(abs(options.seed))
+    print(
+        f"An emulated wearer walks {ROUTE.length:.0f} m in {demo.duration:.0f} s with an insole in each shoe; "
+        f"{100 * RADIO.loss:.0f} % of the packets get lost.",
+        flush=True,
+    )
+    if options.record:
+        _record(demo, options.record)
+    if sys.stdout.isatty() and _rich_is_there():
+        from ..view.terminal import show
+
+        show(demo, options.speed)
+    else:
+        _tell(demo)
+    print()
+    print(comparison_table(demo.comparison()))
+    return 0
+
+
+def _record(demo: Demo, path: Path) -> None:
+    from ..recording import PacketWriter
+
+    with PacketWriter(path) as writer:
+        for packet in demo.walk.packets:
+            writer.write(packet)
+    print(f"{len(demo.walk.packets)} packets recorded in {path}", flush=True)
+
+
+def _rich_is_there() -> bool:
+    from importlib.util import find_spec
+
+    if find_spec("rich") is not None:
+        return True
+    note("the live view needs rich: pip install 'solepath[live]'")
+    return False
+
+
+def _tell(demo: Demo) -> None:
+    """Lines of plain text instead of a picture, as fast as it goes."""
+    from ..types import Foot
+    from ..view.plot import plot
+    from ..view.summary import link_health
+
+    due = REPORT_EVERY
+    for packet in demo.play():
+        if packet.t >= due:
+            due += REPORT_EVERY
+            feet = (f"{foot.value} {demo.tally.foot(foot).steps} steps" for foot in Foot)
+            print(f"{packet.t:6.1f} s  {', '.join(feet)}", flush=True)
+    print("\n".join(["", *(line.rstrip() for line in plot(demo.track, 72, 16)), "", *link_health(demo.tally)]))

@@ -1,0 +1,94 @@
+"""The demonstration: an emulated wearer walks a scripted route, and a session hears it over a bad radio."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import hypot, pi
+
+from attrs import define, field
+
+from .evaluate.emulated import FootComparison, compare
+from .evaluate.gathered import Gathering
+from .events import Event, FootMoved
+from .session import Session
+from .sim.radio import Radio
+from .sim.route import Route
+from .sim.walk import EmulatedWalk, emulate
+from .tally import Tally
+from .types import Foot, Packet
+
+RADIO = Radio(loss=0.03, duplicate=0.005, corrupt=0.005, latency=0.015, jitter=0.030)
+"""A busy 2.4 GHz band: 3 in 100 notifications never arrive, the others 15 to 45 ms late."""
+
+ROUTE = (
+    Route()
+    .stand(3.0)
+    .walk(9.0, speed=1.3)
+    .turn(pi / 2, radius=1.5)
+    .walk(4.0)
+    .turn(pi / 2, radius=1.5)
+    .walk(6.0, speed=1.1)
+    .stop(2.0)
+    .turn(-pi / 2)
+    .walk(5.0, speed=1.2)
+    .turn(-pi / 2, radius=1.0)
+    .walk(10.0, speed=1.4)
+    .stop(2.0)
+)
+"""About 45 m: a U, a halt, a turn on the spot, and away again."""
+
+SPACING = 0.15
+"""m between the points of the track that is drawn."""
+LONGEST = 4000
+"""Points that are kept of it."""
+
+
+@define
+class Demo:
+    """A walk on its way through a session. `play` goes on packet by packet, so that whoever shows it sets the pace."""
+
+    walk: EmulatedWalk
+    session: Session
+    tally: Tally = field(factory=Tally)
+    gathering: Gathering = field(factory=Gathering)
+    track: list[tuple[Foot, float, float]] = field(factory=list)
+    """Where the feet went, thinned to SPACING, m."""
+    now: float = 0.0
+    """Time of the walk, s."""
+    _drawn: dict[Foot, tuple[float, float]] = field(factory=dict)
+
+    @property
+    def duration(self) -> float:
+        return self.walk.truth.duration
+
+    def play(self) -> Iterator[Packet]:
+        """Each packet after the session has taken it."""
+        for packet in self.walk.packets:
+            self.now = packet.t
+            self.tally.fed_packet(packet)
+            self._take(self.session.feed(packet))
+            yield packet
+        self._take(self.session.finish())
+
+    def _take(self, events: list[Event]) -> None:
+        for event in events:
+            self.tally.add(event)
+            self.gathering.add(event)
+            if isinstance(event, FootMoved):
+                self._draw(event)
+
+    def _draw(self, event: FootMoved) -> None:
+        x, y, _ = event.position
+        last = self._drawn.get(event.foot)
+        if (last is None or hypot(x - last[0], y - last[1]) > SPACING) and len(self.track) < LONGEST:
+            self._drawn[event.foot] = (x, y)
+            self.track.append((event.foot, x, y))
+
+    def comparison(self) -> list[FootComparison]:
+        """The session against the truth; once `play` is through."""
+        return compare(self.walk.truth, {foot: self.gathering.foot(foot) for foot in Foot})
+
+
+def make_demo(seed: int) -> Demo:
+    """The walk of this seed, not yet played."""
+    return Demo(walk=emulate(ROUTE, radio=RADIO, seed=seed), session=Session(poses=True))
