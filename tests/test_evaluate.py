@@ -140,10 +140,10 @@ PLACES = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 2.0]])
 
 
 def test_each_step_belongs_to_the_stride_in_which_it_ends():
-    # 0.9 is before the survey, 1.8 and 2.0 are in the first stride, none in the second, 3.7 in the third, 4.1 after it
-    score = stride_score(
-        TIMES, np.array([1.0, 1.0, 2.0]), [(0.9, 1.0), (1.8, 0.25), (2.0, 1.125), (3.7, 1.5), (4.1, 1.0)]
-    )
+    # 0.9 and 1.1: before the survey and its slack of 0.15 s; 1.8 and 2.1: the first stride; none: the second; 3.7: the
+    # third; 4.2: after the survey
+    steps = [(0.9, 1.0), (1.1, 1.0), (1.8, 0.25), (2.1, 1.125), (3.7, 1.5), (4.2, 1.0)]
+    score = stride_score(TIMES, np.array([1.0, 1.0, 2.0]), steps)
     assert (score.n_true, score.n_found, score.n_invented) == (3, 2, 1)
     assert score.step_errors == (0.125, -0.25)
     assert score.mean_error == 0.1875 and score.median_error == 0.1875

@@ -110,13 +110,13 @@ class Tally:
                 one.steps += 1
                 one.degraded += event.degraded
                 one.distance += event.stride_length
-            case HeelStrike(foot=foot):
+            case HeelStrike(foot=foot, final=True):
                 self.foot(foot).heel_strikes += 1
-            case FootFlat(foot=foot):
+            case FootFlat(foot=foot, final=True):
                 self.foot(foot).foot_flats += 1
-            case HeelOff(foot=foot):
+            case HeelOff(foot=foot, final=True):
                 self.foot(foot).heel_offs += 1
-            case ToeOff(foot=foot):
+            case ToeOff(foot=foot, final=True):
                 self.foot(foot).toe_offs += 1
             case SampleGap(site=site, duration=duration):
                 self.gaps[site] += 1

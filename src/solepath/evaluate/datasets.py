@@ -17,7 +17,7 @@ from ..types import Foot
 from .alignment import at_times, path_length, track_error
 from .contacts import merged, switch_contacts
 from .gathered import FootRun
-from .matching import Matching, match
+from .matching import TOLERANCE, Matching, match
 from .run import Run, run
 from .score import Figures, Scored
 from .strides import StrideScore, position_errors, stride_score, surveyed_score
@@ -174,8 +174,8 @@ def score_treadmill(path: Path, meta: Meta, recipe: str) -> Scored:
         strikes = truth["gt_hs_t"][rows]
         heel_strike += match(strikes.tolist(), ran.heel_strikes)
         toe_off += match((strikes + truth["gt_contact_s"][rows]).tolist(), ran.toe_offs)
-        # the stride that a heel-strike ends, ours ending at the foot-flat after it
-        strides += stride_score(strikes, truth["gt_stride_len"][rows][:-1], ran.step_lengths)
+        # the stride that a heel-strike ends, ours ending at the foot-flat after it: well before the next heel-strike
+        strides += stride_score(strikes, truth["gt_stride_len"][rows][:-1], ran.step_lengths, slack=-TOLERANCE)
     return _scored(path, went, events={"heel_strike": heel_strike, "toe_off": toe_off}, strides=strides)
 
 

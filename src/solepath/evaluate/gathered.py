@@ -50,7 +50,9 @@ class Gathering:
                 one.positions.append(position)
             case StepTaken(foot=foot, final=True):
                 self._of(foot).steps.append(event)
-            case HeelStrike(foot=foot) | FootFlat(foot=foot) | HeelOff(foot=foot) | ToeOff(foot=foot):
+            case HeelStrike(foot=foot, final=True) | FootFlat(foot=foot, final=True):
+                self._of(foot).times.setdefault(type(event), []).append(event.t)
+            case HeelOff(foot=foot, final=True) | ToeOff(foot=foot, final=True):
                 self._of(foot).times.setdefault(type(event), []).append(event.t)
             case _:
                 pass

@@ -2,7 +2,8 @@
 
 `times[k]` is the end of the rest before stride k + 1, `places[k]` the surveyed point on which the foot rested then. So
 stride k + 1 lasts from times[k] to times[k + 1], and a step of ours belongs to the stride in which it ends: our step
-ends at foot-flat, early in the rest whose end the survey's time is.
+ends at foot-flat, early in the rest whose end the survey's time is. In fast walking a rest is a moment, and a foot-flat
+may come a little after the time that the survey calls its end; it still belongs to it (SLACK).
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ from numpy.typing import NDArray
 
 from .alignment import Floats, align, at_times
 
+SLACK = 0.15
+"""s by which a step may end after its stride's time: less than half of any swing, so never in the next stride."""
 ALIGNED_OVER = 2.0
 """m; design: "after aligning the first two metres"."""
 
@@ -62,17 +65,20 @@ def mean_magnitude(errors: Sequence[float]) -> float | None:
     return float(np.mean(np.abs(errors))) if len(errors) else None
 
 
-def stride_score(times: NDArray[Any], lengths: NDArray[Any], steps: Sequence[tuple[float, float]]) -> StrideScore:
+def stride_score(
+    times: NDArray[Any], lengths: NDArray[Any], steps: Sequence[tuple[float, float]], slack: float = SLACK
+) -> StrideScore:
     """True strides between `times` (n+1,) of the true `lengths` (n,) in m against `steps`, pairs of (t_end,
-    stride_length). Steps that end before the first time or after the last are left out; a length that is not known
-    (NaN) counts as a stride but gives no error.
+    stride_length). A step belongs to the stride from times[k] to times[k + 1] when it ends in that span moved on by
+    `slack` s; steps that end in none are left out. A length that is not known (NaN) counts as a stride but gives no
+    error.
 
     Where several steps end in one true stride the longest counts as found and the others as invented.
     """
     true_lengths: list[float] = np.asarray(lengths, np.float64).tolist()
     ends: list[list[float]] = [[] for _ in true_lengths]
     for t_end, stride_length in steps:
-        stride = int(np.searchsorted(times, t_end, side="left")) - 1  # times[stride] < t_end <= times[stride + 1]
+        stride = int(np.searchsorted(times, t_end - slack, side="left")) - 1
         if 0 <= stride < len(ends):
             ends[stride].append(stride_length)
     return StrideScore(
