@@ -22,6 +22,8 @@ from .motion import FootMotion
 
 BOUNCE = 0.17
 """Amplitude of the force's swing about the weight at 1.3 m/s; it grows with the square of the speed."""
+CATCHING = 0.13
+"""How long the closing foot takes to catch the weight, s."""
 _EVER = 1e6
 
 
@@ -157,7 +159,11 @@ def _hand_overs(plan: Plan) -> tuple[list[tuple[float, float, float, float]], li
             beats.append((0.5 * (stride.heel_strike + following.toe_off), stride.speed))
             level = onto
         last, _ = bout[-1]
-        hand_overs.append((last.heel_strike, last.heel_strike + SETTLING, level, 0.5))
+        # The closing foot catches the weight as in a step, a little too much of it, and then half remains.
+        caught, settled = last.heel_strike + CATCHING, last.heel_strike + SETTLING
+        most = 0.6 if level == 0.0 else 0.4
+        hand_overs.append((last.heel_strike, caught, level, most))
+        hand_overs.append((caught, settled, most, 0.5))
         beats.append((last.heel_strike + 0.5 * SETTLING, 0.0))
         level = 0.5
     return hand_overs, beats

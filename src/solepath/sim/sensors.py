@@ -106,17 +106,20 @@ def sample(signal: Array, when: Instants) -> Array:
 
 
 def wander(t: Array, memory: float, axes: int, rng: np.random.Generator) -> Array:
-    """A first-order Gauss-Markov process of unit sigma that is 0 at the start, (N, axes).
+    """A Gauss-Markov process of unit sigma and `memory` s that is 0 at the start, (N, axes).
 
-    Worked out every second and joined by lines: far below the noise at any rate that matters.
+    Worked out ten times in `memory` and joined smoothly: temperature has no fast part, white noise is another matter.
     """
-    nodes = np.arange(float(t[0]), float(t[-1]) + 2.0)
-    keep = exp(-1.0 / memory)
+    nodes = np.arange(float(t[0]), float(t[-1]) + 0.2 * memory, 0.1 * memory)
+    keep = exp(-0.1)
     kicks = sqrt(1.0 - keep * keep) * rng.standard_normal((len(nodes), axes))
     path = np.zeros((len(nodes), axes))
     for k in range(1, len(nodes)):
         path[k] = keep * path[k - 1] + kicks[k]
-    return np.stack([np.interp(t, nodes, axis) for axis in path.T], axis=1)
+    at = (t - nodes[0]) / (0.1 * memory)
+    k = np.minimum(at.astype(np.int64), len(nodes) - 2)
+    s = (at - k)[:, None]
+    return np.asarray(path[k] + (path[k + 1] - path[k]) * s * s * (3.0 - 2.0 * s))
 
 
 def read_cells(

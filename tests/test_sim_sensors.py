@@ -1,0 +1,159 @@
+"""What parts make of a signal is what their data sheets say."""
+
+from math import pi, radians, sqrt
+
+import numpy as np
+import pytest
+from attrs import evolve
+
+from solepath.sim.parts import BMP280, KXTJ9_IMU3000, LSM6DSOX, MPU9250, RESISTIVE, T5400, BarometerPart, Imu, Triad
+from solepath.sim.route import Route
+from solepath.sim.sensors import (
+    air_pressure,
+    errors,
+    instants,
+    low_pass,
+    read_barometer,
+    read_cells,
+    read_triad,
+    sample,
+    wander,
+)
+from solepath.sim.walker import Walker
+from solepath.types import Foot
+from solepath.vector import GRAVITY
+
+PERFECT = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.0, bandwidth=1e9)
+
+
+def allan_deviation(values: np.ndarray, rate: float, tau: float) -> np.ndarray:
+    """Two-sample deviation of averages over `tau` s, for each axis."""
+    size = int(tau * rate)
+    means = values[: len(values) // size * size].reshape(-1, size, values.shape[1]).mean(axis=1)
+    return np.sqrt(0.5 * np.mean(np.diff(means, axis=0) ** 2, axis=0))
+
+
+@pytest.mark.parametrize("part", [LSM6DSOX.acc, LSM6DSOX.gyro, MPU9250.acc, MPU9250.gyro])
+def test_the_white_noise_is_that_of_the_data_sheet(part: Triad) -> None:
+    """Allan deviation of white noise of density d (per sqrt(Hz), one-sided) at tau is d / sqrt(2 tau)."""
+    when = instants(0.0, 0.01, 30000)
+    still = np.zeros((len(when.fine), 3))
+    noisy = sample(low_pass(errors(still, when, part, np.random.default_rng(1)), when.rate, 50.0), when)
+    for tau in (0.2, 0.5):
+        assert allan_deviation(noisy, 100.0, tau) == pytest.approx(np.full(3, part.density / sqrt(2 * tau)), rel=0.12)
+
+
+def test_the_noise_per_sample_fits_the_bandwidth() -> None:
+    """A second-order Butterworth passes the noise of 1.11 times its corner frequency."""
+    part = MPU9250.gyro
+    when = instants(0.0, 1.0 / 400.0, 40000)
+    steady = evolve(part, wander=0.0)
+    noisy = low_pass(errors(np.zeros((len(when.fine), 3)), when, steady, np.random.default_rng(2)), when.rate, 92.0)
+    passed = sample(noisy, when)[100:]
+    assert passed.std(axis=0) == pytest.approx(np.full(3, part.density * sqrt(1.11 * 92.0)), rel=0.05)
+    # The sheet's own total is 0.1 degrees/s rms at 92 Hz.
+    assert passed.std(axis=0) == pytest.approx(np.full(3, radians(0.1)), rel=0.1)
+
+
+def test_turn_on_bias_and_scale_differ_between_parts_as_the_sheet_says() -> None:
+    when = instants(0.0, 0.01, 3)
+    still, shaken = np.zeros((len(when.fine), 3)), np.full((len(when.fine), 3), 5.0)
+    part = Triad(density=0.0, bias=0.2, wander=0.0, scale=0.01, cross=0.0, bandwidth=1e9)
+    biases, scales = [], []
+    for seed in range(400):
+        at_rest = errors(still, when, part, np.random.default_rng(seed))[0]
+        biases.append(at_rest)
+        scales.append((errors(shaken, when, part, np.random.default_rng(seed))[0] - at_rest) / 5.0 - 1.0)
+    assert np.std(biases) == pytest.approx(0.2, rel=0.08)
+    assert np.std(scales) == pytest.approx(0.01, rel=0.08)
+
+
+def test_crossed_axes_feel_each_other() -> None:
+    when = instants(0.0, 0.01, 3)
+    part = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.02, bandwidth=1e9)
+    along_x = np.zeros((len(when.fine), 3)) + (10.0, 0.0, 0.0)
+    seen = np.array([errors(along_x, when, part, np.random.default_rng(seed))[0] for seed in range(300)])
+    assert seen[:, 0] == pytest.approx(10.0)
+    assert seen[:, 1:].std() == pytest.approx(0.2, rel=0.1)
+
+
+def test_a_bias_wanders_slowly_and_stays_bounded() -> None:
+    path = wander(np.arange(0.0, 20000.0, 1.0), 300.0, 4, np.random.default_rng(3))
+    assert path[0] == pytest.approx(0.0)
+    assert path.std() == pytest.approx(1.0, rel=0.2)
+    assert np.diff(path[::30], axis=0).std() == pytest.approx(sqrt(2.0 * 30.0 / 300.0), rel=0.1)
+    assert np.abs(np.diff(path, axis=0)).max() < 0.1
+
+
+def test_a_gyroscope_that_feels_acceleration_does() -> None:
+    when = instants(0.0, 0.01, 3)
+    part = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.0, bandwidth=1e9, g_effect=0.01)
+    force = np.full((len(when.fine), 3), 9.81)
+    found = errors(np.zeros_like(force), when, part, np.random.default_rng(1), force)
+    assert np.abs(found) == pytest.approx(0.0981)
+
+
+def test_counts_are_rounded_and_stop_at_full_scale() -> None:
+    when = instants(0.0, 0.01, 5)
+    ramp = np.outer(np.ones(len(when.fine)), [1.26, -50.0, 39.9])
+    eight = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.0, bandwidth=1e9, bits=8)
+    found = read_triad(ramp, when, eight, 0.25, np.random.default_rng(1))
+    assert found.counts.tolist() == [[5, -128, 127]] * 5
+    assert found.saturated.all()
+    quiet = read_triad(0.1 * ramp, when, eight, 0.25, np.random.default_rng(1))
+    assert not quiet.saturated.any()
+
+
+def test_a_low_pass_keeps_what_is_slow_and_halves_the_power_at_its_corner() -> None:
+    t = np.arange(0.0, 4.0, 1.0 / 800.0)
+    for frequency, gain in ((1.0, 1.0), (40.0, sqrt(0.5)), (200.0, 0.04)):
+        wave = np.sin(2 * pi * frequency * t)[:, None]
+        passed = low_pass(wave, 800.0, 40.0)[800:]
+        assert passed.std() / wave.std() == pytest.approx(gain, abs=0.03)
+
+
+def test_samples_are_taken_where_the_clock_says() -> None:
+    when = instants(0.0123, 0.031, 50)
+    assert sample(when.fine[:, None], when)[:, 0] == pytest.approx(when.taken)
+    assert when.rate >= 800.0
+
+
+@pytest.mark.parametrize("part", [LSM6DSOX, MPU9250, KXTJ9_IMU3000])
+def test_imperfect_samples_stay_near_the_exact_ones_at_rest(part: Imu) -> None:
+    walker = Walker(Route().stand(3.0))
+    exact, found = walker.samples(Foot.LEFT, 100.0), walker.samples(Foot.LEFT, 100.0, part)
+    assert [s.t for s in exact] == pytest.approx([s.t for s in found])
+    off = np.array([s.acc for s in found]) - np.array([s.acc for s in exact])
+    turn = np.array([s.gyro for s in found])
+    assert np.abs(off.mean(axis=0)).max() < 4 * (part.acc.bias + 2 * part.acc.scale * GRAVITY)
+    assert np.abs(turn.mean(axis=0)).max() < 4 * part.gyro.bias + part.gyro.g_effect * 10
+    assert np.abs(off).max() > 0.0
+
+
+def test_cells_have_gain_preload_noise_and_an_end() -> None:
+    t = np.arange(0.0, 20.0, 0.01)
+    loads = np.zeros((len(t), 50))
+    loads[1000:] = 100.0
+    found = read_cells(loads, t, RESISTIVE, 0.05, np.random.default_rng(1)).counts * 0.05
+    rest, pressed = found[:1000].mean(axis=0), found[1100:].mean(axis=0)
+    assert rest.mean() == pytest.approx(RESISTIVE.preload, rel=0.35)
+    assert ((pressed - rest) / 100.0 - 1.0).std() == pytest.approx(RESISTIVE.gain, rel=0.3)
+    assert found[1100:].std(axis=0).mean() == pytest.approx(RESISTIVE.noise, rel=0.1)
+    crushed = read_cells(loads * 10.0, t, RESISTIVE, 0.05, np.random.default_rng(1))
+    assert crushed.counts.max() == 4095 and crushed.saturated[1100:].all() and not crushed.saturated[:999].any()
+
+
+@pytest.mark.parametrize("part", [BMP280, T5400])
+def test_a_barometer_tells_three_metres_by_36_pascal(part: BarometerPart) -> None:
+    assert air_pressure(np.array([0.0]))[0] == 101325.0
+    t = np.arange(0.0, 60.0, 1.0)
+    low, high = (read_barometer(np.full(60, h), t, part, np.random.default_rng(4)) for h in (0.0, 3.0))
+    assert (low - high).mean() == pytest.approx(36.0, abs=0.5)
+    assert np.diff(low).std() / sqrt(2) == pytest.approx(part.noise, rel=0.35)
+
+
+def test_a_perfect_part_reports_the_truth() -> None:
+    when = instants(0.0, 0.01, 200)
+    signal = np.stack([np.sin(5 * when.fine), np.cos(3 * when.fine), when.fine], axis=1)
+    found = read_triad(signal, when, PERFECT, 1e-3, np.random.default_rng(1))
+    assert found.counts * 1e-3 == pytest.approx(sample(signal, when), abs=5.1e-4)

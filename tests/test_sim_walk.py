@@ -1,0 +1,266 @@
+"""Emulated devices send real bytes of what truly happened, and the radio does to them what it was asked to."""
+
+from collections import Counter
+from itertools import pairwise
+from math import ceil, radians
+
+import numpy as np
+import pytest
+
+from solepath.sim.device import SETUP, Notification
+from solepath.sim.gait import Wearer
+from solepath.sim.insole_device import ACC_COUNT, GYRO_COUNT, TICK_RATE, Insole
+from solepath.sim.parts import CellPart, Imu, Triad
+from solepath.sim.radio import Radio
+from solepath.sim.route import Route
+from solepath.sim.sensors import air_pressure
+from solepath.sim.sensortags import CC2541, CC2650, T5400_CALIBRATION, raw_air
+from solepath.sim.sensortags import GYRO_COUNT as TAG_GYRO_COUNT
+from solepath.sim.shoe import IN_SOLE, ON_INSTEP, Mounting
+from solepath.sim.walk import emulate
+from solepath.types import Foot, Packet, Phase, Site
+from solepath.vector import GRAVITY, from_rotation_vector
+from solepath.wire import cc2541, cc2650
+from solepath.wire.fragment import parse_fragment
+from solepath.wire.insole import InsoleFrame, parse_frame
+from solepath.wire.insole_info import parse_info
+
+SHORT = Route().stand(1.0).walk(6.0, 1.3).stop(1.0)
+IDEAL = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.0, bandwidth=1e9)
+IDEAL_IMU = Imu("ideal", IDEAL, IDEAL)
+IDEAL_CELL = CellPart("ideal", gain=0.0, preload=0.0, noise=0.0, lag=1e-6)
+PROMPT = Radio(latency=0.0, jitter=0.0)
+
+
+def frames(packets: tuple[Packet, ...], site: Site) -> list[InsoleFrame]:
+    return [parse_frame(p.data) for p in packets if p.site is site and p.channel == "insole/frame"]
+
+
+def test_the_same_seed_gives_the_same_bytes_and_another_seed_others() -> None:
+    radio = Radio(loss=0.05, duplicate=0.02, corrupt=0.02, truncate=0.02, jitter=0.05)
+    one, two, three = (emulate(SHORT, radio=radio, seed=seed).packets for seed in (5, 5, 6))
+    assert one == two
+    assert one != three
+
+
+def test_the_gait_does_not_depend_on_what_is_worn_or_on_the_radio() -> None:
+    one = emulate(SHORT, radio=Radio(loss=0.3), seed=5)
+    two = emulate(SHORT, devices={Site.LEFT_FOOT: CC2650()}, seed=5)
+    assert one.walker.plan == two.walker.plan
+
+
+def test_two_insoles_at_100_hz_send_what_they_should() -> None:
+    walk = emulate(SHORT, seed=3)
+    assert [p.t for p in walk.packets] == sorted(p.t for p in walk.packets)
+    for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT):
+        channels = Counter(p.channel for p in walk.packets if p.site is site)
+        assert channels["insole/info"] == channels["device/firmware"] == channels["device/battery"] == 1
+        sent = frames(walk.packets, site)
+        assert len(sent) == pytest.approx((walk.truth.duration - SETUP) * 100, abs=4)
+        info = parse_info(next(p.data for p in walk.packets if p.site is site and p.channel == "insole/info"))
+        for one, two in pairwise(sent):
+            assert two.sequence == (one.sequence + 1) % 2**16
+            assert (two.ticks - one.ticks) % 2**32 == one.interval == info.interval
+        assert all(frame.foot is site.foot and frame.layout == info.layout == 96 for frame in sent)
+        assert len(info.cells) == 96 == len(sent[0].samples[0].cells)
+
+
+def test_left_and_right_do_not_sample_at_the_same_time() -> None:
+    walk = emulate(SHORT, radio=PROMPT, seed=3)
+    left, right = (
+        [p.t for p in walk.packets if p.site is site and p.channel == "insole/frame"]
+        for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)
+    )
+    assert abs((left[0] - right[0]) % 0.01) > 1e-4
+
+
+@pytest.mark.parametrize("mounting", [IN_SOLE, Mounting((0.15, 0.01, 0.07), from_rotation_vector((1.0, 2.0, -0.5)))])
+def test_an_ideal_insole_reports_the_truth_to_the_count(mounting: Mounting) -> None:
+    device = Insole(cells=24, batch=4, mounting=mounting, part=IDEAL_IMU, cell_part=IDEAL_CELL, ppm=0.0, ticks=1000)
+    walk = emulate(SHORT, devices={Site.LEFT_FOOT: device}, radio=PROMPT, seed=2)
+    starts, still = [], 0
+    for packet in walk.packets:
+        if packet.channel != "insole/frame":
+            continue
+        frame = parse_frame(packet.data)
+        t = packet.t - 1e-3 + (np.arange(4) - 3) * frame.interval / TICK_RATE
+        starts.append(t[0] - frame.ticks / TICK_RATE)
+        # The device's low pass rounds off and delays what is fast; at rest nothing is lost.
+        before = np.concatenate([t - 0.03, t])
+        if set(walk.truth.feet[Foot.LEFT].phases(before)) == {Phase.STATIONARY}:
+            still += 1
+            true = walk.walker.kinematics(Foot.LEFT, t, mounting)
+            counts = np.array([sample.imu for sample in frame.samples], dtype=float)
+            assert counts[:, :3] * ACC_COUNT == pytest.approx(true.force, abs=0.03)
+            assert counts[:, 3:] * GYRO_COUNT == pytest.approx(true.rate, abs=0.005)
+    assert starts == pytest.approx([starts[0]] * len(starts), abs=1e-9)  # its clock runs true
+    assert still > 40
+
+
+def test_what_an_insole_sends_sums_up_to_the_load() -> None:
+    device = Insole(cells=99, cell_part=IDEAL_CELL, ppm=0.0)
+    walk = emulate(SHORT, devices={Site.RIGHT_FOOT: device}, radio=PROMPT, seed=2)
+    info = parse_info(next(p.data for p in walk.packets if p.channel == "insole/info"))
+    for packet in walk.packets:
+        if packet.channel == "insole/frame":
+            load = sum(parse_frame(packet.data).samples[0].cells) * info.pressure_scale
+            true = walk.walker.loads.total(Foot.RIGHT, np.array([packet.t - 1e-3]))[0]
+            assert load == pytest.approx(true, abs=99 * 0.5 * info.pressure_scale + 1e-6)
+
+
+def test_a_device_clock_has_its_own_rate() -> None:
+    for ppm in (-200.0, 150.0):
+        device = Insole(cells=24, ppm=ppm)
+        walk = emulate(Route().stand(60.0), devices={Site.LEFT_FOOT: device}, radio=PROMPT, seed=2)
+        sent = [(p.t, parse_frame(p.data).ticks) for p in walk.packets if p.channel == "insole/frame"]
+        (t0, k0), (t1, k1) = sent[0], sent[-1]
+        assert ((k1 - k0) % 2**32) / TICK_RATE / (t1 - t0) - 1.0 == pytest.approx(ppm * 1e-6, abs=1e-7)
+
+
+def test_ticks_and_sequence_wrap() -> None:
+    device = Insole(cells=24, ticks=2**32 - 1000)
+    sent = frames(emulate(SHORT, devices={Site.LEFT_FOOT: device}, seed=2).packets, Site.LEFT_FOOT)
+    assert sent[0].ticks == 2**32 - 1000 and sent[10].ticks < 10000
+
+
+def test_frames_too_long_for_the_link_come_in_fragments() -> None:
+    walk = emulate(SHORT, devices={Site.LEFT_FOOT: Insole(mtu=65)}, radio=PROMPT, seed=2)
+    pieces = [p.data for p in walk.packets if p.channel == "insole/frame"]
+    assert max(len(piece) for piece in pieces) == 62
+    whole, found = b"", 0
+    for piece in pieces:
+        fragment = parse_fragment(piece)
+        whole = fragment.body if fragment.index == 0 else whole + fragment.body
+        if fragment.last:
+            assert parse_frame(whole).layout == 96
+            found += 1
+    assert found == len(pieces) / 3
+
+
+def test_the_quaternion_of_an_insole_follows_the_foot() -> None:
+    walk = emulate(SHORT, devices={Site.LEFT_FOOT: Insole(quaternion=True, ppm=0.0)}, radio=PROMPT, seed=2)
+    tilts = []
+    for packet in walk.packets:
+        if packet.channel == "insole/frame":
+            sample = parse_frame(packet.data).samples[0]
+            w, x, y, z = (v / 16384 for v in sample.quat or ())
+            true = walk.truth.pose(Foot.LEFT, packet.t - 1e-3).attitude[0]
+            tilts.append(2 * (x * z - w * y) - 2 * (true[1] * true[3] - true[0] * true[2]))
+    assert 0.0 < np.abs(tilts).max() < radians(2.5)
+
+
+def test_a_cc2650_saturates_in_swing_and_sends_its_settings() -> None:
+    walk = emulate(SHORT, devices={Site.LEFT_FOOT: CC2650(rate=50.0)}, seed=2)
+    channels = [p.channel for p in walk.packets]
+    assert channels.index("cc2650/movement-config") < channels.index("cc2650/movement")
+    config = cc2650.parse_movement_config(next(p.data for p in walk.packets if p.channel == "cc2650/movement-config"))
+    assert config.range == 8
+    moves = [cc2650.parse_movement(p.data) for p in walk.packets if p.channel == "cc2650/movement"]
+    assert len(moves) == pytest.approx(50 * walk.truth.duration, abs=5)
+    assert max(abs(m.gyro[1]) for m in moves) >= 32767  # more than 250 degrees/s about the foot's y axis
+    rest = np.array([m.acc for m in moves[:40]]) * 8 * GRAVITY / 32768
+    assert np.linalg.norm(rest.mean(axis=0)) == pytest.approx(GRAVITY, rel=0.1)
+    field = np.array([m.mag for m in moves[:40]]) * 4912e-6 / 32760
+    assert 20e-6 < np.linalg.norm(field.mean(axis=0)) < 90e-6
+    air = [cc2650.parse_barometer(p.data).pressure for p in walk.packets if p.channel == "cc2650/barometer"]
+    assert all(101000 < value < 101600 for value in air)
+
+
+@pytest.mark.parametrize("rate", [10.0, 20.0])
+def test_a_cc2541_sends_each_sensor_at_its_own_time(rate: float) -> None:
+    walk = emulate(SHORT, devices={Site.RIGHT_FOOT: CC2541(rate=rate)}, radio=PROMPT, seed=4)
+    times = {
+        name: [p.t for p in walk.packets if p.channel == f"cc2541/{name}"] for name in ("accelerometer", "gyroscope")
+    }
+    for found in times.values():
+        assert np.diff(found) == pytest.approx(1.0 / rate, rel=1e-3)
+    apart = (times["gyroscope"][0] - times["accelerometer"][0]) % (1.0 / rate)
+    assert 0.0 < apart < 1.0 / rate
+    values = [cc2541.parse_accelerometer(p.data).acc for p in walk.packets if p.channel == "cc2541/accelerometer"]
+    rest = np.array(values[: int(0.8 * rate)]) * GRAVITY / 16
+    assert np.linalg.norm(rest, axis=1) == pytest.approx(GRAVITY, rel=0.25)
+    turns = [cc2541.parse_gyroscope(p.data).gyro for p in walk.packets if p.channel == "cc2541/gyroscope"]
+    assert np.abs(turns).max() * TAG_GYRO_COUNT > radians(150)
+
+
+def test_the_raw_air_of_a_t5400_gives_the_pressure_back() -> None:
+    for height in (-20.0, 0.0, 3.0, 400.0):
+        pascal = float(air_pressure(np.array([height]))[0])
+        raw = cc2541.parse_barometer(cc2541.build_barometer(raw_air(pascal)))
+        assert T5400_CALIBRATION.pascal(raw) == pytest.approx(pascal, abs=2.0)
+        assert T5400_CALIBRATION.celsius(raw) == pytest.approx(24.0, abs=0.1)
+
+
+def test_a_device_above_the_ankle_is_refused() -> None:
+    with pytest.raises(ValueError):
+        emulate(SHORT, devices={Site.PELVIS: CC2650()})
+
+
+def test_truth_is_told_for_the_sensor_where_it_sits() -> None:
+    walk = emulate(SHORT, devices={Site.LEFT_FOOT: CC2650(mounting=ON_INSTEP)}, wearer=Wearer(), seed=2)
+    assert walk.truth.feet[Foot.LEFT].mounting == ON_INSTEP
+    assert walk.truth.feet[Foot.LEFT].origin[2] == pytest.approx(ON_INSTEP.position[2])
+    low, high = (walk.walker.truth({Foot.LEFT: m}).pose(Foot.LEFT, 2.3).position for m in (IN_SOLE, ON_INSTEP))
+    assert np.linalg.norm(low - high) > 0.005  # a pitching foot moves them differently
+
+
+# --- the radio --------------------------------------------------------------------------------------------------------
+
+SENT = [Notification(0.01 * k, "insole/frame", bytes([k % 256]) * 20) for k in range(20000)]
+
+
+def carried(radio: Radio, seed: int = 1) -> list[Packet]:
+    return radio.carry(SENT, Site.LEFT_FOOT, np.random.default_rng(seed))
+
+
+def test_so_much_is_lost_as_was_asked() -> None:
+    assert len(carried(Radio(loss=0.05))) / len(SENT) == pytest.approx(0.95, abs=0.006)
+    assert carried(Radio(loss=1.0)) == []
+    assert [p.data for p in carried(Radio())] == [n.data for n in SENT]
+
+
+def test_so_much_comes_twice_or_damaged_or_cut_as_was_asked() -> None:
+    assert len(carried(Radio(duplicate=0.04))) / len(SENT) == pytest.approx(1.04, abs=0.006)
+    damaged = carried(Radio(corrupt=0.03))
+    changed = [(n.data, p.data) for n, p in zip(SENT, damaged, strict=True) if n.data != p.data]
+    assert len(changed) / len(SENT) == pytest.approx(0.03, abs=0.006)
+    for was, now in changed:
+        bits = sum((a ^ b).bit_count() for a, b in zip(was, now, strict=True))
+        assert len(was) == len(now) and 1 <= bits <= 3
+    cut = [p for p in carried(Radio(truncate=0.02)) if len(p.data) < 20]
+    assert len(cut) / len(SENT) == pytest.approx(0.02, abs=0.005)
+
+
+def test_packets_are_late_by_latency_and_jitter_and_never_overtake() -> None:
+    found = carried(Radio(latency=0.01, jitter=0.05))
+    late = np.array([p.t for p in found]) - np.array([n.t for n in SENT])
+    assert late.min() >= 0.01 and late.max() <= 0.0601
+    assert late.min() < 0.013 and late.max() > 0.059
+    assert all(a.t <= b.t for a, b in pairwise(found))
+
+
+def test_without_order_packets_overtake() -> None:
+    found = carried(Radio(jitter=0.05, in_order=False))
+    assert all(a.t <= b.t for a, b in pairwise(found))
+    order = [p.data[0] for p in found]
+    assert order != [n.data[0] for n in SENT]
+    assert sorted(order) == sorted(n.data[0] for n in SENT)
+
+
+def test_connection_events_deliver_in_bunches() -> None:
+    found = carried(Radio(interval=0.03, latency=0.0, jitter=0.0))
+    moments = sorted({p.t for p in found})
+    assert np.diff(moments) == pytest.approx(0.03)
+    assert len(moments) == pytest.approx(ceil(len(SENT) / 3), abs=2)
+
+
+def test_what_was_read_or_written_always_gets_through() -> None:
+    setup = [Notification(0.01 * k, "insole/info", b"info", acknowledged=True) for k in range(50)]
+    found = Radio(loss=1.0, corrupt=1.0, truncate=1.0).carry(setup, Site.LEFT_FOOT, np.random.default_rng(1))
+    assert [p.data for p in found] == [b"info"] * 50
+
+
+@pytest.mark.parametrize("bad", [-0.1, 1.1, float("nan")])
+def test_a_share_that_is_none_is_refused(bad: float) -> None:
+    with pytest.raises(ValueError):
+        Radio(loss=bad)
