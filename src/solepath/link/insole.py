@@ -169,7 +169,7 @@ class InsoleLink:
                 self._refuse_repeated(clock, m, e, arrival, frame.retransmitted)
             if e <= 0 or m <= 0 or clock.rate != self.rate or clock.jumped(last, arrival):
                 restarted = not 1 <= d <= REMEMBERED
-                clock = self._begin(frame.ticks, clock.last_t + frame.interval / self.rate)
+                clock = self._begin(frame.ticks, clock.last_t + self.interval / clock.rate)
             else:
                 if m > 1:
                     t = clock.expected(self.ticks + self.covers)
