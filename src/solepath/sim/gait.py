@@ -207,7 +207,7 @@ class _Planner:
         reach = min(hypot(end.x - start.x, end.y - start.y) / 1.42, 1.4)
         roll, yaw, outward = (float(value) for value in self.rng.standard_normal(3))
         side = 1.0 if foot is Foot.LEFT else -1.0
-        weave = (side * (0.10 + 0.02 * roll), -side * (0.06 + 0.015 * yaw), side * (0.012 + 0.004 * outward))
+        weave = (side * (0.16 + 0.03 * roll), -side * (0.10 + 0.02 * yaw), side * (0.012 + 0.004 * outward))
         before.append(
             Stride(
                 number=len(before) + 1,

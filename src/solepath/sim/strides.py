@@ -26,15 +26,17 @@ SLIDE = 0.30
 """Forward speed of the heel just before contact, relative to the walking speed."""
 SINK = 0.13
 """Downward speed of the heel just before contact, relative to the walking speed."""
-PUSH = (1.8, -4.0)
+PUSH = (2.1, -2.0)
 """Pitch rate and acceleration at toe-off in units of pitch per push-off time: the rate peaks just before toe-off."""
 LAND = (0.5, -4.0)
 """The same at heel-strike, of the curve from strike to flat: slow at contact, then the foot slaps down."""
 
-CRUISE = 12.0
-"""How much the swing is evened out: feet cruise at 1.5 times their mean speed, where a bare quintic peaks at 1.9."""
-SWING_UP = 22.0
-"""The same for the pitch: the rate of a swinging foot is nearer to a plateau than to a peak."""
+CRUISE = 5.0
+"""How much the swing is evened out: feet peak at 1.7 times their mean speed, a bare quintic at 1.9."""
+REVERSAL = 0.22
+"""Share of the swing in which the pitch rate turns from that of push-off to that of swinging through."""
+SWING_UP = 1.1
+"""Pitch rate after the reversal, relative to the mean rate from there to heel-strike."""
 _EVER = 1e6
 """s: how long a foot stands before the first and after the last stride."""
 
@@ -90,22 +92,28 @@ class _Pieces:
         p1, v1, a1 = self._ankle(shoe.heel, stride.end, strike)
         residual = np.array(_residual(stride))
         p1, v1 = p1 - 0.5 * IMPACT * residual, v1 + residual
-        carried = [join((p0[i], v0[i], a0[i]), (p1[i], v1[i], a1[i]), duration) for i in range(3)]
-        pitch = join(off, strike, duration) + SWING_UP * (strike[0] - off[0]) * EVEN_OUT
+        x, y, z = (join((p0[i], v0[i], a0[i]), (p1[i], v1[i], a1[i]), duration) for i in range(3))
         yaw = join((stride.start.yaw, 0.0, 0.0), (stride.end.yaw, 0.0, 0.0), duration) + stride.weave[1] * BUMP
         roll = stride.weave[0] * BUMP
         sideways = 0.5 * (stride.start.yaw + stride.end.yaw)
-        carried[0] += -sin(sideways) * stride.weave[2] * BUMP + CRUISE * (p1[0] - p0[0]) * EVEN_OUT
-        carried[1] += cos(sideways) * stride.weave[2] * BUMP + CRUISE * (p1[1] - p0[1]) * EVEN_OUT
-        carried[2] += self._lift(stride, carried[2], pitch, roll) * BUMP
+        x += -sin(sideways) * stride.weave[2] * BUMP + CRUISE * (p1[0] - p0[0]) * EVEN_OUT
+        y += cos(sideways) * stride.weave[2] * BUMP + CRUISE * (p1[1] - p0[1]) * EVEN_OUT
+        pitches = _swing_pitch(off, strike, duration)
+        z += self._lift(stride, z, pitches, roll) * BUMP
         ankle = (shoe.ankle[0], shoe.ankle[2])
-        self._add(stride.toe_off, stride.heel_strike, [*carried, pitch, yaw, roll], ankle, 0.0, Phase.SWING)
+        turn = stride.toe_off + REVERSAL * duration
+        for begin, end, pitch in ((stride.toe_off, turn, pitches[0]), (turn, stride.heel_strike, pitches[1])):
+            low, high = ((t - stride.toe_off) / duration for t in (begin, end))
+            curves = [part(curve, low, high) for curve in (x, y, z)]
+            curves += [pitch, part(yaw, low, high), part(roll, low, high)]
+            self._add(begin, end, curves, ankle, 0.0, Phase.SWING)
 
-    def _lift(self, stride: Stride, z: Array, pitch: Array, roll: Array) -> float:
+    def _lift(self, stride: Stride, z: Array, pitches: tuple[Array, Array], roll: Array) -> float:
         """The height of the bump with which the sole's lowest point just keeps the clearance (itself a bump)."""
         shoe, s = self.shoe, np.linspace(0.1, 0.9, 41)
         ground = stride.start.z + (stride.end.z - stride.start.z) * s
-        angle, bump = evaluate(pitch, s), evaluate(BUMP, s)
+        early, late = evaluate(pitches[0], s / REVERSAL), evaluate(pitches[1], (s - REVERSAL) / (1.0 - REVERSAL))
+        angle, bump = np.where(s < REVERSAL, early, late), evaluate(BUMP, s)
         edge = 0.5 * shoe.width * np.abs(np.sin(evaluate(roll, s)))
         lift = -np.inf
         for arc in (shoe.heel, shoe.forefoot):
@@ -174,6 +182,20 @@ def _from_rest(end: tuple[float, float]) -> Array:
 def _landing(stride: Stride) -> Array:
     """Pitch from heel-strike to foot-flat: the time reverse of a start from rest."""
     return stride.strike_pitch * part(_from_rest(LAND), 1.0, 0.0)
+
+
+def _swing_pitch(
+    off: tuple[float, float, float], strike: tuple[float, float, float], duration: float
+) -> tuple[Array, Array]:
+    """Pitch in swing: the reversal after toe-off, then a rate that is nearly steady until the foot is braked.
+
+    With r = rate after the reversal of length a, b the rest, the pitch there is off + a (rate_off + r) / 2, and r is
+    SWING_UP times the mean rate over b: solved for r.
+    """
+    a, b = REVERSAL * duration, (1.0 - REVERSAL) * duration
+    rate = SWING_UP * (strike[0] - off[0] - 0.5 * a * off[1]) / (b + 0.5 * SWING_UP * a)
+    middle = (off[0] + 0.5 * a * (off[1] + rate), rate, 0.0)
+    return join(off, middle, a), join(middle, strike, b)
 
 
 def _ends(curve: Array, s: float, duration: float) -> tuple[float, float, float]:
