@@ -23,7 +23,7 @@ from .events import (
     StreamStale,
     ToeOff,
 )
-from .types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Vec3
+from .types import Foot, Packet, Phase, Sample, Site, Vec3
 
 
 @define
@@ -34,7 +34,9 @@ class FootTally:
     """Samples that were fed, or, of packets, those with a position."""
     first: float | None = None
     last: float | None = None
+    gaps: int = 0
     gap_time: float = 0.0
+    """From the last sample before to the first after, summed over the gaps."""
     steps: int = 0
     degraded: int = 0
     distance: float = 0.0
@@ -56,8 +58,8 @@ class FootTally:
         """Samples a second outside gaps."""
         if self.first is None or self.last is None or self.samples < 2:
             return None
-        span = self.last - self.first - self.gap_time
-        return (self.samples - 1) / span if span > 0.0 else None
+        span, intervals = self.last - self.first - self.gap_time, self.samples - 1 - self.gaps
+        return intervals / span if span > 0.0 and intervals > 0 else None
 
 
 @define
@@ -68,7 +70,6 @@ class Tally:
     packets: int = 0
     first: float | None = None
     last: float | None = None
-    gaps: Counter[Site] = field(factory=Counter)
     lost: Counter[Site] = field(factory=Counter)
     rejected: Counter[tuple[str, str]] = field(factory=Counter)
     """By ("packets" | "samples", reason)."""
@@ -118,10 +119,9 @@ class Tally:
                 self.foot(foot).heel_offs += 1
             case ToeOff(foot=foot, final=True):
                 self.foot(foot).toe_offs += 1
-            case SampleGap(site=site, duration=duration):
-                self.gaps[site] += 1
-                if site.foot is not None:
-                    self.foot(site.foot).gap_time += duration
+            case SampleGap(site=site, duration=duration) if site.foot is not None:
+                self.foot(site.foot).gaps += 1
+                self.foot(site.foot).gap_time += duration
             case PacketRejected(reason=reason):
                 self.rejected["packets", reason.value] += 1
             case SampleRejected(reason=reason):
@@ -140,6 +140,3 @@ class Tally:
                 self.suspects.append(f"{where}: |acc| is {magnitude:.2f} m/s^2 at rest{told}")
             case _:
                 pass
-
-    def gaps_of(self, foot: Foot) -> int:
-        return self.gaps[SITE_OF_FOOT[foot]]

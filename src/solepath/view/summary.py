@@ -22,8 +22,8 @@ def summary(tally: Tally, *, title: str, seconds: float) -> str:
         lines += ["", table(header, rows), ""]
     for foot in feet:
         one = tally.feet[foot]
-        if gaps := tally.gaps_of(foot):
-            lines.append(f"{foot.value}: {gaps} gap{'s'[: gaps > 1]}, {one.gap_time:.2f} s in all")
+        if one.gaps:
+            lines.append(f"{foot.value}: {one.gaps} gaps in the samples, {one.gap_time:.2f} s in all")
         if one.degraded:
             lines.append(f"{foot.value}: {one.degraded} of {one.steps} steps degraded by missing or saturated samples")
     lines += link_health(tally)
