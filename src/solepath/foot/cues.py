@@ -46,6 +46,8 @@ class InertialCues:
     shuffle_speed: float = 0.35
     """A foot that moves this fast for `shuffle_time` is in swing, however it got there, m/s."""
     shuffle_time: float = 0.15
+    loading_time: float = 0.4
+    """The same right after heel-strike, when the sensor still swings down with the sole, s."""
     # state
     still_since: float | None = field(default=None, init=False)
     moving_since: float | None = field(default=None, init=False)
@@ -107,7 +109,8 @@ class InertialCues:
             # between the last two samples, where a straight line meets the limit
             share = (before - limit) / (before - now) if before > limit > now else 1.0
             return self._clear(t - dt * (1.0 - share))
-        if self.fast_since is not None and t - self.fast_since >= self.shuffle_time:
+        patience = self.loading_time if phase is Phase.LOADING else self.shuffle_time
+        if self.fast_since is not None and t - self.fast_since >= patience:
             return self._clear(self.fast_since)
         return None
 
@@ -121,6 +124,7 @@ class InertialCues:
         if landed and before < 0.0 <= now:
             self.peak = 0.0
             self.turned = ZERO
+            self.fast_since = None
             return Seen(Cue.CONTACT, t - dt * now / (now - before))
         return None
 

@@ -26,6 +26,8 @@ class Cycle:
     """Where the threshold lies between the log of the lowest and of the highest statistic."""
     floor: float = 2e4
     """The threshold is never below this; what a standing foot shows."""
+    quietest: float = 3e3
+    """A moment quieter than this counts as this: after standing, the next stance is not as still as standing was."""
     ceiling: float = 3e6
     """Nor above this; no stance of the recordings seen is louder."""
     certain: float = 5e3
@@ -34,9 +36,9 @@ class Cycle:
     """Noise of a foot that does not move at all, m/s."""
     arm: float = 0.06
     """Velocity noise for each rad/s, m."""
-    arm2: float = 0.3
+    arm2: float = 0.5
     """Velocity noise for each (rad/s)^2, m s: the rolling foot."""
-    off_gravity: float = 0.02
+    off_gravity: float = 0.1
     """Velocity noise for each m/s^2 off gravity, s."""
     bucket: float = 0.4
     """Length of one of the four spans over which the extremes are kept, s."""
@@ -70,9 +72,9 @@ class Cycle:
         return Stance(ZERO, sqrt(variance), statistic, hint)
 
     def _threshold(self) -> float:
-        low = min(self.low, self.past_low)
-        high = max(self.high, self.past_high)
-        return exp((1.0 - self.share) * log(max(low, 1.0)) + self.share * log(max(high, 1.0)))
+        low = max(min(self.low, self.past_low), self.quietest)
+        high = max(self.high, self.past_high, self.quietest)
+        return exp((1.0 - self.share) * log(low) + self.share * log(high))
 
     def _remember(self, t: float, statistic: float) -> None:
         if self.bucket_end is None or t >= self.bucket_end:

@@ -17,7 +17,18 @@ from attrs import define, field
 
 from ..types import Phase, Quat, Vec3
 from ..vector import GRAVITY, ZERO, normalise
-from .covariance import TILT_X, TILT_Y, VELOCITY_X, VELOCITY_Y, VELOCITY_Z, YAW, Covariance, propagate, update
+from .covariance import (
+    TILT_X,
+    TILT_Y,
+    VELOCITY_X,
+    VELOCITY_Y,
+    VELOCITY_Z,
+    YAW,
+    Correction,
+    Covariance,
+    propagate,
+    update,
+)
 from .navigate import LONGEST_BRIDGE, Strapdown
 from .stance import Stance
 
@@ -45,6 +56,8 @@ class ErrorStateFilter(Strapdown):
     """Largest normalised innovation squared (chi-square, three degrees of freedom)."""
     patience: float = 1.2
     """After refusing everything for this long the filter is lost, s."""
+    tilt_rate: float = 2.0
+    """How fast gravity pulls the tilt upright while the evidence is certain, 1/s."""
     # state
     uncertainty: Covariance = field(default=(0.0,) * 45, init=False)
     since: float = field(default=0.0, init=False)
@@ -101,7 +114,8 @@ class ErrorStateFilter(Strapdown):
             self.quietest = min(self.quietest, stance.statistic)
             return False
         self.uncertainty, error = outcome
-        self._inject(error)
+        tx, ty = self._off_plumb(self.tilt_rate * REFERENCE_INTERVAL) if certain else (0.0, 0.0)
+        self._inject(error, tx, ty)
         self.accepted = t
         self.quietest = 1e12
         return True
@@ -163,8 +177,21 @@ class ErrorStateFilter(Strapdown):
             covariance[i] += tilt * tilt
         self.uncertainty = tuple(covariance)
 
-    def _inject(self, error: tuple[float, float, float, float, float, float, float, float, float]) -> None:
+    def _off_plumb(self, share: float) -> tuple[float, float]:
+        """Tilt aiding: this share of the turn, f x up / g, that would make the measured force point up, rad.
+
+        Outside the covariance on purpose: a foot that stands is loaded and trembles, and the lag of this pull, half a
+        second, averages what a Kalman update would take for independent measurements.
+        """
+        if self.force is None:
+            return 0.0, 0.0
+        fx, fy, _ = self.force
+        return share * fy / GRAVITY, -share * fx / GRAVITY
+
+    def _inject(self, error: Correction, tilt_x: float, tilt_y: float) -> None:
         px, py, pz, vx, vy, vz, tx, ty, tz = error
+        tx += tilt_x
+        ty += tilt_y
         x, y, z = self.position
         self.position = self.start_position = (x + px, y + py, z + pz)
         x, y, z = self.velocity

@@ -34,6 +34,10 @@ ABSURD_GYRO = 100.0
 """Nor this, rad/s."""
 
 
+STILL = 0.35
+"""A foot that is faster than this after the correction is not flat, however much noise the evidence has, m/s."""
+
+
 @define
 class FootTracker:
     """Feed it the samples of one foot in the order of their time."""
@@ -191,9 +195,10 @@ class FootTracker:
             self._say_where(t, known_at, events)
             return
         corrector.predict(dt, acc, gyro)
-        still = corrector.correct(t, stance)
+        believed = corrector.correct(t, stance)
         vx, vy, vz = corrector.velocity
         speed = sqrt(vx * vx + vy * vy + vz * vz)
+        still = believed and speed < STILL
         cues = self.inertial_cues
         seen = cues.update(t, dt, gyro, still, speed, self.phase)
         if load is not None:
