@@ -150,9 +150,9 @@ class Clock:
         heights = [r - drift * x for x, r in zip(xs, rs, strict=True)]
         # How far the slope can be trusted: the minima's mean height over the line, tilted across the span; few points
         # lie close to any line, hence `free`. A drift no larger than its doubt stays near nominal, a device 4 % off
-        # is believed within two seconds.
+        # is believed within about two seconds.
         free = len(xs) - 4
-        doubt = 2.0 * (sum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / free) if free > 0 else 0.0
+        doubt = 4.0 * (sum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / free) if free > 0 else 0.0
         drift *= drift * drift / (drift * drift + doubt * doubt) if free > 0 and drift != 0.0 else 0.0
         heights = [r - drift * x for x, r in zip(xs, rs, strict=True)]
         self.drift, self.offset = drift, min(heights)
