@@ -183,6 +183,15 @@ def test_a_cc2541_sends_each_sensor_at_its_own_time(rate: float) -> None:
     assert np.abs(turns).max() * TAG_GYRO_COUNT > radians(150)
 
 
+def test_a_pressed_key_is_told_with_the_bits_of_each_tag() -> None:
+    tags = {Site.LEFT_FOOT: CC2650(presses=(1.5,)), Site.RIGHT_FOOT: CC2541(presses=(2.0, 3.0))}
+    walk = emulate(SHORT, devices=tags, radio=PROMPT, seed=4)
+    pressed = [(p.t, p.data) for p in walk.packets if p.channel == "cc2650/keys"]
+    assert pressed == [(1.5, b"\x01"), (1.75, b"\x00")]
+    pressed = [(p.t, p.data) for p in walk.packets if p.channel == "cc2541/keys"]
+    assert pressed == [(2.0, b"\x02"), (2.25, b"\x00"), (3.0, b"\x02"), (3.25, b"\x00")]
+
+
 def test_the_raw_air_of_a_t5400_gives_the_pressure_back() -> None:
     for height in (-20.0, 0.0, 3.0, 400.0):
         pascal = float(air_pressure(np.array([height]))[0])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import comb
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -44,13 +46,24 @@ def join(start: tuple[float, float, float], end: tuple[float, float, float], dur
 
 
 def part(curve: Array, start: float, end: float) -> Array:
-    """The same curve between s = start and s = end, over a unit interval of its own."""
-    whole = np.polynomial.Polynomial(curve)(np.polynomial.Polynomial([start, end - start]))
-    found = np.zeros(DEGREE + 1)
-    found[: len(whole.coef)] = whole.coef
-    return found
+    """The same curve between s = start and s = end, over a unit interval of its own.
+
+    (start + (end - start) s)^k by the binomial theorem.
+    """
+    moved = _BINOMIALS * np.where(_LOWER >= 0, float(start) ** np.maximum(_LOWER, 0), 0.0)
+    return np.asarray((moved @ curve) * (end - start) ** np.arange(DEGREE + 1))
 
 
 def evaluate(curve: Array, s: Array | float, order: int = 0) -> Array:
     """Value of one curve (or of its derivative of `order` by s) at s."""
-    return np.asarray(np.polynomial.polynomial.polyval(s, np.polynomial.polynomial.polyder(curve, order)))
+    factors = curve
+    for _ in range(order):
+        factors = factors[1:] * np.arange(1, len(factors))
+    total = np.full(np.shape(s), factors[-1])
+    for factor in factors[-2::-1]:
+        total = total * s + factor
+    return np.asarray(total)
+
+
+_LOWER = np.arange(DEGREE + 1) - np.arange(DEGREE + 1)[:, None]
+_BINOMIALS: Array = np.array([[comb(k, j) for k in range(DEGREE + 1)] for j in range(DEGREE + 1)], dtype=np.float64)

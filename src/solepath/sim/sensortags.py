@@ -23,6 +23,8 @@ GYRO_COUNT = radians(500.0 / 65536.0)
 """rad/s per count of both tags: +-250 degrees/s, which a swinging foot exceeds."""
 _HANDLING = 2e-3
 """s from a measurement until the radio has it."""
+_PRESS = 0.25
+"""s for which a key is held."""
 _TEMPERATURE = 24.0
 """Degrees Celsius."""
 _SLOW = 1.0
@@ -31,7 +33,10 @@ _SLOW = 1.0
 
 @frozen
 class CC2650:
-    """The newer tag: one movement characteristic at `rate` Hz (stock 10), the accelerometer at +-`range` g."""
+    """The newer tag: one movement characteristic at `rate` Hz (stock 10), the accelerometer at +-`range` g.
+
+    `presses`: when the wearer presses the left key, s.
+    """
 
     rate: float = 10.0
     range: int = 8
@@ -39,6 +44,7 @@ class CC2650:
     part: Imu = MPU9250
     ppm: float | None = None
     firmware: str = "1.40 (Nov 16 2016)"
+    presses: tuple[float, ...] = ()
 
     def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
         foot = foot_of(site)
@@ -56,6 +62,8 @@ class CC2650:
         for moment, value in zip(t.tolist(), pressure.tolist(), strict=True):
             data = cc2650.build_barometer(cc2650.Barometer(_TEMPERATURE, value))
             sent.append(Notification(moment + _HANDLING, "cc2650/barometer", data))
+        down, up = (cc2650.build_keys(cc2650.Keys(left=left)) for left in (True, False))
+        sent += _keys("cc2650/keys", self.presses, down, up)
         return sorted(sent, key=_when)
 
     def _setup(self) -> list[Notification]:
@@ -80,6 +88,7 @@ class CC2541:
     """The older tag: a characteristic for every sensor, each with a timer of its own.
 
     `rate`: 10 Hz stock, 20 Hz with modified firmware. `code` is what was written to AA12: 1, 2, 3 for 2, 4, 8 g.
+    `presses`: when the wearer presses the left key, s.
     """
 
     rate: float = 10.0
@@ -88,6 +97,7 @@ class CC2541:
     part: Imu = KXTJ9_IMU3000
     ppm: float | None = None
     firmware: str = "1.5 (Oct 23 2013)"
+    presses: tuple[float, ...] = ()
 
     def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
         foot, period = foot_of(site), 1.0 / self.rate
@@ -111,6 +121,8 @@ class CC2541:
         sent += _each(mag_when, "magnetometer", [_mag(row) for row in triples(mag.counts)])
         for moment, value in zip(t.tolist(), pressure.tolist(), strict=True):
             sent.append(Notification(moment + _HANDLING, "cc2541/barometer", cc2541.build_barometer(raw_air(value))))
+        down, up = (cc2541.build_keys(cc2541.Keys(left=left)) for left in (True, False))
+        sent += _keys("cc2541/keys", self.presses, down, up)
         return sorted(sent, key=_when)
 
     def _setup(self) -> list[Notification]:
@@ -146,6 +158,10 @@ def _air(
     t = samplings(walker, clock, _SLOW, clock.first + 0.5).taken
     height = walker.kinematics(foot, t, mounting).position[:, 2]
     return t, read_barometer(height, t, part, rng)
+
+
+def _keys(channel: str, presses: tuple[float, ...], down: bytes, up: bytes) -> list[Notification]:
+    return [n for t in presses for n in (Notification(t, channel, down), Notification(t + _PRESS, channel, up))]
 
 
 def _each(when: Instants, sensor: str, values: list[bytes]) -> list[Notification]:
