@@ -48,8 +48,14 @@ class InertialCues:
     shuffle_time: float = 0.15
     loading_time: float = 0.4
     """The same right after heel-strike, when the sensor still swings down with the sole, s."""
+    lookback: float = 0.02
+    """Stillness is judged over a window, so it began about this long before it showed, s."""
+    rolling: float = 0.12
+    """The heel came off when the sagittal rate was last below this, rad/s."""
     # state
     still_since: float | None = field(default=None, init=False)
+    calm: float | None = field(default=None, init=False)
+    """The last moment of this stance at which the foot did not turn, s."""
     moving_since: float | None = field(default=None, init=False)
     fast_since: float | None = field(default=None, init=False)
     axis: Vec3 | None = field(default=None, init=False)
@@ -87,17 +93,20 @@ class InertialCues:
             elif self.fast_since is None:
                 self.fast_since = t
         if phase is Phase.SWING:
+            self.calm = None
             return self._in_swing(t, dt, before, now)
+        if now < self.rolling and (still or self.calm is None):
+            self.calm = t
         if self.still_since is not None:
             if phase is not Phase.STATIONARY and t - self.still_since >= min(self.settle, 1.9 * dt):
-                return Seen(Cue.FLAT, self.still_since)
+                return Seen(Cue.FLAT, self.still_since - self.lookback)
             return None
         x, y, z = self.turned
         self.turned = (x + gx * dt, y + gy * dt, z + gz * dt)
         if phase is Phase.STATIONARY:
             self.peak = max(self.peak, now)
             if self.moving_since is not None and t - self.moving_since >= min(self.settle, 1.9 * dt):
-                return Seen(Cue.LIFT, self.moving_since)
+                return Seen(Cue.LIFT, self.moving_since if self.calm is None else min(self.calm, self.moving_since))
             return None
         return self._in_push_off(t, dt, before, now, phase)
 
@@ -118,7 +127,7 @@ class InertialCues:
         self.trough = min(self.trough, now)
         if self.still_since is not None:
             if t - self.still_since >= min(self.settle, 1.9 * dt):
-                return Seen(Cue.CONTACT, self.still_since)
+                return Seen(Cue.CONTACT, self.still_since - self.lookback)
             return None
         landed = self.axis is not None and self.trough < -self.hump and t - self.toe_off >= self.shortest_swing
         if landed and before < 0.0 <= now:
@@ -163,17 +172,29 @@ class PressureCues:
     area_on: float = 0.06
     """The same for the heel and for the forefoot alone."""
     area_off: float = 0.03
+    recent: float = 0.3
+    """The heel's last load before a lift may date it this far back, s."""
     # state
     before: float = field(default=0.0, init=False)
+    heel_loaded: float | None = field(default=None, init=False)
+    """When the heel was last seen to carry load, s."""
 
     def update(self, t: float, dt: float, load: Load, phase: Phase) -> Seen | None:
         before, now = self.before, load.total
         self.before = now
+        if load.heel is not None and load.heel > self.area_off:
+            self.heel_loaded = t
         if phase is Phase.SWING:
             return Seen(Cue.CONTACT, _crossing(t, dt, before, now, self.on)) if now > self.on else None
         if now < self.off:
             return Seen(Cue.CLEAR, _crossing(t, dt, before, now, self.off))
         return None
+
+    def dated(self, lift: Seen) -> Seen:
+        """The inertial sensor saw the heel lift; the cells know when it did, if the heel has any."""
+        if self.heel_loaded is None or not 0.0 <= lift.t - self.heel_loaded < self.recent:
+            return lift
+        return Seen(lift.cue, self.heel_loaded)
 
     def areas(self, t: float, load: Load, phase: Phase) -> Seen | None:
         """For an insole without an inertial sensor: heel and forefoot say what stillness would have said."""

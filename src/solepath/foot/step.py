@@ -8,7 +8,8 @@ from attrs import define, field
 
 from ..events import StepFeatures, StepTaken
 from ..types import Foot, Quat, Vec3
-from ..vector import IDENTITY, ZERO, conjugate, multiply
+from ..vector import IDENTITY, ZERO, conjugate, multiply, sub
+from .world import World
 
 COP_POINTS = 32
 
@@ -79,7 +80,7 @@ class StepBuilder:
     cop_skipped: int = field(default=0, init=False)
 
     def begin(self, t: float, position: Vec3, attitude: Quat) -> None:
-        """The foot is flat here: a step may start."""
+        """The foot is flat here: a step may start. Position (m) and attitude in the navigation frame."""
         self.t_start = t
         self.start = position
         self.attitude = attitude
@@ -121,14 +122,13 @@ class StepBuilder:
             self.cop_stride *= 2
 
     def finish(
-        self, t: float, known_at: float, position: Vec3, attitude: Quat, covariance: tuple[float, ...]
+        self, t: float, known_at: float, position: Vec3, attitude: Quat, stretch: tuple[float, ...], world: World
     ) -> StepTaken | None:
-        """The foot is flat again: the step, if it was one."""
+        """The foot is flat again: the step, if it was one. `position`, `attitude` and `stretch` as `begin` had them."""
         if self.t_start is None or self.t_toe_off is None:
             return None
-        (x, y, z), (u, v, w) = position, self.start
-        dx, dy, dz = displacement = (x - u, y - v, z - w)
-        length = hypot(dx, dy)
+        displacement = world.vector(sub(position, self.start))
+        length, dz = hypot(displacement[0], displacement[1]), displacement[2]
         # the twist about the vertical of the turn from the first attitude to the second
         q, _, _, k = multiply(attitude, conjugate(self.attitude))
         turn = 2.0 * atan2(k, q)
@@ -136,7 +136,6 @@ class StepBuilder:
         if hypot(length, dz) < self.shortest and abs(turn) < self.least_turn:
             return None
         self.number += 1
-        xx, xy, xz, yy, yz, zz = covariance[:6]
         return StepTaken(
             t=t,
             known_at=known_at,
@@ -145,16 +144,16 @@ class StepBuilder:
             t_start=self.t_start,
             t_end=t,
             displacement=displacement,
-            position=position,
+            position=world.vector(position),
             stride_length=length,
             heading_change=turn,
             height_change=dz,
-            covariance=(xx, xy, xz, yy, yz, zz),
+            covariance=world.covariance(stretch[:6]),
             t_toe_off=self.t_toe_off,
             t_heel_strike=self.t_heel_strike,
             degraded=self.degraded,
             features=StepFeatures(
-                clearance=self.highest - max(z, w),
+                clearance=self.highest - max(position[2], self.start[2]),
                 peak_speed=self.fastest,
                 swing_pitch=self.pitch_high - self.pitch_low,
                 contact_load=self.load_sum / self.load_count if self.load_count else None,

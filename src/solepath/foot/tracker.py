@@ -10,7 +10,7 @@ from math import inf, isfinite, sqrt
 
 from attrs import define, field
 
-from ..events import Event, FootMoved, Limitation, Rejection, SampleGap, SampleRejected, ScaleSuspect, StepTaken
+from ..events import Event, FootMoved, Limitation, Rejection, SampleGap, SampleRejected, ScaleSuspect
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..vector import GRAVITY, ZERO, sub
 from .attitude import Levelling, Rest
@@ -23,7 +23,7 @@ from .pressure import Insole
 from .pressure_stance import MaximumPressure, TwoArea
 from .stance import AngularRate, Graph, Load, MovingVariance, Shoe
 from .step import StepBuilder, Way
-from .world import FIRST_WAY, Covariance3, World
+from .world import Covariance3, World
 
 AnyDetector = Cycle | Shoe | AngularRate | MovingVariance | Graph | TwoArea | MaximumPressure
 AnyCorrector = ErrorStateFilter | LinearDedrift
@@ -52,6 +52,7 @@ class FootTracker:
     interval: float | None = field(default=None, init=False)
     """Usual time between samples, s."""
     phase: Phase = field(default=Phase.STATIONARY, init=False)
+    phase_began: float | None = field(default=None, init=False)
     levelling: Levelling = field(factory=Levelling, init=False)
     levelled: bool = field(default=False, init=False)
     rest: Rest = field(factory=Rest, init=False)
@@ -64,6 +65,8 @@ class FootTracker:
     anchored: Vec3 = field(default=ZERO, init=False)
     """Position of the last anchor, navigation frame, m."""
     world: World = field(factory=World, init=False)
+    headed: bool = field(default=False, init=False)
+    """The world's heading is settled."""
     said: list[str] = field(factory=list, init=False)
     scale_suspected: bool = field(default=False, init=False)
 
@@ -207,7 +210,7 @@ class FootTracker:
         if seen is not None:
             self._see(seen, known_at, events)
         elif self.world.north is None:
-            self._find_north()
+            self.world.find(corrector.position)
         self._say_where(t, known_at, events)
 
     def _say_where(self, t: float, known_at: float, events: list[Event]) -> None:
@@ -218,13 +221,13 @@ class FootTracker:
             )
 
     def _with_pressure(self, t: float, dt: float, load: Load, seen: Seen | None) -> Seen | None:
-        """Contact and clear are the pressure's to say; flat and lift the inertial sensor's."""
+        """Contact and clear are the pressure's to say, flat and lift the inertial sensor's; the heel dates the lift."""
         pressed = self.pressure_cues.update(t, dt, load, self.phase)
         if pressed is not None:
             return pressed
-        if seen is not None and seen.cue in (Cue.CONTACT, Cue.CLEAR):
-            return None
-        return seen
+        if seen is None or seen.cue is Cue.FLAT:
+            return seen
+        return self.pressure_cues.dated(seen) if seen.cue is Cue.LIFT else None
 
     def _pressure_alone(
         self, t: float, dt: float, known_at: float, sample: Sample, load: Load | None, events: list[Event]
@@ -247,22 +250,26 @@ class FootTracker:
         if phase is self.phase:
             return
         self.phase = phase
-        events.append(BEGINS[phase](t=seen.t, known_at=max(known_at, seen.t), foot=self.foot))
+        # cues look back by different spans; phases follow each other all the same
+        t = seen.t if self.phase_began is None else max(seen.t, self.phase_began)
+        self.phase_began = t
+        events.append(BEGINS[phase](t=t, known_at=max(known_at, t), foot=self.foot))
         if phase is Phase.SWING:
-            self.step.t_toe_off = seen.t
+            self.step.t_toe_off = t
         elif phase is Phase.LOADING:
-            self.step.t_heel_strike = seen.t
+            self.step.t_heel_strike = t
         elif phase is Phase.PUSH_OFF and self.levelled:
             self._anchor()
         elif phase is Phase.STATIONARY and self.levelled:
-            self._flat(seen.t, known_at, events)
+            self._flat(t, known_at, events)
 
     def _flat(self, t: float, known_at: float, events: list[Event]) -> None:
-        if self.world.north is None and self.step.t_toe_off is not None:
-            self._find_north(least=0.0)
-        covariance = self.world.covariance(self.corrector.covariance()[:6])
-        position, attitude = self.position, self.attitude
-        taken: StepTaken | None = self.step.finish(t, known_at, position, attitude, covariance)
+        corrector = self.corrector
+        position, attitude = corrector.position, corrector.attitude
+        if not self.headed and self.step.t_toe_off is not None:
+            # the first step fixes the heading; until then it was the direction in which the foot set out
+            self.headed = self.world.find(position, self.step.shortest)
+        taken = self.step.finish(t, known_at, position, attitude, corrector.covariance(), self.world)
         if taken is not None:
             events.append(taken)
         self.step.begin(t, position, attitude)
@@ -272,12 +279,6 @@ class FootTracker:
         stretch = self.corrector.anchor()
         self.way = self.way.extended(sub(position, self.anchored), stretch)
         self.anchored = position
-
-    def _find_north(self, least: float = FIRST_WAY) -> None:
-        if self.world.find(self.corrector.position, least) and self.step.t_start is not None:
-            # what the step remembers was said in the frame without a heading
-            self.step.start = self.world.vector(self.step.start)
-            self.step.attitude = self.world.attitude(self.step.attitude)
 
     def _check_scale(self, t: float, known_at: float, events: list[Event]) -> None:
         magnitude = self.rest.magnitude
