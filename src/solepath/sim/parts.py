@@ -2,7 +2,7 @@
 
 A tolerance that a sheet gives as +-x is taken as two standard deviations between parts. No sheet says how a bias
 wanders; here it follows the temperature: the sheet's drift per kelvin times WARMING, slowly. Where a sheet is silent
-the comment says what is assumed.
+the comment says what is assumed. (*) marks figures that have not been compared with the sheet itself.
 """
 
 from __future__ import annotations
@@ -75,13 +75,13 @@ MPU9250 = Imu(
 
 KXTJ9_IMU3000 = Imu(
     "KXTJ9 and IMU-3000",
-    # Kionix KXTJ9: 8 bits a reading; zero-g offset +-125 mg at the most, 0.2 mg/K, cross axis 2 %, ODR 50 Hz at reset
+    # Kionix KXTJ9 (*): 8 bits a reading; zero-g offset +-125 mg at the most, 0.2 mg/K, cross axis 2 %, ODR 50 Hz at reset
     # with the low pass at ODR/2. Noise 750 ug/sqrt(Hz) and scale +-3 % are figures of the family, and far below one
     # count of 1/16 g.
     Triad(
         density=750e-6 * _G, bias=60 * _MG, wander=0.2 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=25.0, bits=8
     ),
-    # InvenSense PS-IMU-3000A rev. 1.1: 0.01 dps/sqrt(Hz), initial ZRO +-20 dps, +-0.03 dps/K, scale +-3 %,
+    # InvenSense PS-IMU-3000A rev. 1.1 (*): 0.01 dps/sqrt(Hz), initial ZRO +-20 dps, +-0.03 dps/K, scale +-3 %,
     # cross axis 2 %, linear acceleration sensitivity 0.1 dps/g, low pass up to 256 Hz.
     Triad(
         density=0.01 * _DPS,
@@ -95,10 +95,10 @@ KXTJ9_IMU3000 = Imu(
 )
 
 AK8963 = Triad(density=0.15e-6, bias=10e-6, wander=0.2e-6, scale=0.025, cross=0.01, bandwidth=50.0)
-"""AKM MS1356-E (inside the MPU-9250): 0.15 uT a count, scale +-5 %. The bias, the shoe's own iron, is assumed."""
+"""AKM MS1356-E (*) (inside the MPU-9250): 0.15 uT a count, scale +-5 %. The bias, the shoe's own iron, is assumed."""
 
 MAG3110 = Triad(density=0.25e-6, bias=10e-6, wander=0.2e-6, scale=0.025, cross=0.01, bandwidth=40.0)
-"""Freescale MAG3110: 0.25 uT rms noise, 0.1 uT a count, cross axis +-1 %. The bias is assumed, as above."""
+"""Freescale MAG3110 (*): 0.25 uT rms noise, 0.1 uT a count, cross axis +-1 %. The bias is assumed, as above."""
 
 
 @frozen
@@ -113,10 +113,10 @@ class BarometerPart:
 
 
 BMP280 = BarometerPart("BMP280", noise=1.3, offset=50.0)
-"""Bosch BST-BMP280-DS001: 1.3 Pa rms in standard resolution without filter, absolute accuracy +-1 hPa."""
+"""Bosch BST-BMP280-DS001: absolute accuracy +-1 hPa; 1.3 Pa rms in standard resolution without filter (*)."""
 
 T5400 = BarometerPart("T5400", noise=6.0, offset=50.0)
-"""EPCOS T5400: absolute accuracy +-1 hPa; the noise of a low-power reading is taken as 6 Pa (0.5 m)."""
+"""EPCOS T5400 (*): absolute accuracy +-1 hPa; the noise of a low-power reading is taken as 6 Pa (0.5 m)."""
 
 
 @frozen
@@ -135,7 +135,7 @@ class CellPart:
 
 
 RESISTIVE = CellPart("FSR", gain=0.03, preload=0.5, noise=0.12, lag=0.003)
-"""Interlink FSR 400 series integration guide: part-to-part repeatability +-6 %, break force 0.2 N. Noise of 2 to 3
+"""Interlink FSR 400 series integration guide (*): part-to-part repeatability +-6 %, break force 0.2 N. Noise of 2 to 3
 counts, the lag of the cover and the in-shoe preload are assumed."""
 
 CAPACITIVE = CellPart("capacitive", gain=0.025, preload=0.3, noise=0.06, lag=0.002)
