@@ -75,8 +75,8 @@ MPU9250 = Imu(
 
 KXTJ9_IMU3000 = Imu(
     "KXTJ9 and IMU-3000",
-    # Kionix KXTJ9 (*): 8 bits a reading; zero-g offset +-125 mg at the most, 0.2 mg/K, cross axis 2 %, ODR 50 Hz at reset
-    # with the low pass at ODR/2. Noise 750 ug/sqrt(Hz) and scale +-3 % are figures of the family, and far below one
+    # Kionix KXTJ9 (*): 8 bits a reading; zero-g offset +-125 mg at the most, 0.2 mg/K, cross axis 2 %, ODR 50 Hz at
+    # reset, low pass at ODR/2. Noise 750 ug/sqrt(Hz) and scale +-3 % are figures of the family, and far below one
     # count of 1/16 g.
     Triad(
         density=750e-6 * _G, bias=60 * _MG, wander=0.2 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=25.0, bits=8
