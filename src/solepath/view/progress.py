@@ -24,7 +24,9 @@ def progress_bar(what: str, total: int, *, wanted: bool = True) -> Iterator[Call
     except ImportError:
         yield _ignore
         return
-    with Progress(console=Console(stderr=True), transient=True) as bar:
+    # what is printed meanwhile is lifted above the bar, unless it goes into a file
+    lifted = sys.stdout.isatty()
+    with Progress(console=Console(stderr=True), transient=True, redirect_stdout=lifted) as bar:
         task = bar.add_task(what, total=total)
         shown = 0.0
 
