@@ -292,6 +292,30 @@ def test_a_reader_that_leaves_early_is_no_error(packets):
         assert process.stderr.read() == b""
 
 
+# --- in a terminal ----------------------------------------------------------------------------------------------------
+
+
+def test_in_a_terminal_the_demo_is_drawn_as_it_goes_and_ends_with_the_same_table():
+    pty = pytest.importorskip("pty")
+    pytest.importorskip("rich")
+    ours, theirs = pty.openpty()
+    command = [sys.executable, "-m", "solepath", "demo", "--speed", "200"]
+    terminal = {"TERM": "xterm", "COLUMNS": "100", "LINES": "60"}
+    with subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs, env=os.environ | terminal) as process:
+        os.close(theirs)
+        seen = b""
+        try:
+            while part := os.read(ours, 65536):
+                seen += part
+        except OSError:  # how Linux says that the other end of a terminal was closed
+            pass
+    os.close(ours)
+    assert process.returncode == 0
+    drawn, table = seen.decode().split("against the truth")
+    assert drawn.count("200 times real time") > 1 and "\x1b[" in drawn
+    assert "steps invented" in table
+
+
 # --- evaluate ---------------------------------------------------------------------------------------------------------
 
 

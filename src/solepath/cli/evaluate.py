@@ -37,9 +37,10 @@ def run(options: argparse.Namespace) -> int:
 
     from .. import recipes
     from ..evaluate.jobs import evaluate
-    from ..evaluate.report import as_json, as_text
+    from ..evaluate.report import as_json
     from ..recording import RecordingError
     from ..view.progress import progress_bar
+    from ..view.scores import score_table
 
     named = os.environ.get(ENVIRONMENT)
     folder = options.dir or (Path(named) if named else None)
@@ -58,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
                 folder, chosen, only=options.only, processes=max(1, options.processes), progress=percent
             ):
                 results.append(result)
-                print(as_text(result), end="\n\n", flush=True)
+                print(score_table(result), end="\n\n", flush=True)
     except RecordingError as error:
         raise Failure(str(error)) from None
     if options.json:

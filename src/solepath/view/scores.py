@@ -1,0 +1,81 @@
+"""Scores on recorded data as text tables."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from ..evaluate.report import Result
+from ..evaluate.score import Figures
+from .table import milliseconds, number, percent, table
+
+
+def _metres(value: float | None) -> str:
+    return number(value, 3)
+
+
+def _short_metres(value: float | None) -> str:
+    return number(value, 1)
+
+
+def _count(value: float | None) -> str:
+    return number(value, 0)
+
+
+def _share(value: float | None) -> str:
+    return number(value, 3)
+
+
+COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
+    "armse_2d": ("ARMSE2d m", _metres),
+    "rms_2d": ("RMS 2D m", _metres),
+    "rms_3d": ("RMS 3D m", _metres),
+    "path": ("path m", _short_metres),
+    "relative": ("of path %", percent),
+    "position_mean": ("error m", _metres),
+    "position_max": ("largest m", _metres),
+    "end_error": ("end error m", _metres),
+    "end_error_2d": ("in 2D m", _metres),
+    "strides_found": ("found", _count),
+    "strides_true": ("of strides", _count),
+    "strides_invented": ("invented", _count),
+    "stride_error": ("length MAE %", percent),
+    "stride_error_median": ("median %", percent),
+    "stride_error_track": ("live track %", percent),
+    "heel_strike_true": ("HS true", _count),
+    "heel_strike_found": ("found", _count),
+    "heel_strike_f1": ("F1", _share),
+    "heel_strike_bias": ("bias ms", milliseconds),
+    "heel_strike_mad": ("MAD ms", milliseconds),
+    "toe_off_true": ("TO true", _count),
+    "toe_off_found": ("found", _count),
+    "toe_off_f1": ("F1", _share),
+    "toe_off_bias": ("bias ms", milliseconds),
+    "toe_off_mad": ("MAD ms", milliseconds),
+}
+"""Every figure by its name in JSON: how its column is headed, and how it is written."""
+
+
+
+def score_table(result: Result) -> str:
+    """Title, table with a line a recording (where there are few) and the averages, and what failed."""
+    data_set = result.data_set
+    header = ["recording", *(COLUMNS[key][0] for key in data_set.figures)]
+    rows: list[Sequence[str]] = []
+    if data_set.each:
+        rows += [_row(score.recording, score.flat(), data_set.figures) for score in result.scores]
+        rows.append([])
+    for summary in result.summaries:
+        name = "" if summary.group == "all" else f" {summary.group}"
+        if summary.mean:
+            rows.append(_row(f"mean of {summary.count}{name}", summary.mean | summary.together, data_set.figures))
+            rows.append(_row("median", summary.median, data_set.figures))
+        else:
+            rows.append(_row(f"together {summary.count}{name}", summary.together, data_set.figures))
+    seconds, samples = sum(s.seconds for s in result.scores), sum(s.samples for s in result.scores)
+    speed = f"{samples} samples, {1e6 * seconds / samples:.1f} us each" if samples else "no samples"
+    title = f"{data_set.name}: {data_set.title} ({result.recipe}; {speed})"
+    return "\n".join([title, table(header, rows), *(f"failed: {sentence}" for sentence in result.failures)])
+
+
+def _row(name: str, figures: Figures, keys: Sequence[str]) -> list[str]:
+    return [name, *(COLUMNS[key][1](figures.get(key)) for key in keys)]
