@@ -1,9 +1,9 @@
 """Saving and restoring: every machine is a plain record, and a plain record is JSON.
 
-A machine is an attrs class whose fields are floats, ints, strings, booleans, None, bytes, enums, tuples, lists, dicts
-with string or enum keys, deques, and other such records. `save` turns it into a JSON-able value, `load` builds it again from
-the type annotations; a field typed as a union of records carries the class name. Nothing else may be held across two
-samples: no generators, closures, rebound methods or arrays.
+A machine is an attrs class whose fields are floats, ints, strings, booleans, None, bytes, enums, tuples, lists, deques,
+dicts with string or enum keys, and other such records. `save` turns it into a JSON-able value, `load` builds it again
+from the type annotations; a field typed as a union of records carries the class name. Nothing else may be held across
+two samples: no generators, closures, rebound methods or arrays.
 
     feed(...) -> list of what came out     advance(now) -> the same     finish() -> the same
 """
@@ -146,7 +146,7 @@ def _record_codec(cls: type) -> tuple[_Saver, _Loader]:
         missing = {name for name, *_ in fields} - value.keys()
         if unknown or missing:
             raise SnapshotError(f"{cls.__name__} does not have the fields {sorted(unknown | missing)}")
-        record = cls.__new__(cls)
+        record: Any = object.__new__(cls)
         for name, _, _, load_field in fields:
             object.__setattr__(record, name, load_field(value[name]))
         return record

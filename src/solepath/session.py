@@ -17,7 +17,7 @@ from typing import Any
 
 from attrs import define, field, frozen
 
-from .events import ClockReset, Event, LayoutKnown, Limitation
+from .events import ClockReset, Event, LayoutKnown, Limitation, ScaleSuspect
 from .foot.phase import SUPPORT
 from .foot.tracker import FootTracker
 from .foot.world import Covariance3
@@ -152,6 +152,8 @@ class Session:
                 self._tracker(foot).wear(item.layout)
             elif foot is not None and isinstance(item, ClockReset):
                 self._tracker(foot).interrupt()
+            elif foot is not None and isinstance(item, ScaleSuspect):
+                self._tracker(foot).scale_suspected = True  # said once, by the one that knows the range
 
     def _tracker(self, foot: Foot) -> FootTracker:
         state = self._state

@@ -127,6 +127,8 @@ class FootTracker:
         if self.t is not None:
             dt = self._watch_for_gaps(t - self.t, known_at, events)
         self.t = t
+        if sample.saturated:
+            self.step.degraded = True
         load: Load | None = None
         if sample.pressure is not None:
             load = self.insole.update(t, sample.pressure)

@@ -190,7 +190,7 @@ class InsoleLink:
             out.append(ClockReset(t=t, known_at=max(arrival, t), site=self.site, restarted=restarted))
         ticks = self.ticks
         for sample in frame.samples:
-            self._sample(sample, clock.time(ticks), arrival, out)
+            self._sample(sample, clock.time(ticks), arrival, frame.saturated, out)
             ticks += frame.interval
         return out
 
@@ -216,7 +216,7 @@ class InsoleLink:
             raise WireError(Rejection.DUPLICATE, f"a frame that came already, {-m} before the newest")
         raise WireError(Rejection.LATE, f"{-m} frames behind the newest")
 
-    def _sample(self, raw: InsoleSample, t: float, arrival: float, out: Output) -> None:
+    def _sample(self, raw: InsoleSample, t: float, arrival: float, saturated: bool, out: Output) -> None:
         acc = gyro = pressure = None
         if raw.imu is not None:
             ax, ay, az, gx, gy, gz = raw.imu
@@ -230,7 +230,7 @@ class InsoleLink:
             pressure = tuple([c * n for c in raw.cells]) if n > 0.0 else tuple(map(float, raw.cells))
         quat = None if raw.quat is None else _unit(raw.quat)
         known_at = arrival if arrival > t else t
-        out.append(Sample(t, self.site, acc, gyro, pressure, quat, known_at=known_at))
+        out.append(Sample(t, self.site, acc, gyro, pressure, quat, known_at=known_at, saturated=saturated))
         if acc is not None and not self.rest.done:
             magnitude = self.rest.feed(t, acc)
             if magnitude is not None:
