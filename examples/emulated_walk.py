@@ -1,0 +1,40 @@
+"""A walk without hardware: an emulated wearer in two pressure insoles, and what solepath makes of the packets.
+
+    python examples/emulated_walk.py
+"""
+
+from math import degrees, radians
+
+from solepath import FootFlat, HeelOff, HeelStrike, PacketRejected, PacketsLost, Session, StepTaken, ToeOff
+from solepath.sim import Radio, Route, emulate
+
+# Stand, walk six metres, turn left on a bend, walk on, stop. The radio loses one packet in fifty.
+route = Route().stand(2).walk(6, speed=1.3).turn(radians(90), radius=1.5).walk(3).stop(2)
+walk = emulate(route, radio=Radio(loss=0.02, latency=0.015, jitter=0.030), seed=1)
+print(f"{len(walk.packets)} packets in {walk.truth.duration:.1f} s. The first one:")
+print(walk.packets[0])
+
+# A session is all that an app holds. It opens nothing and waits for nothing: packets go in, events come out.
+session = Session()
+lost = rejected = 0
+for packet in walk.packets:
+    for event in session.feed(packet):  # in the order in which they became known
+        match event:
+            case HeelStrike() | FootFlat() | HeelOff() | ToeOff():
+                # t: when it happened. known_at: when the packet came that settled it.
+                late = 1000 * (event.known_at - event.t)
+                print(f"{event.t:6.2f} s  {event.foot.value:5}  {type(event).__name__:10}  known {late:3.0f} ms later")
+            case StepTaken(t=t, foot=foot, number=number, stride_length=length, heading_change=turn):
+                print(f"{t:6.2f} s  {foot.value:5}  step {number}: {length:.2f} m, turned {degrees(turn):+.0f} deg")
+            case PacketsLost(count=count):
+                lost += count
+            case PacketRejected():
+                rejected += 1
+session.finish()
+
+end = route.end
+print(f"\nThe route ends at x {end.x:.2f} m (ahead), y {end.y:.2f} m (left).")
+if session.position is not None:
+    x, y, z = session.position.position
+    print(f"The session says  x {x:.2f} m,         y {y:.2f} m.")
+print(f"{lost} packets lost, {rejected} rejected.")

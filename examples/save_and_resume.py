@@ -1,0 +1,31 @@
+"""Stop in the middle of a walk, go on later in another process, and lose nothing.
+
+    python examples/save_and_resume.py
+
+A snapshot is plain data, so it goes through JSON, a database or a message as it is.
+"""
+
+import json
+
+from solepath import Event, Session
+from solepath.sim import Route, emulate
+
+walk = emulate(Route().stand(2).walk(10, speed=1.2).stop(2), seed=3)
+half = len(walk.packets) // 2
+
+# The first half. It ends in the middle of a step, as life does.
+session = Session()
+events: list[Event] = session.feed(walk.packets[:half])
+text = json.dumps(session.snapshot())
+print(f"{len(events)} events so far, saved in {len(text) / 1000:.0f} kB of JSON")
+del session
+
+# The second half. Session.restore raises SnapshotError for what is no snapshot of this version.
+session = Session.restore(json.loads(text))
+events += session.feed(walk.packets[half:])
+events += session.finish()
+
+# The same walk without a pause gives the same events, to the last bit of every number.
+whole = Session()
+same = whole.feed(walk.packets) + whole.finish() == events
+print(f"{len(events)} events in the end; the same as without the pause: {same}")

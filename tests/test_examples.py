@@ -1,0 +1,72 @@
+"""Every program in examples/ runs as its first lines say, and tells what they promise."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from solepath.recording import PacketWriter
+from solepath.sim import Radio, Route, Walker, emulate
+from solepath.types import Foot
+
+EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
+ROUTE = Route().stand(2.0).walk(6.0, speed=1.3).stop(1.5)
+
+
+def run(name: str, *arguments: object) -> str:
+    """What the program prints; it must end well and have nothing to complain about."""
+    command = [sys.executable, EXAMPLES / f"{name}.py", *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, stdin=subprocess.DEVNULL, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    return done.stdout
+
+
+def test_every_example_is_run_here_and_is_short():
+    here = Path(__file__).read_text()
+    for path in EXAMPLES.glob("*.py"):
+        assert f'run("{path.stem}"' in here, path.name
+        assert len(path.read_text().splitlines()) < 60, path.name
+
+
+def test_an_emulated_walk_ends_where_its_route_ends():
+    lines = run("emulated_walk").splitlines()
+    assert {"HeelStrike", "FootFlat", "HeelOff", "ToeOff"} <= {line.split()[3] for line in lines if " known " in line}
+    (ends,) = [line.split() for line in lines if line.startswith("The route ends")]
+    (says,) = [line.split() for line in lines if line.startswith("The session says")]
+    assert float(says[4]) == pytest.approx(float(ends[5]), abs=0.5)
+    assert float(says[7]) == pytest.approx(float(ends[9]), abs=0.5)
+
+
+def test_the_loop_tells_the_steps_of_a_recording(tmp_path):
+    walk = emulate(ROUTE, radio=Radio(corrupt=0.02), seed=2)
+    with PacketWriter(tmp_path / "walk.jsonl") as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    told = run("own_loop", tmp_path / "walk.jsonl")
+    for foot in Foot:
+        assert told.count(f"{foot.value} step of") == len(walk.truth.steps(foot))
+    assert "a packet was not used: checksum" in told
+
+
+def test_a_walk_that_was_saved_half_way_goes_on_as_if_nothing_had_happened():
+    assert "the same as without the pause: True" in run("save_and_resume")
+
+
+def test_samples_of_ones_own_give_steps(tmp_path):
+    assert "step 9" in run("own_samples")
+    samples = Walker(ROUTE).samples(Foot.RIGHT, 100.0)
+    rows = [(sample.t, *(sample.acc or ()), *(sample.gyro or ())) for sample in samples]
+    header = "t,acc_x,acc_y,acc_z,gyro_x,gyro_y,gyro_z"
+    np.savetxt(tmp_path / "walk.csv", rows, delimiter=",", header=header, comments="")
+    true = len(Walker(ROUTE).truth().steps(Foot.RIGHT))
+    assert run("own_samples", tmp_path / "walk.csv").count(" step ") == true
+
+
+def test_two_recipes_on_one_walk_are_set_beside_the_truth():
+    title, *rows = run("compare_detectors").splitlines()
+    assert title.split()[:2] == ["recipe", "foot"] and len(rows) == 4
+    for row in rows:
+        found, true, length_error, _ = row.split()[-4:]
+        assert found == true and float(length_error) < 5.0
