@@ -76,6 +76,8 @@ def test_a_tally_counts_what_was_said_of_each_foot():
     text = summary(tally, title="walk.npz", seconds=2.0)
     assert text.splitlines()[0] == "walk.npz: 4.0 s"
     assert "left: 1 of 1 steps degraded" in text and "2 times as fast as walked" in text
+    # 62.5 ms, and only of what is final; a half is rounded to the even millisecond
+    assert "known after it happened, median: heel-strike 62 ms\n" in text
 
 
 def test_of_packets_a_tally_counts_the_samples_with_a_position():

@@ -35,7 +35,7 @@ ROUTE = (
     .walk(10.0, speed=1.4)
     .stop(2.0)
 )
-"""About 45 m: a U, a halt, a turn on the spot, and away again."""
+"""About 40 m: a U, a halt, a turn on the spot, and away again."""
 
 SPACING = 0.15
 """m between the points of the track that is drawn."""

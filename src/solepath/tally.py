@@ -25,6 +25,9 @@ from .events import (
 )
 from .types import Foot, Packet, Phase, Sample, Site, Vec3
 
+DATED = {HeelStrike: "heel-strike", FootFlat: "foot-flat", HeelOff: "heel-off", ToeOff: "toe-off"}
+"""The events of a foot's phases, and what they are called."""
+
 
 @define
 class FootTally:
@@ -75,6 +78,8 @@ class Tally:
     """By ("packets" | "samples", reason)."""
     clock_resets: int = 0
     stale: int = 0
+    delays: dict[str, list[float]] = field(factory=dict)
+    """By gait event: how long after it happened each one was known, s."""
     limitations: list[str] = field(factory=list)
     suspects: list[str] = field(factory=list)
 
@@ -100,6 +105,9 @@ class Tally:
             self.foot(foot).seen(sample.t)
 
     def add(self, event: Event) -> None:
+        name = DATED.get(type(event))
+        if name is not None and event.final:
+            self.delays.setdefault(name, []).append(event.known_at - event.t)
         match event:
             case FootMoved():
                 one = self.foot(event.foot)

@@ -34,6 +34,7 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     from ..demo import RADIO, ROUTE, make_demo
     from ..view.comparison import comparison_table
+    from ..view.summary import latency
 
     demo = make_demo(abs(options.seed))
     print(
@@ -50,7 +51,7 @@ def run(options: argparse.Namespace) -> int:
     else:
         _tell(demo)
     print()
-    print(comparison_table(demo.comparison()))
+    print("\n".join([comparison_table(demo.comparison()), "", *latency(demo.tally)]))
     return 0
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from ..tally import Tally
+from statistics import median
+
+from ..tally import DATED, Tally
 from ..types import Foot
-from .table import number, table
+from .table import milliseconds, number, table
 
 
 def summary(tally: Tally, *, title: str, seconds: float) -> str:
@@ -27,6 +29,7 @@ def summary(tally: Tally, *, title: str, seconds: float) -> str:
         if one.degraded:
             lines.append(f"{foot.value}: {one.degraded} of {one.steps} steps degraded by missing or saturated samples")
     lines += link_health(tally)
+    lines += latency(tally)
     lines += [f"does without {what}" for what in tally.limitations]
     lines += [f"suspect scale, {what}" for what in tally.suspects]
     samples = sum(one.samples for one in tally.feet.values())
@@ -52,3 +55,9 @@ def link_health(tally: Tally) -> list[str]:
     if tally.stale:
         lines.append(f"{tally.stale} times a stream fell silent")
     return lines
+
+
+def latency(tally: Tally) -> list[str]:
+    """How long after they happened the gait events were known, the radio's time included; nothing without any."""
+    known = [f"{name} {milliseconds(median(tally.delays[name]))} ms" for name in DATED.values() if name in tally.delays]
+    return [f"known after it happened, median: {', '.join(known)}"] if known else []
