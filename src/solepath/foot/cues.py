@@ -33,7 +33,7 @@ class Seen(NamedTuple):
 class InertialCues:
     """Latency: heel-strike and toe-off one sample; foot-flat and heel-off `settle` s."""
 
-    settle: float = 0.03
+    settle: float = 0.009
     """Stillness, or its loss, must last this long, s."""
     push: float = 1.5
     """A push-off's peak rate is at least this, rad/s."""
@@ -98,14 +98,14 @@ class InertialCues:
         if now < self.rolling and (still or self.calm is None):
             self.calm = t
         if self.still_since is not None:
-            if phase is not Phase.STATIONARY and t - self.still_since >= min(self.settle, 1.9 * dt):
+            if phase is not Phase.STATIONARY and t - self.still_since >= self.settle:
                 return Seen(Cue.FLAT, self.still_since - self.lookback)
             return None
         x, y, z = self.turned
         self.turned = (x + gx * dt, y + gy * dt, z + gz * dt)
         if phase is Phase.STATIONARY:
             self.peak = max(self.peak, now)
-            if self.moving_since is not None and t - self.moving_since >= min(self.settle, 1.9 * dt):
+            if self.moving_since is not None and t - self.moving_since >= self.settle:
                 return Seen(Cue.LIFT, self.moving_since if self.calm is None else min(self.calm, self.moving_since))
             return None
         return self._in_push_off(t, dt, before, now, phase)
@@ -126,7 +126,7 @@ class InertialCues:
     def _in_swing(self, t: float, dt: float, before: float, now: float) -> Seen | None:
         self.trough = min(self.trough, now)
         if self.still_since is not None:
-            if t - self.still_since >= min(self.settle, 1.9 * dt):
+            if t - self.still_since >= self.settle:
                 return Seen(Cue.CONTACT, self.still_since - self.lookback)
             return None
         landed = self.axis is not None and self.trough < -self.hump and t - self.toe_off >= self.shortest_swing

@@ -30,15 +30,15 @@ class Cycle:
     """A moment quieter than this counts as this: after standing, the next stance is not as still as standing was."""
     ceiling: float = 3e6
     """Nor above this; no stance of the recordings seen is louder."""
-    certain: float = 5e3
+    certain: float = 2e3
     """Below this the foot is still whatever the filter believes."""
     sigma: float = 0.01
     """Noise of a foot that does not move at all, m/s."""
-    arm: float = 0.06
+    arm: float = 0.1
     """Velocity noise for each rad/s, m."""
-    arm2: float = 0.5
+    arm2: float = 1.2
     """Velocity noise for each (rad/s)^2, m s: the rolling foot."""
-    off_gravity: float = 0.1
+    off_gravity: float = 0.05
     """Velocity noise for each m/s^2 off gravity, s."""
     bucket: float = 0.4
     """Length of one of the four spans over which the extremes are kept, s."""

@@ -42,17 +42,17 @@ _STRETCH = (0, 1, 2, 3, 4, 5, YAW, 17, 20, 23)
 
 @define
 class ErrorStateFilter(Strapdown):
-    acc_noise: float = 0.05
+    acc_noise: float = 0.03
     """Accelerometer noise with all that stands for it (scale, g-sensitivity), m/s^2/sqrt(Hz)."""
-    gyro_noise: float = 0.002
+    gyro_noise: float = 0.003
     """Gyroscope noise, rad/s/sqrt(Hz)."""
-    in_motion: float = 0.001
+    in_motion: float = 0.002
     """Added noise as a share of the motion: scale and alignment errors, 1/sqrt(Hz)."""
     clipping: float = 8.5
     """Rates beyond this may be clipped (many foot sensors end at 500 deg/s), rad/s."""
     clipped_noise: float = 0.3
     """Noise of a rate that may be clipped, rad/s/sqrt(Hz)."""
-    refuse: float = 16.0
+    refuse: float = 12.0
     """Largest normalised innovation squared (chi-square, three degrees of freedom)."""
     patience: float = 1.2
     """After refusing everything for this long the filter is lost, s."""
