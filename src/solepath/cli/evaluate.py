@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 from typing import Any
 
-from .failure import Failure, known_recipe
+from .failure import Failure, known_recipe, note
 
 ENVIRONMENT = "SOLEPATH_DATA"
 
@@ -25,6 +25,9 @@ def add_to(commands: Any) -> None:
     command.add_argument(
         "--recipe", metavar="NAME", action="append", default=[], help="this recipe only; may be given again"
     )
+    command.add_argument(
+        "--markdown", action="store_true", help="print one table of the averages only, as the README quotes it"
+    )
     command.add_argument("--json", metavar="FILE", type=Path, help="write the scores as JSON too")
     command.add_argument(
         "--processes", metavar="N", type=int, default=os.cpu_count() or 1, help="how many recordings at a time"
@@ -39,6 +42,7 @@ def run(options: argparse.Namespace) -> int:
     from ..evaluate.jobs import evaluate
     from ..evaluate.report import as_json
     from ..recording import RecordingError
+    from ..view.markdown import accuracy_table
     from ..view.progress import progress_bar
     from ..view.scores import score_table
 
@@ -59,9 +63,14 @@ def run(options: argparse.Namespace) -> int:
                 folder, chosen, only=options.only, processes=max(1, options.processes), progress=percent
             ):
                 results.append(result)
-                print(score_table(result), end="\n\n", flush=True)
+                if not options.markdown:
+                    print(score_table(result), end="\n\n", flush=True)
     except RecordingError as error:
         raise Failure(str(error)) from None
+    if options.markdown:
+        print(accuracy_table(results))
+        for failed in (sentence for result in results for sentence in result.failures):
+            note(f"not scored: {failed}")
     if options.json:
         with options.json.open("w", encoding="utf-8") as file:
             json.dump(as_json(results), file, indent=1, allow_nan=False)

@@ -57,8 +57,8 @@ class Levelling:
     length: float = 0.25
     quiet_acc: float = 0.6
     """Standard deviation of acc that still counts as quiet, m/s^2; eight-bit accelerometers flicker by 0.3."""
-    quiet_gyro: float = 0.25
-    """The same of the angular rate itself, rad/s."""
+    quiet_gyro: float = 0.1
+    """The same of the angular rate, rad/s; its mean says nothing yet, since cheap gyroscopes are off by 0.3 at rest."""
     patience: float = 2.0
     # state
     span: Span = field(factory=Span, init=False)
@@ -72,11 +72,9 @@ class Levelling:
         self.span.add(acc, gyro)
         if t - self.span_start < self.length or self.span.count < 3:
             return None
-        mean_acc, mean_gyro = self.span.means()
+        mean_acc, _ = self.span.means()
         acc_variance, gyro_variance = self.span.variances()
-        gx, gy, gz = mean_gyro
-        turning = gyro_variance + gx * gx + gy * gy + gz * gz
-        quiet = acc_variance < self.quiet_acc**2 and turning < self.quiet_gyro**2
+        quiet = acc_variance < self.quiet_acc**2 and gyro_variance < self.quiet_gyro**2
         self.span = Span()
         self.span_start = t
         if quiet:
@@ -95,7 +93,7 @@ class Rest:
     """Largest standard deviation of acc at rest, m/s^2."""
     still_gyro: float = 0.02
     """Largest standard deviation of the rate at rest, rad/s: a standing foot, not one in mid-stance."""
-    largest_bias: float = 0.15
+    largest_bias: float = 0.5
     """A steadier rate than noise and yet larger than this is a turn, not a bias, rad/s."""
     # state
     span: Span = field(factory=Span, init=False)
@@ -125,9 +123,9 @@ class Rest:
             return False
         self.magnitude = (ax * ax + ay * ay + az * az) ** 0.5
         scale = GRAVITY / self.magnitude if self.magnitude > 0.0 else 0.0
-        # a scale beyond 10 % is a wrong range, not a scale error; later than the first rests, a change of more than
-        # 2 % is a lift starting or stopping
-        if 0.9 < scale < 1.1 and (self.count < 4 or abs(scale / self.scale - 1.0) < 0.02):
+        # beyond a fifth it is a wrong range, not a scale error (cheap accelerometers do read 1.1 g); later than the first
+        # rests, a change of more than 2 % is a lift starting or stopping
+        if 0.8 < scale < 1.25 and (self.count < 4 or abs(scale / self.scale - 1.0) < 0.02):
             self.scale += (scale - self.scale) / (min(self.count, 19) + 1)
         # the bias wanders, so the last ten seconds of rest count
         weight = 1.0 / (min(self.count, 19) + 1)

@@ -42,7 +42,7 @@ class LinearDedrift(Strapdown):
         self.force = self.rate = None
         self.swing = self.length = self.lasted = 0.0
 
-    def predict(self, dt: float, acc: Vec3, gyro: Vec3) -> None:
+    def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         self.integrate(dt, acc, gyro)
         vx, vy, vz = self.velocity
         self.length += sqrt(vx * vx + vy * vy + vz * vz) * dt

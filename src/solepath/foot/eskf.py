@@ -52,10 +52,14 @@ class ErrorStateFilter(Strapdown):
     """Rates beyond this may be clipped (many foot sensors end at 500 deg/s), rad/s."""
     clipped_noise: float = 0.3
     """Noise of a rate that may be clipped, rad/s/sqrt(Hz)."""
+    saturated_noise: float = 1.0
+    """Noise of a rate that the device says is clipped, rad/s/sqrt(Hz)."""
     refuse: float = 12.0
     """Largest normalised innovation squared (chi-square, three degrees of freedom)."""
     patience: float = 1.2
     """After refusing everything for this long the filter is lost, s."""
+    lasting: float = 0.25
+    """Evidence that goes on for this long is not refused any longer, s."""
     tilt_rate: float = 2.0
     """How fast gravity pulls the tilt upright while the evidence is certain, 1/s."""
     # state
@@ -68,6 +72,7 @@ class ErrorStateFilter(Strapdown):
     gyro_variance: float = field(default=0.0, init=False)
     accepted: float | None = field(default=None, init=False)
     quietest: float = field(default=1e12, init=False)
+    quiet_since: float | None = field(default=None, init=False)
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         self.attitude = attitude
@@ -78,10 +83,10 @@ class ErrorStateFilter(Strapdown):
         covariance[TILT_X] = covariance[TILT_Y] = tilt_sigma * tilt_sigma
         self.uncertainty = tuple(covariance)
         self.since = self.acc_variance = self.gyro_variance = 0.0
-        self.accepted = None
+        self.accepted = self.quiet_since = None
         self.quietest = 1e12
 
-    def predict(self, dt: float, acc: Vec3, gyro: Vec3) -> None:
+    def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         ax, ay, az = self.integrate(dt, acc, gyro)
         gx, gy, gz = gyro
         share = self.in_motion * self.in_motion
@@ -89,7 +94,9 @@ class ErrorStateFilter(Strapdown):
         turning = gx * gx + gy * gy + gz * gz
         noise = self.gyro_noise * self.gyro_noise + share * turning
         limit = self.clipping
-        if turning > limit * limit and (abs(gx) > limit or abs(gy) > limit or abs(gz) > limit):
+        if saturated:
+            noise += self.saturated_noise * self.saturated_noise
+        elif turning > limit * limit and (abs(gx) > limit or abs(gy) > limit or abs(gz) > limit):
             noise += self.clipped_noise * self.clipped_noise
         self.gyro_variance += noise * dt
         self.since += dt
@@ -97,7 +104,10 @@ class ErrorStateFilter(Strapdown):
     def correct(self, t: float, stance: Stance) -> bool:
         sigma = stance.sigma
         if sigma == inf:
+            self.quiet_since = None
             return False
+        if self.quiet_since is None:
+            self.quiet_since = t
         if self.since < SHORTEST_INTERVAL:
             return self.accepted is not None and self.quietest >= 1e12  # as the sample before was judged
         r = sigma * sigma * REFERENCE_INTERVAL / self.since
@@ -105,10 +115,13 @@ class ErrorStateFilter(Strapdown):
         certain = stance.hint is Phase.STATIONARY
         if self.accepted is None:
             self.accepted = t
-        if not certain and t - self.accepted > self.patience and stance.statistic <= 3.0 * self.quietest:
-            self._doubt(velocity=0.3, tilt=0.03)
         rx, ry, rz = stance.v_ref
         vx, vy, vz = self.velocity
+        if not certain and t - self.accepted > self.patience and stance.statistic <= 3.0 * self.quietest:
+            self._doubt(velocity=0.3, tilt=0.03)
+        elif t - self.quiet_since > self.lasting and t - self.accepted > self.lasting:
+            # no swing is quiet for so long, so the foot stands and the velocity is what is wrong
+            self._doubt(velocity=abs(vx - rx) + abs(vy - ry) + abs(vz - rz), tilt=0.1)
         outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if certain else self.refuse)
         if outcome is None:
             self.quietest = min(self.quietest, stance.statistic)

@@ -29,8 +29,9 @@ class Corrector(Protocol):
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         """Stand still at the origin with this attitude, its tilt known to `tilt_sigma` rad."""
 
-    def predict(self, dt: float, acc: Vec3, gyro: Vec3) -> None:
-        """One sample: `acc` in m/s^2 and `gyro` in rad/s, sensor frame, bias removed, `dt` s after the one before."""
+    def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
+        """One sample: `acc` in m/s^2 and `gyro` in rad/s, sensor frame, bias removed, `dt` s after the one before;
+        `saturated` when the device says that a sensor was at the end of its range."""
 
     def correct(self, t: float, stance: Stance) -> bool:
         """Use the evidence of the sample just predicted; True when it agreed with the motion so far."""

@@ -135,7 +135,7 @@ class FootTracker:
             if self.phase is not Phase.SWING and load is not None:
                 self.step.loaded(sum(sample.pressure), self.insole.centre_of_pressure(sample.pressure))
         if sample.acc is not None and sample.gyro is not None:
-            self._inertial(t, dt, known_at, sample.acc, sample.gyro, load, events)
+            self._inertial(t, dt, known_at, sample.acc, sample.gyro, sample.saturated, load, events)
         else:
             self._pressure_alone(t, dt, known_at, sample, load, events)
         return events
@@ -178,7 +178,15 @@ class FootTracker:
         return dt
 
     def _inertial(
-        self, t: float, dt: float, known_at: float, acc: Vec3, gyro: Vec3, load: Load | None, events: list[Event]
+        self,
+        t: float,
+        dt: float,
+        known_at: float,
+        acc: Vec3,
+        gyro: Vec3,
+        saturated: bool,
+        load: Load | None,
+        events: list[Event],
     ) -> None:
         rest = self.rest
         if rest.update(t, acc, gyro):
@@ -199,7 +207,7 @@ class FootTracker:
                 self.step.begin(t, ZERO, corrector.attitude)
             self._say_where(t, known_at, events)
             return
-        corrector.predict(dt, acc, gyro)
+        corrector.predict(dt, acc, gyro, saturated)
         believed = corrector.correct(t, stance)
         vx, vy, vz = corrector.velocity
         speed = sqrt(vx * vx + vy * vy + vz * vz)

@@ -15,6 +15,8 @@ Magnetometer and air pressure are slower; each value rides on the next Sample on
 
 from __future__ import annotations
 
+from math import radians
+
 from attrs import define, field
 
 from ..types import Sample, Site, Vec3
@@ -23,6 +25,8 @@ BRACKET = 2.5
 """Periods that interpolation may span, and after which a channel counts as silent."""
 NEAR = 0.75
 """Periods within which one measurement may stand in for a time without a bracket."""
+RATE_END = 0.99 * radians(250.0)
+"""rad/s; the gyroscope ends at 250 degrees/s, which a foot exceeds in every push-off."""
 
 
 @define
@@ -117,4 +121,16 @@ class Assembler:
         air_pressure, self.air_pressure = self.air_pressure, None
         self.last_t = t
         known_at = max(known_at, t)
-        return [Sample(t, self.site, acc, gyro, mag=mag, air_pressure=air_pressure, known_at=known_at)]
+        saturated = gyro is not None and max(map(abs, gyro)) >= RATE_END
+        return [
+            Sample(
+                t,
+                self.site,
+                acc,
+                gyro,
+                mag=mag,
+                air_pressure=air_pressure,
+                known_at=known_at,
+                saturated=saturated,
+            )
+        ]

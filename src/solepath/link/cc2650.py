@@ -22,6 +22,8 @@ GYRO = radians(500.0 / 65536.0)
 """rad/s per count: +-250 degrees/s (TI, CC2650 SensorTag user's guide)."""
 MAG = 4912.0 / 32760.0 * 1e-6
 """T per count (InvenSense, MPU-9250 product specification: 4912 uT full scale, 32760 counts)."""
+FULL_SCALE = 32767
+"""Counts at which a sensor is at the end of its range."""
 APART = 1.0
 """Seconds without movement after which air pressure no longer waits for a movement sample to ride on."""
 
@@ -106,7 +108,19 @@ class Cc2650Link:
         air_pressure, self.air_pressure = self.air_pressure, None
         t = self._in_order(slot.t)
         known_at = max(arrival, t)
-        out.append(Sample(t, self.site, acc, gyro, mag=mag, air_pressure=air_pressure, known_at=known_at))
+        largest = max(map(abs, (*raw.acc, *raw.gyro)))
+        out.append(
+            Sample(
+                t,
+                self.site,
+                acc,
+                gyro,
+                mag=mag,
+                air_pressure=air_pressure,
+                known_at=known_at,
+                saturated=largest >= FULL_SCALE,
+            )
+        )
         if acc is not None and not self.rest.done:
             magnitude = self.rest.feed(t, acc)
             if magnitude is not None:

@@ -1,0 +1,66 @@
+"""Scores in short, as the Markdown table that the README quotes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..evaluate.report import Result
+from ..evaluate.score import Figures, Summary
+from .table import milliseconds, number, percent
+
+PLACES = {
+    "rms_2d": "position error RMS, horizontal",
+    "armse_2d": "the same / sqrt 2 (ARMSE2d)",
+    "rms_3d": "position error RMS, in space",
+    "position_mean": "position error at the footprints",
+    "end_error": "from end to start, in space",
+    "end_error_2d": "from end to start, horizontal",
+}
+"""Figures that are averaged over recordings, m."""
+EVENTS = {"heel_strike": "heel-strike", "toe_off": "toe-off"}
+
+
+def accuracy_table(results: Sequence[Result]) -> str:
+    """One line a figure over all recordings of each data set; the recipe is named where there are several."""
+    several = len({result.recipe for result in results}) > 1
+    lines = ["| data | measured | came to |", "|---|---|---|"]
+    for result in results:
+        for summary in result.summaries:
+            if summary.group != "all":
+                continue
+            count = f"{summary.count} recording{'s' * (summary.count > 1)}"
+            data = f"{result.data_set.title}: `{result.data_set.name}`, {count}"
+            for what, figure in [*_places(summary), *_strides(summary.together), *_events(summary.together)]:
+                lines.append(f"| {f'{result.recipe}, ' if several else ''}{data} | {what} | {figure} |")
+                data = ""
+    return "\n".join(lines)
+
+
+def _places(summary: Summary) -> list[tuple[str, str]]:
+    told = []
+    for key, what in PLACES.items():
+        if key in summary.mean:
+            mean, median = (f"{number(part[key], 3)} m" for part in (summary.mean, summary.median))
+            told.append((what, mean if summary.count == 1 else f"mean {mean}, median {median}"))
+    return told
+
+
+def _strides(pooled: Figures) -> list[tuple[str, str]]:
+    told = []
+    if (true := pooled.get("strides_true")) is not None:
+        found, invented = (number(pooled[f"strides_{what}"], 0) for what in ("found", "invented"))
+        told.append(("strides", f"{found} of {number(true, 0)} found, {invented} invented"))
+    if (error := pooled.get("stride_error")) is not None:
+        median = percent(pooled["stride_error_median"])
+        told.append(("stride length error", f"mean {percent(error)} %, median {median} %"))
+    return told
+
+
+def _events(pooled: Figures) -> list[tuple[str, str]]:
+    told = []
+    for kind, what in EVENTS.items():
+        if (true := pooled.get(f"{kind}_true")) is not None:
+            bias, mad = (milliseconds(pooled[f"{kind}_{part}"]) for part in ("bias", "mad"))
+            figures = f"F1 {number(pooled[f'{kind}_f1'], 3)}, median offset {bias} ms, MAD {mad} ms"
+            told.append((f"{number(true, 0)} {what}s", figures))
+    return told
