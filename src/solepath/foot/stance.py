@@ -99,7 +99,7 @@ class Shoe:
         entries = self.entries
         entries.append((t, ax, ay, az, a2, w2))
         oldest = t - self.window + 1e-9
-        while len(entries) > 2 and entries[0][0] < oldest:
+        while len(entries) > 1 and entries[0][0] < oldest:
             _, ax, ay, az, a2, w2 = entries.popleft()
             sx -= ax
             sy -= ay
