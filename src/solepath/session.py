@@ -17,7 +17,7 @@ from typing import Any
 
 from attrs import define, field, frozen
 
-from .events import ClockReset, Event, LayoutKnown, Limitation, ScaleSuspect
+from .events import ClockReset, Event, LayoutKnown, Limitation, PacketRejected, ScaleSuspect
 from .foot.phase import SUPPORT
 from .foot.tracker import FootTracker
 from .foot.world import Covariance3
@@ -118,16 +118,24 @@ class Session:
         state, events = self._state, list[Event]()
         if not isinstance(packet.data, bytes | bytearray | memoryview) or not isinstance(packet.site, Site):
             raise TypeError("a packet holds bytes and a Site")
-        if isfinite(packet.t):
-            for site, other in state.decoders.items():
-                if site is not packet.site:
-                    self._take(site, other.advance(packet.t), events)
-            if state.now is None or packet.t > state.now:
-                state.now = packet.t
         decoder = state.decoders.get(packet.site)
         if decoder is None:
-            decoder = state.decoders[packet.site] = Decoder(packet.site)
-        self._take(packet.site, decoder.feed(packet), events)
+            decoder = Decoder(packet.site)
+        items = decoder.feed(packet)
+        if any([isinstance(item, PacketRejected) for item in items]):
+            # it changes nothing, so it is not a sign of time passing either
+            if packet.site in state.decoders:
+                self._take(packet.site, items, events)
+            else:
+                events += [item for item in items if isinstance(item, PacketRejected)]
+            return events
+        state.decoders[packet.site] = decoder
+        for site, other in state.decoders.items():
+            if site is not packet.site:
+                self._take(site, other.advance(packet.t), events)
+        if state.now is None or packet.t > state.now:
+            state.now = packet.t
+        self._take(packet.site, items, events)
         return events
 
     def _sample(self, sample: Sample) -> list[Event]:
