@@ -1,9 +1,12 @@
-"""What tests share: where the recorded data are."""
+"""What tests share: where the recorded data are, and what the default recipe makes of them."""
 
 import os
 from pathlib import Path
 
 import pytest
+
+from solepath.evaluate.jobs import evaluate
+from solepath.evaluate.report import Result
 
 
 @pytest.fixture(scope="session")
@@ -14,3 +17,9 @@ def data_dir() -> Path:
     if not folder.is_dir():
         pytest.skip(f"no recorded data at {folder}; SOLEPATH_DATA says where they are")
     return folder
+
+
+@pytest.fixture(scope="session")
+def results(data_dir: Path) -> list[Result]:
+    """The default recipe on all recorded data that have a truth."""
+    return list(evaluate(data_dir, ["default"], processes=2))

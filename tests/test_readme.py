@@ -1,0 +1,135 @@
+"""The README is true: its programs run, its tables name what there is, its figures are what the commands print."""
+
+import io
+import re
+import subprocess
+import sys
+from argparse import ArgumentParser
+from contextlib import redirect_stdout
+from importlib import import_module
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+from solepath import Event
+from solepath.cli.main import parser
+from solepath.output import STEP_COLUMNS, TRACK_COLUMNS
+from solepath.recipes import BY_NAME
+from solepath.recording import PacketWriter
+from solepath.sim import Radio, Route, emulate
+from solepath.types import Foot
+from solepath.view.markdown import accuracy_table
+
+ROOT = Path(__file__).resolve().parents[1]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+PROGRAMS = re.findall(r"^```python\n(.*?)^```", README, re.DOTALL | re.MULTILINE)
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
+
+
+def below(mark: str) -> list[str]:
+    """The lines of the first block or table below the comment <!-- mark -->."""
+    lines = README.split(f"<!-- {mark} -->\n", 1)[1].splitlines()
+    if lines[0].startswith("```"):
+        return lines[1 : lines.index("```", 1)]
+    end = next(n for n, line in enumerate(lines) if not line.startswith("|"))
+    return lines[:end]
+
+
+def first_cells(table: list[str]) -> list[str]:
+    return [line.split("|")[1].strip() for line in table[2:]]
+
+
+def test_its_programs_run_one_after_the_other_and_say_what_they_promise(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    walk = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), radio=Radio(corrupt=0.02), seed=1)
+    with PacketWriter("walk.jsonl") as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    names: dict = {"__name__": "readme"}
+    printed = []
+    for program in PROGRAMS:
+        with redirect_stdout(io.StringIO()) as out:
+            exec(compile(program, "README.md", "exec"), names)
+        printed.append(out.getvalue())
+    loop, _, _, saved, _ = printed
+    for foot in Foot:
+        assert loop.count(f"{foot.value} step of") == len(walk.truth.steps(foot))
+        assert f"s: {foot.value} heel-strike" in loop
+    assert "a packet was not used: checksum" in loop
+    assert saved.startswith("Position(t=")
+    with redirect_stdout(io.StringIO()) as out:
+        names["notified"](bytearray())
+        names["every_second"]()
+    assert out.getvalue().startswith("PacketRejected(")
+    # the detector of its own is a detector indeed
+    steps = [event for event in names["session"].feed(walk.packets) if type(event).__name__ == "StepTaken"]
+    assert len(steps) == sum(len(walk.truth.steps(foot)) for foot in Foot)
+
+
+def test_the_loop_has_twelve_lines():
+    assert len([line for line in PROGRAMS[0].splitlines() if line.strip()]) == 12
+
+
+def test_its_table_names_every_event():
+    assert sorted(first_cells(below("events"))) == sorted(f"`{event.__name__}`" for event in get_args(Event))
+
+
+def test_its_links_lead_somewhere():
+    titles = re.findall(r"^#+ (.+)$", README, re.MULTILINE)
+    anchors = {"#" + re.sub(r"[^\w -]", "", title).lower().replace(" ", "-") for title in titles}
+    for target in re.findall(r"\]\(([^)]+)\)", README):
+        path, _, _ = target.partition("#")
+        assert target in anchors if target.startswith("#") else (ROOT / path).exists(), target
+
+
+def test_commands_and_options_are_those_of_the_command_line():
+    table = README.split("| command | what it does |\n", 1)[1].split("\n\n", 1)[0]
+    (subparsers,) = (a for a in parser()._actions if isinstance(a.choices, dict))
+    told = {re.split(r"[ `]", line)[3]: set(re.findall(r"--[a-z]+", line)) for line in table.splitlines()[1:]}
+    assert told.keys() == subparsers.choices.keys()
+    for name, options in told.items():
+        command: ArgumentParser = subparsers.choices[name]
+        assert options <= command._option_string_actions.keys()
+
+
+def test_columns_parts_and_recipes_are_those_of_the_library():
+    assert f"`{','.join(TRACK_COLUMNS)}`" in README
+    assert f"`{','.join(STEP_COLUMNS)}`" in README
+    parts = re.findall(r"^\| (`[A-Z].*?) \| `(solepath[\w.]+)` \|", README, re.MULTILINE)
+    assert len(parts) == 5
+    for names, module in parts:
+        assert all(hasattr(import_module(module), name) for name in re.findall(r"`(\w+)`", names))
+    assert list(BY_NAME) == ["default"], "the README says that this is the only one"
+
+
+def test_its_demonstration_is_the_one_that_the_command_gives():
+    done = subprocess.run(
+        [sys.executable, "-m", "solepath", "demo"], capture_output=True, stdin=subprocess.DEVNULL, text=True, check=True
+    )
+    # figures may move a little from one release to the next; what is counted and what is measured may not
+    shown, given = (
+        [NUMBER.sub("#", " ".join(line.split())) for line in lines if re.match(r"[^ .].*[a-z]", line)]
+        for lines in (below("demo"), done.stdout.splitlines())
+    )
+    assert shown == given
+    counted = [line for line in below("demo") if line.startswith("steps ")]
+    assert counted == [line for line in done.stdout.splitlines() if line.startswith("steps ")]
+
+
+def test_its_accuracy_is_what_evaluate_prints(results):
+    """solepath evaluate DIR --markdown prints the table to paste."""
+    fresh = accuracy_table(results).splitlines()
+    quoted = below("accuracy")
+    assert [NUMBER.sub("#", line) for line in quoted] == [NUMBER.sub("#", line) for line in fresh]
+    for old, new in zip(quoted, fresh, strict=True):
+        for a, b in zip(NUMBER.findall(old), NUMBER.findall(new), strict=True):
+            # another machine's rounding may move the last digit by one
+            last = 10.0 ** -len(a.partition(".")[2])
+            assert float(a) == pytest.approx(float(b), abs=1.01 * last), f"quoted: {old}\nprinted: {new}"
+
+
+@pytest.mark.parametrize(("mark", "ends"), [("try", "solepath demo"), ("test", "python -m pytest")])
+def test_each_of_its_two_lines_is_one_line(mark, ends):
+    (line,) = below(mark)
+    assert line.startswith("python3 -m venv .venv && ") and line.endswith(ends)
