@@ -123,8 +123,8 @@ class Rest:
             return False
         self.magnitude = (ax * ax + ay * ay + az * az) ** 0.5
         scale = GRAVITY / self.magnitude if self.magnitude > 0.0 else 0.0
-        # beyond a fifth it is a wrong range, not a scale error (cheap accelerometers do read 1.1 g); later than the first
-        # rests, a change of more than 2 % is a lift starting or stopping
+        # beyond a fifth it is a wrong range, not a scale error (cheap accelerometers do read 1.1 g); later than the
+        # first rests, a change of more than 2 % is a lift starting or stopping
         if 0.8 < scale < 1.25 and (self.count < 4 or abs(scale / self.scale - 1.0) < 0.02):
             self.scale += (scale - self.scale) / (min(self.count, 19) + 1)
         # the bias wanders, so the last ten seconds of rest count

@@ -6,7 +6,7 @@ vt (9), tt (6); the names say which states meet, so `vtxz` is the covariance of 
 
 Between two corrections nobody needs the covariance, so it is carried over the whole interval T at once. With
 S = integral of f dt and D = double integral of f dt^2 (f: specific force in the world frame), and the attitude error
-constant over T, the error equations dp' = dv, dv' = -[f]x dt (Sola 2017, eq. 261) integrate exactly to
+constant over T, the error equations dp' = dv, dv' = -[f]x dt (Sola 2017, section 7) integrate exactly to
 
     dp(T) = dp + T dv + M2 dt,  M2 = -[D]x      dv(T) = dv + M1 dt,  M1 = -[S]x      dt(T) = dt
 

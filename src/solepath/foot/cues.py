@@ -3,9 +3,9 @@
 `InertialCues` reads stillness and the sagittal angular rate (about the axis that points to the wearer's left, so that
 positive is toe down). Of a step that rate shows: a rise as the heel lifts, a peak of several rad/s as the toe pushes
 off, a long negative hump while the leg swings, and a return through zero as the heel lands. Toe-off is where the rate
-has fallen to 65 % of its peak, heel-strike where it comes up through zero after the hump: on the hand-checked events of
-10 m walks these places lie within a sample or two of the truth. Landmarks of this kind are common in gait analysis
-(Sabatini et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., IEEE Trans. Biomed. Eng. 60, 2013).
+has fallen to 65 % of its peak, heel-strike where it comes up after the hump as the ground turns the sole down: on the
+hand-checked events of 10 m walks these places lie within a sample or two of the truth. Landmarks of this kind are
+common in gait analysis (Sabatini et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Gait & Posture 37, 2013).
 
 `PressureCues` reads the load on the insole.
 """
@@ -41,6 +41,8 @@ class InertialCues:
     """Toe-off is where the rate has fallen to this share of its peak."""
     hump: float = 1.0
     """The swing's negative hump is at least this, rad/s."""
+    slap: float = 1.0
+    """Heel-strike is where the rate comes up through this, as the ground turns the sole down, rad/s."""
     shortest_swing: float = 0.1
     """No heel-strike sooner than this after toe-off, s."""
     shuffle_speed: float = 0.35
@@ -130,11 +132,11 @@ class InertialCues:
                 return Seen(Cue.CONTACT, self.still_since - self.lookback)
             return None
         landed = self.axis is not None and self.trough < -self.hump and t - self.toe_off >= self.shortest_swing
-        if landed and before < 0.0 <= now:
+        if landed and before < self.slap <= now:
             self.peak = 0.0
             self.turned = ZERO
             self.fast_since = None
-            return Seen(Cue.CONTACT, t - dt * now / (now - before))
+            return Seen(Cue.CONTACT, t - dt * (now - self.slap) / (now - before))
         return None
 
     def _clear(self, t: float) -> Seen:

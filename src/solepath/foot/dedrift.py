@@ -3,7 +3,8 @@
 The textbook corrector (for instance Ojeda and Borenstein, "Non-GPS navigation for security personnel and first
 responders", 2007): whatever velocity is left at the end of a swing was gathered evenly over it. With e(t) = e_T t/T
 removed from the velocity, the position loses the integral, e_T T/2. Tilt drifts with the gyroscope, so in stance the
-measured direction of gravity pulls the attitude back (a Mahony filter's proportional term, Mahony 2008, eq. 48).
+measured direction of gravity pulls the attitude back (the proportional term of Mahony, Hamel, Pflimlin, IEEE Trans.
+Autom. Control 53, 2008).
 """
 
 from __future__ import annotations

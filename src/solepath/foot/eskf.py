@@ -209,7 +209,7 @@ class ErrorStateFilter(Strapdown):
         self.position = self.start_position = (x + px, y + py, z + pz)
         x, y, z = self.velocity
         self.velocity = self.start_velocity = (x + vx, y + vy, z + vz)
-        # q <- dq(theta) * q with a global attitude error (Sola, eq. 309)
+        # q <- dq(theta) * q with a global attitude error (Sola 2017, section 7)
         w, x, y, z = self.attitude
         tx, ty, tz = 0.5 * tx, 0.5 * ty, 0.5 * tz
         self.attitude = normalise(

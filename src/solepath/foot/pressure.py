@@ -101,7 +101,8 @@ class Insole:
 
     def centre_of_pressure(self, cells: tuple[float, ...]) -> tuple[float, float] | None:
         """(x, y) in the foot frame, m: the mean of the cells' places weighted by their load above tare; None in the air
-        or without a layout. Equations (2) and (3) of the smart-insole papers, with load in place of pressure."""
+        or without a layout. Equations (2) and (3) of "Smart insole-based indoor localization system for Internet of
+        Things applications", with load in place of pressure."""
         if self.layout is None or len(cells) != len(self.layout.cells):
             return None
         tare = self.tare if len(self.tare) == len(cells) else [0.0] * len(cells)

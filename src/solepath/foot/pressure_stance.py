@@ -20,8 +20,8 @@ _SILENT = Stance(ZERO, inf, 0.0, None)
 class TwoArea:
     """Heel area and forefoot area both loaded: the sole lies flat, so the sensor between them stands still.
 
-    After "KUPT" (foot-mounted smart insole, section on stationary epoch detection): forces on both sides of the circuit
-    board. The statistic is the smaller of the two loads as a share of the wearer's full load.
+    After "Smart insole-based indoor localization system for Internet of Things applications", stationary epoch
+    detection: forces on both sides of the circuit board. The statistic is the smaller of the two loads as a share of the wearer's full load.
     """
 
     on: float = 0.05
@@ -38,7 +38,8 @@ class TwoArea:
 
 @define
 class MaximumPressure:
-    """The most loaded cell beyond a threshold: the foot is down (walking-modes, equation (6), method III).
+    """The most loaded cell beyond a threshold: the foot is down (equation (6) of "Improving accuracy of real-time
+    positioning and path tracking by using an error compensation algorithm against walking modes", method III).
 
     The statistic is that cell as a share of the most loaded one ever seen. A foot that is down still rolls, hence the
     larger noise.

@@ -2,12 +2,14 @@
 
 A stance detector never answers yes or no: for every sample it says which velocity the sensor ought to have now and how
 far to trust that (`Stance`). Detectors share one signature, so they and the correctors that use them are
-interchangeable. All of them are causal and look back over `window` seconds; their evidence has no other latency.
+interchangeable. All of them are causal and look back over `window` seconds (where the rate is lower than that, over as
+few samples as the statistic can do with); their evidence has no other latency.
 
-The statistics are those of Skog, Handel, Nilsson, Rantakokko, "Zero-velocity detection: an algorithm evaluation"
-(IEEE Trans. Biomed. Eng. 57, 2010): SHOE (eq. 10), ARE (eq. 12), MV (eq. 14); and of the memory-based graph-theoretic
-change detector of Sikdar, Gu, Cheng (MBGTD). Sums run, so a sample costs the same whatever the window, except in MBGTD,
-whose statistic needs every pair of samples in the window.
+SHOE, ARE and MV are those of Skog, Handel, Nilsson, Rantakokko, "Zero-velocity detection: an algorithm evaluation"
+(IEEE Trans. Biomed. Eng. 57, 2010); the memory-based graph-theoretic detector (MBGTD) is the one that Wagstaff,
+Peretroukhin, Kelly, "Robust data-driven zero-velocity detection for foot-mounted inertial navigation" (2019) compare
+with. Sums run, so a sample costs the same whatever the window, except in MBGTD, whose statistic needs every pair of
+samples in the window.
 """
 
 from __future__ import annotations
@@ -131,7 +133,7 @@ class AngularRate:
         self.entries.append((t, w2))
         self.total += w2
         oldest = t - self.window + 1e-9
-        while len(self.entries) > 2 and self.entries[0][0] < oldest:
+        while len(self.entries) > 1 and self.entries[0][0] < oldest:
             self.total -= self.entries.popleft()[1]
         statistic = max(0.0, self.total) / len(self.entries) / SIGMA_GYRO**2
         return soften(statistic, self.sigma, self.base, self.gate)
