@@ -21,7 +21,8 @@ class TwoArea:
     """Heel area and forefoot area both loaded: the sole lies flat, so the sensor between them stands still.
 
     After "Smart insole-based indoor localization system for Internet of Things applications", stationary epoch
-    detection: forces on both sides of the circuit board. The statistic is the smaller of the two loads as a share of the wearer's full load.
+    detection: forces on both sides of the circuit board. The statistic is the smaller of the two loads as a share of
+    the wearer's full load.
     """
 
     on: float = 0.05
