@@ -355,7 +355,7 @@ def test_evaluate_in_short_is_a_markdown_table(data):
     assert done.returncode == 0 and "not scored: " in done.stderr and "broken.npz: is empty" in done.stderr
     head, rule, first, second = done.stdout.splitlines()
     assert (head, rule) == ("| data | measured | came to |", "|---|---|---|")
-    assert first.startswith("| a closed loop, one shoe: `xio_closed_walks`, 1 recording | from end to start, in space |")
+    assert first.startswith("| a closed loop, one shoe: `xio_closed_walks`, 1 recording | from end to start, in space ")
     assert second.startswith("|  | from end to start, horizontal | 0.") and second.endswith(" m |")
 
 
