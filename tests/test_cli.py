@@ -258,6 +258,9 @@ BAD_FILES = {
     "newer.jsonl": (b'{"format": "solepath-packets", "version": 2}\n', "is of version 2"),
     "nothing.jsonl": (b'{"format": "solepath-packets", "version": 1}\n', "holds no packets"),
     "keys.csv": (b"t,x,y,z\n0,0,0,9.8\n", "line 1: names no column acc_x or pressure_0"),
+    "tabs.csv": (b"t\tacc_x\tacc_y\tacc_z\n0\t0\t0\t9.8\n", "its columns are not separated by commas"),
+    "nameless.csv": (b"0,0,0,9.8\n0.01,0,0,9.8\n", "is the line with the names missing?"),
+    "sheet.xlsx": (b"PK\x03\x04\n", "samples have names that end in .npz or .csv"),
     "scale.csv": (b"t,acc_x,acc_y,acc_z\n0.00,0,0,1.0\n0.01,0,0,1.0\n", "this looks like g"),
 }
 

@@ -178,6 +178,7 @@ FAULTY = {
     "no rows": ({k: v[:0] for k, v in still().items()}, "t: holds no samples"),
     "first row not finite": (still() | {"acc": np.full((20, 3), np.nan)}, "acc, row 0: is nan, not a finite number"),
     "g": (still() | {"acc": still()["acc"] / 9.81}, "|acc| is 0.996 m/s^2, not 9.8: this looks like g"),
+    "repeated": (still() | {"t": np.repeat(still()["t"][::2], 2)[: len(still()["t"])]}, "is 0 s: times repeat"),
     "milli-g": (still() | {"acc": still()["acc"] * 102.0}, "this looks like milli-g"),
     "counts": (still() | {"acc": still()["acc"] * 1670.0}, "this looks like raw counts"),
     "huge": (still() | {"acc": still()["acc"] * 1e300}, "this looks like raw counts"),
@@ -258,7 +259,7 @@ def test_the_foot_that_a_file_does_not_hold_is_missed(tmp_path):
     ("text", "complaint"),
     [
         ("t,acc_x,acc_y,acc_z\n", "holds no samples"),
-        ("0.0,1.0,2.0,9.8\n0.1,1,2,9.8\n", "line 1: names no column acc_x or pressure_0 (it names 0.0, 1.0, 2.0, 9.8)"),
+        ("0.0,1.0,2.0,9.8\n0.1,1,2,9.8\n", "names no column acc_x or pressure_0 (it holds numbers: is the line with the names missing?)"),
         ("t;acc_x;acc_y;acc_z\n0;0;0;9.8\n", "line 1: names no column acc_x or pressure_0"),
         ("acc_x,acc_y,acc_z\n0,0,9.8\n", "line 1: names no column t"),
         ("t,acc_x,acc_z\n0,0,9.8\n", "line 1: names no column acc_y"),

@@ -106,7 +106,7 @@ def test_what_a_session_does_without_and_suspects_is_told():
     tally.add(Limitation(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, what="no gyroscope"))
     tally.add(ScaleSuspect(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, magnitude=4.9, suggestion="16 g, not 8 g"))
     text = summary(tally, title="walk", seconds=0.0)
-    assert "does without left foot: no gyroscope" in text
+    assert "limitation, left foot: no gyroscope" in text
     assert "suspect scale, left foot: |acc| is 4.90 m/s^2 at rest: 16 g, not 8 g" in text
 
 

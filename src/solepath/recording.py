@@ -93,7 +93,8 @@ def read_packets(
                 if header_seen and not line.endswith(b"\n") and len(line) <= LONGEST_LINE:
                     report(f"{printable(str(path))}: {where}: cut off in the middle; everything before it is used")
                     return
-                raise RecordingError(path, str(flaw), where) from None
+                hint = "" if header_seen else "; samples have names that end in .npz or .csv"
+                raise RecordingError(path, f"{flaw}{hint}", where) from None
             except _Flaw as flaw:
                 raise RecordingError(path, str(flaw), where) from None
             yield packet

@@ -106,7 +106,7 @@ def _columns(header: list[str], one_foot: Foot) -> list[_FootColumns]:
     if "" in suffixes and len(suffixes) > 1:
         raise ValueError("has columns with and without a foot's name: is it of one foot or of two?")
     if not any(quantity in ("acc", "pressure") for quantity, _, _ in found):
-        raise ValueError(f"names no column acc_x or pressure_0 (it names {printable(', '.join(header), 80)})")
+        raise ValueError(f"names no column acc_x or pressure_0 ({_guess(header)})")
     feet = []
     for suffix in suffixes:
         own = ("t", suffix, 0) in found
@@ -124,6 +124,23 @@ def _columns(header: list[str], one_foot: Foot) -> list[_FootColumns]:
         _check_components(foot)
         feet.append(foot)
     return feet
+
+
+def _guess(header: list[str]) -> str:
+    """What the first line may be, where it names nothing that is needed."""
+    if len(header) == 1 and re.search("[;\t]", header[0]):
+        return "its columns are not separated by commas"
+    if any(map(_is_number, header)):
+        return "it holds numbers: is the line with the names missing?"
+    return f"it names {printable(', '.join(header), 80)}"
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _check_components(foot: _FootColumns) -> None:

@@ -124,8 +124,10 @@ def _complaints(t: Floats, columns: Mapping[str, Floats]) -> Iterator[tuple[str,
     if len(t) > 2:
         step = float(np.median(np.diff(t)))
         if not FASTEST <= step <= SLOWEST:
-            likely = "milliseconds or sample numbers" if step > SLOWEST else "not seconds"
-            yield "t", f"the median time between samples is {step:.3g} s: this looks like {likely}"
+            likely = "this looks like milliseconds or sample numbers" if step > SLOWEST else "these are not seconds"
+            if step == 0.0:
+                likely = "times repeat"
+            yield "t", f"the median time between samples is {step:.3g} s: {likely}"
     if "acc" in columns:
         median = float(np.median(_lengths(columns["acc"])))
         low, high = ACC_AT_REST

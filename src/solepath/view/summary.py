@@ -22,6 +22,8 @@ def summary(tally: Tally, *, title: str, seconds: float) -> str:
             told = [foot.value, str(one.samples), number(one.rate, 1), str(one.steps), number(one.distance)]
             rows.append([*told, *map(str, counts)])
         lines += ["", table(header, rows), ""]
+    else:
+        lines.append("nothing was heard of either foot")
     for foot in feet:
         one = tally.feet[foot]
         if one.gaps:
@@ -30,7 +32,7 @@ def summary(tally: Tally, *, title: str, seconds: float) -> str:
             lines.append(f"{foot.value}: {one.degraded} of {one.steps} steps degraded by missing or saturated samples")
     lines += link_health(tally)
     lines += latency(tally)
-    lines += [f"does without {what}" for what in tally.limitations]
+    lines += [f"limitation, {what}" for what in tally.limitations]
     lines += [f"suspect scale, {what}" for what in tally.suspects]
     samples = sum(one.samples for one in tally.feet.values())
     if seconds > 0.0 and samples:
