@@ -65,6 +65,8 @@ def test_its_programs_run_one_after_the_other_and_say_what_they_promise(tmp_path
     # the detector of its own is a detector indeed
     steps = [event for event in names["session"].feed(walk.packets) if type(event).__name__ == "StepTaken"]
     assert len(steps) == sum(len(walk.truth.steps(foot)) for foot in Foot)
+    with pytest.raises(TypeError, match="a snapshot cannot hold a Slow where Cycle or Shoe"):
+        names["session"].snapshot()
 
 
 def test_the_loop_has_twelve_lines():

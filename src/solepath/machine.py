@@ -166,6 +166,8 @@ def _union_codec(arguments: tuple[Any, ...]) -> tuple[_Saver, _Loader]:
             return None
         if others:
             return _codec(others[0])[0](value)
+        if type(value) not in records.values():
+            raise TypeError(f"a snapshot cannot hold a {type(value).__name__} where {' or '.join(records)} is known")
         saved = _codec(type(value))[0](value)
         return {"kind": type(value).__name__, "is": saved} if len(records) > 1 else saved
 
