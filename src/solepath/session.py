@@ -17,8 +17,9 @@ from typing import Any
 
 from attrs import define, field, frozen
 
-from .events import ClockReset, Event, LayoutKnown, Limitation, PacketRejected, ScaleSuspect
+from .events import ClockReset, Event, LayoutKnown, Limitation, PacketRejected, SampleRejected, ScaleSuspect
 from .foot.phase import SUPPORT
+from .foot.refusal import rejected, wrong_time
 from .foot.tracker import FootTracker
 from .foot.world import Covariance3
 from .link.decoder import Decoder
@@ -116,8 +117,12 @@ class Session:
 
     def _packet(self, packet: Packet) -> list[Event]:
         state, events = self._state, list[Event]()
-        if not isinstance(packet.data, bytes | bytearray | memoryview) or not isinstance(packet.site, Site):
-            raise TypeError("a packet holds bytes and a Site")
+        if (
+            not isinstance(packet.data, bytes | bytearray | memoryview)
+            or not isinstance(packet.site, Site)
+            or not isinstance(packet.channel, str)
+        ):
+            raise TypeError("a packet holds bytes, a Site and a channel's name")
         decoder = state.decoders.get(packet.site)
         if decoder is None:
             decoder = Decoder(packet.site)
@@ -140,9 +145,11 @@ class Session:
 
     def _sample(self, sample: Sample) -> list[Event]:
         state, events = self._state, list[Event]()
-        if isfinite(sample.t) and (state.now is None or sample.t > state.now):
-            state.now = sample.t
         self._take(sample.site, [sample], events)
+        if not any([isinstance(event, SampleRejected) for event in events]) and (
+            state.now is None or sample.t > state.now
+        ):
+            state.now = sample.t
         return events
 
     def _take(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:
@@ -153,28 +160,38 @@ class Session:
                 if foot is None:
                     self._say_unused(item, events)
                 else:
-                    events += self._tracker(foot).feed(item)
+                    tracker = self._tracker(foot)
+                    events += tracker.feed(item)
+                    if tracker.t is not None:  # else it could not be used: nothing is known of this foot yet
+                        self._state.feet[foot] = tracker
                 continue
             events.append(item)
-            if foot is not None and isinstance(item, LayoutKnown):
-                self._tracker(foot).wear(item.layout)
-            elif foot is not None and isinstance(item, ClockReset):
-                self._tracker(foot).interrupt()
-            elif foot is not None and isinstance(item, ScaleSuspect):
-                self._tracker(foot).scale_suspected = True  # said once, by the one that knows the range
+            if foot is None:
+                continue
+            tracker = self._tracker(foot)
+            if isinstance(item, LayoutKnown):
+                tracker.wear(item.layout)
+                self._state.feet[foot] = tracker
+            elif isinstance(item, ClockReset):
+                tracker.interrupt()
+            elif isinstance(item, ScaleSuspect):
+                tracker.scale_suspected = True  # said once, by the one that knows the range
 
     def _tracker(self, foot: Foot) -> FootTracker:
-        state = self._state
-        tracker = state.feet.get(foot)
+        """The foot's own tracker, or a new one that nobody holds yet."""
+        tracker = self._state.feet.get(foot)
         if tracker is None:
-            recipe = deepcopy(state.recipe)
-            tracker = state.feet[foot] = FootTracker(foot, recipe.detector, recipe.corrector, state.poses)
+            recipe = deepcopy(self._state.recipe)
+            tracker = FootTracker(foot, recipe.detector, recipe.corrector, self._state.poses)
         return tracker
 
     def _say_unused(self, sample: Sample, events: list[Event]) -> None:
-        if sample.site not in self._state.unused:
+        wrong = wrong_time(sample)
+        if wrong is not None:
+            events.append(rejected(sample, wrong, None))
+        elif sample.site not in self._state.unused:
             self._state.unused.append(sample.site)
-            known_at = sample.t if sample.known_at is None else sample.known_at
+            known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
             what = f"recipe {self._state.recipe.name} has no use for a sensor at the {sample.site.value}"
             events.append(Limitation(t=sample.t, known_at=known_at, site=sample.site, what=what))
 

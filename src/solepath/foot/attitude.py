@@ -106,6 +106,11 @@ class Rest:
     magnitude: float | None = field(default=None, init=False)
     """|acc| of the last rest, m/s^2."""
 
+    def interrupt(self) -> None:
+        """Times begin anew: the span under way is given up, what was learnt stays."""
+        self.span = Span()
+        self.span_start = None
+
     def update(self, t: float, acc: Vec3, gyro: Vec3) -> bool:
         """One raw sample; True when a span of rest was learnt from."""
         if self.span_start is None:

@@ -42,12 +42,15 @@ _STRETCH = (0, 1, 2, 3, 4, 5, YAW, 17, 20, 23)
 
 @define
 class ErrorStateFilter(Strapdown):
-    acc_noise: float = 0.03
+    acc_noise: float = 0.02
     """Accelerometer noise with all that stands for it (scale, g-sensitivity), m/s^2/sqrt(Hz)."""
     gyro_noise: float = 0.003
     """Gyroscope noise, rad/s/sqrt(Hz)."""
-    in_motion: float = 0.002
+    in_motion: float = 0.001
     """Added noise as a share of the motion: scale and alignment errors, 1/sqrt(Hz)."""
+    between: float = 0.25
+    """What two neighbouring samples differ by and the straight line between them cannot know, as a share of it. Small
+    at 400 Hz; at 20 Hz, where a heel-strike falls between two samples, all that there is."""
     clipping: float = 8.5
     """Rates beyond this may be clipped (many foot sensors end at 500 deg/s), rad/s."""
     clipped_noise: float = 0.3
@@ -87,12 +90,19 @@ class ErrorStateFilter(Strapdown):
         self.quietest = 1e12
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
+        before, rate = self.force or ZERO, self.rate or gyro
         ax, ay, az = self.integrate(dt, acc, gyro)
         gx, gy, gz = gyro
-        share = self.in_motion * self.in_motion
-        self.acc_variance += (self.acc_noise * self.acc_noise + share * (ax * ax + ay * ay + az * az)) * dt
+        rx, ry, rz = rate
+        fx, fy, fz = before
+        x, y, z = self.force or ZERO
+        x, y, z, rx, ry, rz = x - fx, y - fy, z - fz, gx - rx, gy - ry, gz - rz
+        share, unknown = self.in_motion * self.in_motion, self.between * self.between * dt
         turning = gx * gx + gy * gy + gz * gz
-        noise = self.gyro_noise * self.gyro_noise + share * turning
+        self.acc_variance += (
+            self.acc_noise * self.acc_noise + share * (ax * ax + ay * ay + az * az) + unknown * (x * x + y * y + z * z)
+        ) * dt
+        noise = self.gyro_noise * self.gyro_noise + share * turning + unknown * (rx * rx + ry * ry + rz * rz)
         limit = self.clipping
         if saturated:
             noise += self.saturated_noise * self.saturated_noise
@@ -140,6 +150,8 @@ class ErrorStateFilter(Strapdown):
             self.gyro_variance += 0.25 * dt
             return dt
         self._carry()
+        if dt == inf:  # times begin anew
+            self.accepted = None
         self.velocity = self.start_velocity = ZERO
         self.force = self.rate = None
         self._doubt(velocity=1.0, tilt=0.2)

@@ -70,6 +70,10 @@ class Insole:
         self.heel_cells = [i for i, cell in enumerate(layout.cells) if cell.x < HEEL * layout.length]
         self.forefoot_cells = [i for i, cell in enumerate(layout.cells) if cell.x > FOREFOOT * layout.length]
 
+    def interrupt(self) -> None:
+        """Times begin anew: the extremes are kept, but their spans end here."""
+        self.total.ends = self.heel.ends = self.forefoot.ends = None
+
     def update(self, t: float, cells: tuple[float, ...]) -> Load | None:
         """The load as shares of the wearer's full load, or None while that is not known."""
         total = sum(cells)
@@ -88,7 +92,7 @@ class Insole:
         if self.layout is not None and len(cells) == len(self.layout.cells):
             heel = self._area(t, cells, self.heel_cells, self.heel, reach)
             forefoot = self._area(t, cells, self.forefoot_cells, self.forefoot, reach)
-        highest = max(cells) / self.highest if self.highest > 0.0 else 0.0
+        highest = max(cells, default=0.0) / self.highest if self.highest > 0.0 else 0.0
         return Load(share, heel, forefoot, highest, airborne)
 
     @staticmethod

@@ -125,8 +125,8 @@ class StepBuilder:
         self, t: float, known_at: float, position: Vec3, attitude: Quat, stretch: tuple[float, ...], world: World
     ) -> StepTaken | None:
         """The foot is flat again: the step, if it was one. `position`, `attitude` and `stretch` as `begin` had them."""
-        if self.t_start is None or self.t_toe_off is None:
-            return None
+        if self.t_start is None or self.t_toe_off is None or max(self.t_start, self.t_toe_off) > t:
+            return None  # no step, or one that times beginning anew have cut in two
         displacement = world.vector(sub(position, self.start))
         length, dz = hypot(displacement[0], displacement[1]), displacement[2]
         # the twist about the vertical of the turn from the first attitude to the second

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from math import inf, isfinite, sqrt
 
-from attrs import define, field
+from attrs import define, evolve, field
 
-from ..events import Event, FootMoved, Limitation, Rejection, SampleGap, SampleRejected, ScaleSuspect
+from ..events import Event, FootMoved, Limitation, SampleGap, ScaleSuspect
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..vector import GRAVITY, ZERO, sub
 from .attitude import Levelling, Rest
@@ -21,18 +21,13 @@ from .eskf import ErrorStateFilter
 from .phase import BEGINS, PHASES, Cue
 from .pressure import Insole
 from .pressure_stance import MaximumPressure, TwoArea
+from .refusal import refusal, rejected
 from .stance import AngularRate, Graph, Load, MovingVariance, Shoe
 from .step import StepBuilder, Way
 from .world import Covariance3, World
 
 AnyDetector = Cycle | Shoe | AngularRate | MovingVariance | Graph | TwoArea | MaximumPressure
 AnyCorrector = ErrorStateFilter | LinearDedrift
-
-ABSURD_ACC = 500.0
-"""No foot sensor measures more, m/s^2."""
-ABSURD_GYRO = 100.0
-"""Nor this, rad/s."""
-
 
 STILL = 0.35
 """A foot that is faster than this after the correction is not flat, however much noise the evidence has, m/s."""
@@ -106,21 +101,26 @@ class FootTracker:
         """The clock of the samples begins anew, before or after the old one; what the foot did between is unknown."""
         if self.t is not None and self.levelled:
             self.corrector.bridge(inf)
-        self.t = None
+        self.t = self.phase_began = None
         self.step.degraded = True
+        # Windows over the old times would wait for the new ones to catch up. What was learnt stays.
+        axis = self.inertial_cues.axis
+        self.detector = evolve(self.detector)
+        self.inertial_cues = evolve(self.inertial_cues)
+        self.inertial_cues.axis = axis
+        self.pressure_cues = evolve(self.pressure_cues)
+        self.levelling = evolve(self.levelling)
+        self.insole.interrupt()
+        self.rest.interrupt()
 
     def feed(self, sample: Sample) -> list[Event]:
         """One sample of this foot. A sample that cannot be used changes nothing and is named in an event."""
         t = sample.t
-        known_at = t if sample.known_at is None else sample.known_at
-        refusal = self._refusal(sample)
-        if refusal is not None:
-            reason, detail = refusal
-            site = SITE_OF_FOOT[self.foot]
-            now = known_at if isfinite(known_at) else (self.t or 0.0)
-            when = t if isfinite(t) else now
-            return [SampleRejected(t=when, known_at=max(now, when), site=site, reason=reason, detail=detail)]
-        if sample.acc is None and sample.gyro is None and sample.pressure is None:
+        why_not = refusal(sample, self.t)
+        if why_not is not None:
+            return [rejected(sample, why_not, self.t)]
+        known_at = t if sample.known_at is None else max(t, sample.known_at)
+        if sample.acc is None and sample.gyro is None and not sample.pressure:
             return []  # a barometer's or magnetometer's: not a matter of the foot
         events: list[Event] = []
         dt = 0.0
@@ -130,7 +130,7 @@ class FootTracker:
         if sample.saturated:
             self.step.degraded = True
         load: Load | None = None
-        if sample.pressure is not None:
+        if sample.pressure:
             load = self.insole.update(t, sample.pressure)
             if self.phase is not Phase.SWING and load is not None:
                 self.step.loaded(sum(sample.pressure), self.insole.centre_of_pressure(sample.pressure))
@@ -139,27 +139,6 @@ class FootTracker:
         else:
             self._pressure_alone(t, dt, known_at, sample, load, events)
         return events
-
-    def _refusal(self, sample: Sample) -> tuple[Rejection, str] | None:
-        t = sample.t
-        if not isfinite(t) or (sample.known_at is not None and not isfinite(sample.known_at)):
-            return Rejection.NOT_FINITE, "time is not a number"
-        if self.t is not None and t <= self.t:
-            if t == self.t:
-                return Rejection.DUPLICATE, f"a second sample for {t:.6g} s"
-            return Rejection.TIME_BACKWARDS, f"{self.t - t:.6g} s before the sample before"
-        for name, vector, limit in (("acc", sample.acc, ABSURD_ACC), ("gyro", sample.gyro, ABSURD_GYRO)):
-            if vector is None:
-                continue
-            x, y, z = vector
-            largest = abs(x) + abs(y) + abs(z)
-            if not largest < limit:
-                if not isfinite(largest):
-                    return Rejection.NOT_FINITE, f"{name} is not a number"
-                return Rejection.ABSURD, f"{name} of {largest:.4g}"
-        if sample.pressure is not None and not isfinite(sum(sample.pressure)):
-            return Rejection.NOT_FINITE, "pressure is not a number"
-        return None
 
     def _watch_for_gaps(self, dt: float, known_at: float, events: list[Event]) -> float:
         """Name a gap; returns the time to integrate over, s."""

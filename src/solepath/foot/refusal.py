@@ -1,0 +1,68 @@
+"""Which samples cannot be used, and the event that says so."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from ..events import Rejection, SampleRejected
+from ..types import Sample
+
+ABSURD_ACC = 500.0
+"""No foot sensor measures more, m/s^2."""
+ABSURD_GYRO = 100.0
+"""Nor this, rad/s."""
+ABSURD_TOTAL = 1e7
+"""No insole measures more over all its cells, in newtons or in counts."""
+ABSURD_TIME = 1e11
+"""s; a time beyond this (or before minus this) is no time."""
+
+Refusal = tuple[Rejection, str]
+
+
+def refusal(sample: Sample, newest: float | None) -> Refusal | None:
+    """Why `sample` cannot be used after one of `newest` s; None when it can."""
+    t = sample.t
+    wrong = wrong_time(sample)
+    if wrong is not None:
+        return wrong
+    if newest is not None and t <= newest:
+        if t == newest:
+            return Rejection.DUPLICATE, f"a second sample for {t:.6g} s"
+        return Rejection.TIME_BACKWARDS, f"{newest - t:.6g} s before the sample before"
+    for name, vector, limit in (("acc", sample.acc, ABSURD_ACC), ("gyro", sample.gyro, ABSURD_GYRO)):
+        if vector is None:
+            continue
+        x, y, z = vector
+        largest = abs(x) + abs(y) + abs(z)
+        if not largest < limit:
+            if not isfinite(largest):
+                return Rejection.NOT_FINITE, f"{name} is not a number"
+            return Rejection.ABSURD, f"{name} of {largest:.4g}"
+    if sample.pressure:
+        total = sum(sample.pressure)
+        if not -ABSURD_TOTAL < total < ABSURD_TOTAL:
+            if not isfinite(total):
+                return Rejection.NOT_FINITE, "pressure is not a number"
+            return Rejection.ABSURD, f"pressure of {total:.4g} in all"
+    return None
+
+
+def wrong_time(sample: Sample) -> Refusal | None:
+    """Why the times of a sample are none, whatever came before it."""
+    for t in (sample.t, sample.known_at):
+        if t is not None and not -ABSURD_TIME <= t <= ABSURD_TIME:
+            if not isfinite(t):
+                return Rejection.NOT_FINITE, "time is not a number"
+            return Rejection.ABSURD, f"time of {t:.4g} s"
+    return None
+
+
+def rejected(sample: Sample, why: Refusal, newest: float | None) -> SampleRejected:
+    """The event, with sound times; `newest` as in `refusal`."""
+    reason, detail = why
+    t, known_at = sample.t, sample.known_at
+    if not -ABSURD_TIME <= t <= ABSURD_TIME:
+        t = 0.0 if newest is None else newest
+    if known_at is None or not t <= known_at <= ABSURD_TIME:
+        known_at = t
+    return SampleRejected(t=t, known_at=known_at, site=sample.site, reason=reason, detail=detail)
