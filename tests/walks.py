@@ -1,0 +1,178 @@
+"""Walks that tests share, and every machine of the library under one handle, for what must hold of all of them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from functools import cache
+from math import radians
+from typing import Any
+
+from attrs import evolve, frozen
+
+from solepath import machine
+from solepath.foot.cycle import Cycle
+from solepath.foot.dedrift import LinearDedrift
+from solepath.foot.eskf import ErrorStateFilter
+from solepath.foot.pressure_stance import MaximumPressure, TwoArea
+from solepath.foot.stance import AngularRate, Graph, MovingVariance, Shoe
+from solepath.link.decoder import Decoder
+from solepath.recipes import DEFAULT, Recipe
+from solepath.session import Session
+from solepath.sim.insole_device import Insole
+from solepath.sim.insoles import layout
+from solepath.sim.parts import LSM6DSOX
+from solepath.sim.radio import CLEAN, Radio
+from solepath.sim.route import Route
+from solepath.sim.sensortags import CC2541, CC2650
+from solepath.sim.walk import EmulatedWalk, emulate
+from solepath.sim.walker import Walker
+from solepath.types import Foot, Packet, Sample, Site
+
+LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
+ROUGH = Radio(loss=0.05, duplicate=0.02, corrupt=0.02, truncate=0.02, latency=0.01, jitter=0.04)
+"""What a session must live with: lost, doubled, damaged and late packets."""
+SHORT = Route().stand(1.5).walk(3.0, 1.3).turn(radians(60), radius=1.5).walk(2.0).stop(1.0)
+"""About 8 s, three or four steps of each foot."""
+
+Item = Packet | Sample
+
+
+@cache
+def insoles(route: Route = SHORT, radio: Radio = CLEAN, seed: int = 1, cells: int = 96) -> EmulatedWalk:
+    """A walk with an insole in each shoe."""
+    return emulate(route, devices={LEFT: Insole(cells=cells), RIGHT: Insole(cells=cells)}, radio=radio, seed=seed)
+
+
+@cache
+def samples(route: Route = SHORT, cells: int = 24, rate: float = 100.0, seed: int = 1) -> tuple[Sample, ...]:
+    """Samples of both feet in the order of time, with the errors of a named part; without a radio or a wire."""
+    walker = Walker(route, seed=seed)
+    both = [
+        sample
+        for foot in Foot
+        for sample in walker.samples(foot, rate, LSM6DSOX, layout=layout(cells, foot) if cells else None)
+    ]
+    return tuple(sorted(both, key=_time))
+
+
+def _time(sample: Sample) -> float:
+    return sample.t
+
+
+# --- every machine ----------------------------------------------------------------------------------------------------
+
+
+@frozen
+class Machine:
+    """Something that is fed, saved and restored. `items`: what a test feeds it, in order."""
+
+    name: str
+    items: tuple[Item, ...]
+    begin: Callable[[], Any]
+    load: Callable[[Any], Any]
+
+    def save(self, one: Any) -> Any:
+        """Its snapshot, after a trip through strict JSON."""
+        value = one.snapshot() if isinstance(one, Session) else machine.save(one)
+        return json.loads(json.dumps(value, allow_nan=False))
+
+    def events(self, items: tuple[Item, ...] | None = None) -> list[Any]:
+        """All that comes out when it is fed one item at a time and then finished."""
+        one = self.begin()
+        told = [event for item in (self.items if items is None else items) for event in one.feed(item)]
+        return told + one.finish()
+
+
+def _session(name: str, items: tuple[Item, ...], recipe: Recipe = DEFAULT) -> Machine:
+    def begin() -> Session:
+        return Session(recipe, poses=True)
+
+    return Machine(f"session, {name}", items, begin, Session.restore)
+
+
+def _decoder(name: str, items: tuple[Packet, ...]) -> Machine:
+    def begin() -> Decoder:
+        return Decoder(LEFT)
+
+    def load(saved: Any) -> Decoder:
+        return machine.load(Decoder, saved)
+
+    return Machine(f"decoder, {name}", tuple(item for item in items if item.site is LEFT), begin, load)
+
+
+@cache
+def packets() -> dict[str, tuple[Packet, ...]]:
+    """Both feet over a bad radio, by the device that they wear."""
+    devices = {
+        "whole frames": Insole(),
+        "fragments": Insole(cells=24, rate=50.0, mtu=23),
+        "four samples a frame": Insole(cells=35, batch=4, quaternion=True),
+        "pressure alone": Insole(cells=99, rate=50.0, imu=False),
+        "cc2650": CC2650(presses=(2.0,)),
+        "cc2541": CC2541(presses=(2.0,)),
+        "cc2541 at 20 Hz": CC2541(rate=20.0),
+    }
+    return {
+        name: emulate(SHORT, devices={LEFT: device, RIGHT: evolve(device)}, radio=ROUGH, seed=7).packets
+        for name, device in devices.items()
+    }
+
+
+@cache
+def machines() -> dict[str, Machine]:
+    """Every machine that there is, by name."""
+    plain, pressed = samples(cells=0), samples()
+    found = [_session(name, items) for name, items in packets().items()]
+    found += [_decoder(name, items) for name, items in packets().items()]
+    found += [_session("samples", plain), _session("samples with pressure", pressed)]
+    for detector in (Shoe(), AngularRate(), MovingVariance(), Graph(), TwoArea(), MaximumPressure()):
+        name = type(detector).__name__
+        items = pressed if isinstance(detector, TwoArea | MaximumPressure) else plain
+        found.append(_session(name, items, Recipe(name, detector, ErrorStateFilter())))
+    found.append(_session("LinearDedrift", plain, Recipe("LinearDedrift", Cycle(), LinearDedrift())))
+    found.append(_session("LinearDedrift with pressure", pressed, Recipe("pressed", TwoArea(), LinearDedrift())))
+    return {one.name: one for one in found}
+
+
+_STREAMS = (
+    "whole frames",
+    "fragments",
+    "four samples a frame",
+    "pressure alone",
+    "cc2650",
+    "cc2541",
+    "cc2541 at 20 Hz",
+)
+PACKET_NAMES = tuple(f"{kind}, {device}" for kind in ("session", "decoder") for device in _STREAMS)
+SAMPLE_NAMES = tuple(
+    f"session, {name}"
+    for name in (
+        "samples",
+        "samples with pressure",
+        "Shoe",
+        "AngularRate",
+        "MovingVariance",
+        "Graph",
+        "TwoArea",
+        "MaximumPressure",
+        "LinearDedrift",
+        "LinearDedrift with pressure",
+    )
+)
+NAMES = PACKET_NAMES + SAMPLE_NAMES
+"""Of `machines`, known without emulating anything: test ids must not cost a walk."""
+
+
+def of(kind: Any, events: list[Any]) -> list[Any]:
+    """The events of a kind."""
+    return [event for event in events if isinstance(event, kind)]
+
+
+def pieces(items: tuple[Item, ...], sizes: list[int]) -> Iterator[tuple[Item, ...]]:
+    """The items cut into chunks of these sizes, again and again until all are gone."""
+    at, k = 0, 0
+    while at < len(items):
+        size = max(1, sizes[k % len(sizes)]) if sizes else len(items)
+        yield items[at : at + size]
+        at, k = at + size, k + 1
