@@ -9,6 +9,10 @@ from .types import Quat, Vec3
 GRAVITY = 9.80665
 """Standard gravity, m/s^2 (ISO 80000-3)."""
 
+TIE = 1e-6
+"""s; spans of time are as long as they should be when they lack no more than this. Samples are often taken at round
+times, and rounding must not decide which of them ends a span, or a walk at another hour would be another walk."""
+
 IDENTITY: Quat = (1.0, 0.0, 0.0, 0.0)
 ZERO: Vec3 = (0.0, 0.0, 0.0)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from attrs import define, field
 
 from ..types import Quat, Vec3
-from ..vector import GRAVITY, ZERO, levelling
+from ..vector import GRAVITY, TIE, ZERO, levelling
 
 
 @define
@@ -70,7 +70,7 @@ class Levelling:
         if self.begun is None:
             self.begun = self.span_start = t
         self.span.add(acc, gyro)
-        if t - self.span_start < self.length or self.span.count < 3:
+        if t - self.span_start < self.length - TIE or self.span.count < 3:
             return None
         mean_acc, _ = self.span.means()
         acc_variance, gyro_variance = self.span.variances()
@@ -79,7 +79,7 @@ class Levelling:
         self.span_start = t
         if quiet:
             return levelling(mean_acc), 0.02
-        if t - self.begun >= self.patience:
+        if t - self.begun >= self.patience - TIE:
             return levelling(mean_acc), 0.2
         return None
 
@@ -116,7 +116,7 @@ class Rest:
         if self.span_start is None:
             self.span_start = t
         self.span.add(acc, gyro)
-        if t - self.span_start < self.length or self.span.count < 4:
+        if t - self.span_start < self.length - TIE or self.span.count < 4:
             return False
         (ax, ay, az), (gx, gy, gz) = self.span.means()
         acc_variance, gyro_variance = self.span.variances()

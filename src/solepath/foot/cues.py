@@ -18,7 +18,7 @@ from typing import NamedTuple
 from attrs import define, field
 
 from ..types import Phase, Vec3
-from ..vector import ZERO
+from ..vector import TIE, ZERO
 from .phase import Cue
 from .stance import Load
 
@@ -100,14 +100,14 @@ class InertialCues:
         if now < self.rolling and (still or self.calm is None):
             self.calm = t
         if self.still_since is not None:
-            if phase is not Phase.STATIONARY and t - self.still_since >= self.settle:
+            if phase is not Phase.STATIONARY and t - self.still_since >= self.settle - TIE:
                 return Seen(Cue.FLAT, self.still_since - self.lookback)
             return None
         x, y, z = self.turned
         self.turned = (x + gx * dt, y + gy * dt, z + gz * dt)
         if phase is Phase.STATIONARY:
             self.peak = max(self.peak, now)
-            if self.moving_since is not None and t - self.moving_since >= self.settle:
+            if self.moving_since is not None and t - self.moving_since >= self.settle - TIE:
                 return Seen(Cue.LIFT, self.moving_since if self.calm is None else min(self.calm, self.moving_since))
             return None
         return self._in_push_off(t, dt, before, now, phase)
@@ -121,17 +121,17 @@ class InertialCues:
             share = (before - limit) / (before - now) if before > limit > now else 1.0
             return self._clear(t - dt * (1.0 - share))
         patience = self.loading_time if phase is Phase.LOADING else self.shuffle_time
-        if self.fast_since is not None and t - self.fast_since >= patience:
+        if self.fast_since is not None and t - self.fast_since >= patience - TIE:
             return self._clear(self.fast_since)
         return None
 
     def _in_swing(self, t: float, dt: float, before: float, now: float) -> Seen | None:
         self.trough = min(self.trough, now)
         if self.still_since is not None:
-            if t - self.still_since >= self.settle:
+            if t - self.still_since >= self.settle - TIE:
                 return Seen(Cue.CONTACT, self.still_since - self.lookback)
             return None
-        landed = self.axis is not None and self.trough < -self.hump and t - self.toe_off >= self.shortest_swing
+        landed = self.axis is not None and self.trough < -self.hump and t - self.toe_off >= self.shortest_swing - TIE
         if landed and before < self.slap <= now:
             self.peak = 0.0
             self.turned = ZERO

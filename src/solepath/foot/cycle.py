@@ -14,7 +14,7 @@ from math import exp, inf, log, sqrt
 from attrs import define, field
 
 from ..types import Phase, Vec3
-from ..vector import ZERO
+from ..vector import TIE, ZERO
 from .stance import SIGMA_ACC, SIGMA_GYRO, Load, Shoe, Stance
 
 
@@ -77,7 +77,7 @@ class Cycle:
         return exp((1.0 - self.share) * log(low) + self.share * log(high))
 
     def _remember(self, t: float, statistic: float) -> None:
-        if self.bucket_end is None or t >= self.bucket_end:
+        if self.bucket_end is None or t >= self.bucket_end - TIE:
             if self.bucket_end is not None:
                 self.lows = (self.lows[1], self.lows[2], self.low)
                 self.highs = (self.highs[1], self.highs[2], self.high)

@@ -16,7 +16,7 @@ from math import inf
 from attrs import define, field
 
 from ..types import Phase, Quat, Vec3
-from ..vector import GRAVITY, ZERO, normalise
+from ..vector import GRAVITY, TIE, ZERO, normalise
 from .covariance import (
     TILT_X,
     TILT_Y,
@@ -127,7 +127,7 @@ class ErrorStateFilter(Strapdown):
             self.accepted = t
         rx, ry, rz = stance.v_ref
         vx, vy, vz = self.velocity
-        if not certain and t - self.accepted > self.patience and stance.statistic <= 3.0 * self.quietest:
+        if not certain and t - self.accepted > self.patience - TIE and stance.statistic <= 3.0 * self.quietest:
             self._doubt(velocity=0.3, tilt=0.03)
         elif t - self.quiet_since > self.lasting and t - self.accepted > self.lasting:
             # no swing is quiet for so long, so the foot stands and the velocity is what is wrong

@@ -10,6 +10,7 @@ from __future__ import annotations
 from attrs import define, field
 
 from ..types import Layout
+from ..vector import TIE
 from .stance import Load
 
 HEEL = 0.33
@@ -31,7 +32,7 @@ class Extremes:
     high: float = field(default=0.0, init=False)
 
     def update(self, t: float, value: float) -> None:
-        if self.ends is None or t >= self.ends:
+        if self.ends is None or t >= self.ends - TIE:
             self.ends = t + self.span
             self.lows = [*self.lows[-4:], value]
             self.highs = [*self.highs[-4:], value]
