@@ -129,7 +129,7 @@ class ErrorStateFilter(Strapdown):
         vx, vy, vz = self.velocity
         if not certain and t - self.accepted > self.patience - TIE and stance.statistic <= 3.0 * self.quietest:
             self._doubt(velocity=0.3, tilt=0.03)
-        elif t - self.quiet_since > self.lasting and t - self.accepted > self.lasting:
+        elif min(t - self.quiet_since, t - self.accepted) > self.lasting - TIE:
             # no swing is quiet for so long, so the foot stands and the velocity is what is wrong
             self._doubt(velocity=abs(vx - rx) + abs(vy - ry) + abs(vz - rz), tilt=0.1)
         outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if certain else self.refuse)
@@ -151,7 +151,7 @@ class ErrorStateFilter(Strapdown):
             return dt
         self._carry()
         if dt == inf:  # times begin anew
-            self.accepted = None
+            self.accepted = self.quiet_since = None
         self.velocity = self.start_velocity = ZERO
         self.force = self.rate = None
         self._doubt(velocity=1.0, tilt=0.2)
