@@ -69,7 +69,7 @@ def _rich_is_there() -> bool:
 
     if find_spec("rich") is not None:
         return True
-    note("the live view needs rich: pip install 'solepath[live]'")
+    note("the live view needs rich (pip install rich); plain text without it")
     return False
 
 
