@@ -10,8 +10,11 @@ two samples: no generators, closures, rebound methods or arrays.
 
 from __future__ import annotations
 
+import json
+import re
 import types
 import typing
+from binascii import crc32
 from collections import deque
 from collections.abc import Callable
 from enum import Enum
@@ -42,10 +45,18 @@ def load(cls: type[T], value: Json) -> T:
         loaded: T = _codec(cls)[1](value)
     except SnapshotError:
         raise
-    except (TypeError, ValueError, KeyError, IndexError, AttributeError) as error:
+    except (TypeError, ValueError, KeyError, IndexError, AttributeError, OverflowError, RecursionError) as error:
         raise SnapshotError(f"not a snapshot of {cls.__name__}: {error}") from error
     return loaded
 
+
+def checksum(value: Json) -> int:
+    """CRC-32 of what `save` gave, whatever the order of its keys; minus zero counts as zero: some encoders lose it."""
+    text = json.dumps(value, sort_keys=True, separators=(",", ":"))
+    return crc32(_MINUS_ZERO.sub("0.0", text).encode())
+
+
+_MINUS_ZERO = re.compile(r"-0\.0(?=[],}])")
 
 _CODECS: dict[Any, tuple[_Saver, _Loader]] = {}
 

@@ -23,7 +23,7 @@ from .foot.refusal import rejected, wrong_time
 from .foot.tracker import FootTracker
 from .foot.world import Covariance3
 from .link.decoder import Decoder
-from .machine import Json, SnapshotError, load, save
+from .machine import Json, SnapshotError, checksum, load, save
 from .recipes import DEFAULT, Recipe
 from .types import Foot, Packet, Phase, Sample, Site, Support, Vec3
 
@@ -236,16 +236,23 @@ class Session:
     # --- elsewhere ---
 
     def snapshot(self) -> dict[str, Json]:
-        """Everything the session remembers, as plain data for JSON or any other encoder. Costs about 1 ms."""
-        return {"solepath": SNAPSHOT_VERSION, "state": save(self._state)}
+        """Everything the session remembers, as plain data for JSON or any other encoder. Costs some milliseconds.
+
+        It carries a checksum of itself: a session made of damaged numbers could do anything later.
+        """
+        state = save(self._state)
+        return {"solepath": SNAPSHOT_VERSION, "check": checksum(state), "state": state}
 
     @classmethod
     def restore(cls, saved: Any) -> Session:
-        """A session that goes on where `saved` was taken. SnapshotError when it is not a snapshot of this version."""
-        if not isinstance(saved, dict) or "solepath" not in saved or "state" not in saved:
+        """A session that goes on where `saved` was taken. SnapshotError when it is not a snapshot of this version, or
+        was damaged."""
+        if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
             raise SnapshotError("not a snapshot of a session")
         if saved["solepath"] != SNAPSHOT_VERSION:
             raise SnapshotError(f"snapshot version {saved['solepath']!r}; this release reads {SNAPSHOT_VERSION}")
         session = cls.__new__(cls)
         session._state = load(_State, saved["state"])
+        if checksum(save(session._state)) != saved["check"]:
+            raise SnapshotError("the snapshot was damaged: its checksum is another")
         return session
