@@ -22,6 +22,9 @@ from ..vector import TIE, ZERO
 from .phase import Cue
 from .stance import Load
 
+MISFITS = 3
+"""Push-offs in a row about another axis after which that one is believed."""
+
 
 class Seen(NamedTuple):
     cue: Cue
@@ -62,6 +65,8 @@ class InertialCues:
     fast_since: float | None = field(default=None, init=False)
     axis: Vec3 | None = field(default=None, init=False)
     """Unit vector to the wearer's left, sensor frame; learnt from how the foot turns as the heel lifts."""
+    misfits: int = field(default=0, init=False)
+    """Push-offs in a row that turned about another axis."""
     turned: Vec3 = field(default=ZERO, init=False)
     """Turn since the foot began to move, rad, sensor frame."""
     peak: float = field(default=0.0, init=False)
@@ -156,7 +161,12 @@ class InertialCues:
             return True
         u, v, w = self.axis
         if u * x + v * y + w * z < 0.5:
-            return False  # turned about another axis: not how this wearer pushes off
+            # turned about another axis: not how this wearer pushes off, unless it keeps on doing so
+            self.misfits += 1
+            if self.misfits < MISFITS:
+                return False
+            u, v, w = x, y, z
+        self.misfits = 0
         u, v, w = u + 0.2 * (x - u), v + 0.2 * (y - v), w + 0.2 * (z - w)
         k = 1.0 / sqrt(u * u + v * v + w * w)
         self.axis = (u * k, v * k, w * k)

@@ -81,7 +81,7 @@ class LinearDedrift(Strapdown):
     def covariance(self) -> tuple[float, ...]:
         variance = (self.drift * self.length) ** 2
         yaw = self.turn_drift * self.turn_drift * self.lasted
-        return (variance, 0.0, 0.0, variance, 0.0, variance, yaw, 0.0, 0.0, 0.0)
+        return (variance, 0.0, 0.0, variance, 0.0, variance, yaw)
 
     def _level(self, dt: float) -> None:
         """Turn the attitude about f x z so that the specific force points up, by 1 - exp(-rate dt) of the way."""

@@ -23,7 +23,6 @@ from .covariance import (
     VELOCITY_X,
     VELOCITY_Y,
     VELOCITY_Z,
-    YAW,
     Correction,
     Covariance,
     propagate,
@@ -36,8 +35,6 @@ REFERENCE_INTERVAL = 0.005
 """The spacing of updates that a Stance's sigma is meant for, s; other spacings scale its variance."""
 SHORTEST_INTERVAL = 0.0035
 """Corrections closer together than this are left out: neighbouring samples say the same, s."""
-_STRETCH = (0, 1, 2, 3, 4, 5, YAW, 17, 20, 23)
-"""Where position covariance, yaw variance and position-yaw covariance stand in a Covariance."""
 
 
 @define
@@ -57,6 +54,9 @@ class ErrorStateFilter(Strapdown):
     """Noise of a rate that may be clipped, rad/s/sqrt(Hz)."""
     saturated_noise: float = 1.0
     """Noise of a rate that the device says is clipped, rad/s/sqrt(Hz)."""
+    heading_drift: float = 0.004
+    """Growth of the heading error, rad/sqrt(s): half a degree in the first four seconds, two in a minute. What the
+    noise above makes of yaw is not it: that noise is there to keep tilt correctable, and over a step it cancels."""
     refuse: float = 12.0
     """Largest normalised innovation squared (chi-square, three degrees of freedom)."""
     patience: float = 1.2
@@ -67,6 +67,8 @@ class ErrorStateFilter(Strapdown):
     """How fast gravity pulls the tilt upright while the evidence is certain, 1/s."""
     # state
     uncertainty: Covariance = field(default=(0.0,) * 45, init=False)
+    stretch: float = field(default=0.0, init=False)
+    """Time since the last anchor, s."""
     since: float = field(default=0.0, init=False)
     """Time since the covariance was last carried forward, s."""
     start_velocity: Vec3 = field(default=ZERO, init=False)
@@ -85,7 +87,7 @@ class ErrorStateFilter(Strapdown):
         covariance[VELOCITY_X] = covariance[VELOCITY_Y] = covariance[VELOCITY_Z] = 1e-4
         covariance[TILT_X] = covariance[TILT_Y] = tilt_sigma * tilt_sigma
         self.uncertainty = tuple(covariance)
-        self.since = self.acc_variance = self.gyro_variance = 0.0
+        self.since = self.stretch = self.acc_variance = self.gyro_variance = 0.0
         self.accepted = self.quiet_since = None
         self.quietest = 1e12
 
@@ -110,6 +112,7 @@ class ErrorStateFilter(Strapdown):
             noise += self.clipped_noise * self.clipped_noise
         self.gyro_variance += noise * dt
         self.since += dt
+        self.stretch += dt
 
     def correct(self, t: float, stance: Stance) -> bool:
         sigma = stance.sigma
@@ -159,8 +162,9 @@ class ErrorStateFilter(Strapdown):
 
     def anchor(self) -> tuple[float, ...]:
         self._carry()
+        stretch = self._stretch(self.uncertainty)
+        self.stretch = 0.0
         covariance = list(self.uncertainty)
-        stretch = tuple([covariance[i] for i in _STRETCH])
         # position and yaw are exact again by definition, so nothing is correlated with them: pp, pv, pt and all of yaw
         for i in (*range(24), 32, 35, 38, 41, 43, 44):
             covariance[i] = 0.0
@@ -168,8 +172,10 @@ class ErrorStateFilter(Strapdown):
         return stretch
 
     def covariance(self) -> tuple[float, ...]:
-        covariance = self._carried() if self.since > 0.0 else self.uncertainty
-        return tuple([covariance[i] for i in _STRETCH])
+        return self._stretch(self._carried() if self.since > 0.0 else self.uncertainty)
+
+    def _stretch(self, covariance: Covariance) -> tuple[float, ...]:
+        return (*covariance[:6], self.heading_drift * self.heading_drift * self.stretch)
 
     def _carried(self) -> Covariance:
         t = self.since

@@ -42,7 +42,7 @@ class Corrector(Protocol):
 
     def anchor(self) -> tuple[float, ...]:
         """Begin a new stretch here. Returns the covariance of the stretch that ends: position xx, xy, xz, yy, yz, zz
-        (m^2), yaw (rad^2), and position with yaw x, y, z (m rad)."""
+        (m^2) and yaw (rad^2)."""
 
     def covariance(self) -> tuple[float, ...]:
         """What `anchor` would return now, changing nothing."""

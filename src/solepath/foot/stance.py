@@ -18,13 +18,14 @@ from collections import deque
 from math import inf, sqrt
 from typing import NamedTuple, Protocol
 
-from attrs import define, field
+from attrs import define, field, frozen
 
 from ..types import Phase, Vec3
 from ..vector import GRAVITY, ZERO
 
 
-class Load(NamedTuple):
+@frozen
+class Load:
     """What the pressure cells say at one instant; loads are fractions of the wearer's own full load."""
 
     total: float

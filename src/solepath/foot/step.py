@@ -33,7 +33,7 @@ class Way:
         """The way with one more stretch (`Corrector.anchor`), both in the same frame."""
         dx, dy, _ = displacement
         px, py = -dy, dx
-        sxx, sxy, sxz, syy, syz, szz, yaw, yx, yy, _ = stretch
+        sxx, sxy, sxz, syy, syz, szz, yaw = stretch
         xx, xy, xz, y2, yz, zz = self.position
         mx, my = self.mixed
         v = self.yaw
@@ -47,7 +47,7 @@ class Way:
                 zz + szz,
             ),
             v + yaw,
-            (mx + v * px + yx, my + v * py + yy),
+            (mx + v * px, my + v * py),
         )
 
 

@@ -32,6 +32,9 @@ AnyCorrector = ErrorStateFilter | LinearDedrift
 STILL = 0.35
 """A foot that is faster than this after the correction is not flat, however much noise the evidence has, m/s."""
 
+WITHOUT = 1.0
+"""For this long samples may lack acc or gyro before the foot is said to have none, s."""
+
 
 @define
 class FootTracker:
@@ -44,6 +47,15 @@ class FootTracker:
     """Emit FootMoved for every navigated sample."""
     # state
     t: float | None = field(default=None, init=False)
+    """The newest sample, s."""
+    moved_at: float | None = field(default=None, init=False)
+    """The newest sample with both acc and gyro, s."""
+    pressed_at: float | None = field(default=None, init=False)
+    """The newest sample that lacked one of them, s."""
+    lacking_since: float | None = field(default=None, init=False)
+    """Since when no sample has had both, s."""
+    load: Load | None = field(default=None, init=False)
+    """The newest load, when a sample without acc or gyro brought it."""
     interval: float | None = field(default=None, init=False)
     """Usual time between samples, s."""
     phase: Phase = field(default=Phase.STATIONARY, init=False)
@@ -101,7 +113,7 @@ class FootTracker:
         """The clock of the samples begins anew, before or after the old one; what the foot did between is unknown."""
         if self.t is not None and self.levelled:
             self.corrector.bridge(inf)
-        self.t = self.phase_began = None
+        self.t = self.moved_at = self.pressed_at = self.lacking_since = self.phase_began = self.load = None
         self.step.degraded = True
         # Windows over the old times would wait for the new ones to catch up. What was learnt stays.
         axis = self.inertial_cues.axis
@@ -116,17 +128,16 @@ class FootTracker:
     def feed(self, sample: Sample) -> list[Event]:
         """One sample of this foot. A sample that cannot be used changes nothing and is named in an event."""
         t = sample.t
-        why_not = refusal(sample, self.t)
+        whole = sample.acc is not None and sample.gyro is not None
+        last = self.moved_at if whole else self.pressed_at
+        why_not = refusal(sample, last)
         if why_not is not None:
-            return [rejected(sample, why_not, self.t)]
+            return [rejected(sample, why_not, last)]
         known_at = t if sample.known_at is None else max(t, sample.known_at)
         if sample.acc is None and sample.gyro is None and not sample.pressure:
             return []  # a barometer's or magnetometer's: not a matter of the foot
         events: list[Event] = []
-        dt = 0.0
-        if self.t is not None:
-            dt = self._watch_for_gaps(t - self.t, known_at, events)
-        self.t = t
+        self.t = t if self.t is None else max(self.t, t)
         if sample.saturated:
             self.step.degraded = True
         load: Load | None = None
@@ -135,18 +146,28 @@ class FootTracker:
             if self.phase is not Phase.SWING and load is not None:
                 self.step.loaded(sum(sample.pressure), self.insole.centre_of_pressure(sample.pressure))
         if sample.acc is not None and sample.gyro is not None:
+            dt = 0.0 if last is None else self._watch_for_gaps(last, t, known_at, events)
+            self.moved_at = t
+            self.lacking_since = None
+            if load is None:
+                load, self.load = self.load, None
             self._inertial(t, dt, known_at, sample.acc, sample.gyro, sample.saturated, load, events)
+            return events
+        self.pressed_at = t
+        if self.moved_at is not None and t - self.moved_at < WITHOUT:
+            self.load = load  # cells and inertial sensor come apart; the next inertial sample takes the load along
         else:
+            dt = 0.0 if last is None else self._watch_for_gaps(last, t, known_at, events)
             self._pressure_alone(t, dt, known_at, sample, load, events)
         return events
 
-    def _watch_for_gaps(self, dt: float, known_at: float, events: list[Event]) -> float:
-        """Name a gap; returns the time to integrate over, s."""
+    def _watch_for_gaps(self, last: float, t: float, known_at: float, events: list[Event]) -> float:
+        """Name a gap between two samples; returns the time to integrate over, s."""
+        dt = t - last
         usual = self.interval
         if usual is None:
             self.interval = dt
         elif dt > 1.75 * usual and dt - usual > 0.004:
-            last = known_at if self.t is None else self.t
             events.append(SampleGap(t=last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=dt))
             self.step.degraded = True
             if self.levelled:
@@ -221,8 +242,10 @@ class FootTracker:
     def _pressure_alone(
         self, t: float, dt: float, known_at: float, sample: Sample, load: Load | None, events: list[Event]
     ) -> None:
+        if self.lacking_since is None:
+            self.lacking_since = t
         lacking = "accelerometer" if sample.acc is None else "gyroscope"
-        if lacking not in self.said:
+        if t - self.lacking_since >= WITHOUT and lacking not in self.said:
             self.said.append(lacking)
             what = f"no {lacking} on the {self.foot.value} foot: no steps and no track from it"
             events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[self.foot], what=what))
