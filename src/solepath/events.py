@@ -223,6 +223,8 @@ class LayoutKnown(_Event):
 
 @frozen(kw_only=True)
 class BatteryLevel(_Event):
+    """The device said how full its battery is."""
+
     site: Site
     level: float
     """0 to 1."""
@@ -260,3 +262,4 @@ LinkEvent = (
     | Limitation
 )
 Event = GaitEvent | LinkEvent
+"""All of them."""

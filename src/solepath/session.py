@@ -61,8 +61,9 @@ class Session:
     total: any bytes give events, never an exception. TypeError for what is neither a packet nor a sample, ValueError
     for a time that is not finite in `advance` and for feeding after `finish`.
 
-    Latency: zero velocity and live position with the sample; heel-strike and toe-off one sample where the foot's axis
-    is known; foot-flat, heel-off and the step that ends 30 ms (two samples below 60 Hz).
+    Latency: zero velocity and live position with the sample; heel-strike and toe-off one sample once a foot has pushed
+    off the first time; foot-flat and the step that it ends about 40 ms; heel-off 40 to 140 ms, since a heel comes off
+    slowly and is dated back.
     """
 
     __slots__ = ("_state",)
@@ -199,6 +200,7 @@ class Session:
 
     @property
     def recipe(self) -> Recipe:
+        """The parts that this session is made of."""
         return self._state.recipe
 
     @property

@@ -17,6 +17,8 @@ Quat = tuple[float, float, float, float]
 
 
 class Foot(Enum):
+    """One of the wearer's feet."""
+
     LEFT = "left"
     RIGHT = "right"
 
