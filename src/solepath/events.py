@@ -60,8 +60,8 @@ class StepFeatures:
     """What was measured along one step, for whoever compares steps; None where the sensors could not tell.
 
     `clearance`: highest rise of the sensor above the higher end of the step, m. `peak_speed`: m/s. `swing_pitch`:
-    range of the pitch angle over the step, rad. `contact_load`: mean load over the contact before the step, in the
-    unit of the samples. `cop`: centre-of-pressure path (x, y) in the foot frame over that contact, m, at most 32
+    range of the pitch angle over the step, rad. `contact_load`: mean load from foot-flat to toe-off, in the unit of the
+    samples. `cop`: centre-of-pressure path (x, y) in the foot frame over the same time, m, at most 32
     points evenly spaced in samples.
     """
 

@@ -2,7 +2,8 @@
 
 Nobody calibrates an insole before walking. The tare is what the cells show when the foot is in the air (a shoe presses
 on them even then), the full load what they show when it carries the body; both are learnt from the signal, so newtons
-and counts serve alike. Until the load has once fallen to a fraction of itself nothing is known and there is no `Load`.
+and counts serve alike. Until the load has once fallen to a fraction of itself and risen again nothing is known and
+there is no `Load`: a load that still falls is always the least so far, and a foot about to step would be in the air.
 """
 
 from __future__ import annotations
@@ -64,6 +65,8 @@ class Insole:
     tare: list[float] = field(factory=list, init=False)
     """Each cell in the air, unit of the samples."""
     unloaded: bool = field(default=False, init=False)
+    risen: bool = field(default=False, init=False)
+    """The load has come up again from its lowest."""
 
     def wear(self, layout: Layout) -> None:
         """The device said where its cells are."""
@@ -80,29 +83,38 @@ class Insole:
         total = sum(cells)
         self.total.update(t, total)
         self.highest = max(self.highest * 0.9999, max(cells, default=0.0))
+        heel = forefoot = None
+        if self.layout is not None and len(cells) == len(self.layout.cells):
+            heel = self._above_least(t, cells, self.heel_cells, self.heel)
+            forefoot = self._above_least(t, cells, self.forefoot_cells, self.forefoot)
         low, high = self.total.low, self.total.high
         reach = high - low
         if reach <= self.contrast * high or reach <= 0.0:
+            self.risen = False
             return None
+        if not self.risen:
+            self.risen = total - low > self.contrast * high
+            if not self.risen:
+                return None
         share = (total - low) / reach
         airborne = share < self.airborne
         if airborne and not self.unloaded:
             self.tare = list(cells)
         self.unloaded = airborne
-        heel = forefoot = None
-        if self.layout is not None and len(cells) == len(self.layout.cells):
-            heel = self._area(t, cells, self.heel_cells, self.heel, reach)
-            forefoot = self._area(t, cells, self.forefoot_cells, self.forefoot, reach)
+        if heel is not None:
+            heel /= reach
+        if forefoot is not None:
+            forefoot /= reach
         highest = max(cells, default=0.0) / self.highest if self.highest > 0.0 else 0.0
         return Load(share, heel, forefoot, highest, airborne)
 
     @staticmethod
-    def _area(t: float, cells: tuple[float, ...], indices: list[int], extremes: Extremes, reach: float) -> float | None:
+    def _above_least(t: float, cells: tuple[float, ...], indices: list[int], extremes: Extremes) -> float | None:
         if not indices:
             return None
         value = sum([cells[i] for i in indices])
         extremes.update(t, value)
-        return (value - extremes.low) / reach
+        return value - extremes.low
 
     def centre_of_pressure(self, cells: tuple[float, ...]) -> tuple[float, float] | None:
         """(x, y) in the foot frame, m: the mean of the cells' places weighted by their load above tare; None in the air

@@ -172,8 +172,9 @@ class MovingVariance:
 class Graph:
     """MBGTD: how well the window can be cut into an early and a late part that are far from each other.
 
-    For every pair of cuts a < b, the distances |a_i - a_j| between the samples up to a and the samples from b on are
-    summed and divided by (b - a) (W - b + 1); T is the largest of these, in m/s^2. Costs O(W^2) a sample.
+    For every pair of cuts a < b, counted from 0 as in published code, the distances |a_i - a_j| between the samples up
+    to a and the samples from b on are summed and divided by (b - a) (W - b + 1); T is the largest of
+    these, in m/s^2. Costs O(W^2) a sample.
     """
 
     count: int = 5

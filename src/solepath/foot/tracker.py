@@ -143,7 +143,7 @@ class FootTracker:
         load: Load | None = None
         if sample.pressure:
             load = self.insole.update(t, sample.pressure)
-            if self.phase is not Phase.SWING and load is not None:
+            if self.phase is not Phase.SWING and load is not None and self.step.t_toe_off is None:
                 self.step.loaded(sum(sample.pressure), self.insole.centre_of_pressure(sample.pressure))
         if sample.acc is not None and sample.gyro is not None:
             dt = 0.0 if last is None else self._watch_for_gaps(last, t, known_at, events)
