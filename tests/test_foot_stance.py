@@ -1,0 +1,219 @@
+"""Stance detectors: their statistics by hand, their running sums against the formula, and what they make of a walk."""
+
+from __future__ import annotations
+
+from math import inf, pi, sqrt
+from typing import Any
+
+import numpy as np
+import pytest
+
+from solepath.foot.cycle import Cycle
+from solepath.foot.pressure_stance import MaximumPressure, TwoArea
+from solepath.foot.stance import AngularRate, Graph, Load, MovingVariance, Shoe, Stance, soften
+from solepath.sim.insoles import layout
+from solepath.sim.route import Route
+from solepath.sim.walker import Walker
+from solepath.types import Foot, Phase
+from solepath.vector import GRAVITY
+
+SIGMA_ACC, SIGMA_GYRO = 0.01, 0.1 * pi / 180.0
+"""Skog et al.: the noise levels that the statistics are scaled by, m/s^2 and rad/s."""
+
+Rows = list[tuple[float, float, float]]
+
+
+def shoe(acc: Rows, gyro: Rows) -> float:
+    """T = 1/W sum(|a - g m/|m||^2 / s_a^2 + |w|^2 / s_w^2), m the mean of a."""
+    a, w = np.array(acc), np.array(gyro)
+    mean = a.mean(axis=0)
+    off = ((a - GRAVITY * mean / np.linalg.norm(mean)) ** 2).sum() / SIGMA_ACC**2
+    return float((off + (w**2).sum() / SIGMA_GYRO**2) / len(a))
+
+
+def are(acc: Rows, gyro: Rows) -> float:
+    """T = 1/W sum |w|^2 / s_w^2."""
+    return float((np.array(gyro) ** 2).sum() / SIGMA_GYRO**2 / len(gyro))
+
+
+def mv(acc: Rows, gyro: Rows) -> float:
+    """T = 1/W sum |a - m|^2 / s_a^2."""
+    a = np.array(acc)
+    return float(((a - a.mean(axis=0)) ** 2).sum() / SIGMA_ACC**2 / len(a))
+
+
+def mbgtd(acc: Rows, gyro: Rows) -> float:
+    """The largest, over pairs of cuts a < b, of sum over i <= a, j >= b of |a_i - a_j| / ((b - a) (W - b + 1)); counted
+    from 0."""
+    v, w = np.array(acc), len(acc)
+    distances = np.linalg.norm(v[:, None] - v[None, :], axis=2)
+    return max(
+        float(distances[: a + 1, b:].sum() / ((b - a) * (w - b + 1))) for a in range(w - 1) for b in range(a + 1, w)
+    )
+
+
+ACC: Rows = [(0.0, 0.0, 9.80665), (0.3, 0.0, 9.80665), (0.0, -0.4, 9.50665), (0.1, 0.2, 10.30665)]
+GYRO: Rows = [(0.0, 0.0, 0.0), (0.0, 0.02, 0.0), (0.01, 0.0, -0.03), (0.1, 0.2, 0.2)]
+
+
+def run(detector: Any, acc: Rows, gyro: Rows, dt: float = 0.01) -> list[Stance]:
+    return [detector.update(k * dt, dt, a, w, None) for k, (a, w) in enumerate(zip(acc, gyro, strict=True))]
+
+
+@pytest.mark.parametrize(
+    ("detector", "formula", "length"),
+    [
+        (Shoe(window=0.035), shoe, 4),
+        (Shoe(window=0.025), shoe, 3),
+        (AngularRate(window=0.035), are, 4),
+        (AngularRate(window=0.025), are, 3),
+        (MovingVariance(window=0.035), mv, 4),
+        (MovingVariance(window=0.025), mv, 3),
+        (Graph(count=4), mbgtd, 4),
+        (Graph(count=3), mbgtd, 3),
+        (Cycle(), shoe, 3),
+    ],
+    ids=lambda value: type(value).__name__ if hasattr(value, "update") else None,
+)
+def test_the_statistic_is_what_its_formula_says(detector: Any, formula: Any, length: int) -> None:
+    found = run(detector, ACC, GYRO)[-1].statistic
+    assert found == pytest.approx(formula(ACC[-length:], GYRO[-length:]), rel=1e-9)
+
+
+def test_by_hand() -> None:
+    """Two samples, worked out on paper."""
+    acc: Rows = [(0.0, 0.0, GRAVITY), (0.0, 0.0, GRAVITY + 0.2)]
+    gyro: Rows = [(0.03, 0.0, 0.0), (0.0, 0.04, 0.0)]
+    assert run(MovingVariance(), acc, gyro)[-1].statistic == pytest.approx(0.1**2 / 1e-4)
+    assert run(AngularRate(), acc, gyro)[-1].statistic == pytest.approx((0.0009 + 0.0016) / 2 / SIGMA_GYRO**2)
+    assert run(Shoe(), acc, gyro)[-1].statistic == pytest.approx(0.04 / 2 / 1e-4 + 0.0025 / 2 / SIGMA_GYRO**2)
+    three: Rows = [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 3.0, 4.0)]  # one stands apart by 5
+    # cuts (0, 1): (0 + 5) / (1 x 3); (0, 2): 5 / (2 x 2); (1, 2): (5 + 5) / (1 x 2)
+    assert run(Graph(), three, [(0.0, 0.0, 0.0)] * 3)[-1].statistic == pytest.approx(5.0)
+
+
+@pytest.mark.parametrize(
+    ("detector", "formula", "length"),
+    [(Shoe(), shoe, 3), (AngularRate(), are, 3), (MovingVariance(), mv, 5), (Graph(), mbgtd, 5), (Cycle(), shoe, 3)],
+    ids=lambda value: type(value).__name__ if hasattr(value, "update") else None,
+)
+def test_running_sums_are_the_direct_computation_after_ten_thousand_samples(
+    detector: Any, formula: Any, length: int
+) -> None:
+    rng = np.random.default_rng(5)
+    # a wild ride of ten thousand samples, then rest: what the sums gathered must not show in the quiet
+    loud = rng.normal(0.0, 1.0, (10_000, 3)) * rng.choice([1.0, 300.0], (10_000, 1))
+    acc = [tuple(row) for row in (loud + [0.0, 0.0, GRAVITY]).tolist()]
+    gyro = [tuple(row) for row in (loud * 0.1).tolist()]
+    quiet = rng.normal(0.0, 0.01, (20, 6))
+    acc += [tuple(row) for row in (quiet[:, :3] + [0.0, 0.0, GRAVITY]).tolist()]
+    gyro += [tuple(row) for row in quiet[:, 3:].tolist()]
+    found = [stance.statistic for stance in run(detector, acc, gyro)]
+    for k in [*range(100, 10_000, 501), *range(10_006, 10_020)]:
+        exact = formula(acc[k - length + 1 : k + 1], gyro[k - length + 1 : k + 1])
+        assert found[k] == pytest.approx(exact, rel=1e-6, abs=1.0 if length != 5 or formula is mv else 1e-9)
+
+
+def test_a_window_is_so_many_seconds_whatever_the_rate() -> None:
+    for rate, held in ((50.0, 2), (100.0, 3), (200.0, 5), (400.0, 10)):
+        detector = Shoe()
+        run(detector, [(0.0, 0.0, GRAVITY)] * 50, [(0.0, 0.0, 0.0)] * 50, 1.0 / rate)
+        assert len(detector.entries) == held
+
+
+@pytest.mark.parametrize("detector", [Shoe(), AngularRate(), MovingVariance(), Graph(), Cycle()], ids=type)
+def test_a_foot_that_rests_is_certainly_still(detector: Any) -> None:
+    last = run(detector, [(0.0, 0.0, GRAVITY)] * 20, [(0.0, 0.0, 0.0)] * 20)[-1]
+    assert last.hint is Phase.STATIONARY and last.sigma == pytest.approx(0.01, rel=0.01)
+    assert last.v_ref == (0.0, 0.0, 0.0)
+
+
+def test_evidence_grows_softer_with_the_statistic_and_ends_at_the_gate() -> None:
+    assert soften(5.0, 0.01, 10.0, 100.0) == Stance((0.0, 0.0, 0.0), 0.01, 5.0, Phase.STATIONARY)
+    assert soften(40.0, 0.01, 10.0, 100.0) == Stance((0.0, 0.0, 0.0), 0.02, 40.0, None)
+    assert soften(100.0, 0.01, 10.0, 100.0) == Stance((0.0, 0.0, 0.0), inf, 100.0, None)
+    sigmas = [soften(t, 0.01, 10.0, 100.0).sigma for t in np.linspace(0.0, 120.0, 50)]
+    assert sigmas == sorted(sigmas)
+
+
+# --- on a walk --------------------------------------------------------------------------------------------------------
+
+WALKER = Walker(Route().stand(1.0).walk(12.0, 1.3).stop(1.0), seed=2)
+
+
+def shares(detector: Any) -> tuple[float, float]:
+    """How often a detector has evidence of stillness in mid-stance, and in mid-swing."""
+    fed = WALKER.samples(Foot.LEFT, 100.0, layout=layout(96, Foot.LEFT))
+    truth = WALKER.truth().feet[Foot.LEFT]
+    stance = [(flat + 0.02, off - 0.02) for flat, off in zip(truth.foot_flats, truth.heel_offs[1:], strict=False)]
+    swing = [(a + 0.15, b - 0.10) for a, b in zip(truth.toe_offs, truth.heel_strikes, strict=True)]
+    from solepath.foot.pressure import Insole
+
+    insole, found = Insole(), []
+    insole.wear(layout(96, Foot.LEFT))
+    for sample in fed:
+        load = insole.update(sample.t, sample.pressure)
+        said = detector.update(sample.t, 0.01, sample.acc, sample.gyro, load)
+        found.append((sample.t, said.sigma < inf))
+
+    def share(spans: list[tuple[float, float]]) -> float:
+        inside = [still for t, still in found for a, b in spans[1:] if a <= t <= b]
+        assert len(inside) > 30
+        return sum(inside) / len(inside)
+
+    return share(stance), share(swing)
+
+
+@pytest.mark.parametrize(
+    "detector", [Cycle(), Shoe(), AngularRate(), MovingVariance(), Graph(), TwoArea(), MaximumPressure()], ids=type
+)
+def test_in_mid_stance_there_is_evidence_and_in_mid_swing_there_is_little(detector: Any) -> None:
+    standing, swinging = shares(detector)
+    assert standing > 0.6
+    assert swinging < 0.1
+
+
+# --- pressure ---------------------------------------------------------------------------------------------------------
+
+ACC_REST, GYRO_REST = (0.0, 0.0, GRAVITY), (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("detector", [TwoArea(), MaximumPressure()], ids=type)
+def test_without_cells_a_pressure_detector_says_nothing(detector: Any) -> None:
+    said = detector.update(0.0, 0.01, ACC_REST, GYRO_REST, None)
+    assert said.sigma == inf and said.hint is None
+
+
+def test_two_loaded_areas_are_a_flat_foot() -> None:
+    def said(heel: float | None, forefoot: float | None, airborne: bool = False) -> Stance:
+        return TwoArea().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.5, heel, forefoot, 0.5, airborne))
+
+    assert said(0.3, 0.2) == Stance((0.0, 0.0, 0.0), 0.01, 0.2, Phase.STATIONARY)
+    assert said(0.05, 0.9).hint is Phase.STATIONARY
+    assert said(0.049, 0.9).sigma == inf and said(0.9, 0.0).sigma == inf
+    assert said(0.0, 0.0, airborne=True).hint is Phase.SWING
+    assert said(None, None).sigma == inf
+
+
+def test_a_heavily_loaded_cell_is_a_foot_on_the_ground() -> None:
+    def said(highest: float, airborne: bool = False) -> Stance:
+        return MaximumPressure().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.5, None, None, highest, airborne))
+
+    assert said(0.26).sigma == 0.05 and said(0.26).statistic == 0.26
+    assert said(0.25).sigma == inf
+    assert said(0.9, airborne=True) == Stance((0.0, 0.0, 0.0), inf, 0.9, Phase.SWING)
+
+
+def test_cells_that_say_airborne_overrule_a_quiet_sensor() -> None:
+    said = Cycle().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.0, None, None, 0.0, True))
+    assert said.sigma == inf and said.hint is Phase.SWING
+
+
+def test_noise_of_the_evidence_grows_with_the_turning_of_the_foot() -> None:
+    parts = [Cycle(arm=0.06, arm2=0.5) for _ in range(2)]
+    still, turning = (
+        run(part, [ACC_REST] * 9, [(0.0, rate, 0.0)] * 9)[-1] for part, rate in zip(parts, (0.0, 0.15), strict=True)
+    )
+    assert still.sigma == pytest.approx(0.01)
+    arm = 0.15 * sqrt(0.06**2 + (0.5 * 0.15) ** 2)
+    assert turning.sigma == pytest.approx(sqrt(0.01**2 + arm**2), rel=1e-6)
