@@ -1,0 +1,158 @@
+"""How long things take: `python tests/bench/bench.py`. Prints a table; asserts nothing.
+
+Medians of five runs in one process on one core, the garbage collector off while the clock runs, as timeit has it. The
+last column is the same as a multiple of the yardstick (yardstick.py), which depends less on the machine.
+"""
+
+from __future__ import annotations
+
+import gc
+import json
+import os
+import platform
+import tracemalloc
+from collections.abc import Callable, Iterable
+from statistics import median
+from time import perf_counter
+from typing import Any
+
+from yardstick import Yardstick
+
+from solepath import Foot, Recipe, Sample, Session, Site, StepTaken
+from solepath.foot.cycle import Cycle
+from solepath.foot.dedrift import LinearDedrift
+from solepath.link.decoder import Decoder
+from solepath.sim.insole_device import Insole
+from solepath.sim.insoles import layout
+from solepath.sim.parts import LSM6DSOX
+from solepath.sim.radio import CLEAN
+from solepath.sim.route import Route
+from solepath.sim.walk import emulate
+from solepath.sim.walker import Walker
+
+RUNS = 5
+ROUTE = Route().stand(2.0).walk(50.0, 1.3).stop(2.0)
+"""About 43 s; the foot stands 10 % of it and walks the rest."""
+
+
+def seconds(work: Callable[[], object]) -> float:
+    """The median time of RUNS runs."""
+    found = []
+    for _ in range(RUNS):
+        gc.collect()
+        gc.disable()
+        began = perf_counter()
+        work()
+        found.append(perf_counter() - began)
+        gc.enable()
+    return median(found)
+
+
+def each(items: list[Any], machine: Callable[[], Any], prepare: Iterable[Any] = ()) -> float:
+    """Microseconds an item: a new machine is fed `prepare` unmeasured, then all items one by one."""
+    found = []
+    for _ in range(RUNS):
+        one = machine()
+        for item in prepare:
+            one.feed(item)
+        feed = one.feed
+        gc.collect()
+        gc.disable()
+        began = perf_counter()
+        for item in items:
+            feed(item)
+        found.append((perf_counter() - began) / len(items) * 1e6)
+        gc.enable()
+    return median(found)
+
+
+def memory(items: Iterable[Any]) -> int:
+    """Bytes that a session holds after all this was fed."""
+    gc.collect()
+    tracemalloc.start()
+    before = tracemalloc.get_traced_memory()[0]
+    session = Session()
+    for item in items:
+        session.feed(item)
+    gc.collect()
+    held = tracemalloc.get_traced_memory()[0] - before
+    tracemalloc.stop()
+    del session
+    return held
+
+
+def main() -> None:
+    walker = Walker(ROUTE, seed=1)
+    bare: list[Sample] = walker.samples(Foot.LEFT, 100.0, LSM6DSOX)
+    pressed: list[Sample] = walker.samples(Foot.LEFT, 100.0, LSM6DSOX, layout=layout(96, Foot.LEFT))
+    walk = emulate(ROUTE, radio=CLEAN, seed=1)
+    left = [packet for packet in walk.packets if packet.site is Site.LEFT_FOOT]
+    info = [packet for packet in left if packet.channel != "insole/frame"]
+    frames = [packet for packet in left if packet.channel == "insole/frame"]
+    (told,) = [packet for packet in info if packet.channel == "insole/info"]
+    small = Insole(cells=24, mtu=23)
+    fragments = list(emulate(ROUTE, devices={Site.LEFT_FOOT: small}, seed=1).packets)
+    linear = Recipe("linear", Cycle(), LinearDedrift())
+
+    yard = each(bare, Yardstick)
+    rows: list[tuple[str, float, str]] = []
+
+    def add(what: str, microseconds: float, unit: str = "us a sample") -> None:
+        rows.append((what, microseconds, unit))
+
+    def decoder() -> Decoder:
+        return Decoder(Site.LEFT_FOOT)
+
+    def knowing() -> Session:
+        session = Session()
+        session.feed(told)
+        return session
+
+    def knowing_poses() -> Session:
+        session = Session(poses=True)
+        session.feed(told)
+        return session
+
+    add("yardstick: numpy, nine states, SHOE", yard)
+    add("foot sample, inertial", each(bare, Session))
+    add("foot sample, inertial, FootMoved", each(bare, lambda: Session(poses=True)))
+    add("foot sample, 96 cells", each(pressed, knowing))
+    add("foot sample, 96 cells, FootMoved", each(pressed, knowing_poses))
+    add("foot sample, inertial, linear dedrift", each(bare, lambda: Session(linear)))
+    add("insole frame, 96 cells: decode", each(frames, decoder, info), "us a packet")
+    add("insole frame, 96 cells: session", each(frames, Session, info), "us a packet")
+    add("insole frame, 96 cells: session, FootMoved", each(frames, lambda: Session(poses=True), info), "us a packet")
+    add("insole fragment of 20 bytes: session", each(fragments, Session), "us a packet")
+
+    def both() -> None:
+        session = Session()
+        for packet in walk.packets:
+            session.feed(packet)
+
+    duration = walk.packets[-1].t
+    real_time = duration / seconds(both)
+
+    session = Session()
+    steps = sum(isinstance(event, StepTaken) for event in session.feed(walk.packets))
+    saved = session.snapshot()
+    text = json.dumps(saved)
+    save, load = seconds(session.snapshot), seconds(lambda: Session.restore(saved))
+
+    print(
+        f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores, one used; medians of {RUNS}"
+    )
+    print(f"{len(bare)} samples, {len(frames)} frames, {steps} steps of both feet in {duration:.0f} s of walking")
+    print()
+    width = max(len(what) for what, _, _ in rows)
+    print(f"{'':{width}}  {'time':>8} {'':<12} {'of the yardstick':>16}")
+    for what, value, unit in rows:
+        print(f"{what:{width}}  {value:8.1f} {unit:<12} {value / yard:16.2f}")
+    print()
+    print(f"real-time factor, both feet with 96 cells at 100 Hz: {real_time:.0f}")
+    print(f"snapshot {save * 1e3:.1f} ms, restore {load * 1e3:.1f} ms, {len(text) / 1000:.1f} kB as JSON")
+    print(f"memory of a session: {memory(bare) / 1000:.0f} kB one foot, inertial; ", end="")
+    print(f"{memory(walk.packets) / 1000:.0f} kB both feet with 96 cells and links")
+
+
+if __name__ == "__main__":
+    main()
