@@ -2,8 +2,8 @@
 
 Nine error states (position, velocity, attitude), the SHOE detector over a window of five samples, a zero-velocity
 update whenever its statistic is below the gate: the textbook arrangement of Foxlin (2005) and Skog et al. (2010), one
-sample at a time. It is honest code, not slowed down: matrices are made once where they can be, and nothing is computed twice.
-What it does not do is what makes up a session: gaps, calibration, phases, steps, pressure.
+sample at a time. It is honest code, not slowed down: matrices are made once where they can be, and nothing is computed
+twice. What it does not do is what makes up a session: gaps, calibration, phases, steps, pressure.
 """
 
 from __future__ import annotations
