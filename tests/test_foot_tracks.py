@@ -218,6 +218,23 @@ def test_after_a_gap_the_walk_goes_on(recipe: Recipe, length: float) -> None:
         assert step.stride_length == pytest.approx(truth.length, abs=0.06)
 
 
+@pytest.mark.parametrize("first", [1e-6, 0.1, 5.0])
+def test_a_strange_first_interval_is_soon_forgotten(first: float) -> None:
+    begin, *others = fed()[2:]
+    start = evolve(begin, t=others[0].t - first)
+    events = told([start, *others])
+    assert len(of(SampleGap, events)) <= 10
+    assert not any(step.degraded for step in of(StepTaken, events)[1:])
+    with_gap = told([start, *(s for s in others if not 8.0 < s.t < 8.1)])
+    assert len(of(SampleGap, with_gap)) == len(of(SampleGap, events)) + 1
+
+
+def test_another_rate_is_no_gap_for_long() -> None:
+    events = told([s for k, s in enumerate(fed()) if s.t < 5.0 or k % 3 == 0])
+    assert 1 <= len(of(SampleGap, events)) <= 12
+    assert sum(step.degraded for step in of(StepTaken, events)) <= 2
+
+
 def test_a_saturated_sample_degrades_its_step_and_no_other() -> None:
     swing = walker().truth().feet[Foot.LEFT].toe_offs[3] + 0.1
     steps = of(StepTaken, told(evolve(s, saturated=swing < s.t < swing + 0.03) for s in fed()))

@@ -22,6 +22,7 @@ from .phase import BEGINS, PHASES, Cue
 from .pressure import Insole
 from .pressure_stance import MaximumPressure, TwoArea
 from .refusal import refusal, rejected
+from .rhythm import Rhythm
 from .stance import AngularRate, Graph, Load, MovingVariance, Shoe
 from .step import StepBuilder, Way
 from .world import Covariance3, World
@@ -56,8 +57,7 @@ class FootTracker:
     """Since when no sample has had both, s."""
     load: Load | None = field(default=None, init=False)
     """The newest load, when a sample without acc or gyro brought it."""
-    interval: float | None = field(default=None, init=False)
-    """Usual time between samples, s."""
+    rhythm: Rhythm = field(factory=Rhythm, init=False)
     phase: Phase = field(default=Phase.STATIONARY, init=False)
     phase_began: float | None = field(default=None, init=False)
     levelling: Levelling = field(factory=Levelling, init=False)
@@ -164,17 +164,11 @@ class FootTracker:
     def _watch_for_gaps(self, last: float, t: float, known_at: float, events: list[Event]) -> float:
         """Name a gap between two samples; returns the time to integrate over, s."""
         dt = t - last
-        usual = self.interval
-        if usual is None:
-            self.interval = dt
-        elif dt > 1.75 * usual and dt - usual > 0.004:
+        if self.rhythm.update(dt):
             events.append(SampleGap(t=last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=dt))
             self.step.degraded = True
             if self.levelled:
                 dt = self.corrector.bridge(dt)
-        if usual is not None:
-            # the usual interval follows slowly and mistrusts the unusual
-            self.interval = usual + 0.02 * (min(max(dt, 0.5 * usual), 2.0 * usual) - usual)
         return dt
 
     def _inertial(

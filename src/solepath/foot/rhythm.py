@@ -1,0 +1,43 @@
+"""How often samples come, and so which wait for one is a gap."""
+
+from __future__ import annotations
+
+from attrs import define, field
+
+
+@define
+class Rhythm:
+    """The usual time between samples, learnt from them. A wait is a gap when it is 1.75 times the usual one and 4 ms
+    longer; many waits in a row that are gaps and alike are no gaps but another rate."""
+
+    share: float = 1.75
+    least: float = 0.004
+    """s."""
+    patience: int = 10
+    """Gaps in a row, each as long as the first within `alike`, that make a new rate."""
+    alike: float = 0.1
+    # state
+    usual: float | None = field(default=None, init=False)
+    """s."""
+    count: int = field(default=0, init=False)
+    first: float = field(default=0.0, init=False)
+    """The first of the gaps in a row, s."""
+
+    def update(self, dt: float) -> bool:
+        """One wait, s; True when it was a gap."""
+        usual = self.usual
+        if usual is None:
+            self.usual = dt
+            return False
+        gap = dt > self.share * usual and dt - usual > self.least
+        # the usual wait follows slowly and mistrusts the unusual
+        self.usual = usual + 0.02 * (min(max(dt, 0.5 * usual), 2.0 * usual) - usual)
+        if not gap:
+            self.count = 0
+            return False
+        if self.count == 0 or abs(dt - self.first) > self.alike * self.first:
+            self.count, self.first = 0, dt
+        self.count += 1
+        if self.count == self.patience:
+            self.usual, self.count = dt, 0
+        return True
