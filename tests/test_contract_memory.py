@@ -74,11 +74,11 @@ def walk_on(session: Session, count: int) -> tuple[list[int], list[int]]:
 def check(sizes: list[int], steps: list[int]) -> None:
     assert max(sizes) <= LARGEST
     assert max(sizes[1:]) <= 1.05 * sizes[1], "the snapshot grows with the time walked"
-    assert min(steps) >= 0.9 * max(steps) > 60, "the walk did not go on"
+    assert min(steps) >= 0.9 * max(steps) > 30, "the walk did not go on"
 
 
-def test_a_session_of_two_insoles_is_as_large_after_four_minutes_as_after_one() -> None:
-    check(*walk_on(Session(poses=True), 4))
+def test_a_session_of_two_insoles_is_as_large_after_three_minutes_as_after_one() -> None:
+    check(*walk_on(Session(poses=True), 3))
 
 
 @pytest.mark.soak
@@ -87,7 +87,7 @@ def test_a_session_of_two_insoles_is_as_large_after_an_hour_as_after_a_minute() 
 
 
 def test_an_hour_of_samples_leaves_nothing_behind() -> None:
-    fed = samples(LOOP, cells=0, rate=50.0)
+    fed = [sample for sample in samples(LOOP, cells=0, rate=50.0) if sample.site is LEFT]
     length = fed[-1].t + 0.02
     session, sizes, found = Session(), [], []
     for k in range(int(3600 / length) + 1):
@@ -104,7 +104,7 @@ def test_the_interpreter_holds_no_more_after_each_round() -> None:
     try:
         held = []
         for packets in every:
-            session.feed(packets[:700])
+            session.feed(packets[:400])
             gc.collect()
             held.append(tracemalloc.get_traced_memory()[0])
     finally:
