@@ -147,6 +147,15 @@ def test_a_refused_packet_does_not_disturb_those_around_it(name: str) -> None:
     assert feed(decoder, frame_packet(20), frame_packet(21)) == clean
 
 
+@pytest.mark.parametrize("channel", CHANNELS)
+def test_bytes_of_no_format_are_refused_on_every_channel_and_do_not_name_the_device(channel: str) -> None:
+    decoder = Decoder(site=LEFT)
+    [rejected] = decoder.feed(packet(9.0, channel, b"\xff" * 9))
+    assert isinstance(rejected, PacketRejected)
+    assert decoder == Decoder(site=LEFT)
+    assert of(Sample, feed(decoder, movement(0)))
+
+
 def test_nothing_is_lost_before_the_first_good_packet_of_a_device() -> None:
     decoder = Decoder(site=LEFT)
     before = machine.save(decoder)

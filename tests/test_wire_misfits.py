@@ -74,6 +74,7 @@ MISFITS: dict[str, tuple[Callable[[Any], bytes], Any]] = {
     "range code 4": (cc2541.build_accelerometer_config, cc2541.AccelerometerConfig(4)),
     "an angular rate under i16": (cc2541.build_gyroscope, cc2541.Gyroscope((-32769, 0, 0))),
     "a field over i16": (cc2541.build_magnetometer, cc2541.Magnetometer((32768, 0, 0))),
+    "barometer code 3": (cc2541.build_barometer_config, cc2541.BarometerConfig(3)),
     "a raw pressure under 0": (cc2541.build_barometer, cc2541.Barometer(0, -1)),
     "a signed c1": (
         cc2541.build_barometer_calibration,

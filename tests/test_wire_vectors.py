@@ -12,6 +12,7 @@ from attrs import frozen
 
 from solepath import machine
 from solepath.events import Rejection
+from solepath.link.profile import PROFILES
 from solepath.types import Cell, Foot
 from solepath.wire import cc2541, cc2650, device, fragment, insole, insole_control, insole_info, period
 from solepath.wire.envelope import crc16
@@ -77,6 +78,9 @@ FORMATS = {
     "cc2650-movement": record(cc2650.Movement, cc2650.parse_movement, cc2650.build_movement),
     "cc2650-movement-config": record(cc2650.MovementConfig, cc2650.parse_movement_config, cc2650.build_movement_config),
     "cc2650-barometer": record(cc2650.Barometer, cc2650.parse_barometer, cc2650.build_barometer),
+    "cc2650-barometer-config": record(
+        cc2650.BarometerConfig, cc2650.parse_barometer_config, cc2650.build_barometer_config
+    ),
     "cc2650-keys": record(cc2650.Keys, cc2650.parse_keys, cc2650.build_keys),
     "cc2541-accelerometer": record(cc2541.Accelerometer, cc2541.parse_accelerometer, cc2541.build_accelerometer),
     "cc2541-accelerometer-config": record(
@@ -87,7 +91,13 @@ FORMATS = {
         cc2541.GyroscopeConfig, cc2541.parse_gyroscope_config, cc2541.build_gyroscope_config
     ),
     "cc2541-magnetometer": record(cc2541.Magnetometer, cc2541.parse_magnetometer, cc2541.build_magnetometer),
+    "cc2541-magnetometer-config": record(
+        cc2541.MagnetometerConfig, cc2541.parse_magnetometer_config, cc2541.build_magnetometer_config
+    ),
     "cc2541-barometer": record(cc2541.Barometer, cc2541.parse_barometer, cc2541.build_barometer),
+    "cc2541-barometer-config": record(
+        cc2541.BarometerConfig, cc2541.parse_barometer_config, cc2541.build_barometer_config
+    ),
     "cc2541-barometer-calibration": record(
         cc2541.BarometerCalibration, cc2541.parse_barometer_calibration, cc2541.build_barometer_calibration
     ),
@@ -169,6 +179,13 @@ def test_a_vector_file_keeps_to_its_schema(name: str) -> None:
 
 def test_every_format_has_a_vector_file_and_the_other_way_round() -> None:
     assert set(FILES) == set(FORMATS)
+
+
+def test_every_channel_has_a_vector_file() -> None:
+    channels = {channel.name for profile in PROFILES for channel in profile.channels}
+    others = {name for name in channels if not name.endswith("-period")}
+    assert {file["channel"] for file in FILES.values()} - {"cc2650/movement-period"} == others
+    assert {name.replace("/", "-") for name in others} | {"sensortag-period", "insole-fragment"} == set(FILES)
 
 
 def test_the_crc_is_ccitt_false() -> None:

@@ -15,10 +15,12 @@ from ..wire.cc2541 import (
     parse_accelerometer_config,
     parse_barometer,
     parse_barometer_calibration,
+    parse_barometer_config,
     parse_gyroscope,
     parse_gyroscope_config,
     parse_keys,
     parse_magnetometer,
+    parse_magnetometer_config,
 )
 from ..wire.period import parse_period
 from .assembler import Assembler
@@ -124,6 +126,12 @@ class Cc2541Link:
                 self._change(self.acc, parse_period(data))
             case "cc2541/gyroscope-period":
                 self._change(self.gyro, parse_period(data))
+            case "cc2541/magnetometer-config":
+                parse_magnetometer_config(data)
+            case "cc2541/barometer-config":
+                parse_barometer_config(data)
+            case "cc2541/magnetometer-period" | "cc2541/barometer-period":
+                parse_period(data)
             case "cc2541/keys":
                 down = parse_keys(data).down
                 return [KeysChanged(t=arrival, known_at=arrival, site=self.site, down=down)]

@@ -9,7 +9,13 @@ from attrs import define, field
 from ..events import KeysChanged, LinkEvent, PacketsLost, ScaleSuspect
 from ..types import Sample, Site
 from ..vector import GRAVITY
-from ..wire.cc2650 import parse_barometer, parse_keys, parse_movement, parse_movement_config
+from ..wire.cc2650 import (
+    parse_barometer,
+    parse_barometer_config,
+    parse_keys,
+    parse_movement,
+    parse_movement_config,
+)
 from ..wire.period import parse_period
 from .periodic import Periodic, periodic
 from .rest import RestCheck, suggestion
@@ -67,6 +73,10 @@ class Cc2650Link:
                     self.movement.change(period)
             case "cc2650/barometer":
                 return self._barometer(data, arrival)
+            case "cc2650/barometer-config":
+                parse_barometer_config(data)
+            case "cc2650/barometer-period":
+                parse_period(data)
             case "cc2650/keys":
                 down = parse_keys(data).down
                 return [KeysChanged(t=arrival, known_at=arrival, site=self.site, down=down)]

@@ -21,6 +21,7 @@ from ..vector import GRAVITY
 from ..wire.error import WireError
 from ..wire.fragment import is_fragment, parse_fragment
 from ..wire.insole import InsoleFrame, InsoleSample, parse_frame
+from ..wire.insole_control import parse_control
 from ..wire.insole_info import InsoleInfo, parse_info
 from .clock import Clock
 from .reassembly import Reassembly
@@ -85,6 +86,7 @@ class InsoleLink:
             return self._fragment(data, arrival) if is_fragment(data) else self._whole(data, arrival)
         if channel == "insole/info":
             return self._info(data, arrival)
+        parse_control(data)  # insole/control, as it was written: frames and INFO say what became of it
         return []
 
     def forget_clock(self) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 from attrs import frozen
 from construct import BitsInteger, BitStruct, Flag, Int8ul, Struct, Terminated
 
-from .fields import Fields, Record, build_whole, malformed, parse_whole
+from .fields import Fields, Record, Switch, build_whole, malformed, parse_whole
 
 Counts = tuple[int, int, int]
 Axes = tuple[bool, bool, bool]
@@ -49,11 +49,25 @@ class Magnetometer:
 
 
 @frozen
+class MagnetometerConfig:
+    """What AA32 holds: whether the magnetometer measures."""
+
+    on: bool
+
+
+@frozen
 class Barometer:
     """One notification of the T5400, uncompensated: `temperature` i16, `pressure` u16. Needs BarometerCalibration."""
 
     temperature: int
     pressure: int
+
+
+@frozen
+class BarometerConfig:
+    """What AA42 holds: 0 off, 1 on, 2 fetch the coefficients so that AA43 can be read."""
+
+    code: int
 
 
 @frozen
@@ -104,7 +118,9 @@ _GYROSCOPE_CONFIG = Struct(
     Terminated,
 )
 _MAGNETOMETER = Record(Magnetometer, Struct("mag" / Fields("<3h"), Terminated))
+_MAGNETOMETER_CONFIG = Record(MagnetometerConfig, Struct("on" / Switch(), Terminated))
 _BAROMETER = Struct("raw" / Fields("<hH", Barometer), Terminated)
+_BAROMETER_CONFIG = Record(BarometerConfig, Struct("code" / Int8ul, Terminated))
 _BAROMETER_CALIBRATION = Struct("coefficients" / Fields("<4H4h", BarometerCalibration), Terminated)
 _KEYS = Struct(
     "bits" / BitStruct("reserved" / BitsInteger(5), "side" / Flag, "left" / Flag, "right" / Flag),
@@ -174,6 +190,17 @@ def build_magnetometer(magnetometer: Magnetometer) -> bytes:
     return build_whole(_MAGNETOMETER, magnetometer)
 
 
+def parse_magnetometer_config(data: bytes) -> MagnetometerConfig:
+    """AA32, 1 byte, 0 or 1. WireError when `data` is not that."""
+    config: MagnetometerConfig = parse_whole(_MAGNETOMETER_CONFIG, bytes(data))
+    return config
+
+
+def build_magnetometer_config(config: MagnetometerConfig) -> bytes:
+    """The byte of `config`."""
+    return build_whole(_MAGNETOMETER_CONFIG, config)
+
+
 def parse_barometer(data: bytes) -> Barometer:
     """AA41, 4 bytes. WireError when `data` is not that."""
     barometer: Barometer = parse_whole(_BAROMETER, bytes(data)).raw
@@ -183,6 +210,21 @@ def parse_barometer(data: bytes) -> Barometer:
 def build_barometer(barometer: Barometer) -> bytes:
     """The bytes of `barometer`. ValueError when a value does not fit."""
     return build_whole(_BAROMETER, {"raw": barometer})
+
+
+def parse_barometer_config(data: bytes) -> BarometerConfig:
+    """AA42, 1 byte, 0 to 2. WireError when `data` is not that."""
+    config: BarometerConfig = parse_whole(_BAROMETER_CONFIG, bytes(data))
+    if config.code > 2:
+        raise malformed(f"barometer configuration {config.code}")
+    return config
+
+
+def build_barometer_config(config: BarometerConfig) -> bytes:
+    """The byte of `config`. ValueError unless it is 0 to 2."""
+    if not 0 <= config.code <= 2:
+        raise ValueError(f"barometer configuration {config.code}")
+    return build_whole(_BAROMETER_CONFIG, config)
 
 
 def parse_barometer_calibration(data: bytes) -> BarometerCalibration:

@@ -8,7 +8,7 @@ from typing import Any
 from attrs import frozen
 from construct import BitsInteger, BitStruct, ByteSwapped, Flag, Int24sl, Int24ul, Struct, Terminated
 
-from .fields import Fields, Record, build_whole, malformed, parse_whole
+from .fields import Fields, Record, Switch, build_whole, malformed, parse_whole
 
 Counts = tuple[int, int, int]
 Axes = tuple[bool, bool, bool]
@@ -43,6 +43,13 @@ class Barometer:
 
     temperature: float
     pressure: float
+
+
+@frozen
+class BarometerConfig:
+    """What AA42 holds: whether the barometer measures."""
+
+    on: bool
 
 
 @frozen
@@ -85,6 +92,8 @@ _MOVEMENT_CONFIG = Struct(
 """From the high bit of the second byte down to the low bit of the first."""
 
 _BAROMETER = Struct("temperature" / Int24sl, "pressure" / Int24ul, Terminated)
+
+_BAROMETER_CONFIG = Record(BarometerConfig, Struct("on" / Switch(), Terminated))
 
 _KEYS = Struct(
     "bits"
@@ -156,6 +165,17 @@ def build_barometer(barometer: Barometer) -> bytes:
         raise ValueError(f"{barometer} is not finite")
     counts = {"temperature": round(barometer.temperature * 100), "pressure": round(barometer.pressure)}
     return build_whole(_BAROMETER, counts)
+
+
+def parse_barometer_config(data: bytes) -> BarometerConfig:
+    """AA42, 1 byte, 0 or 1. WireError when `data` is not that."""
+    config: BarometerConfig = parse_whole(_BAROMETER_CONFIG, bytes(data))
+    return config
+
+
+def build_barometer_config(config: BarometerConfig) -> bytes:
+    """The byte of `config`."""
+    return build_whole(_BAROMETER_CONFIG, config)
 
 
 def parse_keys(data: bytes) -> Keys:

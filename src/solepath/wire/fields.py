@@ -1,7 +1,8 @@
 """What this room adds to construct: packed fields at one stroke, records instead of Containers, whole-value parsing.
 
 `Fields` stands for a run of plain numbers: one struct call instead of one construct per number, which is what makes an
-insole frame affordable at 100 Hz. `Record` puts an attrs record in the place of a Container, both ways. `parse_whole`
+insole frame affordable at 100 Hz. `Record` puts an attrs record in the place of a Container, both ways. `Switch` is a
+byte that is on or off. `parse_whole`
 and `build_whole` turn construct's exceptions into ours.
 """
 
@@ -12,7 +13,15 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import attrs
-from construct import Adapter, Construct, ConstructError, FormatFieldError, StreamError, TerminatedError
+from construct import (
+    Adapter,
+    Construct,
+    ConstructError,
+    FormatFieldError,
+    StreamError,
+    TerminatedError,
+    ValidationError,
+)
 
 from ..events import Rejection
 from .error import WireError
@@ -75,6 +84,25 @@ class Record(AnyAdapter):
 
     def _encode(self, obj: Any, context: Any, path: str) -> Any:
         return {name: getattr(obj, name) for name in self._names}
+
+
+class Switch(Definition):
+    """One byte: 0 off, 1 on, nothing else."""
+
+    def _parse(self, stream: IO[bytes], context: Any, path: str) -> bool:
+        data = stream.read(1)
+        if not data:
+            raise StreamError("needs 1 byte, has none", path=path)
+        if data[0] > 1:
+            raise ValidationError(f"{data[0]} is neither off (0) nor on (1)", path=path)
+        return data[0] == 1
+
+    def _build(self, obj: Any, stream: IO[bytes], context: Any, path: str) -> Any:
+        stream.write(b"\x01" if obj else b"\x00")
+        return obj
+
+    def _sizeof(self, context: Any, path: str) -> int:
+        return 1
 
 
 def parse_whole(definition: Definition, data: bytes) -> Any:
