@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from solepath.link.decoder import Decoder
-from solepath.link.profile import BY_NAME, CC2541, CC2541_20HZ, CC2650, INSOLE, PROFILES, How, Profile
+from solepath.link.profile import BY_NAME, CC2541, CC2541_20HZ, CC2650, INSOLE, PROFILES, How, Profile, Write
 from solepath.types import Packet, Site
 from solepath.wire.cc2541 import (
     AccelerometerConfig,
@@ -112,6 +112,20 @@ def test_a_profile_refers_only_to_its_own_channels_and_uses_them_as_they_can_be_
     assert BY_NAME[profile.name] is profile
     with pytest.raises(KeyError):
         profile.channel("cc2650/nothing")
+
+
+@pytest.mark.parametrize(
+    ("profile", "document"),
+    [(INSOLE, "insole.md"), (CC2650, "cc2650.md"), (CC2541, "cc2541.md"), (CC2541_20HZ, "cc2541.md")],
+)
+def test_setup_is_the_table_of_the_document_write_for_write(profile: Profile, document: str) -> None:
+    documented = []
+    for number, (order, channel, value, then_read, meaning) in enumerate(table(document, "order"), 1):
+        values = re.findall(r"`([0-9a-f]+)`", value)
+        assert order == str(number) and values and meaning
+        written = bytes.fromhex(values[-1] if profile is CC2541_20HZ else values[0])
+        documented.append(Write(channel.strip("`"), written, tuple(re.findall(r"`([^`]+)`", then_read))))
+    assert tuple(documented) == profile.setup
 
 
 @pytest.mark.parametrize("profile", PROFILES, ids=lambda profile: profile.name)

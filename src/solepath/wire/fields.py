@@ -2,8 +2,7 @@
 
 `Fields` stands for a run of plain numbers: one struct call instead of one construct per number, which is what makes an
 insole frame affordable at 100 Hz. `Record` puts an attrs record in the place of a Container, both ways. `Switch` is a
-byte that is on or off. `parse_whole`
-and `build_whole` turn construct's exceptions into ours.
+byte that is on or off. `parse_whole` and `build_whole` turn construct's exceptions into ours.
 """
 
 from __future__ import annotations
