@@ -215,7 +215,8 @@ def test_after_a_gap_the_walk_goes_on(recipe: Recipe, length: float) -> None:
     assert len(after) >= 4
     for step, truth in after[1:]:
         assert not step.degraded
-        assert step.stride_length == pytest.approx(truth.length, abs=0.06)
+        # linear dedrift has only the pull of gravity to right the tilt that the gap cost
+        assert step.stride_length == pytest.approx(truth.length, abs=0.06 if recipe is EXACT else 0.10)
 
 
 @pytest.mark.parametrize("first", [1e-6, 0.1, 5.0])
