@@ -22,12 +22,11 @@ from solepath import (
     SampleRejected,
     Session,
     Site,
-    SnapshotError,
     StepTaken,
 )
-from solepath.link.decoder import SET_BACK, Decoder
+from solepath.link.decoder import SET_BACK
 from solepath.link.profile import PROFILES
-from walks import LEFT, NAMES, PACKET_NAMES, RIGHT, SAMPLE_NAMES, Machine, insoles, machines, of, samples
+from walks import LEFT, PACKET_NAMES, RIGHT, SAMPLE_NAMES, insoles, machines, of, samples
 
 CHANNELS = sorted({channel.name for profile in PROFILES for channel in profile.channels})
 CUTS = 8
@@ -280,66 +279,6 @@ def test_a_site_that_is_no_foot_is_said_once() -> None:
     told = session.feed([Sample(0.01 * k, Site.PELVIS, (0.0, 0.0, 9.8), (0.0, 0.0, 0.0)) for k in range(50)])
     assert [type(event) for event in told] == [Limitation]
     assert told[0].site is Site.PELVIS and "pelvis" in told[0].what
-
-
-# --- a caller's own mistakes ------------------------------------------------------------------------------------------
-
-GOOD = Packet(0.0, LEFT, "device/battery", b"\x20")
-
-
-@pytest.mark.parametrize(
-    "data",
-    [None, 5, "insole/frame", b"\xf5\x10", [GOOD, 5], [b"x"], object()],
-    ids=["none", "a number", "text", "bytes", "a list with a number", "a list of bytes", "an object"],
-)
-def test_what_is_neither_packet_nor_sample_is_a_type_error(data: Any) -> None:
-    with pytest.raises(TypeError, match="packets or samples"):
-        Session().feed(data)
-
-
-@pytest.mark.parametrize("change", [{"data": "text"}, {"data": None}, {"site": "left_foot"}, {"channel": None}])
-def test_a_packet_of_the_wrong_types_is_a_type_error_and_changes_nothing(change: dict[str, Any]) -> None:
-    session = Session()
-    before = session.snapshot()
-    with pytest.raises(TypeError, match="packet"):
-        session.feed(evolve(GOOD, **change))
-    assert session.snapshot() == before
-
-
-def test_a_recipe_is_a_recipe() -> None:
-    with pytest.raises(TypeError, match="Recipe"):
-        Session("default")  # type: ignore[arg-type]
-
-
-@pytest.mark.parametrize("now", [nan, inf, -inf])
-def test_time_that_is_no_number_cannot_pass(now: float) -> None:
-    with pytest.raises(ValueError, match="now"):
-        Session().advance(now)
-
-
-@pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])
-def test_a_finished_session_is_read_but_not_fed(name: str) -> None:
-    machine: Machine = machines()[name]
-    session = machine.begin()
-    session.feed(machine.items[: len(machine.items) // 2])
-    session.finish()
-    assert session.finish() == []
-    position = session.position
-    with pytest.raises(ValueError, match="finished"):
-        session.feed(machine.items[-1])
-    assert session.position == position
-    assert Session.restore(machine.save(session)).position == position
-
-
-def test_an_axis_map_must_exist() -> None:
-    with pytest.raises(ValueError, match="axis map"):
-        Decoder(LEFT, axes="upside-down")
-
-
-@pytest.mark.parametrize("saved", [None, 5, "x", [], {}, {"solepath": 1}, {"state": {}}, {"solepath": 2, "state": {}}])
-def test_what_is_no_snapshot_is_a_snapshot_error(saved: Any) -> None:
-    with pytest.raises(SnapshotError):
-        Session.restore(saved)
 
 
 def test_nineteen_packets_from_the_past_are_refused_and_the_twentieth_sets_the_clock() -> None:
