@@ -12,10 +12,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from copy import deepcopy
-from math import isfinite
-from typing import Any
+from math import inf, isfinite
+from typing import Any, TypeVar
 
-from attrs import define, field, frozen
+from attrs import define, evolve, field, frozen
 
 from .events import ClockReset, Event, LayoutKnown, Limitation, PacketRejected, SampleRejected, ScaleSuspect
 from .foot.phase import SUPPORT
@@ -28,6 +28,9 @@ from .recipes import DEFAULT, Recipe
 from .types import Foot, Packet, Phase, Sample, Site, Support, Vec3
 
 SNAPSHOT_VERSION = 1
+
+_Key = TypeVar("_Key")
+_Held = TypeVar("_Held")
 
 
 @frozen
@@ -61,9 +64,10 @@ class Session:
     total: any bytes give events, never an exception. TypeError for what is neither a packet nor a sample, ValueError
     for a time that is not finite in `advance` and for feeding after `finish`.
 
-    Latency: zero velocity and live position with the sample; heel-strike and toe-off one sample once a foot has pushed
-    off the first time; foot-flat and the step that it ends about 40 ms; heel-off 40 to 140 ms, since a heel comes off
-    slowly and is dated back.
+    Latency: zero velocity and live position with the sample. Heel-strike and toe-off one sample once a foot has pushed
+    off the first time; a foot that leaves the ground without pushing off is known to swing after 0.15 s (0.4 s right
+    after a heel-strike). Foot-flat and the step that it ends about 40 ms. Heel-off 40 to 140 ms, in slow walking up to
+    320 ms, since a heel comes off slowly and is dated back.
     """
 
     __slots__ = ("_state",)
@@ -71,12 +75,15 @@ class Session:
     def __init__(self, recipe: Recipe = DEFAULT, *, poses: bool = False) -> None:
         if not isinstance(recipe, Recipe):
             raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}")
-        self._state = _State(recipe, poses)
+        self._state = _State(deepcopy(recipe), poses)
 
     # --- in ---
 
     def feed(self, data: Packet | Sample | Iterable[Packet | Sample]) -> list[Event]:
-        """Take packets (as they arrive) or samples (in the order of their time)."""
+        """Take packets (as they arrive) or samples (in the order of their time).
+
+        TypeError for an item that is neither; what came before it in `data` has been used by then.
+        """
         if self._state.finished:
             raise ValueError("this session is finished")
         if isinstance(data, Packet):
@@ -96,10 +103,13 @@ class Session:
         return events
 
     def advance(self, now: float) -> list[Event]:
-        """Nothing arrived, but it is `now` (s, the clock of the packets): silence may have become an event."""
-        if not isfinite(now):
+        """Nothing arrived, but it is `now` (s, the clock of the packets): silence may have become an event. After
+        `finish` nothing can."""
+        if not isfinite(_number(now)):
             raise ValueError(f"now is {now}")
         state = self._state
+        if state.finished:
+            return []
         if state.now is None or now > state.now:
             state.now = now
         events: list[Event] = []
@@ -122,8 +132,11 @@ class Session:
             not isinstance(packet.data, bytes | bytearray | memoryview)
             or not isinstance(packet.site, Site)
             or not isinstance(packet.channel, str)
+            or not isinstance(packet.t, float | int)
         ):
-            raise TypeError("a packet holds bytes, a Site and a channel's name")
+            raise TypeError("a packet holds a time, a Site, a channel's name and bytes")
+        if isinstance(packet.t, int):
+            packet = evolve(packet, t=_number(packet.t))
         decoder = state.decoders.get(packet.site)
         if decoder is None:
             decoder = Decoder(packet.site)
@@ -135,7 +148,8 @@ class Session:
             else:
                 events += [item for item in items if isinstance(item, PacketRejected)]
             return events
-        state.decoders[packet.site] = decoder
+        if packet.site not in state.decoders:
+            state.decoders = _in_order({**state.decoders, packet.site: decoder}, Site)
         for site, other in state.decoders.items():
             if site is not packet.site:
                 self._take(site, other.advance(packet.t), events)
@@ -146,6 +160,8 @@ class Session:
 
     def _sample(self, sample: Sample) -> list[Event]:
         state, events = self._state, list[Event]()
+        if not isinstance(sample.site, Site) or not isinstance(sample.t, float | int):
+            raise TypeError("a sample holds a time and a Site")
         self._take(sample.site, [sample], events)
         if not any([isinstance(event, SampleRejected) for event in events]) and (
             state.now is None or sample.t > state.now
@@ -164,7 +180,7 @@ class Session:
                     tracker = self._tracker(foot)
                     events += tracker.feed(item)
                     if tracker.t is not None:  # else it could not be used: nothing is known of this foot yet
-                        self._state.feet[foot] = tracker
+                        self._keep(tracker)
                 continue
             events.append(item)
             if foot is None:
@@ -172,7 +188,7 @@ class Session:
             tracker = self._tracker(foot)
             if isinstance(item, LayoutKnown):
                 tracker.wear(item.layout)
-                self._state.feet[foot] = tracker
+                self._keep(tracker)
             elif isinstance(item, ClockReset):
                 tracker.interrupt()
             elif isinstance(item, ScaleSuspect):
@@ -185,6 +201,11 @@ class Session:
             recipe = deepcopy(self._state.recipe)
             tracker = FootTracker(foot, recipe.detector, recipe.corrector, self._state.poses)
         return tracker
+
+    def _keep(self, tracker: FootTracker) -> None:
+        state = self._state
+        if tracker.foot not in state.feet:
+            state.feet = _in_order({**state.feet, tracker.foot: tracker}, Foot)
 
     def _say_unused(self, sample: Sample, events: list[Event]) -> None:
         wrong = wrong_time(sample)
@@ -201,7 +222,7 @@ class Session:
     @property
     def recipe(self) -> Recipe:
         """The parts that this session is made of."""
-        return self._state.recipe
+        return deepcopy(self._state.recipe)
 
     @property
     def feet(self) -> dict[Foot, FootTracker]:
@@ -255,6 +276,21 @@ class Session:
             raise SnapshotError(f"snapshot version {saved['solepath']!r}; this release reads {SNAPSHOT_VERSION}")
         session = cls.__new__(cls)
         session._state = load(_State, saved["state"])
+        session._state.decoders = _in_order(session._state.decoders, Site)
+        session._state.feet = _in_order(session._state.feet, Foot)
         if checksum(save(session._state)) != saved["check"]:
             raise SnapshotError("the snapshot was damaged: its checksum is another")
         return session
+
+
+def _in_order(held: dict[_Key, _Held], keys: Iterable[_Key]) -> dict[_Key, _Held]:
+    """The same in the order of the enum: what is done site by site must not depend on who was heard first."""
+    return {key: held[key] for key in keys if key in held}
+
+
+def _number(value: float) -> float:
+    """An int may be too large for a float; then it is as good as infinite."""
+    try:
+        return float(value)
+    except OverflowError:
+        return inf

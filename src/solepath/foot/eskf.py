@@ -158,6 +158,13 @@ class ErrorStateFilter(Strapdown):
         self.velocity = self.start_velocity = ZERO
         self.force = self.rate = None
         self._doubt(velocity=1.0, tilt=0.2)
+        # it may have gone on as it was going, or have stopped: metres either way, but hardly up or down
+        far = 1.5 * min(dt, 2.0)
+        covariance = list(self.uncertainty)
+        covariance[0] += far * far
+        covariance[3] += far * far
+        covariance[5] += 0.04 * far * far
+        self.uncertainty = tuple(covariance)
         return 0.0
 
     def anchor(self) -> tuple[float, ...]:

@@ -7,6 +7,7 @@ are this strapdown plus a way of using stance evidence, and both satisfy `Correc
 
 from __future__ import annotations
 
+from math import cos, sin, sqrt
 from typing import Protocol
 
 from attrs import define, field
@@ -15,8 +16,10 @@ from ..types import Quat, Vec3
 from ..vector import GRAVITY, IDENTITY, ZERO, rotate
 from .stance import Stance
 
-LONGEST_BRIDGE = 0.5
-"""A gap longer than this is not integrated over, s."""
+LONGEST_BRIDGE = 0.25
+"""A gap longer than this is not integrated over: a foot turns and turns back within it, s."""
+WIDEST_SERIES = 0.06
+"""Square of the half angle, rad^2, up to which the series below are good to 1e-12."""
 
 
 class Corrector(Protocol):
@@ -71,8 +74,12 @@ class Strapdown:
             hx, hy, hz = 0.25 * dt * (gx + rx), 0.25 * dt * (gy + ry), 0.25 * dt * (gz + rz)
         self.rate = gyro
         n = hx * hx + hy * hy + hz * hz
-        c = 1.0 - n * (0.5 - n * (1.0 / 24.0 - n / 720.0))
-        s = 1.0 - n * (1.0 / 6.0 - n * (1.0 / 120.0 - n / 5040.0))
+        if n < WIDEST_SERIES:
+            c = 1.0 - n * (0.5 - n * (1.0 / 24.0 - n * (1.0 / 720.0 - n / 40320.0)))
+            s = 1.0 - n * (1.0 / 6.0 - n * (1.0 / 120.0 - n * (1.0 / 5040.0 - n / 362880.0)))
+        else:
+            angle = sqrt(n)
+            c, s = cos(angle), sin(angle) / angle
         hx *= s
         hy *= s
         hz *= s

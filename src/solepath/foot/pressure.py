@@ -8,6 +8,8 @@ there is no `Load`: a load that still falls is always the least so far, and a fo
 
 from __future__ import annotations
 
+from operator import mul
+
 from attrs import define, field
 
 from ..types import Layout
@@ -37,13 +39,15 @@ class Extremes:
             self.ends = t + self.span
             self.lows = [*self.lows[-4:], value]
             self.highs = [*self.highs[-4:], value]
-        else:
-            if value < self.lows[-1]:
-                self.lows[-1] = value
-            if value > self.highs[-1]:
-                self.highs[-1] = value
-        self.low = min(self.lows)
-        self.high = max(self.highs)
+            self.low = min(self.lows)
+            self.high = max(self.highs)
+            return
+        if value < self.lows[-1]:
+            self.lows[-1] = value
+            self.low = min(self.low, value)
+        if value > self.highs[-1]:
+            self.highs[-1] = value
+            self.high = max(self.high, value)
 
 
 @define
@@ -54,6 +58,8 @@ class Insole:
     """Lowest and highest load must differ by this share of the highest before they mean anything."""
     airborne: float = 0.02
     """Below this share of the full load the foot is in the air."""
+    least: float = 0.05
+    """Below this share of the full load the centre of pressure is noise."""
     # state
     layout: Layout | None = field(default=None, init=False)
     heel_cells: list[int] = field(factory=list, init=False)
@@ -62,8 +68,12 @@ class Insole:
     heel: Extremes = field(factory=Extremes, init=False)
     forefoot: Extremes = field(factory=Extremes, init=False)
     highest: float = field(default=0.0, init=False)
+    xs: list[float] = field(factory=list, init=False)
+    ys: list[float] = field(factory=list, init=False)
+    """Where the cells are, foot frame, m."""
     tare: list[float] = field(factory=list, init=False)
     """Each cell in the air, unit of the samples."""
+    tare_total: float = field(default=0.0, init=False)
     unloaded: bool = field(default=False, init=False)
     risen: bool = field(default=False, init=False)
     """The load has come up again from its lowest."""
@@ -72,6 +82,9 @@ class Insole:
         """The device said where its cells are."""
         self.layout = layout
         self.heel_cells = [i for i, cell in enumerate(layout.cells) if cell.x < HEEL * layout.length]
+        self.xs = [cell.x for cell in layout.cells]
+        self.ys = [cell.y for cell in layout.cells]
+        self.tare = [0.0] * len(layout.cells)
         self.forefoot_cells = [i for i, cell in enumerate(layout.cells) if cell.x > FOREFOOT * layout.length]
 
     def interrupt(self) -> None:
@@ -82,7 +95,8 @@ class Insole:
         """The load as shares of the wearer's full load, or None while that is not known."""
         total = sum(cells)
         self.total.update(t, total)
-        self.highest = max(self.highest * 0.9999, max(cells, default=0.0))
+        largest = max(cells, default=0.0)
+        self.highest = max(self.highest * 0.9999, largest)
         heel = forefoot = None
         if self.layout is not None and len(cells) == len(self.layout.cells):
             heel = self._above_least(t, cells, self.heel_cells, self.heel)
@@ -98,14 +112,15 @@ class Insole:
                 return None
         share = (total - low) / reach
         airborne = share < self.airborne
-        if airborne and not self.unloaded:
+        if airborne and (not self.unloaded or total < self.tare_total):  # the toe has hardly left yet at first
             self.tare = list(cells)
+            self.tare_total = total
         self.unloaded = airborne
         if heel is not None:
             heel /= reach
         if forefoot is not None:
             forefoot /= reach
-        highest = max(cells, default=0.0) / self.highest if self.highest > 0.0 else 0.0
+        highest = largest / self.highest if self.highest > 0.0 else 0.0
         return Load(share, heel, forefoot, highest, airborne)
 
     @staticmethod
@@ -117,19 +132,13 @@ class Insole:
         return value - extremes.low
 
     def centre_of_pressure(self, cells: tuple[float, ...]) -> tuple[float, float] | None:
-        """(x, y) in the foot frame, m: the mean of the cells' places weighted by their load above tare; None in the air
-        or without a layout. Equations (2) and (3) of "Smart insole-based indoor localization system for Internet of
-        Things applications", with load in place of pressure."""
-        if self.layout is None or len(cells) != len(self.layout.cells):
+        """(x, y) in the foot frame, m: the mean of the cells' places weighted by their load above tare. None with
+        hardly any load or without a layout. Equations (2) and (3) of "Smart insole-based indoor localization system
+        for Internet of Things applications", with load in place of pressure."""
+        if not self.xs or not len(cells) == len(self.xs) == len(self.tare):
             return None
-        tare = self.tare if len(self.tare) == len(cells) else [0.0] * len(cells)
-        sum_load = sum_x = sum_y = 0.0
-        for cell, value, zero in zip(self.layout.cells, cells, tare, strict=True):
-            load = value - zero
-            if load > 0.0:
-                sum_load += load
-                sum_x += load * cell.x
-                sum_y += load * cell.y
-        if sum_load <= 0.0:
+        loads = [value - zero if value > zero else 0.0 for value, zero in zip(cells, self.tare, strict=True)]
+        load = sum(loads)
+        if load <= self.least * (self.total.high - self.total.low):
             return None
-        return (sum_x / sum_load, sum_y / sum_load)
+        return (sum(map(mul, self.xs, loads)) / load, sum(map(mul, self.ys, loads)) / load)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import isfinite
+from math import inf
 
 from ..events import Rejection, SampleRejected
 from ..types import Sample
@@ -33,17 +33,20 @@ def refusal(sample: Sample, newest: float | None) -> Refusal | None:
         if vector is None:
             continue
         x, y, z = vector
-        largest = abs(x) + abs(y) + abs(z)
-        if not largest < limit:
-            if not isfinite(largest):
+        if not (-limit < x < limit and -limit < y < limit and -limit < z < limit):
+            worst = next(value for value in vector if not -limit < value < limit)
+            if worst != worst or abs(worst) == inf:
                 return Rejection.NOT_FINITE, f"{name} is not a number"
-            return Rejection.ABSURD, f"{name} of {largest:.4g}"
+            return Rejection.ABSURD, f"{name} of {_shown(worst)}"
     if sample.pressure:
-        total = sum(sample.pressure)
+        try:
+            total = sum(sample.pressure)
+        except OverflowError:
+            return Rejection.ABSURD, "pressure of hundreds of digits"
         if not -ABSURD_TOTAL < total < ABSURD_TOTAL:
-            if not isfinite(total):
+            if total != total or abs(total) == inf:
                 return Rejection.NOT_FINITE, "pressure is not a number"
-            return Rejection.ABSURD, f"pressure of {total:.4g} in all"
+            return Rejection.ABSURD, f"pressure of {_shown(total)} in all"
     return None
 
 
@@ -51,9 +54,9 @@ def wrong_time(sample: Sample) -> Refusal | None:
     """Why the times of a sample are none, whatever came before it."""
     for t in (sample.t, sample.known_at):
         if t is not None and not -ABSURD_TIME <= t <= ABSURD_TIME:
-            if not isfinite(t):
+            if t != t or abs(t) == inf:
                 return Rejection.NOT_FINITE, "time is not a number"
-            return Rejection.ABSURD, f"time of {t:.4g} s"
+            return Rejection.ABSURD, f"time of {_shown(t)} s"
     return None
 
 
@@ -66,3 +69,11 @@ def rejected(sample: Sample, why: Refusal, newest: float | None) -> SampleReject
     if known_at is None or not t <= known_at <= ABSURD_TIME:
         known_at = t
     return SampleRejected(t=t, known_at=known_at, site=sample.site, reason=reason, detail=detail)
+
+
+def _shown(value: float) -> str:
+    """A number for people; an int may be too large even for that."""
+    try:
+        return f"{value:.4g}"
+    except OverflowError:
+        return "hundreds of digits"

@@ -16,7 +16,10 @@ class Rhythm:
     patience: int = 10
     """Gaps in a row, each as long as the first within `alike`, that make a new rate."""
     alike: float = 0.1
+    young: int = 10
+    """So many waits in which a shorter one shows that the first were none to go by."""
     # state
+    seen: int = field(default=0, init=False)
     usual: float | None = field(default=None, init=False)
     """s."""
     count: int = field(default=0, init=False)
@@ -26,7 +29,8 @@ class Rhythm:
     def update(self, dt: float) -> bool:
         """One wait, s; True when it was a gap."""
         usual = self.usual
-        if usual is None:
+        self.seen = min(self.seen + 1, self.young + 1)
+        if usual is None or (self.seen <= self.young and dt * self.share < usual):
             self.usual = dt
             return False
         gap = dt > self.share * usual and dt - usual > self.least

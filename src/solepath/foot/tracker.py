@@ -18,6 +18,7 @@ from .cues import InertialCues, PressureCues, Seen
 from .cycle import Cycle
 from .dedrift import LinearDedrift
 from .eskf import ErrorStateFilter
+from .navigate import LONGEST_BRIDGE
 from .phase import BEGINS, PHASES, Cue
 from .pressure import Insole
 from .pressure_stance import MaximumPressure, TwoArea
@@ -164,7 +165,7 @@ class FootTracker:
     def _watch_for_gaps(self, last: float, t: float, known_at: float, events: list[Event]) -> float:
         """Name a gap between two samples; returns the time to integrate over, s."""
         dt = t - last
-        if self.rhythm.update(dt):
+        if self.rhythm.update(dt) or dt > LONGEST_BRIDGE:
             events.append(SampleGap(t=last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=dt))
             self.step.degraded = True
             if self.levelled:
@@ -278,6 +279,9 @@ class FootTracker:
         taken = self.step.finish(t, known_at, position, attitude, corrector.covariance(), self.world)
         if taken is not None:
             events.append(taken)
+            # a final step is never seen from another frame again, even when it was too short to give a direction
+            self.headed = True
+            self.world.settle()
         self.step.begin(t, position, attitude)
 
     def _anchor(self) -> None:

@@ -37,7 +37,13 @@ class World:
         self.north = (cos(heading), -sin(heading))
         return True
 
+    def settle(self) -> None:
+        """Keep the navigation frame's own heading if no other was found."""
+        if self.north is None:
+            self.north = (1.0, 0.0)
+
     def vector(self, v: Vec3) -> Vec3:
+        """A vector of the navigation frame, in the world frame."""
         if self.north is None:
             return v
         c, s = self.north
@@ -45,11 +51,13 @@ class World:
         return (c * x - s * y, s * x + c * y, z)
 
     def attitude(self, q: Quat) -> Quat:
+        """Sensor to navigation frame, as sensor to world."""
         if self.north is None:
             return q
         return multiply(from_yaw(atan2(self.north[1], self.north[0])), q)
 
     def covariance(self, covariance: tuple[float, ...]) -> Covariance3:
+        """Of a vector of the navigation frame, as of one of the world frame."""
         xx, xy, xz, yy, yz, zz = covariance
         if self.north is None:
             return (xx, xy, xz, yy, yz, zz)
