@@ -7,7 +7,8 @@ from math import ceil, radians
 import numpy as np
 import pytest
 
-from solepath.sim.device import SETUP, Notification
+from solepath.link import profile as profiles
+from solepath.sim.device import SETUP, Device, Notification
 from solepath.sim.gait import Wearer
 from solepath.sim.insole_device import ACC_COUNT, GYRO_COUNT, TICK_RATE, Insole
 from solepath.sim.parts import CellPart, Imu, Triad
@@ -147,6 +148,38 @@ def test_the_quaternion_of_an_insole_follows_the_foot() -> None:
             true = walk.truth.pose(Foot.LEFT, packet.t - 1e-3).attitude[0]
             tilts.append(2 * (x * z - w * y) - 2 * (true[1] * true[3] - true[0] * true[2]))
     assert 0.0 < np.abs(tilts).max() < radians(2.5)
+
+
+@pytest.mark.parametrize(
+    ("device", "profile"),
+    [
+        (Insole(), profiles.INSOLE),
+        (CC2650(), profiles.CC2650),
+        (CC2541(), profiles.CC2541),
+        (CC2541(rate=20.0), profiles.CC2541_20HZ),
+    ],
+    ids=["insole", "cc2650", "cc2541", "cc2541 at 20 Hz"],
+)
+def test_a_recording_begins_with_all_that_was_read_and_written(device: Device, profile: profiles.Profile) -> None:
+    walk = emulate(SHORT, devices={Site.LEFT_FOOT: device}, seed=2)
+    said = [(p.channel, p.data) for p in walk.packets if p.t < SETUP]
+    expected: list[str] = [*profile.reads]
+    for write in profile.setup:
+        expected += [write.channel, *write.then_read]
+    assert [channel for channel, _ in said] == expected
+    read = {channel.name for channel in profile.channels if channel.how is not profiles.How.WRITE}
+    assert [(c, data) for c, data in said if c not in read] == [(w.channel, w.value) for w in profile.setup]
+
+
+def test_a_device_that_is_set_otherwise_says_so() -> None:
+    def value(device: Device, channel: str) -> bytes:
+        walk = emulate(SHORT, devices={Site.LEFT_FOOT: device}, seed=2)
+        return next(p.data for p in walk.packets if p.channel == channel)
+
+    assert value(CC2650(rate=50.0), "cc2650/movement-period") == b"\x02"
+    assert value(CC2650(range=16), "cc2650/movement-config") == b"\x7f\x03"
+    assert value(CC2541(code=1), "cc2541/accelerometer-config") == b"\x01"
+    assert value(CC2541(rate=20.0), "cc2541/gyroscope-period") == b"\x05"
 
 
 def test_a_cc2650_saturates_in_swing_and_sends_its_settings() -> None:

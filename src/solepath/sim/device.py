@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Protocol
 
 import numpy as np
 from attrs import frozen
 
+from ..link.profile import Profile
 from ..types import Foot, Site
 from .curves import Array
 from .motion import Kinematics
@@ -54,6 +56,19 @@ class Device(Protocol):
 
     def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
         """All that the device sends over the walk, in the order of sending."""
+
+
+def prepared(profile: Profile, own: Mapping[str, bytes]) -> list[Notification]:
+    """What a host reads and writes by `profile` before measuring begins, spread evenly over the time until `SETUP`.
+
+    `own`: by channel, the values that the device is read for, and those written otherwise than in `profile.setup`.
+    """
+    said = [(channel, own[channel]) for channel in profile.reads]
+    for write in profile.setup:
+        said.append((write.channel, own.get(write.channel, write.value)))
+        said += [(channel, own[channel]) for channel in write.then_read]
+    each = SETUP / (len(said) + 1)
+    return [Notification(each * k, channel, data, True) for k, (channel, data) in enumerate(said, 1)]
 
 
 def foot_of(site: Site) -> Foot:

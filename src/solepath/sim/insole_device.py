@@ -7,13 +7,14 @@ from math import radians
 import numpy as np
 from attrs import frozen
 
+from ..link.profile import INSOLE
 from ..types import Layout, Quat, Site
 from ..vector import GRAVITY, from_rotation_vector, multiply
 from ..wire.device import build_battery, build_firmware
 from ..wire.fragment import FRAME_IDS, split
 from ..wire.insole import InsoleFrame, InsoleSample, build_frame
 from ..wire.insole_info import InsoleInfo, build_info
-from .device import Notification, foot_of, read_imu, samplings, started, triples
+from .device import Notification, foot_of, prepared, read_imu, samplings, started, triples
 from .insoles import SCALE, layout
 from .parts import LSM6DSOX, RESISTIVE, CellPart, Imu
 from .sensors import Reading, read_cells
@@ -96,11 +97,12 @@ class Insole:
             cells=shape.cells,
             firmware=self.firmware,
         )
-        return [
-            Notification(0.01, "insole/info", build_info(info), True),
-            Notification(0.02, "device/firmware", build_firmware(self.firmware), True),
-            Notification(0.03, "device/battery", build_battery(87), True),
-        ]
+        own = {
+            "insole/info": build_info(info),
+            "device/firmware": build_firmware(self.firmware),
+            "device/battery": build_battery(87),
+        }
+        return prepared(INSOLE, own)
 
     def _attitudes(
         self, true: np.ndarray[tuple[int, ...], np.dtype[np.float64]], rng: np.random.Generator

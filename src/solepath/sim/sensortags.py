@@ -7,13 +7,14 @@ from math import radians
 import numpy as np
 from attrs import frozen
 
+from ..link import profile
 from ..types import Foot, Site
 from ..vector import GRAVITY
 from ..wire import cc2541, cc2650
 from ..wire.device import build_battery, build_firmware
 from ..wire.period import build_period
 from .curves import Array
-from .device import FIELD, Clock, Notification, foot_of, read_imu, samplings, seen_from, started, triples
+from .device import FIELD, Clock, Notification, foot_of, prepared, read_imu, samplings, seen_from, started, triples
 from .parts import AK8963, BMP280, KXTJ9_IMU3000, MAG3110, MPU9250, T5400, BarometerPart, Imu
 from .sensors import Instants, read_barometer, read_triad
 from .shoe import ON_INSTEP, Mounting
@@ -68,13 +69,14 @@ class CC2650:
 
     def _setup(self) -> list[Notification]:
         config = cc2650.MovementConfig(range=self.range)
-        return [
-            Notification(0.01, "device/firmware", build_firmware(self.firmware), True),
-            Notification(0.02, "device/battery", build_battery(91), True),
-            Notification(0.03, "cc2650/movement-period", build_period(1.0 / self.rate), True),
-            Notification(0.04, "cc2650/movement-config", cc2650.build_movement_config(config), True),
-            Notification(0.045, "cc2650/barometer-period", build_period(_SLOW), True),
-        ]
+        own = {
+            "device/firmware": build_firmware(self.firmware),
+            "device/battery": build_battery(91),
+            "cc2650/movement-period": build_period(1.0 / self.rate),
+            "cc2650/movement-config": cc2650.build_movement_config(config),
+            "cc2650/barometer-period": build_period(_SLOW),
+        }
+        return prepared(profile.CC2650, own)
 
 
 T5400_CALIBRATION = cc2541.BarometerCalibration(
@@ -128,19 +130,16 @@ class CC2541:
     def _setup(self) -> list[Notification]:
         period = build_period(1.0 / self.rate)
         config = cc2541.build_accelerometer_config(cc2541.AccelerometerConfig(self.code))
-        axes = cc2541.build_gyroscope_config(cc2541.GyroscopeConfig((True, True, True)))
-        calibration = cc2541.build_barometer_calibration(T5400_CALIBRATION)
-        values = (
-            ("device/firmware", build_firmware(self.firmware)),
-            ("cc2541/accelerometer-period", period),
-            ("cc2541/accelerometer-config", config),
-            ("cc2541/gyroscope-period", period),
-            ("cc2541/gyroscope-config", axes),
-            ("cc2541/magnetometer-period", build_period(_SLOW)),
-            ("cc2541/barometer-period", build_period(_SLOW)),
-            ("cc2541/barometer-calibration", calibration),
-        )
-        return [Notification(0.006 * k, channel, data, True) for k, (channel, data) in enumerate(values)]
+        own = {
+            "device/firmware": build_firmware(self.firmware),
+            "cc2541/accelerometer-period": period,
+            "cc2541/accelerometer-config": config,
+            "cc2541/gyroscope-period": period,
+            "cc2541/magnetometer-period": build_period(_SLOW),
+            "cc2541/barometer-period": build_period(_SLOW),
+            "cc2541/barometer-calibration": cc2541.build_barometer_calibration(T5400_CALIBRATION),
+        }
+        return prepared(profile.CC2541, own)
 
 
 def raw_air(pascal: float) -> cc2541.Barometer:
