@@ -8,10 +8,12 @@ from math import hypot, isfinite, radians
 import pytest
 
 from solepath import (
+    ClockReset,
     Foot,
     FootFlat,
     FootMoved,
     Packet,
+    PacketRejected,
     Sample,
     SampleGap,
     Session,
@@ -20,7 +22,7 @@ from solepath import (
     StreamStale,
     recipes,
 )
-from solepath.sim import Route, emulate
+from solepath.sim import CC2650, Route, emulate
 
 LEFT = Site.LEFT_FOOT
 
@@ -118,3 +120,16 @@ def test_a_foot_that_stands_for_a_minute_takes_no_step_and_stays() -> None:
     events = session.feed(walk.packets)
     assert [event for event in events if isinstance(event, StepTaken | FootFlat)] == []
     assert session.position is not None and max(map(abs, session.position.position)) < 0.01
+
+
+def test_a_packet_that_cannot_be_used_does_not_set_the_clock_back() -> None:
+    walk = emulate(Route().stand(3), devices={LEFT: CC2650()}, seed=1)
+    session = Session()
+    session.feed(walk.packets)
+    late = Packet(0.5, LEFT, "cc2650/movement", bytes(18))
+    for _ in range(19):
+        session.feed(late)
+    before = session.snapshot()
+    (event,) = session.feed(Packet(0.5, LEFT, "toaster/crumbs", b""))
+    assert isinstance(event, PacketRejected) and session.snapshot() == before
+    assert any(isinstance(event, ClockReset) for event in session.feed(late))

@@ -11,9 +11,10 @@ That count is the only thing that a rejected packet changes.
 
 from __future__ import annotations
 
+from copy import deepcopy
 from math import isfinite
 
-from attrs import define, field
+from attrs import define, field, fields
 
 from ..events import BatteryLevel, ClockReset, LinkEvent, PacketRejected, Rejection, StreamResumed, StreamStale
 from ..types import Packet, Sample, Site
@@ -73,16 +74,15 @@ class Decoder:
             return self._reject(packet, Rejection.ABSURD, f"arrival time {t:g} s")
         if packet.site is not self.site:
             return self._reject(packet, Rejection.WRONG_SITE, f"of {packet.site.value}, not {self.site.value}")
-        out: Output = []
         if self.arrived is not None and t < self.arrived:
             if self.backwards + 1 < SET_BACK:
                 self.backwards += 1
                 return self._reject(packet, Rejection.TIME_BACKWARDS, f"{self.arrived - t:.6g} s before the newest")
-            out = self._set_back(t)
+            return self._begin_anew(packet)
         try:
-            return out + self._use(packet)
+            return self._use(packet)
         except WireError as error:
-            return out + self._reject(packet, error.reason, error.detail)
+            return self._reject(packet, error.reason, error.detail)
 
     def advance(self, now: float) -> Output:
         """Let time pass to `now`, s, with nothing arriving. What is not a time is passed over."""
@@ -122,7 +122,7 @@ class Decoder:
         if link is None:
             link = self._make(prefix)
         elif profile is not self._profile():
-            raise WireError(Rejection.UNKNOWN_CHANNEL, f"{packet.channel!r} at a site with a {self._profile().name}")
+            raise WireError(Rejection.UNKNOWN_CHANNEL, f"{packet.channel!r} at a site whose device is {self._profile().name}")
         out = link.feed(packet.channel, packet.data, packet.t)
         self.link = link
         return self._heed(packet.t, packet.channel in profile.streams) + out
@@ -162,6 +162,18 @@ class Decoder:
                 self.stale = False
                 out.append(StreamResumed(t=t, known_at=t, site=self.site, silent_for=silent_for))
         self.heard = t
+        return out
+
+    def _begin_anew(self, packet: Packet) -> Output:
+        """The receiver's clock was set back, if this packet can be used; if it cannot, nothing has happened."""
+        trial = deepcopy(self)
+        out = trial._set_back(packet.t)
+        try:
+            out = out + trial._use(packet)
+        except WireError as error:
+            return self._reject(packet, error.reason, error.detail)
+        for one in fields(Decoder):
+            setattr(self, one.name, getattr(trial, one.name))
         return out
 
     def _set_back(self, t: float) -> Output:
