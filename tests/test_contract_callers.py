@@ -9,7 +9,6 @@ import pytest
 from attrs import evolve
 
 from solepath import Packet, Session, SnapshotError
-from solepath.link.decoder import Decoder
 from walks import LEFT, NAMES, Machine, machines
 
 GOOD = Packet(0.0, LEFT, "device/battery", b"\x20")
@@ -57,11 +56,6 @@ def test_a_finished_session_is_read_but_not_fed(name: str) -> None:
         session.feed(machine.items[-1])
     assert session.position == position
     assert Session.restore(machine.save(session)).position == position
-
-
-def test_an_axis_map_must_exist() -> None:
-    with pytest.raises(ValueError, match="axis map"):
-        Decoder(LEFT, axes="upside-down")
 
 
 @pytest.mark.parametrize("saved", [None, 5, "x", [], {}, {"solepath": 1}, {"state": {}}, {"solepath": 2, "state": {}}])

@@ -26,7 +26,7 @@ from solepath.events import (
     StreamResumed,
     StreamStale,
 )
-from solepath.link.cc2541 import AXIS_MAPS, counts_per_g
+from solepath.link.cc2541 import counts_per_g
 from solepath.link.decoder import SET_BACK, Decoder
 from solepath.link.profile import PROFILES
 from solepath.types import Cell, Foot, Packet, Sample, Site
@@ -590,21 +590,13 @@ def test_a_barometer_without_calibration_is_said_once() -> None:
     assert sample.air_pressure == pytest.approx(100960.5, abs=0.1)
 
 
-def test_axis_maps_are_right_handed() -> None:
-    def determinant(axes: Any) -> float:
-        rows = [[sign if i == index else 0.0 for i in range(3)] for index, sign in axes]
-        (a, b, c), (d, e, f), (g, h, i) = rows
-        return float(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g))
-
-    for axes in AXIS_MAPS.values():
-        assert [determinant(part) for part in (axes.acc, axes.gyro, axes.mag)] == [1.0, 1.0, 1.0]
-
-
-def test_axes_are_turned_when_a_map_is_named() -> None:
-    decoder = Decoder(site=LEFT, axes="ti-app")
-    [sample] = feed(decoder, acc_packet(1.0, (16, 0, 0)), gyro_packet(1.05, (1000, 2000, 3000)))
+def test_a_cc2541_keeps_the_axes_as_they_were_sent() -> None:
+    decoder = Decoder(site=LEFT)
+    mag = packet(0.9, "cc2541/magnetometer", cc2541.build_magnetometer(cc2541.Magnetometer((1, 2, 3))))
+    [sample] = feed(decoder, mag, acc_packet(1.0, (16, 32, -16)), gyro_packet(1.05, (1000, 2000, 3000)))
     scale = radians(500 / 65536)
-    assert sample.acc == pytest.approx((GRAVITY, 0.0, 0.0))
-    assert sample.gyro == pytest.approx((-2000 * scale, 1000 * scale, 3000 * scale))
-    with pytest.raises(ValueError, match="no axis map 'tilted'"):
-        Decoder(site=LEFT, axes="tilted")
+    assert sample.acc == pytest.approx((GRAVITY, 2 * GRAVITY, -GRAVITY))
+    assert sample.gyro == pytest.approx((1000 * scale, 2000 * scale, 3000 * scale))
+    assert sample.mag == pytest.approx(tuple(n * 2000e-6 / 65536 for n in (1, 2, 3)))
+    with pytest.raises(TypeError):
+        Decoder(LEFT, axes="ti-app")  # type: ignore[call-arg]

@@ -1,10 +1,10 @@
-"""One CC2541 SensorTag: five separate sensors, scales by table, put together by the assembler."""
+"""One CC2541 SensorTag: five separate sensors in raw axes, scales by table, put together by the assembler."""
 
 from __future__ import annotations
 
 from math import radians
 
-from attrs import define, field, frozen
+from attrs import define, field
 
 from ..events import KeysChanged, Limitation, LinkEvent, PacketsLost, ScaleSuspect
 from ..types import Sample, Site, Vec3
@@ -56,27 +56,6 @@ def counts_per_g(firmware: str, code: int) -> int:
     return COUNTS_PER_G["1.4" if "1.4" in firmware else "", code]
 
 
-Axes = tuple[tuple[int, float], tuple[int, float], tuple[int, float]]
-"""For each of x, y, z: index of the raw axis, and sign."""
-_AS_SENT: Axes = ((0, 1.0), (1, 1.0), (2, 1.0))
-
-
-@frozen
-class AxisMap:
-    """How the raw axes of the three parts turn into one right-handed sensor frame."""
-
-    acc: Axes = _AS_SENT
-    gyro: Axes = _AS_SENT
-    mag: Axes = _AS_SENT
-
-
-AXIS_MAPS = {
-    "raw": AxisMap(),
-    # TI's application draws gyro (raw y, -raw x, raw z), mag (-x, -y, z) and acc (x, y, -z); the last in the convention
-    # of gravity, hence (-x, -y, z) as specific force. Turned by half a turn about z, so that acc is as sent:
-    "ti-app": AxisMap(gyro=((1, -1.0), (0, 1.0), (2, 1.0))),
-}
-
 Output = list[Sample | LinkEvent]
 
 
@@ -90,7 +69,6 @@ class Cc2541Link:
 
     site: Site
     assembler: Assembler
-    axes: str = "raw"
     firmware: str = ""
     code: int = WRITTEN
     acc: Periodic = field(factory=lambda: periodic(PERIOD))
@@ -113,7 +91,7 @@ class Cc2541Link:
             case "cc2541/gyroscope":
                 return self._gyro(data, arrival)
             case "cc2541/magnetometer":
-                self.assembler.mag = _turned(parse_magnetometer(data).mag, AXIS_MAPS[self.axes].mag, MAG)
+                self.assembler.mag = _scaled(parse_magnetometer(data).mag, MAG)
             case "cc2541/barometer":
                 return self._barometer(data, arrival)
             case "cc2541/barometer-calibration":
@@ -170,7 +148,7 @@ class Cc2541Link:
     def _acc(self, data: bytes, arrival: float) -> Output:
         counts = parse_accelerometer(data).acc
         per_g = counts_per_g(self.firmware, self.code)
-        acc = _turned(counts, AXIS_MAPS[self.axes].acc, GRAVITY / per_g)
+        acc = _scaled(counts, GRAVITY / per_g)
         slot = self.acc.arrive(arrival)
         out = self._lost("cc2541/accelerometer", slot.lost, slot.t_missing, arrival)
         out += self.assembler.acc(slot.t, acc, self.acc.period, arrival)
@@ -185,7 +163,7 @@ class Cc2541Link:
         return out
 
     def _gyro(self, data: bytes, arrival: float) -> Output:
-        gyro = _turned(parse_gyroscope(data).gyro, AXIS_MAPS[self.axes].gyro, GYRO)
+        gyro = _scaled(parse_gyroscope(data).gyro, GYRO)
         slot = self.gyro.arrive(arrival)
         out = self._lost("cc2541/gyroscope", slot.lost, slot.t_missing, arrival)
         out += self.assembler.gyro(slot.t, gyro, self.gyro.period, arrival)
@@ -211,13 +189,13 @@ class Cc2541Link:
         return [*self.assembler.pressure_alone(arrival, pressure)]
 
 
-def _turned(counts: tuple[int, int, int], axes: Axes, scale: float) -> Vec3:
-    (i, si), (j, sj), (k, sk) = axes
-    return (counts[i] * (si * scale), counts[j] * (sj * scale), counts[k] * (sk * scale))
+def _scaled(counts: tuple[int, int, int], scale: float) -> Vec3:
+    x, y, z = counts
+    return (x * scale, y * scale, z * scale)
 
 
-def cc2541_link(site: Site, axes: str, firmware: str) -> Cc2541Link:
-    """A fresh tag at `site`; `axes` names one of AXIS_MAPS."""
-    link = Cc2541Link(site, Assembler(site), axes)
+def cc2541_link(site: Site, firmware: str) -> Cc2541Link:
+    """A fresh tag at `site`."""
+    link = Cc2541Link(site, Assembler(site))
     link.learn_firmware(firmware)
     return link

@@ -14,13 +14,13 @@ from __future__ import annotations
 from copy import deepcopy
 from math import isfinite
 
-from attrs import define, field, fields
+from attrs import define, fields
 
 from ..events import BatteryLevel, ClockReset, LinkEvent, PacketRejected, Rejection, StreamResumed, StreamStale
 from ..types import Packet, Sample, Site
 from ..wire.device import parse_battery, parse_firmware
 from ..wire.error import WireError
-from .cc2541 import AXIS_MAPS, Cc2541Link, cc2541_link
+from .cc2541 import Cc2541Link, cc2541_link
 from .cc2650 import Cc2650Link
 from .insole import InsoleLink
 from .profile import CC2541, CC2650, INSOLE, Profile
@@ -39,7 +39,7 @@ _CHANNELS = {prefix: frozenset(c.name for c in profile.channels) for prefix, pro
 
 @define
 class Decoder:
-    """The link of one site. `axes` names one of cc2541.AXIS_MAPS; ValueError when there is none of that name.
+    """The link of one site.
 
     `feed` is total: whatever a packet holds gives events, never an exception, and a rejected one changes nothing (but
     see above). Sample times strictly increase from one ClockReset to the next; `known_at` is the arrival that settled
@@ -47,8 +47,6 @@ class Decoder:
     """
 
     site: Site
-    axes: str = field(default="raw")
-    """How a CC2541's raw axes turn into the sensor frame."""
     link: InsoleLink | Cc2650Link | Cc2541Link | None = None
     """The device, once a packet of it was used."""
     firmware: str = ""
@@ -59,11 +57,6 @@ class Decoder:
     heard: float | None = None
     """Newest arrival on a channel that must not fall silent, s."""
     stale: bool = False
-
-    @axes.validator
-    def _axes_exist(self, _attribute: object, value: str) -> None:
-        if value not in AXIS_MAPS:
-            raise ValueError(f"no axis map {value!r}; there are {', '.join(AXIS_MAPS)}")
 
     def feed(self, packet: Packet) -> Output:
         """Samples and events of one packet, in order of their being known."""
@@ -122,17 +115,19 @@ class Decoder:
         if link is None:
             link = self._make(prefix)
         elif profile is not self._profile():
-            raise WireError(Rejection.UNKNOWN_CHANNEL, f"{packet.channel!r} at a site whose device is {self._profile().name}")
+            detail = f"{packet.channel!r} at a site whose device is {self._profile().name}"
+            raise WireError(Rejection.UNKNOWN_CHANNEL, detail)
         out = link.feed(packet.channel, packet.data, packet.t)
         self.link = link
         return self._heed(packet.t, packet.channel in profile.streams) + out
 
     def _make(self, prefix: str) -> DeviceLink:
         if prefix == "insole":
-            return InsoleLink(self.site)
+            device = self._profile().name
+            raise WireError(Rejection.UNKNOWN_CHANNEL, f"{packet.channel!r} at a site whose device is {device}")
         if prefix == "cc2650":
             return Cc2650Link(self.site)
-        return cc2541_link(self.site, self.axes, self.firmware)
+        return cc2541_link(self.site, self.firmware)
 
     def _standard(self, packet: Packet) -> Output:
         """Battery and firmware, which any device may have."""
