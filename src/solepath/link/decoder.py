@@ -123,8 +123,7 @@ class Decoder:
 
     def _make(self, prefix: str) -> DeviceLink:
         if prefix == "insole":
-            device = self._profile().name
-            raise WireError(Rejection.UNKNOWN_CHANNEL, f"{packet.channel!r} at a site whose device is {device}")
+            return InsoleLink(self.site)
         if prefix == "cc2650":
             return Cc2650Link(self.site)
         return cc2541_link(self.site, self.firmware)
