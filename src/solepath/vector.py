@@ -34,10 +34,6 @@ def scale(a: Vec3, k: float) -> Vec3:
     return (a[0] * k, a[1] * k, a[2] * k)
 
 
-def dot(a: Vec3, b: Vec3) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
 def cross(a: Vec3, b: Vec3) -> Vec3:
     ax, ay, az = a
     bx, by, bz = b
