@@ -1,11 +1,11 @@
-"""The demonstration: an emulated wearer walks a scripted route, and a session hears it over a bad radio."""
+"""The demonstration: an emulated wearer walks a route, and a session hears it over a bad radio."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from math import hypot, pi
 
-from attrs import define, field
+from attrs import define, evolve, field
 
 from .evaluate.emulated import FootComparison, compare
 from .evaluate.gathered import Gathering
@@ -89,6 +89,16 @@ class Demo:
         return compare(self.walk.truth, {foot: self.gathering.foot(foot) for foot in Foot})
 
 
-def make_demo(seed: int) -> Demo:
+def straight(distance: float) -> Route:
+    """Stand, walk so many m straight on, stand."""
+    return Route().stand(3.0).walk(distance, speed=1.3).stop(2.0)
+
+
+def radio(loss: float | None = None, jitter: float | None = None) -> Radio:
+    """RADIO with another share of lost packets or another jitter in s; None leaves it as it is."""
+    return evolve(RADIO, loss=RADIO.loss if loss is None else loss, jitter=RADIO.jitter if jitter is None else jitter)
+
+
+def make_demo(seed: int, route: Route = ROUTE, radio: Radio = RADIO) -> Demo:
     """The walk of this seed, not yet played."""
-    return Demo(walk=emulate(ROUTE, radio=RADIO, seed=seed), session=Session(poses=True))
+    return Demo(walk=emulate(route, radio=radio, seed=seed), session=Session(poses=True))

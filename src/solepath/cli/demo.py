@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .failure import note, positive
+from .failure import note, positive, seconds, share
 
 if TYPE_CHECKING:
     from ..demo import Demo
@@ -20,10 +20,17 @@ def add_to(commands: Any) -> None:
     command: argparse.ArgumentParser = commands.add_parser(
         "demo",
         help="walk an emulated route and compare with the truth",
-        description="An emulated wearer walks a scripted route with both insoles over a lossy radio; shown live in a "
+        description="An emulated wearer walks a route with both insoles over a lossy radio; shown live in a "
         "terminal, and as fast as it can be computed where there is none.",
     )
     command.add_argument("--seed", metavar="N", type=int, default=1, help="another walk of the same route (default: 1)")
+    command.add_argument(
+        "--distance", metavar="M", type=positive, help="walk so many metres straight on instead of the scripted route"
+    )
+    command.add_argument("--loss", metavar="SHARE", type=share, help="share of packets lost, 0 to 1 (default: 0.03)")
+    command.add_argument(
+        "--jitter", metavar="S", type=seconds, help="how much later than others a packet may come (default: 0.03)"
+    )
     command.add_argument(
         "--speed", metavar="X", type=positive, default=2.0, help="times real time in a terminal (default: 2)"
     )
@@ -32,14 +39,16 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from ..demo import RADIO, ROUTE, make_demo
+    from ..demo import ROUTE, make_demo, radio, straight
     from ..view.comparison import comparison_table
     from ..view.summary import latency
 
-    demo = make_demo(abs(options.seed))
+    route = ROUTE if options.distance is None else straight(options.distance)
+    air = radio(options.loss, options.jitter)
+    demo = make_demo(abs(options.seed), route, air)
     print(
-        f"An emulated wearer walks {ROUTE.length:.0f} m in {demo.duration:.0f} s with an insole in each shoe; "
-        f"{100 * RADIO.loss:.0f} % of the packets get lost.",
+        f"An emulated wearer walks {route.length:.0f} m in {demo.duration:.0f} s with an insole in each shoe; "
+        f"{100 * air.loss:.3g} % of the packets get lost.",
         flush=True,
     )
     if options.record:
