@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import os
+import re
 import subprocess
 import sys
 from contextlib import redirect_stderr, redirect_stdout
@@ -13,13 +14,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from solepath import Event, FootMoved, PacketsLost, Session, StepTaken
 from solepath.cli import main
+from solepath.output import event_record
 from solepath.recording import PacketWriter, read_packets
 from solepath.sim.radio import Radio
 from solepath.sim.route import Route
 from solepath.sim.walk import emulate
 from solepath.sim.walker import Walker
-from solepath.types import Foot
+from solepath.types import Foot, Packet, Site
 
 ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
 
@@ -144,6 +147,35 @@ def test_the_recording_of_the_demo_gives_track_the_same_steps(demo, folder):
     assert [str(feet.count("left")), str(feet.count("right"))] == found
 
 
+def test_a_straight_demo_is_as_long_and_as_lossy_as_one_asks():
+    done = solepath("demo", "--distance", "8", "--loss", "0.2", "--jitter", "0")
+    assert done.returncode == 0 and done.stderr == ""
+    first = done.stdout.splitlines()[0]
+    assert first.startswith("An emulated wearer walks 8 m in ") and first.endswith("; 20 % of the packets get lost.")
+    lost, of = re.search(r"^(\d+) of (\d+) packets lost$", done.stdout, re.MULTILINE).groups()
+    assert int(lost) / int(of) == pytest.approx(0.2, abs=0.03)
+    # nothing is later than anything else, so most is known as soon as it can be: the next sample, 15 ms on the way
+    known = re.search(r"median: heel-strike (\d+) ms", done.stdout)
+    assert int(known[1]) < 30
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "complaint"),
+    [
+        ("--distance", "0", "'0' is not a positive number"),
+        ("--distance", "far", "'far' is not a positive number"),
+        ("--loss", "1.5", "'1.5' is not a number from 0 to 1"),
+        ("--loss", "nan", "'nan' is not a number from 0 to 1"),
+        ("--jitter", "-1", "'-1' is not a number of seconds"),
+        ("--jitter", "inf", "'inf' is not a number of seconds"),
+    ],
+)
+def test_a_demo_of_nonsense_is_refused(option, value, complaint, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["demo", option, value])
+    assert stop.value.code == 2 and complaint in capsys.readouterr().err
+
+
 # --- track ------------------------------------------------------------------------------------------------------------
 
 
@@ -193,12 +225,54 @@ def test_steps_and_track_are_tables_of_the_same_walk(tracked):
         assert hypot(float(last["x"]), float(last["y"])) == pytest.approx(8.0, rel=0.1)
 
 
+@pytest.fixture(scope="module")
+def told(packets) -> list[Event]:
+    """What a session says of the same recording."""
+    session = Session(poses=True)
+    return session.feed(read_packets(packets)) + session.finish()
+
+
+def test_every_column_of_steps_is_what_the_session_said(tracked, told):
+    taken = [event for event in told if isinstance(event, StepTaken)]
+    assert len(taken) > 8 and max(abs(step.heading_change) for step in taken) > 0.01
+    for row, step in zip(rows_in(tracked[1] / "steps.csv"), taken, strict=True):
+        assert row["foot"] == step.foot.value and row["degraded"] == str(int(step.degraded))
+        assert (float(row["t_start"]), float(row["t_end"])) == (step.t_start, step.t_end)
+        x, y, z = step.position
+        lengths = {"x": x, "y": y, "z": z, "stride_length": step.stride_length, "height_change": step.height_change}
+        for column, value in (lengths | {"heading_change": step.heading_change}).items():
+            assert float(row[column]) == pytest.approx(value, abs=1e-6), column
+    assert any(step.degraded for step in taken)
+
+
+def test_every_column_of_track_is_what_the_session_said(tracked, told):
+    moved = [event for event in told if isinstance(event, FootMoved)]
+    for row, event in zip(rows_in(tracked[1] / "track.csv"), moved, strict=True):
+        assert (float(row["t"]), row["foot"], row["phase"]) == (event.t, event.foot.value, event.phase.value)
+        assert [float(row[axis]) for axis in "xyz"] == pytest.approx(event.position, abs=1e-6)
+
+
+def test_events_of_the_link_name_the_foot_too(tracked, told):
+    events = events_in(tracked[1])
+    assert [e["event"] for e in events] == [type(e).__name__ for e in told if not isinstance(e, FootMoved)]
+    of_sites = [event for event in events if event.get("site") is not None]
+    assert {"PacketsLost", "PacketRejected"} <= {event["event"] for event in of_sites}
+    for event in of_sites:
+        assert event["site"] == f"{event['foot']}_foot"
+
+
+def test_events_of_what_is_no_foot_name_none():
+    lost = PacketsLost(t=1.0, known_at=1.0, site=Site.PELVIS, channel="insole/frame", count=2)
+    assert "foot" not in event_record(lost) and event_record(lost)["site"] == "pelvis"
+
+
 def test_a_recording_of_one_foot_is_of_the_foot_that_is_named(one_foot, tmp_path):
     for arguments, foot in (((), "right"), (("--foot", "left"), "left")):
         done = solepath("track", one_foot, *arguments, "--out", tmp_path)
         assert done.returncode == 0
         assert {row["foot"] for row in rows_in(tmp_path / "track.csv")} == {foot}
-        assert {row["foot"] for row in rows_in(tmp_path / "steps.csv")} == {foot}
+        # nothing is missing of these samples; of the packets above something is in every step
+        assert {(row["foot"], row["degraded"]) for row in rows_in(tmp_path / "steps.csv")} == {(foot, "0")}
 
 
 def test_the_times_written_are_the_recordings_own(one_foot, tmp_path):
@@ -256,7 +330,6 @@ BAD_FILES = {
     "words.jsonl": (b"once upon a time\n", "line 1: is not JSON"),
     "other.jsonl": (b'{"t": 1.0}\n', "line 1: is not the header of a recording"),
     "newer.jsonl": (b'{"format": "solepath-packets", "version": 2}\n', "is of version 2"),
-    "nothing.jsonl": (b'{"format": "solepath-packets", "version": 1}\n', "holds no packets"),
     "keys.csv": (b"t,x,y,z\n0,0,0,9.8\n", "line 1: names no column acc_x or pressure_0"),
     "tabs.csv": (b"t\tacc_x\tacc_y\tacc_z\n0\t0\t0\t9.8\n", "its columns are not separated by commas"),
     "nameless.csv": (b"0,0,0,9.8\n0.01,0,0,9.8\n", "is the line with the names missing?"),
@@ -272,6 +345,31 @@ def test_a_file_that_cannot_be_used_gets_one_line_and_status_2(tmp_path, name):
     done = in_this_process("track", tmp_path / name)
     assert complaint in one_line(done) and name in done.stderr
     assert done.stdout == ""
+
+
+@pytest.mark.parametrize("name", BAD_FILES)
+def test_a_file_that_cannot_be_used_replaces_nothing_of_an_earlier_run(tmp_path, name):
+    (tmp_path / name).write_bytes(BAD_FILES[name][0])
+    (tmp_path / "steps.csv").write_text("of an earlier run\n")
+    one_line(in_this_process("track", tmp_path / name, "--out", tmp_path))
+    assert {path.name for path in tmp_path.iterdir()} == {name, "steps.csv"}
+    assert (tmp_path / "steps.csv").read_text() == "of an earlier run\n"
+
+
+def test_a_header_alone_is_a_whole_recording_of_nothing(tmp_path):
+    (tmp_path / "nothing.jsonl").write_text('{"format": "solepath-packets", "version": 1}\n')
+    done = in_this_process("track", tmp_path / "nothing.jsonl", "--out", tmp_path)
+    assert done.returncode == 0 and done.stderr.endswith("nothing.jsonl: holds no packets\n")
+    assert "nothing was heard of either foot" in done.stdout
+    assert events_in(tmp_path) == rows_in(tmp_path / "track.csv") == rows_in(tmp_path / "steps.csv") == []
+
+
+def test_packets_of_the_other_foot_only_are_an_error(tmp_path):
+    with PacketWriter(tmp_path / "left.jsonl") as writer:
+        writer.write(Packet(1.0, Site.LEFT_FOOT, "device/battery", b"\x63"))
+    done = in_this_process("track", tmp_path / "left.jsonl", "--foot", "right", "--out", tmp_path / "out")
+    assert one_line(done).endswith("left.jsonl: holds no packets of the right foot")
+    assert not (tmp_path / "out").exists()
 
 
 def test_what_is_not_there_gets_one_line_and_status_2(tmp_path, packets):

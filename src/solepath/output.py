@@ -18,6 +18,7 @@ import attrs
 from attrs import define, field
 
 from .events import Event, FootMoved, StepTaken
+from .types import Site
 
 EVENTS, TRACK, STEPS = "events.jsonl", "track.csv", "steps.csv"
 TRACK_COLUMNS = ("t", "foot", "x", "y", "z", "phase")
@@ -48,8 +49,13 @@ def plain(value: Any) -> Any:
 
 
 def event_record(event: Event) -> dict[str, Any]:
-    """One event as a JSON object: its class's name, its times, its foot where it has one, then its own fields."""
+    """One event as a JSON object: its class's name, its times, its foot where it has one, then its own fields.
+
+    An event of the link has a site; where that is a foot, the foot is told too."""
     fields = plain(event)
+    site = getattr(event, "site", None)
+    if isinstance(site, Site) and site.foot is not None:
+        fields.setdefault("foot", site.foot.value)
     first = {key: fields.pop(key) for key in FIRST_KEYS if key in fields}
     return {"event": type(event).__name__, **first, **fields}
 

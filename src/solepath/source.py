@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from attrs import define
 
-from .recording import RecordingError, Report, open_file, read_packets, warn
+from .recording import RecordingError, Report, open_file, printable, read_packets, warn
 from .types import Foot, Packet, Sample
 
 if TYPE_CHECKING:
@@ -21,7 +21,8 @@ SAMPLE_FILES = (".npz", ".csv")
 class Source:
     """What a recording holds, in the order in which a session takes it.
 
-    Iterating raises RecordingError at what cannot be used, after everything that came before it. `done` of `total`
+    Iterating raises RecordingError at what cannot be used, after everything that came before it. A recording of packets
+    that ends after its header is whole: that it holds nothing is reported, and no error. `done` of `total`
     (bytes of packets, or samples) says how far the iteration got.
     """
 
@@ -42,13 +43,16 @@ class Source:
             yield sample
 
     def _packets(self) -> Iterator[Packet]:
-        used = False
+        any_there = used = False
         for packet in read_packets(self.path, report=self.report, progress=self._read):
+            any_there = True
             if self.foot is None or packet.site.foot in (None, self.foot):
                 used = True
                 yield packet
-        if not used:
-            raise RecordingError(self.path, f"holds no packets{f' of the {self.foot.value} foot' if self.foot else ''}")
+        if not any_there:
+            self.report(f"{printable(str(self.path))}: holds no packets")
+        elif self.foot is not None and not used:
+            raise RecordingError(self.path, f"holds no packets of the {self.foot.value} foot")
 
     def _read(self, done: int) -> None:
         self.done = done

@@ -57,11 +57,14 @@ def run(options: argparse.Namespace) -> int:
     failure: Failure | None = None
     began = perf_counter()
     with ExitStack() as stack:
-        files = stack.enter_context(TrackFiles(options.out)) if options.out else None
+        files: TrackFiles | None = None
         long = source.total > (LONG if source.samples is None else LONG_SAMPLES)
         show = stack.enter_context(progress_bar(options.file.name, source.total, wanted=long))
         try:
             for item in source:
+                # not before: a file that cannot be used must not replace what an earlier run wrote
+                if files is None and options.out:
+                    files = stack.enter_context(TrackFiles(options.out))
                 if isinstance(item, Sample):
                     tally.fed_sample(item)
                 else:
@@ -73,6 +76,8 @@ def run(options: argparse.Namespace) -> int:
                 show(source.done)
         except RecordingError as error:
             failure = Failure(str(error))
+        if files is None and options.out and failure is None:
+            files = stack.enter_context(TrackFiles(options.out))  # of a recording of nothing
         # what came before a fault in the file is a walk of its own: it is finished and written like any other
         for event in session.finish():
             tally.add(event)
