@@ -111,6 +111,14 @@ def refused() -> dict[str, tuple[Packet, Rejection]]:
         "one before it again": (packet(t, "insole/frame", insole_frame(2)), Rejection.DUPLICATE),
         "sent again on request": (
             packet(t, "insole/frame", insole_frame(1, retransmitted=True)),
+            Rejection.DUPLICATE,
+        ),
+        "the newest sent again on request": (
+            packet(t, "insole/frame", insole_frame(4, retransmitted=True)),
+            Rejection.DUPLICATE,
+        ),
+        "sent again on request, from before the first": (
+            packet(t, "insole/frame", insole_frame(-1, ticks=2**32 - 328, retransmitted=True)),
             Rejection.LATE,
         ),
         "absurd acceleration": (packet(t, "insole/info", info(acc_scale=1e6)), Rejection.ABSURD),
@@ -364,6 +372,24 @@ def test_a_fragment_that_comes_twice_is_a_duplicate() -> None:
     assert rejected.reason is Rejection.DUPLICATE
     assert machine.save(decoder) == before
     assert len(of(Sample, feed(decoder, third, last))) == 1
+
+
+def test_the_last_fragment_that_comes_twice_is_a_duplicate() -> None:
+    decoder = Decoder(site=LEFT)
+    pieces = fragments(0, 0)
+    feed(decoder, *pieces)
+    [rejected] = decoder.feed(pieces[-1])
+    assert rejected.reason is Rejection.DUPLICATE
+    assert len(of(Sample, feed(decoder, *fragments(1, 1)))) == 1
+
+
+def test_an_end_of_a_fragment_is_not_that_fragment() -> None:
+    decoder = Decoder(site=LEFT)
+    first, second, third, last = fragments(0, 0)
+    feed(decoder, first, second)
+    [rejected] = decoder.feed(evolve(second, data=second.data[:1] + second.data[-3:]))
+    assert rejected.reason is Rejection.TRUNCATED
+    assert feed(decoder, third, last) == []
 
 
 def test_fragments_without_end_do_not_fill_the_memory() -> None:

@@ -119,6 +119,8 @@ def test_the_stories_tell_every_rule_of_the_clock() -> None:
         "tick-wrap",
         "duplicate",
         "late",
+        "retransmitted",
+        "fragment-twice",
         "loss",
         "restart",
         "clock-jump",

@@ -203,18 +203,22 @@ class InsoleLink:
 
     def _refuse_repeated(self, clock: Clock, m: int, e: int, arrival: float, retransmitted: bool) -> None:
         """WireError when a frame that is not newer is one that came already or was overtaken; else it began anew."""
+        same_run = abs(m * self.covers - e) <= 2 * self.covers
+        accepted = same_run and -REMEMBERED < m <= 0 and bool(self.seen >> -m & 1)
         if retransmitted and e < 0:
+            if accepted:
+                raise WireError(Rejection.DUPLICATE, f"sent again, and it came already, {-m} before the newest")
             raise WireError(Rejection.LATE, f"sent again, {-m} frames old")
         overtaken = (
-            e >= -OVERTAKEN * clock.rate
-            and abs(m * self.covers - e) <= 2 * self.covers
+            same_run
+            and e >= -OVERTAKEN * clock.rate
             and arrival - clock.fitted(self.ticks + e) <= OVERTAKEN + self.covers / clock.rate
         )
         if m == 0 and e == 0:
             raise WireError(Rejection.DUPLICATE, "the newest frame again")
         if not overtaken or m > 0:
             return
-        if m == 0 or (-m < REMEMBERED and self.seen >> -m & 1):
+        if accepted:
             raise WireError(Rejection.DUPLICATE, f"a frame that came already, {-m} before the newest")
         raise WireError(Rejection.LATE, f"{-m} frames behind the newest")
 
