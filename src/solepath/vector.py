@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import asin, atan2, cos, sin, sqrt
+from math import cos, sin, sqrt
 
 from .types import Quat, Vec3
 
@@ -17,27 +17,8 @@ IDENTITY: Quat = (1.0, 0.0, 0.0, 0.0)
 ZERO: Vec3 = (0.0, 0.0, 0.0)
 
 
-def norm(a: Vec3) -> float:
-    x, y, z = a
-    return sqrt(x * x + y * y + z * z)
-
-
-def add(a: Vec3, b: Vec3) -> Vec3:
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
-
-
 def sub(a: Vec3, b: Vec3) -> Vec3:
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def scale(a: Vec3, k: float) -> Vec3:
-    return (a[0] * k, a[1] * k, a[2] * k)
-
-
-def cross(a: Vec3, b: Vec3) -> Vec3:
-    ax, ay, az = a
-    bx, by, bz = b
-    return (ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
 
 
 def multiply(p: Quat, q: Quat) -> Quat:
@@ -101,15 +82,3 @@ def levelling(acc: Vec3) -> Quat:
         return (0.0, 1.0, 0.0, 0.0)
     # half-way quaternion of z-up and the measured up: (1 + cos, sensor_up x world_up)
     return normalise((1.0 + z, y, -x, 0.0))
-
-
-def heading(q: Quat) -> float:
-    """Angle of the sensor's x axis in the horizontal plane, rad, counter-clockwise from world x."""
-    w, x, y, z = q
-    return atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-
-
-def pitch(q: Quat) -> float:
-    """Elevation of the sensor's x axis, rad, positive up."""
-    w, x, y, z = q
-    return asin(max(-1.0, min(1.0, 2.0 * (x * z - w * y))))

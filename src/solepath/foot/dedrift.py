@@ -21,6 +21,11 @@ from .stance import Stance
 
 @define
 class LinearDedrift(Strapdown):
+    """Strapdown navigation whose velocity is set to the evidence's in stance, the swing's drift taken out at once.
+
+    Frame and units as in `Corrector`. Latency: the position is corrected, in one jump, with the first sample of stance.
+    """
+
     trusted: float = 0.05
     """Evidence with a sigma above this is no stance, m/s."""
     tilt_rate: float = 2.0

@@ -39,6 +39,12 @@ SHORTEST_INTERVAL = 0.0035
 
 @define
 class ErrorStateFilter(Strapdown):
+    """Strapdown navigation corrected by stance evidence, weighted by what the motion so far makes likely.
+
+    Frame, units and latency as in `Corrector`: live position and velocity with every sample, corrected with the sample
+    that brings the evidence.
+    """
+
     acc_noise: float = 0.02
     """Accelerometer noise with all that stands for it (scale, g-sensitivity), m/s^2/sqrt(Hz)."""
     gyro_noise: float = 0.003
