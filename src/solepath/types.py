@@ -67,13 +67,15 @@ class Packet:
     """One notification (or one value read from a device) as it came in.
 
     `t` is the arrival time in s on the receiver's clock; `channel` names the format of `data`
-    ("insole/frame", "cc2650/movement", ...), so that a recording describes itself.
+    ("insole/frame", "cc2650/movement", ...), so that a recording describes itself. `device`: the address of the device
+    that it came from, "" when nobody knows.
     """
 
     t: float
     site: Site
     channel: str
     data: bytes = field(repr=lambda data: data.hex())
+    device: str = ""
 
 
 @frozen

@@ -1,0 +1,1 @@
+"""Real Bluetooth, through bleak: find, connect, set up, listen."""
