@@ -13,7 +13,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from solepath.types import Cell, Foot
-from solepath.wire import cc2541, cc2650, cells, device, fragment, insole, insole_control, insole_info, period
+from solepath.wire import cc2541, cc2650, cells, device, fragment, insole, insole_control, insole_info, period, receiver
 from solepath.wire.envelope import MAGIC
 from solepath.wire.error import WireError
 
@@ -44,6 +44,9 @@ CODECS: dict[str, tuple[Callable[[bytes], Any], Callable[[Any], bytes]]] = {
     "cc2541-keys": (cc2541.parse_keys, cc2541.build_keys),
     "device-battery": (device.parse_battery, device.build_battery),
     "device-firmware": (device.parse_firmware, device.build_firmware),
+    "receiver-connected": (receiver.parse_connected, receiver.build_connected),
+    "receiver-dropped": (receiver.parse_dropped, receiver.build_dropped),
+    "receiver-trouble": (receiver.parse_words, receiver.build_words),
     "sensortag-period": (period.parse_period, period.build_period),
 }
 
@@ -259,6 +262,13 @@ OTHERS = {
     "cc2541-keys": st.builds(cc2541.Keys, st.booleans(), st.booleans(), st.booleans()),
     "device-battery": st.integers(0, 100),
     "device-firmware": st.text(st.characters(codec="utf-8"), min_size=1, max_size=100),
+    "receiver-connected": st.builds(
+        receiver.Connection,
+        st.text(st.characters(codec="utf-8"), max_size=62),
+        st.none() | st.integers(-128, 126),
+    ),
+    "receiver-dropped": st.integers(1, 2**32 - 1),
+    "receiver-trouble": st.text(st.characters(codec="utf-8"), min_size=1, max_size=100),
     "sensortag-period": st.integers(1, 255).map(lambda n: n / 100),
 }
 

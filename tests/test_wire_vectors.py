@@ -14,7 +14,7 @@ from solepath import machine
 from solepath.events import Rejection
 from solepath.link.profile import PROFILES
 from solepath.types import Cell, Foot
-from solepath.wire import cc2541, cc2650, device, fragment, insole, insole_control, insole_info, period
+from solepath.wire import cc2541, cc2650, device, fragment, insole, insole_control, insole_info, period, receiver
 from solepath.wire.envelope import crc16
 from solepath.wire.error import WireError
 
@@ -104,6 +104,12 @@ FORMATS = {
     "cc2541-keys": record(cc2541.Keys, cc2541.parse_keys, cc2541.build_keys),
     "device-battery": single("percent", device.parse_battery, device.build_battery),
     "device-firmware": single("firmware", device.parse_firmware, device.build_firmware),
+    "receiver-connected": record(receiver.Connection, receiver.parse_connected, receiver.build_connected),
+    "receiver-disconnected": Format(receiver.parse_nothing, lambda _: b"", lambda _: {}, lambda _: None),
+    "receiver-dropped": single("count", receiver.parse_dropped, receiver.build_dropped),
+    "receiver-restarted": single("words", receiver.parse_words, receiver.build_words),
+    "receiver-tick": Format(receiver.parse_nothing, lambda _: b"", lambda _: {}, lambda _: None),
+    "receiver-trouble": single("words", receiver.parse_words, receiver.build_words),
     "sensortag-period": single("period", period.parse_period, period.build_period),
 }
 
@@ -184,7 +190,8 @@ def test_every_format_has_a_vector_file_and_the_other_way_round() -> None:
 def test_every_channel_has_a_vector_file() -> None:
     channels = {channel.name for profile in PROFILES for channel in profile.channels}
     others = {name for name in channels if not name.endswith("-period")}
-    assert {file["channel"] for file in FILES.values()} - {"cc2650/movement-period"} == others
+    devices = {file["channel"] for file in FILES.values() if not file["channel"].startswith("receiver/")}
+    assert devices - {"cc2650/movement-period"} == others
     assert {name.replace("/", "-") for name in others} | {"sensortag-period", "insole-fragment"} == set(FILES)
 
 

@@ -137,6 +137,7 @@ class Rejection(Enum):
     NOT_FINITE = "not finite"
     ABSURD = "absurd value"
     TIME_BACKWARDS = "time runs backwards"
+    WRONG_DEVICE = "wrong device"
 
 
 @frozen(kw_only=True)
@@ -204,6 +205,49 @@ class StreamResumed(_Event):
 
 
 @frozen(kw_only=True)
+class Connected(_Event):
+    """The receiver connected to a device, again perhaps; it is about to be set up."""
+
+    site: Site
+    device: str
+    """Its address, "" when nobody knows."""
+    name: str
+    signal: int | None
+    """With which it was last heard before, dBm; None when nobody knows."""
+
+
+@frozen(kw_only=True)
+class Disconnected(_Event):
+    """The connection to the device is gone; the receiver looks for it."""
+
+    site: Site
+
+
+@frozen(kw_only=True)
+class PacketsDropped(_Event):
+    """Packets arrived and were thrown away, the oldest first, since nobody took them in time."""
+
+    site: Site
+    count: int
+
+
+@frozen(kw_only=True)
+class StreamRestarted(_Event):
+    """A stream froze although the connection stands, and the receiver set the device up again."""
+
+    site: Site
+    channel: str
+
+
+@frozen(kw_only=True)
+class LinkTrouble(_Event):
+    """The receiver cannot do what it should, in a sentence for the person who can do something about it."""
+
+    site: Site
+    what: str
+
+
+@frozen(kw_only=True)
 class ScaleSuspect(_Event):
     """The accelerometer does not read 1 g at rest: its range or scale is not what was assumed."""
 
@@ -255,6 +299,11 @@ LinkEvent = (
     | ClockReset
     | StreamStale
     | StreamResumed
+    | Connected
+    | Disconnected
+    | PacketsDropped
+    | StreamRestarted
+    | LinkTrouble
     | ScaleSuspect
     | LayoutKnown
     | BatteryLevel

@@ -10,7 +10,7 @@ go on elsewhere; the same input gives the same events on every machine, however 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from copy import deepcopy
 from math import inf, isfinite
 from typing import Any, TypeVar
@@ -59,6 +59,8 @@ class _State:
 
 class Session:
     """One wearer. `recipe`: which parts to use. `poses`: also emit FootMoved, the live position at every sample.
+    `devices`: the address of the device at a site (`Packet.device`); packets of other devices are rejected there. A
+    site that is not named is bound to the first device that it hears.
 
     `feed`, `advance` and `finish` return the events that became known, in the order in which they did. `feed` is
     total: any bytes give events, never an exception. TypeError for what is neither a packet nor a sample, ValueError
@@ -72,10 +74,14 @@ class Session:
 
     __slots__ = ("_state",)
 
-    def __init__(self, recipe: Recipe = DEFAULT, *, poses: bool = False) -> None:
+    def __init__(
+        self, recipe: Recipe = DEFAULT, *, poses: bool = False, devices: Mapping[Site, str] | None = None
+    ) -> None:
         if not isinstance(recipe, Recipe):
             raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}")
         self._state = _State(deepcopy(recipe), poses)
+        for site, device in ({} if devices is None else devices).items():
+            self.bind(site, device)
 
     # --- in ---
 
@@ -126,6 +132,18 @@ class Session:
             self._state.finished = True
         return events
 
+    def bind(self, site: Site, device: str) -> None:
+        """From now on `site` is the device with this address and no other, as when a broken one was replaced; "" for
+        the next one that is heard. What the site was told by another device (layout, ranges, clock) is forgotten."""
+        if not isinstance(site, Site) or not isinstance(device, str):
+            raise TypeError("a Site is bound to the address of a device, a str")
+        known = self._state.decoders.get(site)
+        if known is not None and known.device == device:
+            return
+        self._state.decoders = _in_order({**self._state.decoders, site: Decoder(site, device)}, Site)
+        if site.foot is not None and site.foot in self._state.feet:
+            self._state.feet[site.foot].interrupt()
+
     def _packet(self, packet: Packet) -> list[Event]:
         state, events = self._state, list[Event]()
         if (
@@ -133,8 +151,9 @@ class Session:
             or not isinstance(packet.site, Site)
             or not isinstance(packet.channel, str)
             or not isinstance(packet.t, float | int)
+            or not isinstance(packet.device, str)
         ):
-            raise TypeError("a packet holds a time, a Site, a channel's name and bytes")
+            raise TypeError("a packet holds a time, a Site, a channel's name, bytes and a device's address")
         if isinstance(packet.t, int):
             packet = evolve(packet, t=_number(packet.t))
         decoder = state.decoders.get(packet.site)

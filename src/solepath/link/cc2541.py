@@ -127,6 +127,9 @@ class Cc2541Link:
         self.acc, self.gyro = periodic(self.acc.period), periodic(self.gyro.period)
         self.assembler = Assembler(self.site)
 
+    def reconnected(self) -> None:
+        """A new connection: nothing was under way that could end with the old one."""
+
     def flush(self, known_at: float) -> Output:
         return [*self.assembler.flush(known_at)]
 

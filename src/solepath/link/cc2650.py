@@ -87,6 +87,9 @@ class Cc2650Link:
         self.movement = periodic(self.movement.period)
         self.last_t = None
 
+    def reconnected(self) -> None:
+        """A new connection: nothing was under way that could end with the old one."""
+
     def flush(self, known_at: float) -> Output:
         return []
 

@@ -1,8 +1,12 @@
 """Packets of one site in, samples and link events out.
 
 The device is known from the channel's prefix, the first time that a packet of it can be used. What all devices have
-in common is here: whether a packet's arrival time is sound, silence, battery and firmware. Bytes and clocks are the
-business of insole.py, cc2650.py and cc2541.py.
+in common is here: whether a packet's arrival time is sound and it comes from the device that this site is bound to,
+silence, battery and firmware. Bytes and clocks are the business of insole.py, cc2650.py and cc2541.py.
+
+A site is bound to the first device that says its address (`Packet.device`), or to the one that it was made for. From
+then on packets of other devices, and of devices that do not say, are rejected. What the receiver says of itself is of
+no device, and is heard all the same.
 
 Arrival time must not run backwards: such packets are rejected, but a receiver's clock that was set back for good must
 not end the stream, so the twentieth in a row is taken as ClockReset and times begin anew there, before the old ones.
@@ -16,7 +20,16 @@ from math import isfinite
 
 from attrs import define, fields
 
-from ..events import BatteryLevel, ClockReset, LinkEvent, PacketRejected, Rejection, StreamResumed, StreamStale
+from ..events import (
+    BatteryLevel,
+    ClockReset,
+    Connected,
+    LinkEvent,
+    PacketRejected,
+    Rejection,
+    StreamResumed,
+    StreamStale,
+)
 from ..types import Packet, Sample, Site
 from ..wire.device import parse_battery, parse_firmware
 from ..wire.error import WireError
@@ -24,6 +37,7 @@ from .cc2541 import Cc2541Link, cc2541_link
 from .cc2650 import Cc2650Link
 from .insole import InsoleLink
 from .profile import CC2541, CC2650, INSOLE, Profile
+from .receiver import said
 
 SET_BACK = 20
 """Packets in a row from before the newest arrival, after which the receiver's clock is taken to have been set back."""
@@ -47,6 +61,8 @@ class Decoder:
     """
 
     site: Site
+    device: str = ""
+    """The address of the device that the site is bound to; "" until one is known."""
     link: InsoleLink | Cc2650Link | Cc2541Link | None = None
     """The device, once a packet of it was used."""
     firmware: str = ""
@@ -67,6 +83,9 @@ class Decoder:
             return self._reject(packet, Rejection.ABSURD, f"arrival time {t:g} s")
         if packet.site is not self.site:
             return self._reject(packet, Rejection.WRONG_SITE, f"of {packet.site.value}, not {self.site.value}")
+        prefix = packet.channel.partition("/")[0]
+        if self.device and packet.device != self.device and (packet.device or prefix != "receiver"):
+            return self._reject(packet, Rejection.WRONG_DEVICE, f"of {packet.device or 'nobody'}, not {self.device}")
         if self.arrived is not None and t < self.arrived:
             if self.backwards + 1 < SET_BACK:
                 self.backwards += 1
@@ -105,8 +124,9 @@ class Decoder:
     def _use(self, packet: Packet) -> Output:
         """WireError, before anything has changed, when the packet cannot be used."""
         prefix = packet.channel.partition("/")[0]
-        if prefix == "device":
-            out = self._standard(packet)
+        if prefix == "device" or prefix == "receiver":
+            out = self._standard(packet) if prefix == "device" else self._receiver(packet)
+            self.device = self.device or packet.device
             return self._heed(packet.t, False) + out
         profile = _PROFILES.get(prefix)
         if profile is None or packet.channel not in _CHANNELS[prefix]:
@@ -119,6 +139,7 @@ class Decoder:
             raise WireError(Rejection.UNKNOWN_CHANNEL, detail)
         out = link.feed(packet.channel, packet.data, packet.t)
         self.link = link
+        self.device = self.device or packet.device
         return self._heed(packet.t, packet.channel in profile.streams) + out
 
     def _make(self, prefix: str) -> DeviceLink:
@@ -127,6 +148,12 @@ class Decoder:
         if prefix == "cc2650":
             return Cc2650Link(self.site)
         return cc2541_link(self.site, self.firmware)
+
+    def _receiver(self, packet: Packet) -> Output:
+        out = said(packet)
+        if self.link is not None and any([isinstance(event, Connected) for event in out]):
+            self.link.reconnected()
+        return [*out]
 
     def _standard(self, packet: Packet) -> Output:
         """Battery and firmware, which any device may have."""

@@ -74,6 +74,8 @@ class InsoleLink:
     """Ticks that it covers."""
     seen: int = 0
     """Bit b: the frame b before the newest was accepted."""
+    fresh: bool = False
+    """No frame came yet since the device was connected again: counters that go back have begun anew."""
     fragments: Reassembly = field(factory=Reassembly)
     rest: RestCheck = field(factory=lambda: RestCheck(ASSUMED_ACC))
 
@@ -92,6 +94,11 @@ class InsoleLink:
     def forget_clock(self) -> None:
         """The receiver's clock was set back: fit anew, and let times begin anew too."""
         self.clock = None
+
+    def reconnected(self) -> None:
+        """A new connection: the rest of a frame in fragments will not come, and nothing can be overtaken."""
+        self.fragments.drop()
+        self.fresh = True
 
     def flush(self, known_at: float) -> Output:
         return []
@@ -185,6 +192,7 @@ class InsoleLink:
             self.told = True
             what = "no INFO from the insole: 16 g and 2000 degrees/s full scale assumed, pressure in counts"
             out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=what))
+        self.fresh = False
         self.sequence, self.interval, self.covers = frame.sequence, frame.interval, covers
         clock.observe(self.ticks + covers - frame.interval, arrival)
         if restarted is not None:
@@ -210,7 +218,8 @@ class InsoleLink:
                 raise WireError(Rejection.DUPLICATE, f"sent again, and it came already, {-m} before the newest")
             raise WireError(Rejection.LATE, f"sent again, {-m} frames old")
         overtaken = (
-            same_run
+            not self.fresh
+            and same_run
             and e >= -OVERTAKEN * clock.rate
             and arrival - clock.fitted(self.ticks + e) <= OVERTAKEN + self.covers / clock.rate
         )

@@ -126,3 +126,23 @@ def build_whole(definition: Definition, value: Any) -> bytes:
 
 def malformed(detail: str) -> WireError:
     return WireError(Rejection.MALFORMED, detail)
+
+
+def parse_text(data: bytes) -> str:
+    """UTF-8 of 1 to LONGEST_VALUE bytes, as sent: a trailing NUL stays. WireError when it is none."""
+    if not data:
+        raise WireError(Rejection.TRUNCATED, "no text")
+    if len(data) > LONGEST_VALUE:
+        raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes, at most {LONGEST_VALUE}")
+    try:
+        return bytes(data).decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise malformed(f"not UTF-8: {error}") from error
+
+
+def build_text(text: str) -> bytes:
+    """The bytes of a text. ValueError when it is empty or too long."""
+    data = text.encode("utf-8")
+    if not 0 < len(data) <= LONGEST_VALUE:
+        raise ValueError(f"a text of {len(data)} bytes")
+    return data

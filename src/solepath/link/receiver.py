@@ -1,0 +1,30 @@
+"""What the receiver says of itself, as events (protocol/receiver.md)."""
+
+from __future__ import annotations
+
+from ..events import Connected, Disconnected, LinkEvent, LinkTrouble, PacketsDropped, Rejection, StreamRestarted
+from ..types import Packet
+from ..wire.error import WireError
+from ..wire.receiver import parse_connected, parse_dropped, parse_nothing, parse_words
+
+
+def said(packet: Packet) -> list[LinkEvent]:
+    """The event of a packet of a channel receiver/...; none of a tick. WireError when it cannot be used."""
+    t, site = packet.t, packet.site
+    match packet.channel:
+        case "receiver/tick":
+            parse_nothing(packet.data)
+            return []
+        case "receiver/connected":
+            made = parse_connected(packet.data)
+            return [Connected(t=t, known_at=t, site=site, device=packet.device, name=made.name, signal=made.signal)]
+        case "receiver/disconnected":
+            parse_nothing(packet.data)
+            return [Disconnected(t=t, known_at=t, site=site)]
+        case "receiver/dropped":
+            return [PacketsDropped(t=t, known_at=t, site=site, count=parse_dropped(packet.data))]
+        case "receiver/restarted":
+            return [StreamRestarted(t=t, known_at=t, site=site, channel=parse_words(packet.data))]
+        case "receiver/trouble":
+            return [LinkTrouble(t=t, known_at=t, site=site, what=parse_words(packet.data))]
+    raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")

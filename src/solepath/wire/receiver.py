@@ -1,0 +1,75 @@
+"""What a receiver says of itself (protocol/receiver.md): connections, packets that it dropped, time passing."""
+
+from __future__ import annotations
+
+from attrs import frozen
+from construct import Int8sl, Int32ul, Struct, Terminated
+
+from ..events import Rejection
+from .error import WireError
+from .fields import build_text, build_whole, malformed, parse_text, parse_whole
+
+UNKNOWN_SIGNAL = 127
+"""dBm that no receiver measures: the signal strength is not known (as in the Bluetooth HCI)."""
+LONGEST_NAME = 248
+"""Bytes; no device name is longer (Bluetooth Core, vol 3 part C, 12.1)."""
+
+_SIGNAL = Struct("signal" / Int8sl)
+_COUNT = Struct("count" / Int32ul, Terminated)
+
+
+@frozen
+class Connection:
+    """A device is connected and about to be set up: its name, and the signal in dBm that it was last heard with."""
+
+    name: str
+    signal: int | None
+
+
+def parse_connected(data: bytes) -> Connection:
+    """receiver/connected. WireError when it is not that."""
+    data = bytes(data)
+    if not data:
+        raise WireError(Rejection.TRUNCATED, "no signal strength")
+    if len(data) > 1 + LONGEST_NAME:
+        raise WireError(Rejection.OVERSIZED, f"a name of {len(data) - 1} bytes, at most {LONGEST_NAME}")
+    signal: int = parse_whole(_SIGNAL, data[:1]).signal
+    try:
+        name = data[1:].decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise malformed(f"not UTF-8: {error}") from error
+    return Connection(name, None if signal == UNKNOWN_SIGNAL else signal)
+
+
+def build_connected(connection: Connection) -> bytes:
+    """The bytes of a connection. ValueError when the name is too long or the signal is no i8."""
+    name = connection.name.encode("utf-8")
+    if len(name) > LONGEST_NAME or connection.signal == UNKNOWN_SIGNAL:
+        raise ValueError(f"a name of {len(name)} bytes, a signal of {connection.signal} dBm")
+    signal = UNKNOWN_SIGNAL if connection.signal is None else connection.signal
+    return build_whole(_SIGNAL, {"signal": signal}) + name
+
+
+def parse_dropped(data: bytes) -> int:
+    """receiver/dropped: how many packets the receiver had no room for, at least 1. WireError when it is not that."""
+    count: int = parse_whole(_COUNT, bytes(data)).count
+    if count == 0:
+        raise malformed("nothing was dropped")
+    return count
+
+
+def build_dropped(count: int) -> bytes:
+    """The bytes of that count. ValueError unless it is 1 to 2^32 - 1."""
+    if count < 1:
+        raise ValueError(f"{count} packets dropped")
+    return build_whole(_COUNT, {"count": count})
+
+
+parse_words, build_words = parse_text, build_text
+"""receiver/restarted (a channel's name) and receiver/trouble (a sentence)."""
+
+
+def parse_nothing(data: bytes) -> None:
+    """receiver/tick and receiver/disconnected: no bytes. WireError when there are some."""
+    if data:
+        raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes, none expected")

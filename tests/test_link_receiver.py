@@ -1,0 +1,165 @@
+"""What the receiver says of itself, and which device a site listens to."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from solepath import (
+    BatteryLevel,
+    ClockReset,
+    Connected,
+    Disconnected,
+    LinkTrouble,
+    Packet,
+    PacketRejected,
+    PacketsDropped,
+    Rejection,
+    Session,
+    Site,
+    StreamRestarted,
+)
+from solepath.link.decoder import Decoder
+from solepath.types import Foot, Sample
+from solepath.wire.insole import InsoleFrame, InsoleSample, build_frame
+from solepath.wire.receiver import Connection, build_connected, build_dropped, build_words
+
+LEFT = Site.LEFT_FOOT
+CHARGED = b"\x64"
+
+
+def packet(t: float, channel: str, data: bytes = b"", device: str = "") -> Packet:
+    return Packet(t, LEFT, channel, data, device)
+
+
+def frame(sequence: int, ticks: int) -> bytes:
+    sample = InsoleSample((), (0, 0, 2048, 0, 0, 0), None)
+    return build_frame(InsoleFrame(Foot.LEFT, 0, sequence, ticks, 328, (sample,)))
+
+
+def test_what_the_receiver_says_becomes_events() -> None:
+    session = Session()
+    said = [
+        ("receiver/connected", build_connected(Connection("solepath L", -61))),
+        ("receiver/trouble", build_words("the battery is low")),
+        ("receiver/dropped", build_dropped(7)),
+        ("receiver/restarted", build_words("insole/frame")),
+        ("receiver/disconnected", b""),
+    ]
+    events = session.feed([packet(float(t), *one, device="F0:01") for t, one in enumerate(said)])
+    assert events == [
+        Connected(t=0.0, known_at=0.0, site=LEFT, device="F0:01", name="solepath L", signal=-61),
+        LinkTrouble(t=1.0, known_at=1.0, site=LEFT, what="the battery is low"),
+        PacketsDropped(t=2.0, known_at=2.0, site=LEFT, count=7),
+        StreamRestarted(t=3.0, known_at=3.0, site=LEFT, channel="insole/frame"),
+        Disconnected(t=4.0, known_at=4.0, site=LEFT),
+    ]
+
+
+def test_a_tick_lets_a_silence_become_known_as_advance_does() -> None:
+    told, ticked = Session(), Session()
+    for session in (told, ticked):
+        session.feed(packet(0.0, "insole/frame", frame(1, 0)))
+    assert told.advance(5.0) == ticked.feed(packet(5.0, "receiver/tick")) != []
+
+
+@pytest.mark.parametrize("channel", ["receiver/tock", "receiver/", "receiver"])
+def test_what_no_receiver_says_is_rejected(channel: str) -> None:
+    [event] = Session().feed(packet(0.0, channel))
+    assert isinstance(event, PacketRejected) and event.reason is Rejection.UNKNOWN_CHANNEL
+
+
+# --- which device a site listens to ---
+
+
+def reasons(session: Session, *packets: Packet) -> list[Rejection | None]:
+    """Why each was rejected, None where it was not."""
+    found = []
+    for one in packets:
+        rejected = [event for event in session.feed(one) if isinstance(event, PacketRejected)]
+        found.append(rejected[0].reason if rejected else None)
+    return found
+
+
+def test_a_site_is_bound_to_the_first_device_that_it_hears() -> None:
+    heard = [
+        packet(0.0, "device/battery", CHARGED),
+        packet(1.0, "device/battery", CHARGED, "F0:01"),
+        packet(2.0, "device/battery", CHARGED, "F0:02"),
+        packet(3.0, "device/battery", CHARGED),
+        packet(4.0, "device/battery", CHARGED, "F0:01"),
+    ]
+    wrong = Rejection.WRONG_DEVICE
+    assert reasons(Session(), *heard) == [None, None, wrong, wrong, None]
+
+
+def test_a_site_that_was_bound_beforehand_hears_no_other_device() -> None:
+    session = Session(devices={LEFT: "F0:02"})
+    heard = [packet(float(t), "device/battery", CHARGED, f"F0:0{t}") for t in (1, 2, 3)]
+    wrong = Rejection.WRONG_DEVICE
+    assert reasons(session, *heard) == [wrong, None, wrong]
+    assert reasons(Session(), Packet(0.0, Site.RIGHT_FOOT, "device/battery", CHARGED, "F0:01")) == [None]
+
+
+def test_a_packet_that_is_rejected_binds_nothing() -> None:
+    session = Session()
+    bad, good = packet(0.0, "device/battery", b"\xff", "F0:01"), packet(0.0, "device/battery", CHARGED, "F0:02")
+    assert reasons(session, bad, good) == [Rejection.MALFORMED, None]
+
+
+def test_the_receiver_is_heard_whatever_device_the_site_is_bound_to() -> None:
+    session = Session(devices={LEFT: "F0:01"})
+    heard = [packet(0.0, "receiver/tick"), packet(1.0, "receiver/disconnected", device="F0:02")]
+    assert reasons(session, *heard) == [None, Rejection.WRONG_DEVICE]
+
+
+def test_a_binding_outlives_a_snapshot() -> None:
+    session = Session(devices={LEFT: "F0:01"})
+    restored = Session.restore(json.loads(json.dumps(session.snapshot())))
+    assert reasons(restored, packet(0.0, "device/battery", CHARGED, "F0:02")) == [Rejection.WRONG_DEVICE]
+
+
+def test_a_site_can_be_bound_to_a_new_device_in_mid_walk() -> None:
+    session = Session()
+    session.feed([packet(0.01 * k, "insole/frame", frame(k, 328 * k), "F0:01") for k in range(50)])
+    session.bind(LEFT, "F0:02")
+    events = session.feed(packet(0.6, "insole/frame", frame(9000, 77), "F0:02"))
+    assert not [event for event in events if isinstance(event, PacketRejected | ClockReset)]
+    assert reasons(session, packet(0.7, "device/battery", CHARGED, "F0:01")) == [Rejection.WRONG_DEVICE]
+    session.bind(LEFT, "")
+    [event] = session.feed(packet(0.8, "device/battery", CHARGED, "F0:03"))
+    assert isinstance(event, BatteryLevel)
+
+
+def test_to_bind_the_device_that_is_bound_already_changes_nothing() -> None:
+    session, other = Session(), Session()
+    for one in (session, other):
+        one.feed([packet(0.01 * k, "insole/frame", frame(k, 328 * k), "F0:01") for k in range(50)])
+    session.bind(LEFT, "F0:01")
+    assert session.snapshot() == other.snapshot()
+
+
+# --- a new connection ---
+
+
+def test_an_insole_that_begins_anew_soon_after_its_start_is_not_taken_for_late() -> None:
+    decoder = Decoder(site=LEFT)
+    for k in range(60):
+        decoder.feed(packet(0.01 * k, "insole/frame", frame(k, 328 * k)))
+    decoder.feed(packet(0.7, "receiver/disconnected"))
+    decoder.feed(packet(0.9, "receiver/connected", build_connected(Connection("", None))))
+    first, *rest = decoder.feed(packet(1.0, "insole/frame", frame(0, 0)))
+    assert isinstance(first, ClockReset) and first.restarted
+    assert [type(one) for one in rest] == [Sample]
+    [sample] = decoder.feed(packet(1.01, "insole/frame", frame(1, 328)))
+    assert isinstance(sample, Sample)
+
+
+def test_counters_that_go_on_across_a_connection_tell_what_was_lost() -> None:
+    decoder = Decoder(site=LEFT)
+    for k in range(60):
+        decoder.feed(packet(0.01 * k, "insole/frame", frame(k, 328 * k)))
+    decoder.feed(packet(0.9, "receiver/connected", build_connected(Connection("", None))))
+    lost, sample = decoder.feed(packet(1.0, "insole/frame", frame(100, 32800)))
+    assert lost.count == 40 and isinstance(sample, Sample)  # type: ignore[union-attr]
