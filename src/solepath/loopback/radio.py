@@ -1,0 +1,227 @@
+"""One virtual central: a bumble Device that scanners and clients share, opened when it is first needed.
+
+A controller makes one connection at a time. Whoever waits for a device that does not answer has its turn for a few
+seconds, gives way to the others and comes again, until its own time is up.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable, Coroutine
+from contextlib import suppress
+from typing import Any, Protocol, TypeVar
+
+from bleak.exc import BleakError
+from bumble import core, hci
+from bumble.device import Advertisement, Connection, Device, DeviceConfiguration
+from bumble.host import Host
+from bumble.transport.common import Transport
+
+_T = TypeVar("_T")
+
+TURN = 2.0
+"""s that one attempt to connect may hold the controller; devices advertise about every 0.1 s."""
+PATIENCE = 5.0
+"""s that a controller may take to be started or to end a link."""
+RETURN = 1.0
+"""s between attempts to reach a lost controller again while somebody scans."""
+
+
+class Listener(Protocol):
+    """Whoever wants to hear advertisements."""
+
+    def heard(self, advertisement: Advertisement) -> None:
+        """Called for each one."""
+
+
+class Radio:
+    """A central behind an HCI transport.
+
+    `reach` opens the transport and raises OSError when there is none; after it was lost it is asked again as soon as
+    somebody scans or connects. `where` is for messages. `address`: the central's own, static random; None: any.
+    `mtu`: the ATT MTU that it asks for.
+    """
+
+    def __init__(
+        self, reach: Callable[[], Awaitable[Transport]], where: str, mtu: int, address: str | None = None
+    ) -> None:
+        self.mtu = mtu
+        self.where = where
+        self._reach = reach
+        self._address = hci.Address(address) if address else hci.Address.generate_static_address()
+        self._device: Device | None = None
+        self._transport: Transport | None = None
+        self._listeners: list[Listener] = []
+        self._opening = asyncio.Lock()
+        self._connecting = asyncio.Lock()
+        self._tasks: set[asyncio.Task[Any]] = set()
+        self._closed = False
+
+    async def device(self) -> Device:
+        """The Device, started. BleakError naming `where` when it cannot be reached."""
+        async with self._opening:
+            if self._device is None:
+                await self._open()
+            return self._started()
+
+    def _started(self) -> Device:
+        if self._device is None:
+            raise BleakError(f"{self.where}: the connection to the controller was lost")
+        return self._device
+
+    async def _open(self) -> None:
+        if self._closed:
+            raise BleakError(f"{self.where} is closed")
+        try:
+            transport = await self._reach()
+        except OSError as error:
+            raise BleakError(f"nothing answers at {self.where}: {error.strerror or error}") from error
+        config = DeviceConfiguration(name="solepath", address=self._address, gatt_service_enabled=False)
+        device = Device(config=config, host=Host(transport.source, transport.sink))
+        try:
+            async with asyncio.timeout(PATIENCE):
+                await device.power_on()
+        except BaseException as error:
+            await transport.close()
+            if isinstance(error, TimeoutError | core.BaseBumbleError | AssertionError):
+                raise BleakError(f"no Bluetooth controller answers at {self.where}") from error
+            raise
+        device.on(Device.EVENT_ADVERTISEMENT, self._heard)
+        self._device, self._transport = device, transport
+        transport.source.terminated.add_done_callback(lambda _: self._lost(device))
+        if self._listeners:
+            await self._scan(device, True)
+
+    def _lost(self, device: Device) -> None:
+        """The transport broke: bumble has told every link already, but what waits for the controller would wait for
+        ever. Whoever scans goes on as soon as it is back."""
+        if self._device is device:
+            self._device = self._transport = None
+            for task in self._tasks:
+                task.cancel()
+            if self._listeners and not self._closed:
+                self.task(self._return())
+
+    async def _return(self) -> None:
+        while self._listeners and not self._closed:
+            try:
+                await self.device()
+            except BleakError:
+                await asyncio.sleep(RETURN)
+            else:
+                return
+
+    # scanning
+
+    async def listen(self, listener: Listener) -> None:
+        """From now on `listener` hears what is advertised. BleakError."""
+        device = await self.device()
+        self._listeners.append(listener)
+        if len(self._listeners) == 1:
+            await self._scan(device, True)
+
+    async def ignore(self, listener: Listener) -> None:
+        """Undoes listen."""
+        if listener in self._listeners:
+            self._listeners.remove(listener)
+            if not self._listeners and self._device is not None:
+                await self._scan(self._device, False)
+
+    async def _scan(self, device: Device, on: bool) -> None:
+        try:
+            await self.finish(device.start_scanning(legacy=True) if on else device.stop_scanning(legacy=True))
+        except (hci.HCI_Error, core.BaseBumbleError) as error:
+            if on:
+                raise BleakError(f"{self.where}: cannot scan: {error}") from error
+
+    def _heard(self, advertisement: Advertisement) -> None:
+        for listener in list(self._listeners):
+            listener.heard(advertisement)
+
+    # connecting
+
+    async def connect(self, peer: hci.Address) -> Connection:
+        """A link to the device of this address. Tries until it is cancelled; BleakError."""
+        while True:
+            device = await self.device()
+            async with self._connecting:
+                attempt = self.task(device.connect(peer, timeout=TURN))
+                try:
+                    return await asyncio.shield(attempt)
+                except core.TimeoutError:
+                    pass  # nobody answered: the next one's turn
+                except (hci.HCI_Error, core.BaseBumbleError) as error:
+                    raise BleakError(f"no connection to {peer.to_string(False)}: {error}") from error
+                except asyncio.CancelledError:
+                    if attempt.cancelled() and not _cancelled():
+                        raise BleakError(f"{self.where}: the connection to the controller was lost") from None
+                    await self._take_back(device, attempt)
+                    raise
+
+    async def _take_back(self, device: Device, attempt: asyncio.Task[Connection]) -> None:
+        """The caller gave up: neither a request nor a link without an owner may stay behind."""
+        try:
+            async with asyncio.timeout(PATIENCE):
+                if not attempt.done():
+                    await device.cancel_connection()  # type: ignore[no-untyped-call]
+                link = await attempt
+                await link.disconnect()
+        except (TimeoutError, hci.HCI_Error, core.BaseBumbleError, asyncio.CancelledError):
+            attempt.cancel()
+
+    # tasks
+
+    def task(self, work: Coroutine[Any, Any, _T]) -> asyncio.Task[_T]:
+        """Work that must be ended when the radio closes."""
+        task = asyncio.get_running_loop().create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+        return task
+
+    async def finish(self, work: Coroutine[Any, Any, _T]) -> _T:
+        """Runs an exchange with the controller or a device to its end even when the caller gives up: a request that is
+        abandoned halfway would have its answer taken for that of the next. BleakError when the link ended it."""
+        task = self.task(work)
+        try:
+            return await asyncio.shield(task)
+        except asyncio.CancelledError:
+            if task.cancelled() and not _cancelled():
+                raise BleakError("the link was lost") from None
+            raise
+
+    async def close(self) -> None:
+        """Ends every link and the transport."""
+        self._closed = True
+        self._listeners.clear()
+        device, self._device = self._device, None
+        if device is not None:
+            for link in list(device.connections.values()):
+                await end_link(link)
+            with suppress(TimeoutError):
+                async with asyncio.timeout(PATIENCE):
+                    await device.power_off()
+        tasks = list(self._tasks)
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+        if self._transport is not None:
+            await self._transport.close()
+            self._transport = None
+
+
+async def end_link(link: Connection) -> None:
+    """Disconnects; returns when both ends know, or when the link is gone anyhow."""
+    try:
+        async with asyncio.timeout(PATIENCE):
+            await link.disconnect()
+    except (TimeoutError, hci.HCI_Error, core.BaseBumbleError):
+        pass
+    except asyncio.CancelledError:
+        if _cancelled():
+            raise
+
+
+def _cancelled() -> bool:
+    """Whether it is the running task that is cancelled, and not what it waits for."""
+    task = asyncio.current_task()
+    return task is not None and task.cancelling() > 0
