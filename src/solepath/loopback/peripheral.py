@@ -163,6 +163,16 @@ class Peripheral:
         return self._mtu if self._misfortune.mtu is None else min(self._mtu, self._misfortune.mtu)
 
     @property
+    def agreed_mtu(self) -> int:
+        """Of the link, while there is one."""
+        return self._agreed
+
+    @property
+    def walk_time(self) -> float:
+        """The time of the walk when it was last asked anything, s."""
+        return self._now - self._began
+
+    @property
     def is_connected(self) -> bool:
         return self._linked
 

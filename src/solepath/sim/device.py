@@ -71,6 +71,11 @@ def prepared(profile: Profile, own: Mapping[str, bytes]) -> list[Notification]:
     return [Notification(each * k, channel, data, True) for k, (channel, data) in enumerate(said, 1)]
 
 
+def device_numbers(seed: int, site: Site, *more: int) -> np.random.Generator:
+    """The random numbers of the device at a site; with `more`, of a part of it."""
+    return np.random.default_rng([seed, 2, list(Site).index(site), *more])
+
+
 def foot_of(site: Site) -> Foot:
     """The foot at `site`. ValueError for the sites above the ankle, whose motion this walker does not have."""
     if site.foot is None:

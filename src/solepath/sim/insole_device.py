@@ -8,16 +8,18 @@ import numpy as np
 from attrs import frozen
 
 from ..link.profile import INSOLE
-from ..types import Layout, Quat, Site
+from ..types import Site
 from ..vector import GRAVITY, from_rotation_vector, multiply
 from ..wire.device import build_battery, build_firmware
 from ..wire.fragment import FRAME_IDS, split
-from ..wire.insole import InsoleFrame, InsoleSample, build_frame
+from ..wire.insole import build_frame
 from ..wire.insole_info import InsoleInfo, build_info
-from .device import Notification, foot_of, prepared, read_imu, samplings, started, triples
+from .curves import Array
+from .device import Notification, foot_of, prepared, read_imu, samplings, started
+from .insole_signal import Counts, InsoleSignal
 from .insoles import SCALE, layout
 from .parts import LSM6DSOX, RESISTIVE, CellPart, Imu
-from .sensors import Reading, read_cells
+from .sensors import read_cells
 from .shoe import IN_SOLE, Mounting
 from .walker import Walker
 
@@ -26,8 +28,8 @@ ACC_COUNT = 0.488e-3 * GRAVITY
 """m/s^2 per count at +-16 g (ST DS12814, table 2)."""
 GYRO_COUNT = radians(0.070)
 """rad/s per count at +-2000 degrees/s (the same)."""
-_HANDLING = 1e-3
-"""s from a frame's last sample until the radio has it."""
+BATTERY = 87
+"""Percent."""
 
 
 @frozen
@@ -52,75 +54,72 @@ class Insole:
     firmware: str = "emulated 1"
 
     def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
+        signal = self.measure(walker, site, rng)
+        own = {
+            "insole/info": build_info(self.info(signal)),
+            "device/firmware": build_firmware(self.firmware),
+            "device/battery": build_battery(BATTERY),
+        }
+        sent = prepared(INSOLE, own)
+        for number in range(signal.frames(self.batch)):
+            frame, ready = build_frame(signal.frame(number, self.batch)), signal.ready(number, self.batch)
+            for piece in split(frame, self.mtu - 3, number % FRAME_IDS):
+                sent.append(Notification(ready, "insole/frame", piece))
+        return sent
+
+    def measure(self, walker: Walker, site: Site, rng: np.random.Generator) -> InsoleSignal:
+        """All that the insole measures over the walk."""
         foot = foot_of(site)
-        interval = round(TICK_RATE / self.rate)
-        clock = started(rng, interval / TICK_RATE, self.ppm)
-        when = samplings(walker, clock, interval / TICK_RATE)
+        clock = started(rng, self.interval / TICK_RATE, self.ppm)
+        when = samplings(walker, clock, self.interval / TICK_RATE)
         drawn, sequence, serial = (int(n) for n in rng.integers(0, (2**32, 2**16, 2**24)))
-        ticks = drawn if self.ticks is None else self.ticks
         shape = layout(self.cells, foot, walker.wearer.shoe.length, walker.wearer.shoe.width)
 
         motion = walker.kinematics(foot, when.fine, self.mounting)
         acc, gyro = read_imu(motion, when, self.part, ACC_COUNT, GYRO_COUNT, rng, bandwidth=0.5 * self.rate)
         loads = read_cells(walker.cell_loads(shape, when.taken), when.taken, self.cell_part, SCALE, rng)
         attitude = self._attitudes(motion.attitude[when.before :: when.every], rng)
-        samples = self._samples(loads, acc, gyro, attitude)
-        full = (acc.saturated | gyro.saturated | loads.saturated).tolist()
-
-        sent = self._setup(shape, interval, serial)
-        for number, k in enumerate(range(0, len(samples) - self.batch + 1, self.batch)):
-            frame = InsoleFrame(
-                foot=foot,
-                layout=shape.id,
-                sequence=(sequence + number) % 2**16,
-                ticks=(ticks + k * interval) % 2**32,
-                interval=interval,
-                samples=tuple(samples[k : k + self.batch]),
-                saturated=any(full[k : k + self.batch]),
-            )
-            ready = float(when.taken[k + self.batch - 1]) + _HANDLING
-            for piece in split(build_frame(frame), self.mtu - 3, number % FRAME_IDS):
-                sent.append(Notification(ready, "insole/frame", piece))
-        return sent
-
-    def _setup(self, shape: Layout, interval: int, serial: int) -> list[Notification]:
-        info = InsoleInfo(
-            foot=shape.foot,
-            layout=shape.id,
+        return InsoleSignal(
+            layout=shape,
+            interval=self.interval,
+            first=clock.first,
+            step=clock.interval(self.interval / TICK_RATE),
+            sequence=sequence,
+            ticks=drawn if self.ticks is None else self.ticks,
             serial=serial,
+            cells=loads.counts.astype(np.int16),
+            imu=np.concatenate((acc.counts, gyro.counts), axis=1).astype(np.int16) if self.imu else None,
+            quats=attitude,
+            full=acc.saturated | gyro.saturated | loads.saturated,
+        )
+
+    @property
+    def interval(self) -> int:
+        """Ticks between samples."""
+        return round(TICK_RATE / self.rate)
+
+    def info(self, signal: InsoleSignal) -> InsoleInfo:
+        """What the insole says of itself while it measures this."""
+        return InsoleInfo(
+            foot=signal.layout.foot,
+            layout=signal.layout.id,
+            serial=signal.serial,
             tick_rate=TICK_RATE,
-            interval=interval,
+            interval=signal.interval,
             acc_scale=ACC_COUNT,
             gyro_scale=GYRO_COUNT,
             pressure_scale=SCALE,
-            length=shape.length,
-            cells=shape.cells,
+            length=signal.layout.length,
+            cells=signal.layout.cells,
             firmware=self.firmware,
         )
-        own = {
-            "insole/info": build_info(info),
-            "device/firmware": build_firmware(self.firmware),
-            "device/battery": build_battery(87),
-        }
-        return prepared(INSOLE, own)
 
-    def _attitudes(
-        self, true: np.ndarray[tuple[int, ...], np.dtype[np.float64]], rng: np.random.Generator
-    ) -> list[Quat]:
-        """The device's own idea of its attitude: half a degree off in tilt, with a heading of its own."""
+    def _attitudes(self, true: Array, rng: np.random.Generator) -> Counts | None:
+        """The device's own idea of its attitude in Q14: half a degree off in tilt, with a heading of its own."""
         if not self.quaternion:
-            return []
+            return None
         tilt = radians(0.5) * rng.standard_normal(2)
         off = from_rotation_vector((float(tilt[0]), float(tilt[1]), float(rng.uniform(-3.0, 3.0))))
-        return [multiply(off, (w, x, y, z)) for w, x, y, z in true.tolist()]
-
-    def _samples(self, loads: Reading, acc: Reading, gyro: Reading, attitude: list[Quat]) -> list[InsoleSample]:
-        imu = [(*a, *g) if self.imu else None for a, g in zip(triples(acc.counts), triples(gyro.counts), strict=True)]
-        cells = [tuple(row) for row in loads.counts.tolist()]
-        quats = [_q14(q) for q in attitude] if self.quaternion else [None] * len(cells)
-        return [InsoleSample(c, i, q) for c, i, q in zip(cells, imu, quats, strict=True)]
-
-
-def _q14(q: Quat) -> tuple[int, int, int, int]:
-    w, x, y, z = (round(16384 * v) for v in q)
-    return (w, x, y, z)
+        felt = np.array([multiply(off, (w, x, y, z)) for w, x, y, z in true.tolist()])
+        quats: Counts = np.rint(16384 * felt).astype(np.int16)
+        return quats

@@ -67,10 +67,26 @@ def read_triad(
 
     `force` is the specific force at the same instants, for gyroscopes that feel it. `bandwidth` overrides the part's.
     """
+    return counted(measure(true, when, part, rng, force=force, bandwidth=bandwidth), part, count)
+
+
+def measure(
+    true: Array,
+    when: Instants,
+    part: Triad,
+    rng: np.random.Generator,
+    *,
+    force: Array | None = None,
+    bandwidth: float | None = None,
+) -> Array:
+    """What a triad measures of `true` at the instants that are taken (N, 3), before it makes counts of it."""
+    return sample(low_pass(errors(true, when, part, rng, force), when.rate, bandwidth or part.bandwidth), when)
+
+
+def counted(measured: Array, part: Triad, count: float) -> Reading:
+    """The counts of what a triad measured, as far as its bits go."""
     limit = 2 ** (part.bits - 1)
-    signal = errors(true, when, part, rng, force)
-    passed = sample(low_pass(signal, when.rate, bandwidth or part.bandwidth), when)
-    counts = np.rint(passed / count)
+    counts = np.rint(measured / count)
     clipped = np.clip(counts, -limit, limit - 1)
     return Reading(clipped.astype(np.int64), np.any(np.abs(counts) >= limit - 1, axis=1))
 

@@ -17,7 +17,7 @@ import numpy as np
 from attrs import frozen
 
 from ..types import SITE_OF_FOOT, Foot, Packet, Site
-from .device import Device, foot_of
+from .device import Device, device_numbers, foot_of
 from .gait import Wearer
 from .insole_device import Insole
 from .radio import CLEAN, Radio
@@ -57,7 +57,7 @@ def emulate(
     for site in sorted(devices, key=sites.index):
         device = devices[site]
         mountings[foot_of(site)] = device.mounting
-        sent = device.emit(walker, site, np.random.default_rng([seed, 2, sites.index(site)]))
+        sent = device.emit(walker, site, device_numbers(seed, site))
         packets += radio.carry(sent, site, np.random.default_rng([seed, 3, sites.index(site)]))
     packets.sort(key=_arrival)
     return EmulatedWalk(tuple(packets), walker.truth(mountings), walker)
