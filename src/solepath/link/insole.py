@@ -23,9 +23,9 @@ from ..wire.fragment import is_fragment, parse_fragment
 from ..wire.insole import InsoleFrame, InsoleSample, parse_frame
 from ..wire.insole_control import parse_control
 from ..wire.insole_info import InsoleInfo, parse_info
-from .clock import Clock
 from .reassembly import Reassembly
 from .rest import RestCheck, suggestion
+from .run import Counted, Run
 
 COUNTS = 32768
 """Counts of a full scale, IMU."""
@@ -35,10 +35,8 @@ ASSUMED_GYRO = radians(2000.0) / COUNTS
 """rad/s per count until INFO says otherwise."""
 TICK_RATE = 32768
 """Ticks per second until INFO says otherwise."""
-REMEMBERED = 64
-"""Sequence numbers of which it is known whether they were accepted."""
-OVERTAKEN = 2.0
-"""Seconds that a frame may be overtaken, in ticks and in delay; an older one is of a device that began anew."""
+SEQUENCES, ALL_TICKS = 1 << 16, 1 << 32
+"""Where the counters of a frame wrap."""
 FULL_PRESSURE = 4095.0
 
 Output = list[Sample | LinkEvent]
@@ -64,18 +62,7 @@ class InsoleLink:
     pressure_scale: float = 0.0
     told: bool = False
     """The Limitation was said."""
-    clock: Clock | None = None
-    sequence: int = 0
-    """Of the newest frame accepted."""
-    ticks: int = 0
-    """Unwrapped ticks of its first sample."""
-    interval: int = 1
-    covers: int = 1
-    """Ticks that it covers."""
-    seen: int = 0
-    """Bit b: the frame b before the newest was accepted."""
-    fresh: bool = False
-    """No frame came yet since the device was connected again: counters that go back have begun anew."""
+    run: Run = field(factory=Run)
     fragments: Reassembly = field(factory=Reassembly)
     rest: RestCheck = field(factory=lambda: RestCheck(ASSUMED_ACC))
 
@@ -93,12 +80,12 @@ class InsoleLink:
 
     def forget_clock(self) -> None:
         """The receiver's clock was set back: fit anew, and let times begin anew too."""
-        self.clock = None
+        self.run.clock = None
 
     def reconnected(self) -> None:
         """A new connection: the rest of a frame in fragments will not come, and nothing can be overtaken."""
         self.fragments.drop()
-        self.fresh = True
+        self.run.fresh = True
 
     def flush(self, known_at: float) -> Output:
         return []
@@ -162,74 +149,28 @@ class InsoleLink:
                 Rejection.WRONG_LAYOUT,
                 f"layout {frame.layout} of {cells} cells, not layout {self.layout} of {self.cells}",
             )
-        covers = frame.interval * len(frame.samples)
+        run = self.run
+        e = run.ahead(frame.ticks, ALL_TICKS)
+        d, m = run.packets(frame.sequence, SEQUENCES, e / run.covers)
+        counted = Counted(frame.sequence, frame.ticks, frame.interval, len(frame.samples), d, m, e, frame.retransmitted)
+        taken = run.take(counted, float(self.rate), arrival)
         out: Output = []
-        restarted: bool | None = None
-        clock = self.clock
-        if clock is None:
-            clock = self._begin(frame.ticks, None)
-        else:
-            # "Both counters are compared as signed differences": d in frames, e in ticks, m the true difference.
-            d = (frame.sequence - self.sequence + 0x8000 & 0xFFFF) - 0x8000
-            e = (frame.ticks - self.ticks + 0x8000_0000 & 0xFFFF_FFFF) - 0x8000_0000
-            m = d + 65536 * round((e / self.covers - d) / 65536)
-            first, last = self.ticks + e, self.ticks + e + covers - frame.interval
-            if e <= 0 or m <= 0:
-                self._refuse_repeated(clock, m, e, arrival, frame.retransmitted)
-            if e <= 0 or m <= 0 or clock.rate != self.rate or clock.jumped(last, arrival):
-                restarted = not 1 <= d <= REMEMBERED
-                clock = self._begin(frame.ticks, clock.last_t + self.interval / clock.rate)
-            else:
-                if m > 1:
-                    t = clock.expected(self.ticks + self.covers)
-                    known_at = max(arrival, t)
-                    out.append(PacketsLost(t=t, known_at=known_at, site=self.site, channel="insole/frame", count=m - 1))
-                self.ticks = first
-                self.seen = (self.seen << m | 1) & (1 << REMEMBERED) - 1 if m < REMEMBERED else 1
+        if taken.lost:
+            t = taken.t_missing
+            known_at = max(arrival, t)
+            out.append(PacketsLost(t=t, known_at=known_at, site=self.site, channel="insole/frame", count=taken.lost))
         if self.layout is None:
             self.layout, self.cells = frame.layout, cells
         if not self.info and not self.told:
             self.told = True
             what = "no INFO from the insole: 16 g and 2000 degrees/s full scale assumed, pressure in counts"
             out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=what))
-        self.fresh = False
-        self.sequence, self.interval, self.covers = frame.sequence, frame.interval, covers
-        clock.observe(self.ticks + covers - frame.interval, arrival)
-        if restarted is not None:
-            t = clock.expected(self.ticks)
-            out.append(ClockReset(t=t, known_at=max(arrival, t), site=self.site, restarted=restarted))
-        ticks = self.ticks
-        for sample in frame.samples:
-            self._sample(sample, clock.time(ticks), arrival, frame.saturated, out)
-            ticks += frame.interval
+        if taken.restarted is not None:
+            t = run.expected()
+            out.append(ClockReset(t=t, known_at=max(arrival, t), site=self.site, restarted=taken.restarted))
+        for j, sample in enumerate(frame.samples):
+            self._sample(sample, run.time(j), arrival, frame.saturated, out)
         return out
-
-    def _begin(self, ticks: int, floor: float | None) -> Clock:
-        self.clock = Clock(float(self.rate), floor=floor)
-        self.ticks, self.seen = ticks, 1
-        return self.clock
-
-    def _refuse_repeated(self, clock: Clock, m: int, e: int, arrival: float, retransmitted: bool) -> None:
-        """WireError when a frame that is not newer is one that came already or was overtaken; else it began anew."""
-        same_run = abs(m * self.covers - e) <= 2 * self.covers
-        accepted = same_run and -REMEMBERED < m <= 0 and bool(self.seen >> -m & 1)
-        if retransmitted and e < 0:
-            if accepted:
-                raise WireError(Rejection.DUPLICATE, f"sent again, and it came already, {-m} before the newest")
-            raise WireError(Rejection.LATE, f"sent again, {-m} frames old")
-        overtaken = (
-            not self.fresh
-            and same_run
-            and e >= -OVERTAKEN * clock.rate
-            and arrival - clock.fitted(self.ticks + e) <= OVERTAKEN + self.covers / clock.rate
-        )
-        if m == 0 and e == 0:
-            raise WireError(Rejection.DUPLICATE, "the newest frame again")
-        if not overtaken or m > 0:
-            return
-        if accepted:
-            raise WireError(Rejection.DUPLICATE, f"a frame that came already, {-m} before the newest")
-        raise WireError(Rejection.LATE, f"{-m} frames behind the newest")
 
     def _sample(self, raw: InsoleSample, t: float, arrival: float, saturated: bool, out: Output) -> None:
         acc = gyro = pressure = None
