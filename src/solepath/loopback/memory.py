@@ -1,0 +1,325 @@
+"""The fast tier: emulated devices behind bleak's own classes, in one process, with no radio and no GATT in between.
+
+    air = Air(bench.peripherals)
+    device = await BleakScanner.find_device_by_name("solepath L", backend=air.backend.scanner)
+    async with BleakClient(device, backend=air.backend.client) as client: ...
+
+What a host can notice is as on a link: devices advertise, one host at a time connects, each request takes its time and
+is answered, refused (BleakGATTProtocolError) or cut off by the loss of the link (BleakError), and a notification that
+is longer than the MTU allows is cut without a word. Time is that of the running loop.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Iterable
+from typing import Any, ClassVar, TypeVar, cast
+
+from bleak.args import SizedBuffer
+from bleak.assigned_numbers import CharacteristicPropertyName
+from bleak.backends.characteristic import BleakGATTCharacteristic
+from bleak.backends.client import BaseBleakClient, NotifyCallback
+from bleak.backends.descriptor import BleakGATTDescriptor
+from bleak.backends.device import BLEDevice
+from bleak.backends.scanner import AdvertisementData, AdvertisementDataCallback, BaseBleakScanner
+from bleak.backends.service import BleakGATTService, BleakGATTServiceCollection
+from bleak.exc import BleakDeviceNotFoundError, BleakError, BleakGATTProtocolError
+
+from ..ble.backend import Backend
+from .peripheral import SMALLEST_MTU, WRITE_NOT_PERMITTED, AttError, Characteristic, Outgoing, Peripheral
+from .standard import standard
+
+ADVERTISING = 0.1
+"""s between advertisements of a device."""
+SIGNAL = -50
+"""dBm with which every device is heard."""
+_SUBSCRIPTION = standard(0x2902)
+
+T = TypeVar("T")
+
+
+class Air:
+    """The devices within reach. `mtu`: what the host asks for; `round_trip`: of a request, s."""
+
+    def __init__(self, peripherals: Iterable[Peripheral], *, mtu: int = 247, round_trip: float = 0.015) -> None:
+        self.peripherals = tuple(peripherals)
+        self.mtu = mtu
+        self.round_trip = round_trip
+
+        class MemoryClient(_Client):
+            air = self
+
+        class MemoryScanner(_Scanner):
+            air = self
+
+        self.backend = Backend(MemoryClient, MemoryScanner)
+
+    def advertising(self, now: float) -> list[Peripheral]:
+        """Those that advertise now."""
+        return [device for device in self.peripherals if not device.is_connected and device.visible(now)]
+
+
+class _Link:
+    """A connection: carries requests one after the other, and notifications when they are due."""
+
+    def __init__(self, device: Peripheral, mtu: int, round_trip: float, lost: Callable[[], None]) -> None:
+        self.mtu = mtu
+        self.callbacks: dict[str, NotifyCallback] = {}
+        self._device, self._round_trip, self._lost = device, round_trip, lost
+        self._loop = asyncio.get_running_loop()
+        self._gone = self._loop.create_future()
+        self._turn = asyncio.Lock()
+        self._timer: asyncio.TimerHandle | None = None
+        device.changed = self._schedule
+        device.connected(self._loop.time(), mtu)
+
+    @property
+    def is_up(self) -> bool:
+        return not self._gone.done()
+
+    async def request(self, do: Callable[[float], T | None]) -> T:
+        """What the device answers. BleakGATTProtocolError when it refuses, BleakError when the link is lost first."""
+        async with self._turn:
+            await asyncio.wait([self._gone], timeout=self._round_trip)
+            if self.is_up:
+                try:
+                    answer = do(self._loop.time())
+                except AttError as error:
+                    raise BleakGATTProtocolError(error.code) from None
+                if answer is not None:
+                    return answer
+                await asyncio.wait([self._gone])
+            raise BleakError("disconnected")
+
+    def command(self, do: Callable[[float], object]) -> None:
+        """A write without response: nobody hears what becomes of it."""
+        if self.is_up:
+            try:
+                do(self._loop.time())
+            except AttError:
+                return
+
+    def lose(self) -> None:
+        """The link is lost, or ended."""
+        if not self.is_up:
+            return
+        self._gone.set_result(None)
+        if self._timer is not None:
+            self._timer.cancel()
+        self._device.changed = None
+        self._device.disconnected(self._loop.time())
+        self._lost()
+
+    def _schedule(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+        due = self._device.next_due()
+        self._timer = None if due is None else self._loop.call_at(due, self._wake)
+
+    def _wake(self) -> None:
+        now = self._loop.time()
+        for outgoing in self._device.poll(now):
+            if self.is_up:
+                self._notify(outgoing)
+        if not self.is_up:
+            return
+        if self._device.hang_up(now):
+            self.lose()
+        else:
+            self._schedule()
+
+    def _notify(self, outgoing: Outgoing) -> None:
+        callback = self.callbacks.get(outgoing.channel)
+        if callback is None:
+            return
+        try:
+            callback(bytearray(outgoing.value[: self.mtu - 3]))
+        except Exception as error:  # the host's own; the next notification comes all the same
+            self._loop.call_exception_handler({"message": "a notification's callback failed", "exception": error})
+
+
+class _Client(BaseBleakClient):
+    air: ClassVar[Air]
+
+    def __init__(self, address_or_ble_device: BLEDevice | str, **kwargs: Any) -> None:
+        wanted: set[str] | None = kwargs.pop("services", None)
+        super().__init__(address_or_ble_device, **kwargs)
+        self._wanted = wanted
+        self._name = address_or_ble_device.name if isinstance(address_or_ble_device, BLEDevice) else None
+        self._link: _Link | None = None
+        self._device: Peripheral | None = None
+
+    @property
+    def name(self) -> str:
+        return self._name or self.address.replace(":", "-")
+
+    @property
+    def mtu_size(self) -> int:
+        return SMALLEST_MTU if self._link is None else self._link.mtu
+
+    @property
+    def is_connected(self) -> bool:
+        return self._link is not None and self._link.is_up
+
+    async def connect(self, pair: bool, **kwargs: Any) -> None:
+        if self.is_connected:
+            raise BleakError("already connected")
+        device = await self._found(float(kwargs.get("timeout", self._timeout)))
+        self._device, self._name = device, device.name
+        self._link = _Link(device, min(self.air.mtu, device.mtu), self.air.round_trip, self._on_lost)
+        self.services = _collection(device, self._wanted, self._link.mtu)
+
+    async def _found(self, timeout: float) -> Peripheral:
+        loop = asyncio.get_running_loop()
+        give_up = loop.time() + timeout
+        while True:
+            await asyncio.sleep(self.air.round_trip)
+            for device in self.air.advertising(loop.time()):
+                if device.address.lower() == self.address.lower():
+                    return device
+            if loop.time() >= give_up:
+                raise BleakDeviceNotFoundError(self.address, f"no device with the address {self.address} is in reach")
+            await asyncio.sleep(ADVERTISING)
+
+    async def disconnect(self) -> None:
+        if self._link is not None:
+            await asyncio.sleep(self.air.round_trip)
+        if self._link is not None:
+            self._link.lose()
+
+    def _on_lost(self) -> None:
+        self._link, self.services = None, None
+        if self._disconnected_callback is not None:
+            self._disconnected_callback()
+
+    async def pair(self, *args: Any, **kwargs: Any) -> None:
+        raise BleakError("these devices do not pair")
+
+    async def unpair(self) -> None:
+        raise BleakError("these devices do not pair")
+
+    async def read_gatt_char(self, characteristic: BleakGATTCharacteristic, **kwargs: Any) -> bytearray:
+        link, device = self._up()
+        channel = _channel(characteristic)
+        return bytearray(await link.request(lambda now: device.read(channel, now)))
+
+    async def write_gatt_char(self, characteristic: BleakGATTCharacteristic, data: SizedBuffer, response: bool) -> None:
+        link, device = self._up()
+        channel, value = _channel(characteristic), bytes(data)
+        if response:
+            await link.request(lambda now: device.write(channel, value, now) or None)
+        else:
+            link.command(lambda now: device.write(channel, value, now))
+
+    async def read_gatt_descriptor(self, descriptor: BleakGATTDescriptor, **kwargs: Any) -> bytearray:
+        link, _ = self._up()
+        on = _channel_of(descriptor) in link.callbacks
+        return bytearray(await link.request(lambda now: bytes([on, 0])))
+
+    async def write_gatt_descriptor(self, descriptor: BleakGATTDescriptor, data: SizedBuffer) -> None:
+        self._up()
+        raise BleakGATTProtocolError(WRITE_NOT_PERMITTED)
+
+    async def start_notify(
+        self, characteristic: BleakGATTCharacteristic, callback: NotifyCallback, **kwargs: Any
+    ) -> None:
+        link, device = self._up()
+        channel = _channel(characteristic)
+        if channel in link.callbacks:
+            raise BleakError("notifications have been started already")
+        link.callbacks[channel] = callback
+        try:
+            await link.request(lambda now: _subscribed(device, channel, True, now))
+        except BaseException:
+            link.callbacks.pop(channel, None)
+            raise
+
+    async def stop_notify(self, characteristic: BleakGATTCharacteristic) -> None:
+        link, device = self._up()
+        channel = _channel(characteristic)
+        await link.request(lambda now: _subscribed(device, channel, False, now))
+        link.callbacks.pop(channel, None)
+
+    def _up(self) -> tuple[_Link, Peripheral]:
+        if self._link is None or self._device is None:
+            raise BleakError("not connected")
+        return self._link, self._device
+
+
+class _Scanner(BaseBleakScanner):
+    air: ClassVar[Air]
+
+    def __init__(
+        self,
+        detection_callback: AdvertisementDataCallback | None,
+        service_uuids: list[str] | None,
+        scanning_mode: str,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(detection_callback, service_uuids)
+        self._timer: asyncio.Handle | None = None
+
+    async def start(self) -> None:
+        if self._timer is not None:
+            raise BleakError("scanning already")
+        self.seen_devices = {}
+        self._timer = asyncio.get_running_loop().call_soon(self._listen)
+
+    async def stop(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+
+    def _listen(self) -> None:
+        loop = asyncio.get_running_loop()
+        self._timer = loop.call_later(ADVERTISING, self._listen)
+        for device in self.air.advertising(loop.time()):
+            said = AdvertisementData(
+                local_name=device.name,
+                manufacturer_data={},
+                service_data={},
+                service_uuids=list(device.advertised),
+                tx_power=None,
+                rssi=SIGNAL,
+                platform_data=(device,),
+            )
+            if self.is_allowed_uuid(said.service_uuids):
+                seen = self.create_or_update_device(device.address, device.address, device.name, device, said)
+                self.call_detection_callbacks(seen, said)
+
+
+def _collection(device: Peripheral, wanted: set[str] | None, mtu: int) -> BleakGATTServiceCollection:
+    """The device's attributes as discovery finds them, their handles counted through."""
+    found = BleakGATTServiceCollection()
+    handle = 0
+    for service in device.services:
+        handle += 1
+        if wanted and service.uuid not in wanted:
+            continue
+        group = BleakGATTService(service, handle, service.uuid)
+        found.add_service(group)
+        for characteristic in service.characteristics:
+            handle += 1
+            names = cast(list[CharacteristicPropertyName], sorted(characteristic.properties))
+            one = BleakGATTCharacteristic(characteristic, handle, characteristic.uuid, names, lambda: mtu - 3, group)
+            found.add_characteristic(one)
+            handle += 1
+            if "notify" in characteristic.properties:
+                handle += 1
+                found.add_descriptor(BleakGATTDescriptor(characteristic, handle, _SUBSCRIPTION, one))
+    return found
+
+
+def _channel(characteristic: BleakGATTCharacteristic) -> str:
+    attribute: Characteristic = characteristic.obj
+    return attribute.channel
+
+
+def _channel_of(descriptor: BleakGATTDescriptor) -> str:
+    attribute: Characteristic = descriptor.obj
+    return attribute.channel
+
+
+def _subscribed(device: Peripheral, channel: str, on: bool, now: float) -> bool:
+    device.subscribe(channel, on, now)
+    return True
