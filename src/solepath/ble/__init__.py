@@ -1,1 +1,22 @@
 """Real Bluetooth, through bleak: find, connect, set up, listen."""
+
+from .air import Found, scan
+from .backend import NATIVE, Backend
+from .connection import Connection, State
+from .devices import Devices
+from .record import record
+from .trouble import BluetoothError
+from .wanted import Wanted
+
+__all__ = [
+    "NATIVE",
+    "Backend",
+    "BluetoothError",
+    "Connection",
+    "Devices",
+    "Found",
+    "State",
+    "Wanted",
+    "record",
+    "scan",
+]

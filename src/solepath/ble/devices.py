@@ -1,0 +1,143 @@
+"""Devices: what an app holds to hear real sensors.
+
+async with Devices([Wanted(Site.LEFT_FOOT, "F0:F1:F2:F3:F4:F5")]) as devices:
+    async for packet in devices:
+        for event in session.feed(packet): ...
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Iterable
+from types import TracebackType
+
+from ..types import Packet, Site
+from .air import Air, scanner
+from .backend import NATIVE, Backend
+from .connection import Connection
+from .inbox import Inbox
+from .trouble import FAILURES, BluetoothError, sentence
+from .wanted import Wanted, check
+
+TICK = 0.25
+"""s without a packet after which there is one that says so."""
+IN_A_ROW = 64
+"""Packets taken at a stretch before Bluetooth gets its turn again."""
+
+
+class Devices:
+    """Any number of devices, found, connected, set up, and connected again whenever they are lost; iterate for packets.
+
+    Every packet is stamped with the event loop's clock when it arrives (`loop.time()`, usually `time.monotonic()`), and
+    names its device. Besides what devices send there is what was read from and written to them, and what only the
+    receiver knows (protocol/receiver.md): connections, troubles in words, packets that were dropped, and the passing of
+    time while nothing comes. All of it is for `Session.feed`, which makes events of it, and for a recording.
+
+    `capacity`: notifications that wait to be taken; beyond it the oldest are dropped, and a packet says how many.
+    `pair`: pair with each device when it is connected. `patience`: s until a device that is not heard is complained of.
+    `backend`: another Bluetooth than this machine's (loopback). ValueError when nothing is wanted or one site twice.
+
+    To enter raises BluetoothError when there is no Bluetooth to be used; nothing that happens later does. Leaving
+    disconnects; what has arrived by then can still be iterated.
+    """
+
+    def __init__(
+        self,
+        wanted: Iterable[Wanted],
+        *,
+        backend: Backend = NATIVE,
+        capacity: int = 4000,
+        pair: bool = False,
+        patience: float = 10.0,
+    ) -> None:
+        wanted = tuple(wanted)
+        check(wanted)
+        if capacity < 1:
+            raise ValueError(f"a capacity of {capacity}")
+        self._inbox = Inbox(capacity)
+        self._air = Air(backend, self._complain)
+        self._backend = backend
+        self._tasks: list[asyncio.Task[None]] = []
+        self._connections: list[Connection] = []
+        self._waiter: asyncio.Future[None] | None = None
+        self._taken = 0
+        free = [site for site in Site if site not in {one.site for one in wanted}]
+        for one in wanted:
+            site = free.pop(0) if one.site is None else one.site
+            self._connections.append(
+                Connection(one, site, backend, self._air, self._inbox, self._connections, pair, patience)
+            )
+        self._inbox.on_arrival = self._wake
+
+    @property
+    def connections(self) -> tuple[Connection, ...]:
+        """One for each that is wanted, in that order: site, state, address, name, signal. Read only."""
+        return tuple(self._connections)
+
+    async def __aenter__(self) -> Devices:
+        try:
+            async with scanner(self._backend, lambda _: None):
+                pass
+        except FAILURES as error:
+            raise BluetoothError(sentence(error)) from error
+        lives = [self._air.run(), *(connection.run() for connection in self._connections)]
+        self._tasks = [asyncio.create_task(life) for life in lives]
+        for task in self._tasks:
+            task.add_done_callback(lambda _: self._wake())
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        tasks, self._tasks = self._tasks, []
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+        self._wake()
+
+    def __aiter__(self) -> AsyncIterator[Packet]:
+        return self
+
+    async def __anext__(self) -> Packet:
+        """The next packet; StopAsyncIteration when the devices were left and all is taken."""
+        self._taken += 1
+        if self._taken >= IN_A_ROW:
+            self._taken = 0
+            await asyncio.sleep(0)
+        packet = self._inbox.take()
+        if packet is not None:
+            return packet
+        if self._waiter is not None:
+            raise RuntimeError("somebody else waits for the next packet already")
+        self._raise_what_failed()
+        if not self._tasks:
+            raise StopAsyncIteration
+        loop = asyncio.get_running_loop()
+        self._taken, self._waiter = 0, loop.create_future()
+        timer = loop.call_later(TICK, self._wake)
+        try:
+            await self._waiter
+        finally:
+            timer.cancel()
+            self._waiter = None
+        packet = self._inbox.take()
+        if packet is not None:
+            return packet
+        self._raise_what_failed()
+        if not self._tasks:
+            raise StopAsyncIteration
+        return Packet(loop.time(), self._connections[0].site, "receiver/tick", b"")
+
+    def _wake(self) -> None:
+        if self._waiter is not None and not self._waiter.done():
+            self._waiter.set_result(None)
+
+    def _raise_what_failed(self) -> None:
+        """A task of ours never ends by itself, unless it has a fault."""
+        for task in self._tasks:
+            if task.done() and not task.cancelled():
+                task.result()
+
+    def _complain(self, what: str) -> None:
+        for connection in self._connections:
+            connection.complain(what)

@@ -1,0 +1,80 @@
+"""What went wrong with Bluetooth, in a sentence that says what the person in front of it can do."""
+
+from __future__ import annotations
+
+from bleak.exc import (
+    BleakBluetoothNotAvailableError,
+    BleakBluetoothNotAvailableReason,
+    BleakCharacteristicNotFoundError,
+    BleakDBusError,
+    BleakDeviceNotFoundError,
+    BleakError,
+    BleakGATTProtocolError,
+    BleakGATTProtocolErrorCode,
+)
+from bleak_retry_connector import BleakNotFoundError, BleakOutOfConnectionSlotsError
+
+
+class BluetoothError(Exception):
+    """Bluetooth cannot be used at all; the message says why, and what can be done."""
+
+
+FAILURES = (BleakError, OSError, EOFError, TimeoutError)
+"""What bleak and the systems below it raise when Bluetooth does not do what it should."""
+
+_REASON = BleakBluetoothNotAvailableReason
+_NOT_AVAILABLE = {
+    _REASON.NO_BLUETOOTH: "this machine has no Bluetooth adapter: plug one in, or switch it on in the firmware's setup",
+    _REASON.NO_BLE_CENTRAL_ROLE: "this Bluetooth adapter cannot connect to sensors: one with Bluetooth Low Energy can",
+    _REASON.POWERED_OFF: "Bluetooth is off: turn it on",
+    _REASON.DENIED_BY_USER: "this program may not use Bluetooth: allow it in the system's settings",
+    _REASON.DENIED_BY_SYSTEM: "a policy of this system forbids the use of Bluetooth: ask who looks after it",
+    _REASON.DENIED_BY_UNKNOWN: "this program may not use Bluetooth: allow it in the system's settings",
+    _REASON.UNKNOWN: "Bluetooth is not available: is it on?",
+}
+_DBUS = {
+    "org.freedesktop.DBus.Error.ServiceUnknown": "the Bluetooth service does not run: systemctl start bluetooth",
+    "org.freedesktop.DBus.Error.NameHasNoOwner": "the Bluetooth service does not run: systemctl start bluetooth",
+    "org.freedesktop.DBus.Error.AccessDenied": "this user may not use Bluetooth: join the group bluetooth",
+    "org.bluez.Error.NotReady": "Bluetooth is off: turn it on",
+    "org.bluez.Error.NotPermitted": "another program listens to this device: close it",
+    "org.bluez.Error.InProgress": "another program uses the Bluetooth adapter just now",
+}
+_PAIRING = {
+    BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHENTICATION,
+    BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHORIZATION,
+    BleakGATTProtocolErrorCode.INSUFFICIENT_ENCRYPTION,
+    BleakGATTProtocolErrorCode.INSUFFICIENT_ENCRYPTION_KEY_SIZE,
+}
+
+
+def sentence(error: BaseException) -> str:
+    """One line about any of FAILURES."""
+    match error:
+        case BleakBluetoothNotAvailableError():
+            return _NOT_AVAILABLE[error.reason]
+        case BleakDBusError() if error.dbus_error in _DBUS:
+            return _DBUS[error.dbus_error]
+        case BleakGATTProtocolError() if error.code in _PAIRING:
+            return "the device wants to be paired first: pair=True, or --pair"
+        case BleakGATTProtocolError():
+            return f"the device answered with the ATT error 0x{int(error.code):02X} ({_plain(error)})"
+        case BleakCharacteristicNotFoundError():
+            return f"the device has no characteristic {error.char_specifier}"
+        case BleakOutOfConnectionSlotsError():
+            return "the adapter holds as many connections as it can: disconnect another device"
+        case BleakNotFoundError() | BleakDeviceNotFoundError():
+            return "the device does not answer: bring it near, and see that no other program or phone holds it"
+        case FileNotFoundError() | ConnectionRefusedError():
+            return f"this machine has no Bluetooth service to talk to ({_plain(error)})"
+        case PermissionError():
+            return f"this user may not use Bluetooth ({_plain(error)})"
+        case TimeoutError():
+            return "the device did not answer in time"
+    return _plain(error)
+
+
+def _plain(error: BaseException) -> str:
+    """The error's own words on one line, or its name when it has none."""
+    words = " ".join((error.strerror or "" if isinstance(error, OSError) else str(error)).split())
+    return words[:300] or type(error).__name__
