@@ -1,13 +1,20 @@
 """Recordings of packets: protocol/recording.md, clause by clause."""
 
 import json
+import os
+import signal
+import subprocess
+import sys
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.recording import PacketWriter, RecordingError, RecordingWarning, read_packets
+import walks
+from solepath import Session
+from solepath.recording import PacketWriter, RecordingError, RecordingWarning, began, read_header, read_packets
 from solepath.types import Packet, Site
 
 HEADER = '{"format": "solepath-packets", "version": 1}\n'
@@ -47,7 +54,12 @@ def test_what_was_written_is_read_back(tmp_path):
 @given(
     times=st.lists(st.floats(allow_nan=False, allow_infinity=False), max_size=8),
     contents=st.lists(
-        st.tuples(st.sampled_from(Site), st.text(st.characters(codec="utf-8"), max_size=20), st.binary(max_size=64)),
+        st.tuples(
+            st.sampled_from(Site),
+            st.text(st.characters(codec="utf-8"), max_size=20),
+            st.binary(max_size=64),
+            st.text(st.characters(codec="utf-8"), max_size=20),
+        ),
         min_size=8,
         max_size=8,
     ),
@@ -58,14 +70,14 @@ def test_any_packets_survive_writing_and_reading(tmp_path_factory, times, conten
     assert list(read_packets(path)) == packets
 
 
-
 def test_the_example_of_the_specification_is_read(tmp_path):
     text = (Path(__file__).parent.parent / "protocol" / "recording.md").read_text()
     path = tmp_path / "example.jsonl"
     path.write_text(text.split("## Example")[1].split("```")[1].strip() + "\n")
     battery, keys = read_packets(path)
     assert battery == Packet(12.5, Site.LEFT_FOOT, "device/battery", b"c")
-    assert keys == Packet(12.75, Site.RIGHT_FOOT, "cc2650/keys", b"\x01")
+    assert keys == Packet(12.75, Site.RIGHT_FOOT, "cc2650/keys", b"\x01", "C3:9F:02:5E:71:AA")
+    assert began(read_header(path)) == (datetime(2026, 11, 21, 9, 30, 0, 250_000, UTC), 12.5)
 
 
 def test_every_line_is_on_its_way_to_the_disk_before_the_next_packet(tmp_path):
@@ -135,6 +147,7 @@ def test_a_torn_last_line_warns_when_nobody_asked_for_the_report(tmp_path):
         (line_of(data="f5 0"), '"data" is not pairs of hexadecimal digits but "f5 0"'),
         (line_of(data="f5f"), '"data" is not pairs'),
         (line_of(data=None), '"data" is not pairs'),
+        (line_of(device=None), '"device" is not text but null'),
         (line_of(data="00" * 40_000), "is longer than 65536 bytes"),
     ],
 )
@@ -206,3 +219,170 @@ def test_packets_that_no_recording_can_hold_are_refused_and_leave_it_whole(tmp_p
                 writer.write(unfit)
         writer.write(PACKETS[1])
     assert list(read_packets(path)) == PACKETS[:2]
+
+
+def test_a_device_that_nobody_knows_is_not_written(tmp_path):
+    named = Packet(1.0, Site.LEFT_FOOT, "insole/frame", b"", "C3:9F:02:5E:71:AA")
+    path = written(tmp_path / "walk.jsonl", [PACKETS[0], named])
+    first, second = (json.loads(line) for line in path.read_text().splitlines()[1:])
+    assert "device" not in first and second["device"] == "C3:9F:02:5E:71:AA"
+
+
+@pytest.mark.parametrize("name", list(walks.packets()))
+def test_a_recording_gives_the_same_events_bit_for_bit(tmp_path, name):
+    """Of both feet, with losses, duplicates and damaged packets, and what the receiver says of itself."""
+    packets = [Packet(p.t, p.site, p.channel, p.data, f"F0:{p.site.value}") for p in walks.packets()[name]]
+    end = packets[-1].t
+    packets[40:40] = [
+        Packet(packets[40].t, Site.LEFT_FOOT, "receiver/connected", b"\xc4solepath L", "F0:left_foot"),
+        Packet(packets[40].t, Site.RIGHT_FOOT, "receiver/dropped", b"\x03\0\0\0"),
+    ]
+    packets += [Packet(end + 0.1 * k, Site.LEFT_FOOT, "receiver/tick", b"") for k in range(30)]
+
+    def events(stream) -> list[str]:
+        session = Session(poses=True)
+        told = [event for packet in stream for event in session.feed(packet)] + session.finish()
+        return [repr(event) for event in told]  # repr tells every bit of a float, and -0.0 from 0.0
+
+    recorded = events(read_packets(written(tmp_path / "walk.jsonl", packets)))
+    assert recorded == events(packets)
+    assert sum(line.startswith(("Connected", "StreamStale")) for line in recorded) >= 2
+
+
+# --- a recorder that dies ---------------------------------------------------------------------------------------------
+
+LIVE = """
+import os, sys, time
+from solepath.recording import PacketWriter
+from solepath.types import Packet, Site
+began = time.monotonic()
+with PacketWriter(sys.argv[1]) as writer:
+    for k in range(100_000):
+        time.sleep(max(0.0, began + k / 200 - time.monotonic()))
+        os.write(1, b"?")  # arrived
+        writer.write(Packet(k / 200, Site.LEFT_FOOT, "insole/frame", bytes([k % 256]) * 177))
+        os.write(1, b"!")  # written
+"""
+
+
+def test_a_recorder_killed_in_mid_walk_loses_at_most_the_packet_in_its_hand(tmp_path):
+    """Two insoles at 100 Hz in real time: 5 ms, where 200 would be allowed."""
+    path = tmp_path / "walk.jsonl"
+    recorder = subprocess.Popen([sys.executable, "-c", LIVE, str(path)], stdout=subprocess.PIPE)
+    try:
+        assert recorder.stdout is not None
+        diary = b""
+        while diary.count(b"!") < 300 and (more := recorder.stdout.read1()):
+            diary += more
+        recorder.send_signal(signal.SIGKILL)
+        diary += recorder.stdout.read()
+    finally:
+        recorder.kill()
+        assert recorder.wait() == -signal.SIGKILL
+        recorder.stdout.close()
+    flaws = []
+    packets = list(read_packets(path, report=flaws.append))
+    assert 300 <= diary.count(b"!") <= len(packets) <= diary.count(b"?") and len(flaws) <= 1
+    assert [packet.data[0] for packet in packets] == [k % 256 for k in range(len(packets))], "none is missing within"
+    assert diary.count(b"?") / 200 - packets[-1].t < 0.2
+
+
+# --- a disk that is full ----------------------------------------------------------------------------------------------
+
+FULL = """
+import resource, sys
+from solepath.recording import PacketWriter, RecordingError
+from solepath.types import Packet, Site
+limit = int(sys.argv[2])
+resource.setrlimit(resource.RLIMIT_FSIZE, (limit, resource.RLIM_INFINITY))
+writer = PacketWriter(sys.argv[1])
+try:
+    for k in range(1000):
+        writer.write(Packet(k * 0.01, Site.LEFT_FOOT, "insole/frame", bytes([k % 256]) * 20))
+except RecordingError as error:
+    print(error)
+if len(sys.argv) > 3:
+    resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+    writer.write(Packet(99.0, Site.LEFT_FOOT, "receiver/dropped", bytes(4)))
+writer.close()
+print(writer.count)
+"""
+
+
+@pytest.mark.parametrize("limit", [4096, 4097, 4150, 5000])
+def test_a_file_that_may_not_grow_ends_with_its_last_whole_packet_and_the_error_counts_them(tmp_path, limit):
+    """The kernel takes the part of the line that fits and then refuses, as a disk does that fills up."""
+    path = tmp_path / "walk.jsonl"
+    done = subprocess.run([sys.executable, "-c", FULL, path, str(limit)], capture_output=True, text=True, check=True)
+    sentence, count = done.stdout.splitlines()
+    packets = list(read_packets(path, report=pytest.fail))
+    assert len(packets) == int(count) > 30
+    assert [packet.t for packet in packets] == [k * 0.01 for k in range(len(packets))]
+    assert sentence == f"{path}: file too large; the {count} packets before that are safe"
+    line = len(path.read_bytes().splitlines(keepends=True)[-1])
+    assert limit - line <= path.stat().st_size <= limit
+
+
+def test_once_there_is_room_again_writing_goes_on(tmp_path):
+    path = tmp_path / "walk.jsonl"
+    done = subprocess.run([sys.executable, "-c", FULL, path, "4100", "x"], capture_output=True, text=True, check=True)
+    packets = list(read_packets(path, report=pytest.fail))
+    assert len(packets) == int(done.stdout.splitlines()[-1])
+    assert packets[-1].t == 99.0 and packets[-2].t == (len(packets) - 2) * 0.01
+
+
+@pytest.mark.skipif(not Path("/dev/full").is_char_device(), reason="no /dev/full on this system")
+def test_a_full_disk_is_told_in_the_systems_own_words():
+    with pytest.raises(
+        RecordingError, match="^/dev/full: no space left on device; the 0 packets before that are safe$"
+    ):
+        PacketWriter("/dev/full")
+    assert Path("/dev/full").is_char_device()
+
+
+def test_a_pipe_whose_reader_left_is_a_clear_error():
+    receiving, sending = os.pipe()
+    with PacketWriter(f"/dev/fd/{sending}") as writer:
+        os.close(sending)
+        writer.write(PACKETS[0])
+        os.close(receiving)
+        for _ in range(2):
+            with pytest.raises(RecordingError, match="the packet before that is safe"):
+                writer.write(PACKETS[1])
+
+
+def test_a_file_that_cannot_be_opened_is_named(tmp_path):
+    with pytest.raises(RecordingError, match="none/walk.jsonl: no such file or directory"):
+        PacketWriter(tmp_path / "none" / "walk.jsonl")
+
+
+# --- what o'clock it was ----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("keys", "moment"),
+    [
+        ({}, None),
+        ({"began": "2026-11-21T09:30:00Z"}, (datetime(2026, 11, 21, 9, 30, tzinfo=UTC), None)),
+        ({"began": "2026-11-21T10:30:00+01:00", "began_t": 3}, (datetime(2026, 11, 21, 9, 30, tzinfo=UTC), 3.0)),
+        ({"began": "2026-11-21T09:30:00"}, None),  # of no zone
+        ({"began": "yesterday"}, None),
+        ({"began": 12}, None),
+        ({"began": "2026-11-21T09:30:00Z", "began_t": "3"}, None),
+        ({"began": "2026-11-21T09:30:00Z", "began_t": 10**400}, None),
+        ({"began": "0001-01-01T00:00:00+14:00"}, None),  # before the year 1 in UTC
+    ],
+)
+def test_a_header_may_say_what_oclock_it_was(tmp_path, keys, moment):
+    path = tmp_path / "walk.jsonl"
+    with PacketWriter(path, **keys):
+        pass
+    assert began(read_header(path)) == moment
+
+
+@pytest.mark.parametrize("content", ["", "hello\n", '{"format": "solepath-packets", "version": 7}\n', "{}"])
+def test_what_has_no_header_has_no_header_to_read(tmp_path, content):
+    path = tmp_path / "walk.jsonl"
+    path.write_text("\n" + content)
+    with pytest.raises(RecordingError):
+        read_header(path)

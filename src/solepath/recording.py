@@ -6,9 +6,11 @@ Samples as .npz or .csv are the subject of samples.py.
 
 from __future__ import annotations
 
+import io
 import json
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from datetime import UTC, datetime
 from math import isfinite
 from pathlib import Path
 from types import TracebackType
@@ -16,7 +18,16 @@ from typing import Any, BinaryIO
 
 from .types import Packet, Site
 
-__all__ = ["FORMAT", "VERSION", "PacketWriter", "RecordingError", "RecordingWarning", "read_packets"]
+__all__ = [
+    "FORMAT",
+    "VERSION",
+    "PacketWriter",
+    "RecordingError",
+    "RecordingWarning",
+    "began",
+    "read_header",
+    "read_packets",
+]
 
 FORMAT = "solepath-packets"
 VERSION = 1
@@ -51,6 +62,11 @@ def printable(text: str, longest: int = 200) -> str:
     return clean if len(clean) <= longest else clean[: longest - 3] + "..."
 
 
+def why(error: OSError) -> str:
+    """What the system says of a failure, in its own words."""
+    return (error.strerror or str(error)).lower()
+
+
 def open_file(path: Path) -> BinaryIO:
     """The file opened for reading bytes; RecordingError when there is none, it is a directory or may not be read."""
     try:
@@ -58,7 +74,41 @@ def open_file(path: Path) -> BinaryIO:
             raise RecordingError(path, "is a directory, not a recording")
         return path.open("rb")
     except OSError as error:
-        raise RecordingError(path, (error.strerror or str(error)).lower()) from error
+        raise RecordingError(path, why(error)) from error
+
+
+def read_header(path: Path | str) -> dict[str, Any]:
+    """The first line of a recording. RecordingError when it is not the header of one."""
+    path = Path(path)
+    with open_file(path) as file:
+        number = 0
+        while line := file.readline(LONGEST_LINE + 1):
+            number += 1
+            if not line.strip():
+                continue
+            try:
+                fields = _object(line)
+                _check_header(fields)
+            except _Flaw as flaw:
+                raise RecordingError(path, str(flaw), f"line {number}") from None
+            return fields
+    raise RecordingError(path, "is empty")
+
+
+def began(header: Mapping[str, Any]) -> tuple[datetime, float | None] | None:
+    """What o'clock it was at which `t` of the packets, as a header says: (UTC, s), the latter None where it is the
+    first packet's. None where the header does not say, or says what is no time."""
+    text, t = header.get("began"), header.get("began_t")
+    if not isinstance(text, str) or type(t) not in (int, float, type(None)):
+        return None
+    try:
+        moment = datetime.fromisoformat(text)
+        at = None if t is None else float(t)
+        if moment.tzinfo is None or (at is not None and not isfinite(at)):
+            return None
+        return moment.astimezone(UTC), at
+    except (ValueError, OverflowError):
+        return None
 
 
 def read_packets(
@@ -155,7 +205,10 @@ def _packet(fields: dict[str, Any]) -> Packet:
         raise _Flaw(f'"channel" is not text but {_short(channel)}')
     if not isinstance(data, str) or len(data) % 2 or not _HEX.issuperset(data):
         raise _Flaw(f'"data" is not pairs of hexadecimal digits but {_short(data)}')
-    return Packet(t=t, site=_SITES[site], channel=channel, data=bytes.fromhex(data))
+    device = fields.get("device", "")
+    if not isinstance(device, str):
+        raise _Flaw(f'"device" is not text but {_short(device)}')
+    return Packet(t=t, site=_SITES[site], channel=channel, data=bytes.fromhex(data), device=device)
 
 
 _SITES = {site.value: site for site in Site}
@@ -167,36 +220,82 @@ def _short(value: Any) -> str:
 
 
 class PacketWriter:
-    """Writes packets as a recording, every line flushed before the next packet is taken.
+    """Writes packets as a recording, every line handed to the operating system before the next packet is taken.
 
-        with PacketWriter("walk.jsonl") as writer:
+        with PacketWriter("walk.jsonl", began="2026-11-21T09:30:00Z", began_t=12.5) as writer:
             writer.write(packet)
 
-    An existing file is replaced. `OSError` when it cannot be written; `ValueError` for a packet that no recording can
-    hold (a time that is not finite, a line that would be too long).
+    An existing file is replaced. `count`: packets that are in it. A process that is killed loses nothing that was
+    written. RecordingError when the file cannot be opened or written (disk full); then it ends with its last whole
+    packet, and once there is room again writing may go on. ValueError for a packet that no recording can hold (a time
+    that is not finite, a line that would be too long); it leaves the file as it was.
     """
 
     def __init__(self, path: Path | str, **header: Any) -> None:
-        """`header`: further keys for the first line, for instance a note."""
+        """`header`: further keys for the first line: `began` and `began_t` (protocol/recording.md), a note."""
+        self.count = 0
+        self._path = Path(path)
         first = json.dumps({"format": FORMAT, "version": VERSION, **header}, allow_nan=False)
-        self._file = Path(path).open("wb")  # noqa: SIM115 - this class is the context manager
-        self._put(first)
+        self._size = 0
+        """Bytes of whole lines."""
+        self._torn = False
+        """True when half a line is in the file and could not be taken back."""
+        try:
+            # unbuffered: what a write did not take is known at once, and close has nothing left to lose
+            self._file: io.FileIO = self._path.open("wb", buffering=0)
+        except OSError as error:
+            raise RecordingError(self._path, why(error)) from error
+        try:
+            self._put(first)
+        except BaseException:
+            self._file.close()
+            raise
 
     def write(self, packet: Packet) -> None:
         if not isfinite(packet.t):
             raise ValueError(f"a packet at {packet.t} s cannot be recorded")
         line = {"t": packet.t, "site": packet.site.value, "channel": packet.channel, "data": packet.data.hex()}
+        if packet.device:
+            line["device"] = packet.device
         self._put(json.dumps(line, allow_nan=False))
+        self.count += 1
 
     def _put(self, line: str) -> None:
         encoded = line.encode("utf-8") + b"\n"
         if len(encoded) > LONGEST_LINE:
             raise ValueError(f"a line of {len(encoded)} bytes is too long for a recording")
-        self._file.write(encoded)
-        self._file.flush()
+        if self._torn:
+            raise RecordingError(self._path, f"ends in the middle of a line; {self._safe()}")
+        done = 0
+        try:
+            while done < len(encoded):
+                done += self._file.write(encoded[done:]) or 0
+        except OSError as error:
+            self._take_back()
+            raise RecordingError(self._path, f"{why(error)}; {self._safe()}") from error
+        except BaseException:  # an interrupt between two halves of a line
+            self._take_back()
+            raise
+        self._size += done
+
+    def _take_back(self) -> None:
+        """The file ends with its last whole line again, whatever was written of another."""
+        try:
+            if self._file.tell() != self._size:
+                self._file.truncate(self._size)
+                self._file.seek(self._size)
+        except OSError:  # a pipe
+            self._torn = True
+
+    def _safe(self) -> str:
+        return f"the {self.count} packets before that are safe" if self.count != 1 else "the packet before that is safe"
 
     def close(self) -> None:
-        self._file.close()
+        """RecordingError when the system finds only now that it could not keep what it took."""
+        try:
+            self._file.close()
+        except OSError as error:
+            raise RecordingError(self._path, f"{why(error)} on closing; the last packets may be missing") from error
 
     def __enter__(self) -> PacketWriter:
         return self

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .failure import note, positive, seconds, share
+from .failure import Failure, note, positive, seconds, share
 
 if TYPE_CHECKING:
     from ..demo import Demo
@@ -65,11 +65,14 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _record(demo: Demo, path: Path) -> None:
-    from ..recording import PacketWriter
+    from ..recording import PacketWriter, RecordingError
 
-    with PacketWriter(path) as writer:
-        for packet in demo.walk.packets:
-            writer.write(packet)
+    try:
+        with PacketWriter(path) as writer:
+            for packet in demo.walk.packets:
+                writer.write(packet)
+    except RecordingError as error:
+        raise Failure(str(error)) from None
     print(f"{len(demo.walk.packets)} packets recorded in {path}", flush=True)
 
 
