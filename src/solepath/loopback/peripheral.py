@@ -145,6 +145,9 @@ class Peripheral:
     def begin(self) -> None:
         """Do as the device does when it is connected."""
 
+    def prepare(self) -> None:
+        """Work out now what would otherwise be worked out when a host first asks for it."""
+
     def flow(self, channel: str, source: Source | None, t: float) -> None:
         """From `t` of the walk on the channel tells what `source` has, or nothing."""
         if source is None:

@@ -110,11 +110,6 @@ def read_imu(
     return acc, gyro
 
 
-def triples(counts: np.ndarray[tuple[int, ...], np.dtype[np.int64]]) -> list[tuple[int, int, int]]:
-    """Rows as plain tuples."""
-    return [(x, y, z) for x, y, z in counts.tolist()]
-
-
 FIELD: Array = np.array([16e-6, 12e-6, -43e-6])
 """The earth's magnetic field in the world frame, T: 20 uT horizontal, 43 uT down, as in Central Europe."""
 

@@ -8,28 +8,29 @@ import numpy as np
 from attrs import frozen
 
 from ..link import profile
-from ..types import Foot, Site
+from ..types import Site
 from ..vector import GRAVITY
 from ..wire import cc2541, cc2650
 from ..wire.device import build_battery, build_firmware
 from ..wire.period import build_period
-from .curves import Array
-from .device import FIELD, Clock, Notification, foot_of, prepared, read_imu, samplings, seen_from, started, triples
-from .parts import AK8963, BMP280, KXTJ9_IMU3000, MAG3110, MPU9250, T5400, BarometerPart, Imu
-from .sensors import Instants, read_barometer, read_triad
+from .device import Notification, foot_of, prepared, started
+from .parts import AK8963, BMP280, KXTJ9_IMU3000, MAG3110, MPU9250, T5400, Imu
 from .shoe import ON_INSTEP, Mounting
+from .tag_signals import HANDLING, LATE_MAG, SLOW, Series, Worn
 from .walker import Walker
 
 GYRO_COUNT = radians(500.0 / 65536.0)
 """rad/s per count of both tags: +-250 degrees/s, which a swinging foot exceeds."""
-_HANDLING = 2e-3
-"""s from a measurement until the radio has it."""
-_PRESS = 0.25
+AK8963_COUNT = 4912e-6 / 32760
+"""T per count of the CC2650's magnetometer."""
+MAG3110_COUNT = 2000e-6 / 65536
+"""T per count of the CC2541's magnetometer."""
+PRESS = 0.25
 """s for which a key is held."""
-_TEMPERATURE = 24.0
+TEMPERATURE = 24.0
 """Degrees Celsius."""
-_SLOW = 1.0
-"""s between readings of the barometer, and of the CC2541's magnetometer."""
+BATTERY = 91
+"""Percent, of the CC2650."""
 
 
 @frozen
@@ -48,21 +49,25 @@ class CC2650:
     presses: tuple[float, ...] = ()
 
     def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
-        foot = foot_of(site)
-        clock = started(rng, 1.0 / self.rate, self.ppm)
-        when = samplings(walker, clock, 1.0 / self.rate)
-        motion = walker.kinematics(foot, when.fine, self.mounting)
-        acc, gyro = read_imu(motion, when, self.part, self.range * GRAVITY / 32768, GYRO_COUNT, rng)
-        mag = read_triad(seen_from(motion.attitude, FIELD), when, AK8963, 4912e-6 / 32760, rng)
+        period = 1.0 / self.rate
+        worn = Worn(walker, foot_of(site), self.mounting, started(rng, period, self.ppm))
+        when = worn.when(period)
+        motion = worn.motion(when)
+        acc = worn.series(when, period, worn.acc(motion, when, self.part, rng))
+        gyro = worn.series(when, period, worn.gyro(motion, when, self.part, rng))
+        mag = worn.series(when, period, worn.mag(motion, when, AK8963, rng))
         sent = self._setup()
-        rows = zip(when.taken.tolist(), triples(gyro.counts), triples(acc.counts), triples(mag.counts), strict=True)
-        for t, g, a, m in rows:
-            data = cc2650.build_movement(cc2650.Movement(g, a, m))
-            sent.append(Notification(t + _HANDLING, "cc2650/movement", data))
-        t, pressure = _air(walker, foot, self.mounting, clock, BMP280, rng)
-        for moment, value in zip(t.tolist(), pressure.tolist(), strict=True):
-            data = cc2650.build_barometer(cc2650.Barometer(_TEMPERATURE, value))
-            sent.append(Notification(moment + _HANDLING, "cc2650/barometer", data))
+        counts = (
+            gyro.counts(self.part.gyro, GYRO_COUNT),
+            acc.counts(self.part.acc, range_count(self.range)),
+            mag.counts(AK8963, AK8963_COUNT),
+        )
+        for k, row in enumerate(zip(*counts, strict=True)):
+            data = cc2650.build_movement(cc2650.Movement(*row))
+            sent.append(Notification(acc.taken(k) + HANDLING, "cc2650/movement", data))
+        air = worn.air(SLOW, BMP280, rng)
+        for k, (pascal,) in enumerate(air.values.tolist()):
+            sent.append(Notification(air.taken(k) + HANDLING, "cc2650/barometer", cc2650_air(pascal)))
         down, up = (cc2650.build_keys(cc2650.Keys(left=left)) for left in (True, False))
         sent += _keys("cc2650/keys", self.presses, down, up)
         return sorted(sent, key=_when)
@@ -71,10 +76,10 @@ class CC2650:
         config = cc2650.MovementConfig(range=self.range)
         own = {
             "device/firmware": build_firmware(self.firmware),
-            "device/battery": build_battery(91),
+            "device/battery": build_battery(BATTERY),
             "cc2650/movement-period": build_period(1.0 / self.rate),
             "cc2650/movement-config": cc2650.build_movement_config(config),
-            "cc2650/barometer-period": build_period(_SLOW),
+            "cc2650/barometer-period": build_period(SLOW),
         }
         return prepared(profile.CC2650, own)
 
@@ -102,27 +107,23 @@ class CC2541:
     presses: tuple[float, ...] = ()
 
     def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
-        foot, period = foot_of(site), 1.0 / self.rate
-        clock = started(rng, period, self.ppm)
-        acc_when = samplings(walker, clock, period)
-        gyro_when = samplings(walker, clock, period, clock.first + period * float(rng.uniform()))
-        mag_when = samplings(walker, clock, _SLOW, clock.first + 0.3)
-        count = GRAVITY * 2**self.code / 128
-
-        motion = walker.kinematics(foot, acc_when.fine, self.mounting)
-        acc = read_triad(motion.force, acc_when, self.part.acc, count, rng)
-        motion = walker.kinematics(foot, gyro_when.fine, self.mounting)
-        gyro = read_triad(motion.rate, gyro_when, self.part.gyro, GYRO_COUNT, rng, force=motion.force)
-        motion = walker.kinematics(foot, mag_when.fine, self.mounting)
-        mag = read_triad(seen_from(motion.attitude, FIELD), mag_when, MAG3110, 2000e-6 / 65536, rng)
-        t, pressure = _air(walker, foot, self.mounting, clock, T5400, rng)
+        period = 1.0 / self.rate
+        worn = Worn(walker, foot_of(site), self.mounting, started(rng, period, self.ppm))
+        acc_when = worn.when(period)
+        gyro_when = worn.when(period, period * float(rng.uniform()))
+        mag_when = worn.when(SLOW, LATE_MAG)
+        acc = worn.series(acc_when, period, worn.acc(worn.motion(acc_when), acc_when, self.part, rng))
+        gyro = worn.series(gyro_when, period, worn.gyro(worn.motion(gyro_when), gyro_when, self.part, rng))
+        mag = worn.series(mag_when, SLOW, worn.mag(worn.motion(mag_when), mag_when, MAG3110, rng))
+        air = worn.air(SLOW, T5400, rng)
 
         sent = self._setup()
-        sent += _each(acc_when, "accelerometer", [_acc(row) for row in triples(acc.counts)])
-        sent += _each(gyro_when, "gyroscope", [_gyro(row) for row in triples(gyro.counts)])
-        sent += _each(mag_when, "magnetometer", [_mag(row) for row in triples(mag.counts)])
-        for moment, value in zip(t.tolist(), pressure.tolist(), strict=True):
-            sent.append(Notification(moment + _HANDLING, "cc2541/barometer", cc2541.build_barometer(raw_air(value))))
+        sent += _each(
+            acc, "accelerometer", [acc_bytes(row) for row in acc.counts(self.part.acc, code_count(self.code))]
+        )
+        sent += _each(gyro, "gyroscope", [gyro_bytes(row) for row in gyro.counts(self.part.gyro, GYRO_COUNT)])
+        sent += _each(mag, "magnetometer", [mag_bytes(row) for row in mag.counts(MAG3110, MAG3110_COUNT)])
+        sent += _each(air, "barometer", [cc2541.build_barometer(raw_air(pascal)) for (pascal,) in air.values.tolist()])
         down, up = (cc2541.build_keys(cc2541.Keys(left=left)) for left in (True, False))
         sent += _keys("cc2541/keys", self.presses, down, up)
         return sorted(sent, key=_when)
@@ -135,8 +136,8 @@ class CC2541:
             "cc2541/accelerometer-period": period,
             "cc2541/accelerometer-config": config,
             "cc2541/gyroscope-period": period,
-            "cc2541/magnetometer-period": build_period(_SLOW),
-            "cc2541/barometer-period": build_period(_SLOW),
+            "cc2541/magnetometer-period": build_period(SLOW),
+            "cc2541/barometer-period": build_period(SLOW),
             "cc2541/barometer-calibration": cc2541.build_barometer_calibration(T5400_CALIBRATION),
         }
         return prepared(profile.CC2541, own)
@@ -145,38 +146,43 @@ class CC2541:
 def raw_air(pascal: float) -> cc2541.Barometer:
     """What the T5400 reports raw at this pressure: the inverse of its compensation."""
     c = T5400_CALIBRATION
-    t = round((_TEMPERATURE - c.c2 / 2**10) * 2**24 / c.c1)
+    t = round((TEMPERATURE - c.c2 / 2**10) * 2**24 / c.c1)
     low, high = (c.pascal(cc2541.Barometer(t, p)) for p in (0, 1))
     return cc2541.Barometer(t, round((pascal - low) / (high - low)))
 
 
-def _air(
-    walker: Walker, foot: Foot, mounting: Mounting, clock: Clock, part: BarometerPart, rng: np.random.Generator
-) -> tuple[Array, Array]:
-    """Instants and readings of a barometer, s and Pa."""
-    t = samplings(walker, clock, _SLOW, clock.first + 0.5).taken
-    height = walker.kinematics(foot, t, mounting).position[:, 2]
-    return t, read_barometer(height, t, part, rng)
-
-
 def _keys(channel: str, presses: tuple[float, ...], down: bytes, up: bytes) -> list[Notification]:
-    return [n for t in presses for n in (Notification(t, channel, down), Notification(t + _PRESS, channel, up))]
+    return [n for t in presses for n in (Notification(t, channel, down), Notification(t + PRESS, channel, up))]
 
 
-def _each(when: Instants, sensor: str, values: list[bytes]) -> list[Notification]:
-    times = when.taken.tolist()
-    return [Notification(t + _HANDLING, f"cc2541/{sensor}", data) for t, data in zip(times, values, strict=True)]
+def _each(series: Series, sensor: str, values: list[bytes]) -> list[Notification]:
+    return [Notification(series.taken(k) + HANDLING, f"cc2541/{sensor}", data) for k, data in enumerate(values)]
 
 
-def _acc(row: tuple[int, int, int]) -> bytes:
+def cc2650_air(pascal: float) -> bytes:
+    """What the barometer of a CC2650 says of this pressure."""
+    return cc2650.build_barometer(cc2650.Barometer(TEMPERATURE, pascal))
+
+
+def range_count(gravities: int) -> float:
+    """m/s^2 per count of the CC2650's accelerometer at a range of +-`gravities` g."""
+    return gravities * GRAVITY / 32768
+
+
+def code_count(code: int) -> float:
+    """m/s^2 per count of the CC2541's accelerometer when 1, 2 or 3 was written to AA12."""
+    return float(GRAVITY * 2**code / 128)
+
+
+def acc_bytes(row: tuple[int, int, int]) -> bytes:
     return cc2541.build_accelerometer(cc2541.Accelerometer(row))
 
 
-def _gyro(row: tuple[int, int, int]) -> bytes:
+def gyro_bytes(row: tuple[int, int, int]) -> bytes:
     return cc2541.build_gyroscope(cc2541.Gyroscope(row))
 
 
-def _mag(row: tuple[int, int, int]) -> bytes:
+def mag_bytes(row: tuple[int, int, int]) -> bytes:
     return cc2541.build_magnetometer(cc2541.Magnetometer(row))
 
 
