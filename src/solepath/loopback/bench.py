@@ -12,10 +12,11 @@ from ..sim.sensortags import CC2541, CC2650
 from ..sim.truth import Truth
 from ..sim.walker import Walker
 from ..types import SITE_OF_FOOT, Foot, Site
+from .cc2541 import CC2541Peripheral
+from .cc2650 import CC2650Peripheral
 from .faults import Fault
 from .insole import InsolePeripheral
 from .peripheral import Peripheral
-from .sensortags import CC2541Peripheral, CC2650Peripheral
 
 _SIDE = {Foot.LEFT: "L", Foot.RIGHT: "R"}
 

@@ -12,8 +12,8 @@ is longer than the MTU allows is cut without a word. Time is that of the running
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterable
-from typing import Any, ClassVar, TypeVar, cast
+from collections.abc import Iterable
+from typing import Any, ClassVar, cast
 
 from bleak.args import SizedBuffer
 from bleak.assigned_numbers import CharacteristicPropertyName
@@ -26,7 +26,8 @@ from bleak.backends.service import BleakGATTService, BleakGATTServiceCollection
 from bleak.exc import BleakDeviceNotFoundError, BleakError, BleakGATTProtocolError
 
 from ..ble.backend import Backend
-from .peripheral import SMALLEST_MTU, WRITE_NOT_PERMITTED, AttError, Characteristic, Outgoing, Peripheral
+from .link import Link
+from .peripheral import SMALLEST_MTU, WRITE_NOT_PERMITTED, Characteristic, Peripheral
 from .standard import standard
 
 ADVERTISING = 0.1
@@ -34,8 +35,6 @@ ADVERTISING = 0.1
 SIGNAL = -50
 """dBm with which every device is heard."""
 _SUBSCRIPTION = standard(0x2902)
-
-T = TypeVar("T")
 
 
 class Air:
@@ -59,85 +58,6 @@ class Air:
         return [device for device in self.peripherals if not device.is_connected and device.visible(now)]
 
 
-class _Link:
-    """A connection: carries requests one after the other, and notifications when they are due."""
-
-    def __init__(self, device: Peripheral, mtu: int, round_trip: float, lost: Callable[[], None]) -> None:
-        self.mtu = mtu
-        self.callbacks: dict[str, NotifyCallback] = {}
-        self._device, self._round_trip, self._lost = device, round_trip, lost
-        self._loop = asyncio.get_running_loop()
-        self._gone = self._loop.create_future()
-        self._turn = asyncio.Lock()
-        self._timer: asyncio.TimerHandle | None = None
-        device.changed = self._schedule
-        device.connected(self._loop.time(), mtu)
-
-    @property
-    def is_up(self) -> bool:
-        return not self._gone.done()
-
-    async def request(self, do: Callable[[float], T | None]) -> T:
-        """What the device answers. BleakGATTProtocolError when it refuses, BleakError when the link is lost first."""
-        async with self._turn:
-            await asyncio.wait([self._gone], timeout=self._round_trip)
-            if self.is_up:
-                try:
-                    answer = do(self._loop.time())
-                except AttError as error:
-                    raise BleakGATTProtocolError(error.code) from None
-                if answer is not None:
-                    return answer
-                await asyncio.wait([self._gone])
-            raise BleakError("disconnected")
-
-    def command(self, do: Callable[[float], object]) -> None:
-        """A write without response: nobody hears what becomes of it."""
-        if self.is_up:
-            try:
-                do(self._loop.time())
-            except AttError:
-                return
-
-    def lose(self) -> None:
-        """The link is lost, or ended."""
-        if not self.is_up:
-            return
-        self._gone.set_result(None)
-        if self._timer is not None:
-            self._timer.cancel()
-        self._device.changed = None
-        self._device.disconnected(self._loop.time())
-        self._lost()
-
-    def _schedule(self) -> None:
-        if self._timer is not None:
-            self._timer.cancel()
-        due = self._device.next_due()
-        self._timer = None if due is None else self._loop.call_at(due, self._wake)
-
-    def _wake(self) -> None:
-        now = self._loop.time()
-        for outgoing in self._device.poll(now):
-            if self.is_up:
-                self._notify(outgoing)
-        if not self.is_up:
-            return
-        if self._device.hang_up(now):
-            self.lose()
-        else:
-            self._schedule()
-
-    def _notify(self, outgoing: Outgoing) -> None:
-        callback = self.callbacks.get(outgoing.channel)
-        if callback is None:
-            return
-        try:
-            callback(bytearray(outgoing.value[: self.mtu - 3]))
-        except Exception as error:  # the host's own; the next notification comes all the same
-            self._loop.call_exception_handler({"message": "a notification's callback failed", "exception": error})
-
-
 class _Client(BaseBleakClient):
     air: ClassVar[Air]
 
@@ -146,7 +66,7 @@ class _Client(BaseBleakClient):
         super().__init__(address_or_ble_device, **kwargs)
         self._wanted = wanted
         self._name = address_or_ble_device.name if isinstance(address_or_ble_device, BLEDevice) else None
-        self._link: _Link | None = None
+        self._link: Link | None = None
         self._device: Peripheral | None = None
 
     @property
@@ -166,7 +86,7 @@ class _Client(BaseBleakClient):
             raise BleakError("already connected")
         device = await self._found(float(kwargs.get("timeout", self._timeout)))
         self._device, self._name = device, device.name
-        self._link = _Link(device, min(self.air.mtu, device.mtu), self.air.round_trip, self._on_lost)
+        self._link = Link(device, min(self.air.mtu, device.mtu), self.air.round_trip, self._on_lost)
         self.services = _collection(device, self._wanted, self._link.mtu)
 
     async def _found(self, timeout: float) -> Peripheral:
@@ -240,7 +160,7 @@ class _Client(BaseBleakClient):
         await link.request(lambda now: _subscribed(device, channel, False, now))
         link.callbacks.pop(channel, None)
 
-    def _up(self) -> tuple[_Link, Peripheral]:
+    def _up(self) -> tuple[Link, Peripheral]:
         if self._link is None or self._device is None:
             raise BleakError("not connected")
         return self._link, self._device

@@ -21,6 +21,7 @@ from typing import Protocol
 from attrs import define, frozen
 
 from ..types import Site
+from .advertisement import check_fits
 from .faults import Fault, Misfortune, What
 
 READ_NOT_PERMITTED = 0x02
@@ -31,8 +32,6 @@ REFUSED = 0x80
 """The first of the codes that an application may give a meaning (Bluetooth Core, vol 3 part F, 3.4.1.1)."""
 
 SMALLEST_MTU = 23
-ADVERTISEMENT = 31
-"""Bytes of a legacy advertisement."""
 _AT_ONCE = 2e-6
 """s: a timer may fire so much before its time by the resolution of a loop's clock."""
 
@@ -119,7 +118,7 @@ class Peripheral:
         self.changed: Callable[[], None] | None = None
         faults = tuple(faults)
         for said in (name, *(fault.argument for fault in faults if fault.what is What.NAME)):
-            _fits(said, self.advertised)
+            check_fits(said, self.advertised)
         self._name, self._mtu, self._began = name, mtu, began
         self._misfortune = Misfortune(faults, site)
         self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
@@ -317,16 +316,3 @@ class Peripheral:
     def _tell(self) -> None:
         if self.changed is not None:
             self.changed()
-
-
-def _fits(name: str, advertised: tuple[str, ...]) -> None:
-    """ValueError when name and services are more than an advertisement holds."""
-    short = sum(_is_short(uuid) for uuid in advertised)
-    long = len(advertised) - short
-    size = 2 + len(name.encode()) + (2 + 2 * short if short else 0) + (2 + 16 * long if long else 0)
-    if size > ADVERTISEMENT:
-        raise ValueError(f"the name {name!r} and the services make {size} bytes, {ADVERTISEMENT} fit")
-
-
-def _is_short(uuid: str) -> bool:
-    return uuid.startswith("0000") and uuid.endswith("-0000-1000-8000-00805f9b34fb")

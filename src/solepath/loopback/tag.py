@@ -18,6 +18,15 @@ from .standard import NOTIFY, READ, WRITE, services
 
 MTU = 23
 """Stock firmware agrees to no larger one."""
+STOCK = 10
+"""The shortest period of stock firmware, in units of 10 ms."""
+SLUGGISH = 30
+"""The same of the infrared thermometer."""
+INFRARED, HUMIDITY, LIGHT = 0xAA00, 0xAA20, 0xAA70
+"""Services of sensors that the profiles leave out."""
+
+Make = tuple[float, Callable[[int], bytes | None]]
+"""How many s after the clock's first sample a sensor begins, and what it says."""
 
 
 @frozen
@@ -117,9 +126,9 @@ class Tag(Peripheral):
         self._states: dict[str, _State] = {}
         self.stop()
 
-    def make(self, sensor: str, config: bytes, period: float) -> tuple[float, Callable[[int], bytes | None]] | None:
-        """How many s after the clock's first sample the sensor begins, and what it says when it is configured like
-        this; None when that is off. AttError for a configuration that the firmware does not take."""
+    def make(self, sensor: str, config: bytes, period: float) -> Make | None:
+        """What a sensor says that is configured like this; None when that is off. AttError for a configuration that the
+        firmware does not take."""
         raise AttError(REFUSED)
 
     def stop(self) -> None:
@@ -182,3 +191,31 @@ def _table(sensor: str, service: int) -> list[tuple[str, Characteristic]]:
 def ti(short: int) -> str:
     """The full UUID of one of TI's."""
     return f"f000{short:04x}-0451-4000-b000-000000000000"
+
+
+def shortest(rate: float) -> int:
+    """The shortest period, in units of 10 ms, of stock firmware or of one rebuilt to take `rate` Hz."""
+    return min(STOCK, max(1, round(100.0 / rate)))
+
+
+def switch(config: bytes, most: int) -> int:
+    """A configuration of one byte. AttError when it is more than `most`."""
+    if config[0] > most:
+        raise AttError(REFUSED)
+    return config[0]
+
+
+def room(values: Mapping[str, bytes]) -> list[Sensor]:
+    """Sensors that measure nothing of the wearer and always say the same."""
+    return [Sensor(n, 100, SLUGGISH if n.endswith("infrared") else STOCK, bytes(len(v))) for n, v in values.items()]
+
+
+def constant(value: bytes, number: int) -> bytes:
+    """What such a sensor says."""
+    return value
+
+
+def masked(row: tuple[int, int, int], axes: tuple[bool, ...]) -> tuple[int, int, int]:
+    """The axes that are on; the others read 0."""
+    x, y, z = (value if on else 0 for value, on in zip(row, axes, strict=True))
+    return (x, y, z)
