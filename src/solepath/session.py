@@ -23,6 +23,8 @@ from .foot.refusal import rejected, wrong_time
 from .foot.tracker import FootTracker
 from .foot.world import Covariance3
 from .link.decoder import Decoder
+from .link.driver import Driver
+from .link.known import Kinds, kinds
 from .machine import Json, SnapshotError, checksum, load, save
 from .recipes import DEFAULT, Recipe
 from .types import Foot, Packet, Phase, Sample, Site, Support, Vec3
@@ -60,7 +62,8 @@ class _State:
 class Session:
     """One wearer. `recipe`: which parts to use. `poses`: also emit FootMoved, the live position at every sample.
     `devices`: the address of the device at a site (`Packet.device`); packets of other devices are rejected there. A
-    site that is not named is bound to the first device that it hears.
+    site that is not named is bound to the first device that it hears. `profiles`: devices of the app's own
+    (link/driver.py), beside those that are known.
 
     `feed`, `advance` and `finish` return the events that became known, in the order in which they did. `feed` is
     total: any bytes give events, never an exception. TypeError for what is neither a packet nor a sample, ValueError
@@ -72,13 +75,19 @@ class Session:
     320 ms, since a heel comes off slowly and is dated back.
     """
 
-    __slots__ = ("_state",)
+    __slots__ = ("_kinds", "_state")
 
     def __init__(
-        self, recipe: Recipe = DEFAULT, *, poses: bool = False, devices: Mapping[Site, str] | None = None
+        self,
+        recipe: Recipe = DEFAULT,
+        *,
+        poses: bool = False,
+        devices: Mapping[Site, str] | None = None,
+        profiles: Iterable[Driver] = (),
     ) -> None:
         if not isinstance(recipe, Recipe):
             raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}")
+        self._kinds: Kinds = kinds(profiles)
         self._state = _State(deepcopy(recipe), poses)
         for site, device in ({} if devices is None else devices).items():
             self.bind(site, device)
@@ -120,7 +129,7 @@ class Session:
             state.now = now
         events: list[Event] = []
         for decoder in state.decoders.values():
-            self._take(decoder.site, decoder.advance(now), events)
+            self._take(decoder.site, decoder.advance(now, self._kinds), events)
         return events
 
     def finish(self) -> list[Event]:
@@ -159,7 +168,7 @@ class Session:
         decoder = state.decoders.get(packet.site)
         if decoder is None:
             decoder = Decoder(packet.site)
-        items = decoder.feed(packet)
+        items = decoder.feed(packet, self._kinds)
         if any([isinstance(item, PacketRejected) for item in items]):
             # it changes nothing, so it is not a sign of time passing either
             if packet.site in state.decoders:
@@ -171,7 +180,7 @@ class Session:
             state.decoders = _in_order({**state.decoders, packet.site: decoder}, Site)
         for site, other in state.decoders.items():
             if site is not packet.site:
-                self._take(site, other.advance(packet.t), events)
+                self._take(site, other.advance(packet.t, self._kinds), events)
         if state.now is None or packet.t > state.now:
             state.now = packet.t
         self._take(packet.site, items, events)
@@ -286,19 +295,24 @@ class Session:
         return {"solepath": SNAPSHOT_VERSION, "check": checksum(state), "state": state}
 
     @classmethod
-    def restore(cls, saved: Any) -> Session:
-        """A session that goes on where `saved` was taken. SnapshotError when it is not a snapshot of this version, or
-        was damaged."""
+    def restore(cls, saved: Any, *, profiles: Iterable[Driver] = ()) -> Session:
+        """A session that goes on where `saved` was taken. A snapshot holds no functions: `profiles` are to be given
+        again. SnapshotError when it is not a snapshot of this version, was damaged, or is of a device that is not
+        among them."""
         if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
             raise SnapshotError("not a snapshot of a session")
         if saved["solepath"] != SNAPSHOT_VERSION:
             raise SnapshotError(f"snapshot version {saved['solepath']!r}; this release reads {SNAPSHOT_VERSION}")
         session = cls.__new__(cls)
+        session._kinds = kinds(profiles)
         session._state = load(_State, saved["state"])
         session._state.decoders = _in_order(session._state.decoders, Site)
         session._state.feet = _in_order(session._state.feet, Foot)
         if checksum(save(session._state)) != saved["check"]:
             raise SnapshotError("the snapshot was damaged: its checksum is another")
+        for decoder in session._state.decoders.values():
+            if decoder.link is not None and decoder.link.name not in session._kinds:
+                raise SnapshotError(f"a snapshot of a device {decoder.link.name!r}: restore it with its profile")
         return session
 
 

@@ -81,6 +81,10 @@ class Cc2541Link:
     rest: RestCheck = field(factory=lambda: RestCheck(GRAVITY / COUNTS_PER_G["", WRITTEN]))
 
     @property
+    def name(self) -> str:
+        return "cc2541"
+
+    @property
     def silence_is_legal(self) -> bool:
         return not (self.acc_on or self.gyro_on)
 

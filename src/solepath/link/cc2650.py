@@ -58,6 +58,10 @@ class Cc2650Link:
     rest: RestCheck = field(factory=lambda: RestCheck(RANGE * GRAVITY / 32768))
 
     @property
+    def name(self) -> str:
+        return "cc2650"
+
+    @property
     def silence_is_legal(self) -> bool:
         return self.wake_on_motion or self.switched_off
 

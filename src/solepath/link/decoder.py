@@ -2,7 +2,9 @@
 
 The device is known from the channel's prefix, the first time that a packet of it can be used. What all devices have
 in common is here: whether a packet's arrival time is sound and it comes from the device that this site is bound to,
-silence, battery and firmware. Bytes and clocks are the business of insole.py, cc2650.py and cc2541.py.
+silence, battery and firmware. Bytes and clocks are the business of insole.py, cc2650.py, cc2541.py and, for declared
+devices, stream.py; known.py has the table of all. An app that adds devices hands over its own table with every call:
+it holds functions, and a decoder is data.
 
 A site is bound to the first device that says its address (`Packet.device`), or to the one that it was made for. From
 then on packets of other devices, and of devices that do not say, are rejected. What the receiver says of itself is of
@@ -33,11 +35,12 @@ from ..events import (
 from ..types import Packet, Sample, Site
 from ..wire.device import parse_battery, parse_firmware
 from ..wire.error import WireError
-from .cc2541 import Cc2541Link, cc2541_link
+from .cc2541 import Cc2541Link
 from .cc2650 import Cc2650Link
 from .insole import InsoleLink
-from .profile import CC2541, CC2650, INSOLE, Profile
+from .known import KINDS, Kind, Kinds
 from .receiver import said
+from .stream import StreamLink
 
 SET_BACK = 20
 """Packets in a row from before the newest arrival, after which the receiver's clock is taken to have been set back."""
@@ -45,10 +48,6 @@ LATEST = 1e11
 """s; an arrival time beyond this (or before minus this) is no time."""
 
 Output = list[Sample | LinkEvent]
-DeviceLink = InsoleLink | Cc2650Link | Cc2541Link
-
-_PROFILES = {"insole": INSOLE, "cc2650": CC2650, "cc2541": CC2541}
-_CHANNELS = {prefix: frozenset(c.name for c in profile.channels) for prefix, profile in _PROFILES.items()}
 
 
 @define
@@ -63,7 +62,7 @@ class Decoder:
     site: Site
     device: str = ""
     """The address of the device that the site is bound to; "" until one is known."""
-    link: InsoleLink | Cc2650Link | Cc2541Link | None = None
+    link: InsoleLink | Cc2650Link | Cc2541Link | StreamLink | None = None
     """The device, once a packet of it was used."""
     firmware: str = ""
     arrived: float | None = None
@@ -74,7 +73,7 @@ class Decoder:
     """Newest arrival on a channel that must not fall silent, s."""
     stale: bool = False
 
-    def feed(self, packet: Packet) -> Output:
+    def feed(self, packet: Packet, kinds: Kinds = KINDS) -> Output:
         """Samples and events of one packet, in order of their being known."""
         t = packet.t
         if not isfinite(t):
@@ -90,18 +89,18 @@ class Decoder:
             if self.backwards + 1 < SET_BACK:
                 self.backwards += 1
                 return self._reject(packet, Rejection.TIME_BACKWARDS, f"{self.arrived - t:.6g} s before the newest")
-            return self._begin_anew(packet)
+            return self._begin_anew(packet, kinds)
         try:
-            return self._use(packet)
+            return self._use(packet, kinds)
         except WireError as error:
             return self._reject(packet, error.reason, error.detail)
 
-    def advance(self, now: float) -> Output:
+    def advance(self, now: float, kinds: Kinds = KINDS) -> Output:
         """Let time pass to `now`, s, with nothing arriving. What is not a time is passed over."""
         link, heard = self.link, self.heard
         if link is None or heard is None or self.stale or link.silence_is_legal or not isfinite(now):
             return []
-        limit = self._profile().stale_after
+        limit = kinds[link.name].profile.stale_after
         if now - heard <= limit:
             return []
         self.stale = True
@@ -113,41 +112,26 @@ class Decoder:
         """What still waits, at the end of all data."""
         return [] if self.link is None or self.arrived is None else self.link.flush(self.arrived)
 
-    def _profile(self) -> Profile:
-        match self.link:
-            case Cc2650Link():
-                return CC2650
-            case Cc2541Link():
-                return CC2541
-        return INSOLE
-
-    def _use(self, packet: Packet) -> Output:
+    def _use(self, packet: Packet, kinds: Kinds) -> Output:
         """WireError, before anything has changed, when the packet cannot be used."""
         prefix = packet.channel.partition("/")[0]
         if prefix == "device" or prefix == "receiver":
             out = self._standard(packet) if prefix == "device" else self._receiver(packet)
             self.device = self.device or packet.device
-            return self._heed(packet.t, False) + out
-        profile = _PROFILES.get(prefix)
-        if profile is None or packet.channel not in _CHANNELS[prefix]:
+            return self._heed(packet.t, None, kinds) + out
+        kind = kinds.get(prefix)
+        if kind is None or not kind.profile.has(packet.channel):
             raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
         link = self.link
         if link is None:
-            link = self._make(prefix)
-        elif profile is not self._profile():
-            detail = f"{packet.channel!r} at a site whose device is {self._profile().name}"
+            link = kind.begin(self.site, self.firmware)
+        elif link.name != prefix:
+            detail = f"{packet.channel!r} at a site whose device is {link.name}"
             raise WireError(Rejection.UNKNOWN_CHANNEL, detail)
-        out = link.feed(packet.channel, packet.data, packet.t)
+        out = kind.feed(link, packet.channel, packet.data, packet.t)
         self.link = link
         self.device = self.device or packet.device
-        return self._heed(packet.t, packet.channel in profile.streams) + out
-
-    def _make(self, prefix: str) -> DeviceLink:
-        if prefix == "insole":
-            return InsoleLink(self.site)
-        if prefix == "cc2650":
-            return Cc2650Link(self.site)
-        return cc2541_link(self.site, self.firmware)
+        return self._heed(packet.t, kind if packet.channel in kind.profile.streams else None, kinds) + out
 
     def _receiver(self, packet: Packet) -> Output:
         out = said(packet)
@@ -167,14 +151,14 @@ class Decoder:
             self.link.learn_firmware(self.firmware)
         return []
 
-    def _heed(self, t: float, streams: bool) -> Output:
-        """A packet that was used arrived at `t`; `streams` when it breaks a silence."""
+    def _heed(self, t: float, streams: Kind | None, kinds: Kinds) -> Output:
+        """A packet that was used arrived at `t`; of a kind that `streams` when it breaks a silence."""
         self.arrived, self.backwards = t, 0
-        if not streams:
-            return self.advance(t)
+        if streams is None:
+            return self.advance(t, kinds)
         out: Output = []
         if self.heard is not None:
-            silent_for, limit = t - self.heard, self._profile().stale_after
+            silent_for, limit = t - self.heard, streams.profile.stale_after
             if not self.stale and silent_for > limit and self.link is not None and not self.link.silence_is_legal:
                 self.stale = True
                 begun = self.heard + limit
@@ -185,12 +169,12 @@ class Decoder:
         self.heard = t
         return out
 
-    def _begin_anew(self, packet: Packet) -> Output:
+    def _begin_anew(self, packet: Packet, kinds: Kinds) -> Output:
         """The receiver's clock was set back, if this packet can be used; if it cannot, nothing has happened."""
         trial = deepcopy(self)
         out = trial._set_back(packet.t)
         try:
-            out = out + trial._use(packet)
+            out = out + trial._use(packet, kinds)
         except WireError as error:
             return self._reject(packet, error.reason, error.detail)
         for one in fields(Decoder):

@@ -67,6 +67,10 @@ class InsoleLink:
     rest: RestCheck = field(factory=lambda: RestCheck(ASSUMED_ACC))
 
     @property
+    def name(self) -> str:
+        return "insole"
+
+    @property
     def silence_is_legal(self) -> bool:
         return False
 

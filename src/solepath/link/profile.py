@@ -1,16 +1,17 @@
 """What there is to know about each device before it is connected: GATT ids, channels, setup writes, rates. Only data.
 
-The ids and values are those of protocol/insole.md, protocol/cc2650.md and protocol/cc2541.md. To start a device:
-subscribe to every `notify` channel that is wanted, read `reads`, then make the writes of `setup` in order, each
-followed by its own reads. What was read and written is recorded as packets of the same channels, so that a decoder
-(and a recording) knows the ranges and periods in force.
+The ids and values are those of protocol/insole.md, protocol/cc2650.md and protocol/cc2541.md. To start a device: read
+`reads`, subscribe to every `notify` channel that is wanted, then make the writes of `setup` in order, each followed by
+its own reads. In this order, because a characteristic that is read while it is subscribed gives its value twice on
+some systems. What was read and written is recorded as packets of the same channels, so that a decoder (and a
+recording) knows the ranges and periods in force.
 """
 
 from __future__ import annotations
 
 from enum import Enum
 
-from attrs import frozen
+from attrs import field, frozen
 
 
 class How(Enum):
@@ -44,7 +45,8 @@ class Write:
 class Profile:
     """One kind of device.
 
-    `names`, `services`: what its advertisement may say (complete names; service UUIDs). `setup`: writes in order.
+    `names`, `services`: what its advertisement may say (complete names; service UUIDs); `prefixes`: what its name may
+    begin with instead. `setup`: writes in order.
     `reads`: channels to be read once after connecting, where the device has them. `nominal_rate`: samples a second
     after `setup`. `streams`: the channels that must not fall silent, and `stale_after`: s after which they have.
     """
@@ -58,6 +60,15 @@ class Profile:
     nominal_rate: float
     streams: tuple[str, ...]
     stale_after: float
+    prefixes: tuple[str, ...] = ()
+    _names: frozenset[str] = field(init=False, repr=False, eq=False)
+
+    def __attrs_post_init__(self) -> None:
+        object.__setattr__(self, "_names", frozenset(channel.name for channel in self.channels))
+
+    def has(self, name: str) -> bool:
+        """Whether there is a channel of this name."""
+        return name in self._names
 
     def channel(self, name: str) -> Channel:
         """The channel of this name. KeyError when there is none."""
@@ -75,12 +86,14 @@ def _ti(short: int) -> str:
     return f"f000{short:04x}-0451-4000-b000-000000000000"
 
 
-def _standard(short: int) -> str:
+def standard(short: int) -> str:
+    """A UUID that the Bluetooth SIG has assigned."""
     return f"0000{short:04x}-0000-1000-8000-00805f9b34fb"
 
 
-_FIRMWARE = Channel("device/firmware", _standard(0x180A), _standard(0x2A26), How.READ)
-_BATTERY = Channel("device/battery", _standard(0x180F), _standard(0x2A19), How.NOTIFY)
+FIRMWARE = Channel("device/firmware", standard(0x180A), standard(0x2A26), How.READ)
+BATTERY = Channel("device/battery", standard(0x180F), standard(0x2A19), How.NOTIFY)
+"""What any device may have."""
 
 INSOLE = Profile(
     name="insole",
@@ -90,8 +103,8 @@ INSOLE = Profile(
         Channel("insole/frame", _insole(1), _insole(2), How.NOTIFY),
         Channel("insole/info", _insole(1), _insole(3), How.READ),
         Channel("insole/control", _insole(1), _insole(4), How.WRITE),
-        _BATTERY,
-        _FIRMWARE,
+        BATTERY,
+        FIRMWARE,
     ),
     setup=(Write("insole/control", b"\x01"),),
     reads=("insole/info", "device/firmware", "device/battery"),
@@ -103,7 +116,7 @@ INSOLE = Profile(
 CC2650 = Profile(
     name="cc2650",
     names=("CC2650 SensorTag", "SensorTag 2.0"),
-    services=(_standard(0xAA80),),
+    services=(standard(0xAA80),),
     channels=(
         Channel("cc2650/movement", _ti(0xAA80), _ti(0xAA81), How.NOTIFY),
         Channel("cc2650/movement-config", _ti(0xAA80), _ti(0xAA82), How.WRITE),
@@ -111,9 +124,9 @@ CC2650 = Profile(
         Channel("cc2650/barometer", _ti(0xAA40), _ti(0xAA41), How.NOTIFY),
         Channel("cc2650/barometer-config", _ti(0xAA40), _ti(0xAA42), How.WRITE),
         Channel("cc2650/barometer-period", _ti(0xAA40), _ti(0xAA44), How.WRITE),
-        Channel("cc2650/keys", _standard(0xFFE0), _standard(0xFFE1), How.NOTIFY),
-        _BATTERY,
-        _FIRMWARE,
+        Channel("cc2650/keys", standard(0xFFE0), standard(0xFFE1), How.NOTIFY),
+        BATTERY,
+        FIRMWARE,
     ),
     setup=(
         Write("cc2650/movement-period", b"\x0a"),
@@ -147,8 +160,8 @@ def _cc2541(name: str, period: bytes, nominal_rate: float) -> Profile:
             Channel("cc2541/gyroscope", _ti(0xAA50), _ti(0xAA51), How.NOTIFY),
             Channel("cc2541/gyroscope-config", _ti(0xAA50), _ti(0xAA52), How.WRITE),
             Channel("cc2541/gyroscope-period", _ti(0xAA50), _ti(0xAA53), How.WRITE),
-            Channel("cc2541/keys", _standard(0xFFE0), _standard(0xFFE1), How.NOTIFY),
-            _FIRMWARE,
+            Channel("cc2541/keys", standard(0xFFE0), standard(0xFFE1), How.NOTIFY),
+            FIRMWARE,
         ),
         setup=(
             Write("cc2541/accelerometer-period", period),

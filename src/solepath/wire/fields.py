@@ -104,6 +104,16 @@ class Switch(Definition):
         return 1
 
 
+class Hex(AnyAdapter):
+    """Bytes that say nothing here, kept as hexadecimal digits."""
+
+    def _decode(self, obj: Any, context: Any, path: str) -> str:
+        return bytes(obj).hex()
+
+    def _encode(self, obj: Any, context: Any, path: str) -> bytes:
+        return bytes.fromhex(obj)
+
+
 def parse_whole(definition: Definition, data: bytes) -> Any:
     """What `definition` (which ends in Terminated) makes of `data`, all of it. WireError when it is not that."""
     try:

@@ -1,0 +1,113 @@
+"""Movella DOT, formerly Xsens DOT (protocol/dot.md), in its mode "rate quantities": acceleration and angular velocity
+at 60 Hz with the device's own microseconds. Never tried on hardware.
+
+Source: Movella DOT BLE Service Specification, document XD0506P, revision C, July 2023.
+"""
+
+from __future__ import annotations
+
+from math import isfinite, radians
+from typing import Any
+
+from construct import Bytes, Const, ExprValidator, Int8ul, Int16ul, Int32ul, OneOf, Struct, Terminated
+
+from ...vector import GRAVITY
+from ...wire.fields import Fields, Hex
+from ..driver import Driver, Known, Measured, Reading
+from ..profile import Channel, How, Profile, Write
+
+RATES = 21
+"""Payload mode: timestamp, acceleration, angular velocity."""
+FULL_ACC, FULL_GYRO = 0.99 * 16.0 * GRAVITY, 0.99 * radians(2000.0)
+"""Ends of the ranges (Movella DOT User Manual), less what calibration may take off."""
+
+
+def _uuid(short: int) -> str:
+    return f"1517{short:04x}-4947-11e9-8646-d663bd873d93"
+
+
+def _all_finite(values: Any, _: Any) -> bool:
+    return all(map(isfinite, values))
+
+
+PROFILE = Profile(
+    name="dot",
+    names=("Movella DOT", "Xsens DOT"),
+    services=(),
+    channels=(
+        Channel("dot/rates", _uuid(0x2000), _uuid(0x2003), How.NOTIFY),
+        Channel("dot/control", _uuid(0x2000), _uuid(0x2001), How.WRITE),
+        Channel("dot/device-control", _uuid(0x1000), _uuid(0x1002), How.WRITE),
+        Channel("dot/battery", _uuid(0x3000), _uuid(0x3001), How.NOTIFY),
+    ),
+    setup=(
+        Write("dot/device-control", b"\x10" + bytes(23) + b"\x3c\x00" + bytes(6)),  # 60 Hz, the most that it streams
+        Write("dot/control", bytes([1, 1, RATES])),
+    ),
+    reads=("dot/battery",),
+    nominal_rate=60.0,
+    streams=("dot/rates",),
+    stale_after=1.0,
+)
+
+FORMATS = {
+    "dot/rates": Struct(
+        "ticks" / Int32ul,
+        "acc" / ExprValidator(Fields("<3f"), _all_finite),
+        "gyro" / ExprValidator(Fields("<3f"), _all_finite),
+        Const(bytes(12)),
+        Terminated,
+    ),
+    "dot/control": Struct(
+        "type" / OneOf(Int8ul, [1]),
+        "action" / OneOf(Int8ul, [0, 1]),
+        "mode" / OneOf(Int8ul, [*range(1, 8), *range(16, 27)]),
+        Terminated,
+    ),
+    "dot/device-control": Struct(
+        "visit" / Int8ul,
+        "identifying" / Int8ul,
+        "power" / Int8ul,
+        "timeouts" / Fields("<4B"),
+        "tag_length" / Int8ul,
+        "tag" / Hex(Bytes(16)),
+        "rate" / Int16ul,
+        "filter" / Int8ul,
+        "reserved" / Hex(Bytes(5)),
+        Terminated,
+    ),
+    "dot/battery": Struct("percent" / OneOf(Int8ul, range(101)), "charging" / OneOf(Int8ul, [0, 1]), Terminated),
+}
+
+
+def _rates(sent: Any, known: Known) -> Reading:
+    x, y, z = sent.gyro
+    gyro = (radians(x), radians(y), radians(z))
+    saturated = max(map(abs, sent.acc)) >= FULL_ACC or max(map(abs, gyro)) >= FULL_GYRO
+    return Reading((Measured(sent.acc, gyro, saturated=saturated),), ticks=sent.ticks)
+
+
+def _control(sent: Any, known: Known) -> Reading:
+    return Reading(silent=sent.action == 0 or sent.mode != RATES)
+
+
+def _device_control(sent: Any, known: Known) -> Reading:
+    return Reading(rate=float(sent.rate)) if sent.visit & 0x10 else Reading()
+
+
+def _battery(sent: Any, known: Known) -> Reading:
+    return Reading(battery=sent.percent / 100.0)
+
+
+DRIVER = Driver(
+    PROFILE,
+    FORMATS,
+    readers={
+        "dot/rates": _rates,
+        "dot/control": _control,
+        "dot/device-control": _device_control,
+        "dot/battery": _battery,
+    },
+    tick_rate=1e6,
+    tick_modulus=1 << 32,
+)

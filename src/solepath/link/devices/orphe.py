@@ -1,0 +1,133 @@
+"""ORPHE INSOLE (protocol/orphe.md): inertial sensor, attitude and six pressure cells, two or four samples a
+notification, numbered, at 104 or 208 Hz. Never tried on hardware.
+
+Source: the maker's library ORPHE-INSOLE.js, 1.3.4 (its parser, its tests and docs/SENSOR_SPEC.md); facts only.
+"""
+
+from __future__ import annotations
+
+from math import radians
+from typing import Any
+
+from construct import (
+    Array,
+    Bytes,
+    Const,
+    GreedyBytes,
+    Int8ub,
+    Int16ub,
+    OneOf,
+    Struct,
+    Switch,
+    Terminated,
+    this,
+)
+
+from ...types import Foot
+from ...vector import GRAVITY
+from ...wire.fields import Definition, Fields, Hex
+from ..driver import Driver, Known, Measured, Reading
+from ..profile import FIRMWARE, Channel, How, Profile, Write
+
+RATES = {50: 208.0, 54: 208.0, 55: 208.0, 56: 104.0}
+"""Samples a second by header. The maker says 200 and 100; the part (LSM6DSOX) has 208, which was measured too."""
+ACC_RANGES, GYRO_RANGES = (2.0, 4.0, 8.0, 16.0), (250.0, 500.0, 1000.0, 2000.0)
+"""g, degrees/s; by the numbers in INFO."""
+GYRO = radians(35e-6)
+"""rad/s per count and degree/s of range: 70 mdps per count at 2000 (ST, LSM6DSOX), and not 2000 / 32768."""
+END = 32767
+
+_INFORMATION = "01a9d6b5-ff6e-444a-b266-0be75e85c064"
+_OTHER = "db1b7aca-cda5-4453-a49b-33a53d3f0833"
+_DEVICE_INFORMATION = "24354f22-1c46-430e-a4ab-a1eeabbcdfc0"
+
+PROFILE = Profile(
+    name="orphe",
+    names=(),
+    services=(_INFORMATION, _OTHER),
+    channels=(
+        Channel("orphe/values", _OTHER, "f3f9c7ce-46ee-4205-89ac-abe64e626c0f", How.NOTIFY),
+        Channel("orphe/info", _INFORMATION, _DEVICE_INFORMATION, How.READ),
+        Channel("orphe/mode", _INFORMATION, _DEVICE_INFORMATION, How.WRITE),
+        FIRMWARE,
+    ),
+    setup=(Write("orphe/mode", b"\x0d\x04"),),
+    reads=("orphe/info", "device/firmware"),
+    nominal_rate=104.0,
+    streams=("orphe/values",),
+    stale_after=1.0,
+    prefixes=("INS",),
+)
+
+_QUAT, _IMU = "quat" / Fields(">4h"), ("gyro" / Fields(">3h"), "acc" / Fields(">3h"))
+_PRESSURE = "pressure" / Fields(">6H")
+_SAMPLES: dict[int, Definition] = {
+    50: Array(4, Struct(_QUAT, *_IMU, "after_ms" / Int8ub)),
+    54: Array(4, Struct(*_IMU, _PRESSURE)),
+    55: Array(4, Struct(*_IMU, _PRESSURE)),
+    56: Array(2, Struct(_QUAT, *_IMU, _PRESSURE)),
+}
+_UNUSED = {50: 12, 54: 0, 55: 0, 56: 32}
+
+
+def _unused(context: Any) -> int:
+    return _UNUSED[context.header]
+
+
+FORMATS = {
+    "orphe/values": Struct(
+        "header" / OneOf(Int8ub, [50, 54, 55, 56]),
+        "serial" / Int16ub,
+        "hour" / OneOf(Int8ub, range(24)),
+        "minute" / OneOf(Int8ub, range(60)),
+        "second" / OneOf(Int8ub, range(60)),
+        "millisecond" / OneOf(Int16ub, range(1000)),
+        "samples" / Switch(this.header, _SAMPLES),
+        "unused" / Hex(Bytes(_unused)),
+        Terminated,
+    ),
+    "orphe/info": Struct(
+        "battery" / Int8ub,
+        "mount" / Int8ub,
+        "unknown" / Hex(Bytes(6)),
+        "acc_range" / OneOf(Int8ub, range(4)),
+        "gyro_range" / OneOf(Int8ub, range(4)),
+        "rest" / Hex(GreedyBytes),
+    ),
+    "orphe/mode": Struct(Const(b"\x0d"), "mode" / OneOf(Int8ub, [1, 2, 3, 4]), Terminated),
+}
+
+
+def _values(sent: Any, known: Known) -> Reading:
+    a = known.get("acc_range", 16.0) * GRAVITY / 32768
+    g = known.get("gyro_range", 2000.0) * GYRO
+    samples = []
+    for one in reversed(sent.samples):  # the newest stands first
+        (ax, ay, az), (gx, gy, gz) = one.acc, one.gyro
+        samples.append(
+            Measured(
+                acc=(ax * a, ay * a, az * a),
+                gyro=(gx * g, gy * g, gz * g),
+                pressure=tuple(map(float, one.pressure)) if "pressure" in one else None,
+                quat=one.get("quat"),
+                saturated=max(map(abs, (*one.acc, *one.gyro))) >= END,
+            )
+        )
+    ms = ((sent.hour * 60 + sent.minute) * 60 + sent.second) * 1000 + sent.millisecond
+    return Reading(tuple(samples), sequence=sent.serial, ticks=ms, rate=RATES[sent.header])
+
+
+def _info(sent: Any, known: Known) -> Reading:
+    ranges = {"acc_range": ACC_RANGES[sent.acc_range], "gyro_range": GYRO_RANGES[sent.gyro_range]}
+    return Reading(foot=Foot.RIGHT if sent.mount & 1 else Foot.LEFT, known=ranges)
+
+
+DRIVER = Driver(
+    PROFILE,
+    FORMATS,
+    readers={"orphe/values": _values, "orphe/info": _info},
+    sequence=1 << 16,
+    tick_rate=1000.0,
+    tick_modulus=24 * 3600 * 1000,
+    limitation="ORPHE INSOLE: pressure in counts, from six cells whose places are not known in metres",
+)

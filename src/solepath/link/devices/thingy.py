@@ -1,0 +1,106 @@
+"""Nordic Thingy:52 (protocol/thingy.md): nine axes at up to 200 Hz without any counter, and air pressure. Never tried
+on hardware.
+
+Source: the published firmware, Nordic-Thingy52-FW 2.2.0 (m_motion.c, drv_motion.c, ble_tms.h, ble_tes.h).
+"""
+
+from __future__ import annotations
+
+from math import radians
+from typing import Any
+
+from construct import Int8ul, Int16ul, Int32sl, OneOf, Struct, Terminated
+
+from ...vector import GRAVITY
+from ...wire.fields import Fields
+from ..driver import Driver, Known, Measured, Reading
+from ..profile import BATTERY, Channel, How, Profile, Write
+
+ACC = GRAVITY / 1024.0
+"""m/s^2 per count."""
+GYRO = radians(1.0 / 32.0)
+"""rad/s per count."""
+MAG = 1e-6 / 16.0
+"""T per count."""
+END_ACC, END_GYRO = 31 << 10, 1023 << 5
+"""Counts at which the firmware cuts what is larger: 31 g, 1023 degrees/s."""
+
+
+def _uuid(short: int) -> str:
+    return f"ef68{short:04x}-9b35-4933-9b10-52ffa9740042"
+
+
+PROFILE = Profile(
+    name="thingy",
+    names=("Thingy",),
+    services=(_uuid(0x0100),),
+    channels=(
+        Channel("thingy/motion", _uuid(0x0400), _uuid(0x0406), How.NOTIFY),
+        Channel("thingy/motion-config", _uuid(0x0400), _uuid(0x0401), How.WRITE),
+        Channel("thingy/pressure", _uuid(0x0200), _uuid(0x0202), How.NOTIFY),
+        Channel("thingy/environment-config", _uuid(0x0200), _uuid(0x0206), How.WRITE),
+        BATTERY,
+    ),
+    setup=(
+        # pedometer 1 s, temperature 1 s, compass 100 ms, motion at 100 Hz, no wake on motion
+        Write("thingy/motion-config", bytes.fromhex("e803e8036400640000")),
+        # temperature 5 s, pressure 1 s, humidity and colour 5 s, gas every 60 s, its lamp off
+        Write("thingy/environment-config", bytes.fromhex("8813e8038813881303000000")),
+    ),
+    reads=("device/battery",),
+    nominal_rate=100.0,
+    streams=("thingy/motion",),
+    stale_after=1.0,
+)
+
+FORMATS = {
+    "thingy/motion": Struct("acc" / Fields("<3h"), "gyro" / Fields("<3h"), "mag" / Fields("<3h"), Terminated),
+    "thingy/motion-config": Struct(
+        "pedometer_ms" / OneOf(Int16ul, range(100, 5001)),
+        "temperature_ms" / OneOf(Int16ul, range(100, 5001)),
+        "compass_ms" / OneOf(Int16ul, range(100, 1001)),
+        "rate" / OneOf(Int16ul, range(5, 201)),
+        "wake_on_motion" / OneOf(Int8ul, [0, 1]),
+        Terminated,
+    ),
+    "thingy/pressure": Struct("hectopascal" / Int32sl, "hundredths" / OneOf(Int8ul, range(100)), Terminated),
+    "thingy/environment-config": Struct(
+        "temperature_ms" / OneOf(Int16ul, range(100, 5001)),
+        "pressure_ms" / OneOf(Int16ul, range(50, 5001)),
+        "humidity_ms" / OneOf(Int16ul, range(100, 5001)),
+        "colour_ms" / OneOf(Int16ul, range(200, 5001)),
+        "gas_mode" / OneOf(Int8ul, [1, 2, 3]),
+        "lamp" / Fields("<3B"),
+        Terminated,
+    ),
+}
+
+
+def _motion(sent: Any, known: Known) -> Reading:
+    # The firmware turns the accelerometer's signs, and not the gyroscope's: it counts what is directed downwards.
+    ax, ay, az = sent.acc
+    gx, gy, gz = sent.gyro
+    mx, my, mz = sent.mag
+    sample = Measured(
+        acc=(-ax * ACC, -ay * ACC, -az * ACC),
+        gyro=(gx * GYRO, gy * GYRO, gz * GYRO),
+        mag=(mx * MAG, my * MAG, mz * MAG),
+        saturated=max(map(abs, sent.acc)) >= END_ACC or max(map(abs, sent.gyro)) >= END_GYRO,
+    )
+    return Reading((sample,))
+
+
+def _motion_config(sent: Any, known: Known) -> Reading:
+    return Reading(rate=float(sent.rate))
+
+
+def _pressure(sent: Any, known: Known) -> Reading:
+    return Reading(air_pressure=100.0 * sent.hectopascal + sent.hundredths)
+
+
+DRIVER = Driver(
+    PROFILE,
+    FORMATS,
+    readers={"thingy/motion": _motion, "thingy/motion-config": _motion_config, "thingy/pressure": _pressure},
+    acc_range=32.0,
+)

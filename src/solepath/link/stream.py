@@ -1,0 +1,304 @@
+"""One declared device (driver.py): what its readers make of each value, to Samples on one clock and events.
+
+Times come from the best that the device has, by the rules of protocol/clock.md:
+
+- its own time, where it has one, as with an insole. Without sequence numbers losses are told by the ticks, at the rate
+  that the profile or a value says; six packets in a row at another, steady distance say that the rate was wrong;
+- else its sequence numbers: they count the samples, and what samples count is time. A coarse device time beside them,
+  or a silence of 5 s, tells when counting stood still;
+- else arrivals alone (periodic.py).
+"""
+
+from __future__ import annotations
+
+from math import isfinite, sqrt
+
+from attrs import define, field
+
+from ..events import (
+    BatteryLevel,
+    ClockReset,
+    KeysChanged,
+    LayoutKnown,
+    Limitation,
+    LinkEvent,
+    PacketsLost,
+    Rejection,
+    ScaleSuspect,
+)
+from ..types import Quat, Sample, Site, Vec3
+from ..vector import GRAVITY
+from ..wire.error import WireError
+from ..wire.fields import malformed
+from .driver import Axis, Driver, Measured, Reading
+from .periodic import Periodic, periodic
+from .rest import RestCheck, suggestion
+from .run import Counted, Run, Taken, signed
+
+APART = 1.0
+"""Seconds without samples after which air pressure no longer waits for one to ride on."""
+LARGEST = 1e7
+"""Nothing that a sensor of a foot measures is more, in SI units."""
+PAUSE = 0.25
+"""Seconds (and a tenth of the time) by which a device's coarse time is ahead of its count when it has paused."""
+AGREE = 2.0
+"""Seconds within which that time must agree with the arrivals; else somebody has set it."""
+SILENCE, LATE, LATE_AT_ONCE = 5.0, 2.5, 0.5
+"""Seconds without packets after which counting may have stood still; how late the packet after them is then; the same
+right after a new connection, which delivers nothing of before."""
+STEADY = 6
+"""Packets in a row at another distance, after which the rate is taken to have been wrong."""
+OTHER = 0.2
+"""By how much that distance must differ, and how much the six may differ among themselves, relatively."""
+
+Output = list[Sample | LinkEvent]
+
+
+@define
+class StreamLink:
+    """Feeds on the channels of one declared device at one site; `name` is that of its driver.
+
+    `feed` raises WireError for what cannot be used, and then nothing has changed. Latency none.
+    """
+
+    site: Site
+    name: str
+    rate: float
+    """Samples a second, nominal."""
+    rest: RestCheck
+    known: dict[str, float] = field(factory=dict)
+    """What earlier values said that later ones are read with."""
+    silence_is_legal: bool = False
+    run: Run = field(factory=Run)
+    coarse: int = 0
+    """The device's time of the newest packet, in ticks as sent, where it stands beside the sequence."""
+    odd: int = 0
+    """Packets in a row at another distance than the rate says."""
+    distance: float = 1.0
+    """That distance, ticks a sample."""
+    periodic: Periodic | None = None
+    arrived: float | None = None
+    """Newest arrival with samples, s."""
+    last_t: float | None = None
+    """Of the newest sample; they strictly increase."""
+    mag: Vec3 | None = None
+    air_pressure: float | None = None
+    told: bool = False
+    """The limitation was said."""
+
+    def feed(self, driver: Driver, channel: str, data: bytes, arrival: float) -> Output:
+        reading = driver.read(channel, data, self.known)
+        self._check(driver, channel, reading)
+        out = self._samples(driver, channel, reading, arrival) if reading.samples else []
+        self._learn(driver, reading)
+        return self._events(reading, arrival) + out + self._beside(reading, arrival)
+
+    def forget_clock(self) -> None:
+        """The receiver's clock was set back: fit anew, and let times begin anew too."""
+        self.run.clock, self.arrived, self.last_t = None, None, None
+        if self.periodic is not None:
+            self.periodic = periodic(self.periodic.period)
+
+    def reconnected(self) -> None:
+        """A new connection: nothing can be overtaken, and the device may have begun anew."""
+        self.run.fresh = True
+
+    def flush(self, known_at: float) -> Output:
+        return []
+
+    # --- what is no sample ------------------------------------------------------------------------------------------
+
+    def _check(self, driver: Driver, channel: str, reading: Reading) -> None:
+        """WireError when a reading is none that could be used."""
+        if reading.foot is not None and reading.foot is not self.site.foot:
+            raise WireError(Rejection.WRONG_SITE, f"of a {reading.foot.value} foot")
+        if reading.samples and channel not in driver.profile.streams:
+            raise malformed(f"samples on {channel!r}, which is no stream")
+        if reading.rate is not None and not 0.1 <= reading.rate <= 10_000.0:
+            raise WireError(Rejection.ABSURD, f"{reading.rate:g} samples a second")
+        if reading.battery is not None and not 0.0 <= reading.battery <= 1.0:
+            raise WireError(Rejection.ABSURD, f"a battery at {reading.battery:g}")
+        numbers: list[float] = [*_numbers(reading.mag), *reading.known.values(), reading.air_pressure or 0.0]
+        for one in reading.samples:
+            for values in (one.acc, one.gyro, one.mag, one.quat, one.pressure):
+                numbers += _numbers(values)
+            numbers.append(one.air_pressure or 0.0)
+        if not all(map(isfinite, numbers)):
+            raise WireError(Rejection.NOT_FINITE, "a value that is no number")
+        if max(map(abs, numbers)) > LARGEST:
+            raise WireError(Rejection.ABSURD, f"a value of {max(map(abs, numbers)):g}")
+
+    def _learn(self, driver: Driver, reading: Reading) -> None:
+        if reading.known:
+            before = self._acc_range(driver)
+            self.known = {**self.known, **{name: float(value) for name, value in reading.known.items()}}
+            if self._acc_range(driver) != before:
+                self.rest = RestCheck(self._acc_range(driver) * GRAVITY / 32768)
+        if reading.silent is not None:
+            self.silence_is_legal = reading.silent
+        if reading.rate is not None and not reading.samples:
+            self._change(reading.rate)
+
+    def _acc_range(self, driver: Driver) -> float:
+        return self.known.get("acc_range", driver.acc_range)
+
+    def _change(self, rate: float) -> None:
+        if rate != self.rate:
+            if self.periodic is not None:
+                self.periodic.change(self.periodic.period * self.rate / rate)
+            self.rate, self.odd = rate, 0
+
+    def _events(self, reading: Reading, arrival: float) -> Output:
+        out: Output = []
+        if reading.layout is not None:
+            out.append(LayoutKnown(t=arrival, known_at=arrival, site=self.site, layout=reading.layout))
+        if reading.battery is not None:
+            out.append(BatteryLevel(t=arrival, known_at=arrival, site=self.site, level=float(reading.battery)))
+        if reading.keys is not None:
+            out.append(KeysChanged(t=arrival, known_at=arrival, site=self.site, down=reading.keys))
+        return out
+
+    def _beside(self, reading: Reading, arrival: float) -> Output:
+        if reading.mag is not None:
+            self.mag = reading.mag
+        if reading.air_pressure is None:
+            return []
+        if self.arrived is not None and arrival - self.arrived <= APART:
+            self.air_pressure = reading.air_pressure
+            return []
+        t = self._in_order(arrival)
+        return [Sample(t, self.site, air_pressure=reading.air_pressure, known_at=max(arrival, t))]
+
+    # --- samples ----------------------------------------------------------------------------------------------------
+
+    def _samples(self, driver: Driver, channel: str, reading: Reading, arrival: float) -> Output:
+        axis, count = driver.axis, len(reading.samples)
+        rate = self.rate if reading.rate is None else reading.rate
+        if axis is Axis.ARRIVAL:
+            self._change(rate)
+            taken, times = self._by_arrival(count, rate, arrival)
+        else:
+            tick_rate = driver.tick_rate if axis is Axis.TICKS else rate
+            counted = (self._by_ticks if axis is Axis.TICKS else self._by_count)(driver, reading, rate, arrival)
+            taken = self.run.take(
+                counted, tick_rate, arrival, axis is Axis.COUNT and self._stood_still(driver, arrival)
+            )
+            self._change(rate)
+            self._compare(driver, reading, counted)
+            times = []
+        out: Output = []
+        if taken.lost:
+            t = taken.t_missing
+            out.append(PacketsLost(t=t, known_at=max(arrival, t), site=self.site, channel=channel, count=taken.lost))
+        if driver.limitation and not self.told:
+            self.told = True
+            out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=driver.limitation))
+        if taken.restarted is not None:
+            t = self.run.expected()
+            out.append(ClockReset(t=t, known_at=max(arrival, t), site=self.site, restarted=taken.restarted))
+        self.arrived = arrival
+        for j, sample in enumerate(reading.samples):
+            self._sample(driver, sample, times[j] if times else self.run.time(j), arrival, out)
+        return out
+
+    def _by_ticks(self, driver: Driver, reading: Reading, rate: float, arrival: float) -> Counted:
+        run, count = self.run, len(reading.samples)
+        if reading.ticks is None or (driver.sequence and reading.sequence is None):
+            raise malformed("no device time or no sequence number, which this device has")
+        interval = max(1, round(driver.tick_rate / rate)) if reading.interval is None else reading.interval
+        if interval < 1:
+            raise malformed(f"an interval of {interval} ticks")
+        e = run.ahead(reading.ticks, driver.tick_modulus)
+        if reading.sequence is not None and driver.sequence:
+            d, m = run.packets(reading.sequence, driver.sequence, e / run.covers)
+            return Counted(reading.sequence, reading.ticks, interval, count, d, m, e)
+        m = 0 if e == 0 else max(1, round(e / run.covers)) if e > 0 else min(-1, round(e / run.covers))
+        return Counted(0, reading.ticks, interval, count, m, m, e)
+
+    def _by_count(self, driver: Driver, reading: Reading, rate: float, arrival: float) -> Counted:
+        """Samples are the ticks, and the place of a packet is that of its number nearest to what time says."""
+        run, count = self.run, len(reading.samples)
+        if reading.sequence is None:
+            raise malformed("no sequence number, which this device has")
+        elapsed = 0.0 if self.arrived is None else arrival - self.arrived
+        told: float | None = None
+        if driver.tick_modulus and reading.ticks is not None:
+            told = signed(reading.ticks - self.coarse, driver.tick_modulus) / driver.tick_rate
+            told = told if abs(told - elapsed) <= AGREE else None
+        d, m = run.packets(reading.sequence, driver.sequence, (elapsed if told is None else told) * rate / run.covers)
+        e = m * run.covers
+        if m >= 1 and told is not None and told > 1.1 * e / rate + PAUSE:
+            e = round(told * rate)
+        return Counted(reading.sequence, 0, 1, count, d, m, e)
+
+    def _stood_still(self, driver: Driver, arrival: float) -> bool:
+        """Whether a packet after a silence is too late to be counted on from the one before it."""
+        clock, run = self.run.clock, self.run
+        if clock is None or self.arrived is None or driver.tick_modulus:
+            return False
+        silence, delay = arrival - self.arrived, arrival - clock.fitted(run.ticks + run.covers)
+        return delay > LATE_AT_ONCE if run.fresh else silence > SILENCE and delay > LATE
+
+    def _compare(self, driver: Driver, reading: Reading, counted: Counted) -> None:
+        """Remember what the next packet is compared with; put the rate right when the ticks say that it was wrong."""
+        if driver.axis is Axis.COUNT:
+            self.coarse = reading.ticks or 0
+            return
+        if driver.sequence or reading.interval is not None or counted.e <= 0:
+            return
+        distance = counted.e / counted.samples
+        if abs(distance - counted.interval) <= OTHER * counted.interval:
+            self.odd = 0
+            return
+        same = self.odd > 0 and abs(distance - self.distance) <= OTHER * self.distance
+        self.odd, self.distance = self.odd + 1 if same else 1, distance
+        if self.odd >= STEADY:
+            self.rate, self.odd = driver.tick_rate / distance, 0
+
+    def _by_arrival(self, count: int, rate: float, arrival: float) -> tuple[Taken, list[float]]:
+        if self.periodic is None:
+            self.periodic = periodic(count / rate)
+        slot = self.periodic.arrive(arrival, counts_losses=not self.silence_is_legal)
+        apart = self.periodic.period / count
+        times = [slot.t - (count - 1 - j) * apart for j in range(count)]
+        return Taken(slot.lost, slot.t_missing), times
+
+    def _sample(self, driver: Driver, one: Measured, t: float, arrival: float, out: Output) -> None:
+        t = self._in_order(t)
+        known_at = max(arrival, t)
+        mag, air_pressure = one.mag, one.air_pressure
+        if mag is None:
+            mag, self.mag = self.mag, None
+        if air_pressure is None:
+            air_pressure, self.air_pressure = self.air_pressure, None
+        quat = None if one.quat is None else _unit(one.quat)
+        out.append(
+            Sample(t, self.site, one.acc, one.gyro, one.pressure, quat, mag, air_pressure, known_at, one.saturated)
+        )
+        if one.acc is not None and not self.rest.done:
+            magnitude = self.rest.feed(t, one.acc)
+            if magnitude is not None:
+                words = suggestion(magnitude, self._acc_range(driver))
+                out.append(ScaleSuspect(t=t, known_at=known_at, site=self.site, magnitude=magnitude, suggestion=words))
+
+    def _in_order(self, t: float) -> float:
+        if self.last_t is not None and t <= self.last_t:
+            t = self.last_t + 1e-6
+        self.last_t = t
+        return t
+
+
+def stream_link(driver: Driver, site: Site) -> StreamLink:
+    """A fresh device of this kind at `site`."""
+    return StreamLink(site, driver.name, driver.profile.nominal_rate, RestCheck(driver.acc_range * GRAVITY / 32768))
+
+
+def _numbers(values: tuple[float, ...] | None) -> tuple[float, ...]:
+    return () if values is None else values
+
+
+def _unit(quat: Quat) -> Quat | None:
+    """A quaternion at length 1; None for zero."""
+    w, x, y, z = quat
+    length = sqrt(w * w + x * x + y * y + z * z)
+    return (w / length, x / length, y / length, z / length) if length > 0.0 else None
