@@ -138,13 +138,14 @@ class RadioClient(BaseBleakClient):
     async def connect(self, pair: bool, **kwargs: Any) -> None:
         """Connects, agrees on an MTU and discovers what the device has. `pair` is ignored: no device asks for it.
 
-        `timeout`: s for all of it. TimeoutError when the device does not answer, BleakDeviceNotFoundError when only an
-        address was given and nobody advertises it, BleakError when the link is lost at once.
+        `timeout`: s. TimeoutError when the device does not answer; BleakDeviceNotFoundError when only an address was
+        given and nobody advertised it for so long; BleakError when the link is lost at once.
         """
         if self._link is not None:
             raise BleakError("already connected")
-        async with asyncio.timeout(kwargs.get("timeout", self._timeout)):
-            device = self._device or await self._find()
+        timeout: float = kwargs.get("timeout", self._timeout)
+        device = self._device or await self._find(timeout)
+        async with asyncio.timeout(timeout):
             link = await self.radio.connect(device.details["peer"])
             self._link = link
             link.on(Connection.EVENT_DISCONNECTION, partial(self._lost, link))
@@ -159,9 +160,9 @@ class RadioClient(BaseBleakClient):
                 raise
             self._established = True
 
-    async def _find(self) -> BLEDevice:
-        """By its address, within the time of connect."""
-        device = await BleakScanner.find_device_by_address(self.address, self._timeout, backend=self.scanner)
+    async def _find(self, timeout: float) -> BLEDevice:
+        """By its address."""
+        device = await BleakScanner.find_device_by_address(self.address, timeout, backend=self.scanner)
         if device is None:
             raise BleakDeviceNotFoundError(self.address, f"device {self.address} was not found")
         self._device = device

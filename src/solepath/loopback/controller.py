@@ -14,9 +14,11 @@ from bumble import hci, ll
 from bumble.controller import Connection, Controller
 from bumble.link import LocalLink
 
-logging.getLogger("bumble").addHandler(logging.NullHandler())
-"""bumble warns of much that is no trouble (a packet in flight when its link ends), and a logger without any handler
-writes to stderr. Whoever configures logging still gets to see it."""
+_NOISY = logging.getLogger("bumble")
+if (
+    _NOISY.level == logging.NOTSET
+):  # bumble warns of much that is no trouble: packets in flight when their link ends, ...
+    _NOISY.setLevel(logging.CRITICAL)
 
 RSSI = -50  # dBm; there are no distances in this air
 

@@ -125,14 +125,19 @@ class Radio:
         if listener in self._listeners:
             self._listeners.remove(listener)
             if not self._listeners and self._device is not None:
-                await self._scan(self._device, False)
+                with suppress(BleakError):
+                    await self._scan(self._device, False)
 
     async def _scan(self, device: Device, on: bool) -> None:
         try:
-            await self.finish(device.start_scanning(legacy=True) if on else device.stop_scanning(legacy=True))
-        except (hci.HCI_Error, core.BaseBumbleError) as error:
-            if on:
-                raise BleakError(f"{self.where}: cannot scan: {error}") from error
+            async with asyncio.timeout(PATIENCE):
+                await self.finish(device.start_scanning(legacy=True) if on else device.stop_scanning(legacy=True))
+        except TimeoutError:
+            if self._transport is not None:
+                await self._transport.close()  # a controller that is deaf: the next attempt reaches for it anew
+            raise BleakError(f"{self.where} does not answer any more") from None
+        except core.BaseBumbleError as error:
+            raise BleakError(f"{self.where}: {error}") from error
 
     def _heard(self, advertisement: Advertisement) -> None:
         for listener in list(self._listeners):
@@ -150,7 +155,7 @@ class Radio:
                     return await asyncio.shield(attempt)
                 except core.TimeoutError:
                     pass  # nobody answered: the next one's turn
-                except (hci.HCI_Error, core.BaseBumbleError) as error:
+                except core.BaseBumbleError as error:
                     raise BleakError(f"no connection to {peer.to_string(False)}: {error}") from error
                 except asyncio.CancelledError:
                     if attempt.cancelled() and not _cancelled():
@@ -166,7 +171,7 @@ class Radio:
                     await device.cancel_connection()  # type: ignore[no-untyped-call]
                 link = await attempt
                 await link.disconnect()
-        except (TimeoutError, hci.HCI_Error, core.BaseBumbleError, asyncio.CancelledError):
+        except (TimeoutError, core.BaseBumbleError, asyncio.CancelledError):
             attempt.cancel()
 
     # tasks
@@ -200,6 +205,7 @@ class Radio:
             with suppress(TimeoutError):
                 async with asyncio.timeout(PATIENCE):
                     await device.power_off()
+            device.host.ready = False  # deaf to what is still in flight: nobody waits for it any more
         tasks = list(self._tasks)
         for task in tasks:
             task.cancel()
@@ -214,7 +220,7 @@ async def end_link(link: Connection) -> None:
     try:
         async with asyncio.timeout(PATIENCE):
             await link.disconnect()
-    except (TimeoutError, hci.HCI_Error, core.BaseBumbleError):
+    except (TimeoutError, core.BaseBumbleError):
         pass
     except asyncio.CancelledError:
         if _cancelled():

@@ -27,6 +27,7 @@ from bumble.transport.common import AsyncPipeSink, Transport
 
 from ..ble.backend import Backend
 from . import peripheral as emulated
+from .advertisement import ADVERTISEMENT
 from .central import backend_of
 from .controller import Link, VirtualController
 from .peripheral import AttError, Peripheral
@@ -96,7 +97,7 @@ def advertisement(name: str, services: Sequence[str]) -> bytes:
     said.append(data_types.CompleteLocalName(name))
     flags = AdvertisingData.Flags.LE_GENERAL_DISCOVERABLE_MODE | AdvertisingData.Flags.BR_EDR_NOT_SUPPORTED
     full = bytes(AdvertisingData([data_types.Flags(flags), *said]))
-    return full if len(full) <= emulated.ADVERTISEMENT else bytes(AdvertisingData(said))
+    return full if len(full) <= ADVERTISEMENT else bytes(AdvertisingData(said))
 
 
 def _attributes(device: Peripheral, server: Server) -> list[Service]:
@@ -165,8 +166,7 @@ class Server:
         if self._link is not None:
             await end_link(self._link)
         if self._restart is not None:
-            self._restart.cancel()
-            await asyncio.gather(self._restart, return_exceptions=True)
+            await self._restart
         self._disarm()
         self.peripheral.changed = None
         await self._device.power_off()

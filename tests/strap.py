@@ -1,0 +1,87 @@
+"""A chest strap of a few lines: a device that counts, to try the virtual air with. As a program it serves itself."""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+from collections.abc import Sequence
+from math import ceil, inf
+
+from attrs import frozen
+
+from solepath.loopback.peripheral import WRONG_LENGTH, AttError, Characteristic, Peripheral, Service
+from solepath.loopback.tcp import serve
+from solepath.types import Site
+
+
+def standard(short: int) -> str:
+    return f"0000{short:04x}-0000-1000-8000-00805f9b34fb"
+
+
+HEART_RATE, BEAT, CONTROL = standard(0x180D), standard(0x2A37), standard(0x2A39)
+BATTERY, LEVEL = standard(0x180F), standard(0x2A19)
+LOG, PAGE = "7b9e0001-52f4-4f0c-9a51-3c1f6d2f8e10", "7b9e0002-52f4-4f0c-9a51-3c1f6d2f8e10"
+SERVICES = (
+    Service(
+        HEART_RATE,
+        (
+            Characteristic(BEAT, "strap/beat", frozenset({"notify"})),
+            Characteristic(CONTROL, "strap/control", frozenset({"read", "write", "write-without-response"})),
+        ),
+    ),
+    Service(BATTERY, (Characteristic(LEVEL, "device/battery", frozenset({"read"})),)),
+    Service(LOG, (Characteristic(PAGE, "strap/page", frozenset({"read"})),)),
+)
+BOOK = bytes(range(250)) * 2
+"""What strap/page holds: more than any packet."""
+
+
+@frozen
+class Count:
+    """Numbers at a rate (Hz), each in `size` bytes."""
+
+    rate: float
+    size: int
+
+    def after(self, t: float) -> int:
+        return max(0, ceil(t * self.rate - 1e-6))
+
+    def due(self, number: int) -> float:
+        return number / self.rate if self.rate else inf
+
+    def values(self, number: int, mtu: int) -> Sequence[bytes]:
+        return [number.to_bytes(4, "little").ljust(self.size, b".")]
+
+
+class Strap(Peripheral):
+    """Counts at the rate written to strap/control, a byte of Hz; any other length is refused."""
+
+    size = 20
+
+    def __init__(self, name: str, address: str, *, advertised: Sequence[str] = (HEART_RATE,), **given: object) -> None:
+        super().__init__(
+            site=Site.PELVIS, name=name, address=address, services=SERVICES, advertised=advertised, **given
+        )  # type: ignore[arg-type]
+        self.rate = 0
+
+    def value(self, channel: str, t: float) -> bytes:
+        return {"strap/control": bytes([self.rate]), "device/battery": b"\x57", "strap/page": BOOK}[channel]
+
+    def take(self, channel: str, value: bytes, t: float) -> None:
+        if len(value) != 1:
+            raise AttError(WRONG_LENGTH)
+        self.rate = value[0]
+        self.flow("strap/beat", Count(self.rate, self.size) if self.rate else None, t)
+
+    def stop(self) -> None:
+        self.rate = 0
+
+
+async def main(port: int) -> None:
+    async with serve([Strap("one", "F0:00:00:00:00:01"), Strap("two", "F0:00:00:00:00:02")], "127.0.0.1", port) as at:
+        print(at[1], flush=True)
+        await asyncio.Event().wait()
+
+
+if __name__ == "__main__":
+    asyncio.run(main(int(sys.argv[1])))
