@@ -37,13 +37,14 @@ ALLOWED: dict[str, set[str]] = {
     "source": CORE | {"recording", "samples"},
     "output": CORE,
     "tally": CORE,
-    "demo": CORE | {"sim", "evaluate", "tally"},
+    "monitor": CORE | {"tally"},
+    "demo": CORE | {"sim", "evaluate", "tally", "monitor"},
     "evaluate": CORE | {"sim", "recording", "samples", "__init__"},
     "ble": CORE | {"recording"},
     "loopback": CORE | {"recording", "sim", "ble"},
-    "view": CORE | {"sim", "recording", "samples", "source", "output", "tally", "demo", "evaluate"},
+    "view": CORE | {"sim", "recording", "samples", "source", "output", "tally", "demo", "evaluate", "monitor"},
     "cli": CORE | {"sim", "recording", "samples", "source", "output", "tally", "demo", "evaluate", "view", "ble",
-                   "loopback", "__init__"},
+                   "loopback", "monitor", "__init__"},
     "__main__": {"cli"},
 }  # fmt: skip
 """Room (a module or a folder of src/solepath) -> the rooms that it may import."""

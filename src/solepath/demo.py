@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import hypot, pi
+from math import pi
 
 from attrs import define, evolve, field
 
 from .evaluate.emulated import FootComparison, compare
 from .evaluate.gathered import Gathering
-from .events import Event, FootMoved
+from .events import Event
+from .monitor import Monitor
 from .session import Session
 from .sim.radio import Radio
 from .sim.route import Route
 from .sim.walk import EmulatedWalk, emulate
-from .tally import Tally
 from .types import Foot, Packet
 
 RADIO = Radio(loss=0.03, duplicate=0.005, corrupt=0.005, latency=0.015, jitter=0.030)
@@ -37,25 +37,14 @@ ROUTE = (
 )
 """About 40 m: a U, a halt, a turn on the spot, and away again."""
 
-SPACING = 0.15
-"""m between the points of the track that is drawn."""
-LONGEST = 4000
-"""Points that are kept of it."""
-
 
 @define
 class Demo:
     """A walk on its way through a session. `play` goes on packet by packet, so that whoever shows it sets the pace."""
 
     walk: EmulatedWalk
-    session: Session
-    tally: Tally = field(factory=Tally)
+    monitor: Monitor
     gathering: Gathering = field(factory=Gathering)
-    track: list[tuple[Foot, float, float]] = field(factory=list)
-    """Where the feet went, thinned to SPACING, m."""
-    now: float = 0.0
-    """Time of the walk, s."""
-    _drawn: dict[Foot, tuple[float, float]] = field(factory=dict)
 
     @property
     def duration(self) -> float:
@@ -64,25 +53,13 @@ class Demo:
     def play(self) -> Iterator[Packet]:
         """Each packet after the session has taken it."""
         for packet in self.walk.packets:
-            self.now = packet.t
-            self.tally.fed_packet(packet)
-            self._take(self.session.feed(packet))
+            self._gather(self.monitor.take(packet))
             yield packet
-        self._take(self.session.finish())
+        self._gather(self.monitor.finish())
 
-    def _take(self, events: list[Event]) -> None:
+    def _gather(self, events: list[Event]) -> None:
         for event in events:
-            self.tally.add(event)
             self.gathering.add(event)
-            if isinstance(event, FootMoved):
-                self._draw(event)
-
-    def _draw(self, event: FootMoved) -> None:
-        x, y, _ = event.position
-        last = self._drawn.get(event.foot)
-        if (last is None or hypot(x - last[0], y - last[1]) > SPACING) and len(self.track) < LONGEST:
-            self._drawn[event.foot] = (x, y)
-            self.track.append((event.foot, x, y))
 
     def comparison(self) -> list[FootComparison]:
         """The session against the truth; once `play` is through."""
@@ -101,4 +78,4 @@ def radio(loss: float | None = None, jitter: float | None = None) -> Radio:
 
 def make_demo(seed: int, route: Route = ROUTE, radio: Radio = RADIO) -> Demo:
     """The walk of this seed, not yet played."""
-    return Demo(walk=emulate(route, radio=radio, seed=seed), session=Session(poses=True))
+    return Demo(walk=emulate(route, radio=radio, seed=seed), monitor=Monitor(Session(poses=True)))

@@ -8,18 +8,22 @@ from attrs import define, field
 
 from .events import (
     ClockReset,
+    Connected,
     Event,
     FootFlat,
     FootMoved,
     HeelOff,
     HeelStrike,
     Limitation,
+    LinkTrouble,
     PacketRejected,
+    PacketsDropped,
     PacketsLost,
     SampleGap,
     SampleRejected,
     ScaleSuspect,
     StepTaken,
+    StreamRestarted,
     StreamStale,
     ToeOff,
 )
@@ -78,6 +82,11 @@ class Tally:
     """By ("packets" | "samples", reason)."""
     clock_resets: int = 0
     stale: int = 0
+    connections: Counter[Site] = field(factory=Counter)
+    dropped: int = 0
+    """Packets that nobody took in time."""
+    restarts: int = 0
+    troubles: list[str] = field(factory=list)
     delays: dict[str, list[float]] = field(factory=dict)
     """By gait event: how long after it happened each one was known, s."""
     limitations: list[str] = field(factory=list)
@@ -140,6 +149,16 @@ class Tally:
                 self.clock_resets += 1
             case StreamStale():
                 self.stale += 1
+            case Connected(site=site):
+                self.connections[site] += 1
+            case PacketsDropped(count=count):
+                self.dropped += count
+            case StreamRestarted():
+                self.restarts += 1
+            case LinkTrouble(site=site, what=what):
+                told = f"{site.value.replace('_', ' ')}: {what}"
+                if told not in self.troubles:
+                    self.troubles.append(told)
             case Limitation(site=site, what=what):
                 self.limitations.append(what if site is None else f"{site.value.replace('_', ' ')}: {what}")
             case ScaleSuspect(site=site, magnitude=magnitude, suggestion=suggestion):

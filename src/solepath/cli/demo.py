@@ -54,13 +54,13 @@ def run(options: argparse.Namespace) -> int:
     if options.record:
         _record(demo, options.record)
     if sys.stdout.isatty() and _rich_is_there():
-        from ..view.terminal import show
+        from ..view.terminal import play
 
-        show(demo, options.speed)
+        play(demo, options.speed)
     else:
         _tell(demo)
     print()
-    print("\n".join([comparison_table(demo.comparison()), "", *latency(demo.tally)]))
+    print("\n".join([comparison_table(demo.comparison()), "", *latency(demo.monitor.tally)]))
     return 0
 
 
@@ -95,6 +95,10 @@ def _tell(demo: Demo) -> None:
     for packet in demo.play():
         if packet.t >= due:
             due += REPORT_EVERY
-            feet = (f"{foot.value} {demo.tally.foot(foot).steps} steps" for foot in Foot)
+            feet = (f"{foot.value} {demo.monitor.tally.foot(foot).steps} steps" for foot in Foot)
             print(f"{packet.t:6.1f} s  {', '.join(feet)}", flush=True)
-    print("\n".join(["", *(line.rstrip() for line in plot(demo.track, 72, 16)), "", *link_health(demo.tally)]))
+    print(
+        "\n".join(
+            ["", *(line.rstrip() for line in plot(demo.monitor.track, 72, 16)), "", *link_health(demo.monitor.tally)]
+        )
+    )

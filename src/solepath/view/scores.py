@@ -55,7 +55,6 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
 """Every figure by its name in JSON: how its column is headed, and how it is written."""
 
 
-
 def score_table(result: Result) -> str:
     """Title, table with a line a recording (where there are few) and the averages, and what failed."""
     data_set = result.data_set

@@ -5,7 +5,7 @@ from __future__ import annotations
 from statistics import median
 
 from ..tally import DATED, Tally
-from ..types import Foot
+from ..types import Foot, Site
 from .table import milliseconds, number, table
 
 
@@ -56,6 +56,14 @@ def link_health(tally: Tally) -> list[str]:
         lines.append(f"{tally.clock_resets} clock resets")
     if tally.stale:
         lines.append(f"{tally.stale} times a stream fell silent")
+    if tally.restarts:
+        lines.append(f"{tally.restarts} times a stream froze and was set up again")
+    if tally.dropped:
+        lines.append(f"{tally.dropped} packets dropped: they came faster than they could be used")
+    for site in Site:
+        if tally.connections[site] > 1:
+            lines.append(f"{site.value.replace('_', ' ')}: connected {tally.connections[site]} times")
+    lines += [f"trouble, {what}" for what in tally.troubles]
     return lines
 
 

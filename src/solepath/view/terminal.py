@@ -1,7 +1,9 @@
-"""The demonstration in a terminal, drawn with rich (the `live` extra)."""
+"""Live pictures in a terminal, drawn with rich (the `live` extra)."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from time import monotonic, sleep
 
 from rich.console import Console, Group
@@ -11,8 +13,10 @@ from rich.table import Table
 from rich.text import Text
 
 from ..demo import Demo
+from ..monitor import Monitor
 from ..types import Foot, Phase
 from .plot import plot
+from .status import status
 from .summary import link_health
 from .table import number
 
@@ -22,40 +26,63 @@ PLOT = (72, 18)
 COLOURS = {Phase.LOADING: "yellow", Phase.STATIONARY: "green", Phase.PUSH_OFF: "magenta", Phase.SWING: "cyan"}
 
 
-def show(demo: Demo, speed: float) -> None:
+class Screen:
+    """A picture that is redrawn as a session goes on; `show` is cheap as long as no new one is due."""
+
+    def __init__(self, live: Live) -> None:
+        self._live = live
+        self._drawn = -1.0
+
+    def show(self, monitor: Monitor, title: str) -> None:
+        if monotonic() - self._drawn > 1.0 / FRAMES:
+            self.draw(monitor, title)
+
+    def draw(self, monitor: Monitor, title: str) -> None:
+        self._live.update(picture(monitor, title), refresh=True)
+        self._drawn = monotonic()
+
+
+@contextmanager
+def screen(console: Console) -> Iterator[Screen]:
+    """A screen that is wiped when this ends."""
+    with Live(console=console, auto_refresh=False, transient=True) as live:
+        yield Screen(live)
+
+
+def play(demo: Demo, speed: float) -> None:
     """Play the walk at `speed` times real time, redrawn as it goes."""
     console = Console()
     began = monotonic()
-    with Live(console=console, auto_refresh=False, transient=True) as live:
-        drawn = 0.0
+    with screen(console) as shown:
         for packet in demo.play():
             if (ahead := packet.t / speed - (monotonic() - began)) > 0.5 / FRAMES:
-                live.update(picture(demo, speed), refresh=True)
-                drawn = monotonic()
+                shown.draw(demo.monitor, _title(demo, speed))
                 sleep(ahead)
-            elif monotonic() - drawn > 1.0 / FRAMES:
-                live.update(picture(demo, speed), refresh=True)
-                drawn = monotonic()
-    console.print(picture(demo, speed))
+            else:
+                shown.show(demo.monitor, _title(demo, speed))
+    console.print(picture(demo.monitor, _title(demo, speed)))
 
 
-def picture(demo: Demo, speed: float) -> Group:
+def _title(demo: Demo, speed: float) -> str:
+    return f"{demo.monitor.now:5.1f} of {demo.duration:.1f} s, {speed:g} times real time"
+
+
+def picture(monitor: Monitor, title: str) -> Group:
     """Both feet, the track and the links at this moment."""
     feet = Table.grid(expand=False, padding=(0, 3))
     for foot in Foot:
-        feet.add_row(*_foot(demo, foot))
-    lines = plot(demo.track, *PLOT)
-    health = link_health(demo.tally) or ["every packet arrived"]
-    title = f"{demo.now:5.1f} of {demo.duration:.1f} s, {speed:g} times real time"
+        feet.add_row(*_foot(monitor, foot))
+    lines = plot(monitor.track, *PLOT)
+    health = status(monitor) + link_health(monitor.tally)
     return Group(
         Panel(feet, title=title, width=PLOT[0] + 4),
         Panel(Text("\n".join(lines)), title="track", width=PLOT[0] + 4),
-        Panel(Text("\n".join(health)), title=f"link, {demo.tally.packets} packets", width=PLOT[0] + 4),
+        Panel(Text("\n".join(health)), title=f"link, {monitor.tally.packets} packets", width=PLOT[0] + 4),
     )
 
 
-def _foot(demo: Demo, foot: Foot) -> tuple[Text, ...]:
-    one = demo.tally.foot(foot)
+def _foot(monitor: Monitor, foot: Foot) -> tuple[Text, ...]:
+    one = monitor.tally.foot(foot)
     phase = Text("-" if one.phase is None else one.phase.value.ljust(10))
     if one.phase is not None:
         phase.stylize(f"bold {COLOURS[one.phase]}")

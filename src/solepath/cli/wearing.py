@@ -1,0 +1,198 @@
+"""What the commands that listen to devices have in common: which devices, through which Bluetooth, and until when."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import signal
+import sys
+from collections.abc import AsyncIterable, AsyncIterator, Callable, Coroutine, Iterator
+from contextlib import asynccontextmanager, contextmanager, suppress
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from .failure import Failure, note, positive
+
+if TYPE_CHECKING:
+    from ..ble import Backend, Found, Wanted
+    from ..monitor import Monitor
+    from ..types import Packet
+
+_T = TypeVar("_T")
+
+LISTENED = 4.0
+"""s for which devices are looked for when none was named."""
+UNWATCHED = 30.0
+"""s that a command listens where there is no terminal to end it from, unless it is told how long."""
+REPORT_EVERY = 5.0
+"""s between two lines where there is no terminal."""
+
+
+def add_air(command: argparse.ArgumentParser) -> None:
+    """Which Bluetooth."""
+    command.add_argument(
+        "--via",
+        metavar="tcp:HOST:PORT",
+        help="the emulated devices of `solepath emulate` there, instead of this machine's Bluetooth",
+    )
+
+
+def add_devices(command: argparse.ArgumentParser) -> None:
+    """Which devices, and for how long."""
+    add_air(command)
+    command.add_argument("--left", metavar="DEVICE", help="address or name of the device on the left foot")
+    command.add_argument("--right", metavar="DEVICE", help="address or name of the device on the right foot")
+    command.add_argument(
+        "--at", metavar="SITE=DEVICE", action="append", default=[], help="a device elsewhere, for instance pelvis=NAME"
+    )
+    command.add_argument(
+        "--profile", metavar="NAME", help="the kind of all these devices, where their names do not say it"
+    )
+    command.add_argument("--pair", action="store_true", help="pair with the devices")
+    command.add_argument(
+        "--duration",
+        metavar="S",
+        type=positive,
+        help=f"end by itself after so long (default: at Ctrl-C; {UNWATCHED:g} s without a terminal)",
+    )
+
+
+def wanted(options: argparse.Namespace) -> list[Wanted]:
+    """The devices that were named; none when none was. Failure for a site or profile that there is not."""
+    from ..ble import Wanted
+    from ..link.profile import BY_NAME
+    from ..types import Site
+
+    named = [(Site.LEFT_FOOT, options.left), (Site.RIGHT_FOOT, options.right)]
+    sites = {site.value: site for site in Site}
+    for text in options.at:
+        site, equals, which = text.partition("=")
+        if site not in sites or not which:
+            raise Failure(f"--at {text}: that is not SITE=DEVICE, SITE one of {', '.join(sites)}")
+        named.append((sites[site], which))
+    if options.profile is not None and options.profile not in BY_NAME:
+        raise Failure(f"there is no profile {options.profile!r}; there are: {', '.join(BY_NAME)}")
+    profile = BY_NAME.get(options.profile)
+    return [Wanted(site, which, profile) for site, which in named if which]
+
+
+def chosen(found: list[Found]) -> list[Wanted]:
+    """What to listen to when nothing was said: the insoles, who say their feet; or the one other device, on the right
+    foot as in `track`. Failure where that is not clear."""
+    from ..ble import Wanted
+    from ..types import Site
+
+    known = [one for one in found if one.profile is not None]
+    insoles = [one for one in known if one.profile is not None and one.profile.name == "insole"]
+    if insoles:
+        return [Wanted(None, one.address, one.profile) for one in insoles[:2]]
+    if len(known) == 1:
+        note(f"{known[0].name}: taken for the right foot's (--left {known[0].address} says otherwise)")
+        return [Wanted(Site.RIGHT_FOOT, known[0].address, known[0].profile)]
+    if not known:
+        raise Failure("no device is heard that is known here: switch it on, or say which with --left and --right")
+    heard = ", ".join(f"{one.address} ({one.name})" for one in known)
+    raise Failure(f"{len(known)} devices are heard, {heard}: say which is where with --left and --right")
+
+
+@asynccontextmanager
+async def air(via: str | None) -> AsyncIterator[Backend]:
+    """The Bluetooth of `--via`. Failure when it cannot be reached."""
+    from ..ble import NATIVE
+
+    if via is None:
+        yield NATIVE
+        return
+    from bleak.exc import BleakError
+
+    try:
+        from ..loopback.tcp import reach
+    except ModuleNotFoundError as error:
+        raise Failure(f"--via needs {error.name}: pip install 'solepath[loopback]'") from None
+    try:
+        async with reach(via) as backend:
+            yield backend
+    except (BleakError, ValueError) as error:
+        raise Failure(f"--via {via}: {error}") from None
+
+
+def run_to_end(main: Coroutine[Any, Any, _T]) -> _T:
+    """asyncio.run, with the errors of Bluetooth as a Failure."""
+    from ..ble import BluetoothError
+
+    try:
+        return asyncio.run(main)
+    except BluetoothError as error:
+        raise Failure(str(error)) from None
+
+
+def need_bleak() -> None:
+    """Failure in words where the `ble` extra is not installed."""
+    from importlib.util import find_spec
+
+    for package in ("bleak", "bleak_retry_connector"):
+        if find_spec(package) is None:
+            raise Failure(f"Bluetooth needs {package}: pip install 'solepath[ble]'")
+
+
+@contextmanager
+def stopping() -> Iterator[asyncio.Event]:
+    """An event that Ctrl-C and SIGTERM set instead of ending the program on the spot."""
+    stop = asyncio.Event()
+    loop = asyncio.get_running_loop()
+    with suppress(NotImplementedError):  # Windows: Ctrl-C cancels the main task there
+        for number in (signal.SIGINT, signal.SIGTERM):
+            loop.add_signal_handler(number, stop.set)
+    try:
+        yield stop
+    finally:
+        with suppress(NotImplementedError):
+            for number in (signal.SIGINT, signal.SIGTERM):
+                loop.remove_signal_handler(number)
+
+
+async def until(packets: AsyncIterable[Packet], stop: asyncio.Event, seconds: float | None) -> AsyncIterator[Packet]:
+    """`packets` until `stop`, or for so many seconds. Devices give a packet four times a second at least."""
+    loop = asyncio.get_running_loop()
+    end = None if seconds is None else loop.time() + seconds
+    async for packet in packets:
+        if stop.is_set() or (end is not None and loop.time() >= end):
+            return
+        yield packet
+
+
+def how_long(options: argparse.Namespace) -> float | None:
+    """--duration, or what goes without it."""
+    if options.duration is not None:
+        return float(options.duration)
+    if sys.stdin.isatty() or sys.stdout.isatty():
+        return None
+    note(f"no terminal to end this from: it ends after {UNWATCHED:g} s (--duration says otherwise)")
+    return UNWATCHED
+
+
+@contextmanager
+def shown(monitor: Monitor, title: str) -> Iterator[Callable[[], None]]:
+    """How the session goes: a picture in a terminal that can draw one, else lines now and then."""
+    from importlib.util import find_spec
+
+    if sys.stdout.isatty() and find_spec("rich") is not None:
+        from rich.console import Console
+
+        from ..view.terminal import screen
+
+        with screen(Console()) as drawn:
+            yield lambda: drawn.show(monitor, title)
+        return
+    began: float | None = None
+    due = REPORT_EVERY
+
+    def report() -> None:
+        nonlocal began, due
+        from ..view.status import status
+
+        began = monitor.now if began is None else began
+        if monitor.now - began >= due:
+            due += REPORT_EVERY
+            print("\n".join(f"{monitor.now - began:6.1f} s  {line}" for line in status(monitor)), flush=True)
+
+    yield report
