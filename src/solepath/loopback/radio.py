@@ -152,7 +152,10 @@ class Radio:
             async with self._connecting:
                 attempt = self.task(device.connect(peer, timeout=TURN))
                 try:
-                    return await asyncio.shield(attempt)
+                    link = await asyncio.shield(attempt)
+                    if not stands(link):
+                        raise BleakError(f"the link to {peer.to_string(False)} was lost as soon as it was made")
+                    return link
                 except core.TimeoutError:
                     pass  # nobody answered: the next one's turn
                 except core.BaseBumbleError as error:
@@ -215,8 +218,15 @@ class Radio:
             self._transport = None
 
 
+def stands(link: Connection) -> bool:
+    """Whether it is a link still. One that fails to be established may be over before anybody could listen for it."""
+    return link.device.connections.get(link.handle) is link
+
+
 async def end_link(link: Connection) -> None:
     """Disconnects; returns when both ends know, or when the link is gone anyhow."""
+    if not stands(link):
+        return
     try:
         async with asyncio.timeout(PATIENCE):
             await link.disconnect()
