@@ -1,0 +1,69 @@
+"""Emulated devices on a bench, played without any server and in no time."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from solepath.link.profile import How, Profile
+from solepath.loopback.bench import Bench
+from solepath.loopback.faults import parse_faults
+from solepath.loopback.peripheral import AttError, Outgoing, Peripheral
+from solepath.sim.device import Device
+from solepath.sim.route import Route
+from solepath.sim.walker import Walker
+from solepath.types import Site
+
+ROUTE = Route().stand(2.0).walk(8.0, 1.2).stop(2.0)
+LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
+Heard = list[tuple[float, Outgoing]]
+
+
+def worn(
+    device: Device, site: Site = LEFT, *, faults: str = "", route: Route = ROUTE, began: float = 0.0
+) -> Peripheral:
+    """One device, on the walk that begins at `began`."""
+    return Bench(route, devices={site: device}, seed=3, began=began, faults=parse_faults(faults))[site]
+
+
+@cache
+def walker() -> Walker:
+    """Who walks on these benches."""
+    return Walker(ROUTE, seed=3)
+
+
+def begin(device: Peripheral, *channels: str, now: float = 0.0, mtu: int = 247) -> Peripheral:
+    """Connect and subscribe."""
+    device.connected(now, min(mtu, device.mtu))
+    for channel in channels:
+        device.subscribe(channel, True, now)
+    return device
+
+
+def set_up(device: Peripheral, profile: Profile, now: float = 0.0, mtu: int = 247) -> Peripheral:
+    """Connect, subscribe and write as the profile says."""
+    begin(device, *(c.name for c in profile.channels if c.how is How.NOTIFY), now=now, mtu=mtu)
+    for write in profile.setup:
+        assert device.write(write.channel, write.value, now)
+    return device
+
+
+def played(device: Peripheral, until: float, channel: str = "") -> Heard:
+    """What the device sends until `until`, with the time of each; of one channel where it is named."""
+    heard: Heard = []
+    while (due := device.next_due()) is not None and due <= until:
+        heard += [(due, outgoing) for outgoing in device.poll(due)]
+        if device.hang_up(due):
+            device.disconnected(due)
+    return [(t, outgoing) for t, outgoing in heard if channel in ("", outgoing.channel)]
+
+
+def refusal(device: Peripheral, channel: str, value: bytes | None = None, now: float = 0.0) -> int:
+    """The ATT error code that a write (or, without a value, a read) is answered with; 0 when it is not refused."""
+    try:
+        if value is None:
+            device.read(channel, now)
+        else:
+            device.write(channel, value, now)
+    except AttError as error:
+        return error.code
+    return 0
