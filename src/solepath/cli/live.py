@@ -3,29 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import asyncio
-from collections.abc import AsyncIterable
-from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from .failure import Failure, known_recipe, note
-from .wearing import (
-    LISTENED,
-    add_devices,
-    air,
-    chosen,
-    how_long,
-    need_bleak,
-    run_to_end,
-    shown,
-    stopping,
-    until,
-    wanted,
-)
-
-if TYPE_CHECKING:
-    from ..types import Packet
+from .failure import known_recipe
+from .wearing import add_devices, need_bleak
 
 
 def add_to(commands: Any) -> None:
@@ -61,51 +43,7 @@ def run(options: argparse.Namespace) -> int:
 
     recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
     need_bleak()
-    return run_to_end(_listen(options, recipe))
+    from .listening import listen
+    from .loop import run_to_end
 
-
-async def _listen(options: argparse.Namespace, recipe: Any) -> int:
-    from ..ble import Devices, record, scan
-    from ..monitor import Monitor
-    from ..output import TrackFiles
-    from ..recording import RecordingError
-    from ..session import Session
-    from ..view.summary import summary
-
-    devices = wanted(options)
-    seconds = how_long(options)
-    monitor = Monitor(Session(recipe, poses=True))
-    failure: Failure | None = None
-    with stopping() as stop, ExitStack() as stack:
-        async with air(options.via) as backend:
-            if not devices:
-                print(f"looking for sensors for {LISTENED:g} s ...", flush=True)
-                devices = chosen(await scan(LISTENED, backend=backend))
-            files = stack.enter_context(TrackFiles(options.out)) if options.out else None
-            async with Devices(devices, backend=backend, pair=options.pair) as heard:
-                packets: AsyncIterable[Packet] = until(heard, stop, seconds)
-                if options.record:
-                    packets = record(packets, options.record)
-                title = "Ctrl-C ends" if seconds is None else f"{seconds:g} s"
-                with shown(monitor, title) as report:
-                    try:
-                        async for packet in packets:
-                            for event in monitor.take(packet):
-                                if files is not None:
-                                    files.write(event)
-                            report()
-                    except RecordingError as error:
-                        failure = Failure(str(error))
-                    except asyncio.CancelledError:
-                        note("interrupted")
-        for event in monitor.finish():
-            if files is not None:
-                files.write(event)
-    print(summary(monitor.tally, title=f"recipe {recipe.name}", seconds=0.0))
-    if options.record:
-        print(f"recorded in {options.record}")
-    if options.out:
-        print(f"written to {options.out}")
-    if failure is not None:
-        raise failure
-    return 0
+    return run_to_end(listen(options, recipe))

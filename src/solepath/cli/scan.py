@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from ..recording import printable
+from ..view.table import table
 from .failure import positive
-from .wearing import LISTENED, add_air, air, need_bleak, run_to_end
+from .wearing import LISTENED, add_air, need_bleak
+
+if TYPE_CHECKING:
+    from ..ble import Found
 
 
 def add_to(commands: Any) -> None:
@@ -26,26 +31,24 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     need_bleak()
-    return run_to_end(_scan(options))
-
-
-async def _scan(options: argparse.Namespace) -> int:
     from ..ble import scan
-    from ..recording import printable
-    from ..view.table import table
+    from .loop import air, run_to_end
 
-    async with air(options.via) as backend:
-        found = await scan(options.seconds, backend=backend)
-    rows = [
-        [one.address, "-" if one.profile is None else one.profile.name, f"{one.signal}", printable(one.name, 40) or "-"]
-        for one in found
-        if options.all or one.profile is not None
-    ]
-    if rows:
-        print(table(["address", "kind", "dBm", "name"], rows))
-    strangers = sum(one.profile is None for one in found)
-    if not rows:
+    async def heard() -> list[Found]:
+        async with air(options.via) as backend:
+            return await scan(options.seconds, backend=backend)
+
+    found = run_to_end(heard())
+    known = [one for one in found if one.profile is not None]
+    if shown := found if options.all else known:
+        print(table(["address", "kind", "dBm", "name"], [_row(one) for one in shown]))
+    else:
         print("no sensor is heard: switch it on, bring it near, and see that no other program or phone holds it")
-    if strangers and not options.all:
-        print(f"{strangers} of other kinds (--all shows them)")
+    if not options.all and len(known) < len(found):
+        print(f"{len(found) - len(known)} of other kinds (--all shows them)")
     return 0
+
+
+def _row(one: Found) -> list[str]:
+    kind = "-" if one.profile is None else one.profile.name
+    return [one.address, kind, str(one.signal), printable(one.name, 40) or "-"]

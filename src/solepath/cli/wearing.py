@@ -1,23 +1,18 @@
-"""What the commands that listen to devices have in common: which devices, through which Bluetooth, and until when."""
+"""What the commands that listen to devices have in common: which devices, and until when."""
 
 from __future__ import annotations
 
 import argparse
-import asyncio
-import signal
 import sys
-from collections.abc import AsyncIterable, AsyncIterator, Callable, Coroutine, Iterator
-from contextlib import asynccontextmanager, contextmanager, suppress
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
 from .failure import Failure, note, positive
 
 if TYPE_CHECKING:
-    from ..ble import Backend, Found, Wanted
+    from ..ble import Found, Wanted
     from ..monitor import Monitor
-    from ..types import Packet
-
-_T = TypeVar("_T")
 
 LISTENED = 4.0
 """s for which devices are looked for when none was named."""
@@ -94,37 +89,6 @@ def chosen(found: list[Found]) -> list[Wanted]:
     raise Failure(f"{len(known)} devices are heard, {heard}: say which is where with --left and --right")
 
 
-@asynccontextmanager
-async def air(via: str | None) -> AsyncIterator[Backend]:
-    """The Bluetooth of `--via`. Failure when it cannot be reached."""
-    from ..ble import NATIVE
-
-    if via is None:
-        yield NATIVE
-        return
-    from bleak.exc import BleakError
-
-    try:
-        from ..loopback.tcp import reach
-    except ModuleNotFoundError as error:
-        raise Failure(f"--via needs {error.name}: pip install 'solepath[loopback]'") from None
-    try:
-        async with reach(via) as backend:
-            yield backend
-    except (BleakError, ValueError) as error:
-        raise Failure(f"--via {via}: {error}") from None
-
-
-def run_to_end(main: Coroutine[Any, Any, _T]) -> _T:
-    """asyncio.run, with the errors of Bluetooth as a Failure."""
-    from ..ble import BluetoothError
-
-    try:
-        return asyncio.run(main)
-    except BluetoothError as error:
-        raise Failure(str(error)) from None
-
-
 def need_bleak() -> None:
     """Failure in words where the `ble` extra is not installed."""
     from importlib.util import find_spec
@@ -132,32 +96,6 @@ def need_bleak() -> None:
     for package in ("bleak", "bleak_retry_connector"):
         if find_spec(package) is None:
             raise Failure(f"Bluetooth needs {package}: pip install 'solepath[ble]'")
-
-
-@contextmanager
-def stopping() -> Iterator[asyncio.Event]:
-    """An event that Ctrl-C and SIGTERM set instead of ending the program on the spot."""
-    stop = asyncio.Event()
-    loop = asyncio.get_running_loop()
-    with suppress(NotImplementedError):  # Windows: Ctrl-C cancels the main task there
-        for number in (signal.SIGINT, signal.SIGTERM):
-            loop.add_signal_handler(number, stop.set)
-    try:
-        yield stop
-    finally:
-        with suppress(NotImplementedError):
-            for number in (signal.SIGINT, signal.SIGTERM):
-                loop.remove_signal_handler(number)
-
-
-async def until(packets: AsyncIterable[Packet], stop: asyncio.Event, seconds: float | None) -> AsyncIterator[Packet]:
-    """`packets` until `stop`, or for so many seconds. Devices give a packet four times a second at least."""
-    loop = asyncio.get_running_loop()
-    end = None if seconds is None else loop.time() + seconds
-    async for packet in packets:
-        if stop.is_set() or (end is not None and loop.time() >= end):
-            return
-        yield packet
 
 
 def how_long(options: argparse.Namespace) -> float | None:
