@@ -1,0 +1,14 @@
+"""Import of btsnoop logs, such as an Android phone's HCI snoop log: what a phone heard of insoles and SensorTags.
+
+    log = open_btsnoop("btsnoop_hci.log", sites={"F0:12:34:56:78:9A": Site.LEFT_FOOT})
+    with PacketWriter("walk.jsonl", **log.header) as writer:
+        for packet in log:
+            writer.write(packet)
+
+records.py: the file; hci.py: connections and L2CAP; att.py: attributes; values.py, evidence.py, log.py: what is what.
+"""
+
+from .log import BtsnoopLog, Device, open_btsnoop
+from .records import is_btsnoop
+
+__all__ = ["BtsnoopLog", "Device", "is_btsnoop", "open_btsnoop"]

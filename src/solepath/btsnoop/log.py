@@ -1,0 +1,196 @@
+"""A btsnoop log as a recording of packets: every value that is a channel of a known device, at the site it was worn.
+
+The log is read twice: once to find out what is what, which may be said late in it or not at all, and once for the
+packets, so that an hour of a phone's log need not fit into memory.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from typing import Any
+
+from attrs import define, field
+
+from ..link.known import PROFILES
+from ..link.profile import Profile
+from ..recording import RecordingError, Report, printable, warn
+from ..types import SITE_OF_FOOT, Packet, Site
+from ..wire.receiver import Connection, build_connected
+from .evidence import Evidence
+from .hci import Begun, Ended
+from .values import Listener, Value
+
+Handles = Mapping[tuple[str, int], str]
+"""(device, or "" for any; attribute handle) -> channel."""
+
+CHANNELS = frozenset(channel.name for profile in PROFILES for channel in profile.channels)
+
+
+@define
+class Device:
+    """One device of a log. `address`: or what else tells it from others. `profile`: None when its discovery is not in
+    the log, or it is of no use here. `channels`: attribute handle -> channel."""
+
+    address: str
+    site: Site | None = None
+    profile: Profile | None = None
+    channels: dict[int, str] = field(factory=dict)
+    seen: dict[int, Evidence] = field(factory=dict)
+    """Attribute handle -> what its values are like."""
+
+    @property
+    def count(self) -> int:
+        """Notified values that are a channel's."""
+        return sum(evidence.count for handle, evidence in self.seen.items() if handle in self.channels)
+
+
+@define
+class BtsnoopLog:
+    """What a btsnoop log holds for us. Iterating gives its packets in order of arrival.
+
+    `began`: us since 1970 of the first record, which is `t` = 0 s of the packets. `total`, `done`: bytes. Iterating
+    raises RecordingError where the log is damaged, after everything before that.
+    """
+
+    path: Path
+    devices: dict[str, Device]
+    began: int
+    total: int
+    done: int = 0
+
+    @property
+    def header(self) -> dict[str, Any]:
+        """For the recording: what o'clock it was, where the logger's clock said so."""
+        try:
+            moment = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=self.began)
+        except OverflowError:
+            return {"source": "btsnoop"}
+        return {"began": moment.isoformat().replace("+00:00", "Z"), "began_t": 0.0, "source": "btsnoop"}
+
+    def __iter__(self) -> Iterator[Packet]:
+        for item in Listener(self.path, _silent).listen(self._read):
+            match item:
+                case Value():
+                    device, data = self.devices.get(item.device), item.data
+                    channel = None if device is None else device.channels.get(item.attribute)
+                case Begun():
+                    # the log does not say how the host heard of it, so neither name nor signal
+                    channel, data = "receiver/connected", build_connected(Connection("", None))
+                    device = self.devices.get(item.link.peer)
+                case Ended():
+                    channel, data = "receiver/disconnected", b""
+                    device = self.devices.get(item.link.peer)
+            if device is not None and device.site is not None and channel is not None:
+                yield Packet((item.t - self.began) / 1e6, device.site, channel, data, device.address)
+
+    def _read(self, done: int) -> None:
+        self.done = done
+
+
+def _silent(sentence: str) -> None:
+    """It was reported when the log was read first."""
+
+
+def open_btsnoop(
+    path: Path | str, *, sites: Mapping[str, Site] | None = None, handles: Handles | None = None, report: Report = warn
+) -> BtsnoopLog:
+    """Find out what a btsnoop log holds.
+
+    `sites`: where each device was worn, by address; insoles say themselves which foot they are of. `handles`: what
+    attributes are whose discovery the log does not hold, because the host knew them from earlier. `report` gets one
+    sentence about each thing that is left out. RecordingError for what is no btsnoop log, or holds no packets that can
+    be placed; ValueError for a channel that no device has.
+    """
+    path = Path(path)
+    handles = {(_upper(device), handle): channel for (device, handle), channel in (handles or {}).items()}
+    for channel in handles.values():
+        if channel not in CHANNELS:
+            raise ValueError(f"no device has a channel {channel!r}")
+    places = {_upper(device): site for device, site in (sites or {}).items()}
+    name = printable(str(path))
+    listener, devices, began = Listener(path, report), dict[str, Device](), None
+    damage: RecordingError | None = None
+    try:
+        for item in listener.listen():
+            began = item.t if began is None else began
+            if isinstance(item, Value):
+                device = devices.setdefault(item.device, Device(item.device))
+                device.seen.setdefault(item.attribute, Evidence()).see(item.how, item.data)
+    except RecordingError as error:
+        damage = error  # told once more by the iteration, after the packets before it
+    for device in devices.values():
+        _name(device, listener.types.get(device.address, {}), handles)
+        _place(device, places)
+    left_out = [f"{count} {what}" for what, count in listener.flaws.items()]
+    left_out += _left_out(list(devices.values()), listener.types)
+    if not any(device.site is not None and device.count for device in devices.values()):
+        if damage is not None:
+            raise damage
+        raise RecordingError(path, "; ".join(["holds no packets of a device whose place is known", *left_out]))
+    strangers = [address for address in places if address not in map(_upper, devices)]
+    if strangers:
+        there = ", ".join(device.address or "the host itself" for device in devices.values())
+        raise RecordingError(path, f"holds no device {strangers[0]}; there are {there}")
+    for sentence in left_out:
+        report(f"{name}: {sentence}")
+    return BtsnoopLog(path, devices, began or 0, path.stat().st_size)
+
+
+def _upper(address: str) -> str:
+    return address.upper()
+
+
+def _name(device: Device, types: Mapping[int, str], handles: Handles) -> None:
+    """Which of its attributes are channels: by what the caller says, by discovery, by proof."""
+    device.profile = _profile(set(types.values()))
+    names = {} if device.profile is None else {c.characteristic: c.name for c in device.profile.channels}
+    for handle, evidence in device.seen.items():
+        said = handles.get((_upper(device.address), handle), handles.get(("", handle)))
+        channel = said or (names.get(types[handle]) if handle in types else evidence.channel)
+        if channel is not None:
+            device.channels[handle] = channel
+
+
+def _profile(uuids: set[str]) -> Profile | None:
+    """The device that has most of these characteristics, and at least one that streams; the first of equals."""
+    best, most = None, 0
+    for profile in PROFILES:
+        matches = sum(channel.characteristic in uuids for channel in profile.channels)
+        if matches > most and any(profile.channel(name).characteristic in uuids for name in profile.streams):
+            best, most = profile, matches
+    return best
+
+
+def _place(device: Device, places: Mapping[str, Site]) -> None:
+    device.site = places.get(_upper(device.address))
+    for handle, channel in device.channels.items():
+        foot = device.seen[handle].foot if channel in ("insole/frame", "insole/info") else None
+        if device.site is None and foot is not None:
+            device.site = SITE_OF_FOOT[foot]
+
+
+def _left_out(devices: list[Device], types: Mapping[str, Mapping[int, str]]) -> Iterator[str]:
+    """One sentence about each thing that does not become packets, and about what a session will not take."""
+    others = 0
+    for device in devices:
+        known = types.get(device.address, {})
+        address = device.address or "the host itself"
+        for handle, evidence in device.seen.items():
+            if evidence.count and handle not in device.channels and handle not in known:
+                lengths = ", ".join(map(str, sorted(evidence.lengths)[:4]))
+                yield (
+                    f"{evidence.count} values ({lengths} bytes) of attribute {handle:#06x} of {address} are left out: "
+                    "the log does not say what they are"
+                )
+        if device.site is None and device.count:
+            kind = "a device" if device.profile is None else f"a {device.profile.name}"
+            yield f"{device.count} values of {address}, {kind}, are left out: nobody says where it was worn"
+        others += not device.channels and any(handle in known for handle in device.seen)
+    if others:
+        yield f"{others} other {'device is' if others == 1 else 'devices are'} left out"
+    for site in Site:
+        there = [device.address for device in devices if device.site is site and device.count]
+        if len(there) > 1:
+            yield f"{' and '.join(there)} are both at the {site.value}; a session listens to the first alone"
