@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import gc
+import subprocess
+import sys
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
+from pathlib import Path
 from typing import Any
 
 import looptime
@@ -18,7 +21,8 @@ from bumble.device import Connection
 
 from solepath.ble.backend import Backend
 from solepath.loopback.faults import parse_faults
-from solepath.loopback.server import advertisement, virtual_air
+from solepath.loopback.gatt import advertisement
+from solepath.loopback.server import virtual_air
 from strap import BATTERY, BEAT, BOOK, CONTROL, HEART_RATE, LEVEL, LOG, PAGE, Strap, standard
 
 ONE, TWO = "F0:00:00:00:00:01", "F0:00:00:00:00:02"
@@ -410,6 +414,27 @@ def test_links_come_and_go_without_a_word_in_the_log(caplog: pytest.LogCaptureFi
 
     run(main)
     assert not [record for record in caplog.records if record.levelname != "DEBUG"]
+
+
+PROGRAM = """
+import asyncio, logging
+from bleak import BleakClient, BleakScanner
+from solepath.loopback.server import virtual_air
+from strap import Strap
+
+async def main():
+    async with virtual_air([Strap("one", "F0:00:00:00:00:01")]) as backend:
+        device = await BleakScanner.find_device_by_name("one", 5.0, backend=backend.scanner)
+        async with BleakClient(device, backend=backend.client) as client:
+            print(len(list(client.services)), logging.getLogger().handlers)
+
+asyncio.run(main())
+"""
+
+
+def test_a_programs_logging_is_left_alone() -> None:
+    done = subprocess.run([sys.executable, "-c", PROGRAM], cwd=Path(__file__).parent, capture_output=True, text=True)
+    assert (done.stdout, done.stderr) == ("4 []\n", "")
 
 
 def test_an_error_of_the_apps_callback_is_reported_and_the_next_notification_comes() -> None:

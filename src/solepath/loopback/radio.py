@@ -118,7 +118,11 @@ class Radio:
         device = await self.device()
         self._listeners.append(listener)
         if len(self._listeners) == 1:
-            await self._scan(device, True)
+            try:
+                await self._scan(device, True)
+            except BaseException:
+                self._listeners.remove(listener)
+                raise
 
     async def ignore(self, listener: Listener) -> None:
         """Undoes listen."""
@@ -183,8 +187,13 @@ class Radio:
         """Work that must be ended when the radio closes."""
         task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
+        task.add_done_callback(self._done)
         return task
+
+    def _done(self, task: asyncio.Task[Any]) -> None:
+        self._tasks.discard(task)
+        if not task.cancelled():
+            task.exception()  # whoever waited for it has it; when nobody does any more it matters to nobody
 
     async def finish(self, work: Coroutine[Any, Any, _T]) -> _T:
         """Runs an exchange with the controller or a device to its end even when the caller gives up: a request that is

@@ -6,30 +6,22 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Callable, Iterable, Sequence
+from collections.abc import AsyncIterator, Callable, Iterable
 from contextlib import asynccontextmanager
 from functools import partial
 from typing import TypeVar
 
 from attrs import define, field
-from bumble import att, core, data_types, hci
-from bumble.core import AdvertisingData
+from bumble import att, hci
 from bumble.device import Connection, Device, DeviceConfiguration
-from bumble.gatt import (
-    GATT_CHARACTERISTIC_USER_DESCRIPTION_DESCRIPTOR,
-    Characteristic,
-    CharacteristicValue,
-    Descriptor,
-    Service,
-)
+from bumble.gatt import Characteristic
 from bumble.host import Host
 from bumble.transport.common import AsyncPipeSink, Transport
 
 from ..ble.backend import Backend
-from . import peripheral as emulated
-from .advertisement import ADVERTISEMENT
 from .central import backend_of
 from .controller import Link, VirtualController
+from .gatt import advertisement, furnish
 from .peripheral import AttError, Peripheral
 from .radio import Radio, end_link
 
@@ -37,9 +29,6 @@ _T = TypeVar("_T")
 
 ADVERTISING = 62.5
 """ms between advertisements: bumble's controller reads the 0.625 ms units of HCI as milliseconds, so it is 100 ms."""
-_SIG = "-0000-1000-8000-00805f9b34fb"
-_STANDARD = ("00001800", "00001801", "0000180a", "0000180f")
-"""Services that the Bluetooth SIG describes: their characteristics need no description."""
 _CENTRAL = "C0:50:1E:9A:74:01"
 
 
@@ -77,66 +66,13 @@ async def on_air(peripherals: Iterable[Peripheral], link: Link) -> AsyncIterator
             await server.stop()
 
 
-def short_or_long(uuid: str) -> core.UUID:
-    """16 bits where the UUID is one of the Bluetooth SIG's."""
-    if uuid.startswith("0000") and uuid.endswith(_SIG):
-        return core.UUID.from_16_bits(int(uuid[4:8], 16))
-    return core.UUID(uuid)
-
-
-def advertisement(name: str, services: Sequence[str]) -> bytes:
-    """31 bytes at most: services, name, and flags if there is room (they may be left out: Core supplement, A 1.3)."""
-    uuids = [short_or_long(uuid) for uuid in services]
-    short = [uuid for uuid in uuids if len(uuid.to_pdu_bytes()) == 2]
-    long = [uuid for uuid in uuids if len(uuid.to_pdu_bytes()) == 16]
-    said: list[core.DataType] = []
-    if short:
-        said.append(data_types.IncompleteListOf16BitServiceUUIDs(short))
-    if long:
-        said.append(data_types.IncompleteListOf128BitServiceUUIDs(long))
-    said.append(data_types.CompleteLocalName(name))
-    flags = AdvertisingData.Flags.LE_GENERAL_DISCOVERABLE_MODE | AdvertisingData.Flags.BR_EDR_NOT_SUPPORTED
-    full = bytes(AdvertisingData([data_types.Flags(flags), *said]))
-    return full if len(full) <= ADVERTISEMENT else bytes(AdvertisingData(said))
-
-
-def _attributes(device: Peripheral, server: Server) -> list[Service]:
-    return [
-        Service(
-            short_or_long(service.uuid), [_characteristic(each, service, server) for each in service.characteristics]
-        )
-        for service in device.services
-    ]
-
-
-def _characteristic(said: emulated.Characteristic, service: emulated.Service, server: Server) -> Characteristic[bytes]:
-    properties = Characteristic.Properties(0)
-    for name in said.properties:
-        properties |= Characteristic.Properties[name.upper().replace("-", "_")]
-    described = []
-    if not service.uuid.startswith(_STANDARD):
-        described.append(
-            Descriptor(GATT_CHARACTERISTIC_USER_DESCRIPTION_DESCRIPTOR, att.Attribute.READABLE, said.channel.encode())
-        )
-    served: Characteristic[bytes] = Characteristic(
-        short_or_long(said.uuid),
-        properties,
-        att.Attribute.READABLE | att.Attribute.WRITEABLE,  # the device itself says what is not permitted
-        CharacteristicValue(read=partial(server.read, said.channel), write=partial(server.write, said.channel)),
-        described,
-    )
-    served.on(Characteristic.EVENT_SUBSCRIPTION, partial(server.subscribe, said.channel))
-    server.served[said.channel] = served
-    return served
-
-
 @define(eq=False)
 class Server:
     """Serves one Peripheral: asks it at the times it names, and obeys it."""
 
     peripheral: Peripheral
     air: Link
-    served: dict[str, Characteristic[bytes]] = field(factory=dict, init=False)
+    _served: dict[str, Characteristic[bytes]] = field(init=False)
     _controller: VirtualController = field(init=False)
     _device: Device = field(init=False)
     _loop: asyncio.AbstractEventLoop = field(factory=asyncio.get_running_loop, init=False)
@@ -149,9 +85,14 @@ class Server:
 
     def __attrs_post_init__(self) -> None:
         self._controller = VirtualController(self.peripheral.name, self.air, self._advertisement)
-        config = DeviceConfiguration(name=self.peripheral.name, address=hci.Address(self.peripheral.address))
+        config = DeviceConfiguration(
+            name=self.peripheral.name,
+            address=hci.Address(self.peripheral.address),
+            gap_service_enabled=False,
+            gatt_service_enabled=False,
+        )
         self._device = Device(config=config, host=Host(self._controller, AsyncPipeSink(self._controller)))
-        self._device.add_services(_attributes(self.peripheral, self))
+        self._served = furnish(self._device, self.peripheral, self)
         self._device.on(Device.EVENT_CONNECTION, self._connected)
 
     async def start(self) -> None:
@@ -212,7 +153,7 @@ class Server:
         if not self._stopped:
             self._restart = self._loop.create_task(self._advertise())
 
-    # requests; the channel comes first because it is bound when the characteristic is made
+    # requests (gatt.Answers)
 
     async def read(self, channel: str, link: Connection) -> bytes:
         value = self._ask(partial(self.peripheral.read, channel))
@@ -263,7 +204,7 @@ class Server:
             return
         now = max(self._loop.time(), self._due)  # a timer may fire a clock's resolution early
         for outgoing in self.peripheral.poll(now):
-            self._notify(link, self.served[outgoing.channel], outgoing.value)
+            self._notify(link, self._served[outgoing.channel], outgoing.value)
         if self.peripheral.hang_up(now):
             self._lose()
         else:
