@@ -1,0 +1,142 @@
+"""What Bluetooth adds: `python tests/bench/bluetooth.py`.
+
+Prints the adapter's own work for a packet (on the in-memory tier, against plain bleak on the same), and how long it
+takes from a notification to its events, in real time, on both tiers.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+from pathlib import Path
+from statistics import median, quantiles
+from time import perf_counter, process_time
+
+import looptime
+from bleak import BleakClient, BleakScanner
+
+sys.path.insert(0, str(Path(__file__).parent.parent))
+
+from airs import TIERS, memory  # noqa: E402
+from solepath import FootMoved, Session  # noqa: E402
+from solepath.ble import Devices, Wanted  # noqa: E402
+from solepath.link.profile import INSOLE  # noqa: E402
+from solepath.loopback.bench import Bench  # noqa: E402
+from solepath.sim.route import Route  # noqa: E402
+
+WALK = Route().stand(2.0).walk(20.0).stop(2.0)
+VIRTUAL = 30.0
+"""s of the loop's time for counting work."""
+REAL = 10.0
+"""s of real time for latency."""
+ROUNDS = 5
+
+
+def bench() -> Bench:
+    made = Bench(WALK)
+    made.prepare()
+    return made
+
+
+async def plain(made: Bench) -> tuple[float, int]:
+    """CPU seconds and notifications of plain bleak with a callback that only counts."""
+    count = 0
+
+    def heard(_: object, data: bytearray) -> None:
+        nonlocal count
+        count += 1
+
+    async with memory(made) as backend:
+        found = await BleakScanner.discover(1.0, backend=backend.scanner)
+        clients = [BleakClient(device, backend=backend.client) for device in found]
+        for client in clients:
+            await client.connect()
+            await client.start_notify(INSOLE.channel("insole/frame").characteristic, heard)
+            await client.write_gatt_char(INSOLE.channel("insole/control").characteristic, b"\x01", response=True)
+        count, began = 0, process_time()
+        await asyncio.sleep(VIRTUAL)
+        spent = process_time() - began
+        for client in clients:
+            await client.disconnect()
+    return spent, count
+
+
+async def adapted(made: Bench) -> tuple[float, int]:
+    """The same of Devices, every packet taken."""
+    async with (
+        memory(made) as backend,
+        Devices([Wanted(None, profile=INSOLE), Wanted(None, profile=INSOLE)], backend=backend) as devices,
+    ):
+        loop = asyncio.get_running_loop()
+        count, began, until = 0, 0.0, float("inf")
+        async for packet in devices:
+            if not began and packet.channel == "insole/frame":
+                began, until = process_time(), loop.time() + VIRTUAL
+            if packet.t >= until:
+                break
+            count += packet.channel == "insole/frame"
+        return process_time() - began, count
+
+
+async def delays(tier: str) -> tuple[list[float], list[float]]:
+    """s from a frame's being handed to the link until it was stamped, and from then until its events were there."""
+    made = bench()
+    session = Session(poses=True)
+    on_the_way, worked = [], []
+    loop = asyncio.get_running_loop()
+    async with (
+        TIERS[tier](made) as backend,
+        Devices([Wanted(None, profile=INSOLE), Wanted(None, profile=INSOLE)], backend=backend) as devices,
+    ):
+        made.began = loop.time() + 1.0
+        end = made.began + REAL
+        sent = {peripheral.site: 0.0 for peripheral in made.peripherals}
+        for peripheral in made.peripherals:
+            poll = peripheral.poll
+
+            def polled(now: float, peripheral=peripheral, poll=poll):  # type: ignore[no-untyped-def]
+                sent[peripheral.site] = loop.time()
+                return poll(now)
+
+            peripheral.poll = polled  # type: ignore[method-assign]
+        async for packet in devices:
+            moved = any([isinstance(event, FootMoved) for event in session.feed(packet)])
+            done = loop.time()
+            if moved and packet.t > made.began:
+                on_the_way.append(packet.t - sent[packet.site])
+                worked.append(done - packet.t)
+            if packet.t > end:
+                break
+    return on_the_way, worked
+
+
+def told(values: list[float]) -> str:
+    return f"median {1e3 * median(values):5.2f} ms, p99 {1e3 * quantiles(values, n=100)[98]:5.2f} ms"
+
+
+def main() -> None:
+    each: dict[str, list[float]] = {"plain": [], "adapted": []}
+    for _ in range(ROUNDS):
+        for name, run in (("plain", plain), ("adapted", adapted)):
+            with asyncio.Runner(loop_factory=looptime.new_event_loop) as runner:
+                spent, count = runner.run(run(bench()))
+            each[name].append(1e6 * spent / count)
+    bare, whole = median(each["plain"]), median(each["adapted"])
+    print(f"Python {sys.version.split()[0]}; medians of {ROUNDS}; two insoles of 96 cells at 100 Hz, in memory\n")
+    print(f"plain bleak, the emulated devices included   {bare:6.1f} us a notification")
+    print(f"the same through Devices                     {whole:6.1f} us")
+    print(f"the adapter's own                            {whole - bare:6.1f} us\n")
+    for tier in TIERS:
+        began = perf_counter()
+        on_the_way, worked = asyncio.run(delays(tier))
+        if perf_counter() - began < REAL:
+            raise SystemExit(f"{tier}: the devices fell silent")
+        print(f"{tier}: from the device to the stamp   {told(on_the_way)}")
+        print(f"{tier}: from the stamp to the events   {told(worked)}")
+        print(
+            f"{tier}: from notification to event     {told([a + b for a, b in zip(on_the_way, worked, strict=True)])}"
+        )
+
+
+if __name__ == "__main__":
+    main()
