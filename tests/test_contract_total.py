@@ -25,7 +25,7 @@ from solepath import (
     StepTaken,
 )
 from solepath.link.decoder import SET_BACK
-from solepath.link.profile import PROFILES
+from solepath.link.known import PROFILES
 from walks import LEFT, PACKET_NAMES, RIGHT, SAMPLE_NAMES, insoles, machines, of, samples
 
 CHANNELS = sorted({channel.name for profile in PROFILES for channel in profile.channels})

@@ -28,7 +28,7 @@ from solepath.events import (
 )
 from solepath.link.cc2541 import counts_per_g
 from solepath.link.decoder import SET_BACK, Decoder
-from solepath.link.profile import PROFILES
+from solepath.link.known import PROFILES
 from solepath.types import Cell, Foot, Packet, Sample, Site
 from solepath.vector import GRAVITY
 from solepath.wire import cc2541, cc2650

@@ -8,7 +8,9 @@ from pathlib import Path
 import pytest
 
 from solepath.link.decoder import Decoder
-from solepath.link.profile import BY_NAME, CC2541, CC2541_20HZ, CC2650, INSOLE, PROFILES, How, Profile, Write
+from solepath.link.devices import dot, orphe, thingy
+from solepath.link.known import BY_NAME, PROFILES
+from solepath.link.profile import CC2541, CC2541_20HZ, CC2650, INSOLE, How, Profile, Write
 from solepath.types import Packet, Site
 from solepath.wire.cc2541 import (
     AccelerometerConfig,
@@ -43,8 +45,10 @@ def documented_channels() -> dict[str, str]:
     """Channel name -> short number of its characteristic, from protocol/README.md."""
     found: dict[str, str] = {}
     for names, characteristics, *_ in table("README.md", "channel"):
-        whole, *suffixes = re.findall(r"`([^`]+)`", names)
-        channels = [whole] + [whole + suffix for suffix in suffixes]
+        if characteristics == "none":
+            continue  # of the receiver itself
+        whole, *others = re.findall(r"`([^`]+)`", names)
+        channels = [whole] + [other if "/" in other else whole + other for other in others]
         numbers = re.findall(r"\b([0-9A-F]{4})\b", characteristics)
         assert len(channels) == len(numbers), names
         found.update(zip(channels, numbers, strict=True))
@@ -94,9 +98,27 @@ def test_sensortag_sensors_sit_where_the_tables_say(profile: Profile, document: 
 
 
 def test_advertised_names_are_in_the_documents() -> None:
-    for profile, document in ((CC2650, "cc2650.md"), (CC2541, "cc2541.md")):
-        text = (PROTOCOL / document).read_text()
-        assert profile.names and all(f'"{name}"' in text for name in profile.names)
+    for profile in PROFILES:
+        text = (PROTOCOL / f"{profile.name.removesuffix('-20hz')}.md").read_text()
+        assert profile is INSOLE or profile.names or profile.prefixes
+        assert all(f'"{name}"' in text for name in profile.names)
+        assert all(f"begins with `{prefix}`" in text for prefix in profile.prefixes)
+
+
+@pytest.mark.parametrize("profile", [orphe.PROFILE, dot.PROFILE, thingy.PROFILE], ids=lambda profile: profile.name)
+def test_a_declared_device_has_the_uuids_of_its_document(profile: Profile) -> None:
+    text = (PROTOCOL / f"{profile.name}.md").read_text()
+    base = re.search(r"`([0-9a-f]{4})xxxx(-[0-9a-f-]{27})`", text)
+    rows = {row[0].strip("`"): row[1:] for row in table(f"{profile.name}.md", "channel")}
+    assert set(rows) == {channel.name for channel in profile.channels}
+    for channel in profile.channels:
+        for uuid, said in zip((channel.service, channel.characteristic), rows[channel.name], strict=False):
+            if len(said) == 36:
+                assert uuid == said
+            else:
+                assert short(uuid) == said
+                assert channel.name.startswith("device/") or uuid == f"{base[1]}{said}{base[2]}".lower()
+        assert channel.how.value in rows[channel.name][2]
 
 
 @pytest.mark.parametrize("profile", PROFILES, ids=lambda profile: profile.name)
@@ -107,7 +129,7 @@ def test_a_profile_refers_only_to_its_own_channels_and_uses_them_as_they_can_be_
     assert all(profile.channel(name).how in (How.READ, How.NOTIFY) for name in profile.reads)
     assert all(profile.channel(name).how is How.NOTIFY for name in profile.streams)
     uuids = [(channel.service, channel.characteristic) for channel in profile.channels]
-    assert len(set(uuids)) == len(uuids)
+    assert len({(*pair, channel.how) for pair, channel in zip(uuids, profile.channels, strict=True)}) == len(uuids)
     assert all(len(uuid) == 36 and uuid == uuid.lower() for pair in uuids for uuid in pair)
     assert BY_NAME[profile.name] is profile
     with pytest.raises(KeyError):
@@ -116,7 +138,8 @@ def test_a_profile_refers_only_to_its_own_channels_and_uses_them_as_they_can_be_
 
 @pytest.mark.parametrize(
     ("profile", "document"),
-    [(INSOLE, "insole.md"), (CC2650, "cc2650.md"), (CC2541, "cc2541.md"), (CC2541_20HZ, "cc2541.md")],
+    [(profile, f"{profile.name.removesuffix('-20hz')}.md") for profile in PROFILES],
+    ids=[profile.name for profile in PROFILES],
 )
 def test_setup_is_the_table_of_the_document_write_for_write(profile: Profile, document: str) -> None:
     documented = []

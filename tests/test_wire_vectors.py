@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +13,15 @@ from attrs import frozen
 
 from solepath import machine
 from solepath.events import Rejection
-from solepath.link.profile import PROFILES
+from solepath.link.devices import DECLARED
+from solepath.link.driver import Driver
+from solepath.link.known import PROFILES
+from solepath.link.vectors import disagreements, plain
 from solepath.types import Cell, Foot
 from solepath.wire import cc2541, cc2650, device, fragment, insole, insole_control, insole_info, period, receiver
 from solepath.wire.envelope import crc16
 from solepath.wire.error import WireError
+from solepath.wire.fields import build_whole, parse_whole
 
 VECTORS = Path(__file__).parent.parent / "protocol" / "vectors"
 
@@ -113,6 +118,12 @@ FORMATS = {
     "sensortag-period": single("period", period.parse_period, period.build_period),
 }
 
+DECLARED_FORMATS = {channel.replace("/", "-"): (d, d.formats[channel]) for d in DECLARED for channel in d.formats}
+FORMATS |= {
+    name: Format(partial(parse_whole, one), partial(build_whole, one), plain, lambda fields: fields)
+    for name, (_, one) in DECLARED_FORMATS.items()
+}
+
 FILES = {path.stem: json.loads(path.read_text("utf-8")) for path in sorted(VECTORS.glob("*.json"))}
 
 
@@ -171,6 +182,17 @@ def test_left_and_right_keys_are_the_other_way_round_on_the_older_tag() -> None:
     assert cc2541.parse_keys(b"\x07").down == ("left", "right", "side")
 
 
+@pytest.mark.parametrize("name", DECLARED_FORMATS)
+def test_a_declared_device_means_what_its_vectors_say(name: str) -> None:
+    driver: Driver = DECLARED_FORMATS[name][0]
+    assert disagreements(driver, FILES[name]) == []
+    changed = json.loads(json.dumps(FILES[name]))
+    for vector in changed["vectors"]:
+        vector["hex"] += "00"
+    told = disagreements(driver, changed)
+    assert len({what.partition(":")[0] for what in told}) >= 3, "it agrees with everything"
+
+
 @pytest.mark.parametrize("name", FORMATS)
 def test_a_vector_file_keeps_to_its_schema(name: str) -> None:
     file = FILES[name]
@@ -192,7 +214,8 @@ def test_every_channel_has_a_vector_file() -> None:
     others = {name for name in channels if not name.endswith("-period")}
     devices = {file["channel"] for file in FILES.values() if not file["channel"].startswith("receiver/")}
     assert devices - {"cc2650/movement-period"} == others
-    assert {name.replace("/", "-") for name in others} | {"sensortag-period", "insole-fragment"} == set(FILES)
+    files = {name for name in FILES if not name.startswith("receiver-")}
+    assert {name.replace("/", "-") for name in others} | {"sensortag-period", "insole-fragment"} == files
 
 
 def test_the_crc_is_ccitt_false() -> None:

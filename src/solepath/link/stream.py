@@ -39,10 +39,12 @@ APART = 1.0
 """Seconds without samples after which air pressure no longer waits for one to ride on."""
 LARGEST = 1e7
 """Nothing that a sensor of a foot measures is more, in SI units."""
+PARTS = 100
+"""Ticks that a counted sample is worth: a pause is no whole number of samples."""
 PAUSE = 0.25
 """Seconds (and a tenth of the time) by which a device's coarse time is ahead of its count when it has paused."""
-AGREE = 2.0
-"""Seconds within which that time must agree with the arrivals; else somebody has set it."""
+BEHIND, AHEAD = 2.0, 0.25
+"""Seconds by which that time may be behind the arrivals, or ahead; else somebody has set it."""
 SILENCE, LATE, LATE_AT_ONCE = 5.0, 2.5, 0.5
 """Seconds without packets after which counting may have stood still; how late the packet after them is then; the same
 right after a new connection, which delivers nothing of before."""
@@ -178,7 +180,7 @@ class StreamLink:
             self._change(rate)
             taken, times = self._by_arrival(count, rate, arrival)
         else:
-            tick_rate = driver.tick_rate if axis is Axis.TICKS else rate
+            tick_rate = driver.tick_rate if axis is Axis.TICKS else rate * PARTS
             counted = (self._by_ticks if axis is Axis.TICKS else self._by_count)(driver, reading, rate, arrival)
             taken = self.run.take(
                 counted, tick_rate, arrival, axis is Axis.COUNT and self._stood_still(driver, arrival)
@@ -216,7 +218,7 @@ class StreamLink:
         return Counted(0, reading.ticks, interval, count, m, m, e)
 
     def _by_count(self, driver: Driver, reading: Reading, rate: float, arrival: float) -> Counted:
-        """Samples are the ticks, and the place of a packet is that of its number nearest to what time says."""
+        """Samples make the ticks, and the place of a packet is that of its number nearest to what time says."""
         run, count = self.run, len(reading.samples)
         if reading.sequence is None:
             raise malformed("no sequence number, which this device has")
@@ -224,12 +226,13 @@ class StreamLink:
         told: float | None = None
         if driver.tick_modulus and reading.ticks is not None:
             told = signed(reading.ticks - self.coarse, driver.tick_modulus) / driver.tick_rate
-            told = told if abs(told - elapsed) <= AGREE else None
-        d, m = run.packets(reading.sequence, driver.sequence, (elapsed if told is None else told) * rate / run.covers)
+            told = told if -BEHIND <= told - elapsed <= AHEAD else None
+        ticks = (elapsed if told is None else told) * rate * PARTS
+        d, m = run.packets(reading.sequence, driver.sequence, ticks / run.covers)
         e = m * run.covers
-        if m >= 1 and told is not None and told > 1.1 * e / rate + PAUSE:
-            e = round(told * rate)
-        return Counted(reading.sequence, 0, 1, count, d, m, e)
+        if m >= 1 and told is not None and ticks > 1.1 * e + PAUSE * rate * PARTS:
+            e = round(ticks)
+        return Counted(reading.sequence, 0, PARTS, count, d, m, e)
 
     def _stood_still(self, driver: Driver, arrival: float) -> bool:
         """Whether a packet after a silence is too late to be counted on from the one before it."""

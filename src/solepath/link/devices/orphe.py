@@ -13,6 +13,7 @@ from construct import (
     Array,
     Bytes,
     Const,
+    ExprValidator,
     GreedyBytes,
     Int8ub,
     Int16ub,
@@ -36,6 +37,8 @@ ACC_RANGES, GYRO_RANGES = (2.0, 4.0, 8.0, 16.0), (250.0, 500.0, 1000.0, 2000.0)
 GYRO = radians(35e-6)
 """rad/s per count and degree/s of range: 70 mdps per count at 2000 (ST, LSM6DSOX), and not 2000 / 32768."""
 END = 32767
+LONGEST_INFO = 32
+"""Bytes; the maker's tests have 20."""
 
 _INFORMATION = "01a9d6b5-ff6e-444a-b266-0be75e85c064"
 _OTHER = "db1b7aca-cda5-4453-a49b-33a53d3f0833"
@@ -74,6 +77,10 @@ def _unused(context: Any) -> int:
     return _UNUSED[context.header]
 
 
+def _not_too_long(rest: str, _: Any) -> bool:
+    return len(rest) <= 2 * (LONGEST_INFO - 10)
+
+
 FORMATS = {
     "orphe/values": Struct(
         "header" / OneOf(Int8ub, [50, 54, 55, 56]),
@@ -92,7 +99,7 @@ FORMATS = {
         "unknown" / Hex(Bytes(6)),
         "acc_range" / OneOf(Int8ub, range(4)),
         "gyro_range" / OneOf(Int8ub, range(4)),
-        "rest" / Hex(GreedyBytes),
+        "rest" / ExprValidator(Hex(GreedyBytes), _not_too_long),
     ),
     "orphe/mode": Struct(Const(b"\x0d"), "mode" / OneOf(Int8ub, [1, 2, 3, 4]), Terminated),
 }
