@@ -34,6 +34,8 @@ ALLOWED: dict[str, set[str]] = {
     "sim": NOUNS | {"wire", "link"},
     "recording": NOUNS | {"wire", "link"},
     "samples": NOUNS | {"recording"},
+    "btsnoop": {"types", "wire", "link", "recording"},
+    "mcap": CORE | {"recording", "output"},
     "source": CORE | {"recording", "samples"},
     "output": CORE,
     "tally": CORE,

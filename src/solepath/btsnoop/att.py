@@ -196,7 +196,7 @@ class Conversation:
         match opcode, request:
             case Op.ERROR, _:
                 if parse_whole(ERROR_RESPONSE, body).request == Op.WRITE:
-                    self.flaws["writes that a device refused"] += 1
+                    self.flaws["writes that were refused"] += 1
                 self._end_read()
             case Op.MTU_RESPONSE, Op.MTU_REQUEST:
                 self.mtu = max(SMALLEST_MTU, min(parse_whole(MTU, body).mtu, asked.mtu))

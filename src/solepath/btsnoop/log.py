@@ -123,16 +123,16 @@ def open_btsnoop(
     for device in devices.values():
         _name(device, listener.types.get(device.address, {}), handles)
         _place(device, places)
-    left_out = [f"{count} {what}" for what, count in listener.flaws.items()]
-    left_out += _left_out(list(devices.values()), listener.types)
+    left_out = list(_left_out(list(devices.values()), listener.types))
+    left_out += [f"{what}: {count}" for what, count in listener.flaws.items()]
     if not any(device.site is not None and device.count for device in devices.values()):
         if damage is not None:
             raise damage
-        raise RecordingError(path, "; ".join(["holds no packets of a device whose place is known", *left_out]))
+        raise RecordingError(path, "; ".join(["holds no packets of a device whose place is known", *left_out[:5]]))
     strangers = [address for address in places if address not in map(_upper, devices)]
     if strangers:
-        there = ", ".join(device.address or "the host itself" for device in devices.values())
-        raise RecordingError(path, f"holds no device {strangers[0]}; there are {there}")
+        there = ", ".join(device.address for device in devices.values() if device.channels)
+        raise RecordingError(path, f"holds no device {strangers[0]} that could be used; there is {there}")
     for sentence in left_out:
         report(f"{name}: {sentence}")
     return BtsnoopLog(path, devices, began or 0, path.stat().st_size)
@@ -177,20 +177,34 @@ def _left_out(devices: list[Device], types: Mapping[str, Mapping[int, str]]) -> 
     for device in devices:
         known = types.get(device.address, {})
         address = device.address or "the host itself"
-        for handle, evidence in device.seen.items():
-            if evidence.count and handle not in device.channels and handle not in known:
-                lengths = ", ".join(map(str, sorted(evidence.lengths)[:4]))
-                yield (
-                    f"{evidence.count} values ({lengths} bytes) of attribute {handle:#06x} of {address} are left out: "
-                    "the log does not say what they are"
-                )
+        nameless = {
+            handle: evidence
+            for handle, evidence in device.seen.items()
+            if evidence.count and handle not in device.channels and handle not in known
+        }
+        if nameless:
+            count = sum(evidence.count for evidence in nameless.values())
+            yield f"{_times(count, 'value')} of {address} left out: no discovery says what is {_described(nameless)}"
         if device.site is None and device.count:
             kind = "a device" if device.profile is None else f"a {device.profile.name}"
-            yield f"{device.count} values of {address}, {kind}, are left out: nobody says where it was worn"
+            yield f"{_times(device.count, 'value')} of {address}, {kind}, left out: nobody says where it was worn"
         others += not device.channels and any(handle in known for handle in device.seen)
     if others:
-        yield f"{others} other {'device is' if others == 1 else 'devices are'} left out"
+        yield f"{_times(others, 'other device')} left out"
     for site in Site:
         there = [device.address for device in devices if device.site is site and device.count]
         if len(there) > 1:
-            yield f"{' and '.join(there)} are both at the {site.value}; a session listens to the first alone"
+            yield f"{' and '.join(there)} are at the {site.value}; a session listens to the first alone"
+
+
+def _times(count: int, noun: str) -> str:
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def _described(attributes: Mapping[int, Evidence]) -> str:
+    """The handles with the lengths of their values, a few of them."""
+    told = [
+        f"{handle:#06x} ({', '.join(map(str, sorted(evidence.lengths)[:3]))} bytes)"
+        for handle, evidence in list(attributes.items())[:4]
+    ]
+    return ", ".join(told) + (" ..." if len(attributes) > len(told) else "")

@@ -1,0 +1,112 @@
+"""btsnoop logs made by hand for tests, with nothing but struct: what a phone writes of connections and attributes."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterable
+from pathlib import Path
+
+from attrs import define, field
+
+EPOCH = 0x00DCDDB30F2F8000
+BEGAN = 1_790_000_000_250_000
+"""us since 1970 at which the logs begin: 2026-09-21."""
+H1, H4, MONITOR = 1001, 1002, 2001
+LEFT, RIGHT, TAG, OTHER = "C1:00:00:00:00:0A", "C1:00:00:00:00:0B", "C1:00:00:00:00:0C", "C1:00:00:00:00:0D"
+COMMAND, ACL, EVENT = 1, 2, 4
+
+
+@define
+class Log:
+    """Records one after another. `t`: us since 1970, moves on by a millisecond with every record."""
+
+    datalink: int = H4
+    t: int = BEGAN
+    piece: int = 251
+    """Bytes of L2CAP that one ACL packet holds."""
+    records: list[bytes] = field(factory=list)
+    drops: int = 0
+    adapter: int = 0
+
+    def record(self, kind: int, data: bytes, sent: bool, original: int | None = None) -> None:
+        self.t += 1000
+        flags = (0 if sent else 1) | (0 if kind == ACL else 2)
+        if self.datalink == H4:
+            data = bytes([kind]) + data
+        elif self.datalink == MONITOR:
+            flags = (
+                self.adapter << 16
+                | {(COMMAND, True): 2, (EVENT, False): 3, (ACL, True): 4, (ACL, False): 5}[kind, sent]
+            )
+        size = len(data) if original is None else original
+        self.records.append(struct.pack(">IIIIq", size, len(data), flags, self.drops, self.t + EPOCH) + data)
+
+    def event(self, code: int, parameters: bytes) -> None:
+        self.record(EVENT, bytes([code, len(parameters)]) + parameters, sent=False)
+
+    def command(self, opcode: int, parameters: bytes = b"") -> None:
+        self.record(COMMAND, struct.pack("<HB", opcode, len(parameters)) + parameters, sent=True)
+
+    def connect(self, handle: int, address: str, subevent: int = 0x01) -> None:
+        peer = bytes.fromhex(address.replace(":", ""))[::-1]
+        begin = struct.pack("<BBHBB", subevent, 0, handle, 0, 1) + peer
+        own = b"" if subevent == 0x01 else bytes(12)
+        end = b"\x00\x01" if subevent == 0x29 else b""
+        self.event(0x3E, begin + own + struct.pack("<HHHB", 12, 0, 500, 0) + end + (b"\xff" if end else b""))
+
+    def disconnect(self, handle: int, reason: int = 0x08) -> None:
+        self.event(0x05, struct.pack("<BHB", 0, handle, reason))
+
+    def acl(self, handle: int, pdu: bytes, sent: bool, channel: int = 4, keep: slice = slice(None)) -> None:
+        """One L2CAP PDU, in pieces where it is long; `keep` says which of them are logged."""
+        whole = struct.pack("<HH", len(pdu), channel) + pdu
+        pieces = [whole[k : k + self.piece] for k in range(0, len(whole), self.piece)]
+        for k, piece in list(enumerate(pieces))[keep]:
+            boundary = 1 if k else (0 if sent else 2)
+            self.record(ACL, struct.pack("<HH", handle | boundary << 12, len(piece)) + piece, sent)
+
+    def asked(self, handle: int, request: str, answer: str | bytes) -> None:
+        """The host asks, the device answers; hexadecimal."""
+        self.acl(handle, bytes.fromhex(request), sent=True)
+        self.acl(handle, bytes.fromhex(answer) if isinstance(answer, str) else answer, sent=False)
+
+    def mtu(self, handle: int, mtu: int) -> None:
+        both = struct.pack("<H", mtu).hex()
+        self.asked(handle, "02" + both, "03" + both)
+
+    def discover(self, handle: int, characteristics: dict[int, str]) -> None:
+        """As hosts do: by declarations, and a refusal at the end. Value handle -> UUID, short or full."""
+        for value, uuid in characteristics.items():
+            kind = bytes.fromhex(uuid.replace("-", ""))[::-1]
+            declared = struct.pack("<HBH", value - 1, 0x10, value) + kind
+            first = struct.pack("<H", value - 1).hex()
+            self.asked(handle, f"08{first}ffff0328", bytes([0x09, len(declared)]) + declared)
+        self.asked(handle, "08f0ffffff0328", "0108f0ff0a")
+
+    def notify(
+        self, handle: int, attribute: int, value: bytes, keep: slice = slice(None), t: int | None = None
+    ) -> None:
+        if t is not None:
+            self.t = t - 1000
+        self.acl(handle, struct.pack("<BH", 0x1B, attribute) + value, sent=False, keep=keep)
+
+    def bytes(self) -> bytes:
+        return b"btsnoop\0" + struct.pack(">II", 1, self.datalink) + b"".join(self.records)
+
+    def save(self, path: Path) -> Path:
+        path.write_bytes(self.bytes())
+        return path
+
+
+def insole_uuid(short: int) -> str:
+    return f"6016{short:04x}-c8fb-4908-9b03-31fbe15925c4"
+
+
+INSOLE = {0x12: insole_uuid(2), 0x15: insole_uuid(3), 0x17: insole_uuid(4), 0x1A: "2a19"}
+"""Value handle -> UUID: frame, INFO, control, battery."""
+
+
+def walked(log: Log, packets: Iterable, handles: dict[str, int], attributes: dict[str, int]) -> None:
+    """Packets of an emulated walk as notifications; device -> connection handle, channel -> attribute handle."""
+    for packet in packets:
+        log.notify(handles[packet.device], attributes[packet.channel], packet.data, t=BEGAN + round(packet.t * 1e6))
