@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from binascii import crc_hqx
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +13,12 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from solepath.link.devices import DECLARED
 from solepath.types import Cell, Foot
 from solepath.wire import cc2541, cc2650, cells, device, fragment, insole, insole_control, insole_info, period, receiver
 from solepath.wire.envelope import MAGIC
 from solepath.wire.error import WireError
+from solepath.wire.fields import build_whole, parse_whole
 
 UNHURRIED = settings(deadline=None)
 """A busy machine is no reason to fail."""
@@ -48,6 +51,11 @@ CODECS: dict[str, tuple[Callable[[bytes], Any], Callable[[Any], bytes]]] = {
     "receiver-dropped": (receiver.parse_dropped, receiver.build_dropped),
     "receiver-trouble": (receiver.parse_words, receiver.build_words),
     "sensortag-period": (period.parse_period, period.build_period),
+}
+CODECS |= {
+    channel.replace("/", "-"): (partial(parse_whole, one), partial(build_whole, one))
+    for driver in DECLARED
+    for channel, one in driver.formats.items()
 }
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from attrs import evolve, frozen
 
+import declared
 from solepath import machine
 from solepath.foot.cycle import Cycle
 from solepath.foot.dedrift import LinearDedrift
@@ -113,10 +114,11 @@ def packets() -> dict[str, tuple[Packet, ...]]:
         "cc2541": CC2541(presses=(2.0,)),
         "cc2541 at 20 Hz": CC2541(rate=20.0),
     }
-    return {
+    found = {
         name: emulate(SHORT, devices={LEFT: device, RIGHT: evolve(device)}, radio=ROUGH, seed=7).packets
         for name, device in devices.items()
     }
+    return found | {worn.driver.name: declared.walked(worn, SHORT, ROUGH) for worn in declared.EVERY}
 
 
 @cache
@@ -143,6 +145,9 @@ _STREAMS = (
     "cc2650",
     "cc2541",
     "cc2541 at 20 Hz",
+    "orphe",
+    "dot",
+    "thingy",
 )
 PACKET_NAMES = tuple(f"{kind}, {device}" for kind in ("session", "decoder") for device in _STREAMS)
 SAMPLE_NAMES = tuple(
