@@ -25,6 +25,8 @@ BOUNCE = 0.17
 CATCHING = 0.13
 """How long the closing foot takes to catch the weight, s."""
 _EVER = 1e6
+_BLOCK = 4096
+"""Instants worked out together: what lies between takes a hundred times the memory of one cell's loads."""
 
 
 @frozen(eq=False)
@@ -91,8 +93,9 @@ class Loads:
         moves = ((HEEL, heel, still), (MIDFOOT, still, still), (FOREFOOT, fore, inward), (TOES, fore, still))
         for (zone, ahead, aside), share in zip(moves, shares, strict=True):
             busy = np.flatnonzero(share * total > 0.0)
-            pattern = _pattern(layout, width, zone, ahead[busy], aside[busy])
-            found[busy] += (share * total)[busy, None] * pattern
+            for begin in range(0, len(busy), _BLOCK):
+                some = busy[begin : begin + _BLOCK]
+                found[some] += (share * total)[some, None] * _pattern(layout, width, zone, ahead[some], aside[some])
         return found
 
     def _left_share(self, t: Array) -> Array:

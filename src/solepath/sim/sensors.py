@@ -144,14 +144,24 @@ def read_cells(
     """What the cells of an insole report of their true loads `true` (N, cells), N, taken at `when` (N)."""
     cells = true.shape[1]
     gain = 1.0 + part.gain * np.clip(rng.standard_normal(cells), -3.0, 3.0)
-    preload = part.preload * rng.uniform(0.0, 2.0, cells)
+    preload = part.preload * np.asarray(rng.uniform(0.0, 2.0, cells))
     lagged = true.copy()
     interval = float(when[1] - when[0]) if len(when) > 1 else 1.0
     follow = 1.0 - exp(-interval / part.lag)
     for k in range(1, len(lagged)):
         lagged[k] = lagged[k - 1] + follow * (true[k] - lagged[k - 1])
-    counts = np.rint((gain * lagged + preload + part.noise * rng.standard_normal(true.shape)) / count)
-    return Reading(np.clip(counts, 0, full).astype(np.int64), np.any(counts >= full, axis=1))
+    counts = _in_place(lagged, gain, preload, part.noise * rng.standard_normal(true.shape), count)
+    saturated = np.any(counts >= full, axis=1)
+    return Reading(np.clip(counts, 0, full, out=counts).astype(np.int64), saturated)
+
+
+def _in_place(load: Array, gain: Array, preload: Array, noise: Array, count: float) -> Array:
+    """Counts where the loads were: a long walk of many cells is large enough once."""
+    load *= gain
+    load += preload
+    load += noise
+    load /= count
+    return np.rint(load, out=load)
 
 
 def air_pressure(height: Array) -> Array:
