@@ -6,6 +6,7 @@ import asyncio
 import sys
 from collections.abc import Sequence
 from math import ceil, inf
+from typing import Any
 
 from attrs import frozen
 
@@ -58,10 +59,10 @@ class Strap(Peripheral):
 
     size = 20
 
-    def __init__(self, name: str, address: str, *, advertised: Sequence[str] = (HEART_RATE,), **given: object) -> None:
+    def __init__(self, name: str, address: str, *, advertised: Sequence[str] = (HEART_RATE,), **given: Any) -> None:
         super().__init__(
             site=Site.PELVIS, name=name, address=address, services=SERVICES, advertised=advertised, **given
-        )  # type: ignore[arg-type]
+        )
         self.rate = 0
 
     def value(self, channel: str, t: float) -> bytes:

@@ -99,6 +99,16 @@ def test_a_scan_hears_names_services_and_addresses_of_all_who_advertise() -> Non
     run(main)
 
 
+def test_a_device_that_changes_its_name_is_heard_by_the_new_one() -> None:
+    async def main() -> None:
+        async with virtual_air([strap(faults='3 * name "another"')]) as backend:
+            await find(backend, "one")
+            await asyncio.sleep(3.0)
+            assert (await find(backend, "another")).address == ONE
+
+    run(main)
+
+
 @pytest.mark.parametrize("services", [[], [standard(0xAA80), standard(0xFFE0)], [LOG], [LOG, standard(0x180F)]])
 def test_an_advertisement_is_legal_with_and_without_room_for_flags(services: list[str]) -> None:
     flags = b"\x02\x01\x06"
@@ -365,6 +375,24 @@ def test_two_devices_stream_at_once_whatever_their_names() -> None:
             await asyncio.gather(*(host.client.disconnect() for host in hosts))
 
     run(main)
+
+
+def test_the_same_air_tells_the_same_at_the_same_times() -> None:
+    told: list[list[tuple[float, bytes]]] = []
+
+    async def main() -> None:
+        devices = [strap("one", ONE, "2 * drop 3; 3 * flip 5; 4 * disconnect"), strap("two", TWO)]
+        async with virtual_air(devices) as backend:
+            hosts = [Host(backend, device) for device in (await find(backend, "one"), await find(backend, "two"))]
+            await asyncio.gather(*(host.client.connect() for host in hosts))
+            await asyncio.gather(*(host.count(100) for host in hosts))
+            await asyncio.sleep(5.0)
+            told.append(hosts[0].heard + hosts[1].heard)
+
+    run(main)
+    run(main)
+    assert len(told[0]) > 800
+    assert told[0] == told[1]
 
 
 def test_fifty_reconnects_leave_no_task_and_no_link_behind() -> None:

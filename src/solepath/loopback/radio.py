@@ -137,8 +137,10 @@ class Radio:
             async with asyncio.timeout(PATIENCE):
                 await self.finish(device.start_scanning(legacy=True) if on else device.stop_scanning(legacy=True))
         except TimeoutError:
-            if self._transport is not None:
-                await self._transport.close()  # a controller that is deaf: the next attempt reaches for it anew
+            transport = self._transport
+            self._lost(device)  # the next attempt reaches for it anew
+            if transport is not None:
+                await transport.close()
             raise BleakError(f"{self.where} does not answer any more") from None
         except core.BaseBumbleError as error:
             raise BleakError(f"{self.where}: {error}") from error
