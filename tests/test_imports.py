@@ -46,7 +46,7 @@ ALLOWED: dict[str, set[str]] = {
     "loopback": CORE | {"recording", "sim", "ble"},
     "view": CORE | {"sim", "recording", "samples", "source", "output", "tally", "demo", "evaluate", "monitor"},
     "cli": CORE | {"sim", "recording", "samples", "source", "output", "tally", "demo", "evaluate", "view", "ble",
-                   "loopback", "monitor", "__init__"},
+                   "loopback", "monitor", "btsnoop", "mcap", "__init__"},
     "__main__": {"cli"},
 }  # fmt: skip
 """Room (a module or a folder of src/solepath) -> the rooms that it may import."""
