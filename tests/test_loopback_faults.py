@@ -71,6 +71,7 @@ def test_a_script_is_read_line_by_line_in_its_order() -> None:
         ("5 left_foot refuse", "needs a channel"),
         ("5 left_foot name", "needs a name"),
         ("5 left_foot hang 3", "too many words"),
+        ("5 left_foot restart 3", "too many words"),
         ("5 left_foot drop 3 4", "too many words"),
         ('5 left_foot name "open', "quotation"),
     ],
@@ -206,6 +207,18 @@ def test_a_request_that_hangs_is_never_answered_and_then_the_link_is_lost() -> N
     assert not device.is_connected
     begin(device, now=6.0)
     assert device.read("device/battery", 6.0) is not None
+
+
+def test_a_device_that_restarts_counts_from_the_beginning_again() -> None:
+    device = set_up(worn(Insole(), faults="3 left_foot restart"), profile.INSOLE)
+    before = [parse_frame(outgoing.value) for _, outgoing in played(device, 9.0, "insole/frame")]
+    assert not device.is_connected
+    set_up(device, profile.INSOLE, now=5.0)
+    after = [parse_frame(outgoing.value) for _, outgoing in played(device, 6.0, "insole/frame")]
+    assert [frame.sequence for frame in after] == list(range(len(after)))
+    assert after[0].ticks == pytest.approx(2.0 * 32768, abs=400)
+    assert before[0].sequence > 1000, "so the two cannot be taken for one count"
+    assert {frame.samples for frame in after}.isdisjoint({frame.samples for frame in before})
 
 
 def test_a_name_may_be_another_one() -> None:

@@ -44,6 +44,7 @@ class Bench:
             devices = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
         self.walker = Walker(route, wearer, seed)
         self.devices = {site: devices[site] for site in Site if site in devices}
+        self._began = began
         faults = tuple(faults)
         self.peripherals: tuple[Peripheral, ...] = tuple(
             _worn(device, self.walker, site, f"F0:5E:00:00:00:{number:02X}", seed, mtu, began, faults)
@@ -58,10 +59,11 @@ class Bench:
 
     @property
     def began(self) -> float:
-        return self.peripherals[0].began
+        return self._began
 
     @began.setter
     def began(self, began: float) -> None:
+        self._began = began
         for peripheral in self.peripherals:
             peripheral.began = began
 

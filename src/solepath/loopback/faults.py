@@ -13,6 +13,7 @@ semicolon ends a fault as a line does:
     0 left_foot mtu 23                # the device agrees to no larger MTU from its next connection on
     0 left_foot refuse cc2650/movement-config 2   # the next requests to the channel get the ATT error 0x80
     30 left_foot hang                 # the next request is never answered, and 1 s later the link is lost
+    40 left_foot restart              # the link is lost and the device begins anew, its counters too
     0 * name "SensorTag"              # the device goes by another name
 
 Seconds count from the walk's beginning. The same script does the same every time.
@@ -47,6 +48,7 @@ class What(Enum):
     MTU = "mtu"
     REFUSE = "refuse"
     HANG = "hang"
+    RESTART = "restart"
     NAME = "name"
 
 
@@ -169,6 +171,8 @@ class Misfortune:
         """The link is to be lost now."""
         self.mtu: int | None = None
         """The largest MTU that the device now agrees to, None when no fault says so."""
+        self.restarted: float | None = None
+        """When the device began anew the last time, None when it never did."""
         self.name: str | None = None
         """What the device now calls itself, None when no fault says so."""
 
@@ -223,6 +227,8 @@ class Misfortune:
         match fault.what:
             case What.DISCONNECT:
                 self.cut = True
+            case What.RESTART:
+                self.cut, self.restarted = True, fault.at
             case What.VANISH:
                 self.cut, self._hidden_until = True, fault.at + fault.amount
             case What.FREEZE:

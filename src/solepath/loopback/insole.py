@@ -84,6 +84,14 @@ class _Frames:
         sequence, ticks = (frame.sequence + self.sequence) % 2**16, (frame.ticks + self.ticks) % 2**32
         return evolve(frame, sequence=sequence, ticks=ticks)
 
+    def own_ticks(self, number: int) -> int:
+        """Those of a frame before `ticks` are added."""
+        return self.signal.ticks + number * self.batch * self.signal.interval
+
+    def elapsed(self, number: int, since: float) -> int:
+        """Ticks of the device's clock from `since`, s, until the frame's first sample."""
+        return round((self.signal.taken(number, self.batch) - since) / self.signal.step * self.signal.interval)
+
     def resend(self, command: Resend) -> None:
         """Those asked for that are still kept will go with the next frames."""
         asked = {(command.first + i) % 2**16 for i in range(command.count)}
@@ -173,7 +181,7 @@ class InsolePeripheral(Peripheral):
         match command:
             case Start():
                 if self._frames is None:
-                    self._measure(_Frames(self.signal(), self._batch()), t)
+                    self._measure(self._frames_from(t), t)
             case Stop():
                 self._frames = None
                 self.flow("insole/frame", None, t)
@@ -190,6 +198,15 @@ class InsolePeripheral(Peripheral):
         self._frames = frames
         self.flow("insole/frame", frames, t)
 
+    def _frames_from(self, t: float) -> _Frames:
+        """Frames from `t` on; after a restart they count from 0, and the ticks from then."""
+        frames = _Frames(self.signal(), self._batch())
+        if self.restarted is not None:
+            number = frames.after(t)
+            frames.sequence = -(frames.signal.sequence + number) % 2**16
+            frames.ticks = (frames.elapsed(number, self.restarted) - frames.own_ticks(number)) % 2**32
+        return frames
+
     def _batch(self) -> int:
         """Samples a frame: what the device wants, or fewer when they would be too many fragments."""
         one = len(build_frame(self.signal().frame(0))) - _HEADER_AND_CRC
@@ -202,8 +219,6 @@ class InsolePeripheral(Peripheral):
         number = new.after(t)
         last = old.kept[-1] if old.kept else old.after(t) - 1
         new.sequence = (old.signal.sequence + old.sequence + last + 1 - new.signal.sequence - number) % 2**16
-        taken = new.signal.taken(number, new.batch)
-        elapsed = round((taken - old.signal.first) / old.signal.step * old.signal.interval)
-        own = number * new.batch * new.signal.interval
-        new.ticks = (old.signal.ticks + old.ticks + elapsed - new.signal.ticks - own) % 2**32
+        ticks = old.signal.ticks + old.ticks + new.elapsed(number, old.signal.first)
+        new.ticks = (ticks - new.own_ticks(number)) % 2**32
         return new

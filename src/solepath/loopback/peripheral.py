@@ -175,6 +175,11 @@ class Peripheral:
         return self._now - self._began
 
     @property
+    def restarted(self) -> float | None:
+        """When it began anew the last time, in time of the walk; None when it never did."""
+        return self._misfortune.restarted
+
+    @property
     def is_connected(self) -> bool:
         return self._linked
 
