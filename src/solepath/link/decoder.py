@@ -100,9 +100,10 @@ class Decoder:
         link, heard = self.link, self.heard
         if link is None or heard is None or self.stale or link.silence_is_legal or not isfinite(now):
             return []
-        limit = kinds[link.name].profile.stale_after
-        if now - heard <= limit:
+        kind = kinds.get(link.name)
+        if kind is None or now - heard <= kind.profile.stale_after:
             return []
+        limit = kind.profile.stale_after
         self.stale = True
         out = link.flush(now)
         out.append(StreamStale(t=heard + limit, known_at=now, site=self.site, silent_for=now - heard))

@@ -9,6 +9,9 @@ is lost packets or late ones. Nothing on the wire tells which, so:
 - otherwise packets were only late, unless eight in a row stay 0.9 periods behind: then the loss is said at the eighth;
 - a packet that comes half a period too early says that a loss was none; its slot is not counted.
 
+A radio may hold back anything for some connection events, so within periods shorter than that a hole says nothing:
+only packets that stay behind for a third of a second are signs of loss.
+
 A period that was never written is found by itself: arrivals clearly faster than the period, or six holes in a row.
 """
 
@@ -32,8 +35,10 @@ AHEAD = 0.15
 """Seconds (and one period) by which a time given out may be after the arrival."""
 SETTLED = 40
 """Packets until the fit is good enough to judge lateness by; before, only holes count."""
-SLIPPED = 8
-"""Packets in a row that stay behind before a slip is a loss."""
+SLIPPED, SLIPPED_FOR = 8, 0.32
+"""Packets in a row that stay behind before a slip is a loss, and s for which they do."""
+RADIO = 0.04
+"""Shortest period (s) in which a hole is a sign of loss by itself."""
 FAST = 0.24
 """Seconds that arrivals must be ahead before the period is taken to be shorter (radio jitter is less)."""
 WIDE = 6
@@ -128,9 +133,10 @@ class Periodic:
             self.clock = Clock(1.0 / period)
 
     def _lost(self, hole: float, behind: float, period: float) -> int:
+        tells = period >= RADIO
         if self.settled < SETTLED:  # how far behind cannot be told from a slow device yet; the hole alone must do
-            return round(hole / period) - 1 if hole >= HOLE * period and behind >= 0.75 * period else 0
-        if hole >= HOLE * period and behind >= LATE * period and behind >= QUIET * self.jitter:
+            return round(hole / period) - 1 if tells and hole >= HOLE * period and behind >= 0.75 * period else 0
+        if tells and hole >= HOLE * period and behind >= LATE * period and behind >= QUIET * self.jitter:
             self.slipped = 0
             return floor(behind / period + 1.0 - LATE)
         if behind < LATE * period:
@@ -140,7 +146,7 @@ class Periodic:
             self.slip, self.calm = behind, self.jitter
         self.slip = min(self.slip, behind)
         self.slipped += 1
-        if self.slipped < SLIPPED:
+        if self.slipped < max(SLIPPED, SLIPPED_FOR / period):
             return 0
         self.slipped, self.jitter = 0, self.calm
         return floor(self.slip / period + 1.0 - LATE)

@@ -139,6 +139,8 @@ class StreamLink:
         if reading.silent is not None:
             self.silence_is_legal = reading.silent
         if reading.rate is not None and not reading.samples:
+            if driver.axis is Axis.TICKS:
+                self.run.covers = max(1, round(self.run.covers * self.rate / reading.rate))
             self._change(reading.rate)
 
     def _acc_range(self, driver: Driver) -> float:
@@ -256,7 +258,7 @@ class StreamLink:
         same = self.odd > 0 and abs(distance - self.distance) <= OTHER * self.distance
         self.odd, self.distance = self.odd + 1 if same else 1, distance
         if self.odd >= STEADY:
-            self.rate, self.odd = driver.tick_rate / distance, 0
+            self.rate, self.odd, self.run.covers = driver.tick_rate / distance, 0, counted.e
 
     def _by_arrival(self, count: int, rate: float, arrival: float) -> tuple[Taken, list[float]]:
         if self.periodic is None:

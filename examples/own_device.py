@@ -1,0 +1,76 @@
+"""A device of your own, declared in one file: how its bytes are laid out, what they mean, what is to be written to it.
+
+    python examples/own_device.py
+
+The device is invented: 16 bytes for every sample, 100 a second, numbered with 15 bits, no clock. Beside this file lies
+own_device.json: bytes and what they say, worked out by hand, and checked here. Real devices that were declared like
+this are in solepath/link/devices. `ble.Wanted(site, profile=PROFILE)` and `Session(profiles=[DRIVER])` take it.
+"""
+
+import json
+from math import radians
+from pathlib import Path
+
+from construct import Const, Int16ub, OneOf, Struct, Terminated
+
+from solepath import BatteryLevel, Foot, Packet, PacketsLost, Session, Site, StepTaken
+from solepath.link.driver import Driver, Measured, Reading
+from solepath.link.profile import Channel, How, Profile, Write
+from solepath.link.vectors import disagreements
+from solepath.sim import Route, Walker
+from solepath.wire.fields import Fields
+
+SERVICE = "5d1e0001-9c60-4cf1-a1b3-1a2b3c4d5e6f"
+PROFILE = Profile(
+    name="shoe",  # channels begin with it
+    names=("My shoe",),  # as it advertises
+    services=(SERVICE,),
+    channels=(
+        Channel("shoe/motion", SERVICE, "5d1e0002-9c60-4cf1-a1b3-1a2b3c4d5e6f", How.NOTIFY),
+        Channel("shoe/start", SERVICE, "5d1e0003-9c60-4cf1-a1b3-1a2b3c4d5e6f", How.WRITE),
+    ),
+    setup=(Write("shoe/start", b"\xc2"),),
+    reads=(),
+    nominal_rate=100.0,  # samples a second, after setup
+    streams=("shoe/motion",),
+    stale_after=1.0,  # s of silence that are worth an event
+)
+
+FORMATS = {  # construct reads and writes them
+    "shoe/motion": Struct(
+        "number" / OneOf(Int16ub, range(1 << 15)),
+        "battery" / OneOf(Int16ub, range(1001)),  # per mille
+        "acc" / Fields("<3h"),  # 8 g full scale
+        "gyro" / Fields("<3h"),  # 1/16 degree/s
+        Terminated,
+    ),
+    "shoe/start": Struct(Const(b"\xc2"), Terminated),
+}
+ACC, GYRO = 8 * 9.80665 / 32768, radians(1 / 16)
+
+
+def motion(sent, known):
+    """One notification in SI units. `known` holds what earlier values said, for devices whose ranges can be set."""
+    sample = Measured(acc=tuple(v * ACC for v in sent.acc), gyro=tuple(v * GYRO for v in sent.gyro))
+    first = sent.number % 1000 == 0
+    return Reading((sample,), sequence=sent.number, battery=sent.battery / 1000 if first else None)
+
+
+DRIVER = Driver(PROFILE, FORMATS, readers={"shoe/motion": motion}, sequence=1 << 15, acc_range=8.0)
+
+print(disagreements(DRIVER, json.loads(Path(__file__).with_suffix(".json").read_text())) or "the vectors agree")
+
+session = Session(profiles=[DRIVER])
+for k, true in enumerate(Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.LEFT, 100.0)):
+    counts = {"acc": [round(v / ACC) for v in true.acc], "gyro": [round(v / GYRO) for v in true.gyro]}
+    data = DRIVER.write("shoe/motion", {"number": (32500 + k) % (1 << 15), "battery": 873, **counts})
+    if 500 <= k < 503:
+        continue  # three are lost
+    for event in session.feed(Packet(true.t + 0.008, Site.LEFT_FOOT, "shoe/motion", data)):
+        match event:
+            case StepTaken(t=t, number=number, stride_length=length, degraded=degraded):
+                print(f"{t:6.2f} s  step {number}: {length:.2f} m{', with a gap in it' if degraded else ''}")
+            case PacketsLost(t=t, count=count):
+                print(f"{t:6.2f} s  {count} packets lost")
+            case BatteryLevel(level=level):
+                print(f"{event.t:6.2f} s  battery {level:.0%}")
