@@ -129,7 +129,7 @@ def open_btsnoop(
         if damage is not None:
             raise damage
         raise RecordingError(path, "; ".join(["holds no packets of a device whose place is known", *left_out[:5]]))
-    strangers = [address for address in places if address not in map(_upper, devices)]
+    strangers = [address for address in sites or {} if _upper(address) not in map(_upper, devices)]
     if strangers:
         there = ", ".join(device.address for device in devices.values() if device.channels)
         raise RecordingError(path, f"holds no device {strangers[0]} that could be used; there is {there}")

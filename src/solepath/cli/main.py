@@ -10,10 +10,10 @@ import os
 import sys
 from collections.abc import Sequence
 
-from . import demo, emulate, evaluate, live, scan, track
+from . import convert, demo, emulate, evaluate, live, scan, track
 from .failure import Failure
 
-COMMANDS = (demo, track, scan, live, emulate, evaluate)
+COMMANDS = (demo, track, scan, live, emulate, convert, evaluate)
 
 
 def parser() -> argparse.ArgumentParser:

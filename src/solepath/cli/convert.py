@@ -1,0 +1,215 @@
+"""`solepath convert IN OUT`: a phone's btsnoop log to a recording, a recording to MCAP."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+from ..types import Packet, Site
+from .failure import Failure, note
+
+if TYPE_CHECKING:
+    from ..btsnoop import BtsnoopLog
+
+LONG = 4_000_000
+"""Bytes from which on there is a progress bar."""
+RECORDING, MCAP = ".jsonl", ".mcap"
+
+
+def add_to(commands: Any) -> None:
+    command: argparse.ArgumentParser = commands.add_parser(
+        "convert",
+        help="import a phone's btsnoop log, export to MCAP",
+        description="Convert a btsnoop log (an Android phone's HCI snoop log, btmon) to a recording of packets, or "
+        "either to MCAP, which opens in Foxglove. What OUT becomes is told by its name: .jsonl or .mcap.",
+        epilog="example: solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
+    )
+    command.add_argument("source", metavar="IN", type=Path, help="a btsnoop log, or a recording of packets (.jsonl)")
+    command.add_argument("out", metavar="OUT", type=Path, help="what to write: FILE.jsonl or FILE.mcap")
+    command.add_argument(
+        "--site",
+        metavar="ADDRESS=SITE",
+        dest="sites",
+        type=_site,
+        action="append",
+        default=[],
+        help="where a device of the log was worn: " + ", ".join(site.value for site in Site) + " (insoles say it "
+        "themselves); may be given again",
+    )
+    command.add_argument(
+        "--handle",
+        metavar="[ADDRESS/]HANDLE=CHANNEL",
+        dest="handles",
+        type=_handle,
+        action="append",
+        default=[],
+        help="what an attribute is whose discovery is not in the log, for instance 0x002b=cc2650/movement; may be "
+        "given again",
+    )
+    command.set_defaults(run=run)
+
+
+def _site(text: str) -> tuple[str, Site]:
+    address, told, name = text.rpartition("=")
+    try:
+        if not told:
+            raise ValueError
+        return address, Site(name)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not ADDRESS=SITE") from None
+
+
+def _handle(text: str) -> tuple[tuple[str, int], str]:
+    left, _, channel = text.partition("=")
+    device, _, number = left.rpartition("/")
+    try:
+        handle = int(number, 0)
+    except ValueError:
+        handle = 0
+    if not 0 < handle <= 0xFFFF or not channel:
+        raise argparse.ArgumentTypeError(f"{text!r} is not [ADDRESS/]HANDLE=CHANNEL")
+    return (device, handle), channel
+
+
+class _Writer(Protocol):
+    count: int
+
+    def write(self, packet: Packet) -> None: ...
+    def close(self) -> None: ...
+
+
+def run(options: argparse.Namespace) -> int:
+    from ..btsnoop import is_btsnoop
+    from ..recording import RecordingError, printable, read_header, read_packets
+    from ..view.progress import progress_bar
+
+    source, out = options.source, options.out
+    make = _maker(out)
+    log: BtsnoopLog | None = None
+    packets: Iterable[Packet]
+    try:
+        total = source.stat().st_size if source.is_file() else 0
+        with progress_bar(source.name, total, wanted=total > LONG) as show:
+            if is_btsnoop(source):
+                log = _opened(options)
+                packets, header = _shown(log, show), log.header
+            elif options.sites or options.handles:
+                raise Failure("--site and --handle are for btsnoop logs; a recording knows its sites and channels")
+            elif out.suffix.lower() == RECORDING:
+                raise Failure(f"{printable(str(source))}: is no btsnoop log; a recording is converted to {MCAP} only")
+            else:
+                header = {key: value for key, value in read_header(source).items() if key not in ("format", "version")}
+                packets = read_packets(source, report=note, progress=show)
+            count, damage = _write(packets, header, make, source, out)
+    except RecordingError as error:
+        raise Failure(str(error)) from None
+    for device in [] if log is None else log.devices.values():
+        if device.site is not None and device.count:
+            kind = "" if device.profile is None else f", {device.profile.name}"
+            print(f"{printable(device.address)}  {device.site.value}{kind}: {device.count} notifications")
+    print(f"{count} packets written to {printable(str(out))}")
+    if damage is not None:
+        raise damage
+    return 0
+
+
+def _opened(options: argparse.Namespace) -> BtsnoopLog:
+    from ..btsnoop import open_btsnoop
+    from ..link.known import PROFILES
+
+    known = {channel.name for profile in PROFILES for channel in profile.channels}
+    for _, name in options.handles:
+        if name not in known:
+            raise Failure(f"there is no channel {name!r}; there are: {', '.join(sorted(known))}")
+    return open_btsnoop(options.source, sites=dict(options.sites), handles=dict(options.handles), report=note)
+
+
+def _shown(log: BtsnoopLog, show: Callable[[int], None]) -> Iterator[Packet]:
+    for packet in log:
+        show(log.done)
+        yield packet
+
+
+Make = Callable[[Path, Mapping[str, Any]], _Writer]
+
+
+def _maker(out: Path) -> Make:
+    """What writes a file of this name."""
+    from ..recording import PacketWriter, printable
+
+    def recording(path: Path, header: Mapping[str, Any]) -> _Writer:
+        return PacketWriter(path, **header)
+
+    suffix = out.suffix.lower()
+    if suffix == RECORDING:
+        return recording
+    if suffix != MCAP:
+        raise Failure(f"{printable(str(out))}: ends neither in {RECORDING} nor in {MCAP}, which says what to write")
+    try:
+        from ..mcap import McapWriter
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.partition(".")[0] != "mcap":
+            raise
+        raise Failure("writing MCAP needs the package mcap: pip install 'solepath[mcap]'") from None
+    return McapWriter
+
+
+def _write(
+    packets: Iterable[Packet], header: Mapping[str, Any], make: Make, source: Path, out: Path
+) -> tuple[int, Failure | None]:
+    """(how many packets `out` holds, what was wrong with the source after them). Where nothing could be read, or not
+    everything be written, `out` is as it was before."""
+    from ..recording import RecordingError, printable, why
+
+    if out.exists() and out.samefile(source):
+        raise Failure(f"{printable(str(out))}: is what is to be converted")
+    damage: Failure | None = None
+    with _replacing(out) as path:
+        try:
+            writer = make(path, header)
+            try:
+                for packet in _until_damage(packets):
+                    if isinstance(packet, Failure):
+                        damage = packet
+                        break
+                    writer.write(packet)
+            finally:
+                writer.close()
+        except RecordingError as error:
+            cause = error.__cause__
+            raise Failure(
+                f"{printable(str(out))}: {why(cause) if isinstance(cause, OSError) else error.what}"
+            ) from None
+        if damage is not None and not writer.count:
+            raise damage
+    return writer.count, damage
+
+
+def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | Failure]:
+    """The packets, and in the end what made the reading stop, if anything did: told from what the writing says."""
+    from ..recording import RecordingError
+
+    try:
+        yield from packets
+    except RecordingError as error:
+        yield Failure(str(error))
+
+
+@contextmanager
+def _replacing(out: Path) -> Iterator[Path]:
+    """A file to write that takes the place of `out` when it is done, and is gone when it is not."""
+    if out.exists() and not out.is_file():  # a pipe or a device cannot be replaced
+        yield out
+        return
+    target = Path(os.path.realpath(out))
+    part = target.with_name(target.name + ".part")
+    try:
+        yield part
+        part.replace(target)
+    finally:
+        with suppress(OSError):
+            part.unlink()
