@@ -7,11 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from .failure import Failure, positive
+from .wearing import UNATTENDED
 
 HERE = "127.0.0.1:9735"
 KINDS = ("insole", "cc2650", "cc2541", "cc2541-20hz")
-UNWATCHED = 600.0
-"""s that it serves where there is no terminal to end it from, unless it is told how long."""
 WALKED = 300.0
 """m that the wearer walks when nothing else is said: four minutes."""
 
@@ -43,7 +42,7 @@ def add_to(commands: Any) -> None:
         "--duration",
         metavar="S",
         type=positive,
-        help=f"end by itself after so long (default: at Ctrl-C; {UNWATCHED:g} s without a terminal)",
+        help=f"end by itself after so long (default: at Ctrl-C; {UNATTENDED:g} s without a terminal)",
     )
     command.set_defaults(run=run)
 

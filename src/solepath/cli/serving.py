@@ -14,9 +14,9 @@ from ..loopback.tcp import serve
 from ..sim import insole_device, sensortags
 from ..sim.device import Device
 from ..types import Site
-from .emulate import UNWATCHED
 from .failure import Failure
 from .loop import stopping
+from .wearing import UNATTENDED
 
 RESTED = 10.0
 """s without a connection after which the next one finds the wearer at the beginning of his walk."""
@@ -61,7 +61,7 @@ async def serve_devices(options: argparse.Namespace) -> int:
                 )
             seconds = options.duration
             if seconds is None and not (sys.stdin.isatty() or sys.stdout.isatty()):
-                seconds = UNWATCHED
+                seconds = UNATTENDED
             pacing = asyncio.create_task(_walk_when_connected(bench))
             try:
                 async with asyncio.timeout(seconds):

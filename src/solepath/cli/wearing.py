@@ -18,6 +18,8 @@ LISTENED = 4.0
 """s for which devices are looked for when none was named."""
 UNWATCHED = 30.0
 """s that a command listens where there is no terminal to end it from, unless it is told how long."""
+UNATTENDED = 600.0
+"""s that emulated devices are served there."""
 REPORT_EVERY = 5.0
 """s between two lines where there is no terminal."""
 
@@ -104,7 +106,7 @@ def how_long(options: argparse.Namespace) -> float | None:
         return float(options.duration)
     if sys.stdin.isatty() or sys.stdout.isatty():
         return None
-    note(f"no terminal to end this from: it ends after {UNWATCHED:g} s (--duration says otherwise)")
+    print(f"no terminal to end this from: it ends after {UNWATCHED:g} s (--duration says otherwise)", flush=True)
     return UNWATCHED
 
 
