@@ -17,7 +17,7 @@ import walks
 from snooped import BEGAN, H1, H4, INSOLE, LEFT, MONITOR, OTHER, RIGHT, TAG, Log, insole_uuid
 from solepath import Packet, Session, Site
 from solepath.btsnoop import is_btsnoop, open_btsnoop
-from solepath.btsnoop.att import How
+from solepath.btsnoop.att import How, Op
 from solepath.btsnoop.values import Listener, Value
 from solepath.events import Connected, Disconnected, StepTaken
 from solepath.recording import RecordingError
@@ -486,6 +486,17 @@ def test_pieces_that_were_not_logged_cost_their_packet_and_are_counted(tmp_path)
     assert reports == ["packets of which a piece is missing: 1", "pieces of packets whose beginning is missing: 3"]
 
 
+def test_packets_of_other_channels_are_counted_where_they_might_have_been_ours(tmp_path):
+    log = begin(Log())
+    log.notify(0x40, FRAME, frames()[0])
+    log.acl(0x40, b"\x0b\x01", sent=False, channel=6)  # pairing
+    log.acl(0x40, b"\x1b\x12\0", sent=False, channel=0x41)
+    log.acl(0x0B, b"music", sent=True, channel=0x42)  # of a connection that is not LE
+    found, reports = read(log, tmp_path)
+    assert data_of(found, "insole/frame") == [frames()[0]]
+    assert reports == ["packets of channels that are not followed (EATT perhaps): 1"]
+
+
 def test_records_that_the_logger_cut_short_or_dropped_are_counted(tmp_path):
     log = begin(Log())
     log.notify(0x40, FRAME, frames()[0])
@@ -575,13 +586,18 @@ def _eventful() -> Log:
     return log
 
 
-@settings(max_examples=300, deadline=None)
+OPCODES = st.sampled_from([op.to_bytes() for op in Op])
+SIZES = st.sampled_from([b"", b"\x00", b"\x01", b"\x02", b"\x07", b"\x15", b"\x15\x00", b"\x00\x28", b"\x03\x28"])
+PDUS = st.builds(lambda *parts: b"".join(parts), OPCODES, SIZES, SIZES, st.binary(max_size=30)) | st.binary(max_size=30)
+
+
+@settings(max_examples=200, deadline=None)
 @given(
     changes=st.lists(st.tuples(st.integers(0, 10**6), st.integers(1, 255)), max_size=12),
     records=st.lists(
         st.tuples(st.sampled_from((1, 2, 4)), st.binary(max_size=60), st.booleans(), st.integers(0, 10**6)), max_size=6
     ),
-    pdus=st.lists(st.tuples(st.binary(max_size=30), st.booleans(), st.integers(0, 10**6)), max_size=12),
+    pdus=st.lists(st.tuples(PDUS, st.booleans(), st.integers(0, 10**6)), max_size=20),
     t=st.sampled_from((0, BEGAN, -(2**62), 2**62)),
 )
 @example(changes=[], records=[], pdus=[], t=2**62)

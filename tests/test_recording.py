@@ -331,6 +331,48 @@ def test_once_there_is_room_again_writing_goes_on(tmp_path):
     assert packets[-1].t == 99.0 and packets[-2].t == (len(packets) - 2) * 0.01
 
 
+SMALL_DISK = """
+import json, sys
+from pathlib import Path
+from solepath.recording import PacketWriter, RecordingError, read_packets
+from solepath.types import Packet, Site
+folder = Path(sys.argv[1])
+(folder / "ballast").write_bytes(bytes(8192))
+writer, errors = PacketWriter(folder / "walk.jsonl"), []
+def write(times):
+    try:
+        for k in times:
+            writer.write(Packet(k * 0.01, Site.LEFT_FOOT, "insole/frame", bytes([k % 256]) * 177))
+    except RecordingError as error:
+        errors.append(str(error))
+    return [round(packet.t / 0.01) for packet in read_packets(folder / "walk.jsonl", report=errors.append)]
+full = write(range(1000))
+still_full = write(range(1000, 1001))
+(folder / "ballast").unlink()
+again = write(range(2000, 2005))
+print(json.dumps([full, still_full, again, errors]))
+"""
+
+
+def test_a_disk_that_fills_up_loses_nothing_and_takes_more_when_there_is_room(tmp_path):
+    """A file system of 32 kB of our own, which needs a user namespace that may mount one."""
+    inside = 'mount -t tmpfs -o size=32k none "$0" && exec "$@"'
+    small = ["unshare", "--map-root-user", "--mount", "sh", "-c", inside, str(tmp_path)]
+    try:
+        permitted = subprocess.run([*small, "true"], capture_output=True).returncode == 0
+    except FileNotFoundError:
+        permitted = False
+    if not permitted:
+        pytest.skip("no file system may be mounted here")
+    command = [*small, sys.executable, "-c", SMALL_DISK, str(tmp_path)]
+    full, still_full, again, errors = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
+    count = len(full)
+    assert count > 30 and full == still_full == list(range(count))
+    assert again == [*full, *range(2000, 2005)]
+    sentence = f"{tmp_path}/walk.jsonl: no space left on device; the {count} packets before that are safe"
+    assert errors == [sentence, sentence]
+
+
 @pytest.mark.skipif(not Path("/dev/full").is_char_device(), reason="no /dev/full on this system")
 def test_a_full_disk_is_told_in_the_systems_own_words():
     with pytest.raises(

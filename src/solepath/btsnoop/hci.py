@@ -39,8 +39,12 @@ RESET, READ_BD_ADDR, LE_SET_RANDOM_ADDRESS = 0x0C03, 0x1009, 0x2005
 DISCONNECTED, COMMAND_COMPLETE, LE_META = 0x05, 0x0E, 0x3E
 CONNECTION_SUBEVENTS = {0x01: 19, 0x0A: 31, 0x29: 34}
 """LE Connection Complete, Enhanced v1, Enhanced v2 -> bytes of its parameters."""
+HANDLE_BITS = 0x0FFF
+"""The others are flags, or reserved."""
 CONTINUING = 1
 ATT_CHANNEL = 4
+DYNAMIC_CHANNELS = 0x40
+"""And above: opened for a purpose, the enhanced attribute protocol among them."""
 
 
 @define
@@ -131,12 +135,13 @@ class Controller:
         elif event.code == LE_META and parameters and len(parameters) == CONNECTION_SUBEVENTS.get(parameters[0]):
             made = parse_whole(LE_CONNECTION_COMPLETE, parameters)
             if made.status == 0:
-                yield from self._end(record, made.handle)
-                yield Begun(record.t, self._begin(record, made.handle, address_text(made.peer)))
+                handle = made.handle & HANDLE_BITS
+                yield from self._end(record, handle)
+                yield Begun(record.t, self._begin(record, handle, address_text(made.peer)))
         elif event.code == DISCONNECTED:
             lost = parse_whole(DISCONNECTION_COMPLETE, parameters)
             if lost.status == 0:
-                yield from self._end(record, lost.handle)
+                yield from self._end(record, lost.handle & HANDLE_BITS)
         elif event.code == COMMAND_COMPLETE and len(parameters) == READ_ADDRESS_COMPLETE.sizeof():
             told = parse_whole(READ_ADDRESS_COMPLETE, parameters)
             if told.opcode == READ_BD_ADDR and told.status == 0:
@@ -157,7 +162,7 @@ class Controller:
             self.flaws["records that are not HCI"] += 1
             return
         head, size = ACL.parse(record.data)
-        handle, boundary, body = head & 0x0FFF, head >> 12 & 3, record.data[4:]
+        handle, boundary, body = head & HANDLE_BITS, head >> 12 & 3, record.data[4:]
         link = self._links.get((record.adapter, handle))
         if link is None:
             link = self._begin(record, handle, "")
@@ -183,6 +188,8 @@ class Controller:
             del link.pieces[record.sent]
             if channel == ATT_CHANNEL:
                 yield Pdu(record.t, link, record.sent, bytes(pieces[4:]), self.own(record.adapter))
+            elif channel >= DYNAMIC_CHANNELS and link.address:
+                self.flaws["packets of channels that are not followed (EATT perhaps)"] += 1
 
     def _give_up(self, link: Link, sent: bool) -> None:
         """What was begun will not be completed."""
