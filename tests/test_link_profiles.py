@@ -105,6 +105,11 @@ def test_advertised_names_are_in_the_documents() -> None:
         assert all(f"begins with `{prefix}`" in text for prefix in profile.prefixes)
 
 
+def test_a_device_is_known_by_its_whole_name_or_by_how_it_begins() -> None:
+    known = {name: [p.name for p in PROFILES if p.answers_to(name)] for name in ("INS0123", "Thingy", "Thingy 2", "")}
+    assert known == {"INS0123": ["orphe"], "Thingy": ["thingy"], "Thingy 2": [], "": []}
+
+
 @pytest.mark.parametrize("profile", [orphe.PROFILE, dot.PROFILE, thingy.PROFILE], ids=lambda profile: profile.name)
 def test_a_declared_device_has_the_uuids_of_its_document(profile: Profile) -> None:
     text = (PROTOCOL / f"{profile.name}.md").read_text()

@@ -259,6 +259,26 @@ def test_a_rate_that_is_told_is_the_one_that_losses_are_told_by() -> None:
         assert lost.count == 2, name
 
 
+def test_an_insole_that_is_set_to_another_mode_goes_on_at_another_rate() -> None:
+    decoder = Decoder(LEFT)
+
+    def value(header: int, serial: int) -> bytes:
+        ms = 500 + round(1000 * serial * 4 / 208)
+        return bytes([header]) + serial.to_bytes(2, "big") + bytes([7, 0, ms // 1000]) + (ms % 1000).to_bytes(2, "big")
+
+    told = []
+    for k in range(200):
+        data = value(56 if k < 100 else 55, k).ljust(104, b"\0")
+        told += decoder.feed(Packet(5.0 + 4 * k / 208, LEFT, "orphe/values", data))
+    (reset,) = of(ClockReset, told)
+    assert not reset.restarted and not of(PacketsLost, told)
+    found = times(told)
+    assert len(found) == 100 * 2 + 100 * 4 and found == sorted(set(found))
+    assert found[199] - found[198] == pytest.approx(1 / 104, abs=1e-4)
+    assert found[-1] - found[-2] == pytest.approx(1 / 208, abs=1e-4)
+    assert found[-1] == pytest.approx(5.0 + 4 * 199 / 208, abs=0.01)
+
+
 # --- what else a value says -------------------------------------------------------------------------------------------
 
 

@@ -70,6 +70,10 @@ class Profile:
         """Whether there is a channel of this name."""
         return name in self._names
 
+    def answers_to(self, name: str) -> bool:
+        """Whether a device of this kind may advertise this name."""
+        return name in self.names or (name != "" and name.startswith(self.prefixes))
+
     def channel(self, name: str) -> Channel:
         """The channel of this name. KeyError when there is none."""
         for channel in self.channels:
