@@ -289,9 +289,10 @@ def test_a_site_for_a_device_that_is_not_there_is_refused_with_those_that_are(tm
 
 
 def test_other_peoples_devices_are_counted_not_described(tmp_path):
-    log = begin(begin(Log()), 0x41, OTHER, {0x10: "2a37"})
+    log = begin(begin(Log()), 0x41, OTHER, {0x10: "2a37", 0x12: "2a19", 0x15: "2a26"})
     log.notify(0x40, FRAME, frames()[0])
     log.notify(0x41, 0x10, b"\x00\x48")
+    log.notify(0x41, 0x12, b"\x48")
     found, reports = read(log, tmp_path)
     assert {device for device, *_ in found} == {LEFT}
     assert reports == ["1 other device left out"]
@@ -331,8 +332,10 @@ def test_a_handle_is_given_to_another_device_and_what_was_discovered_stays_with_
     log.disconnect(0x40)
     log.connect(0x40, LEFT)  # phones remember, and do not discover again
     log.notify(0x40, FRAME, frames()[1])
+    log.notify(0x40, BATTERY, b"\x42")
     found, reports = read(log, tmp_path)
     assert data_of(found, "insole/frame") == [*frames()[:2]]
+    assert data_of(found, "device/battery") == [b"\x42"]
     assert [channel for _, _, channel, _ in found if channel.startswith("receiver/")] == [
         "receiver/connected", "receiver/disconnected", "receiver/connected",
     ]  # fmt: skip
@@ -435,6 +438,20 @@ def test_a_value_that_just_fills_the_answer_is_whole_when_nobody_asks_on(tmp_pat
         found = read(log, tmp_path, sites={LEFT: Site.LEFT_FOOT})[0]
         assert data_of(found, "device/firmware") == [b"v" * 22]
         assert data_of(found, "device/battery") == ([b"\x63"] if after else [])
+
+
+def test_the_rest_of_one_value_is_not_added_to_another(tmp_path):
+    log = Log()
+    log.connect(0x40, LEFT)
+    log.discover(0x40, INSOLE | {0x20: "2a26"})
+    log.asked(0x40, "0a2000", b"\x0b" + b"v" * 22)
+    log.asked(0x40, "0c15001600", b"\x0d" + b"rest")
+    log.asked(0x40, "0a2000", b"\x0b" + b"w" * 22)
+    log.asked(0x40, "0c20002c00", "010c200007")
+    log.notify(0x40, FRAME, frames()[0][:20])
+    found = read(log, tmp_path, sites={LEFT: Site.LEFT_FOOT})[0]
+    assert data_of(found, "device/firmware") == [b"v" * 22, b"w" * 22]
+    assert data_of(found, "insole/info") == []
 
 
 def test_what_was_written_counts_when_the_device_took_it(tmp_path):

@@ -35,7 +35,7 @@ ALLOWED: dict[str, set[str]] = {
     "recording": NOUNS | {"wire", "link"},
     "samples": NOUNS | {"recording"},
     "btsnoop": {"types", "wire", "link", "recording"},
-    "mcap": CORE | {"recording", "output"},
+    "mcap": {"types", "events", "link", "session", "recording", "output"},
     "source": CORE | {"recording", "samples"},
     "output": CORE,
     "tally": CORE,
