@@ -9,8 +9,9 @@ is lost packets or late ones. Nothing on the wire tells which, so:
 - otherwise packets were only late, unless eight in a row stay 0.9 periods behind: then the loss is said at the eighth;
 - a packet that comes half a period too early says that a loss was none; its slot is not counted.
 
-A radio may hold back anything for some connection events, so within periods shorter than that a hole says nothing:
-only packets that stay behind for a third of a second are signs of loss.
+A radio may hold back anything for some connection events. So with periods shorter than that a hole says nothing; only
+packets that stay behind by as much, and for a third of a second, are a sign of loss. A smaller loss cannot be told from
+lateness, and the fit makes it good.
 
 A period that was never written is found by itself: arrivals clearly faster than the period, or six holes in a row.
 """
@@ -38,7 +39,7 @@ SETTLED = 40
 SLIPPED, SLIPPED_FOR = 8, 0.32
 """Packets in a row that stay behind before a slip is a loss, and s for which they do."""
 RADIO = 0.04
-"""Shortest period (s) in which a hole is a sign of loss by itself."""
+"""What a radio may hold back at any time, s; with a shorter period a hole is no sign of loss by itself."""
 FAST = 0.24
 """Seconds that arrivals must be ahead before the period is taken to be shorter (radio jitter is less)."""
 WIDE = 6
@@ -139,7 +140,7 @@ class Periodic:
         if tells and hole >= HOLE * period and behind >= LATE * period and behind >= QUIET * self.jitter:
             self.slipped = 0
             return floor(behind / period + 1.0 - LATE)
-        if behind < LATE * period:
+        if behind < (LATE * period if tells else RADIO):
             self.slipped = 0
             return 0
         if self.slipped == 0:
