@@ -15,6 +15,7 @@ MARK = "<!-- figures -->\n"
 HEADER = ["| figure | came to | command |", "|---|---|---|"]
 LONG_DEMO = ["demo", "--distance", "100", "--loss", "0.05", "--jitter", "0.05"]
 BENCH = "tests/bench/bench.py"
+BLUETOOTH = "tests/bench/bluetooth.py"
 SURVEYED = ("exp31", "exp33", "exp37")
 EVENTS = ("heel-strike", "foot-flat", "heel-off", "toe-off")
 

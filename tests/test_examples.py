@@ -39,6 +39,14 @@ def test_an_emulated_walk_ends_where_its_route_ends():
     assert float(says[7]) == pytest.approx(float(ends[9]), abs=0.5)
 
 
+def test_emulated_insoles_are_heard_over_bluetooth():
+    told = run("bluetooth").splitlines()
+    assert {"left_foot: connected to solepath L", "right_foot: connected to solepath R"} <= set(told)
+    steps = [line for line in told if " step of " in line]
+    assert {line.split()[0] for line in steps} == {"left", "right"}
+    assert sum(float(line.split()[3]) for line in steps) == pytest.approx(8.0, rel=0.05)  # 4 m with each foot
+
+
 def test_the_loop_tells_the_steps_of_a_recording(tmp_path):
     walk = emulate(ROUTE, radio=Radio(corrupt=0.02), seed=2)
     with PacketWriter(tmp_path / "walk.jsonl") as writer:

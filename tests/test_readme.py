@@ -54,7 +54,7 @@ def test_its_programs_run_one_after_the_other_and_say_what_they_promise(tmp_path
         with redirect_stdout(io.StringIO()) as out:
             exec(compile(program, "README.md", "exec"), names)
         printed.append(out.getvalue())
-    loop, _, _, saved, _ = printed
+    loop, _, _, saved, _, _ = printed
     for foot in Foot:
         assert loop.count(f"{foot.value} step of") == len(walk.truth.steps(foot))
         assert f"s: {foot.value} heel-strike" in loop

@@ -1,0 +1,48 @@
+"""Sensors over Bluetooth: `python bluetooth.py LEFT RIGHT` with two addresses from `solepath scan`.
+
+Without addresses two emulated insoles are worn for eight seconds, behind virtual Bluetooth controllers.
+"""
+
+import asyncio
+import sys
+
+from solepath import Connected, Disconnected, LinkTrouble, Session, Site, StepTaken
+from solepath.ble import NATIVE, Backend, BluetoothError, Devices, Wanted
+from solepath.loopback.bench import Bench
+from solepath.loopback.server import virtual_air
+from solepath.sim import Route
+
+
+async def listen(left: str, right: str, backend: Backend = NATIVE, seconds: float = 600.0) -> None:
+    session = Session()
+    wanted = [Wanted(Site.LEFT_FOOT, left), Wanted(Site.RIGHT_FOOT, right)]
+    end = asyncio.get_running_loop().time() + seconds
+    async with Devices(wanted, backend=backend) as devices:
+        async for packet in devices:
+            for event in session.feed(packet):
+                match event:
+                    case StepTaken(foot=foot, stride_length=length):
+                        print(f"{foot.value} step of {length:.2f} m")
+                    case Connected(site=site, name=name):
+                        print(f"{site.value}: connected to {name}")
+                    case Disconnected(site=site):
+                        print(f"{site.value}: lost, and sought")
+                    case LinkTrouble(site=site, what=what):
+                        print(f"{site.value}: {what}")
+            if packet.t > end:
+                break
+
+
+async def emulated() -> None:
+    bench = Bench(Route().stand(2.0).walk(4.0, speed=1.3).stop(1.0))
+    bench.prepare()
+    left, right = (peripheral.address for peripheral in bench.peripherals)
+    async with virtual_air(bench.peripherals) as backend:
+        bench.began = asyncio.get_running_loop().time() + 1.0
+        await listen(left, right, backend, 8.0)
+
+
+try:
+    asyncio.run(listen(*sys.argv[1:]) if len(sys.argv) == 3 else emulated())
+except BluetoothError as error:
+    sys.exit(str(error))

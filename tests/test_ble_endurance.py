@@ -1,0 +1,140 @@
+"""Two hundred forced disconnections in one walk, through true ATT."""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import sys
+from functools import cache
+
+import numpy as np
+import pytest
+from attrs import define, field
+
+from airs import bumble, in_virtual_time, others
+from solepath import Connected, Disconnected, FootMoved, PacketRejected, SampleGap, Session, StepTaken
+from solepath.ble import Devices, Wanted
+from solepath.evaluate.strides import position_errors
+from solepath.link.profile import INSOLE
+from solepath.loopback.bench import Bench
+from solepath.loopback.faults import Fault, What
+from solepath.sim import Route
+from solepath.sim.truth import Truth
+from solepath.types import Foot, Site, Vec3
+
+FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
+ROUTE = Route().stand(3.0).walk(90.0).turn(1.5, radius=2.0).walk(60.0).turn(-1.5, radius=2.0).walk(60.0).stop(3.0)
+CUTS = 200
+FIRST, APART = 3.2, 0.81
+"""s: of the walk, and from one cut to the next; the feet take turns, and strides of 1.1 s are cut anywhere."""
+
+
+@define
+class Walked:
+    """What became of the walk, seen by the app."""
+
+    truth: Truth
+    began: float = 0.0
+    """The walk's 0 on the loop's clock, s."""
+    places: dict[Foot, list[Vec3]] = field(factory=lambda: {foot: [] for foot in Foot})
+    """Where each foot was said to be at the ends of its true steps."""
+    steps: int = 0
+    connected: int = 0
+    disconnected: int = 0
+    rejected: int = 0
+    gaps: list[SampleGap] = field(factory=list)
+    tasks: list[int] = field(factory=list)
+    """Beside the app's own, at every connection."""
+    blocks: list[int] = field(factory=list)
+    """Memory that Python holds, in its blocks, at every 20th connection."""
+    left: int = -1
+    """Tasks that are left at the end."""
+
+    def take(self, event: object) -> None:
+        match event:
+            case FootMoved(foot=foot, t=t, position=position):
+                done = len(self.places[foot])
+                ends = self.ends(foot)
+                if done < len(ends) and t - self.began >= ends[done]:
+                    self.places[foot].append(position)
+            case StepTaken():
+                self.steps += 1
+            case Connected():
+                self.connected += 1
+                self.tasks.append(len(others()))
+                if self.connected % 20 == 0:
+                    gc.collect()
+                    self.blocks.append(sys.getallocatedblocks())
+            case Disconnected():
+                self.disconnected += 1
+            case PacketRejected():
+                self.rejected += 1
+            case SampleGap():
+                self.gaps.append(event)
+
+    def ends(self, foot: Foot) -> list[float]:
+        """The rests between the true steps, s."""
+        steps = self.truth.steps(foot)
+        return [steps[0].t_start, *(step.t_end for step in steps)]
+
+    def error(self) -> float:
+        """Mean horizontal distance of both feet from where they were at the ends of their steps, m."""
+        errors = []
+        for foot in Foot:
+            ends = np.array(self.ends(foot))
+            true = self.truth.feet[foot].pose(ends).position[:, :2]
+            errors += position_errors(ends, true, ends, np.array(self.places[foot])).tolist()
+        return float(np.mean(errors))
+
+
+@cache
+def walk(cuts: int, seed: int) -> Walked:
+    bench = Bench(
+        ROUTE, seed=seed, faults=[Fault(FIRST + APART * k, FEET[k % 2], What.DISCONNECT) for k in range(cuts)]
+    )
+    truth = bench.truth()
+    assert truth.duration - 2.0 > FIRST + APART * CUTS
+    walked = Walked(truth)
+
+    async def listen() -> None:
+        began = asyncio.get_running_loop().time() + 3.0
+        bench.began = walked.began = began
+        bench.prepare()
+        session = Session(poses=True)
+        async with bumble(bench) as backend, Devices([Wanted(None, profile=INSOLE)] * 2, backend=backend) as devices:
+            async for packet in devices:
+                if packet.t > began + truth.duration:
+                    break
+                for event in session.feed(packet):
+                    walked.take(event)
+        walked.left = len(others())
+
+    in_virtual_time(listen)
+    return walked
+
+
+def test_a_session_goes_on_through_two_hundred_disconnections_and_every_gap_is_an_event() -> None:
+    walked = walk(CUTS, 1)
+    assert walked.disconnected == CUTS
+    assert walked.connected == CUTS + 2
+    assert walked.rejected == 0
+    true = sum(len(walked.truth.steps(foot)) for foot in Foot)
+    assert true > 300
+    assert abs(walked.steps - true) <= 0.02 * true
+    # each cut costs samples, so each is a gap; none is longer than it takes to find and set up a device again
+    cut = [event for event in walked.gaps if event.duration > 0.05]
+    assert len(cut) == CUTS
+    assert max(event.duration for event in cut) < 0.5
+
+
+def test_nothing_is_left_behind_by_two_hundred_connections() -> None:
+    walked = walk(CUTS, 1)
+    assert walked.left == 0
+    assert max(walked.tasks[-50:]) <= max(walked.tasks[:50])
+    early, late = walked.blocks[2], walked.blocks[-1]
+    assert late - early < 0.01 * early, walked.blocks
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_the_track_stays_within_twice_the_error_of_the_walk_without_disconnections(seed: int) -> None:
+    assert walk(CUTS, seed).error() <= 2.0 * walk(0, seed).error()

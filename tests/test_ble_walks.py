@@ -1,0 +1,121 @@
+"""Whole walks through true ATT: two insoles for a minute, and SensorTags at the rates that they have."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+
+import pytest
+from attrs import evolve
+
+from airs import bumble, hear, in_virtual_time
+from solepath import Event, PacketRejected, PacketsLost, SampleGap, Session
+from solepath.ble import Devices, Wanted
+from solepath.evaluate.emulated import compare
+from solepath.evaluate.gathered import Gathering
+from solepath.link.profile import CC2541, CC2541_20HZ, CC2650, INSOLE, Profile
+from solepath.link.reassembly import Reassembly
+from solepath.loopback.bench import Bench
+from solepath.sim import Route, emulate, sensortags
+from solepath.sim.device import Device
+from solepath.types import Foot, Packet, Site
+from solepath.wire.fragment import is_fragment, parse_fragment
+
+FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
+MINUTE = Route().stand(3.0).walk(20.0).turn(1.5, radius=1.5).walk(40.0, speed=1.2).stop(7.0)
+
+
+def heard(bench: Bench, wanted: Sequence[Wanted], seconds: float) -> tuple[list[Packet], float]:
+    """What arrives from the beginning of the search until the walk has lasted so long; and when it began."""
+
+    async def listen() -> tuple[list[Packet], float]:
+        began = asyncio.get_running_loop().time() + 5.0
+        bench.began = began
+        bench.prepare()
+        async with bumble(bench) as backend, Devices(wanted, backend=backend) as devices:
+            return await hear(devices, 5.0 + seconds), began
+
+    return in_virtual_time(listen)
+
+
+def whole(packets: list[Packet]) -> list[Packet]:
+    """The same with fragments put together, each frame at the arrival of its last."""
+    under_way = {site: Reassembly() for site in FEET}
+    found = []
+    for packet in packets:
+        if packet.channel == "insole/frame" and is_fragment(packet.data):
+            frame, dropped = under_way[packet.site].feed(parse_fragment(packet.data))
+            assert dropped is None
+            if frame is not None:
+                found.append(evolve(packet, data=bytes(frame)))
+        else:
+            found.append(packet)
+    return found
+
+
+def events_of(packets: list[Packet]) -> list[Event]:
+    session = Session(poses=True)
+    return [*session.feed(packets), *session.finish()]
+
+
+@pytest.mark.parametrize("mtu", [247, 185, 23])
+def test_a_minute_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_the_walk_fed_directly(
+    mtu: int,
+) -> None:
+    bench = Bench(MINUTE, mtu=mtu)
+    duration = bench.truth().duration
+    assert duration > 60.0
+    packets, began = heard(bench, [Wanted(None, profile=INSOLE)] * 2, duration)
+    arrived = whole(packets)
+
+    # the walk's own frames, as they leave the device without any link
+    direct = {
+        site: [p for p in emulate(MINUTE).packets if p.site is site and p.channel == "insole/frame"] for site in FEET
+    }
+    fed = []
+    for site in FEET:
+        frames = [packet for packet in arrived if packet.site is site and packet.channel == "insole/frame"]
+        first = next(k for k, packet in enumerate(frames) if packet.data == direct[site][0].data)
+        walked = frames[first : first + len(direct[site])]
+        assert len(walked) > 6000
+        assert [packet.data for packet in walked] == [packet.data for packet in direct[site]]
+        # none waited for anything: they were with the radio when they were heard
+        assert max(abs(a.t - began - b.t) for a, b in zip(walked, direct[site], strict=True)) < 0.01
+        stamped = [evolve(b, t=a.t, device=a.device) for a, b in zip(walked, direct[site], strict=True)]
+        fed += stamped
+        known = {id(packet) for packet in walked}
+        fed += [packet for packet in arrived if packet.site is site and id(packet) not in known]
+    fed.sort(key=lambda packet: packet.t)
+
+    events = events_of(packets)
+    assert events == events_of(fed)
+    assert not [event for event in events if isinstance(event, PacketsLost | PacketRejected | SampleGap)]
+    if mtu == 23:
+        assert len(packets) > 9 * len(arrived)
+
+
+TAGS: dict[str, tuple[Profile, Device]] = {
+    "cc2650 at 10 Hz": (CC2650, sensortags.CC2650()),
+    "cc2541 at 10 Hz": (CC2541, sensortags.CC2541()),
+    "cc2541 at 20 Hz": (CC2541_20HZ, sensortags.CC2541(rate=20.0)),
+}
+TAGGED = Route().stand(3.0).walk(30.0).turn(1.5, radius=1.5).walk(15.0, speed=1.1).stop(3.0)
+
+
+@pytest.mark.parametrize("tag", TAGS)
+def test_sensortags_give_the_steps_of_a_walk_end_to_end(tag: str) -> None:
+    profile, device = TAGS[tag]
+    true = found = invented = 0
+    for seed in (11, 12, 13):
+        bench = Bench(TAGGED, devices=dict.fromkeys(FEET, device), seed=seed)
+        wanted = [Wanted(worn.site, worn.address, profile) for worn in bench.peripherals]
+        packets, began = heard(bench, wanted, bench.truth().duration)
+        shifted = [evolve(packet, t=packet.t - began) for packet in packets]
+        gathering = Gathering()
+        for event in events_of(shifted):
+            gathering.add(event)
+        for foot in compare(bench.truth(), {foot: gathering.foot(foot) for foot in Foot}):
+            true += foot.steps_true
+            found += foot.steps_found
+            invented += foot.steps_invented
+    assert 2 * found / (found + invented + true) >= 0.95, f"{found} of {true} found, {invented} invented"
