@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterable
 from pathlib import Path
 
 from attrs import define, field
@@ -104,9 +103,3 @@ def insole_uuid(short: int) -> str:
 
 INSOLE = {0x12: insole_uuid(2), 0x15: insole_uuid(3), 0x17: insole_uuid(4), 0x1A: "2a19"}
 """Value handle -> UUID: frame, INFO, control, battery."""
-
-
-def walked(log: Log, packets: Iterable, handles: dict[str, int], attributes: dict[str, int]) -> None:
-    """Packets of an emulated walk as notifications; device -> connection handle, channel -> attribute handle."""
-    for packet in packets:
-        log.notify(handles[packet.device], attributes[packet.channel], packet.data, t=BEGAN + round(packet.t * 1e6))
