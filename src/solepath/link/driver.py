@@ -13,15 +13,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from enum import Enum
+from math import isfinite
 from typing import Any
 
 from attrs import field, frozen
 
+from ..events import Rejection
 from ..types import Foot, Layout, Quat, Vec3
 from ..wire.error import WireError
 from ..wire.fields import Definition, build_whole, malformed, parse_whole
 from .profile import Profile
 
+LARGEST = 1e7
+"""Nothing that a sensor of a foot measures is more, in SI units."""
 FINE = 20.0
 """Ticks that there must be in a sample's time, for ticks to be better than counting samples."""
 
@@ -69,6 +73,25 @@ class Reading:
     rate: float | None = None
     silent: bool | None = None
     known: Mapping[str, float] = field(factory=dict)
+
+
+def check(reading: Reading) -> None:
+    """WireError when it holds what no device can mean: numbers that are none or beyond any sensor, no rate."""
+    numbers: list[float] = [*reading.known.values(), reading.rate or 0.0, reading.battery or 0.0]
+    numbers += [*(reading.mag or ()), reading.air_pressure or 0.0]
+    for sample in reading.samples:
+        for values in (sample.acc, sample.gyro, sample.quat, sample.mag, sample.pressure):
+            numbers += values or ()
+        numbers.append(sample.air_pressure or 0.0)
+    if not all(map(isfinite, numbers)):
+        raise WireError(Rejection.NOT_FINITE, "a value that is no number")
+    largest = max(map(abs, numbers))
+    if largest > LARGEST:
+        raise WireError(Rejection.ABSURD, f"a value of {largest:g}")
+    if reading.rate is not None and not 0.1 <= reading.rate <= 10_000.0:
+        raise WireError(Rejection.ABSURD, f"{reading.rate:g} samples a second")
+    if reading.battery is not None and not 0.0 <= reading.battery <= 1.0:
+        raise WireError(Rejection.ABSURD, f"a battery at {reading.battery:g}")
 
 
 Known = Mapping[str, float]

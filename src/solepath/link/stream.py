@@ -11,7 +11,7 @@ Times come from the best that the device has, by the rules of protocol/clock.md:
 
 from __future__ import annotations
 
-from math import isfinite, sqrt
+from math import sqrt
 
 from attrs import define, field
 
@@ -30,15 +30,13 @@ from ..types import Quat, Sample, Site, Vec3
 from ..vector import GRAVITY
 from ..wire.error import WireError
 from ..wire.fields import malformed
-from .driver import Axis, Driver, Measured, Reading
+from .driver import Axis, Driver, Measured, Reading, check
 from .periodic import Periodic, periodic
 from .rest import RestCheck, suggestion
 from .run import Counted, Run, Taken, signed
 
 APART = 1.0
 """Seconds without samples after which air pressure no longer waits for one to ride on."""
-LARGEST = 1e7
-"""Nothing that a sensor of a foot measures is more, in SI units."""
 PARTS = 100
 """Ticks that a counted sample is worth: a pause is no whole number of samples."""
 PAUSE = 0.25
@@ -116,19 +114,7 @@ class StreamLink:
             raise WireError(Rejection.WRONG_SITE, f"of a {reading.foot.value} foot")
         if reading.samples and channel not in driver.profile.streams:
             raise malformed(f"samples on {channel!r}, which is no stream")
-        if reading.rate is not None and not 0.1 <= reading.rate <= 10_000.0:
-            raise WireError(Rejection.ABSURD, f"{reading.rate:g} samples a second")
-        if reading.battery is not None and not 0.0 <= reading.battery <= 1.0:
-            raise WireError(Rejection.ABSURD, f"a battery at {reading.battery:g}")
-        numbers: list[float] = [*_numbers(reading.mag), *reading.known.values(), reading.air_pressure or 0.0]
-        for one in reading.samples:
-            for values in (one.acc, one.gyro, one.mag, one.quat, one.pressure):
-                numbers += _numbers(values)
-            numbers.append(one.air_pressure or 0.0)
-        if not all(map(isfinite, numbers)):
-            raise WireError(Rejection.NOT_FINITE, "a value that is no number")
-        if max(map(abs, numbers)) > LARGEST:
-            raise WireError(Rejection.ABSURD, f"a value of {max(map(abs, numbers)):g}")
+        check(reading)
 
     def _learn(self, driver: Driver, reading: Reading) -> None:
         if reading.known:
@@ -296,10 +282,6 @@ class StreamLink:
 def stream_link(driver: Driver, site: Site) -> StreamLink:
     """A fresh device of this kind at `site`."""
     return StreamLink(site, driver.name, driver.profile.nominal_rate, RestCheck(driver.acc_range * GRAVITY / 32768))
-
-
-def _numbers(values: tuple[float, ...] | None) -> tuple[float, ...]:
-    return () if values is None else values
 
 
 def _unit(quat: Quat) -> Quat | None:

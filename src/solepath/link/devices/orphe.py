@@ -47,7 +47,7 @@ _DEVICE_INFORMATION = "24354f22-1c46-430e-a4ab-a1eeabbcdfc0"
 PROFILE = Profile(
     name="orphe",
     names=(),
-    services=(_INFORMATION, _OTHER),
+    services=(),  # another device of the same maker has the same
     channels=(
         Channel("orphe/values", _OTHER, "f3f9c7ce-46ee-4205-89ac-abe64e626c0f", How.NOTIFY),
         Channel("orphe/info", _INFORMATION, _DEVICE_INFORMATION, How.READ),
