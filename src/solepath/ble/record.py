@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import AsyncIterable, AsyncIterator
 from datetime import UTC, datetime
 from pathlib import Path
@@ -17,10 +18,12 @@ async def record(packets: AsyncIterable[Packet], path: Path | str, **header: Any
         async for packet in record(devices, "walk.jsonl"):
             session.feed(packet)
 
-    `header`: further keys of the first line; `began`, the time of day (UTC), is there already. OSError when the file
-    cannot be made, RecordingError when it cannot be written any further (the disk is full): what is in it stays whole.
+    `header`: further keys of the first line; the time of day (UTC) and what the packets' clock said then are there
+    already. RecordingError when the file cannot be made, or not written any further (the disk is full): what is in it
+    stays whole.
     """
-    with PacketWriter(path, began=datetime.now(UTC).isoformat(timespec="milliseconds"), **header) as writer:
+    began, began_t = datetime.now(UTC).isoformat(timespec="milliseconds"), asyncio.get_running_loop().time()
+    with PacketWriter(path, began=began, began_t=began_t, **header) as writer:
         async for packet in packets:
             writer.write(packet)
             yield packet
