@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from attrs import frozen
 
-from ..link.profile import PROFILES, Profile
+from ..link.known import PROFILES
+from ..link.profile import Profile
 from ..types import Site
 
 
@@ -61,7 +62,7 @@ def check(wanted: Sequence[Wanted]) -> None:
 
 def advertises(profile: Profile, name: str, services: Sequence[str]) -> bool:
     """Is this the advertisement of such a device?"""
-    return name in profile.names or not set(profile.services).isdisjoint(services)
+    return profile.answers_to(name) or not set(profile.services).isdisjoint(services)
 
 
 def identify(name: str, services: Sequence[str]) -> Profile | None:

@@ -56,7 +56,7 @@ def add_devices(command: argparse.ArgumentParser) -> None:
 def wanted(options: argparse.Namespace) -> list[Wanted]:
     """The devices that were named; none when none was. Failure for a site or profile that there is not."""
     from ..ble import Wanted
-    from ..link.profile import BY_NAME
+    from ..link.known import BY_NAME
     from ..types import Site
 
     named = [(Site.LEFT_FOOT, options.left), (Site.RIGHT_FOOT, options.right)]
