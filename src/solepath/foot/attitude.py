@@ -11,6 +11,11 @@ from attrs import define, field
 from ..types import Quat, Vec3
 from ..vector import GRAVITY, TIE, ZERO, levelling
 
+COARSEST = 0.7
+"""No accelerometer's count is worth more (8 bits for +-8 g are 0.61), m/s^2."""
+EQUAL = 1e-6
+"""Readings that differ by less are the same count, m/s^2."""
+
 
 @define
 class Span:
@@ -90,7 +95,7 @@ class Rest:
 
     length: float = 0.5
     still_acc: float = 0.35
-    """Largest standard deviation of acc at rest, m/s^2."""
+    """Largest standard deviation of acc at rest, m/s^2, that of its counts aside."""
     still_gyro: float = 0.02
     """Largest standard deviation of the rate at rest, rad/s: a standing foot, not one in mid-stance."""
     largest_bias: float = 0.5
@@ -105,6 +110,10 @@ class Rest:
     count: int = field(default=0, init=False)
     magnitude: float | None = field(default=None, init=False)
     """|acc| of the last rest, m/s^2."""
+    grain: float = field(default=COARSEST, init=False)
+    """What one count of the accelerometer is worth, m/s^2: the least by which two readings were seen to differ."""
+    last: Vec3 = field(default=ZERO, init=False)
+    """The last raw acc, m/s^2."""
 
     def interrupt(self) -> None:
         """Times begin anew: the span under way is given up, what was learnt stays."""
@@ -116,13 +125,25 @@ class Rest:
         if self.span_start is None:
             self.span_start = t
         self.span.add(acc, gyro)
+        # between two neighbouring counts a steady reading flickers, on any axis, with a variance of up to a quarter
+        x, y, z = acc
+        lx, ly, lz = self.last
+        self.last = acc
+        finest = self.grain
+        if EQUAL < abs(x - lx) < finest:
+            finest = abs(x - lx)
+        if EQUAL < abs(y - ly) < finest:
+            finest = abs(y - ly)
+        if EQUAL < abs(z - lz) < finest:
+            finest = abs(z - lz)
+        self.grain = finest
         if t - self.span_start < self.length - TIE or self.span.count < 4:
             return False
         (ax, ay, az), (gx, gy, gz) = self.span.means()
         acc_variance, gyro_variance = self.span.variances()
         self.span = Span()
         self.span_start = t
-        if acc_variance > self.still_acc**2 or gyro_variance > self.still_gyro**2:
+        if acc_variance > self.still_acc**2 + 0.75 * self.grain * self.grain or gyro_variance > self.still_gyro**2:
             return False
         if max(abs(gx), abs(gy), abs(gz)) > self.largest_bias:
             return False
