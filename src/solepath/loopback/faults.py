@@ -15,6 +15,8 @@ semicolon ends a fault as a line does:
     30 left_foot hang                 # the next request is never answered, and 1 s later the link is lost
     40 left_foot restart              # the link is lost and the device begins anew, its counters too
     0 * name "SensorTag"              # the device goes by another name
+    0 left_foot pairing               # from now on the device must be paired with before it says anything of the foot
+    0 left_foot refuse pairing        # the next attempt to pair is refused
 
 Seconds count from the walk's beginning. The same script does the same every time.
 """
@@ -33,6 +35,8 @@ from ..types import Site
 
 HANGING = 1.0
 """s from a request that is never answered until the link is lost."""
+PAIRING = "pairing"
+"""What is refused, in place of a channel, when it is an attempt to pair."""
 
 
 class What(Enum):
@@ -50,6 +54,7 @@ class What(Enum):
     HANG = "hang"
     RESTART = "restart"
     NAME = "name"
+    PAIRING = "pairing"
 
 
 @frozen
@@ -57,7 +62,7 @@ class Fault:
     """One fault at `at` s of the walk, at `site` (None: at every site).
 
     `amount`: s for VANISH and FREEZE (inf without), the MTU for MTU, a number of notifications or requests otherwise.
-    `argument`: the channel for REFUSE, the name for NAME.
+    `argument`: the channel for REFUSE, or PAIRING; the name for NAME.
     """
 
     at: float
@@ -175,6 +180,8 @@ class Misfortune:
         """When the device began anew the last time, None when it never did."""
         self.name: str | None = None
         """What the device now calls itself, None when no fault says so."""
+        self.needs_pairing = False
+        """Whether the device wants to be paired with."""
 
     def next_at(self) -> float | None:
         """When something happens by itself, s; None when nothing is to come."""
@@ -241,6 +248,8 @@ class Misfortune:
                 self._hang = True
             case What.NAME:
                 self.name = fault.argument
+            case What.PAIRING:
+                self.needs_pairing = True
             case _:
                 self._left[fault.what] += int(fault.amount)
 

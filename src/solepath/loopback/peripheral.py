@@ -15,17 +15,19 @@ A fault script (faults.py) acts inside; the server sees only its effects.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from typing import Protocol
+from collections.abc import Callable, Iterable
 
-from attrs import define, frozen
+from attrs import frozen
 
 from ..types import Site
 from .advertisement import check_fits
-from .faults import Fault, Misfortune, What
+from .faults import PAIRING, Fault, Misfortune, What
+from .flows import Flows, Source
 
 READ_NOT_PERMITTED = 0x02
 WRITE_NOT_PERMITTED = 0x03
+NOT_PAIRED = 0x05
+"""Insufficient authentication (Bluetooth Core, vol 3 part C, 10.3.1)."""
 REQUEST_NOT_SUPPORTED = 0x06
 WRONG_LENGTH = 0x0D
 REFUSED = 0x80
@@ -70,25 +72,6 @@ class Outgoing:
     value: bytes
 
 
-class Source(Protocol):
-    """What a channel has to tell: values with numbers, each at its time. Times are of the walk, s."""
-
-    def after(self, t: float) -> int:
-        """The number of the first value that is measured at `t` or later."""
-
-    def due(self, number: int) -> float:
-        """When the radio has it, not before the one before it; inf when there is no such value."""
-
-    def values(self, number: int, mtu: int) -> Sequence[bytes]:
-        """What is sent then, in order: nothing, one notification, or several where one is not enough."""
-
-
-@define(eq=False)
-class _Flow:
-    source: Source
-    number: int
-
-
 class Peripheral:
     """A device without attributes of its own; insole.py and sensortags.py say what theirs are.
 
@@ -122,9 +105,8 @@ class Peripheral:
         self._name, self._mtu, self._began = name, mtu, began
         self._misfortune = Misfortune(faults, site)
         self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
-        self._flows: dict[str, _Flow] = {}
-        self._subscribed: set[str] = set()
-        self._linked = False
+        self._flows = Flows()
+        self._linked = self._encrypted = False
         self._now = float("-inf")
         self._agreed = SMALLEST_MTU
 
@@ -149,10 +131,7 @@ class Peripheral:
 
     def flow(self, channel: str, source: Source | None, t: float) -> None:
         """From `t` of the walk on the channel tells what `source` has, or nothing."""
-        if source is None:
-            self._flows.pop(channel, None)
-        else:
-            self._flows[channel] = _Flow(source, source.after(t))
+        self._flows.put(channel, source, t)
 
     # what its server asks
 
@@ -180,6 +159,11 @@ class Peripheral:
         return self._misfortune.restarted
 
     @property
+    def needs_pairing(self) -> bool:
+        """Whether it refuses requests on a link that is not encrypted, but for Device Information and battery."""
+        return self._misfortune.needs_pairing
+
+    @property
     def is_connected(self) -> bool:
         return self._linked
 
@@ -190,8 +174,7 @@ class Peripheral:
     @began.setter
     def began(self, began: float) -> None:
         self._began = began
-        for flow in self._flows.values():
-            flow.number = flow.source.after(self._now - began)
+        self._flows.go_to(self._now - began)
         self._tell()
 
     def visible(self, now: float) -> bool:
@@ -203,18 +186,26 @@ class Peripheral:
         """A link begins, with the MTU that is agreed so far."""
         self._pass(now)
         self._misfortune.connected()
-        self._linked, self._agreed = True, mtu
+        self._linked, self._encrypted, self._agreed = True, False, mtu
         self.begin()
         self._tell()
 
     def mtu_changed(self, mtu: int) -> None:
         self._agreed = mtu
 
+    def agrees_to_pair(self, now: float) -> bool:
+        """Whether it takes part in a pairing that the host begins."""
+        self._pass(now)
+        return not self._misfortune.refuses(PAIRING)
+
+    def encryption_changed(self, encrypted: bool) -> None:
+        """The link is encrypted by the keys of a pairing, of now or of earlier; or it is not any more."""
+        self._encrypted = encrypted
+
     def disconnected(self, now: float) -> None:
         """The link is gone, whoever ended it: subscriptions are forgotten, the device does what its protocol says."""
         self._pass(now)
-        self._linked = False
-        self._subscribed.clear()
+        self._linked = self._encrypted = False
         self._flows.clear()
         self._agreed = SMALLEST_MTU
         self.stop()
@@ -224,13 +215,8 @@ class Peripheral:
         if "notify" not in self._properties.get(channel, ()):
             raise AttError(REQUEST_NOT_SUPPORTED)
         t = self._pass(now)
-        if on and channel not in self._subscribed:
-            self._subscribed.add(channel)
-            flow = self._flows.get(channel)
-            if flow is not None:
-                flow.number = max(flow.number, flow.source.after(t))
-        elif not on:
-            self._subscribed.discard(channel)
+        self._check_paired(channel)
+        self._flows.subscribe(channel, on, t)
         self._tell()
 
     def read(self, channel: str, now: float) -> bytes | None:
@@ -258,26 +244,22 @@ class Peripheral:
         """When `poll` or `hang_up` have something next; None when nothing is foreseeable."""
         if not self._linked:
             return None
-        times = [flow.source.due(flow.number) for channel, flow in self._flows.items() if channel in self._subscribed]
         fault = self._misfortune.next_at()
-        if fault is not None:
-            times.append(fault)
-        soonest = min(times, default=float("inf"))
+        soonest = min(self._flows.next_due(), float("inf") if fault is None else fault)
         return None if soonest == float("inf") else max(self._now, self._began + soonest)
 
     def poll(self, now: float) -> list[Outgoing]:
         """The notifications that are due by now, after the faults, in order of their time."""
         found: list[Outgoing] = []
         while self._linked:
-            channel, due = self._first(now - self._began + _AT_ONCE)
+            channel, due = self._flows.first(now - self._began + _AT_ONCE)
             t = self._pass(now) if channel is None else self._happen(due)
             if channel is None or self._misfortune.cut:
                 break
-            flow = self._flows[channel]
-            number, flow.number = flow.number, flow.number + 1
-            if self._misfortune.frozen(t):
+            source, number = self._flows.take(channel)
+            if self._misfortune.frozen(t) or self._is_closed(channel):
                 continue
-            for value in flow.source.values(number, self._agreed):
+            for value in source.values(number, self._agreed):
                 found += [Outgoing(channel, sent) for sent in self._misfortune.carry(value)]
         for outgoing in found:
             self.sent[outgoing.channel] = self.sent.get(outgoing.channel, 0) + 1
@@ -291,23 +273,22 @@ class Peripheral:
         cut, self._misfortune.cut = self._misfortune.cut and self._linked, False
         return cut
 
-    def _first(self, t: float) -> tuple[str | None, float]:
-        """The channel that has something to tell soonest, by `t` at the latest, and when."""
-        first, soonest = None, t
-        for channel, flow in self._flows.items():
-            if channel in self._subscribed:
-                due = flow.source.due(flow.number)
-                if due < soonest or (due == soonest and first is None):
-                    first, soonest = channel, due
-        return first, soonest
-
     def _fails(self, channel: str, t: float) -> bool:
         if self._misfortune.hangs(t):
             self._tell()
             return True
         if self._misfortune.refuses(channel):
             raise AttError(REFUSED)
+        self._check_paired(channel)
         return False
+
+    def _is_closed(self, channel: str) -> bool:
+        """Whether the link must be encrypted first. What every device tells of itself is open to all."""
+        return self.needs_pairing and not self._encrypted and not channel.startswith("device/")
+
+    def _check_paired(self, channel: str) -> None:
+        if self._is_closed(channel):
+            raise AttError(NOT_PAIRED)
 
     def _pass(self, now: float) -> float:
         """Time passes; returns the time of the walk."""
