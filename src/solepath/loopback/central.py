@@ -19,7 +19,7 @@ from bleak.backends.scanner import AdvertisementData, AdvertisementDataCallback,
 from bleak.backends.service import BleakGATTService, BleakGATTServiceCollection
 from bleak.exc import BleakDeviceNotFoundError, BleakError, BleakGATTProtocolError
 from bleak.uuids import normalize_uuid_str
-from bumble import att, core
+from bumble import att, core, hci, smp
 from bumble.core import AdvertisingData
 from bumble.device import Advertisement, Connection, Peer
 
@@ -29,6 +29,13 @@ from .radio import Radio, end_link
 _T = TypeVar("_T")
 
 _SMALLEST_MTU = 23
+_PAIRING = 30.0
+"""s after which a pairing has failed (Bluetooth Core, vol 3 part H, 3.4)."""
+_REFUSALS: dict[tuple[str, int | None], str] = {
+    ("smp", int(smp.ErrorCode.PAIRING_NOT_SUPPORTED)): "the device refused to be paired",
+    ("hci", int(hci.HCI_ErrorCode.PIN_OR_KEY_MISSING_ERROR)): "the device has forgotten the pairing: unpair it here "
+    "too, and pair anew",
+}
 _SERVICE_LISTS = (
     AdvertisingData.INCOMPLETE_LIST_OF_16_BIT_SERVICE_CLASS_UUIDS,
     AdvertisingData.COMPLETE_LIST_OF_16_BIT_SERVICE_CLASS_UUIDS,
@@ -136,10 +143,11 @@ class RadioClient(BaseBleakClient):
     # the link
 
     async def connect(self, pair: bool, **kwargs: Any) -> None:
-        """Connects, agrees on an MTU and discovers what the device has. `pair` is ignored: no device asks for it.
+        """Connects, agrees on an MTU and discovers what the device has. The link is encrypted if there are keys of an
+        earlier pairing; if there are none and `pair`, the device is paired with.
 
         `timeout`: s. TimeoutError when the device does not answer; BleakDeviceNotFoundError when only an address was
-        given and nobody advertised it for so long; BleakError when the link is lost at once.
+        given and nobody advertised it for so long; BleakError when the link is lost at once, or pairing fails.
         """
         if self._link is not None:
             raise BleakError("already connected")
@@ -150,6 +158,10 @@ class RadioClient(BaseBleakClient):
             self._link = link
             link.on(Connection.EVENT_DISCONNECTION, partial(self._lost, link))
             try:
+                if await self.radio.keys.get(str(link.peer_address)) is not None:
+                    await self._request(link.encrypt)
+                elif pair:
+                    await self.pair()
                 peer = Peer(link)
                 await self._request(partial(peer.request_mtu, self.radio.mtu))
                 self.services = await self._request(partial(self._discover, peer))
@@ -207,10 +219,23 @@ class RadioClient(BaseBleakClient):
             self._lost(link, 0)
 
     async def pair(self, *args: Any, **kwargs: Any) -> None:
-        """Nothing to do: no device asks for it."""
+        """LE Secure Connections, Just Works: nobody is asked. The keys are kept as long as the backend."""
+        link = self._link
+        if link is None:
+            raise BleakError("not connected")
+        if link.is_encrypted:
+            return
+        try:
+            async with asyncio.timeout(_PAIRING):
+                await self._request(link.pair)
+        except TimeoutError as error:
+            await self.disconnect()
+            raise BleakError("the device did not answer when it was to be paired") from error
 
     async def unpair(self) -> None:
-        """Nothing to do."""
+        """Forgets the keys, which ends the link."""
+        await self.radio.keys.delete(self.address)
+        await self.disconnect()
 
     # attributes
 
@@ -226,6 +251,9 @@ class RadioClient(BaseBleakClient):
             # Core specification Vol 3, Part F, 3.3.3: after 30 s without an answer nothing more may be sent on the link
             await self.disconnect()
             raise BleakError("the device did not answer") from error
+        except core.ProtocolError as error:
+            known = _REFUSALS.get((error.error_namespace, error.error_code))
+            raise BleakError(known or str(error)) from error
         except (core.BaseBumbleError, TimeoutError) as error:
             raise BleakError(str(error)) from error
 

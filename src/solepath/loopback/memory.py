@@ -44,6 +44,8 @@ class Air:
         self.peripherals = tuple(peripherals)
         self.mtu = mtu
         self.round_trip = round_trip
+        self.paired: set[str] = set()
+        """Addresses of the devices that the host is paired with."""
 
         class MemoryClient(_Client):
             air = self
@@ -67,6 +69,7 @@ class _Client(BaseBleakClient):
         self._wanted = wanted
         self._name = address_or_ble_device.name if isinstance(address_or_ble_device, BLEDevice) else None
         self._link: Link | None = None
+        self._established = False
         self._device: Peripheral | None = None
 
     @property
@@ -86,8 +89,14 @@ class _Client(BaseBleakClient):
             raise BleakError("already connected")
         device = await self._found(float(kwargs.get("timeout", self._timeout)))
         self._device, self._name = device, device.name
-        self._link = Link(device, min(self.air.mtu, device.mtu), self.air.round_trip, self._on_lost)
-        self.services = _collection(device, self._wanted, self._link.mtu)
+        link = self._link = Link(device, min(self.air.mtu, device.mtu), self.air.round_trip, self._on_lost)
+        try:
+            await self._encrypt(pair)
+        except BaseException:
+            link.lose()
+            raise
+        self.services = _collection(device, self._wanted, link.mtu)
+        self._established = True
 
     async def _found(self, timeout: float) -> Peripheral:
         loop = asyncio.get_running_loop()
@@ -108,15 +117,32 @@ class _Client(BaseBleakClient):
             self._link.lose()
 
     def _on_lost(self) -> None:
+        established, self._established = self._established, False
         self._link, self.services = None, None
-        if self._disconnected_callback is not None:
+        if established and self._disconnected_callback is not None:
             self._disconnected_callback()
 
+    async def _encrypt(self, pair: bool) -> None:
+        """By what an earlier pairing left, or after a pairing if that is wanted."""
+        link, device = self._up()
+        if device.address in self.air.paired:
+            await link.request(lambda now: _encrypted(device))
+        elif pair:
+            await self.pair()
+
     async def pair(self, *args: Any, **kwargs: Any) -> None:
-        raise BleakError("these devices do not pair")
+        link, device = self._up()
+        if device.address in self.air.paired:
+            return
+        if not await link.request(device.agrees_to_pair):
+            raise BleakError("the device refused to be paired")
+        await link.request(lambda now: _encrypted(device))
+        self.air.paired.add(device.address)
 
     async def unpair(self) -> None:
-        raise BleakError("these devices do not pair")
+        """Forgets the pairing, which ends the link."""
+        self.air.paired.discard(self.address)
+        await self.disconnect()
 
     async def read_gatt_char(self, characteristic: BleakGATTCharacteristic, **kwargs: Any) -> bytearray:
         link, device = self._up()
@@ -242,4 +268,9 @@ def _channel_of(descriptor: BleakGATTDescriptor) -> str:
 
 def _subscribed(device: Peripheral, channel: str, on: bool, now: float) -> bool:
     device.subscribe(channel, on, now)
+    return True
+
+
+def _encrypted(device: Peripheral) -> bool:
+    device.encryption_changed(True)
     return True

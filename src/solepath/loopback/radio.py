@@ -15,7 +15,10 @@ from bleak.exc import BleakError
 from bumble import core, hci
 from bumble.device import Advertisement, Connection, Device, DeviceConfiguration
 from bumble.host import Host
+from bumble.keys import MemoryKeyStore
 from bumble.transport.common import Transport
+
+from .pairing import just_works
 
 _T = TypeVar("_T")
 
@@ -47,6 +50,8 @@ class Radio:
     ) -> None:
         self.mtu = mtu
         self.where = where
+        self.keys = MemoryKeyStore()
+        """Of the devices that were paired with, by address."""
         self._reach = reach
         self._address = hci.Address(address) if address else hci.Address.generate_static_address()
         self._device: Device | None = None
@@ -78,6 +83,8 @@ class Radio:
             raise BleakError(f"nothing answers at {self.where}: {error.strerror or error}") from error
         config = DeviceConfiguration(name="solepath", address=self._address, gatt_service_enabled=False)
         device = Device(config=config, host=Host(transport.source, transport.sink))
+        device.keystore = self.keys
+        just_works(device, _never)
         try:
             async with asyncio.timeout(PATIENCE):
                 await device.power_on()
@@ -252,3 +259,8 @@ def _cancelled() -> bool:
     """Whether it is the running task that is cancelled, and not what it waits for."""
     task = asyncio.current_task()
     return task is not None and task.cancelling() > 0
+
+
+def _never() -> bool:
+    """A central begins pairings, and answers none."""
+    return False

@@ -22,6 +22,7 @@ from ..ble.backend import Backend
 from .central import backend_of
 from .controller import Link, VirtualController
 from .gatt import advertisement, furnish
+from .pairing import just_works
 from .peripheral import AttError, Peripheral
 from .radio import Radio, end_link
 
@@ -92,6 +93,7 @@ class Server:
             gatt_service_enabled=False,
         )
         self._device = Device(config=config, host=Host(self._controller, AsyncPipeSink(self._controller)))
+        just_works(self._device, self._agrees_to_pair)
         self._served = furnish(self._device, self.peripheral, self)
         self._device.on(Device.EVENT_CONNECTION, self._connected)
 
@@ -135,12 +137,20 @@ class Server:
         self._device.gatt_server.max_mtu = self.peripheral.mtu
         link.on(Connection.EVENT_DISCONNECTION, partial(self._disconnected, link))
         link.on(Connection.EVENT_CONNECTION_ATT_MTU_UPDATE, self._mtu_changed)
+        link.on(Connection.EVENT_CONNECTION_ENCRYPTION_CHANGE, partial(self._encryption_changed, link))
         self.peripheral.connected(self._loop.time(), link.att_mtu)
         self._arm()
 
     def _mtu_changed(self) -> None:
         if self._link is not None:
             self.peripheral.mtu_changed(self._link.att_mtu)
+
+    def _agrees_to_pair(self) -> bool:
+        return self.peripheral.agrees_to_pair(self._loop.time())
+
+    def _encryption_changed(self, link: Connection) -> None:
+        if self._link is link:
+            self.peripheral.encryption_changed(link.is_encrypted)
 
     def _disconnected(self, link: Connection, reason: int) -> None:
         if self._link is not link:
