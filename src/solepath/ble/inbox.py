@@ -24,8 +24,11 @@ class Inbox:
     _packets: deque[tuple[Packet, bool]] = field(factory=deque, init=False)
     _kept: deque[Packet] = field(factory=deque, init=False)
     """What may not be dropped and was found among the oldest; older than all of `_packets`."""
-    _dropped: dict[Site, tuple[int, Packet]] = field(factory=dict, init=False)
-    """By site, how many since the last `take`, and the newest of them."""
+    _dropped: dict[Site, int] = field(factory=dict, init=False)
+    """By site, how many since that was told last."""
+    _passed: dict[Site, Packet] = field(factory=dict, init=False)
+    """By site, the newest that was dropped or kept when it was the oldest: the dropped are told at its time, since
+    what was kept is taken before."""
     on_arrival: Callable[[], None] | None = field(default=None, init=False)
 
     def __len__(self) -> int:
@@ -40,25 +43,22 @@ class Inbox:
             self.on_arrival()
 
     def _make_room(self) -> None:
-        while True:
-            packet, notified = self._packets.popleft()
-            if not notified:
-                self._kept.append(packet)
-                if len(self._kept) <= self.capacity:
-                    if not self._packets:
-                        return
-                    continue
-                packet = self._kept.popleft()
-            count, _ = self._dropped.get(packet.site, (0, packet))
-            self._dropped[packet.site] = (count + 1, packet)
-            return
+        packet, notified = self._packets.popleft()
+        self._passed[packet.site] = packet
+        if not notified:
+            self._kept.append(packet)
+            if len(self._kept) <= self.capacity:
+                return
+            packet = self._kept.popleft()
+        self._dropped[packet.site] = self._dropped.get(packet.site, 0) + 1
 
     def take(self) -> Packet | None:
         """The oldest packet; None when there is none."""
         if self._kept:
             return self._kept.popleft()
         if self._dropped:
-            site = next(iter(self._dropped))
-            count, newest = self._dropped.pop(site)
+            site, count = next(iter(self._dropped.items()))
+            del self._dropped[site]
+            newest = self._passed[site]
             return Packet(newest.t, site, "receiver/dropped", build_dropped(count), newest.device)
         return self._packets.popleft()[0] if self._packets else None
