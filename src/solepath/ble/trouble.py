@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 from bleak.exc import (
     BleakBluetoothNotAvailableError,
     BleakBluetoothNotAvailableReason,
@@ -12,14 +14,24 @@ from bleak.exc import (
     BleakGATTProtocolError,
     BleakGATTProtocolErrorCode,
 )
-from bleak_retry_connector import BleakNotFoundError, BleakOutOfConnectionSlotsError
+from bleak_retry_connector import (
+    BleakAbortedError,
+    BleakConnectionError,
+    BleakNotFoundError,
+    BleakOutOfConnectionSlotsError,
+)
 
 
 class BluetoothError(Exception):
     """Bluetooth cannot be used at all; the message says why, and what can be done."""
 
 
-FAILURES = (BleakError, OSError, EOFError, TimeoutError)
+if sys.platform == "linux":
+    from dbus_fast import AuthError, InvalidAddressError
+
+    FAILURES = (BleakError, OSError, EOFError, TimeoutError, AuthError, InvalidAddressError)
+else:
+    FAILURES = (BleakError, OSError, EOFError, TimeoutError)
 """What bleak and the systems below it raise when Bluetooth does not do what it should."""
 
 _REASON = BleakBluetoothNotAvailableReason
@@ -36,16 +48,22 @@ _DBUS = {
     "org.freedesktop.DBus.Error.ServiceUnknown": "the Bluetooth service does not run: systemctl start bluetooth",
     "org.freedesktop.DBus.Error.NameHasNoOwner": "the Bluetooth service does not run: systemctl start bluetooth",
     "org.freedesktop.DBus.Error.AccessDenied": "this user may not use Bluetooth: join the group bluetooth",
+    "org.freedesktop.DBus.Error.NoReply": "the Bluetooth service does not answer: systemctl restart bluetooth",
     "org.bluez.Error.NotReady": "Bluetooth is off: turn it on",
     "org.bluez.Error.NotPermitted": "another program listens to this device: close it",
     "org.bluez.Error.InProgress": "another program uses the Bluetooth adapter just now",
 }
+_NOT_PAIRED = "the device wants to be paired first: pair=True, or --pair"
+_NOT_PAIRED_OVER_DBUS = ("org.bluez.Error.NotPermitted", "Not paired")
+"""What BlueZ makes of the codes of _PAIRING, but for that of authorization."""
 _PAIRING = {
     BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHENTICATION,
     BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHORIZATION,
     BleakGATTProtocolErrorCode.INSUFFICIENT_ENCRYPTION,
     BleakGATTProtocolErrorCode.INSUFFICIENT_ENCRYPTION_KEY_SIZE,
 }
+_LOST = ("not connected", "disconnected", "service discovery has not been performed")
+"""How bleak and BlueZ say that a connection ended during a request."""
 
 
 def sentence(error: BaseException) -> str:
@@ -53,18 +71,29 @@ def sentence(error: BaseException) -> str:
     match error:
         case BleakBluetoothNotAvailableError():
             return _NOT_AVAILABLE[error.reason]
+        case BleakDBusError() if error.args[:2] == _NOT_PAIRED_OVER_DBUS:
+            return _NOT_PAIRED
+        case BleakDBusError() if error.dbus_error.startswith("org.bluez.Error.Authentication"):
+            return "the device was not paired: make it ready for pairing, and remove what is left of an older one"
         case BleakDBusError() if error.dbus_error in _DBUS:
             return _DBUS[error.dbus_error]
         case BleakGATTProtocolError() if error.code in _PAIRING:
-            return "the device wants to be paired first: pair=True, or --pair"
+            return _NOT_PAIRED
         case BleakGATTProtocolError():
-            return f"the device answered with the ATT error 0x{int(error.code):02X} ({_plain(error)})"
+            meaning = str(error.args[-1]).removeprefix("GATT Protocol Error: ")
+            return f"the device answered with the ATT error 0x{int(error.code):02X} ({meaning})"
         case BleakCharacteristicNotFoundError():
             return f"the device has no characteristic {error.char_specifier}"
         case BleakOutOfConnectionSlotsError():
             return "the adapter holds as many connections as it can: disconnect another device"
         case BleakNotFoundError() | BleakDeviceNotFoundError():
             return "the device does not answer: bring it near, and see that no other program or phone holds it"
+        case BleakAbortedError():
+            return "the connection broke off while it was made: bring the device near"
+        case BleakConnectionError() if isinstance(error.__cause__, FAILURES):
+            return f"cannot connect: {sentence(error.__cause__)}"
+        case BleakError() if any(words in str(error).lower() for words in _LOST):
+            return "the connection was lost"
         case FileNotFoundError() | ConnectionRefusedError():
             return f"this machine has no Bluetooth service to talk to ({_plain(error)})"
         case PermissionError():
