@@ -98,8 +98,11 @@ class Rest:
     """Largest standard deviation of acc at rest, m/s^2, that of its counts aside."""
     still_gyro: float = 0.02
     """Largest standard deviation of the rate at rest, rad/s: a standing foot, not one in mid-stance."""
-    largest_bias: float = 0.5
-    """A steadier rate than noise and yet larger than this is a turn, not a bias, rad/s."""
+    largest_bias: float = 0.8
+    """A steadier rate than noise and yet larger than this is a turn, not a bias, rad/s; cheap gyroscopes start with
+    0.35 and more."""
+    largest_change: float = 0.5
+    """The same once a bias is known, for how far from that the rate is, rad/s."""
     # state
     span: Span = field(factory=Span, init=False)
     span_start: float | None = field(default=None, init=False)
@@ -145,7 +148,9 @@ class Rest:
         self.span_start = t
         if acc_variance > self.still_acc**2 + 0.75 * self.grain * self.grain or gyro_variance > self.still_gyro**2:
             return False
-        if max(abs(gx), abs(gy), abs(gz)) > self.largest_bias:
+        x, y, z = self.bias
+        limit = self.largest_change if self.count else self.largest_bias
+        if max(abs(gx - x), abs(gy - y), abs(gz - z)) > limit:
             return False
         self.magnitude = (ax * ax + ay * ay + az * az) ** 0.5
         scale = GRAVITY / self.magnitude if self.magnitude > 0.0 else 0.0

@@ -144,6 +144,12 @@ class InertialCues:
             return Seen(Cue.CONTACT, t - dt * (now - self.slap) / (now - before))
         return None
 
+    def cleared(self, t: float) -> Seen:
+        """The toe left the ground at `t`, in a gap, and the swing was under way when that ended."""
+        seen = self._clear(t)
+        self.trough = -2.0 * self.hump
+        return seen
+
     def _clear(self, t: float) -> Seen:
         self.toe_off = t
         self.trough = self.peak = 0.0

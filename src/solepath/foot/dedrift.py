@@ -14,7 +14,7 @@ from math import exp, sqrt
 from attrs import define, field
 
 from ..types import Phase, Quat, Vec3
-from ..vector import GRAVITY, ZERO, normalise
+from ..vector import GRAVITY, ZERO, normalise, sub
 from .navigate import LONGEST_BRIDGE, Strapdown
 from .stance import Stance
 
@@ -77,6 +77,13 @@ class LinearDedrift(Strapdown):
         self.force = self.rate = None
         self.swing = 0.0
         return 0.0
+
+    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+        self.length += sqrt(sum(v * v for v in sub(position, self.position)))
+        self.swing += dt
+        self.lasted += dt
+        self.attitude, self.velocity, self.position = attitude, velocity, position
+        self.force = self.rate = None
 
     def anchor(self) -> tuple[float, ...]:
         stretch = self.covariance()

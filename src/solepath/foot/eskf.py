@@ -23,6 +23,7 @@ from .covariance import (
     VELOCITY_X,
     VELOCITY_Y,
     VELOCITY_Z,
+    YAW,
     Correction,
     Covariance,
     propagate,
@@ -71,6 +72,10 @@ class ErrorStateFilter(Strapdown):
     """Evidence that goes on for this long is not refused any longer, s."""
     tilt_rate: float = 2.0
     """How fast gravity pulls the tilt upright while the evidence is certain, 1/s."""
+    leap_velocity: float = 0.3
+    """What a stride taken by habit may differ by, m/s, rad and rad."""
+    leap_tilt: float = 0.1
+    leap_yaw: float = 0.06
     # state
     uncertainty: Covariance = field(default=(0.0,) * 45, init=False)
     stretch: float = field(default=0.0, init=False)
@@ -172,6 +177,25 @@ class ErrorStateFilter(Strapdown):
         covariance[5] += 0.04 * far * far
         self.uncertainty = tuple(covariance)
         return 0.0
+
+    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+        self._carry()
+        self.stretch += dt
+        self.attitude, self.velocity, self.position = attitude, velocity, position
+        self.force = self.rate = None
+        self._here()
+        # two strides differ by some per cent
+        self._doubt(velocity=self.leap_velocity, tilt=self.leap_tilt)
+        covariance = list(self.uncertainty)
+        for i in (0, 3, 5):
+            covariance[i] += 0.0025
+        covariance[YAW] += self.leap_yaw * self.leap_yaw
+        self.uncertainty = tuple(covariance)
+
+    def mend(self, yaw: float, position: Vec3) -> None:
+        self._carry()
+        Strapdown.mend(self, yaw, position)
+        self._here()
 
     def anchor(self) -> tuple[float, ...]:
         self._carry()

@@ -13,7 +13,7 @@ from typing import Protocol
 from attrs import define, field
 
 from ..types import Quat, Vec3
-from ..vector import GRAVITY, IDENTITY, ZERO, rotate
+from ..vector import GRAVITY, IDENTITY, ZERO, from_yaw, multiply, normalise, rotate
 from .stance import Stance
 
 LONGEST_BRIDGE = 0.25
@@ -43,6 +43,12 @@ class Corrector(Protocol):
         """`dt` s without samples lie before the next one: trust the motion accordingly less. Returns how long to
         integrate over: all of it, or 0 after `LONGEST_BRIDGE`, when the foot is taken up where it was."""
 
+    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+        """`dt` s without samples lie before the next one, and this is where the foot is taken to be by its habit."""
+
+    def mend(self, yaw: float, position: Vec3) -> None:
+        """A gap has spoilt the stride that ends here: turn the attitude by `yaw` rad, and take `position`, m."""
+
     def anchor(self) -> tuple[float, ...]:
         """Begin a new stretch here. Returns the covariance of the stretch that ends: position xx, xy, xz, yy, yz, zz
         (m^2) and yaw (rad^2)."""
@@ -62,6 +68,12 @@ class Strapdown:
     """Specific force of the last sample in this frame, m/s^2."""
     rate: Vec3 | None = field(default=None, init=False)
     """Angular rate of the last sample, sensor frame, rad/s."""
+
+    def mend(self, yaw: float, position: Vec3) -> None:
+        """As in `Corrector`."""
+        self.attitude = normalise(multiply(from_yaw(yaw), self.attitude))
+        self.position = position
+        self.force = None
 
     def integrate(self, dt: float, acc: Vec3, gyro: Vec3) -> Vec3:
         """One sample; returns the mean acceleration over dt, m/s^2."""

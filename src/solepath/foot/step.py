@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from math import atan2, hypot, pi
+from math import hypot
 
 from attrs import define, field
 
 from ..events import StepFeatures, StepTaken
 from ..types import Foot, Quat, Vec3
-from ..vector import IDENTITY, ZERO, conjugate, multiply, sub
+from ..vector import IDENTITY, ZERO, sub
+from .turn import heading_turned
 from .world import World
 
 COP_POINTS = 32
@@ -129,10 +130,7 @@ class StepBuilder:
             return None  # no step, or one that times beginning anew have cut in two
         displacement = world.vector(sub(position, self.start))
         length, dz = hypot(displacement[0], displacement[1]), displacement[2]
-        # the twist about the vertical of the turn from the first attitude to the second
-        q, _, _, k = multiply(attitude, conjugate(self.attitude))
-        turn = 2.0 * atan2(k, q)
-        turn = turn - 2.0 * pi if turn > pi else turn + 2.0 * pi if turn <= -pi else turn
+        turn = heading_turned(self.attitude, attitude)
         if hypot(length, dz) < self.shortest and abs(turn) < self.least_turn:
             return None
         self.number += 1

@@ -18,6 +18,7 @@ from .cues import InertialCues, PressureCues, Seen
 from .cycle import Cycle
 from .dedrift import LinearDedrift
 from .eskf import ErrorStateFilter
+from .habit import Habit, Leap
 from .navigate import LONGEST_BRIDGE
 from .phase import BEGINS, PHASES, Cue
 from .pressure import Insole
@@ -26,6 +27,7 @@ from .refusal import refusal, rejected
 from .rhythm import Rhythm
 from .stance import AngularRate, Graph, Load, MovingVariance, Shoe
 from .step import StepBuilder, Way
+from .turn import heading_turned
 from .world import Covariance3, World
 
 AnyDetector = Cycle | Shoe | AngularRate | MovingVariance | Graph | TwoArea | MaximumPressure
@@ -67,6 +69,7 @@ class FootTracker:
     insole: Insole = field(factory=Insole, init=False)
     inertial_cues: InertialCues = field(factory=InertialCues, init=False)
     pressure_cues: PressureCues = field(factory=PressureCues, init=False)
+    habit: Habit = field(factory=Habit, init=False)
     step: StepBuilder = field(init=False)
     way: Way = field(factory=Way, init=False)
     """In the navigation frame, up to `anchored`."""
@@ -124,6 +127,7 @@ class FootTracker:
         self.pressure_cues = evolve(self.pressure_cues)
         self.levelling = evolve(self.levelling)
         self.insole.interrupt()
+        self.habit.interrupt()
         self.rest.interrupt()
 
     def feed(self, sample: Sample) -> list[Event]:
@@ -147,7 +151,7 @@ class FootTracker:
             if self.phase is not Phase.SWING and load is not None and self.step.t_toe_off is None:
                 self.step.loaded(sum(sample.pressure), self.insole.centre_of_pressure(sample.pressure))
         if sample.acc is not None and sample.gyro is not None:
-            dt = 0.0 if last is None else self._watch_for_gaps(last, t, known_at, events)
+            dt = 0.0 if last is None else self._watch_for_gaps(last, t, known_at, sample, events)
             self.moved_at = t
             self.lacking_since = None
             if load is None:
@@ -158,19 +162,61 @@ class FootTracker:
         if self.moved_at is not None and t - self.moved_at < WITHOUT:
             self.load = load  # cells and inertial sensor come apart; the next inertial sample takes the load along
         else:
-            dt = 0.0 if last is None else self._watch_for_gaps(last, t, known_at, events)
+            dt = 0.0 if last is None else self._watch_for_gaps(last, t, known_at, sample, events)
             self._pressure_alone(t, dt, known_at, sample, load, events)
         return events
 
-    def _watch_for_gaps(self, last: float, t: float, known_at: float, events: list[Event]) -> float:
+    def _watch_for_gaps(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
         """Name a gap between two samples; returns the time to integrate over, s."""
         dt = t - last
         if self.rhythm.update(dt) or dt > LONGEST_BRIDGE:
             events.append(SampleGap(t=last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=dt))
             self.step.degraded = True
             if self.levelled:
-                dt = self.corrector.bridge(dt)
+                dt = self._over_gap(last, t, dt, known_at, sample, events)
         return dt
+
+    def _over_gap(
+        self, last: float, t: float, dt: float, known_at: float, sample: Sample, events: list[Event]
+    ) -> float:
+        corrector, habit = self.corrector, self.habit
+        if dt <= habit.shortest or sample.acc is None or sample.gyro is None:
+            return corrector.bridge(dt)
+        k = self.rest.scale
+        x, y, z = sample.acc
+        acc, gyro = (x * k, y * k, z * k), sub(sample.gyro, self.rest.bias)
+        for again in (False, True):  # within a second a foot may land, stand, and leave again
+            leap = habit.leap(
+                last, t, acc, gyro, corrector.rate, corrector.attitude, corrector.velocity, corrector.position
+            )
+            if leap is None:
+                if again:
+                    return 0.0
+                if dt > LONGEST_BRIDGE:
+                    habit.interrupt()
+                return corrector.bridge(dt)
+            if isinstance(leap, str):
+                return 0.0
+            corrector.leap(t - last, leap.attitude, leap.velocity, leap.position)
+            self._went_through(leap, known_at, events)
+            if leap.landed is None:
+                return 0.0
+            last = leap.landed
+        return 0.0
+
+    def _went_through(self, leap: Leap, known_at: float, events: list[Event]) -> None:
+        """The phases that a gap has hidden."""
+        habit = self.habit
+        if self.phase is Phase.STATIONARY:
+            guessed, due = habit.guessed, habit.due
+            self._see(Seen(Cue.LIFT, leap.lifted), known_at, events)
+            habit.guessed, habit.due = guessed, due
+        if leap.cleared is not None and self.phase is not Phase.SWING and self.step.t_toe_off is None:
+            self._see(self.inertial_cues.cleared(leap.cleared), known_at, events)
+        if leap.struck is not None and self.phase is Phase.SWING:
+            self._see(Seen(Cue.CONTACT, leap.struck), known_at, events)
+        if leap.landed is not None:
+            self._see(Seen(Cue.FLAT, leap.landed), known_at, events)
 
     def _inertial(
         self,
@@ -211,6 +257,8 @@ class FootTracker:
         seen = cues.update(t, dt, gyro, still, speed, self.phase)
         if load is not None:
             seen = self._with_pressure(t, dt, load, seen)
+        if self.habit.lifted is not None and t >= self.habit.due:
+            self.habit.keep(t, corrector.attitude, corrector.velocity, corrector.position, acc, gyro)
         self.step.moved(dt, corrector.position[2], speed, cues.sagittal if cues.axis is not None else 0.0)
         if seen is not None:
             self._see(seen, known_at, events)
@@ -266,12 +314,20 @@ class FootTracker:
         elif phase is Phase.LOADING:
             self.step.t_heel_strike = t
         elif phase is Phase.PUSH_OFF and self.levelled:
+            self.habit.lift(t)
             self._anchor()
         elif phase is Phase.STATIONARY and self.levelled:
             self._flat(t, known_at, events)
 
     def _flat(self, t: float, known_at: float, events: list[Event]) -> None:
-        corrector = self.corrector
+        corrector, habit = self.corrector, self.habit
+        step = self.step
+        turn = heading_turned(step.attitude, corrector.attitude)
+        way = sub(corrector.position, step.start)
+        mended = habit.flat(t, step.t_toe_off, step.t_heel_strike, turn, way)
+        if mended is not None:
+            (x, y, z), (dx, dy, dz) = step.start, mended.way
+            corrector.mend(mended.turn, (x + dx, y + dy, z + dz))
         position, attitude = corrector.position, corrector.attitude
         if not self.headed and self.step.t_toe_off is not None:
             # the first step fixes the heading; until then it was the direction in which the foot set out

@@ -1,0 +1,65 @@
+"""Moments of a stride, and where between two of them a foot is."""
+
+from __future__ import annotations
+
+from math import cos, hypot, sin
+
+from attrs import frozen
+
+from ..types import Quat, Vec3
+from ..vector import normalise
+
+
+@frozen
+class Moment:
+    """One moment of a stride, in the navigation frame; `rate` in the sensor's."""
+
+    since: float
+    """The heel's rise, s."""
+    attitude: Quat
+    velocity: Vec3
+    position: Vec3
+    rate: Vec3
+    force: float
+    """How large the specific force was, m/s^2."""
+
+
+def at(moments: list[Moment], since: float) -> Moment:
+    """The stride `since` s after the heel's rise, between the moments that were kept; within its first and last."""
+    before = moments[0]
+    for moment in moments:
+        if moment.since >= since:
+            if moment is before:
+                return moment
+            k = (since - before.since) / (moment.since - before.since)
+            return Moment(
+                since,
+                normalise(_mixed(before.attitude, moment.attitude, k)),
+                _between(before.velocity, moment.velocity, k),
+                _between(before.position, moment.position, k),
+                _between(before.rate, moment.rate, k),
+                before.force + k * (moment.force - before.force),
+            )
+        before = moment
+    return before
+
+
+def length(v: Vec3) -> float:
+    return hypot(v[0], v[1], v[2])
+
+
+def turned(v: Vec3, yaw: float) -> Vec3:
+    """Turned about the vertical by `yaw` rad."""
+    c, s = cos(yaw), sin(yaw)
+    return (c * v[0] - s * v[1], s * v[0] + c * v[1], v[2])
+
+
+def _between(a: Vec3, b: Vec3, k: float) -> Vec3:
+    return (a[0] + k * (b[0] - a[0]), a[1] + k * (b[1] - a[1]), a[2] + k * (b[2] - a[2]))
+
+
+def _mixed(p: Quat, q: Quat, k: float) -> Quat:
+    if p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3] < 0.0:
+        q = (-q[0], -q[1], -q[2], -q[3])
+    w, x, y, z = (a + k * (b - a) for a, b in zip(p, q, strict=True))
+    return (w, x, y, z)
