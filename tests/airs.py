@@ -30,9 +30,9 @@ async def memory(bench: Bench) -> AsyncIterator[Backend]:
     yield Air(bench.peripherals).backend
 
 
-def bumble(bench: Bench) -> AbstractAsyncContextManager[Backend]:
-    """The devices behind virtual Bluetooth controllers."""
-    return virtual_air(bench.peripherals)
+def bumble(bench: Bench, interval: float | None = None) -> AbstractAsyncContextManager[Backend]:
+    """The devices behind virtual Bluetooth controllers. `interval`: s between the connection events of their links."""
+    return virtual_air(bench.peripherals, interval=interval)
 
 
 TIERS = {"memory": memory, "bumble": bumble}

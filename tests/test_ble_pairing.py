@@ -1,4 +1,4 @@
-"""Devices that must be paired with before they say anything: what an app is told, and how a link comes to be encrypted."""
+"""Devices that must be paired with: what an app is told, and how a link comes to be encrypted."""
 
 from __future__ import annotations
 

@@ -4,12 +4,23 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Sequence
+from itertools import pairwise
 
 import pytest
 from attrs import evolve
 
 from airs import bumble, hear, in_virtual_time
-from solepath import Event, PacketRejected, PacketsLost, SampleGap, Session
+from solepath import (
+    Event,
+    FootFlat,
+    HeelOff,
+    HeelStrike,
+    PacketRejected,
+    PacketsLost,
+    SampleGap,
+    Session,
+    ToeOff,
+)
 from solepath.ble import Devices, Wanted
 from solepath.evaluate.emulated import compare
 from solepath.evaluate.gathered import Gathering
@@ -25,14 +36,19 @@ FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 MINUTE = Route().stand(3.0).walk(20.0).turn(1.5, radius=1.5).walk(40.0, speed=1.2).stop(7.0)
 
 
-def heard(bench: Bench, wanted: Sequence[Wanted], seconds: float) -> tuple[list[Packet], float]:
-    """What arrives from the beginning of the search until the walk has lasted so long; and when it began."""
+def heard(
+    bench: Bench, wanted: Sequence[Wanted], seconds: float, interval: float | None = None
+) -> tuple[list[Packet], float]:
+    """What arrives from the beginning of the search until the walk has lasted so long; and when it began.
+
+    `interval`: of the links, s.
+    """
 
     async def listen() -> tuple[list[Packet], float]:
         began = asyncio.get_running_loop().time() + 5.0
         bench.began = began
         bench.prepare()
-        async with bumble(bench) as backend, Devices(wanted, backend=backend) as devices:
+        async with bumble(bench, interval) as backend, Devices(wanted, backend=backend) as devices:
             return await hear(devices, 5.0 + seconds), began
 
     return in_virtual_time(listen)
@@ -102,14 +118,40 @@ TAGS: dict[str, tuple[Profile, Device]] = {
 TAGGED = Route().stand(3.0).walk(30.0).turn(1.5, radius=1.5).walk(15.0, speed=1.1).stop(3.0)
 
 
+def test_insoles_whose_links_wait_for_connection_events_give_the_same_steps_at_the_same_times() -> None:
+    interval = 0.03
+    settled = 8.0  # s of the walk until the clock knows which of the frames did not have to wait
+    found: list[list[Event]] = []
+    for waits in (None, interval):
+        bench = Bench(TAGGED)
+        packets, began = heard(bench, [Wanted(None, profile=INSOLE)] * 2, bench.truth().duration, waits)
+        frames = [packet.t for packet in packets if packet.site is FEET[0] and packet.channel == "insole/frame"]
+        apart = [b - a for a, b in pairwise(frames) if b > a]
+        if waits is not None:  # they came in threes, as they do from a radio
+            assert min(apart) > 0.99 * interval
+            assert len(frames) > 2.9 * len(apart)
+        events = events_of([evolve(packet, t=packet.t - began) for packet in packets])
+        assert not [event for event in events if isinstance(event, PacketsLost | PacketRejected | SampleGap)]
+        found.append([event for event in events if isinstance(event, HeelStrike | FootFlat | HeelOff | ToeOff)])
+    for foot in Foot:
+        for kind in (HeelStrike, FootFlat, HeelOff, ToeOff):
+            at_once, waited = (
+                [event.t for event in events if isinstance(event, kind) and event.foot is foot and event.t > settled]
+                for events in found
+            )
+            assert len(at_once) > 20
+            assert waited == pytest.approx(at_once, abs=0.005)
+
+
+@pytest.mark.parametrize("interval", [None, 0.03])
 @pytest.mark.parametrize("tag", TAGS)
-def test_sensortags_give_the_steps_of_a_walk_end_to_end(tag: str) -> None:
+def test_sensortags_give_the_steps_of_a_walk_end_to_end(tag: str, interval: float | None) -> None:
     profile, device = TAGS[tag]
     true = found = invented = 0
     for seed in (11, 12, 13):
         bench = Bench(TAGGED, devices=dict.fromkeys(FEET, device), seed=seed)
         wanted = [Wanted(worn.site, worn.address, profile) for worn in bench.peripherals]
-        packets, began = heard(bench, wanted, bench.truth().duration)
+        packets, began = heard(bench, wanted, bench.truth().duration, interval)
         shifted = [evolve(packet, t=packet.t - began) for packet in packets]
         gathering = Gathering()
         for event in events_of(shifted):

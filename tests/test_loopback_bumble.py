@@ -7,7 +7,7 @@ from collections.abc import Awaitable, Callable
 from typing import Any
 
 import pytest
-from bleak import BleakScanner
+from bleak import BleakClient, BleakScanner
 from bleak.exc import BleakError, BleakGATTProtocolError
 
 from solepath.loopback.gatt import advertisement
@@ -189,5 +189,55 @@ def test_an_error_of_the_apps_callback_is_reported_and_the_next_notification_com
             await asyncio.sleep(1.0)
             assert len(reported) >= 10
             assert isinstance(reported[0]["exception"], ZeroDivisionError)
+
+    run(main)
+
+
+def test_a_link_with_an_interval_says_everything_at_its_events_in_order() -> None:
+    async def main() -> None:
+        interval = 0.03
+        async with virtual_air([strap()], interval=interval) as backend:
+            host = Host(backend, await find(backend))
+            async with host.client:
+                for _ in range(5):
+                    begun = now()
+                    assert await host.client.read_gatt_char(LEVEL) == b"\x57"
+                    assert (
+                        interval < now() - begun < 2.1 * interval
+                    )  # goes at the next event, is answered at the one after
+                    await asyncio.sleep(0.011)
+                await host.count(100)
+                await asyncio.sleep(9.0)
+                assert len(host.heard) in range(890, 901)
+                assert host.numbers == list(range(host.numbers[0], host.numbers[0] + len(host.heard)))
+                first = host.heard[0][0]
+                for (t, _), number in zip(host.heard, host.numbers, strict=True):
+                    assert (t - first) / interval == pytest.approx(round((t - first) / interval), abs=1e-3)
+                    assert -1e-3 < t - number / 100 < interval + 1e-3
+                await host.client.write_gatt_char(CONTROL, b"\x00", response=False)
+            # what was said before the link ended was heard
+            assert len(host.lost) == 1
+            heard = len(host.heard)
+            async with host.client:
+                assert await host.client.read_gatt_char(CONTROL) == b"\0"
+                assert len(host.heard) == heard
+
+    run(main)
+
+
+@pytest.mark.parametrize("at", [1.15, 1.2, 1.25, 1.3, 1.4])
+def test_a_link_that_is_lost_while_it_is_paired_or_discovered_is_an_error_and_the_next_one_stands(at: float) -> None:
+    async def main() -> None:
+        device = strap(faults=f"0 * pairing; {at} * disconnect")
+        async with virtual_air([device], interval=0.03) as backend:
+            found = await find(backend)
+            await asyncio.sleep(1.0 - now())
+            client = BleakClient(found, backend=backend.client, pair=True)
+            with pytest.raises(BleakError, match="lost"):
+                await client.connect()
+            assert at - 0.01 < now() < at + 0.05
+            assert not client.is_connected
+            async with client:
+                assert await client.read_gatt_char(CONTROL) == b"\0"
 
     run(main)

@@ -40,6 +40,7 @@ def test_a_script_is_read_line_by_line_in_its_order() -> None:
     0 left_foot mtu 23
     0 left_foot refuse cc2650/movement-config 2
     0 * name "Sensor #2 Tag"
+    0 left_foot pairing; 3 left_foot refuse pairing
     """
     assert parse_faults(script) == (
         Fault(12.5, LEFT, What.DISCONNECT),
@@ -49,6 +50,8 @@ def test_a_script_is_read_line_by_line_in_its_order() -> None:
         Fault(0.0, LEFT, What.MTU, 23.0),
         Fault(0.0, LEFT, What.REFUSE, 2.0, "cc2650/movement-config"),
         Fault(0.0, None, What.NAME, 1.0, "Sensor #2 Tag"),
+        Fault(0.0, LEFT, What.PAIRING),
+        Fault(3.0, LEFT, What.REFUSE, 1.0, "pairing"),
     )
     assert parse_faults("") == parse_faults("# nothing\n\n;") == ()
 
@@ -72,6 +75,7 @@ def test_a_script_is_read_line_by_line_in_its_order() -> None:
         ("5 left_foot name", "needs a name"),
         ("5 left_foot hang 3", "too many words"),
         ("5 left_foot restart 3", "too many words"),
+        ("5 left_foot pairing 3", "too many words"),
         ("5 left_foot drop 3 4", "too many words"),
         ('5 left_foot name "open', "quotation"),
     ],

@@ -7,7 +7,7 @@ import signal
 import socket
 import sys
 from collections.abc import AsyncIterator, Awaitable, Callable
-from contextlib import asynccontextmanager, suppress
+from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontextmanager, suppress
 from pathlib import Path
 
 import pytest
@@ -17,6 +17,7 @@ from bleak.exc import BleakError
 
 from solepath.ble.backend import Backend
 from solepath.loopback import radio
+from solepath.loopback.faults import parse_faults
 from solepath.loopback.tcp import address_of, reach, serve
 from strap import BEAT, CONTROL, LEVEL, Strap
 
@@ -224,6 +225,29 @@ def test_of_two_clients_that_want_the_same_device_one_gets_it_and_the_other_when
                 await loser.connect()
                 assert await loser.read_gatt_char(LEVEL) == b"\x57"
                 await loser.disconnect()
+
+    run(main)
+
+
+def test_a_device_that_has_forgotten_its_pairing_is_an_error_until_it_is_unpaired_here_too() -> None:
+    def serving(port: int) -> AbstractAsyncContextManager[tuple[str, int]]:
+        strap = Strap("one", "F0:00:00:00:00:01", faults=parse_faults("0 * pairing"))
+        return serve([strap], "127.0.0.1", port)
+
+    async def main() -> None:
+        async with AsyncExitStack() as host:
+            async with serving(0) as (_, port):
+                backend = await host.enter_async_context(reach(f"tcp:127.0.0.1:{port}"))
+                device = await find(backend)
+                async with BleakClient(device, backend=backend.client, pair=True) as client:
+                    assert await client.read_gatt_char(CONTROL) == b"\0"
+            async with serving(port):
+                client = BleakClient(device, backend=backend.client, pair=True)
+                with pytest.raises(BleakError, match="has forgotten the pairing"):
+                    await client.connect()
+                await client.unpair()
+                async with client:
+                    assert await client.read_gatt_char(CONTROL) == b"\0"
 
     run(main)
 

@@ -9,10 +9,13 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
+from functools import partial
 
-from bumble import hci, ll
+from bumble import core, hci, ll
 from bumble.controller import Connection, Controller
 from bumble.link import LocalLink
+
+from .events import Events
 
 _NOISY = logging.getLogger("bumble")
 if (
@@ -24,13 +27,60 @@ RSSI = -50  # dBm; there are no distances in this air
 
 
 class Link(LocalLink):
-    """The air that virtual controllers share."""
+    """The air that virtual controllers share.
 
-    def __init__(self) -> None:
+    `interval`: s between the connection events of every link made in it; None: everything goes at once.
+    """
+
+    def __init__(self, interval: float | None = None) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
+        self._interval = interval
+        self._events: dict[frozenset[hci.Address], Events] = {}
+
+    def send_advertising_pdu(self, sender_controller: Controller, packet: ll.AdvertisingPdu) -> None:
+        if self._interval is not None and isinstance(packet, ll.ConnectInd):
+            self._end(packet.initiator_address, packet.advertiser_address)
+            ends = frozenset((packet.initiator_address, packet.advertiser_address))
+            self._events[ends] = Events(self._interval)
+        super().send_advertising_pdu(sender_controller, packet)
+
+    def send_acl_data(
+        self,
+        sender_controller: Controller,
+        destination_address: hci.Address,
+        transport: core.PhysicalTransport,
+        data: bytes,
+    ) -> None:
+        go = partial(super().send_acl_data, sender_controller, destination_address, transport, data)
+        events = self._events.get(frozenset((sender_controller.random_address, destination_address)))
+        if events is None:
+            go()
+        else:
+            events.send(go)
+
+    def send_ll_control_pdu(
+        self, sender_address: hci.Address, receiver_address: hci.Address, packet: ll.ControlPdu
+    ) -> None:
+        go = partial(super().send_ll_control_pdu, sender_address, receiver_address, packet)
+        events = self._events.get(frozenset((sender_address, receiver_address)))
+        if events is None:
+            go()
+        elif isinstance(packet, ll.TerminateInd):
+            # bumble's controllers forget a link that they end, so what was said before must be heard now
+            events.flush()
+            go()
+            self._end(sender_address, receiver_address)
+        else:
+            events.send(go)
+
+    def _end(self, one: hci.Address, other: hci.Address) -> None:
+        events = self._events.pop(frozenset((one, other)), None)
+        if events is not None:
+            events.end()
 
     def lose(self, controller: Controller, connection: Connection) -> None:
         """Ends a link as radio silence does: both sides see a supervision timeout."""
+        self._end(connection.self_address, connection.peer_address)
         for end in list(self.controllers):
             other = end.le_connections.get(connection.self_address)
             if end is not controller and other is not None and other.self_address == connection.peer_address:
@@ -43,6 +93,8 @@ class Link(LocalLink):
         controller.le_legacy_advertiser.stop()
         for connection in list(controller.le_connections.values()):
             self.lose(controller, connection)
+        for ends in [ends for ends in self._events if controller.random_address in ends]:
+            self._end(*ends)
         self.controllers.discard(controller)
 
 

@@ -34,12 +34,16 @@ _CENTRAL = "C0:50:1E:9A:74:01"
 
 
 @asynccontextmanager
-async def virtual_air(peripherals: Iterable[Peripheral], mtu: int = 247) -> AsyncIterator[Backend]:
+async def virtual_air(
+    peripherals: Iterable[Peripheral], mtu: int = 247, interval: float | None = None
+) -> AsyncIterator[Backend]:
     """The devices on the air and a Backend that reaches them, in this process and on this loop's time.
 
-    `mtu`: the ATT MTU that the central asks for; a device may agree to less.
+    `mtu`: the ATT MTU that the central asks for; a device may agree to less. `interval`: s between the connection
+    events of each link, when everything goes that is ready, requests and their answers too (0.0075 to 4 s on a real
+    one, often 0.03); None: nothing waits.
     """
-    link = Link()
+    link = Link(interval)
     controller = VirtualController("central", link)
 
     async def reach() -> Transport:
