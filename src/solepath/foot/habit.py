@@ -86,6 +86,8 @@ class Habit:
     gap_way: float = 0.15
     """The same of where it ends, m, and what two strides differ by:"""
     way_sigma: float = 0.06
+    dense: float = 0.03
+    """Samples less apart than this follow a swing as it is, s."""
     corner: float = 0.2
     """A stride that turns further than this is not kept, rad, unless what was kept is `old` strides old."""
     old: int = 20
@@ -143,9 +145,12 @@ class Habit:
         x, y, z = acc
         self.now.append(Moment(t - self.lifted, attitude, velocity, position, gyro, hypot(x, y, z)))
 
-    def flat(self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, way: Vec3) -> Mended | None:
+    def flat(
+        self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, way: Vec3, interval: float
+    ) -> Mended | None:
         """The foot is flat again, turned by `turn` (rad) and `way` (m) off since it was so last.
 
+        `interval`, s, is the usual one between samples: where few make a swing, every stride is half gaps.
         What a gap has spoilt of that is mended by what is usual, as far as it is likely to be so this time.
         """
         guessed, lifted = self.guessed, self.lifted
@@ -163,11 +168,13 @@ class Habit:
         self.stood_since = t
         self.guessed = 0.0
         off, mended = self.heading + turn, None
-        if guessed > 0.0 and toe_off is not None:
+        between = interval if interval > self.dense else 0.0
+        if guessed + between > 0.0 and toe_off is not None:
             unsure = min(1.0, guessed / 0.3)
             yaw = 0.0
             if self.footfalls >= 3:
-                yaw = -off * _share(off * off, self.gap_turn * unsure, self.straight_sigma, self.straight, pi, 1)
+                doubt = self.gap_turn * min(2.0, unsure + between / 0.05)
+                yaw = -off * _share(off * off, doubt, self.straight_sigma, self.straight, pi, 1)
             off += yaw
             turn += yaw
             x, y, z = turned(way, 0.5 * yaw)
@@ -175,7 +182,7 @@ class Habit:
             k = _share(dx * dx + dy * dy + dz * dz, self.gap_way * unsure, self.way_sigma, self.straight, 3.0, 2)
             mended = Mended(yaw, (x + k * dx, y + k * dy, z + k * dz))
         self.yaw = (self.yaw + turn + pi) % (2.0 * pi) - pi
-        if abs(off) > self.bend:
+        if abs(off) > self.bend * (1.0 + between / 0.1):
             self.heading, self.footfalls = 0.0, 1
         else:
             self.heading = off * (1.0 - self.memory)

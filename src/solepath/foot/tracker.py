@@ -324,7 +324,7 @@ class FootTracker:
         step = self.step
         turn = heading_turned(step.attitude, corrector.attitude)
         way = sub(corrector.position, step.start)
-        mended = habit.flat(t, step.t_toe_off, step.t_heel_strike, turn, way)
+        mended = habit.flat(t, step.t_toe_off, step.t_heel_strike, turn, way, self.rhythm.usual or 0.0)
         if mended is not None:
             (x, y, z), (dx, dy, dz) = step.start, mended.way
             corrector.mend(mended.turn, (x + dx, y + dy, z + dz))
