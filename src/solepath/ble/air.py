@@ -14,15 +14,21 @@ from bleak.backends.scanner import AdvertisementData
 from ..link.profile import Profile
 from .backend import NATIVE, Backend
 from .trouble import FAILURES, BluetoothError, sentence
+from .waiting import either
 from .wanted import identify
 
 RETRY = 2.0
 """s before a scan that failed is begun again."""
+DEAF = 30.0
+"""s without any advertisement after which it is begun anew: it may not have outlived that Bluetooth was off and on."""
+WEAKEST, STRONGEST = -127, 20
+"""dBm that a controller may report (Bluetooth Core, vol 4 part E, 7.7.65.2); what systems say instead is no signal."""
 
 
 @frozen
 class Found:
-    """A device as it was last heard, `signal` in dBm, `t` s on the loop's clock. `services`: UUIDs that it names."""
+    """A device as it was last heard, `signal` in dBm (-127 when the system does not know it), `t` s on the loop's
+    clock. `services`: UUIDs that it names."""
 
     device: BLEDevice
     name: str
@@ -53,6 +59,7 @@ class Air:
     complain: Callable[[str], None]
     _listeners: list[Heard] = field(factory=list, init=False)
     _changed: asyncio.Event = field(factory=asyncio.Event, init=False)
+    _heard_at: float = field(default=0.0, init=False)
 
     @contextmanager
     def listening(self, heard: Heard) -> Iterator[None]:
@@ -68,20 +75,25 @@ class Air:
     async def run(self) -> None:
         """Scan whenever somebody listens, for ever."""
         while True:
-            await self._until(listened_to=True)
+            while not self._listeners:
+                self._changed.clear()
+                await self._changed.wait()
             try:
                 async with scanner(self.backend, self._hear):
-                    await self._until(listened_to=False)
+                    await self._until_unheeded_or_deaf()
             except FAILURES as error:
                 self.complain(f"cannot look for devices: {sentence(error)}")
                 await asyncio.sleep(RETRY)
 
-    async def _until(self, listened_to: bool) -> None:
-        while bool(self._listeners) is not listened_to:
+    async def _until_unheeded_or_deaf(self) -> None:
+        now = asyncio.get_running_loop().time
+        self._heard_at = now()
+        while self._listeners and now() - self._heard_at < DEAF:
             self._changed.clear()
-            await self._changed.wait()
+            await either(self._changed, DEAF)
 
     def _hear(self, found: Found) -> None:
+        self._heard_at = found.t
         for heard in tuple(self._listeners):
             heard(found)
 
@@ -91,8 +103,9 @@ def scanner(backend: Backend, heard: Heard) -> BleakScanner:
     loop = asyncio.get_running_loop()
 
     def hear(device: BLEDevice, advertisement: AdvertisementData) -> None:
-        name = advertisement.local_name or device.name or ""
-        heard(Found(device, name, tuple(advertisement.service_uuids), advertisement.rssi, loop.time()))
+        name = (advertisement.local_name or device.name or "").encode("utf-8", "replace").decode("utf-8")
+        signal = advertisement.rssi if WEAKEST <= advertisement.rssi <= STRONGEST else WEAKEST
+        heard(Found(device, name, tuple(advertisement.service_uuids), signal, loop.time()))
 
     return BleakScanner(hear, backend=backend.scanner)
 

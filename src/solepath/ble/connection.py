@@ -3,39 +3,40 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from enum import Enum
 
 from attrs import define, field
 from bleak import BleakClient
-from bleak.backends.characteristic import BleakGATTCharacteristic
 from bleak_retry_connector import establish_connection
 
-from ..link.decoder import Decoder
-from ..link.profile import How, Profile
-from ..types import Packet, Site
-from ..wire.receiver import LONGEST_NAME, build_connected, build_words
+from ..types import Site
+from ..wire.receiver import LONGEST_NAME, build_connected
 from ..wire.receiver import Connection as Made
 from .air import Air, Found
 from .backend import Backend
-from .inbox import Inbox
-from .search import Search, either
-from .setup import Unfit, characteristic, lacking, read, site_of, write_setup
+from .listening import Listening
+from .search import Search
+from .setup import Unfit, lacking, site_of
 from .trouble import FAILURES, sentence
+from .voice import Voice, shortened
 from .wanted import Wanted
-from .watchdog import Remedy, Watchdog
 
 ATTEMPTS = 2
 """Times that a device which just advertised is tried to connect to, before it is looked for again."""
+CONNECTING = 20.0
+"""s that all of this may take, so that a device which left meanwhile is soon looked for again."""
 PAUSE = 0.25
 """s before the next search after a connection failed; twice as long after each further failure ..."""
 LONGEST_PAUSE = 8.0
 """... up to this."""
+STEADY = 1.0
+"""s that a device must have been listened to for the connection not to have failed."""
 PARTING = 5.0
 """s that a disconnection may take."""
-REPEAT = 60.0
-"""s before the same trouble is told again."""
+RECONSIDER = 60.0
+"""s after which a device that was not the one is looked at again: it may have been set to rights."""
 
 
 class State(Enum):
@@ -49,58 +50,71 @@ class State(Enum):
 
 @define(eq=False)
 class Connection:
-    """`run` is a task of its own, so no device waits for another. What it learns goes into `inbox` as packets.
+    """`run` is a task of its own, so no device waits for another. What it learns it says with its `voice`.
 
-    `site`: where packets are said to come from; provisional while a device that says its site was not asked.
     `siblings`: all connections of the same owner, this one too; no two use one device or stand at one site.
     """
 
     wanted: Wanted
-    site: Site
     backend: Backend
     air: Air
-    inbox: Inbox
+    voice: Voice
     siblings: Sequence[Connection]
     pair: bool
     patience: float
     state: State = field(default=State.SEEKING, init=False)
-    address: str = field(default="", init=False)
-    """Of the device, once it is known which it is; from then on no other will do."""
     name: str = field(default="", init=False)
     signal: int | None = field(default=None, init=False)
     """With which it last advertised, dBm."""
     _trying: str = field(default="", init=False)
     """The address in use just now."""
-    _unfit: set[str] = field(factory=set, init=False)
-    _client: BleakClient | None = field(default=None, init=False)
-    _watchdog: Watchdog = field(factory=lambda: Watchdog((), 0.0, 0.0), init=False)
-    _told: dict[str, float] = field(factory=dict, init=False)
-    """Troubles, and when they were told last."""
+    _since: float = field(default=0.0, init=False)
+    """When it began to listen, s."""
+    _unfit: dict[str, float] = field(factory=dict, init=False)
+    """Addresses that were not the one, and when that was seen."""
+
+    @property
+    def site(self) -> Site:
+        """Where packets are said to come from; provisional while a device that says its site was not asked."""
+        return self.voice.site
+
+    @property
+    def address(self) -> str:
+        """Of the device, once it is known which it is; from then on no other will do."""
+        return self.voice.address
 
     async def run(self) -> None:
         """For ever."""
         pause = PAUSE
         while True:
-            self.state = State.SEEKING
-            search = Search(self.air, self.wanted, self.address, self._barred, self.patience, self.complain)
+            search = Search(self.air, self.wanted, self.address, self._barred, self.patience, self.voice.complain)
             found = await search.run()
             self._trying, self.signal = found.address, found.signal
             try:
                 await self._use(found)
+            except Unfit as error:
+                self._unfit[found.address] = _now()
+                self.voice.complain(str(error))
+            except FAILURES as error:
+                self.voice.complain(sentence(error))
+            steady = self.state is State.LISTENING and _now() - self._since >= STEADY
+            self._trying, self.state = "", State.SEEKING
+            if steady:
                 pause = PAUSE
-            except (Unfit, *FAILURES) as error:
-                if isinstance(error, Unfit):
-                    self._unfit.add(found.address)
-                self.complain(sentence(error))
+            else:
                 await asyncio.sleep(pause)
                 pause = min(2.0 * pause, LONGEST_PAUSE)
-            finally:
-                self._trying = ""
 
-    def _barred(self, address: str) -> bool:
-        """Is the device with this address another's, or known not to be the one?"""
+    def _barred(self, found: Found) -> bool:
+        """Is it another's, or known not to be the one?"""
+        self._unfit = {address: t for address, t in self._unfit.items() if _now() - t < RECONSIDER}
         others = (one for one in self.siblings if one is not self)
-        return address in self._unfit or any(address in (one.address, one._trying) for one in others)
+        return found.address in self._unfit or any(one._claims(found) for one in others)
+
+    def _claims(self, found: Found) -> bool:
+        if self.address or self._trying:
+            return found.address in (self.address, self._trying)
+        return self.wanted.names(found.address, found.name)
 
     async def _use(self, found: Found) -> None:
         """Connect, listen, and return when the connection is lost. Unfit, FAILURES."""
@@ -110,118 +124,60 @@ class Connection:
             raise Unfit(f"{name} is of no kind that is known here: say its profile")
         self.state = State.CONNECTING
         gone = asyncio.Event()
-        client = await establish_connection(
-            BleakClient,
-            found.device,
-            name,
-            lambda _: gone.set(),
-            max_attempts=ATTEMPTS,
-            pair=self.pair,
-            backend=self.backend.client,
-        )
-        if client.is_connected:
-            gone.clear()  # it was set if the first attempt was connected, for a moment
-        told = False
+        client = await self._connect(found, name, gone)
+        listening = Listening(client, profile, self.voice, gone)
         try:
             self.state = State.SETTING_UP
             if lacks := lacking(client, profile):
                 raise Unfit(f"{name} is no {profile.name}: it has no {lacks}")
-            site = await site_of(client, profile) or self.site
-            self._settle(site, found, name)
-            self._client = client
-            self.say("receiver/connected", build_connected(Made(_short(name), found.signal)))
-            told = True
-            await self._set_up(client, profile)
-            await self._listen(client, profile, gone)
+            self._settle(await site_of(client, profile), found, name)
+            self.voice.say("receiver/connected", build_connected(Made(shortened(name, LONGEST_NAME), self.signal)))
+            try:
+                await listening.set_up()
+                self.state, self._since = State.LISTENING, _now()
+                await listening.run()
+            finally:
+                listening.closed = True
+                self.voice.say("receiver/disconnected")
         finally:
-            self._client = None
-            if told:
-                self.say("receiver/disconnected")
             with suppress(*FAILURES):
                 async with asyncio.timeout(PARTING):
                     await client.disconnect()
 
-    def _settle(self, site: Site, found: Found, name: str) -> None:
-        """This device it is. Unfit when it belongs at another site, or one is there already."""
-        if self.wanted.site is not None and site is not self.wanted.site:
-            raise Unfit(f"{name} is a {site.value.replace('_', ' ')} one: wanted at the {_place(self.wanted.site)}")
-        if any(one is not self and one.site is site and one.address for one in self.siblings):
+    async def _connect(self, found: Found, name: str, gone: asyncio.Event) -> BleakClient:
+        """`gone` is set when the connection is lost. FAILURES."""
+        async with asyncio.timeout(CONNECTING):
+            client = await establish_connection(
+                BleakClient,
+                found.device,
+                name,
+                lambda _: gone.set(),
+                max_attempts=ATTEMPTS,
+                pair=self.pair,
+                backend=self.backend.client,
+            )
+        if client.is_connected:
+            gone.clear()  # it was set if the first attempt was connected, for a moment
+        return client
+
+    def _settle(self, said: Site | None, found: Found, name: str) -> None:
+        """This device it is, `said` being where it says that it is worn. Unfit when that is not where it is wanted."""
+        site, wanted = said or self.wanted.site, self.wanted.site
+        if site is None:
+            raise Unfit(f"{name} does not say where it is worn: name a site")
+        if wanted is not None and site is not wanted:
+            raise Unfit(f"{name} is a {_place(site)} one: wanted at the {_place(wanted)}")
+        there = [one for one in self.siblings if one is not self and one.site is site]
+        if any(one.address or one.wanted.site is not None for one in there):
             raise Unfit(f"{name} is one more for the {_place(site)}")
-        if site is not self.site:
-            for one in self.siblings:  # provisional places are exchanged
-                if one.site is site:
-                    one.site = self.site
-        self.site, self.address, self.name = site, found.address, found.name
+        for one in there:  # provisional places are exchanged
+            one.voice.site = self.site
+        self.voice.site, self.voice.address, self.name = site, found.address, found.name
 
-    async def _set_up(self, client: BleakClient, profile: Profile) -> None:
-        """Read, then subscribe (a value read after that would come twice on BlueZ), then write."""
-        self._watchdog = Watchdog((), profile.stale_after, 0.0)
-        for name in profile.reads:
-            await read(client, profile.channel(name), self.say, self.complain)
-        for channel in profile.channels:
-            if channel.how is How.NOTIFY and (one := characteristic(client, channel)) is not None:
-                await client.start_notify(one, self._hearer(client, channel.name))
-        written = await write_setup(client, profile, self.say, self.complain)
-        silent = _may_be_silent(self.site, written)
-        self._watchdog = Watchdog(() if silent else profile.streams, profile.stale_after, self._now())
 
-    def _hearer(self, client: BleakClient, channel: str) -> Callable[[BleakGATTCharacteristic, bytearray], None]:
-        loop = asyncio.get_running_loop()
-
-        def heard(_: BleakGATTCharacteristic, data: bytearray) -> None:
-            if self._client is client:
-                t = loop.time()
-                self._watchdog.heard(channel, t)
-                self.inbox.put(Packet(t, self.site, channel, bytes(data), self.address), True)
-
-        return heard
-
-    async def _listen(self, client: BleakClient, profile: Profile, gone: asyncio.Event) -> None:
-        self.state = State.LISTENING
-        while not gone.is_set():
-            due = self._watchdog.due()
-            await either(gone, None if due is None else max(0.0, due - self._now()))
-            frozen = None if gone.is_set() else self._watchdog.look(self._now())
-            if frozen is None:
-                continue
-            channel, remedy = frozen
-            self.say("receiver/restarted", build_words(channel))
-            if remedy is Remedy.RECONNECT:
-                return
-            await write_setup(client, profile, self.say, self.complain)
-
-    # --- what it says ---
-
-    def say(self, channel: str, data: bytes = b"") -> Packet:
-        """A packet of what was read, written or became known; not to be dropped."""
-        packet = Packet(self._now(), self.site, channel, data, self.address)
-        self.inbox.put(packet, False)
-        return packet
-
-    def complain(self, what: str) -> None:
-        """Tell a trouble; the same one not over and over."""
-        now = self._now()
-        if now - self._told.get(what, -REPEAT) >= REPEAT:
-            self._told = {one: t for one, t in self._told.items() if now - t < REPEAT}
-            self._told[what] = now
-            self.say("receiver/trouble", build_words(what.encode("utf-8")[:500].decode("utf-8", "ignore")))
-
-    @staticmethod
-    def _now() -> float:
-        return asyncio.get_running_loop().time()
+def _now() -> float:
+    return asyncio.get_running_loop().time()
 
 
 def _place(site: Site) -> str:
     return site.value.replace("_", " ")
-
-
-def _short(name: str) -> str:
-    return name.encode("utf-8")[:LONGEST_NAME].decode("utf-8", "ignore")
-
-
-def _may_be_silent(site: Site, written: Sequence[Packet]) -> bool:
-    """Does what was written allow the device to send nothing, as with wake-on-motion?"""
-    decoder = Decoder(site)
-    for packet in written:
-        decoder.feed(packet)
-    return decoder.link is not None and decoder.link.silence_is_legal

@@ -14,9 +14,10 @@ from types import TracebackType
 from ..types import Packet, Site
 from .air import Air, scanner
 from .backend import NATIVE, Backend
-from .connection import Connection
+from .connection import Connection, State
 from .inbox import Inbox
 from .trouble import FAILURES, BluetoothError, sentence
+from .voice import Voice
 from .wanted import Wanted, check
 
 TICK = 0.25
@@ -61,12 +62,11 @@ class Devices:
         self._connections: list[Connection] = []
         self._waiter: asyncio.Future[None] | None = None
         self._taken = 0
+        self._fault: asyncio.Task[None] | None = None
         free = [site for site in Site if site not in {one.site for one in wanted}]
         for one in wanted:
-            site = free.pop(0) if one.site is None else one.site
-            self._connections.append(
-                Connection(one, site, backend, self._air, self._inbox, self._connections, pair, patience)
-            )
+            voice = Voice(self._inbox, free.pop(0) if one.site is None else one.site)
+            self._connections.append(Connection(one, backend, self._air, voice, self._connections, pair, patience))
         self._inbox.on_arrival = self._wake
 
     @property
@@ -75,6 +75,8 @@ class Devices:
         return tuple(self._connections)
 
     async def __aenter__(self) -> Devices:
+        if self._tasks:
+            raise RuntimeError("these devices are in use already")
         try:
             async with scanner(self._backend, lambda _: None):
                 pass
@@ -83,33 +85,39 @@ class Devices:
         lives = [self._air.run(), *(connection.run() for connection in self._connections)]
         self._tasks = [asyncio.create_task(life) for life in lives]
         for task in self._tasks:
-            task.add_done_callback(lambda _: self._wake())
+            task.add_done_callback(self._ended)
         return self
 
     async def __aexit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        tasks, self._tasks = self._tasks, []
-        for task in tasks:
+        for task in self._tasks:
             task.cancel()
-        await asyncio.gather(*tasks, return_exceptions=True)
-        self._wake()
+        try:
+            await asyncio.gather(*self._tasks, return_exceptions=True)
+        finally:
+            self._tasks, self._fault = [], None
+            self._wake()
 
     def __aiter__(self) -> AsyncIterator[Packet]:
         return self
 
     async def __anext__(self) -> Packet:
-        """The next packet; StopAsyncIteration when the devices were left and all is taken."""
+        """The next packet; StopAsyncIteration when the devices were left and all is taken.
+
+        A fault of this program in one of the tasks is raised as it is.
+        """
         self._taken += 1
         if self._taken >= IN_A_ROW:
             self._taken = 0
             await asyncio.sleep(0)
+        if self._fault is not None:
+            self._fault.result()
         packet = self._inbox.take()
         if packet is not None:
             return packet
         if self._waiter is not None:
             raise RuntimeError("somebody else waits for the next packet already")
-        self._raise_what_failed()
         if not self._tasks:
             raise StopAsyncIteration
         loop = asyncio.get_running_loop()
@@ -120,10 +128,11 @@ class Devices:
         finally:
             timer.cancel()
             self._waiter = None
+        if self._fault is not None:
+            self._fault.result()
         packet = self._inbox.take()
         if packet is not None:
             return packet
-        self._raise_what_failed()
         if not self._tasks:
             raise StopAsyncIteration
         return Packet(loop.time(), self._connections[0].site, "receiver/tick", b"")
@@ -132,12 +141,13 @@ class Devices:
         if self._waiter is not None and not self._waiter.done():
             self._waiter.set_result(None)
 
-    def _raise_what_failed(self) -> None:
+    def _ended(self, task: asyncio.Task[None]) -> None:
         """A task of ours never ends by itself, unless it has a fault."""
-        for task in self._tasks:
-            if task.done() and not task.cancelled():
-                task.result()
+        if not task.cancelled():
+            self._fault = task
+        self._wake()
 
     def _complain(self, what: str) -> None:
         for connection in self._connections:
-            connection.complain(what)
+            if connection.state is State.SEEKING:
+                connection.voice.complain(what)

@@ -8,17 +8,20 @@ from collections.abc import Callable
 from attrs import define, field
 
 from .air import Air, Found
+from .waiting import either
 from .wanted import Wanted, says_its_site
 
 SETTLE = 1.0
 """s of listening before the one device that answers to a name is taken for the only one."""
 FORGET = 3.0
-"""s after which a device that was not heard any more is no longer there."""
+"""s after which a device that was not heard any more is not there to be connected."""
+MISTAKEN = 30.0
+"""s after which another one of the same name can no longer be mistaken for it."""
 
 
 @define(eq=False)
 class Search:
-    """One search. `address`: the only one that will do, once it is known; else "". `barred`: addresses not to be used.
+    """One search. `address`: the only one that will do, once it is known; else "". `barred`: devices not to be used.
 
     `patience`: s after which `complain` is told why nothing was found yet; once, for it may go on for hours.
     """
@@ -26,7 +29,7 @@ class Search:
     air: Air
     wanted: Wanted
     address: str
-    barred: Callable[[str], bool]
+    barred: Callable[[Found], bool]
     patience: float
     complain: Callable[[str], None]
     _heard: dict[str, Found] = field(factory=dict, init=False)
@@ -41,12 +44,14 @@ class Search:
         with self.air.listening(self._hear):
             while True:
                 now = loop.time()
-                there = [one for one in self._heard.values() if now - one.t < FORGET and self._may_be(one)]
+                self._heard = {at: one for at, one in self._heard.items() if now - one.t < MISTAKEN}
+                able = [one for one in self._heard.values() if self._may_be(one)]
+                there = [one for one in able if now - one.t < FORGET]
                 first = None if not there else now if first is None else first
-                chosen = self._choose(there, settled=first is not None and now - first >= SETTLE)
+                chosen = self._choose(able, there, settled=first is not None and now - first >= SETTLE)
                 if chosen is not None:
                     return chosen
-                if not there and now - began >= self.patience:
+                if not self._heard and now - began >= self.patience:
                     self._complain_once(self._nobody())
                 self._news.clear()
                 await either(self._news, SETTLE / 2)
@@ -59,26 +64,27 @@ class Search:
         if fits:
             self._heard[found.address] = found
             self._news.set()
+        else:
+            self._heard.pop(found.address, None)  # it goes by another name now
 
     def _is_the_one(self, found: Found) -> bool:
         return found.address == self.address or self.wanted.is_address(found.address)
 
     def _may_be(self, found: Found) -> bool:
-        return self._is_the_one(found) or not self.barred(found.address)
+        return self._is_the_one(found) or not self.barred(found)
 
-    def _choose(self, there: list[Found], settled: bool) -> Found | None:
+    def _choose(self, able: list[Found], there: list[Found], settled: bool) -> Found | None:
         for one in there:
             if self._is_the_one(one):
                 return one
-            if says_its_site(self.wanted.profile or one.profile):
-                return one  # and is asked, once it is connected
-        if len(there) == 1 and settled:
-            return there[0]
-        if len(there) > 1:
-            addresses = ", ".join(sorted(one.address for one in there))
-            what = f"{len(there)} devices answer to {self.wanted.words} ({addresses}): say which by its address"
+        if there and not self.wanted.which and says_its_site(self.wanted.profile):
+            return there[0]  # any will do, and it is asked once it is connected
+        if len(able) > 1:
+            addresses = ", ".join(sorted(one.address for one in able))
+            what = f"{len(able)} devices answer to {self.wanted.words} ({addresses}): say which by its address"
             self._complain_once(what)
-        return None
+            return None
+        return there[0] if there and settled else None
 
     def _complain_once(self, what: str) -> None:
         if not self._complained:
@@ -90,12 +96,3 @@ class Search:
             f"no {self.wanted.words} is heard: switch it on, bring it near, "
             "and see that no other program or phone holds it"
         )
-
-
-async def either(event: asyncio.Event, seconds: float | None) -> None:
-    """Until `event`, or so long; None: however long."""
-    try:
-        async with asyncio.timeout(seconds):
-            await event.wait()
-    except TimeoutError:
-        pass

@@ -9,18 +9,18 @@ from bleak import BleakClient
 from bleak.backends.characteristic import BleakGATTCharacteristic
 from bleak.exc import BleakGATTProtocolError
 
-from ..link.profile import Channel, Profile
+from ..link.profile import Channel, How, Profile
 from ..types import SITE_OF_FOOT, Packet, Site
 from ..wire.error import WireError
 from ..wire.insole_info import parse_info
 from .trouble import sentence
+from .voice import Voice
 from .wanted import says_its_site
 
 ANSWER = 5.0
 """s for which an answer is waited for; TimeoutError after that, and the connection is begun anew."""
 
-Say = Callable[[str, bytes], Packet]
-Complain = Callable[[str], None]
+Hearer = Callable[[BleakGATTCharacteristic, bytearray], None]
 
 
 class Unfit(Exception):
@@ -28,15 +28,22 @@ class Unfit(Exception):
 
 
 def characteristic(client: BleakClient, channel: Channel) -> BleakGATTCharacteristic | None:
-    """The channel's characteristic; None when this device does not have it."""
-    service = client.services.get_service(channel.service)
-    return None if service is None else service.get_characteristic(channel.characteristic)
+    """The channel's characteristic; None when this device does not have it. Of several alike it is the first."""
+    services = [service for service in client.services if service.uuid == channel.service]
+    found = (service.get_characteristic(channel.characteristic) for service in services)
+    return next((one for one in found if one is not None), None)
+
+
+def speaking(client: BleakClient, channel: Channel) -> BleakGATTCharacteristic | None:
+    """The same, when it can be subscribed: some devices let their battery be read only."""
+    one = characteristic(client, channel)
+    return one if one is not None and {"notify", "indicate"} & {*one.properties} else None
 
 
 def lacking(client: BleakClient, profile: Profile) -> str | None:
     """The first of the streams that the device cannot send, by the channel's name."""
     channels = (profile.channel(stream) for stream in profile.streams)
-    return next((channel.name for channel in channels if characteristic(client, channel) is None), None)
+    return next((channel.name for channel in channels if speaking(client, channel) is None), None)
 
 
 async def site_of(client: BleakClient, profile: Profile) -> Site | None:
@@ -54,7 +61,7 @@ async def site_of(client: BleakClient, profile: Profile) -> Site | None:
         raise Unfit(f"its INFO record cannot be read: {error.detail}") from error
 
 
-async def read(client: BleakClient, channel: Channel, say: Say, complain: Complain) -> None:
+async def read(client: BleakClient, channel: Channel, voice: Voice) -> None:
     """Say what the channel holds, where the device has it."""
     one = characteristic(client, channel)
     if one is None:
@@ -63,12 +70,27 @@ async def read(client: BleakClient, channel: Channel, say: Say, complain: Compla
         async with asyncio.timeout(ANSWER):
             data = await client.read_gatt_char(one)
     except BleakGATTProtocolError as error:
-        complain(f"{channel.name} cannot be read: {sentence(error)}")
+        voice.complain(f"{channel.name} cannot be read: {sentence(error)}")
         return
-    say(channel.name, bytes(data))
+    voice.say(channel.name, bytes(data))
 
 
-async def write_setup(client: BleakClient, profile: Profile, say: Say, complain: Complain) -> list[Packet]:
+async def subscribe(client: BleakClient, profile: Profile, hearer: Callable[[str], Hearer], voice: Voice) -> None:
+    """Let `hearer`'s callbacks hear whatever the device can say. What it refuses beside its streams is told and passed
+    over."""
+    for channel in profile.channels:
+        if channel.how is not How.NOTIFY or (one := speaking(client, channel)) is None:
+            continue
+        try:
+            async with asyncio.timeout(ANSWER):
+                await client.start_notify(one, hearer(channel.name))
+        except BleakGATTProtocolError as error:
+            if channel.name in profile.streams:
+                raise
+            voice.complain(f"{channel.name} cannot be subscribed: {sentence(error)}")
+
+
+async def write_setup(client: BleakClient, profile: Profile, voice: Voice) -> list[Packet]:
     """Make the writes of the profile; what was written, as it was said.
 
     What the device does not have (old SensorTags have no periods) or refuses is told and passed over: a stream that
@@ -78,15 +100,15 @@ async def write_setup(client: BleakClient, profile: Profile, say: Say, complain:
     for write in profile.setup:
         one = characteristic(client, profile.channel(write.channel))
         if one is None:
-            complain(f"{write.channel} is not there to be set: the device keeps to its own")
+            voice.complain(f"{write.channel} is not there to be set: the device keeps to its own")
             continue
         try:
             async with asyncio.timeout(ANSWER):
-                await client.write_gatt_char(one, write.value, response=True)
+                await client.write_gatt_char(one, write.value)  # with a response, where it gives one
         except BleakGATTProtocolError as error:
-            complain(f"{write.channel} was not set to {write.value.hex()}: {sentence(error)}")
+            voice.complain(f"{write.channel} was not set to {write.value.hex()}: {sentence(error)}")
             continue
-        written.append(say(write.channel, write.value))
+        written.append(voice.say(write.channel, write.value))
         for name in write.then_read:
-            await read(client, profile.channel(name), say, complain)
+            await read(client, profile.channel(name), voice)
     return written

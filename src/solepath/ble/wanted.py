@@ -8,7 +8,7 @@ from attrs import frozen
 
 from ..link.known import PROFILES
 from ..link.profile import Profile
-from ..types import Site
+from ..types import SITE_OF_FOOT, Site
 
 
 @frozen
@@ -38,8 +38,12 @@ class Wanted:
     def fits(self, address: str, name: str, services: Sequence[str]) -> bool:
         """Is a device that advertises so the one?"""
         if self.which:
-            return self.which == name or self.is_address(address)
+            return self.names(address, name)
         return self.profile is not None and advertises(self.profile, name, services)
+
+    def names(self, address: str, name: str) -> bool:
+        """Is it this device that was asked for, by its name or its address?"""
+        return bool(self.which) and (self.which == name or self.is_address(address))
 
     def is_address(self, address: str) -> bool:
         """Is the device with this address the one, whoever else is near?"""
@@ -52,12 +56,21 @@ def says_its_site(profile: Profile | None) -> bool:
 
 
 def check(wanted: Sequence[Wanted]) -> None:
-    """ValueError when there is none, or two are to be at one site."""
-    sites = [one.site for one in wanted if one.site is not None]
+    """ValueError when there is none, when two are to be at one site, or when nothing tells two apart."""
     if not wanted:
         raise ValueError("no device is wanted")
+    sites = [one.site for one in wanted if one.site is not None]
     if len(set(sites)) < len(sites):
         raise ValueError("two devices cannot be at one site")
+    feet = len({*SITE_OF_FOOT.values()} - {*sites})
+    if len(wanted) - len(sites) > feet:
+        raise ValueError("more insoles are wanted than there are feet for them")
+    for k, one in enumerate(wanted):
+        for other in wanted[:k]:
+            if one.which.upper() == other.which.upper() and (one.which or one.profile == other.profile):
+                if not one.which and says_its_site(one.profile):
+                    continue
+                raise ValueError(f"nothing tells one {one.words} from the other: name them by their addresses")
 
 
 def advertises(profile: Profile, name: str, services: Sequence[str]) -> bool:

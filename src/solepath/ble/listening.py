@@ -1,0 +1,70 @@
+"""One connection while it stands: set up, listened to, and watched."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+
+from attrs import define, field
+from bleak import BleakClient
+from bleak.backends.characteristic import BleakGATTCharacteristic
+
+from ..link.decoder import Decoder
+from ..link.profile import Profile
+from ..types import Packet, Site
+from ..wire.receiver import build_words
+from .setup import read, subscribe, write_setup
+from .voice import Voice
+from .waiting import either
+from .watchdog import Remedy, Watchdog
+
+
+@define(eq=False)
+class Listening:
+    """`gone`: set when the connection is lost. `closed`: whatever comes after that is not passed on."""
+
+    client: BleakClient
+    profile: Profile
+    voice: Voice
+    gone: asyncio.Event
+    closed: bool = field(default=False, init=False)
+    _watchdog: Watchdog = field(factory=lambda: Watchdog((), 0.0, 0.0), init=False)
+
+    async def set_up(self) -> None:
+        """Read, then subscribe (a value read after that would come twice on BlueZ), then write. FAILURES."""
+        for name in self.profile.reads:
+            await read(self.client, self.profile.channel(name), self.voice)
+        await subscribe(self.client, self.profile, self._hearer, self.voice)
+        written = await write_setup(self.client, self.profile, self.voice)
+        streams = () if may_be_silent(self.voice.site, written) else self.profile.streams
+        self._watchdog = Watchdog(streams, self.profile.stale_after, asyncio.get_running_loop().time())
+
+    async def run(self) -> None:
+        """Until the connection is lost, or worth nothing any more. FAILURES."""
+        now = asyncio.get_running_loop().time
+        while not self.gone.is_set():
+            due = self._watchdog.due()
+            await either(self.gone, None if due is None else max(0.0, due - now()))
+            frozen = None if self.gone.is_set() else self._watchdog.look(now())
+            if frozen is None:
+                continue
+            channel, remedy = frozen
+            self.voice.say("receiver/restarted", build_words(channel))
+            if remedy is Remedy.RECONNECT:
+                return
+            await write_setup(self.client, self.profile, self.voice)
+
+    def _hearer(self, channel: str) -> Callable[[BleakGATTCharacteristic, bytearray], None]:
+        def heard(_: BleakGATTCharacteristic, data: bytearray) -> None:
+            if not self.closed:
+                self._watchdog.heard(channel, self.voice.pass_on(channel, bytes(data)))
+
+        return heard
+
+
+def may_be_silent(site: Site, written: Sequence[Packet]) -> bool:
+    """Does what was written allow the device to send nothing, as with wake-on-motion?"""
+    decoder = Decoder(site)
+    for packet in written:
+        decoder.feed(packet)
+    return decoder.link is not None and decoder.link.silence_is_legal
