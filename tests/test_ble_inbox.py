@@ -135,6 +135,12 @@ def test_a_session_refuses_nothing_that_comes_out_and_says_how_many_were_dropped
     assert dropped + sum(isinstance(event, BatteryLevel) for event in events) == put
 
 
+def test_who_takes_one_by_one_too_slowly_hears_not_only_of_drops() -> None:
+    life: list[tuple[Site, bool] | None] = [(LEFT, True)] * 3 + [*[(LEFT, True)] * 4, None] * 20
+    _, taken, _ = lived(3, life)
+    assert [packet.channel for packet in taken] == [DROPPED, "stream"] * 10
+
+
 def test_who_waits_is_told_of_every_arrival() -> None:
     told: list[int] = []
     inbox = Inbox(2)

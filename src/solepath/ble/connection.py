@@ -14,7 +14,7 @@ from bleak_retry_connector import establish_connection
 from ..types import Site
 from ..wire.receiver import LONGEST_NAME, build_connected
 from ..wire.receiver import Connection as Made
-from .air import Air, Found
+from .air import WEAKEST, Air, Found
 from .backend import Backend
 from .listening import Listening
 from .search import Search
@@ -89,7 +89,7 @@ class Connection:
         while True:
             search = Search(self.air, self.wanted, self.address, self._barred, self.patience, self.voice.complain)
             found = await search.run()
-            self._trying, self.signal = found.address, found.signal
+            self._trying, self.signal = found.address, found.signal if found.signal > WEAKEST else None
             try:
                 await self._use(found)
             except Unfit as error:
@@ -97,8 +97,9 @@ class Connection:
                 self.voice.complain(str(error))
             except FAILURES as error:
                 self.voice.complain(sentence(error))
-            steady = self.state is State.LISTENING and _now() - self._since >= STEADY
-            self._trying, self.state = "", State.SEEKING
+            finally:
+                steady = self.state is State.LISTENING and _now() - self._since >= STEADY
+                self._trying, self.state = "", State.SEEKING
             if steady:
                 pause = PAUSE
             else:

@@ -23,7 +23,7 @@ class Inbox:
     capacity: int
     _packets: deque[tuple[Packet, bool]] = field(factory=deque, init=False)
     _kept: deque[Packet] = field(factory=deque, init=False)
-    """What may not be dropped and was found among the oldest; older than all of `_packets`."""
+    """What may not be dropped and was found among the oldest, or comes next; older than all of `_packets`."""
     _dropped: dict[Site, int] = field(factory=dict, init=False)
     """By site, how many since that was told last."""
     _passed: dict[Site, Packet] = field(factory=dict, init=False)
@@ -60,5 +60,9 @@ class Inbox:
             site, count = next(iter(self._dropped.items()))
             del self._dropped[site]
             newest = self._passed[site]
+            if self._packets:  # it comes next whatever is dropped meanwhile: who is slow shall not hear of drops alone
+                packet, _ = self._packets.popleft()
+                self._passed[packet.site] = packet
+                self._kept.append(packet)
             return Packet(newest.t, site, "receiver/dropped", build_dropped(count), newest.device)
         return self._packets.popleft()[0] if self._packets else None
