@@ -18,6 +18,9 @@ from .voice import Voice
 from .waiting import either
 from .watchdog import Remedy, Watchdog
 
+SHORTEST = 0.01
+"""s from one look to the next, so that no rounding of a loop's clock makes them follow each other at once."""
+
 
 @define(eq=False)
 class Listening:
@@ -44,7 +47,7 @@ class Listening:
         now = asyncio.get_running_loop().time
         while not self.gone.is_set():
             due = self._watchdog.due()
-            await either(self.gone, None if due is None else max(0.0, due - now()))
+            await either(self.gone, None if due is None else max(SHORTEST, due - now()))
             frozen = None if self.gone.is_set() else self._watchdog.look(now())
             if frozen is None:
                 continue
