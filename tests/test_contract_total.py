@@ -79,8 +79,8 @@ def test_any_bytes_anywhere_give_events_and_a_rejected_packet_changes_nothing(na
     events = one.feed(packet)
     strict(events)
     after = machine.save(one)
-    if any(isinstance(event, PacketRejected) for event in events):
-        counted = any(event.reason is Rejection.TIME_BACKWARDS for event in events)
+    if rejected := [event for event in events if isinstance(event, PacketRejected)]:
+        counted = any(event.reason is Rejection.TIME_BACKWARDS for event in rejected)
         fragment = packet.channel == "insole/frame" and packet.data[:1] < b"\xe0"
         if counted:
             assert without_exceptions(after) == without_exceptions(saved)
