@@ -169,7 +169,8 @@ def test_a_link_that_is_lost_while_a_frozen_stream_is_set_up_again_is_made_again
     found = events(heard(tier, "4 * freeze; 4.5 * hang", 12.0))
     order = of((StreamRestarted, Disconnected, Connected, StreamResumed), found)  # type: ignore[arg-type]
     assert [type(e) for e in order] == [Connected, StreamRestarted, Disconnected, Connected, StreamResumed]
-    assert [event.what for event in of(LinkTrouble, found)] == ["the connection was lost"]
+    [trouble] = of(LinkTrouble, found)
+    assert trouble.what.endswith(" was lost")
 
 
 @both
