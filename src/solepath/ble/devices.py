@@ -36,7 +36,8 @@ class Devices:
 
     `capacity`: notifications that wait to be taken; beyond it the oldest are dropped, and a packet says how many.
     `pair`: pair with each device when it is connected. `patience`: s until a device that is not heard is complained of.
-    `backend`: another Bluetooth than this machine's (loopback). ValueError when nothing is wanted or one site twice.
+    `backend`: another Bluetooth than this machine's (loopback). ValueError when nothing is wanted, one site twice, or
+    when nothing tells two devices apart.
 
     To enter raises BluetoothError when there is no Bluetooth to be used; nothing that happens later does. Leaving
     disconnects; what has arrived by then can still be iterated.
