@@ -51,8 +51,8 @@ def test_heading_grows_less_certain_with_time() -> None:
     session.feed(samples)
     foot = session.feet[Foot.LEFT]
     lasted = samples[-1].t - 2.0  # what comes before the first heel-off is one stretch, and so is what is under way
-    assert foot.way.yaw == pytest.approx(foot.corrector.heading_drift**2 * lasted, rel=0.4)
-    assert session.position is not None and session.position.covariance[3] > foot.way.yaw * 10.0**2 / 4
+    assert foot.gait.way.yaw == pytest.approx(foot.corrector.heading_drift**2 * lasted, rel=0.4)
+    assert session.position is not None and session.position.covariance[3] > foot.gait.way.yaw * 10.0**2 / 4
 
 
 def test_sites_are_their_own_foot() -> None:

@@ -1,10 +1,10 @@
-"""Moments of a stride, and where between two of them a foot is."""
+"""A stride as a row of moments, and where between two of them a foot is."""
 
 from __future__ import annotations
 
 from math import cos, hypot, sin
 
-from attrs import frozen
+from attrs import define, frozen
 
 from ..types import Quat, Vec3
 from ..vector import normalise
@@ -22,6 +22,19 @@ class Moment:
     rate: Vec3
     force: float
     """How large the specific force was, m/s^2."""
+
+
+@define
+class Stride:
+    """A stride that was seen whole."""
+
+    moments: list[Moment]
+    """From the heel's rise to just before foot-flat, in order; never none."""
+    toe_off: float
+    """s after the heel's rise."""
+    heel_strike: float
+    way: Vec3
+    """From foot-flat to foot-flat, m; x along the mean of both headings."""
 
 
 def at(moments: list[Moment], since: float) -> Moment:

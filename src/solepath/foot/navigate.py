@@ -28,6 +28,8 @@ class Corrector(Protocol):
     attitude: Quat
     velocity: Vec3
     position: Vec3
+    rate: Vec3 | None
+    """Angular rate of the last sample, sensor frame, rad/s; None when there was none or a gap since."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         """Stand still at the origin with this attitude, its tilt known to `tilt_sigma` rad."""

@@ -1,7 +1,7 @@
-"""One foot, one sample at a time: evidence, navigation, phases and steps.
+"""One foot, one sample at a time: evidence, navigation, cues.
 
-Order within a sample: gap, calibration, prediction, evidence, correction, cues, phase, step. Everything that happens
-is an event; the live position is read from `position` after each sample.
+Order within a sample: gap, calibration, prediction, evidence, correction, cues, and what follows from those (gait.py).
+Everything that happens is an event; the live position is read from `position` after each sample.
 """
 
 from __future__ import annotations
@@ -18,17 +18,16 @@ from .cues import InertialCues, PressureCues, Seen
 from .cycle import Cycle
 from .dedrift import LinearDedrift
 from .eskf import ErrorStateFilter
-from .habit import Habit, Leap
+from .gait import Gait
+from .gap import SHORTEST, NoLeap, leap
 from .navigate import LONGEST_BRIDGE
-from .phase import BEGINS, PHASES, Cue
+from .phase import Cue
 from .pressure import Insole
 from .pressure_stance import MaximumPressure, TwoArea
 from .refusal import refusal, rejected
 from .rhythm import Rhythm
 from .stance import AngularRate, Graph, Load, MovingVariance, Shoe
-from .step import StepBuilder, Way
-from .turn import heading_turned
-from .world import Covariance3, World
+from .world import Covariance3
 
 AnyDetector = Cycle | Shoe | AngularRate | MovingVariance | Graph | TwoArea | MaximumPressure
 AnyCorrector = ErrorStateFilter | LinearDedrift
@@ -61,51 +60,45 @@ class FootTracker:
     load: Load | None = field(default=None, init=False)
     """The newest load, when a sample without acc or gyro brought it."""
     rhythm: Rhythm = field(factory=Rhythm, init=False)
-    phase: Phase = field(default=Phase.STATIONARY, init=False)
-    phase_began: float | None = field(default=None, init=False)
     levelling: Levelling = field(factory=Levelling, init=False)
     levelled: bool = field(default=False, init=False)
     rest: Rest = field(factory=Rest, init=False)
     insole: Insole = field(factory=Insole, init=False)
     inertial_cues: InertialCues = field(factory=InertialCues, init=False)
     pressure_cues: PressureCues = field(factory=PressureCues, init=False)
-    habit: Habit = field(factory=Habit, init=False)
-    step: StepBuilder = field(init=False)
-    way: Way = field(factory=Way, init=False)
-    """In the navigation frame, up to `anchored`."""
-    anchored: Vec3 = field(default=ZERO, init=False)
-    """Position of the last anchor, navigation frame, m."""
-    world: World = field(factory=World, init=False)
-    headed: bool = field(default=False, init=False)
-    """The world's heading is settled."""
+    gait: Gait = field(init=False)
     said: list[str] = field(factory=list, init=False)
     scale_suspected: bool = field(default=False, init=False)
 
     def __attrs_post_init__(self) -> None:
-        self.step = StepBuilder(self.foot)
+        self.gait = Gait(self.foot)
 
     # --- what it knows ---
 
     @property
+    def phase(self) -> Phase:
+        """What the foot is doing."""
+        return self.gait.phase
+
+    @property
     def position(self) -> Vec3:
         """Live position of the sensor, world frame, m; where it was first seen is the origin."""
-        return self.world.vector(self.corrector.position)
+        return self.gait.world.vector(self.corrector.position)
 
     @property
     def velocity(self) -> Vec3:
         """Live velocity of the sensor, world frame, m/s."""
-        return self.world.vector(self.corrector.velocity)
+        return self.gait.world.vector(self.corrector.velocity)
 
     @property
     def attitude(self) -> Quat:
         """Sensor to world."""
-        return self.world.attitude(self.corrector.attitude)
+        return self.gait.world.attitude(self.corrector.attitude)
 
     @property
     def covariance(self) -> Covariance3:
         """Of `position`, m^2."""
-        way = self.way.extended(sub(self.corrector.position, self.anchored), self.corrector.covariance())
-        return self.world.covariance(way.position)
+        return self.gait.covariance(self.corrector)
 
     # --- samples ---
 
@@ -117,8 +110,8 @@ class FootTracker:
         """The clock of the samples begins anew, before or after the old one; what the foot did between is unknown."""
         if self.t is not None and self.levelled:
             self.corrector.bridge(inf)
-        self.t = self.moved_at = self.pressed_at = self.lacking_since = self.phase_began = self.load = None
-        self.step.degraded = True
+        self.t = self.moved_at = self.pressed_at = self.lacking_since = self.load = None
+        self.gait.interrupt()
         # Windows over the old times would wait for the new ones to catch up. What was learnt stays.
         axis = self.inertial_cues.axis
         self.detector = evolve(self.detector)
@@ -127,7 +120,6 @@ class FootTracker:
         self.pressure_cues = evolve(self.pressure_cues)
         self.levelling = evolve(self.levelling)
         self.insole.interrupt()
-        self.habit.interrupt()
         self.rest.interrupt()
 
     def feed(self, sample: Sample) -> list[Event]:
@@ -144,12 +136,12 @@ class FootTracker:
         events: list[Event] = []
         self.t = t if self.t is None else max(self.t, t)
         if sample.saturated:
-            self.step.degraded = True
+            self.gait.step.degraded = True
         load: Load | None = None
         if sample.pressure:
             load = self.insole.update(t, sample.pressure)
-            if self.phase is not Phase.SWING and load is not None and self.step.t_toe_off is None:
-                self.step.loaded(sum(sample.pressure), self.insole.centre_of_pressure(sample.pressure))
+            if self.phase is not Phase.SWING and load is not None and self.gait.step.t_toe_off is None:
+                self.gait.step.loaded(sum(sample.pressure), self.insole.centre_of_pressure(sample.pressure))
         if sample.acc is not None and sample.gyro is not None:
             dt = 0.0 if last is None else self._watch_for_gaps(last, t, known_at, sample, events)
             self.moved_at = t
@@ -171,7 +163,7 @@ class FootTracker:
         dt = t - last
         if self.rhythm.update(dt) or dt > LONGEST_BRIDGE:
             events.append(SampleGap(t=last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=dt))
-            self.step.degraded = True
+            self.gait.step.degraded = True
             if self.levelled:
                 dt = self._over_gap(last, t, dt, known_at, sample, events)
         return dt
@@ -179,44 +171,30 @@ class FootTracker:
     def _over_gap(
         self, last: float, t: float, dt: float, known_at: float, sample: Sample, events: list[Event]
     ) -> float:
-        corrector, habit = self.corrector, self.habit
-        if dt <= habit.shortest or sample.acc is None or sample.gyro is None:
+        corrector, habit = self.corrector, self.gait.habit
+        if dt <= SHORTEST or sample.acc is None or sample.gyro is None:
             return corrector.bridge(dt)
-        k = self.rest.scale
-        x, y, z = sample.acc
-        acc, gyro = (x * k, y * k, z * k), sub(sample.gyro, self.rest.bias)
-        for again in (False, True):  # within a second a foot may land, stand, and leave again
-            leap = habit.leap(
-                last, t, acc, gyro, corrector.rate, corrector.attitude, corrector.velocity, corrector.position
-            )
-            if leap is None:
-                if again:
-                    return 0.0
-                if dt > LONGEST_BRIDGE:
-                    habit.interrupt()
-                return corrector.bridge(dt)
-            if isinstance(leap, str):
-                return 0.0
-            corrector.leap(t - last, leap.attitude, leap.velocity, leap.position)
-            self._went_through(leap, known_at, events)
-            if leap.landed is None:
-                return 0.0
-            last = leap.landed
+        acc, gyro = self._calibrated(sample.acc, sample.gyro)
+        found = leap(habit, corrector, last, t, acc, gyro)
+        if found is NoLeap.UNKNOWN:
+            if dt > LONGEST_BRIDGE:
+                habit.interrupt()
+            return corrector.bridge(dt)
+        for _ in range(2):  # within a second a foot may land, stand, and leave again
+            if isinstance(found, NoLeap):
+                break
+            corrector.leap(t - last, found.attitude, found.velocity, found.position)
+            events += self.gait.leapt(found, self.inertial_cues, known_at, corrector, self.rhythm.usual or 0.0)
+            if found.landed is None:
+                break
+            last = found.landed
+            found = leap(habit, corrector, last, t, acc, gyro)
         return 0.0
 
-    def _went_through(self, leap: Leap, known_at: float, events: list[Event]) -> None:
-        """The phases that a gap has hidden."""
-        habit = self.habit
-        if self.phase is Phase.STATIONARY:
-            guessed, due = habit.guessed, habit.due
-            self._see(Seen(Cue.LIFT, leap.lifted), known_at, events)
-            habit.guessed, habit.due = guessed, due
-        if leap.cleared is not None and self.phase is not Phase.SWING and self.step.t_toe_off is None:
-            self._see(self.inertial_cues.cleared(leap.cleared), known_at, events)
-        if leap.struck is not None and self.phase is Phase.SWING:
-            self._see(Seen(Cue.CONTACT, leap.struck), known_at, events)
-        if leap.landed is not None:
-            self._see(Seen(Cue.FLAT, leap.landed), known_at, events)
+    def _calibrated(self, acc: Vec3, gyro: Vec3) -> tuple[Vec3, Vec3]:
+        k = self.rest.scale
+        x, y, z = acc
+        return (x * k, y * k, z * k), sub(gyro, self.rest.bias)
 
     def _inertial(
         self,
@@ -229,23 +207,17 @@ class FootTracker:
         load: Load | None,
         events: list[Event],
     ) -> None:
-        rest = self.rest
-        if rest.update(t, acc, gyro):
+        if self.rest.update(t, acc, gyro):
             self._check_scale(t, known_at, events)
-        k = rest.scale
-        x, y, z = acc
-        acc = (x * k, y * k, z * k)
-        x, y, z = gyro
-        bx, by, bz = rest.bias
-        gyro = (x - bx, y - by, z - bz)
-        corrector = self.corrector
+        acc, gyro = self._calibrated(acc, gyro)
+        corrector, gait = self.corrector, self.gait
         stance = self.detector.update(t, dt, acc, gyro, load)
         if not self.levelled:
             first = self.levelling.update(t, acc, gyro)
             if first is not None:
                 corrector.start(*first)
                 self.levelled = True
-                self.step.begin(t, ZERO, corrector.attitude)
+                self.gait.step.begin(t, ZERO, corrector.attitude)
             self._say_where(t, known_at, events)
             return
         corrector.predict(dt, acc, gyro, saturated)
@@ -254,16 +226,17 @@ class FootTracker:
         speed = sqrt(vx * vx + vy * vy + vz * vz)
         still = believed and speed < STILL
         cues = self.inertial_cues
-        seen = cues.update(t, dt, gyro, still, speed, self.phase)
+        seen = cues.update(t, dt, gyro, still, speed, gait.phase)
         if load is not None:
             seen = self._with_pressure(t, dt, load, seen)
-        if self.habit.lifted is not None and t >= self.habit.due:
-            self.habit.keep(t, corrector.attitude, corrector.velocity, corrector.position, acc, gyro)
-        self.step.moved(dt, corrector.position[2], speed, cues.sagittal if cues.axis is not None else 0.0)
+        habit = gait.habit
+        if habit.lifted is not None and t >= habit.due:
+            habit.keep(t, corrector.attitude, corrector.velocity, corrector.position, acc, gyro)
+        self.gait.step.moved(dt, corrector.position[2], speed, cues.sagittal if cues.axis is not None else 0.0)
         if seen is not None:
             self._see(seen, known_at, events)
-        elif self.world.north is None:
-            self.world.find(corrector.position)
+        elif gait.world.north is None:
+            gait.world.find(corrector.position)
         self._say_where(t, known_at, events)
 
     def _say_where(self, t: float, known_at: float, events: list[Event]) -> None:
@@ -298,53 +271,9 @@ class FootTracker:
         if seen is not None:
             self._see(seen, known_at, events)
 
-    # --- phases and steps ---
-
     def _see(self, seen: Seen, known_at: float, events: list[Event]) -> None:
-        phase = PHASES[self.phase][seen.cue]
-        if phase is self.phase:
-            return
-        self.phase = phase
-        # cues look back by different spans; phases follow each other all the same
-        t = seen.t if self.phase_began is None else max(seen.t, self.phase_began)
-        self.phase_began = t
-        events.append(BEGINS[phase](t=t, known_at=max(known_at, t), foot=self.foot))
-        if phase is Phase.SWING:
-            self.step.t_toe_off = t
-        elif phase is Phase.LOADING:
-            self.step.t_heel_strike = t
-        elif phase is Phase.PUSH_OFF and self.levelled:
-            self.habit.lift(t)
-            self._anchor()
-        elif phase is Phase.STATIONARY and self.levelled:
-            self._flat(t, known_at, events)
-
-    def _flat(self, t: float, known_at: float, events: list[Event]) -> None:
-        corrector, habit = self.corrector, self.habit
-        step = self.step
-        turn = heading_turned(step.attitude, corrector.attitude)
-        way = sub(corrector.position, step.start)
-        mended = habit.flat(t, step.t_toe_off, step.t_heel_strike, turn, way, self.rhythm.usual or 0.0)
-        if mended is not None:
-            (x, y, z), (dx, dy, dz) = step.start, mended.way
-            corrector.mend(mended.turn, (x + dx, y + dy, z + dz))
-        position, attitude = corrector.position, corrector.attitude
-        if not self.headed and self.step.t_toe_off is not None:
-            # the first step fixes the heading; until then it was the direction in which the foot set out
-            self.headed = self.world.find(position, self.step.shortest)
-        taken = self.step.finish(t, known_at, position, attitude, corrector.covariance(), self.world)
-        if taken is not None:
-            events.append(taken)
-            # a final step is never seen from another frame again, even when it was too short to give a direction
-            self.headed = True
-            self.world.settle()
-        self.step.begin(t, position, attitude)
-
-    def _anchor(self) -> None:
-        position = self.corrector.position
-        stretch = self.corrector.anchor()
-        self.way = self.way.extended(sub(position, self.anchored), stretch)
-        self.anchored = position
+        corrector = self.corrector if self.levelled else None
+        events += self.gait.see(seen, known_at, corrector, self.rhythm.usual or 0.0)
 
     def _check_scale(self, t: float, known_at: float, events: list[Event]) -> None:
         magnitude = self.rest.magnitude

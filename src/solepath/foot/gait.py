@@ -1,0 +1,118 @@
+"""From cues to phases and from phases to steps: what one foot is doing, and where it came down."""
+
+from __future__ import annotations
+
+from attrs import define, field
+
+from ..events import Event
+from ..types import Foot, Phase, Vec3
+from ..vector import ZERO, sub
+from .cues import InertialCues, Seen
+from .gap import Leap
+from .habit import Habit
+from .navigate import Corrector
+from .phase import BEGINS, PHASES, Cue
+from .step import StepBuilder, Way
+from .turn import heading_turned
+from .world import Covariance3, World
+
+
+@define
+class Gait:
+    """The phases of one foot and the steps that they make, each an event as soon as its cue is seen."""
+
+    foot: Foot
+    # state
+    phase: Phase = field(default=Phase.STATIONARY, init=False)
+    began: float | None = field(default=None, init=False)
+    """When the phase did, s."""
+    habit: Habit = field(factory=Habit, init=False)
+    step: StepBuilder = field(init=False)
+    way: Way = field(factory=Way, init=False)
+    """In the navigation frame, up to `anchored`."""
+    anchored: Vec3 = field(default=ZERO, init=False)
+    """Position of the last anchor, navigation frame, m."""
+    world: World = field(factory=World, init=False)
+    headed: bool = field(default=False, init=False)
+    """The world's heading is settled."""
+
+    def __attrs_post_init__(self) -> None:
+        self.step = StepBuilder(self.foot)
+
+    def covariance(self, corrector: Corrector) -> Covariance3:
+        """Of the live position, world frame, m^2."""
+        way = self.way.extended(sub(corrector.position, self.anchored), corrector.covariance())
+        return self.world.covariance(way.position)
+
+    def interrupt(self) -> None:
+        """Times begin anew; what the foot did between is unknown."""
+        self.began = None
+        self.step.degraded = True
+        self.habit.interrupt()
+
+    def see(self, seen: Seen, known_at: float, corrector: Corrector | None, interval: float) -> list[Event]:
+        """What follows from a cue. `corrector`: None as long as nobody knows which way is up; `interval`: the usual
+        one between samples, s."""
+        phase = PHASES[self.phase][seen.cue]
+        if phase is self.phase:
+            return []
+        self.phase = phase
+        # cues look back by different spans; phases follow each other all the same
+        t = seen.t if self.began is None else max(seen.t, self.began)
+        self.began = t
+        events: list[Event] = [BEGINS[phase](t=t, known_at=max(known_at, t), foot=self.foot)]
+        if phase is Phase.SWING:
+            self.step.t_toe_off = t
+        elif phase is Phase.LOADING:
+            self.step.t_heel_strike = t
+        elif phase is Phase.PUSH_OFF and corrector is not None:
+            self.habit.lift(t)
+            self._anchor(corrector)
+        elif phase is Phase.STATIONARY and corrector is not None:
+            events += self._flat(t, known_at, corrector, interval)
+        return events
+
+    def leapt(
+        self, leap: Leap, cues: InertialCues, known_at: float, corrector: Corrector, interval: float
+    ) -> list[Event]:
+        """The phases that a gap has hidden."""
+        self.habit.guess(leap.lifted, leap.lasted)
+        hidden: list[Seen] = []
+        phase = self.phase
+        if phase is Phase.STATIONARY:
+            hidden.append(Seen(Cue.LIFT, leap.lifted))
+            phase = Phase.PUSH_OFF
+        if leap.cleared is not None and phase is not Phase.SWING and self.step.t_toe_off is None:
+            hidden.append(cues.cleared(leap.cleared))
+            phase = Phase.SWING
+        if leap.struck is not None and phase is Phase.SWING:
+            hidden.append(Seen(Cue.CONTACT, leap.struck))
+        if leap.landed is not None:
+            hidden.append(Seen(Cue.FLAT, leap.landed))
+        return [event for seen in hidden for event in self.see(seen, known_at, corrector, interval)]
+
+    def _flat(self, t: float, known_at: float, corrector: Corrector, interval: float) -> list[Event]:
+        step, world = self.step, self.world
+        turn = heading_turned(step.attitude, corrector.attitude)
+        way = sub(corrector.position, step.start)
+        mended = self.habit.flat(t, step.t_toe_off, step.t_heel_strike, turn, way, interval)
+        if mended is not None:
+            (x, y, z), (dx, dy, dz) = step.start, mended.way
+            corrector.mend(mended.turn, (x + dx, y + dy, z + dz))
+        position, attitude = corrector.position, corrector.attitude
+        if not self.headed and step.t_toe_off is not None:
+            # the first step fixes the heading; until then it was the direction in which the foot set out
+            self.headed = world.find(position, step.shortest)
+        taken = step.finish(t, known_at, position, attitude, corrector.covariance(), world)
+        if taken is not None:
+            # a final step is never seen from another frame again, even when it was too short to give a direction
+            self.headed = True
+            world.settle()
+        step.begin(t, position, attitude)
+        return [] if taken is None else [taken]
+
+    def _anchor(self, corrector: Corrector) -> None:
+        position = corrector.position
+        stretch = corrector.anchor()
+        self.way = self.way.extended(sub(position, self.anchored), stretch)
+        self.anchored = position
