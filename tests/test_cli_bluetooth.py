@@ -208,6 +208,8 @@ def test_a_machine_without_bluetooth_is_named_as_such(command: str, tmp_path: Pa
         (["--at", "knee=X"], "--at knee=X: that is not SITE=DEVICE"),
         (["--left", "X", "--profile", "wellington"], "there is no profile 'wellington'"),
         (["--left", "X", "--recipe", "cake"], "there is no recipe 'cake'"),
+        (["--left", "X", "--right", "X"], "X"),
+        (["--left", "X", "--at", "left_foot=Y"], "two devices cannot be at one site"),
     ],
 )
 def test_options_that_make_no_sense_are_named(options: list[str], told: str) -> None:

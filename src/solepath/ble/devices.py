@@ -20,7 +20,7 @@ from .trouble import FAILURES, BluetoothError, sentence
 from .voice import Voice
 from .wanted import Wanted, check
 
-TICK = 0.25
+TICK = 0.2
 """s without a packet after which there is one that says so."""
 IN_A_ROW = 64
 """Packets taken at a stretch before Bluetooth gets its turn again."""

@@ -56,6 +56,7 @@ def add_devices(command: argparse.ArgumentParser) -> None:
 def wanted(options: argparse.Namespace) -> list[Wanted]:
     """The devices that were named; none when none was. Failure for a site or profile that there is not."""
     from ..ble import Wanted
+    from ..ble.wanted import check
     from ..link.known import BY_NAME
     from ..types import Site
 
@@ -69,7 +70,13 @@ def wanted(options: argparse.Namespace) -> list[Wanted]:
     if options.profile is not None and options.profile not in BY_NAME:
         raise Failure(f"there is no profile {options.profile!r}; there are: {', '.join(BY_NAME)}")
     profile = BY_NAME.get(options.profile)
-    return [Wanted(site, which, profile) for site, which in named if which]
+    devices = [Wanted(site, which, profile) for site, which in named if which]
+    try:
+        if devices:
+            check(devices)
+    except ValueError as error:
+        raise Failure(str(error)) from None
+    return devices
 
 
 def chosen(found: list[Found]) -> list[Wanted]:
