@@ -144,6 +144,10 @@ class InertialCues:
             return Seen(Cue.CONTACT, t - dt * (now - self.slap) / (now - before))
         return None
 
+    def interrupt(self) -> None:
+        """What lasts must be seen to last: a gap counts neither as stillness nor as speed."""
+        self.still_since = self.fast_since = None
+
     def cleared(self, t: float) -> Seen:
         """The toe left the ground at `t`, in a gap, and the swing was under way when that ended."""
         seen = self._clear(t)

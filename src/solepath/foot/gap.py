@@ -14,7 +14,7 @@ from ..types import Quat, Vec3
 from ..vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, sub
 from .habit import Habit
 from .moment import Moment, Stride, at, length, turned
-from .navigate import Corrector
+from .navigate import LONGEST_BRIDGE, Corrector
 from .turn import heading_turned
 
 SHORTEST = 0.06
@@ -30,6 +30,9 @@ TILT_SIGMA = 0.1
 SPEED_SIGMA = 0.3
 PERSISTENCE = 0.5
 """How much of what the velocity was off before a gap it still is after it."""
+UNLIKE = 60.0
+"""When the foot, before or after a gap, is more unlike the last stride than this (a sum of squares of the standard
+deviations above), a straight line is the better guess as long as there is one."""
 UP = (0.0, 0.0, 1.0)
 
 
@@ -70,12 +73,15 @@ def leap(habit: Habit, corrector: Corrector, a: float, b: float, acc: Vec3, gyro
     last = stride.moments
     whole = last[-1].since
     if habit.lifted is None:
+        unlike = 0.0
         start, usual, most = 0.0, 2.0 * REACH / 3.0, b - a
-        # by cadence the heel rose then; who stands longer has halted
+        # by cadence the heel rose then
         expected = b - a if habit.stood_since is None else b - habit.stood_since - habit.stance
+        if habit.stood_since is not None and expected - (b - a) > 3.0 * usual:
+            expected, usual = 0.0, b - a  # who has stood for longer than that has halted, and may go on at any time
         best = still + min(12.0, max(0.0, expected / usual) ** 2)
     else:
-        start = _like(last, corrector, a - habit.lifted)
+        start, unlike = _like(last, corrector, a - habit.lifted)
         usual, expected, best = USUAL, start + b - a, 1e12
         most = expected + REACH
     end: Moment | None = None
@@ -93,16 +99,21 @@ def leap(habit: Habit, corrector: Corrector, a: float, b: float, acc: Vec3, gyro
         early = max(0.0, whole - expected)
         if still + (early / usual) ** 2 < best or (habit.lifted is not None and expected > whole + REACH):
             end = last[-1]
+    if end is not None and end is not last[-1]:
+        unlike = max(unlike, best)
+    if habit.lifted is not None and unlike > UNLIKE and b - a <= LONGEST_BRIDGE:
+        return NoLeap.UNKNOWN  # this is another kind of stride, such as a turn on the spot
     if end is None:
         return NoLeap.STOOD if habit.lifted is None and best < 20.0 else NoLeap.UNKNOWN
     return _to(habit, stride, corrector, start, end, a, b, gyro)
 
 
-def _like(last: list[Moment], corrector: Corrector, since: float) -> float:
-    """The moment of the last stride, near `since` s after the heel's rise, at which the foot was most like this."""
+def _like(last: list[Moment], corrector: Corrector, since: float) -> tuple[float, float]:
+    """The moment of the last stride, near `since` s after the heel's rise, at which the foot was most like this; and
+    how much unlike it was then, as a sum of squares of standard deviations."""
     rate = corrector.rate
     if rate is None:
-        return since
+        return since, 0.0
     best, found = 1e12, since
     up, fast = rotate(conjugate(corrector.attitude), UP), length(corrector.velocity)
     for moment in last:
@@ -114,7 +125,7 @@ def _like(last: list[Moment], corrector: Corrector, since: float) -> float:
             far += ((fast - length(moment.velocity)) / SPEED_SIGMA) ** 2
             if far < best:
                 best, found = far, moment.since
-    return found
+    return found, best
 
 
 def _to(
@@ -144,9 +155,10 @@ def _to(
     x, y, z = corrector.position
     here = (x + px + k * ex, y + py + k * ey, z + pz + k * ez)
     lifted = _lifted(habit, landed, start, end, a, b)
-    cleared = lifted + stride.toe_off if end.since >= stride.toe_off else None
-    struck = lifted + stride.heel_strike if end.since >= stride.heel_strike else None
-    return Leap(now, speed, here, dt, lifted, cleared, struck, lifted + end.since if landed else None)
+    # none of it before the gap: it would have been seen
+    cleared = max(a, lifted + stride.toe_off) if end.since >= stride.toe_off else None
+    struck = max(a, lifted + stride.heel_strike) if end.since >= stride.heel_strike else None
+    return Leap(now, speed, here, dt, lifted, cleared, struck, max(a, lifted + end.since) if landed else None)
 
 
 def _lifted(habit: Habit, landed: bool, start: float, end: Moment, a: float, b: float) -> float:

@@ -113,9 +113,9 @@ class Habit:
         self.lifted = None
         self.stood_since = t
         sparse = interval if interval > self.dense else 0.0
+        unsure = min(1.0, guessed / 0.3)
         yaw, mended = 0.0, None
         if toe_off is not None and guessed + sparse > 0.0:
-            unsure = min(1.0, guessed / 0.3)
             yaw = straight_on.mend(turn, unsure, sparse)
             x, y, z = turned(way, 0.5 * yaw)
             if self.last is not None:
@@ -123,7 +123,7 @@ class Habit:
                 k = share(dx * dx + dy * dy + dz * dz, self.gap_way * unsure, self.way_sigma, 3.0, 2)
                 x, y, z = x + k * dx, y + k * dy, z + k * dz
             mended = Mended(yaw, (x, y, z))
-        straight_on.footfall(turn, yaw, sparse)
+        straight_on.footfall(turn, yaw, unsure, sparse)
         return mended
 
     def _learn(self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, way: Vec3) -> None:

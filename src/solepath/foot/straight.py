@@ -24,7 +24,8 @@ class StraightOn:
     memory: float = 0.3
     """Weight of the newest footfall in the heading that is kept."""
     bend: float = 0.12
-    """A footfall turned further than this begins another heading, rad."""
+    """A footfall turned further than this begins another heading, rad; one that was seen whole further than this:"""
+    seen_bend: float = 0.0625
     gap_turn: float = 0.08
     """What a stride's heading errs by after a third of a second by habit, rad."""
     # state
@@ -47,11 +48,13 @@ class StraightOn:
         doubt = self.gap_turn * min(2.0, unsure + sparse / 0.05)
         return -off * share(off * off, doubt, self.sigma, pi, 1)
 
-    def footfall(self, turn: float, mended: float, sparse: float) -> None:
-        """The foot is flat, turned by `turn` and `mended`, rad; `sparse` as above."""
+    def footfall(self, turn: float, mended: float, unsure: float, sparse: float) -> None:
+        """The foot is flat, turned by `turn` and `mended`, rad; the others as above."""
         off = self.heading + turn + mended
         self.yaw = (self.yaw + (turn + mended) + pi) % (2.0 * pi) - pi
-        if abs(off) > self.bend * (1.0 + sparse / 0.1):
+        # what was seen whole and is further off than footfalls are is the wearer's doing, and so may the next be
+        bend = self.bend if unsure > 0.0 or sparse > 0.0 else self.seen_bend
+        if abs(off) > bend * (1.0 + sparse / 0.1):
             self.heading, self.footfalls = 0.0, 1
         else:
             self.heading = off * (1.0 - self.memory)

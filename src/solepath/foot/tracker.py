@@ -183,6 +183,7 @@ class FootTracker:
         for _ in range(2):  # within a second a foot may land, stand, and leave again
             if isinstance(found, NoLeap):
                 break
+            self.inertial_cues.interrupt()
             corrector.leap(t - last, found.attitude, found.velocity, found.position)
             events += self.gait.leapt(found, self.inertial_cues, known_at, corrector, self.rhythm.usual or 0.0)
             if found.landed is None:
