@@ -1,0 +1,122 @@
+"""A toy that is declared (link/driver.py): numbered, ticking or neither, and whatever else its readers say."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from attrs import evolve, frozen
+from construct import Int8ub, Int16ub, Int32ub, Struct, Terminated
+
+from solepath import Packet, Sample, Site
+from solepath.link.decoder import Decoder
+from solepath.link.driver import Driver, Measured, Reading
+from solepath.link.known import kinds
+from solepath.link.profile import BATTERY, Channel, How, Profile, Write
+from solepath.types import Cell, Foot, Layout
+from solepath.wire.fields import Fields
+
+LEFT = Site.LEFT_FOOT
+UP = (0.0, 0.0, 9.80665)
+
+
+def channel(name: str, how: How, number: int) -> Channel:
+    return Channel(f"toy/{name}", "5d1e0001-9c60-4cf1-a1b3-1a2b3c4d5e6f", f"5d1e{number:04x}-9c60-4cf1-a1b3-0", how)
+
+
+PROFILE = Profile(
+    name="toy",
+    names=("Toy",),
+    services=(),
+    channels=(
+        channel("data", How.NOTIFY, 2),
+        channel("more", How.NOTIFY, 3),
+        channel("start", How.WRITE, 4),
+        BATTERY,
+    ),
+    setup=(Write("toy/start", b"\x01"),),
+    reads=(),
+    nominal_rate=100.0,
+    streams=("toy/data",),
+    stale_after=1.0,
+)
+FORMATS = {
+    "toy/data": Struct("number" / Int16ub, "ticks" / Int32ub, "count" / Int8ub, "up" / Fields(">f"), Terminated),
+    "toy/more": Struct("what" / Int8ub, "value" / Fields(">d"), Terminated),
+    "toy/start": Struct("go" / Int8ub, Terminated),
+}
+LAYOUT = Layout(3, Foot.LEFT, (Cell(0.1, 0.0),), 0.26)
+MORE: dict[int, Any] = {
+    0: lambda value: Reading(battery=value),
+    1: lambda value: Reading(rate=value),
+    2: lambda value: Reading(silent=value > 0.0),
+    3: lambda value: Reading(air_pressure=value),
+    4: lambda value: Reading(mag=(value, 0.0, 0.0)),
+    5: lambda value: Reading(foot=Foot.LEFT if value > 0.0 else Foot.RIGHT),
+    6: lambda value: Reading(keys=("left",) if value > 0.0 else ()),
+    7: lambda value: Reading(layout=LAYOUT),
+    8: lambda value: Reading(known={"acc_range": value, "times": 2.0}),
+    9: lambda value: Reading((Measured(UP),)),
+    10: lambda value: Reading(battery=1.0 / value),
+    11: lambda value: {}[value],
+}
+
+
+def data(sent: Any, known: Any) -> Reading:
+    (up,) = sent.up
+    sample = Measured((0.0, 0.0, up * known.get("times", 1.0)), (0.0, 0.0, 0.0), quat=(2.0, 0.0, 0.0, 0.0))
+    return Reading((sample,) * sent.count, sequence=sent.number, ticks=sent.ticks)
+
+
+def more(sent: Any, known: Any) -> Reading:
+    if sent.what not in MORE:
+        raise ValueError("nobody knows what this is")
+    (value,) = sent.value
+    reading: Reading = MORE[sent.what](value)
+    return reading
+
+
+BASE = Driver(PROFILE, FORMATS, {"toy/data": data, "toy/more": more})
+NUMBERED = evolve(BASE, sequence=1 << 16)
+TICKING = evolve(BASE, tick_rate=1e6, tick_modulus=1 << 32)
+BOTH = evolve(TICKING, sequence=1 << 16)
+COARSE = evolve(NUMBERED, tick_rate=1000.0, tick_modulus=86_400_000)
+KIND = {"arrival": BASE, "number": NUMBERED, "ticks": TICKING, "both": BOTH, "coarse": COARSE}
+
+
+@frozen
+class Toy:
+    """A decoder and the one device that it knows."""
+
+    driver: Driver
+    decoder: Decoder
+
+    def hear(self, t: float, name: str, value: bytes, site: Site = LEFT) -> list[Any]:
+        return self.decoder.feed(Packet(t, site, f"toy/{name}", value), kinds([self.driver]))
+
+    def say(self, t: float, number: int = 0, ticks: int = 0, count: int = 1, up: float = 9.80665) -> list[Any]:
+        fields = {"number": number % 65536, "ticks": ticks % 2**32, "count": count, "up": [up]}
+        return self.hear(t, "data", self.driver.write("toy/data", fields))
+
+    def tell(self, t: float, what: int, value: float) -> list[Any]:
+        return self.hear(t, "more", self.driver.write("toy/more", {"what": what, "value": [value]}))
+
+    def packet(self, k: int, late: float = 0.0, true: float = 100.0, count: int = 1) -> list[Any]:
+        """Packet k of a device that begins at 10 s with counters near their wraps."""
+        t = 10.0 + k * count / true
+        unit = 1000 if self.driver is COARSE else 1_000_000
+        first = t - (count - 1) / true
+        return self.say(
+            t + late, 65_530 + k, round(unit * first) - 12 * unit + (86_400_000 if unit == 1000 else 0), count
+        )
+
+
+def toy(driver: Driver) -> Toy:
+    return Toy(driver, Decoder(LEFT))
+
+
+def of(kind: type, told: list[Any]) -> list[Any]:
+    return [one for one in told if isinstance(one, kind)]
+
+
+def times(told: list[Any]) -> list[float]:
+    return [sample.t for sample in of(Sample, told)]
