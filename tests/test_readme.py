@@ -164,6 +164,14 @@ def test_its_short_table_quotes_the_benchmark_below():
     assert in_short("python") == figures.lines(figures.measured("\n".join(below("speed"))))[2:]
 
 
+def test_it_tells_what_bluetooth_adds_on_both_tiers():
+    """The figures are those of some machine; that there are any is tested."""
+    told = "\n".join(below("bluetooth"))
+    assert re.search(r"the adapter's own +\d+\.\d us", told)
+    for tier in ("memory", "bumble"):
+        assert re.search(rf"{tier}: from notification to event +median +\d+\.\d+ ms, p99 +\d+\.\d+ ms", told)
+
+
 def test_its_short_table_has_no_other_rows():
     table = below("figures")
     commands = ("solepath evaluate", "solepath demo", "python")
