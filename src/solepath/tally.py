@@ -156,14 +156,13 @@ class Tally:
             case StreamRestarted():
                 self.restarts += 1
             case LinkTrouble(site=site, what=what):
-                told = f"{site.value.replace('_', ' ')}: {what}"
+                told = f"{site.words}: {what}"
                 if told not in self.troubles:
                     self.troubles.append(told)
             case Limitation(site=site, what=what):
-                self.limitations.append(what if site is None else f"{site.value.replace('_', ' ')}: {what}")
+                self.limitations.append(what if site is None else f"{site.words}: {what}")
             case ScaleSuspect(site=site, magnitude=magnitude, suggestion=suggestion):
-                where = site.value.replace("_", " ")
                 told = f": {suggestion}" if suggestion else ""
-                self.suspects.append(f"{where}: |acc| is {magnitude:.2f} m/s^2 at rest{told}")
+                self.suspects.append(f"{site.words}: |acc| is {magnitude:.2f} m/s^2 at rest{told}")
             case _:
                 pass

@@ -39,6 +39,11 @@ class Site(Enum):
         """The foot that this site is, or None for the sites above the ankle."""
         return _FOOT_OF_SITE.get(self)
 
+    @property
+    def words(self) -> str:
+        """The site as in a sentence: "left foot"."""
+        return self.value.replace("_", " ")
+
 
 _FOOT_OF_SITE = {Site.LEFT_FOOT: Foot.LEFT, Site.RIGHT_FOOT: Foot.RIGHT}
 SITE_OF_FOOT = {Foot.LEFT: Site.LEFT_FOOT, Foot.RIGHT: Site.RIGHT_FOOT}

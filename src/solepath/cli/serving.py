@@ -56,9 +56,7 @@ async def serve_devices(options: argparse.Namespace) -> int:
         async with serve(bench.peripherals, host.strip("[]"), int(port)) as (at, number):
             print(f"serving at tcp:{at}:{number}", flush=True)
             for peripheral in bench.peripherals:
-                print(
-                    f"  {peripheral.address}  {peripheral.site.value.replace('_', ' ')}  {peripheral.name}", flush=True
-                )
+                print(f"  {peripheral.address}  {peripheral.site.words}  {peripheral.name}", flush=True)
             seconds = options.duration
             if seconds is None and not (sys.stdin.isatty() or sys.stdout.isatty()):
                 seconds = UNATTENDED

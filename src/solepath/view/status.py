@@ -12,7 +12,7 @@ def status(monitor: Monitor) -> list[str]:
 
 
 def _line(site: Site, link: LinkHealth, now: float) -> str:
-    told = [f"{site.value.replace('_', ' ')}: {link.rate(now):.0f} Hz"]
+    told = [f"{site.words}: {link.rate(now):.0f} Hz"]
     if link.loss is not None:
         told.append(f"{100.0 * link.loss:.1f} % lost")
     if link.battery is not None:

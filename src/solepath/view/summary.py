@@ -62,7 +62,7 @@ def link_health(tally: Tally) -> list[str]:
         lines.append(f"{tally.dropped} packets dropped: they came faster than they could be used")
     for site in Site:
         if tally.connections[site] > 1:
-            lines.append(f"{site.value.replace('_', ' ')}: connected {tally.connections[site]} times")
+            lines.append(f"{site.words}: connected {tally.connections[site]} times")
     lines += [f"trouble, {what}" for what in tally.troubles]
     return lines
 
