@@ -186,6 +186,38 @@ def test_names_that_cannot_be_meant_are_refused(log, tmp_path):
     assert complaint(log, tmp_path / "none" / "walk.jsonl").endswith("none/walk.jsonl: no such file or directory")
 
 
+def test_no_file_is_touched_but_the_one_that_is_named(log, tmp_path):
+    """Not even one whose name is OUT's with something behind it, be it what is converted or a stranger."""
+    for k, (source, name) in enumerate(((log, "walk.jsonl"), (recording(tmp_path / "a.jsonl"), "walk.mcap"))):
+        folder = tmp_path / str(k)
+        folder.mkdir()
+        out, beside = folder / name, folder / f"{name}.part"
+        beside.write_bytes(source.read_bytes())
+        assert convert(beside, out).returncode == 0
+        assert beside.read_bytes() == source.read_bytes() and out.stat().st_size > 1000
+        beside.write_text("precious")
+        assert convert(source, out).returncode == 0
+        assert beside.read_text() == "precious"
+        assert sorted(folder.iterdir()) == [out, beside]
+
+
+@pytest.mark.parametrize("mode", [0o600, 0o440, 0o664])
+def test_a_file_that_is_replaced_keeps_its_mode(log, tmp_path, mode):
+    out = tmp_path / "walk.jsonl"
+    out.write_text("old")
+    out.chmod(mode)
+    assert convert(log, out).returncode == 0
+    assert out.stat().st_mode & 0o777 == mode and out.stat().st_size > 1000
+
+
+def test_a_new_file_has_the_mode_that_new_files_have_and_a_link_stays_one(log, tmp_path):
+    plain, there, link = tmp_path / "plain", tmp_path / "there.jsonl", tmp_path / "link.jsonl"
+    plain.write_text("")
+    link.symlink_to(there)
+    assert convert(log, link).returncode == 0
+    assert link.is_symlink() and there.stat().st_mode == plain.stat().st_mode
+
+
 LITTLE_ROOM = """
 import resource, sys
 from solepath.cli import main

@@ -7,6 +7,8 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from secrets import token_hex
+from stat import S_IWUSR
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ..types import Packet, Site
@@ -202,14 +204,28 @@ def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | Failure]:
 @contextmanager
 def _replacing(out: Path) -> Iterator[Path]:
     """A file to write that takes the place of `out` when it is done, and is gone when it is not."""
+    from ..recording import printable, why
+
     if out.exists() and not out.is_file():  # a pipe or a device cannot be replaced
         yield out
         return
     target = Path(os.path.realpath(out))
-    part = target.with_name(target.name + ".part")
+    part = target.with_name(f".solepath-{token_hex(8)}.part")  # nobody's: "x" refuses a name that is taken
     try:
+        part.open("xb").close()
+    except OSError as error:
+        raise Failure(f"{printable(str(out))}: {why(error)}") from None
+    try:
+        mode = target.stat().st_mode & 0o777 if target.exists() else None
+        if mode is not None:
+            part.chmod(mode | S_IWUSR)
         yield part
-        part.replace(target)
+        if mode is not None:
+            part.chmod(mode)
+        try:
+            part.replace(target)
+        except OSError as error:
+            raise Failure(f"{printable(str(out))}: {why(error)}") from None
     finally:
         with suppress(OSError):
             part.unlink()
