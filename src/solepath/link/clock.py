@@ -87,7 +87,7 @@ class Clock:
     def observe(self, ticks: float, arrival: float) -> None:
         """Learn from a packet whose newest sample was measured at `ticks` and that arrived at `arrival` (s)."""
         if not self.xs:
-            self.origin, self.first_tick = arrival, ticks
+            self.origin, self.first_tick = arrival, float(ticks)  # as it is saved: a count may have 64 bits
             self.xs, self.rs = [0.0], [0.0]
             return
         x = (ticks - self.first_tick) / self.rate

@@ -13,19 +13,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from enum import Enum
-from math import isfinite
+from struct import error as StructError
+from types import MappingProxyType
 from typing import Any
 
 from attrs import field, frozen
 
-from ..events import Rejection
 from ..types import Foot, Layout, Quat, Vec3
 from ..wire.error import WireError
 from ..wire.fields import Definition, build_whole, malformed, parse_whole
 from .profile import Profile
 
-LARGEST = 1e7
-"""Nothing that a sensor of a foot measures is more, in SI units."""
+UNREADABLE = (ValueError, LookupError, ArithmeticError, StructError)
+"""What a construct or a reader raises that can make nothing of a value."""
 FINE = 20.0
 """Ticks that there must be in a sample's time, for ticks to be better than counting samples."""
 
@@ -75,29 +75,11 @@ class Reading:
     known: Mapping[str, float] = field(factory=dict)
 
 
-def check(reading: Reading) -> None:
-    """WireError when it holds what no device can mean: numbers that are none or beyond any sensor, no rate."""
-    numbers: list[float] = [*reading.known.values(), reading.rate or 0.0, reading.battery or 0.0]
-    numbers += [*(reading.mag or ()), reading.air_pressure or 0.0]
-    for sample in reading.samples:
-        for values in (sample.acc, sample.gyro, sample.quat, sample.mag, sample.pressure):
-            numbers += values or ()
-        numbers.append(sample.air_pressure or 0.0)
-    if not all(map(isfinite, numbers)):
-        raise WireError(Rejection.NOT_FINITE, "a value that is no number")
-    largest = max(map(abs, numbers))
-    if largest > LARGEST:
-        raise WireError(Rejection.ABSURD, f"a value of {largest:g}")
-    if reading.rate is not None and not 0.1 <= reading.rate <= 10_000.0:
-        raise WireError(Rejection.ABSURD, f"{reading.rate:g} samples a second")
-    if reading.battery is not None and not 0.0 <= reading.battery <= 1.0:
-        raise WireError(Rejection.ABSURD, f"a battery at {reading.battery:g}")
-
-
 Known = Mapping[str, float]
 Reader = Callable[[Any, Known], Reading]
 """Makes of what the channel's construct has parsed, and of what earlier values said (`Reading.known`), a Reading. It
-holds nothing. ValueError, LookupError and ArithmeticError say that the value is none."""
+holds nothing. ValueError, LookupError, ArithmeticError and struct.error say that the value is none; other exceptions,
+that the reader is wrong, and they are not hidden. What it returns is looked at by sound.py."""
 
 
 class Axis(Enum):
@@ -157,14 +139,23 @@ class Driver:
             return Axis.TICKS
         return Axis.COUNT if self.sequence else Axis.ARRIVAL
 
-    def read(self, channel: str, data: bytes, known: Known) -> Reading:
-        """What `data` says. WireError when it cannot be read."""
-        parsed, reader = parse_whole(self.formats[channel], data), self.readers.get(channel)
+    def parse(self, channel: str, data: bytes) -> Any:
+        """What the channel's construct makes of `data`, all of it. WireError when it is not that."""
         try:
-            return Reading() if reader is None else reader(parsed, known)
+            return parse_whole(self.formats[channel], data)
         except WireError:
             raise
-        except (ValueError, LookupError, ArithmeticError) as error:
+        except UNREADABLE as error:  # of an adapter, a validator, or an expression over what was parsed before
+            raise malformed(str(error) or type(error).__name__) from error
+
+    def read(self, channel: str, data: bytes, known: Known) -> Reading:
+        """What `data` says. WireError when it cannot be read."""
+        parsed, reader = self.parse(channel, data), self.readers.get(channel)
+        try:
+            return Reading() if reader is None else reader(parsed, MappingProxyType({**known}))
+        except WireError:
+            raise
+        except UNREADABLE as error:
             raise malformed(str(error) or type(error).__name__) from error
 
     def write(self, channel: str, value: Any) -> bytes:

@@ -30,10 +30,11 @@ from ..types import Quat, Sample, Site, Vec3
 from ..vector import GRAVITY
 from ..wire.error import WireError
 from ..wire.fields import malformed
-from .driver import Axis, Driver, Measured, Reading, check
+from .driver import Axis, Driver, Measured, Reading
 from .periodic import Periodic, periodic
 from .rest import RestCheck, suggestion
 from .run import Counted, Run, Taken, signed
+from .sound import SLOWEST, check
 
 APART = 1.0
 """Seconds without samples after which air pressure no longer waits for one to ride on."""
@@ -87,7 +88,7 @@ class StreamLink:
     """The limitation was said."""
 
     def feed(self, driver: Driver, channel: str, data: bytes, arrival: float) -> Output:
-        reading = driver.read(channel, data, self.known)
+        reading = check(driver.read(channel, data, self.known))
         self._check(driver, channel, reading)
         out = self._samples(driver, channel, reading, arrival) if reading.samples else []
         self._learn(driver, reading)
@@ -114,7 +115,8 @@ class StreamLink:
             raise WireError(Rejection.WRONG_SITE, f"of a {reading.foot.value} foot")
         if reading.samples and channel not in driver.profile.streams:
             raise malformed(f"samples on {channel!r}, which is no stream")
-        check(reading)
+        if reading.interval is not None and reading.interval * SLOWEST > driver.tick_rate > 0.0:
+            raise WireError(Rejection.ABSURD, f"an interval of {reading.interval} ticks")
 
     def _learn(self, driver: Driver, reading: Reading) -> None:
         if reading.known:
@@ -196,14 +198,12 @@ class StreamLink:
         if reading.ticks is None or (driver.sequence and reading.sequence is None):
             raise malformed("no device time or no sequence number, which this device has")
         interval = max(1, round(driver.tick_rate / rate)) if reading.interval is None else reading.interval
-        if interval < 1:
-            raise malformed(f"an interval of {interval} ticks")
         e = run.ahead(reading.ticks, driver.tick_modulus)
         if reading.sequence is not None and driver.sequence:
             d, m = run.packets(reading.sequence, driver.sequence, e / run.covers)
-            return Counted(reading.sequence, reading.ticks, interval, count, d, m, e)
+            return Counted(int(reading.sequence), int(reading.ticks), interval, count, d, m, e)
         m = 0 if e == 0 else max(1, round(e / run.covers)) if e > 0 else min(-1, round(e / run.covers))
-        return Counted(0, reading.ticks, interval, count, m, m, e)
+        return Counted(0, int(reading.ticks), interval, count, m, m, e)
 
     def _by_count(self, driver: Driver, reading: Reading, rate: float, arrival: float) -> Counted:
         """Samples make the ticks, and the place of a packet is that of its number nearest to what time says."""
@@ -220,7 +220,7 @@ class StreamLink:
         e = m * run.covers
         if m >= 1 and told is not None and ticks > 1.1 * e + PAUSE * rate * PARTS:
             e = round(ticks)
-        return Counted(reading.sequence, 0, PARTS, count, d, m, e)
+        return Counted(int(reading.sequence), 0, PARTS, count, d, m, e)
 
     def _stood_still(self, driver: Driver, arrival: float) -> bool:
         """Whether a packet after a silence is too late to be counted on from the one before it."""
@@ -233,7 +233,7 @@ class StreamLink:
     def _compare(self, driver: Driver, reading: Reading, counted: Counted) -> None:
         """Remember what the next packet is compared with; put the rate right when the ticks say that it was wrong."""
         if driver.axis is Axis.COUNT:
-            self.coarse = reading.ticks or 0
+            self.coarse = int(reading.ticks or 0)
             return
         if driver.sequence or reading.interval is not None or counted.e <= 0:
             return

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable
+from io import BytesIO
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import attrs
@@ -115,15 +116,19 @@ class Hex(AnyAdapter):
 
 
 def parse_whole(definition: Definition, data: bytes) -> Any:
-    """What `definition` (which ends in Terminated) makes of `data`, all of it. WireError when it is not that."""
+    """What `definition` makes of `data`, all of it. WireError when it is not that."""
     try:
-        return definition.parse(data)
+        stream = BytesIO(data)
+        parsed = definition.parse_stream(stream)
     except StreamError as error:
         raise WireError(Rejection.TRUNCATED, f"{len(data)} bytes are too few") from error
     except TerminatedError as error:
         raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes are too many") from error
     except ConstructError as error:
         raise WireError(Rejection.MALFORMED, str(error).strip().splitlines()[-1]) from error
+    if stream.read(1):  # it does not end in Terminated
+        raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes are too many")
+    return parsed
 
 
 def build_whole(definition: Definition, value: Any) -> bytes:

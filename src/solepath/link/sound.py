@@ -1,0 +1,128 @@
+"""Is a Reading (driver.py) one that a device can mean, and that a machine can hold? An app's readers are not trusted:
+whatever they return is looked at here, before anything changes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import isfinite
+
+from ..events import Rejection
+from ..types import Foot, Layout
+from ..wire.error import WireError
+from ..wire.fields import LONGEST_VALUE, malformed
+from .driver import Measured, Reading
+
+LARGEST = 1e7
+"""Nothing that a sensor of a foot measures is more, in SI units."""
+COUNTERS = 1 << 64
+"""No counter of a device has more than 64 bits."""
+SLOWEST, FASTEST = 0.1, 10_000.0
+"""Samples a second."""
+
+
+def check(reading: object) -> Reading:
+    """The same reading. WireError when it is none, or holds what no device can mean: other shapes than it is declared
+    with, numbers that are none or beyond any sensor, no rate, no range."""
+    if not isinstance(reading, Reading):
+        raise malformed(f"a reader gave a {type(reading).__name__}, not a Reading")
+    samples = _tuple("samples", reading.samples)
+    for sample in samples:
+        _check_sample(sample)
+    if reading.mag is not None:
+        _check_numbers("mag", reading.mag, 3)
+    if reading.air_pressure is not None:
+        _check_number("air_pressure", reading.air_pressure)
+    for name, counter in (("sequence", reading.sequence), ("ticks", reading.ticks), ("interval", reading.interval)):
+        if counter is not None:
+            _check_counter(name, counter)
+    if reading.interval is not None and reading.interval < 1:
+        raise malformed(f"an interval of {reading.interval} ticks")
+    if reading.battery is not None:
+        _check_between("battery", reading.battery, 0.0, 1.0)
+    if reading.rate is not None:
+        _check_between("rate", reading.rate, SLOWEST, FASTEST)
+    if reading.keys is not None:
+        for key in _tuple("keys", reading.keys):
+            _check_type("keys", key, str)
+    for name, value, kind in (
+        ("foot", reading.foot, Foot),
+        ("layout", reading.layout, Layout),
+        ("silent", reading.silent, bool),
+    ):
+        if value is not None:
+            _check_type(name, value, kind)
+    _check_known(reading.known)
+    return reading
+
+
+def _check_sample(sample: object) -> None:
+    if not isinstance(sample, Measured):
+        raise malformed(f"a sample that is a {type(sample).__name__}, not Measured")
+    if sample.acc is not None:
+        _check_numbers("acc", sample.acc, 3)
+    if sample.gyro is not None:
+        _check_numbers("gyro", sample.gyro, 3)
+    if sample.quat is not None:
+        _check_numbers("quat", sample.quat, 4)
+    if sample.mag is not None:
+        _check_numbers("mag", sample.mag, 3)
+    if sample.pressure is not None:
+        _check_numbers("pressure", sample.pressure, None)
+    if sample.air_pressure is not None:
+        _check_number("air_pressure", sample.air_pressure)
+    _check_type("saturated", sample.saturated, bool)
+
+
+def _check_known(known: object) -> None:
+    if not isinstance(known, Mapping):
+        raise malformed(f"known is a {type(known).__name__}, not a mapping")
+    for name, value in known.items():
+        if type(name) is not str:
+            raise malformed(f"known has a name that is a {type(name).__name__}")
+        _check_number("known", value)
+        if name == "acc_range" and not value > 0.0:
+            raise WireError(Rejection.ABSURD, f"an acc_range of {value:g} g")
+
+
+def _tuple(name: str, values: object) -> tuple[object, ...]:
+    """`values`, when they are a tuple of no more things than a value has bytes."""
+    if not isinstance(values, tuple):
+        raise malformed(f"{name} is a {type(values).__name__}, not a tuple")
+    if len(values) > LONGEST_VALUE:
+        raise WireError(Rejection.ABSURD, f"{len(values)} {name} in one value")
+    return values
+
+
+def _check_numbers(name: str, values: object, count: int | None) -> None:
+    numbers = _tuple(name, values)
+    if count is not None and len(numbers) != count:
+        raise malformed(f"{name} has {len(numbers)} numbers, not {count}")
+    for number in numbers:
+        _check_number(name, number)
+
+
+def _check_number(name: str, number: object) -> None:
+    if not isinstance(number, float | int):
+        raise malformed(f"{name} is a {type(number).__name__}, not a number")
+    if not -LARGEST <= number <= LARGEST:  # an integer may be too large for a float: it is compared, not converted
+        if isinstance(number, float) and not isfinite(number):
+            raise WireError(Rejection.NOT_FINITE, f"{name} of {number}")
+        raise WireError(Rejection.ABSURD, f"{name} beyond {LARGEST:g}")
+
+
+def _check_between(name: str, number: object, low: float, high: float) -> None:
+    _check_number(name, number)
+    if isinstance(number, float | int) and not low <= number <= high:
+        raise WireError(Rejection.ABSURD, f"{name} of {number:g}")
+
+
+def _check_counter(name: str, counter: object) -> None:
+    if not isinstance(counter, int) or isinstance(counter, bool):
+        raise malformed(f"{name} is a {type(counter).__name__}, not an integer")
+    if not -COUNTERS < counter < COUNTERS:
+        raise WireError(Rejection.ABSURD, f"{name} of more than 64 bits")
+
+
+def _check_type(name: str, value: object, kind: type) -> None:
+    if not isinstance(value, kind):
+        raise malformed(f"{name} is a {type(value).__name__}, not a {kind.__name__}")
