@@ -140,6 +140,44 @@ def test_ticks_tell_that_the_rate_is_another(true: float) -> None:
     assert lost.count == 3
 
 
+MILLISECONDS = evolve(BASE, tick_rate=1000.0, tick_modulus=1 << 32)
+
+
+@pytest.mark.parametrize("true", [300.0, 380.0, 400.0, 420.0, 450.0, 500.0])
+@pytest.mark.parametrize("count", [1, 4])
+def test_a_clock_of_few_ticks_a_sample_tells_no_losses_that_there_were_not(true: float, count: int) -> None:
+    driver = evolve(MILLISECONDS, profile=evolve(PROFILE, nominal_rate=min(500.0, max(333.0, round(true, -2)))))
+    assert driver.axis is Axis.TICKS
+    device, told = toy(driver), []
+    for k in range(1500):
+        if 1400 <= k < 1403:
+            continue
+        t = 10.0 + k * count / true
+        told += device.say(t + 0.01, ticks=int(1000 * t), count=count)
+        if k == 1300:
+            assert {type(one) for one in told} == {Sample}
+    (lost,) = [one for one in told if not isinstance(one, Sample)]
+    assert isinstance(lost, PacketsLost) and lost.count == 3
+    found = times(told)
+    assert found == sorted(set(found)) and found[-1] == pytest.approx(10.01 + 1499 * count / true, abs=0.012)
+
+
+def test_a_clock_too_coarse_for_the_samples_is_not_what_times_are_made_of() -> None:
+    for tick_rate, rate, axis in (
+        (1000.0, 600.0, Axis.ARRIVAL),
+        (100.0, 60.0, Axis.ARRIVAL),
+        (100.0, 50.0, Axis.TICKS),
+    ):
+        driver = evolve(MILLISECONDS, tick_rate=tick_rate, profile=evolve(PROFILE, nominal_rate=rate))
+        assert driver.axis is axis
+        device = toy(driver)
+        told = [one for k in range(300) for one in device.say(5.01 + k / rate, ticks=int(tick_rate * (5.0 + k / rate)))]
+        assert {type(one) for one in told} == {Sample}, (tick_rate, rate)
+    device = toy(MILLISECONDS)
+    (told,) = device.tell(1.0, 1, 600.0)
+    assert isinstance(told, PacketRejected) and "600" in told.detail
+
+
 def test_a_rate_that_is_told_is_the_one_that_losses_are_told_by() -> None:
     for name in ("arrival", "ticks"):
         device = toy(KIND[name])

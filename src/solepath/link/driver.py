@@ -29,6 +29,9 @@ UNREADABLE = (ValueError, LookupError, ArithmeticError, StructError)
 FINE = 20.0
 """Ticks that there must be in a sample's time, for ticks to be better than counting samples."""
 
+COARSEST = 2.0
+"""The same, for ticks to be better than arrivals where nothing is counted: with fewer, samples would share a tick."""
+
 
 @frozen
 class Measured:
@@ -99,7 +102,8 @@ class Driver:
     ones too; a whole value is parsed, so each ends in Terminated. `readers`: for the channels that say something.
     `sequence`: where the
     sequence number wraps (65536 for u16); 0 when there is none. `tick_rate`, `tick_modulus`: the device's time, in
-    ticks a second, and where it wraps; 0 when there is none. `acc_range`: full scale of the accelerometer in g until a
+    ticks a second, and where it wraps; 0 when there is none. Without a sequence, ticks of which there are fewer than
+    two in a sample's time are of no use. `acc_range`: full scale of the accelerometer in g until a
     value says otherwise. `limitation`: what an app must do without, said once; "" for nothing. ValueError when these do
     not fit together.
     """
@@ -134,8 +138,8 @@ class Driver:
 
     @property
     def axis(self) -> Axis:
-        """Ticks, unless they are so coarse beside the samples that counting these is better."""
-        if self.tick_rate > 0.0 and (not self.sequence or self.tick_rate >= FINE * self.profile.nominal_rate):
+        """Ticks, unless they are so coarse beside the samples that counting these is better, or arrivals are."""
+        if self.tick_rate >= (FINE if self.sequence else COARSEST) * self.profile.nominal_rate:
             return Axis.TICKS
         return Axis.COUNT if self.sequence else Axis.ARRIVAL
 

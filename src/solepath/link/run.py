@@ -23,7 +23,8 @@ def signed(difference: int, modulus: int) -> int:
 
 @frozen
 class Counted:
-    """A packet's place: `m` packets and `e` ticks after the newest one, with `samples` every `interval` ticks.
+    """A packet's place: `m` packets and `e` ticks after the newest one, with `samples` every `interval` ticks,
+    which need not be a whole number of them.
 
     `d`: difference of its sequence as sent, before wraps were counted. `ticks`: of its first sample, as sent; a new
     fit begins there. `again`: it says itself that it was sent before.
@@ -31,7 +32,7 @@ class Counted:
 
     sequence: int
     ticks: int
-    interval: int
+    interval: float
     samples: int
     d: int = 0
     m: int = 0
@@ -58,9 +59,9 @@ class Run:
     """Of the newest packet accepted."""
     ticks: int = 0
     """Unwrapped ticks of its first sample."""
-    interval: int = 1
+    interval: float = 1.0
     """Ticks between its samples."""
-    covers: int = 1
+    covers: float = 1.0
     """Ticks that it covers."""
     seen: int = 0
     """Bit b: the packet b before the newest was accepted."""
@@ -83,7 +84,7 @@ class Run:
         WireError, and nothing has changed, when it is a duplicate or late. `anew`: it is of another fit, whatever its
         counters say. After this `time(j)` is to be called for each of its samples.
         """
-        covers = new.interval * new.samples
+        covers = float(new.interval * new.samples)
         clock, taken = self.clock, Taken()
         if clock is None:
             clock = self._begin(new.ticks, rate, None)
@@ -101,7 +102,7 @@ class Run:
                 self.ticks += e
                 self.seen = (self.seen << m | 1) & (1 << REMEMBERED) - 1 if m < REMEMBERED else 1
         self.fresh = False
-        self.sequence, self.interval, self.covers = new.sequence, new.interval, covers
+        self.sequence, self.interval, self.covers = new.sequence, float(new.interval), covers
         clock.observe(self.ticks + covers - new.interval, arrival)
         return taken
 

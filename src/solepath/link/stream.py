@@ -30,7 +30,7 @@ from ..types import Quat, Sample, Site, Vec3
 from ..vector import GRAVITY
 from ..wire.error import WireError
 from ..wire.fields import malformed
-from .driver import Axis, Driver, Measured, Reading
+from .driver import COARSEST, Axis, Driver, Measured, Reading
 from .periodic import Periodic, periodic
 from .rest import RestCheck, suggestion
 from .run import Counted, Run, Taken, signed
@@ -47,6 +47,8 @@ BEHIND, AHEAD = 2.0, 0.25
 SILENCE, LATE, LATE_AT_ONCE = 5.0, 2.5, 0.5
 """Seconds without packets after which counting may have stood still; how late the packet after them is then; the same
 right after a new connection, which delivers nothing of before."""
+HOLE = 1.5
+"""Packets' times between two packets, from which on some were lost; told by ticks alone."""
 STEADY = 6
 """Packets in a row at another distance, after which the rate is taken to have been wrong."""
 OTHER = 0.2
@@ -115,6 +117,9 @@ class StreamLink:
             raise WireError(Rejection.WRONG_SITE, f"of a {reading.foot.value} foot")
         if reading.samples and channel not in driver.profile.streams:
             raise malformed(f"samples on {channel!r}, which is no stream")
+        if reading.rate is not None and driver.axis is Axis.TICKS and reading.rate * COARSEST > driver.tick_rate:
+            detail = f"{reading.rate:g} samples a second, too many for {driver.tick_rate:g} ticks a second"
+            raise WireError(Rejection.ABSURD, detail)
         if reading.interval is not None and reading.interval * SLOWEST > driver.tick_rate > 0.0:
             raise WireError(Rejection.ABSURD, f"an interval of {reading.interval} ticks")
 
@@ -128,7 +133,7 @@ class StreamLink:
             self.silence_is_legal = reading.silent
         if reading.rate is not None and not reading.samples:
             if driver.axis is Axis.TICKS:
-                self.run.covers = max(1, round(self.run.covers * self.rate / reading.rate))
+                self.run.covers *= self.rate / reading.rate
             self._change(reading.rate)
 
     def _acc_range(self, driver: Driver) -> float:
@@ -197,12 +202,15 @@ class StreamLink:
         run, count = self.run, len(reading.samples)
         if reading.ticks is None or (driver.sequence and reading.sequence is None):
             raise malformed("no device time or no sequence number, which this device has")
-        interval = max(1, round(driver.tick_rate / rate)) if reading.interval is None else reading.interval
+        interval = driver.tick_rate / rate if reading.interval is None else reading.interval
         e = run.ahead(reading.ticks, driver.tick_modulus)
         if reading.sequence is not None and driver.sequence:
             d, m = run.packets(reading.sequence, driver.sequence, e / run.covers)
             return Counted(int(reading.sequence), int(reading.ticks), interval, count, d, m, e)
-        m = 0 if e == 0 else max(1, round(e / run.covers)) if e > 0 else min(-1, round(e / run.covers))
+        if e > 0:  # ticks were cut to whole ones: a distance may be one tick less than it says
+            m = max(1, round(e / run.covers)) if e - 1 >= HOLE * run.covers else 1
+        else:
+            m = 0 if e == 0 else min(-1, round(e / run.covers))
         return Counted(0, int(reading.ticks), interval, count, m, m, e)
 
     def _by_count(self, driver: Driver, reading: Reading, rate: float, arrival: float) -> Counted:
@@ -217,7 +225,7 @@ class StreamLink:
             told = told if -BEHIND <= told - elapsed <= AHEAD else None
         ticks = (elapsed if told is None else told) * rate * PARTS
         d, m = run.packets(reading.sequence, driver.sequence, ticks / run.covers)
-        e = m * run.covers
+        e = round(m * run.covers)
         if m >= 1 and told is not None and ticks > 1.1 * e + PAUSE * rate * PARTS:
             e = round(ticks)
         return Counted(int(reading.sequence), 0, PARTS, count, d, m, e)
@@ -238,13 +246,13 @@ class StreamLink:
         if driver.sequence or reading.interval is not None or counted.e <= 0:
             return
         distance = counted.e / counted.samples
-        if abs(distance - counted.interval) <= OTHER * counted.interval:
+        if abs(distance - counted.interval) <= OTHER * counted.interval + 1.0 / counted.samples:
             self.odd = 0
             return
         same = self.odd > 0 and abs(distance - self.distance) <= OTHER * self.distance
         self.odd, self.distance = self.odd + 1 if same else 1, distance
         if self.odd >= STEADY:
-            self.rate, self.odd, self.run.covers = driver.tick_rate / distance, 0, counted.e
+            self.rate, self.odd, self.run.covers = driver.tick_rate / distance, 0, float(counted.e)
 
     def _by_arrival(self, count: int, rate: float, arrival: float) -> tuple[Taken, list[float]]:
         if self.periodic is None:
