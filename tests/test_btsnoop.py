@@ -15,13 +15,15 @@ from hypothesis import strategies as st
 
 import walks
 from snooped import BEGAN, H1, H4, INSOLE, LEFT, MONITOR, OTHER, RIGHT, TAG, Log, insole_uuid
-from solepath import Packet, Session, Site
+from solepath import Packet, PacketRejected, Sample, Session, Site
 from solepath.btsnoop import is_btsnoop, open_btsnoop
 from solepath.btsnoop.att import How, Op
 from solepath.btsnoop.values import Listener, Value
 from solepath.events import Connected, Disconnected, StepTaken
+from solepath.link.decoder import Decoder
 from solepath.recording import RecordingError
 from solepath.types import Foot
+from solepath.vector import GRAVITY
 from solepath.wire.fragment import split
 from solepath.wire.insole_info import build_info, parse_info
 
@@ -120,6 +122,69 @@ def test_every_notification_is_what_tshark_says_it_is(tmp_path, datalink, piece)
     assert ours == theirs
 
 
+def told_by_tshark(path: Path) -> list[tuple[How, int, bytes]]:
+    """(how, attribute handle, value) of every value that was read, joined by the offsets, and every one that was
+    written and taken. Of each PDU by itself tshark says handle, offset and value; values that it knows have a field of
+    their own."""
+    fields = ("opcode", "handle", "value", "offset", "battery_level", "firmware_revision_string")
+    fields += ("characteristic_configuration_client",)
+    wanted = [word for name in fields for word in ("-e", f"btatt.{name}")]
+    only = "btatt.opcode in {0x0a, 0x0b, 0x0c, 0x0d, 0x12, 0x13, 0x52}"
+    command = ["tshark", "-r", path, "-Y", only, "-T", "fields", *wanted]
+    told: list[tuple[How, int, bytes]] = []
+    offset, pending = 0, b""
+    for line in subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines():
+        opcode, attribute, plain, at, battery, firmware, client = line.split("\t")
+        data = bytes.fromhex(plain) + firmware.encode()
+        data += bytes([int(battery)]) if battery else struct.pack("<H", int(client, 16)) if client else b""
+        handle = int(attribute, 16)
+        match int(opcode, 16):
+            case 0x0B:
+                told.append((How.READ, handle, data))
+            case 0x0C:
+                offset = int(at)
+            case 0x0D:
+                how, of, begun = told.pop()
+                assert (how, of, len(begun)) == (How.READ, handle, offset)
+                told.append((how, of, begun + data))
+            case 0x12:
+                pending = data
+            case 0x13:
+                told.append((How.WRITTEN, handle, pending))
+            case 0x52:
+                told.append((How.WRITTEN, handle, data))
+    return told
+
+
+def told_to_us(path: Path) -> list[tuple[How, int, bytes]]:
+    values = [item for item in Listener(path, pytest.fail).listen() if isinstance(item, Value)]
+    return [(value.how, value.attribute, value.data) for value in values if value.how is not How.NOTIFIED]
+
+
+@needs_tshark
+@pytest.mark.parametrize(("datalink", "mtu"), [(H4, 23), (H1, 185), (MONITOR, 247)])
+def test_every_value_that_was_read_or_written_is_what_tshark_says_it_is(tmp_path, datalink, mtu):
+    """Short and long values, one that just fills its answer, requests with a response, refused ones, and commands."""
+    tag = {0x31: full(0xAA81), 0x34: full(0xAA82), 0x37: full(0xAA83)}
+    log = Log(datalink, piece=27)
+    log.connect(0x40, LEFT)
+    log.mtu(0x40, mtu)
+    log.discover(0x40, INSOLE | tag | {0x20: "2a26"})
+    for value in (info(), info()[: 2 * (mtu - 1)], bytes(range(mtu - 1)), b"\x01"):
+        log.asked(0x40, "0a1500", b"\x0b" + value[: mtu - 1])
+        for offset in range(mtu - 1, len(value) + 1, mtu - 1):
+            log.asked(0x40, struct.pack("<BHH", 0x0C, INFO, offset).hex(), b"\x0d" + value[offset : offset + mtu - 1])
+        log.asked(0x40, "0a2000", b"\x0bv1.2")
+        log.asked(0x40, "0a1a00", b"\x0b\x63")
+        log.asked(0x40, "12340000ff", "0112340080")
+        log.asked(0x40, "1234007f02", "13")
+        log.acl(0x40, bytes.fromhex("523700") + b"\x0a", sent=True)
+        log.notify(0x40, FRAME, frames()[0][: mtu - 3])
+    path = log.save(tmp_path / "phone.log")
+    ours = told_to_us(path)
+    assert len(ours) == 20 and ours == told_by_tshark(path)
+
+
 async def snooped_by_bumble(central_log: Path, device_log: Path) -> list[bytes]:
     """A host discovers an emulated insole over bumble's virtual controllers, reads, writes and subscribes; what it
     got. Both hosts keep a log."""
@@ -187,10 +252,13 @@ def bumble_logs(tmp_path_factory) -> tuple[Path, Path, list[bytes]]:
 
 
 @needs_tshark
-def test_of_real_traffic_of_a_host_every_notification_is_what_tshark_says_it_is(bumble_logs):
+def test_of_real_traffic_of_a_host_every_value_is_what_tshark_says_it_is(bumble_logs):
     for path in bumble_logs[:2]:
         ours = heard_by_us(path)
         assert len(ours) == 300 and ours == heard_by_tshark(path)
+        told = told_to_us(path)
+        assert (How.READ, info()) in [(how, data) for how, _, data in told]
+        assert told == told_by_tshark(path)
 
 
 def test_the_log_of_the_host_that_listens_and_of_the_one_that_sends_give_the_same_packets(bumble_logs):
@@ -246,6 +314,46 @@ def test_an_insole_says_itself_of_which_foot_it_is_unless_the_caller_knows_bette
     assert {site for _, site, _, _ in read(log, tmp_path)[0]} == {"right_foot"}
     there = {LEFT.lower(): Site.LEFT_FOOT}
     assert {site for _, site, _, _ in read(log, tmp_path, sites=there)[0]} == {"left_foot"}
+
+
+ORPHE = {0x12: "f3f9c7ce-46ee-4205-89ac-abe64e626c0f", 0x15: "24354f22-1c46-430e-a4ab-a1eeabbcdfc0"}
+ORPHE_INFO = bytes([100, 1, *bytes(6), 2, 3, *bytes(10)])
+"""Of a right foot; 8 g, 2000 degrees/s."""
+
+
+def orphe(characteristics: dict[int, str] = ORPHE, info: bytes = ORPHE_INFO) -> Log:
+    log = begin(Log(), address=TAG, characteristics=characteristics)
+    log.asked(0x40, "0a1500", b"\x0b" + info)
+    log.asked(0x40, "1215000d04", "13")
+    for k in range(30):
+        head = struct.pack(">BHBBBH", 56, k, 1, 1, 1, k * 19)
+        log.notify(0x40, 0x12, head + struct.pack(">10h", 16384, *[0] * 6, 4096, 0, 0).ljust(96, b"\0"))
+    return log
+
+
+def test_one_characteristic_is_one_channel_where_it_is_read_and_another_where_it_is_written(tmp_path):
+    told = {("", 0x12): "orphe/values", ("", 0x15): "orphe/mode"}
+    for discovered, handles in ((ORPHE, {}), ({}, told), ({}, told | {("", 0x15): "orphe/info"})):
+        found, reports = read(orphe(discovered), tmp_path, sites={TAG: Site.RIGHT_FOOT}, handles=handles)
+        assert data_of(found, "orphe/info", TAG) == [ORPHE_INFO]
+        assert data_of(found, "orphe/mode", TAG) == [b"\x0d\x04"]
+        assert len(data_of(found, "orphe/values", TAG)) == 30 and reports == []
+
+
+def test_the_foot_and_the_ranges_of_another_makers_insole_are_those_that_it_says(tmp_path):
+    path = orphe().save(tmp_path / "phone.log")
+    packets = list(open_btsnoop(path, report=pytest.fail))
+    assert {p.site for p in packets} == {Site.RIGHT_FOOT}
+    assert not [event for event in Session().feed(packets) if isinstance(event, PacketRejected)]
+    decoder = Decoder(Site.RIGHT_FOOT)
+    samples = [item for p in packets for item in decoder.feed(p) if isinstance(item, Sample)]
+    assert len(samples) > 40
+    assert samples[-1].acc == pytest.approx((GRAVITY, 0.0, 0.0)), "4096 counts at 8 g, not at 16"
+
+
+def test_an_info_that_cannot_be_read_places_no_device(tmp_path):
+    with pytest.raises(RecordingError, match=f"30 values of {TAG}, an orphe, left out: nobody says where"):
+        read(orphe(info=b"\xff" * 12), tmp_path)
 
 
 def test_sensortags_share_characteristics_and_are_told_apart_by_the_others(tmp_path):

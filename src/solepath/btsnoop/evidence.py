@@ -33,12 +33,15 @@ class Evidence:
     foot: Foot | None = None
     """Whose insole it is, by its own word."""
     is_info: bool = False
+    read: bytes | None = None
+    """The value that was read last."""
     _pieces: Reassembly = field(factory=Reassembly)
 
     def see(self, how: How, data: bytes) -> None:
         if how is How.WRITTEN:
             return
         if how is How.READ:
+            self.read = data
             self._read(data)
             return
         self.count += 1

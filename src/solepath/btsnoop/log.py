@@ -13,11 +13,15 @@ from typing import Any
 
 from attrs import define, field
 
+from ..link.devices import DECLARED
 from ..link.known import PROFILES
-from ..link.profile import Profile
+from ..link.profile import Channel, Profile
+from ..link.profile import How as Use
 from ..recording import RecordingError, Report, printable, warn
-from ..types import SITE_OF_FOOT, Packet, Site
+from ..types import SITE_OF_FOOT, Foot, Packet, Site
+from ..wire.error import WireError
 from ..wire.receiver import Connection, build_connected
+from .att import How
 from .evidence import Evidence
 from .hci import Begun, Ended
 from .values import Listener, Value
@@ -26,24 +30,32 @@ Handles = Mapping[tuple[str, int], str]
 """(device, or "" for any; attribute handle) -> channel."""
 
 CHANNELS = frozenset(channel.name for profile in PROFILES for channel in profile.channels)
+DRIVERS = {driver.name: driver for driver in DECLARED}
+USES = {
+    How.NOTIFIED: (Use.NOTIFY, Use.READ),
+    How.READ: (Use.READ, Use.NOTIFY, Use.WRITE),
+    How.WRITTEN: (Use.WRITE,),
+}
+"""How a value went by -> what its channel is used for, the likeliest first: a characteristic may be one channel where
+it is read and another where it is written, and what is subscribed or written may be read as well."""
 
 
 @define
 class Device:
     """One device of a log. `address`: or what else tells it from others. `profile`: None when its discovery is not in
-    the log, or it is of no use here. `channels`: attribute handle -> channel."""
+    the log, or it is of no use here. `channels`: attribute handle, and how the value went by -> channel."""
 
     address: str
     site: Site | None = None
     profile: Profile | None = None
-    channels: dict[int, str] = field(factory=dict)
+    channels: dict[tuple[int, How], str] = field(factory=dict)
     seen: dict[int, Evidence] = field(factory=dict)
     """Attribute handle -> what its values are like."""
 
     @property
     def count(self) -> int:
         """Notified values that are a channel's."""
-        return sum(evidence.count for handle, evidence in self.seen.items() if handle in self.channels)
+        return sum(evidence.count for handle, evidence in self.seen.items() if (handle, How.NOTIFIED) in self.channels)
 
 
 @define
@@ -74,7 +86,7 @@ class BtsnoopLog:
             match item:
                 case Value():
                     device, data = self.devices.get(item.device), item.data
-                    channel = None if device is None else device.channels.get(item.attribute)
+                    channel = None if device is None else device.channels.get((item.attribute, item.how))
                 case Begun():
                     # the log does not say how the host heard of it, so neither name nor signal
                     channel, data = "receiver/connected", build_connected(Connection("", None))
@@ -145,12 +157,26 @@ def _upper(address: str) -> str:
 def _name(device: Device, types: Mapping[int, str], handles: Handles) -> None:
     """Which of its attributes are channels: by what the caller says, by discovery, by proof."""
     device.profile = _profile(set(types.values()))
-    names = {} if device.profile is None else {c.characteristic: c.name for c in device.profile.channels}
     for handle, evidence in device.seen.items():
         said = handles.get((_upper(device.address), handle), handles.get(("", handle)))
-        channel = said or (names.get(types[handle]) if handle in types else evidence.channel)
-        if channel is not None:
-            device.channels[handle] = channel
+        if said is None and handle not in types:
+            said = evidence.channel
+        if said is not None:
+            same = _same_characteristic(said)
+        elif device.profile is not None:
+            same = [one for one in device.profile.channels if one.characteristic == types.get(handle)]
+        else:
+            same = []
+        for how in How:
+            channel = next((one.name for use in USES[how] for one in same if one.how is use), None)
+            if channel is not None:
+                device.channels[handle, how] = channel
+
+
+def _same_characteristic(name: str) -> list[Channel]:
+    """The channels, of the device that has this one, that share its characteristic."""
+    profile = next(profile for profile in PROFILES if profile.has(name))
+    return [one for one in profile.channels if one.characteristic == profile.channel(name).characteristic]
 
 
 def _profile(uuids: set[str]) -> Profile | None:
@@ -165,10 +191,23 @@ def _profile(uuids: set[str]) -> Profile | None:
 
 def _place(device: Device, places: Mapping[str, Site]) -> None:
     device.site = places.get(_upper(device.address))
-    for handle, channel in device.channels.items():
-        foot = device.seen[handle].foot if channel in ("insole/frame", "insole/info") else None
+    for (handle, how), channel in device.channels.items():
+        foot = _foot(channel, how, device.seen[handle])
         if device.site is None and foot is not None:
             device.site = SITE_OF_FOOT[foot]
+
+
+def _foot(channel: str, how: How, evidence: Evidence) -> Foot | None:
+    """Whose insole it is, where a channel's values say it."""
+    if channel in ("insole/frame", "insole/info"):
+        return evidence.foot
+    driver = DRIVERS.get(channel.partition("/")[0])
+    if how is not How.READ or driver is None or channel not in driver.readers or evidence.read is None:
+        return None
+    try:
+        return driver.read(channel, evidence.read, {}).foot
+    except WireError:
+        return None
 
 
 def _left_out(devices: list[Device], types: Mapping[str, Mapping[int, str]]) -> Iterator[str]:
@@ -180,13 +219,13 @@ def _left_out(devices: list[Device], types: Mapping[str, Mapping[int, str]]) -> 
         nameless = {
             handle: evidence
             for handle, evidence in device.seen.items()
-            if evidence.count and handle not in device.channels and handle not in known
+            if evidence.count and (handle, How.NOTIFIED) not in device.channels and handle not in known
         }
         if nameless:
             count = sum(evidence.count for evidence in nameless.values())
             yield f"{_times(count, 'value')} of {address} left out: no discovery says what is {_described(nameless)}"
         if device.site is None and device.count:
-            kind = "a device" if device.profile is None else f"a {device.profile.name}"
+            kind = "a device" if device.profile is None else _one(device.profile.name)
             yield f"{_times(device.count, 'value')} of {address}, {kind}, left out: nobody says where it was worn"
         others += not device.channels and any(handle in known for handle in device.seen)
     if others:
@@ -199,6 +238,10 @@ def _left_out(devices: list[Device], types: Mapping[str, Mapping[int, str]]) -> 
 
 def _times(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def _one(noun: str) -> str:
+    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
 
 
 def _described(attributes: Mapping[int, Evidence]) -> str:

@@ -39,8 +39,8 @@ def add_to(commands: Any) -> None:
         type=_site,
         action="append",
         default=[],
-        help="where a device of the log was worn: " + ", ".join(site.value for site in Site) + " (insoles say it "
-        "themselves); may be given again",
+        help="where a device of the log was worn: " + ", ".join(site.value for site in Site) + " (insoles say "
+        "themselves of which foot they are, unless this says otherwise); may be given again",
     )
     command.add_argument(
         "--handle",
