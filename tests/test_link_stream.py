@@ -29,6 +29,7 @@ from solepath.link.decoder import Decoder
 from solepath.link.devices import DECLARED, orphe
 from solepath.link.driver import Axis, Driver, Reading
 from solepath.link.known import KINDS, kinds
+from solepath.link.profile import Write
 from toys import BASE, BOTH, COARSE, FORMATS, KIND, LAYOUT, LEFT, NUMBERED, PROFILE, TICKING, Toy, data, of, times, toy
 
 # --- times ------------------------------------------------------------------------------------------------------------
@@ -304,21 +305,52 @@ def test_any_bytes_at_any_time_give_events_and_a_state_that_can_be_saved(name: s
 
 
 def test_a_driver_that_does_not_fit_together_is_refused() -> None:
-    elsewhere = evolve(PROFILE, channels=(evolve(PROFILE.channels[0], name="other/data"), *PROFILE.channels[1:]))
+    other = (evolve(PROFILE.channels[0], name="other/data"), *PROFILE.channels[1:])
+    elsewhere = evolve(PROFILE, channels=other, streams=("other/data",))
     for wrong in (
         {"formats": {"toy/data": FORMATS["toy/data"]}},
         {"readers": {"toy/nothing": data}},
         {"profile": elsewhere, "formats": {**FORMATS, "other/data": FORMATS["toy/data"]}},
         {"profile": evolve(PROFILE, streams=())},
-        {"profile": evolve(PROFILE, nominal_rate=0.0)},
-        {"profile": evolve(PROFILE, nominal_rate=nan)},
+        {"profile": evolve(PROFILE, setup=(Write("toy/start", b"\x01\x02"),))},
+        {"profile": evolve(PROFILE, setup=(Write("toy/start", b""),))},
         {"tick_rate": 100.0},
+        {"tick_rate": inf, "tick_modulus": 256},
         {"tick_modulus": 256},
+        {"tick_rate": 100.0, "tick_modulus": 1 << 65},
         {"sequence": -1},
+        {"sequence": 1},
         {"acc_range": 0.0},
+        {"acc_range": inf},
     ):
         with pytest.raises(ValueError, match="toy: "):
             evolve(BASE, **wrong)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"name": ""},
+        {"name": "toy/one"},
+        {"streams": ("toy/typo",)},
+        {"streams": ("toy/start",)},
+        {"setup": (Write("toy/nothing", b"\x01"),)},
+        {"setup": (Write("toy/start", b"\x01", then_read=("toy/nothing",)),)},
+        {"reads": ("toy/nothing",)},
+        {"channels": (PROFILE.channels[0], *PROFILE.channels)},
+        {"stale_after": 0.0},
+        {"stale_after": -1.0},
+        {"stale_after": inf},
+        {"stale_after": nan},
+        {"nominal_rate": 0.0},
+        {"nominal_rate": inf},
+        {"nominal_rate": nan},
+    ],
+    ids=str,
+)
+def test_a_profile_that_does_not_fit_together_is_refused(wrong: dict[str, Any]) -> None:
+    with pytest.raises(ValueError, match="^a profile|^toy: "):
+        evolve(PROFILE, **wrong)
 
 
 def test_a_reader_that_is_wrong_itself_is_not_hidden() -> None:
@@ -335,9 +367,8 @@ def test_an_app_adds_devices_and_may_replace_declared_ones_but_not_ours() -> Non
     other = evolve(orphe.DRIVER, limitation="")
     assert not of(Limitation, Session(profiles=[other]).feed(mode_four()))
     assert of(Limitation, Session().feed(mode_four()))
-    named = evolve(
-        PROFILE, name="insole", channels=(evolve(PROFILE.channels[0], name="insole/data"),), streams=("insole/data",)
-    )
+    first = (evolve(PROFILE.channels[0], name="insole/data"),)
+    named = evolve(PROFILE, name="insole", channels=first, streams=("insole/data",), setup=())
     ours = Driver(named, {"insole/data": FORMATS["toy/data"]}, {"insole/data": data})
     for taken in ([ours], [NUMBERED, TICKING]):
         with pytest.raises(ValueError, match="already"):

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from enum import Enum
+from math import inf
 from struct import error as StructError
 from types import MappingProxyType
 from typing import Any
@@ -22,8 +23,10 @@ from attrs import field, frozen
 from ..types import Foot, Layout, Quat, Vec3
 from ..wire.error import WireError
 from ..wire.fields import Definition, build_whole, malformed, parse_whole
-from .profile import Profile
+from .profile import Profile, Write
 
+COUNTERS = 1 << 64
+"""No counter of a device has more than 64 bits."""
 UNREADABLE = (ValueError, LookupError, ArithmeticError, StructError)
 """What a construct or a reader raises that can make nothing of a value."""
 FINE = 20.0
@@ -99,13 +102,12 @@ class Driver:
 
     `profile`: its name is the prefix of its own channels, and exactly one of them is a stream that carries samples.
     `formats`: by channel, the construct of its values, for every channel but the standard ones (device/...), written
-    ones too; a whole value is parsed, so each ends in Terminated. `readers`: for the channels that say something.
-    `sequence`: where the
-    sequence number wraps (65536 for u16); 0 when there is none. `tick_rate`, `tick_modulus`: the device's time, in
-    ticks a second, and where it wraps; 0 when there is none. Without a sequence, ticks of which there are fewer than
-    two in a sample's time are of no use. `acc_range`: full scale of the accelerometer in g until a
-    value says otherwise. `limitation`: what an app must do without, said once; "" for nothing. ValueError when these do
-    not fit together.
+    ones too. It takes a whole value: bytes that it leaves over are refused, whether it ends in Terminated or not.
+    `readers`: for the channels that say something. `sequence`: where the sequence number wraps (65536 for u16); 0 when
+    there is none. `tick_rate`, `tick_modulus`: the device's time, in ticks a second, and where it wraps; 0 when there
+    is none. Without a sequence, ticks of which there are fewer than two in a sample's time are not used. `acc_range`:
+    full scale of the accelerometer in g until a value says otherwise. `limitation`: what an app must do without, said
+    once; "" for nothing. ValueError when these do not fit together.
     """
 
     profile: Profile
@@ -127,10 +129,21 @@ class Driver:
             raise ValueError(f"{self.name}: its channels begin with its name, not as {elsewhere}")
         if len(self.profile.streams) != 1:
             raise ValueError(f"{self.name}: one channel carries the samples, not {self.profile.streams}")
-        if (self.tick_rate > 0.0) is not (self.tick_modulus > 0) or min(self.sequence, self.tick_modulus) < 0:
+        if (self.tick_rate > 0.0) is not (self.tick_modulus > 0) or not 0.0 <= self.tick_rate < inf:
             raise ValueError(f"{self.name}: ticks have a rate and a modulus, both above 0")
-        if not self.profile.nominal_rate > 0.0 or not self.acc_range > 0.0:
-            raise ValueError(f"{self.name}: a rate and a range are above 0")
+        if self.sequence == 1 or not (0 <= self.sequence <= COUNTERS and 0 <= self.tick_modulus <= COUNTERS):
+            raise ValueError(f"{self.name}: counters wrap at 2 to 2**64")
+        if not 0.0 < self.acc_range < inf:
+            raise ValueError(f"{self.name}: the range of the accelerometer is above 0")
+        for write in self.profile.setup:
+            if write.channel in self.formats:
+                self._check_setup(write)
+
+    def _check_setup(self, write: Write) -> None:
+        try:
+            self.parse(write.channel, write.value)
+        except WireError as error:
+            raise ValueError(f"{self.name}: setup writes {write.value.hex()} to {write.channel}: {error}") from error
 
     @property
     def name(self) -> str:

@@ -10,6 +10,7 @@ recording) knows the ranges and periods in force.
 from __future__ import annotations
 
 from enum import Enum
+from math import inf
 
 from attrs import field, frozen
 
@@ -49,6 +50,7 @@ class Profile:
     begin with instead. `setup`: writes in order.
     `reads`: channels to be read once after connecting, where the device has them. `nominal_rate`: samples a second
     after `setup`. `streams`: the channels that must not fall silent, and `stale_after`: s after which they have.
+    ValueError when these do not fit together.
     """
 
     name: str
@@ -65,6 +67,18 @@ class Profile:
 
     def __attrs_post_init__(self) -> None:
         object.__setattr__(self, "_names", frozenset(channel.name for channel in self.channels))
+        if not self.name or "/" in self.name:
+            raise ValueError(f"a profile's name is what stands before the first '/' of its channels, not {self.name!r}")
+        if len(self._names) != len(self.channels):
+            raise ValueError(f"{self.name}: two channels have one name")
+        named = {*self.streams, *self.reads}.union(*[(write.channel, *write.then_read) for write in self.setup])
+        if named - self._names:
+            raise ValueError(f"{self.name}: no channel of its own: {sorted(named - self._names)}")
+        silent = [name for name in self.streams if self.channel(name).how is not How.NOTIFY]
+        if silent:
+            raise ValueError(f"{self.name}: a stream is notified, and {silent} are not")
+        if not (0.0 < self.nominal_rate < inf and 0.0 < self.stale_after < inf):
+            raise ValueError(f"{self.name}: nominal_rate and stale_after are finite and above 0")
 
     def has(self, name: str) -> bool:
         """Whether there is a channel of this name."""

@@ -10,12 +10,10 @@ from ..events import Rejection
 from ..types import Foot, Layout
 from ..wire.error import WireError
 from ..wire.fields import LONGEST_VALUE, malformed
-from .driver import Measured, Reading
+from .driver import COUNTERS, Measured, Reading
 
 LARGEST = 1e7
 """Nothing that a sensor of a foot measures is more, in SI units."""
-COUNTERS = 1 << 64
-"""No counter of a device has more than 64 bits."""
 SLOWEST, FASTEST = 0.1, 10_000.0
 """Samples a second."""
 
