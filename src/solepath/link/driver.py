@@ -177,4 +177,7 @@ class Driver:
 
     def write(self, channel: str, value: Any) -> bytes:
         """The bytes of a value, as its construct takes it. ValueError when it does not fit."""
-        return build_whole(self.formats[channel], value)
+        try:
+            return build_whole(self.formats[channel], value)
+        except (TypeError, AttributeError, *UNREADABLE) as error:  # a field is missing, or of another kind
+            raise ValueError(str(error) or type(error).__name__) from error
