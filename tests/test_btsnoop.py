@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import shutil
 import struct
 import subprocess
@@ -516,6 +517,50 @@ def test_what_cannot_be_known_may_be_told(tmp_path):
         read(log, tmp_path, handles={("", 0x2B): "cc2650/moment"})
 
 
+def test_what_is_said_of_an_attribute_that_is_not_there_is_refused(tmp_path):
+    log = begin(Log())
+    log.notify(0x40, FRAME, frames()[0])
+    for wish, complaint in (
+        ((LEFT.lower(), 0x99), f"holds no value of an attribute 0x0099 of {LEFT}, which was said to be insole/info$"),
+        (("", 0x99), "holds no value of an attribute 0x0099, which was said to be insole/info$"),
+        ((TAG, FRAME), f"holds no device {TAG}, whose 0x0012 was said to be insole/info$"),
+    ):
+        with pytest.raises(RecordingError, match=complaint):
+            read(log, tmp_path, handles={wish: "insole/info"})
+
+
+def test_no_word_makes_one_device_or_attribute_of_another(tmp_path):
+    """But what discovery says as well may be said, and an attribute that is of no known kind named."""
+    log = begin(Log(), characteristics=INSOLE | {0x30: full(0x1234)})
+    log.notify(0x40, FRAME, frames()[0])
+    log.notify(0x40, 0x30, b"\x63")
+    log.notify(0x40, 0x33, b"\x63")
+    for address in (LEFT, ""):
+        for handle, channel, of in (
+            (FRAME, "cc2650/movement", "insole/frame"),
+            (FRAME, "device/battery", "insole/frame"),
+            (0x33, "cc2650/movement", "of an insole"),
+        ):
+            complaint = f"{handle:#06x} of {LEFT} is {of}, as its discovery says, not {channel}$"
+            with pytest.raises(RecordingError, match=complaint):
+                read(log, tmp_path, handles={(address, handle): channel})
+    assert len(read(log, tmp_path, handles={("", FRAME): "insole/frame"})[0]) == 2
+    wishes = {(LEFT, 0x30): "device/battery", ("", 0x33): "device/battery"}
+    assert data_of(read(log, tmp_path, handles=wishes)[0], "device/battery") == [b"\x63"] * 2
+
+
+def test_what_is_said_of_any_device_counts_for_those_of_which_nothing_is_known(tmp_path):
+    log = begin(Log())
+    log.notify(0x40, FRAME, frames()[0])
+    log.notify(0x41, FRAME, MOVEMENT)
+    sites = {"connection-0x0041": Site.PELVIS}
+    found, reports = read(log, tmp_path, sites=sites, handles={("", FRAME): "cc2650/movement"})
+    assert {(site, channel) for _, site, channel, _ in found} == {
+        ("left_foot", "receiver/connected"), ("left_foot", "insole/frame"), ("pelvis", "cc2650/movement"),
+    }  # fmt: skip
+    assert reports == []
+
+
 # --- reading and writing ----------------------------------------------------------------------------------------------
 
 
@@ -691,6 +736,14 @@ def test_what_is_no_log_of_ours_is_refused(tmp_path, content, complaint):
     assert is_btsnoop(path) == (content[:8] == b"btsnoop\0")
     with pytest.raises(RecordingError, match=complaint):
         open_btsnoop(path)
+
+
+def test_a_pipe_is_refused_without_waiting_for_it(tmp_path):
+    pipe = tmp_path / "pipe.log"
+    os.mkfifo(pipe)
+    for use in (is_btsnoop, open_btsnoop):
+        with pytest.raises(RecordingError, match="pipe.log: is a pipe or a device; it is read more than once"):
+            use(pipe)
 
 
 def test_a_missing_file_is_named(tmp_path):

@@ -2,6 +2,7 @@
 
 import io
 import json
+import os
 import struct
 import subprocess
 import sys
@@ -123,6 +124,27 @@ def test_the_site_and_the_channel_can_be_told(tmp_path):
 def test_a_wish_that_cannot_be_understood_is_named(log, tmp_path, wish):
     done = convert(log, tmp_path / "walk.jsonl", *wish)
     assert done.returncode == 2 and f"argument {wish[0]}: {wish[1]!r} is not " in done.stderr
+
+
+def test_wishes_that_are_of_no_use_are_errors_and_nothing_is_written(log, tmp_path):
+    out, low = tmp_path / "walk.jsonl", LEFT.lower()
+    for wishes, flaw in (
+        (("--site", f"{LEFT}=pelvis", "--site", f"{low}=left_foot"), f"--site is given twice for {LEFT}"),
+        (("--handle", "18=insole/frame", "--handle", "0x12=insole/info"), "--handle is given twice for 0x0012"),
+        (("--handle", f"{low}/0x12=insole/frame", "--handle", f"{LEFT}/18=insole/frame"), f"for {LEFT}/0x0012"),
+        (("--handle", "0x99=insole/frame"), "holds no value of an attribute 0x0099, which was said to be insole/frame"),
+        (("--handle", f"{TAG}/0x12=insole/frame"), f"holds no device {TAG}, whose 0x0012 was said to be insole/frame"),
+        (("--handle", "0x12=cc2650/movement"), "as its discovery says, not cc2650/movement"),
+    ):
+        assert complaint(log, out, *wishes).endswith(flaw)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_pipe_is_refused_in_words(tmp_path):
+    pipe = tmp_path / "walk.jsonl"
+    os.mkfifo(pipe)
+    flaw = f"{pipe}: is a pipe or a device; it is read more than once, so it has to be a file"
+    assert complaint(pipe, tmp_path / "walk.mcap") == flaw
 
 
 def test_a_torn_log_is_used_up_to_the_tear_and_says_so(log, tmp_path):

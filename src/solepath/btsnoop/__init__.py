@@ -5,10 +5,12 @@
         for packet in log:
             writer.write(packet)
 
-records.py: the file; hci.py: connections and L2CAP; att.py: attributes; values.py, evidence.py, log.py: what is what.
+records.py: the file; hci.py: connections and L2CAP; att.py: attributes; values.py, evidence.py, devices.py: what is
+what; log.py: the whole.
 """
 
-from .log import BtsnoopLog, Device, open_btsnoop
+from .devices import Device
+from .log import BtsnoopLog, open_btsnoop
 from .records import is_btsnoop
 
 __all__ = ["BtsnoopLog", "Device", "is_btsnoop", "open_btsnoop"]

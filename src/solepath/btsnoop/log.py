@@ -11,51 +11,17 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-from attrs import define, field
+from attrs import define
 
-from ..link.devices import DECLARED
-from ..link.known import PROFILES
-from ..link.profile import Channel, Profile
-from ..link.profile import How as Use
 from ..recording import RecordingError, Report, printable, warn
-from ..types import SITE_OF_FOOT, Foot, Packet, Site
-from ..wire.error import WireError
+from ..types import Packet, Site
 from ..wire.receiver import Connection, build_connected
 from .att import How
+from .devices import CHANNELS, Device, Handles, name_attributes, no_use, one, place, upper
 from .evidence import Evidence
 from .hci import Begun, Ended
+from .records import refuse_pipe
 from .values import Listener, Value
-
-Handles = Mapping[tuple[str, int], str]
-"""(device, or "" for any; attribute handle) -> channel."""
-
-CHANNELS = frozenset(channel.name for profile in PROFILES for channel in profile.channels)
-DRIVERS = {driver.name: driver for driver in DECLARED}
-USES = {
-    How.NOTIFIED: (Use.NOTIFY, Use.READ),
-    How.READ: (Use.READ, Use.NOTIFY, Use.WRITE),
-    How.WRITTEN: (Use.WRITE,),
-}
-"""How a value went by -> what its channel is used for, the likeliest first: a characteristic may be one channel where
-it is read and another where it is written, and what is subscribed or written may be read as well."""
-
-
-@define
-class Device:
-    """One device of a log. `address`: or what else tells it from others. `profile`: None when its discovery is not in
-    the log, or it is of no use here. `channels`: attribute handle, and how the value went by -> channel."""
-
-    address: str
-    site: Site | None = None
-    profile: Profile | None = None
-    channels: dict[tuple[int, How], str] = field(factory=dict)
-    seen: dict[int, Evidence] = field(factory=dict)
-    """Attribute handle -> what its values are like."""
-
-    @property
-    def count(self) -> int:
-        """Notified values that are a channel's."""
-        return sum(evidence.count for handle, evidence in self.seen.items() if (handle, How.NOTIFIED) in self.channels)
 
 
 @define
@@ -113,15 +79,15 @@ def open_btsnoop(
     `sites`: where each device was worn, by address; insoles say themselves which foot they are of. `handles`: what
     attributes are whose discovery the log does not hold, because the host knew them from earlier. `report` gets one
     sentence about each thing that is left out. RecordingError for what is no btsnoop log, or holds no packets that can
-    be placed; ValueError for a channel that no device has.
+    be placed, or not what `sites` and `handles` name; ValueError for a channel that no device has.
     """
     path = Path(path)
-    handles = {(_upper(device), handle): channel for (device, handle), channel in (handles or {}).items()}
+    refuse_pipe(path)
+    handles = {(upper(device), handle): channel for (device, handle), channel in (handles or {}).items()}
     for channel in handles.values():
         if channel not in CHANNELS:
             raise ValueError(f"no device has a channel {channel!r}")
-    places = {_upper(device): site for device, site in (sites or {}).items()}
-    name = printable(str(path))
+    places = {upper(device): site for device, site in (sites or {}).items()}
     listener, devices, began = Listener(path, report), dict[str, Device](), None
     damage: RecordingError | None = None
     try:
@@ -132,82 +98,26 @@ def open_btsnoop(
                 device.seen.setdefault(item.attribute, Evidence()).see(item.how, item.data)
     except RecordingError as error:
         damage = error  # told once more by the iteration, after the packets before it
+    used: set[tuple[str, int]] = set()
     for device in devices.values():
-        _name(device, listener.types.get(device.address, {}), handles)
-        _place(device, places)
+        used |= name_attributes(device, listener.types.get(device.address, {}), handles)
+        place(device, places)
     left_out = list(_left_out(list(devices.values()), listener.types))
     left_out += [f"{what}: {count}" for what, count in listener.flaws.items()]
-    if not any(device.site is not None and device.count for device in devices.values()):
-        if damage is not None:
-            raise damage
+    usable = any(device.site is not None and device.count for device in devices.values())
+    if damage is not None and not usable:
+        raise damage
+    for wish in [wish for wish in handles if wish not in used]:
+        raise RecordingError(path, no_use(wish, handles[wish], devices, listener.types))
+    if not usable:
         raise RecordingError(path, "; ".join(["holds no packets of a device whose place is known", *left_out[:5]]))
-    strangers = [address for address in sites or {} if _upper(address) not in map(_upper, devices)]
+    strangers = [address for address in sites or {} if upper(address) not in map(upper, devices)]
     if strangers:
         there = ", ".join(device.address for device in devices.values() if device.channels)
         raise RecordingError(path, f"holds no device {strangers[0]} that could be used; there is {there}")
     for sentence in left_out:
-        report(f"{name}: {sentence}")
+        report(f"{printable(str(path))}: {sentence}")
     return BtsnoopLog(path, devices, began or 0, path.stat().st_size)
-
-
-def _upper(address: str) -> str:
-    return address.upper()
-
-
-def _name(device: Device, types: Mapping[int, str], handles: Handles) -> None:
-    """Which of its attributes are channels: by what the caller says, by discovery, by proof."""
-    device.profile = _profile(set(types.values()))
-    for handle, evidence in device.seen.items():
-        said = handles.get((_upper(device.address), handle), handles.get(("", handle)))
-        if said is None and handle not in types:
-            said = evidence.channel
-        if said is not None:
-            same = _same_characteristic(said)
-        elif device.profile is not None:
-            same = [one for one in device.profile.channels if one.characteristic == types.get(handle)]
-        else:
-            same = []
-        for how in How:
-            channel = next((one.name for use in USES[how] for one in same if one.how is use), None)
-            if channel is not None:
-                device.channels[handle, how] = channel
-
-
-def _same_characteristic(name: str) -> list[Channel]:
-    """The channels, of the device that has this one, that share its characteristic."""
-    profile = next(profile for profile in PROFILES if profile.has(name))
-    return [one for one in profile.channels if one.characteristic == profile.channel(name).characteristic]
-
-
-def _profile(uuids: set[str]) -> Profile | None:
-    """The device that has most of these characteristics, and at least one that streams; the first of equals."""
-    best, most = None, 0
-    for profile in PROFILES:
-        matches = sum(channel.characteristic in uuids for channel in profile.channels)
-        if matches > most and any(profile.channel(name).characteristic in uuids for name in profile.streams):
-            best, most = profile, matches
-    return best
-
-
-def _place(device: Device, places: Mapping[str, Site]) -> None:
-    device.site = places.get(_upper(device.address))
-    for (handle, how), channel in device.channels.items():
-        foot = _foot(channel, how, device.seen[handle])
-        if device.site is None and foot is not None:
-            device.site = SITE_OF_FOOT[foot]
-
-
-def _foot(channel: str, how: How, evidence: Evidence) -> Foot | None:
-    """Whose insole it is, where a channel's values say it."""
-    if channel in ("insole/frame", "insole/info"):
-        return evidence.foot
-    driver = DRIVERS.get(channel.partition("/")[0])
-    if how is not How.READ or driver is None or channel not in driver.readers or evidence.read is None:
-        return None
-    try:
-        return driver.read(channel, evidence.read, {}).foot
-    except WireError:
-        return None
 
 
 def _left_out(devices: list[Device], types: Mapping[str, Mapping[int, str]]) -> Iterator[str]:
@@ -225,7 +135,7 @@ def _left_out(devices: list[Device], types: Mapping[str, Mapping[int, str]]) -> 
             count = sum(evidence.count for evidence in nameless.values())
             yield f"{_times(count, 'value')} of {address} left out: no discovery says what is {_described(nameless)}"
         if device.site is None and device.count:
-            kind = "a device" if device.profile is None else _one(device.profile.name)
+            kind = "a device" if device.profile is None else one(device.profile.name)
             yield f"{_times(device.count, 'value')} of {address}, {kind}, left out: nobody says where it was worn"
         others += not device.channels and any(handle in known for handle in device.seen)
     if others:
@@ -238,10 +148,6 @@ def _left_out(devices: list[Device], types: Mapping[str, Mapping[int, str]]) -> 
 
 def _times(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
-
-
-def _one(noun: str) -> str:
-    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
 
 
 def _described(attributes: Mapping[int, Evidence]) -> str:

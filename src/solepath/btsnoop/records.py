@@ -88,9 +88,17 @@ _MONITOR = {
 
 
 def is_btsnoop(path: Path) -> bool:
-    """True when the file begins as a btsnoop log does. RecordingError when it cannot be read."""
+    """True when the file begins as a btsnoop log does. RecordingError when it cannot be read, or only once: a look at
+    the beginning of a pipe would take it away."""
+    refuse_pipe(path)
     with open_file(path) as file:
         return file.read(len(MAGIC)) == MAGIC
+
+
+def refuse_pipe(path: Path) -> None:
+    """RecordingError for what is there but can be read only once."""
+    if path.exists() and not path.is_file() and not path.is_dir():
+        raise RecordingError(path, "is a pipe or a device; it is read more than once, so it has to be a file")
 
 
 def read_records(

@@ -9,7 +9,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from secrets import token_hex
 from stat import S_IWUSR
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from ..types import Packet, Site
 from .failure import Failure, note
@@ -60,7 +60,7 @@ def _site(text: str) -> tuple[str, Site]:
     try:
         if not told:
             raise ValueError
-        return address, Site(name)
+        return address.upper(), Site(name)
     except ValueError:
         raise argparse.ArgumentTypeError(f"{text!r} is not ADDRESS=SITE") from None
 
@@ -74,7 +74,11 @@ def _handle(text: str) -> tuple[tuple[str, int], str]:
         handle = 0
     if not 0 < handle <= 0xFFFF or not channel:
         raise argparse.ArgumentTypeError(f"{text!r} is not [ADDRESS/]HANDLE=CHANNEL")
-    return (device, handle), channel
+    return (device.upper(), handle), channel
+
+
+_Key = TypeVar("_Key", str, tuple[str, int])
+_Said = TypeVar("_Said")
 
 
 class _Writer(Protocol):
@@ -123,11 +127,23 @@ def _opened(options: argparse.Namespace) -> BtsnoopLog:
     from ..btsnoop import open_btsnoop
     from ..link.known import PROFILES
 
+    sites, handles = _once("--site", options.sites), _once("--handle", options.handles)
     known = {channel.name for profile in PROFILES for channel in profile.channels}
-    for _, name in options.handles:
+    for name in handles.values():
         if name not in known:
             raise Failure(f"there is no channel {name!r}; there are: {', '.join(sorted(known))}")
-    return open_btsnoop(options.source, sites=dict(options.sites), handles=dict(options.handles), report=note)
+    return open_btsnoop(options.source, sites=sites, handles=handles, report=note)
+
+
+def _once(option: str, wishes: Iterable[tuple[_Key, _Said]]) -> dict[_Key, _Said]:
+    """By what each is about. Failure when two are about the same."""
+    found: dict[_Key, _Said] = {}
+    for key, said in wishes:
+        if key in found:
+            name = key if isinstance(key, str) else f"{key[0]}/{key[1]:#06x}".removeprefix("/")
+            raise Failure(f"{option} is given twice for {name}")
+        found[key] = said
+    return found
 
 
 def _shown(log: BtsnoopLog, show: Callable[[int], None]) -> Iterator[Packet]:
