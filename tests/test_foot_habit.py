@@ -8,6 +8,7 @@ from itertools import pairwise
 from math import hypot, radians
 
 import pytest
+from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -105,6 +106,34 @@ def test_a_stride_with_a_gap_in_it_is_degraded_whole_and_no_other_is(
     assert around(taken, a + 0.5 * duration).stride_length == pytest.approx(steps[4].length, rel=0.08)
 
 
+@pytest.mark.parametrize("duration", [0.05, 0.12, 0.3, 0.5, 0.7, 0.9, 1.2, 2.0])
+def test_every_step_that_a_gap_reaches_into_is_degraded_wherever_in_the_stride_it_lies(duration: float) -> None:
+    samples, steps = walked()
+    seen = set[float]()
+    for k in range(27):  # all of a stride
+        a = steps[4].t_start - 0.02 + 0.04 * k
+        told, _ = heard(without(samples, (a, a + duration)))
+        (gap,) = of(SampleGap, told)
+        for step in of(StepTaken, told):
+            within = min(gap.t + gap.duration, step.t_end) - max(gap.t, step.t_start)
+            assert step.degraded or within <= 0.0101
+            assert not step.degraded or within > -0.1  # what a cue looks back by
+            seen.add(step.degraded)
+    assert seen == {False, True}
+
+
+def test_a_sample_at_the_end_of_its_range_degrades_the_step_it_is_in_even_when_flat_is_dated_back() -> None:
+    samples, steps = walked()
+    uncut = of(StepTaken, heard(samples)[0])
+    for k in range(12):
+        t = steps[4].t_end - 0.03 + 0.01 * k
+        told, _ = heard([evolve(sample, saturated=abs(sample.t - t) < 0.005) for sample in samples])
+        taken = of(StepTaken, told)
+        assert len(taken) == len(uncut)
+        (hit,) = (sample.t for sample in samples if abs(sample.t - t) < 0.005)
+        assert all(step.degraded for step in taken if step.t_start < hit < step.t_end)
+
+
 def test_a_foot_that_stands_through_a_gap_goes_nowhere() -> None:
     samples, steps = walked()
     last = steps[-1].t_end
@@ -139,6 +168,25 @@ def test_a_gap_is_neither_stillness_nor_speed() -> None:
             told, _ = heard(without(samples, (a, a + 0.12)))
             assert len(of(ToeOff, told)) == len(of(HeelStrike, told)) == len(steps)
             assert len(of(HeelOff, told)) == len(of(FootFlat, told)) == len(steps)
+
+
+def test_phases_that_nobody_saw_say_so_and_all_others_that_they_were_seen() -> None:
+    samples, steps = walked()
+    hidden = set[type[Event]]()
+    for k in range(27):
+        a = steps[4].t_start - 0.02 + 0.04 * k
+        for duration in (0.3, 0.8):
+            told, _ = heard(without(samples, (a, a + duration)))
+            (gap,) = of(SampleGap, told)
+            end = gap.t + gap.duration
+            for event in of(PHASES, told):
+                if event.inferred:
+                    assert gap.t <= event.t <= end and event.known_at >= end
+                    hidden.add(type(event))
+                # a cue may look back into a gap, but not over half of it
+                assert event.inferred or not gap.t + 0.01 < event.t < end - 0.16
+    assert hidden == {HeelStrike, FootFlat, HeelOff, ToeOff}
+    assert not any(event.inferred for event in of(PHASES, heard(samples)[0]))
 
 
 # --- heading ----------------------------------------------------------------------------------------------------------

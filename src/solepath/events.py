@@ -28,31 +28,30 @@ class _Event:
 
 
 @frozen(kw_only=True)
-class HeelStrike(_Event):
+class _Phase(_Event):
+    foot: Foot
+    inferred: bool = False
+    """True when no sample was there to see it: it is what this foot does as a rule, dated within a gap."""
+
+
+@frozen(kw_only=True)
+class HeelStrike(_Phase):
     """The foot touched the ground; LOADING begins."""
 
-    foot: Foot
-
 
 @frozen(kw_only=True)
-class FootFlat(_Event):
+class FootFlat(_Phase):
     """The whole sole is on the ground and still; STATIONARY begins and a step may end."""
 
-    foot: Foot
-
 
 @frozen(kw_only=True)
-class HeelOff(_Event):
+class HeelOff(_Phase):
     """The heel lifted; PUSH_OFF begins."""
 
-    foot: Foot
-
 
 @frozen(kw_only=True)
-class ToeOff(_Event):
+class ToeOff(_Phase):
     """The toe left the ground; SWING begins."""
-
-    foot: Foot
 
 
 @frozen

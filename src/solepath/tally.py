@@ -29,7 +29,12 @@ from .events import (
 )
 from .types import Foot, Packet, Phase, Sample, Site, Vec3
 
-DATED = {HeelStrike: "heel-strike", FootFlat: "foot-flat", HeelOff: "heel-off", ToeOff: "toe-off"}
+DATED: dict[type[Event], str] = {
+    HeelStrike: "heel-strike",
+    FootFlat: "foot-flat",
+    HeelOff: "heel-off",
+    ToeOff: "toe-off",
+}
 """The events of a foot's phases, and what they are called."""
 
 

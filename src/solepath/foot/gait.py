@@ -47,12 +47,14 @@ class Gait:
     def interrupt(self) -> None:
         """Times begin anew; what the foot did between is unknown."""
         self.began = None
-        self.step.degraded = True
+        self.step.spoil(None)
         self.habit.interrupt()
 
-    def see(self, seen: Seen, known_at: float, corrector: Corrector | None, interval: float) -> list[Event]:
+    def see(
+        self, seen: Seen, known_at: float, corrector: Corrector | None, interval: float, inferred: bool = False
+    ) -> list[Event]:
         """What follows from a cue. `corrector`: None as long as nobody knows which way is up; `interval`: the usual
-        one between samples, s."""
+        one between samples, s; `inferred`: nobody saw it."""
         phase = PHASES[self.phase][seen.cue]
         if phase is self.phase:
             return []
@@ -60,7 +62,7 @@ class Gait:
         # cues look back by different spans; phases follow each other all the same
         t = seen.t if self.began is None else max(seen.t, self.began)
         self.began = t
-        events: list[Event] = [BEGINS[phase](t=t, known_at=max(known_at, t), foot=self.foot)]
+        events: list[Event] = [BEGINS[phase](t=t, known_at=max(known_at, t), foot=self.foot, inferred=inferred)]
         if phase is Phase.SWING:
             self.step.t_toe_off = t
         elif phase is Phase.LOADING:
@@ -89,7 +91,7 @@ class Gait:
             hidden.append(Seen(Cue.CONTACT, leap.struck))
         if leap.landed is not None:
             hidden.append(Seen(Cue.FLAT, leap.landed))
-        return [event for seen in hidden for event in self.see(seen, known_at, corrector, interval)]
+        return [event for seen in hidden for event in self.see(seen, known_at, corrector, interval, inferred=True)]
 
     def _flat(self, t: float, known_at: float, corrector: Corrector, interval: float) -> list[Event]:
         step, world = self.step, self.world

@@ -69,6 +69,8 @@ class StepBuilder:
     t_toe_off: float | None = field(default=None, init=False)
     t_heel_strike: float | None = field(default=None, init=False)
     degraded: bool = field(default=False, init=False)
+    spoilt_until: float | None = field(default=None, init=False)
+    """Up to then samples were missing or saturated, s; None when nothing is wrong since times began."""
     highest: float = field(default=0.0, init=False)
     fastest: float = field(default=0.0, init=False)
     pitch: float = field(default=0.0, init=False)
@@ -86,7 +88,8 @@ class StepBuilder:
         self.start = position
         self.attitude = attitude
         self.t_toe_off = self.t_heel_strike = None
-        self.degraded = False
+        # foot-flat is dated back, into a gap even: what is wrong after it is wrong with the new step
+        self.degraded = self.spoilt_until is not None and t < self.spoilt_until
         self.highest = position[2]
         self.fastest = self.pitch = self.pitch_low = self.pitch_high = 0.0
         self.load_sum = 0.0
@@ -94,6 +97,11 @@ class StepBuilder:
         self.cop = []
         self.cop_stride = 1
         self.cop_skipped = 0
+
+    def spoil(self, until: float | None) -> None:
+        """Samples up to `until`, s, are missing or saturated; None: nobody knows which, and times begin anew."""
+        self.degraded = True
+        self.spoilt_until = until
 
     def moved(self, dt: float, height: float, speed: float, sagittal: float) -> None:
         """One sample: height in m, speed in m/s, sagittal rate in rad/s."""

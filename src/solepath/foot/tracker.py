@@ -136,7 +136,7 @@ class FootTracker:
         events: list[Event] = []
         self.t = t if self.t is None else max(self.t, t)
         if sample.saturated:
-            self.gait.step.degraded = True
+            self.gait.step.spoil(t)
         load: Load | None = None
         if sample.pressure:
             load = self.insole.update(t, sample.pressure)
@@ -163,7 +163,7 @@ class FootTracker:
         dt = t - last
         if self.rhythm.update(dt) or dt > LONGEST_BRIDGE:
             events.append(SampleGap(t=last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=dt))
-            self.gait.step.degraded = True
+            self.gait.step.spoil(t)
             if self.levelled:
                 dt = self._over_gap(last, t, dt, known_at, sample, events)
         return dt
