@@ -398,3 +398,38 @@ def test_a_session_with_a_device_of_its_own_is_restored_with_it_and_not_without(
     assert again.advance(9.0) == session.advance(9.0) != []
     with pytest.raises(SnapshotError, match="toy"):
         Session.restore(saved)
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        evolve(NUMBERED, sequence=0),
+        evolve(NUMBERED, sequence=1 << 15),
+        BOTH,
+        COARSE,
+        evolve(NUMBERED, acc_range=8.0),
+        evolve(NUMBERED, profile=evolve(PROFILE, nominal_rate=50.0)),
+    ],
+    ids=["no numbers", "other numbers", "ticks", "coarse ticks", "another range", "another rate"],
+)
+def test_a_session_is_not_restored_with_a_driver_of_the_same_name_that_counts_otherwise(other: Driver) -> None:
+    session = Session(profiles=[NUMBERED])
+    fields = {"number": 1, "ticks": 0, "count": 1, "up": [9.8]}
+    session.feed(Packet(1.0, LEFT, "toy/data", NUMBERED.write("toy/data", fields)))
+    saved = json.loads(json.dumps(session.snapshot()))
+    with pytest.raises(SnapshotError, match="toy.*another driver"):
+        Session.restore(saved, profiles=[other])
+    assert Session.restore(saved, profiles=[evolve(NUMBERED, limitation="it is a toy")]).snapshot() == saved
+
+
+def test_what_an_app_put_in_our_place_is_restored_with_it_and_not_with_ours() -> None:
+    replaced, ours = evolve(orphe.DRIVER, limitation=""), Session()
+    session = Session(profiles=[replaced])
+    session.feed(mode_four())
+    ours.feed(mode_four())
+    with pytest.raises(SnapshotError, match="orphe.*another driver"):
+        Session.restore(session.snapshot())
+    with pytest.raises(SnapshotError, match="orphe.*another driver"):
+        Session.restore(ours.snapshot(), profiles=[replaced])
+    assert Session.restore(session.snapshot(), profiles=[replaced]).snapshot() == session.snapshot()
+    assert Session.restore(ours.snapshot()).snapshot() == ours.snapshot()

@@ -66,8 +66,9 @@ class Session:
     (link/driver.py), beside those that are known.
 
     `feed`, `advance` and `finish` return the events that became known, in the order in which they did. `feed` is
-    total: any bytes give events, never an exception. TypeError for what is neither a packet nor a sample, ValueError
-    for a time that is not finite in `advance` and for feeding after `finish`.
+    total: any bytes give events, never an exception, unless a reader of the app's own is itself wrong. TypeError for
+    what is neither a packet nor a sample, ValueError for a time that is not finite in `advance` and for feeding after
+    `finish`.
 
     Latency: zero velocity and live position with the sample. Heel-strike and toe-off one sample once a foot has pushed
     off the first time; a foot that leaves the ground without pushing off is known to swing after 0.15 s (0.4 s right
@@ -298,7 +299,8 @@ class Session:
     def restore(cls, saved: Any, *, profiles: Iterable[Driver] = ()) -> Session:
         """A session that goes on where `saved` was taken. A snapshot holds no functions: `profiles` are to be given
         again. SnapshotError when it is not a snapshot of this version, was damaged, or is of a device that is not
-        among them."""
+        among them, or is there with other counters, rates or ranges, or stands in the place of a device of ours then
+        and not now. Whether its functions are the same cannot be seen: that is for the app to keep."""
         if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
             raise SnapshotError("not a snapshot of a session")
         if saved["solepath"] != SNAPSHOT_VERSION:
@@ -311,8 +313,13 @@ class Session:
         if checksum(save(session._state)) != saved["check"]:
             raise SnapshotError("the snapshot was damaged: its checksum is another")
         for decoder in session._state.decoders.values():
-            if decoder.link is not None and decoder.link.name not in session._kinds:
+            if decoder.link is None:
+                continue
+            kind = session._kinds.get(decoder.link.name)
+            if kind is None:
                 raise SnapshotError(f"a snapshot of a device {decoder.link.name!r}: restore it with its profile")
+            if not kind.fits(decoder.link):
+                raise SnapshotError(f"a snapshot of a device {decoder.link.name!r} as another driver declared it")
         return session
 
 

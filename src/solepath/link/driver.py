@@ -6,7 +6,8 @@ something, a reader that turns it into a `Reading`. stream.py does the rest, the
 file of constructs and data, and a file of vectors (vectors.py checks one with the other): link/devices/ has some,
 examples/own_device.py one of an app's own, which it hands to `Session(profiles=[...])`.
 
-A driver holds functions, so it is never saved: what is saved holds its name, and whoever restores brings it again.
+A driver holds functions, so it is never saved: what is saved holds its name and its numbers (`Basis`), and whoever
+restores brings it again. Other numbers are refused then; whether the functions are the same, nobody can see.
 """
 
 from __future__ import annotations
@@ -97,6 +98,21 @@ class Axis(Enum):
 
 
 @frozen
+class Basis:
+    """What the state of a link stands on in its driver: it is saved with it, and means nothing on another one."""
+
+    ours: bool
+    """A device of devices/, not one of an app's own."""
+    stream: str
+    nominal_rate: float
+    axis: Axis
+    sequence: int
+    tick_rate: float
+    tick_modulus: int
+    acc_range: float
+
+
+@frozen
 class Driver:
     """One kind of device, all data but the readers.
 
@@ -155,6 +171,11 @@ class Driver:
         if self.tick_rate >= (FINE if self.sequence else COARSEST) * self.profile.nominal_rate:
             return Axis.TICKS
         return Axis.COUNT if self.sequence else Axis.ARRIVAL
+
+    def basis(self, ours: bool) -> Basis:
+        (stream,) = self.profile.streams
+        rate, ticks = self.profile.nominal_rate, (self.tick_rate, self.tick_modulus)
+        return Basis(ours, stream, rate, self.axis, self.sequence, *ticks, self.acc_range)
 
     def parse(self, channel: str, data: bytes) -> Any:
         """What the channel's construct makes of `data`, all of it. WireError when it is not that."""

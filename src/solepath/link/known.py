@@ -35,6 +35,9 @@ class Kind(Protocol):
     def feed(self, link: DeviceLink, channel: str, data: bytes, arrival: float) -> Output:
         """What a value makes of its link. WireError when it cannot be used."""
 
+    def fits(self, link: DeviceLink) -> bool:
+        """Whether this link, which was saved, is one that this kind began."""
+
 
 Kinds = Mapping[str, Kind]
 
@@ -54,24 +57,31 @@ class _Programmed:
             raise TypeError(f"{link.name} is declared")
         return link.feed(channel, data, arrival)
 
+    def fits(self, link: DeviceLink) -> bool:
+        return link.name == self.profile.name
+
 
 @frozen
 class _Declared:
-    """A device that is declared."""
+    """A device that is declared, by us or by an app."""
 
     driver: Driver
+    ours: bool
 
     @property
     def profile(self) -> Profile:
         return self.driver.profile
 
     def begin(self, site: Site, firmware: str) -> DeviceLink:
-        return stream_link(self.driver, site)
+        return stream_link(self.driver, site, self.ours)
 
     def feed(self, link: DeviceLink, channel: str, data: bytes, arrival: float) -> Output:
         if not isinstance(link, StreamLink):
             raise TypeError(f"{link.name} is not declared")
         return link.feed(self.driver, channel, data, arrival)
+
+    def fits(self, link: DeviceLink) -> bool:
+        return isinstance(link, StreamLink) and link.basis == self.driver.basis(self.ours)
 
 
 def _insole(site: Site, firmware: str) -> InsoleLink:
@@ -93,7 +103,7 @@ _RESERVED = {*_PROGRAMMED, "device", "receiver"}
 def kinds(drivers: Iterable[Driver] = ()) -> dict[str, Kind]:
     """The table with an app's own devices in it, which may replace declared ones of ours. TypeError for what is no
     Driver, ValueError for a name that is taken."""
-    table: dict[str, Kind] = {**_PROGRAMMED, **{driver.name: _Declared(driver) for driver in DECLARED}}
+    table: dict[str, Kind] = {**_PROGRAMMED, **{driver.name: _Declared(driver, True) for driver in DECLARED}}
     added: set[str] = set()
     for driver in drivers:
         if not isinstance(driver, Driver):
@@ -101,7 +111,7 @@ def kinds(drivers: Iterable[Driver] = ()) -> dict[str, Kind]:
         if driver.name in _RESERVED or driver.name in added:
             raise ValueError(f"there is a device {driver.name!r} already")
         added.add(driver.name)
-        table[driver.name] = _Declared(driver)
+        table[driver.name] = _Declared(driver, False)
     return table
 
 

@@ -30,7 +30,7 @@ from ..types import Quat, Sample, Site, Vec3
 from ..vector import GRAVITY
 from ..wire.error import WireError
 from ..wire.fields import malformed
-from .driver import COARSEST, Axis, Driver, Measured, Reading
+from .driver import COARSEST, Axis, Basis, Driver, Measured, Reading
 from .periodic import Periodic, periodic
 from .rest import RestCheck, suggestion
 from .run import Counted, Run, Taken, signed
@@ -66,6 +66,7 @@ class StreamLink:
 
     site: Site
     name: str
+    basis: Basis
     rate: float
     """Samples a second, nominal."""
     rest: RestCheck
@@ -287,9 +288,10 @@ class StreamLink:
         return t
 
 
-def stream_link(driver: Driver, site: Site) -> StreamLink:
+def stream_link(driver: Driver, site: Site, ours: bool) -> StreamLink:
     """A fresh device of this kind at `site`."""
-    return StreamLink(site, driver.name, driver.profile.nominal_rate, RestCheck(driver.acc_range * GRAVITY / 32768))
+    rest = RestCheck(driver.acc_range * GRAVITY / 32768)
+    return StreamLink(site, driver.name, driver.basis(ours), driver.profile.nominal_rate, rest)
 
 
 def _unit(quat: Quat) -> Quat | None:
