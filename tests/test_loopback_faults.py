@@ -246,3 +246,26 @@ def test_what_was_handed_over_is_counted_and_kept_on_request() -> None:
     heard = played(device, 5.0)
     assert device.log == [outgoing for _, outgoing in heard]
     assert sum(device.sent.values()) == len(heard)
+
+
+def test_a_walk_that_begins_anew_has_the_faults_of_its_script_again() -> None:
+    device = tag("1 left_foot drop 3; 2 left_foot disconnect")
+    assert sum(t < 2.0 for t, _ in movements(device, 5.0)) > 5
+    assert device.suffered == 2 and not device.is_connected
+    device.began = 10.0
+    assert device.suffered == 0
+    set_up(device, profile.CC2650, now=9.0)
+    again = movements(device, 20.0)
+    assert device.suffered == 2 and not device.is_connected
+    assert max(t for t, _ in again) < 12.0
+    assert max(b - a for (a, _), (b, _) in zip(again, again[1:], strict=False)) > 0.35, "three were dropped again"
+
+
+def test_what_was_to_last_in_an_earlier_walk_does_not_last_in_the_next() -> None:
+    device = tag("1 left_foot vanish 1000; 3 left_foot freeze; 2 left_foot name gone; 2 left_foot pairing")
+    assert not device.visible(5.0) and device.name == "gone" and device.needs_pairing
+    device.disconnected(5.0)
+    device.began = 10.0
+    assert device.visible(9.0) and device.name != "gone" and not device.needs_pairing
+    set_up(device, profile.CC2650, now=9.0)
+    assert movements(device, 9.9)

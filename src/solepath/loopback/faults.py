@@ -172,6 +172,7 @@ class Misfortune:
         self._frozen_until = -inf
         self._hang = False
         self._lost_at = inf
+        self.happened = 0
         self.cut = False
         """The link is to be lost now."""
         self.mtu: int | None = None
@@ -231,6 +232,7 @@ class Misfortune:
         return [value, value] if self._spend(What.DUPLICATE) else [value]
 
     def _happen(self, fault: Fault) -> None:
+        self.happened += 1
         match fault.what:
             case What.DISCONNECT:
                 self.cut = True

@@ -103,6 +103,7 @@ class Peripheral:
         for said in (name, *(fault.argument for fault in faults if fault.what is What.NAME)):
             check_fits(said, self.advertised)
         self._name, self._mtu, self._began = name, mtu, began
+        self._faults = faults
         self._misfortune = Misfortune(faults, site)
         self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
         self._flows = Flows()
@@ -159,6 +160,11 @@ class Peripheral:
         return self._misfortune.restarted
 
     @property
+    def suffered(self) -> int:
+        """Faults of the script that have happened in this walk."""
+        return self._misfortune.happened
+
+    @property
     def needs_pairing(self) -> bool:
         """Whether it refuses requests on a link that is not encrypted, but for Device Information and battery."""
         return self._misfortune.needs_pairing
@@ -173,7 +179,9 @@ class Peripheral:
 
     @began.setter
     def began(self, began: float) -> None:
+        """The walk begins anew, and the script of its faults with it: nothing of an earlier one holds over."""
         self._began = began
+        self._misfortune = Misfortune(self._faults, self.site)
         self._flows.go_to(self._now - began)
         self._tell()
 
