@@ -18,6 +18,10 @@ from ..profile import Channel, How, Profile, Write
 
 RATES = 21
 """Payload mode: timestamp, acceleration, angular velocity."""
+OUTPUT_RATES = (1, 4, 10, 12, 15, 20, 30, 60, 120)
+"""Hz; the last only for recording in the device."""
+VISIT_RATE = 0x10
+"""The bit that says that the output rate is to be set."""
 FULL_ACC, FULL_GYRO = 0.99 * 16.0 * GRAVITY, 0.99 * radians(2000.0)
 """Ends of the ranges (Movella DOT User Manual), less what calibration may take off."""
 
@@ -28,6 +32,10 @@ def _uuid(short: int) -> str:
 
 def _all_finite(values: Any, _: Any) -> bool:
     return all(map(isfinite, values))
+
+
+def _rate_allowed(rate: int, context: Any) -> bool:
+    return rate in OUTPUT_RATES or not context.visit & VISIT_RATE
 
 
 PROFILE = Profile(
@@ -71,7 +79,7 @@ FORMATS = {
         "timeouts" / Fields("<4B"),
         "tag_length" / Int8ul,
         "tag" / Hex(Bytes(16)),
-        "rate" / Int16ul,
+        "rate" / ExprValidator(Int16ul, _rate_allowed),
         "filter" / Int8ul,
         "reserved" / Hex(Bytes(5)),
         Terminated,
@@ -92,7 +100,7 @@ def _control(sent: Any, known: Known) -> Reading:
 
 
 def _device_control(sent: Any, known: Known) -> Reading:
-    return Reading(rate=float(sent.rate)) if sent.visit & 0x10 else Reading()
+    return Reading(rate=float(sent.rate)) if sent.visit & VISIT_RATE else Reading()
 
 
 def _battery(sent: Any, known: Known) -> Reading:
