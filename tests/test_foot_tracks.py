@@ -16,6 +16,7 @@ from solepath import (
     FootMoved,
     HeelStrike,
     Limitation,
+    Packet,
     Recipe,
     Sample,
     SampleGap,
@@ -29,11 +30,13 @@ from solepath.foot.cycle import Cycle
 from solepath.foot.dedrift import LinearDedrift
 from solepath.foot.eskf import ErrorStateFilter
 from solepath.recipes import DEFAULT
+from solepath.sim import emulate
 from solepath.sim.parts import LSM6DSOX
 from solepath.sim.route import Route
 from solepath.sim.shoe import ON_INSTEP, Mounting
 from solepath.sim.walker import Walker
 from solepath.vector import GRAVITY, conjugate, from_yaw, multiply, normalise, rotate
+from solepath.wire.insole_info import build_info, parse_info
 from walks import LEFT, of
 
 ROUTE = Route().stand(3.0).walk(20.0, 1.3).stop(2.0)
@@ -186,6 +189,20 @@ def test_a_turn_that_is_walked_is_not_taken_for_a_bias() -> None:
     route = Route().stand(2.0).walk(3.0, 1.2).turn(pi / 2, radius=2.0).walk(3.0).stop(1.0)
     steps = of(StepTaken, told(Walker(route, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)))
     assert sum(step.heading_change for step in steps) == pytest.approx(pi / 2, abs=0.06)
+
+
+def test_a_wrong_scale_is_said_once_by_the_link_that_knows_the_range() -> None:
+    def wrong(packet: Packet) -> Packet:
+        if packet.channel != "insole/info":
+            return packet
+        told = parse_info(packet.data)
+        return evolve(packet, data=build_info(evolve(told, acc_scale=0.75 * told.acc_scale)))
+
+    session = Session()
+    events = session.feed([wrong(packet) for packet in emulate(Route().stand(4.0).walk(4.0), seed=1).packets])
+    said = of(ScaleSuspect, events)
+    assert {event.site for event in said} == {Site.LEFT_FOOT, Site.RIGHT_FOOT} and len(said) == 2
+    assert all("full scale assumed" in event.suggestion for event in said)
 
 
 def test_an_accelerometer_of_the_wrong_range_is_named_and_one_a_little_off_is_put_right() -> None:

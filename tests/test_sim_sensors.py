@@ -130,6 +130,18 @@ def test_imperfect_samples_stay_near_the_exact_ones_at_rest(part: Imu) -> None:
     assert np.abs(off).max() > 0.0
 
 
+def test_no_part_is_further_off_than_its_sheet_says_at_the_most() -> None:
+    part = KXTJ9_IMU3000.acc
+    assert part.most == pytest.approx(0.125 * GRAVITY)
+    when = instants(0.0, 0.01, 2)
+    still = evolve(part, scale=0.0, cross=0.0, wander=0.0, density=0.0)
+    biases = np.array(
+        [errors(np.zeros((len(when.fine), 3)), when, still, np.random.default_rng(k))[0] for k in range(400)]
+    )
+    assert np.abs(biases).max() == pytest.approx(part.most)
+    assert biases.std() == pytest.approx(part.bias, rel=0.15)
+
+
 def test_cells_have_gain_preload_noise_and_an_end() -> None:
     t = np.arange(0.0, 20.0, 0.01)
     loads = np.zeros((len(t), 50))

@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 
 from attrs import define, evolve, field, frozen
 
-from .events import ClockReset, Event, LayoutKnown, Limitation, PacketRejected, SampleRejected, ScaleSuspect
+from .events import ClockReset, Event, LayoutKnown, Limitation, PacketRejected, SampleRejected
 from .foot.phase import SUPPORT
 from .foot.refusal import rejected, wrong_time
 from .foot.tracker import FootTracker
@@ -207,6 +207,8 @@ class Session:
                     self._say_unused(item, events)
                 else:
                     tracker = self._tracker(foot)
+                    # said once, and by the link, which knows the range
+                    tracker.scale_said = tracker.scale_said or site in self._state.decoders
                     events += tracker.feed(item)
                     if tracker.t is not None:  # else it could not be used: nothing is known of this foot yet
                         self._keep(tracker)
@@ -220,8 +222,6 @@ class Session:
                 self._keep(tracker)
             elif isinstance(item, ClockReset):
                 tracker.interrupt()
-            elif isinstance(item, ScaleSuspect):
-                tracker.scale_suspected = True  # said once, by the one that knows the range
 
     def _tracker(self, foot: Foot) -> FootTracker:
         """The foot's own tracker, or a new one that nobody holds yet."""

@@ -68,7 +68,8 @@ class FootTracker:
     pressure_cues: PressureCues = field(factory=PressureCues, init=False)
     gait: Gait = field(init=False)
     said: list[str] = field(factory=list, init=False)
-    scale_suspected: bool = field(default=False, init=False)
+    scale_said: bool = field(default=False, init=False)
+    """That acc does not read 1 g at rest has been said, or is another's to say."""
 
     def __attrs_post_init__(self) -> None:
         self.gait = Gait(self.foot)
@@ -278,9 +279,9 @@ class FootTracker:
 
     def _check_scale(self, t: float, known_at: float, events: list[Event]) -> None:
         magnitude = self.rest.magnitude
-        if magnitude is None or self.scale_suspected or 0.85 < magnitude / GRAVITY < 1.15:
+        if magnitude is None or self.scale_said or 0.85 < magnitude / GRAVITY < 1.15:
             return
-        self.scale_suspected = True
+        self.scale_said = True
         ratio = GRAVITY / magnitude if magnitude > 0.0 else inf
         suggestion = f"multiply acc by {ratio:.3g}" if isfinite(ratio) else "acc reads nothing at all"
         events.append(

@@ -7,7 +7,7 @@ the comment says what is assumed. (*) marks figures that have not been compared 
 
 from __future__ import annotations
 
-from math import radians
+from math import inf, radians
 
 from attrs import frozen
 
@@ -27,7 +27,8 @@ class Triad:
 
     `density`: white noise per sqrt(Hz). `bias`: at turn-on. `wander`: of the bias, first-order Gauss-Markov over
     `memory` s. `scale`, `cross`: relative scale and cross-axis errors. `bandwidth`: of the part's own low pass
-    (second order), Hz. `bits`: of a reading. `g_effect`: output per m/s^2 of acceleration.
+    (second order), Hz. `bits`: of a reading. `g_effect`: output per m/s^2 of acceleration. `most`: of the bias,
+    where a sheet gives a limit that every part keeps.
     """
 
     density: float
@@ -39,6 +40,7 @@ class Triad:
     memory: float = 300.0
     bits: int = 16
     g_effect: float = 0.0
+    most: float = inf
 
 
 @frozen
@@ -77,9 +79,16 @@ KXTJ9_IMU3000 = Imu(
     "KXTJ9 and IMU-3000",
     # Kionix KXTJ9 (*): 8 bits a reading; zero-g offset +-125 mg at the most, 0.2 mg/K, cross axis 2 %, ODR 50 Hz at
     # reset, low pass at ODR/2. Noise 750 ug/sqrt(Hz) and scale +-3 % are figures of the family, and far below one
-    # count of 1/16 g.
+    # count of 1/16 g. The maximum of the offset is a limit: no part that is sold is beyond it.
     Triad(
-        density=750e-6 * _G, bias=60 * _MG, wander=0.2 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=25.0, bits=8
+        density=750e-6 * _G,
+        bias=60 * _MG,
+        wander=0.2 * WARMING * _MG,
+        scale=0.015,
+        cross=0.010,
+        bandwidth=25.0,
+        bits=8,
+        most=125 * _MG,
     ),
     # InvenSense PS-IMU-3000A rev. 1.1 (*): 0.01 dps/sqrt(Hz), initial ZRO +-20 dps, +-0.03 dps/K, scale +-3 %,
     # cross axis 2 %, linear acceleration sensitivity 0.1 dps/g, low pass up to 256 Hz.

@@ -96,7 +96,7 @@ def errors(true: Array, when: Instants, part: Triad, rng: np.random.Generator, f
     mixing = np.eye(3) + np.diag(part.scale * rng.standard_normal(3))
     mixing += part.cross * rng.standard_normal((3, 3)) * (1.0 - np.eye(3))
     signal = true @ mixing.T
-    signal += part.bias * rng.standard_normal(3)
+    signal += np.clip(part.bias * rng.standard_normal(3), -part.most, part.most)
     signal += part.wander * wander(when.fine, part.memory, 3, rng)
     if force is not None and part.g_effect:
         signal += part.g_effect * force * rng.choice([-1.0, 1.0], 3)
