@@ -17,6 +17,7 @@ from solepath import FootMoved, Packet, Sample, Session, Site, StepTaken
 from solepath.link.decoder import Decoder
 from solepath.output import event_record
 from solepath.recording import RecordingError
+from toys import NUMBERED
 
 pytest.importorskip("mcap", reason="the extra mcap is not installed")
 from mcap.reader import make_reader  # noqa: E402
@@ -191,3 +192,20 @@ def test_what_cannot_be_written_is_one_clear_error(tmp_path):
 def test_import_solepath_does_not_load_mcap():
     code = "import sys, solepath; print({'mcap', 'solepath.mcap', 'solepath.btsnoop'} & set(sys.modules))"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "set()\n"
+
+
+def test_a_device_of_an_app_s_own_is_exported_with_its_samples_and_events(tmp_path) -> None:
+    def packets(first: int, last: int) -> list[Packet]:
+        fields = {"ticks": 0, "count": 1, "up": [9.80665]}
+        return [
+            Packet(1.0 + 0.01 * k, LEFT, "toy/data", NUMBERED.write("toy/data", {"number": k, **fields}))
+            for k in range(first, last)
+        ]
+
+    path = tmp_path / "own.mcap"
+    with McapWriter(path, profiles=iter([NUMBERED])) as writer:
+        for packet in [*packets(0, 50), *packets(53, 60)]:
+            writer.write(packet)
+    found = messages(path)
+    assert len(found["/left_foot/samples"]) == 57
+    assert "PacketsLost" in {content["event"] for _, _, content in found["/events"]}

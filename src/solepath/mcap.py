@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import json
 from base64 import b64encode
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from datetime import UTC, datetime, timedelta
 from importlib.metadata import version
@@ -32,6 +32,8 @@ from mcap.writer import CompressionType, Writer
 
 from .events import Event, FootFlat, FootMoved, HeelOff, HeelStrike, StepTaken, ToeOff
 from .link.decoder import Decoder
+from .link.driver import Driver
+from .link.known import kinds
 from .output import event_record, plain
 from .recording import FORMAT, VERSION, RecordingError, began, why
 from .session import Session
@@ -89,16 +91,21 @@ class McapWriter:
             for packet in read_packets("walk.jsonl"):
                 writer.write(packet)
 
-    An existing file is replaced. `header`: of the recording that the packets come from. `count`: packets written.
+    An existing file is replaced. `header`: of the recording that the packets come from. `profiles`: devices of the
+    app's own, as for Session. `count`: packets written.
     `outside`: times that no log time can hold; the nearest that can stands for them. RecordingError when the file
     cannot be written, ValueError for a packet whose time is not finite. What a session holds back comes with `close`;
     a file that was never closed has no index, but its chunks can be read.
     """
 
-    def __init__(self, path: Path | str, header: Mapping[str, Any] | None = None) -> None:
+    def __init__(
+        self, path: Path | str, header: Mapping[str, Any] | None = None, *, profiles: Iterable[Driver] = ()
+    ) -> None:
+        drivers = tuple(profiles)
         self.path, self.count, self.outside = Path(path), 0, 0
         self._header = dict(header or {})
-        self._session = Session(poses=True)
+        self._kinds = kinds(drivers)
+        self._session = Session(poses=True, profiles=drivers)
         self._decoders: dict[Site, Decoder] = {}
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
@@ -133,7 +140,7 @@ class McapWriter:
             decoder = self._decoders.get(packet.site)
             if decoder is None:
                 decoder = self._decoders[packet.site] = Decoder(packet.site)
-            for item in decoder.feed(packet):
+            for item in decoder.feed(packet, self._kinds):
                 self._sample(item)
             for event in self._session.feed(packet):
                 self._event(event)
