@@ -57,7 +57,7 @@ def log(tmp_path_factory) -> Path:
 
 
 def recording(path: Path, count: int = 100) -> Path:
-    with PacketWriter(path, began="2026-11-21T09:30:00Z") as writer:
+    with PacketWriter(path, {"began": "2026-11-21T09:30:00Z"}) as writer:
         for packet in walks.insoles().packets[:count]:
             writer.write(packet)
     return path

@@ -1,5 +1,6 @@
 """Recordings of packets: protocol/recording.md, clause by clause."""
 
+import asyncio
 import json
 import os
 import signal
@@ -417,9 +418,59 @@ def test_a_file_that_cannot_be_opened_is_named(tmp_path):
 )
 def test_a_header_may_say_what_oclock_it_was(tmp_path, keys, moment):
     path = tmp_path / "walk.jsonl"
-    with PacketWriter(path, **keys):
+    with PacketWriter(path, keys):
         pass
     assert began(read_header(path)) == moment
+
+
+def test_the_header_of_one_recording_can_be_that_of_another_whatever_its_keys(tmp_path):
+    keys = {"path": "x", "self": 1, "header": {"a": [None]}, "": "T\ud800r", "began": "never"}
+    with PacketWriter(tmp_path / "one.jsonl", keys):
+        pass
+    said = read_header(tmp_path / "one.jsonl")
+    assert said == {"format": "solepath-packets", "version": 1, **keys}
+    with PacketWriter(tmp_path / "other.jsonl", said):
+        pass
+    assert (tmp_path / "other.jsonl").read_bytes() == (tmp_path / "one.jsonl").read_bytes()
+
+
+def test_what_is_recorded_live_may_have_anothers_header_but_its_own_beginning(tmp_path):
+    pytest.importorskip("bleak", reason="the extra ble is not installed")
+    from solepath.ble import record
+
+    async def sent():
+        for packet in PACKETS:
+            yield packet
+
+    async def recorded(header) -> tuple[float, list[Packet]]:
+        now = asyncio.get_running_loop().time()
+        return now, [packet async for packet in record(sent(), tmp_path / "walk.jsonl", header)]
+
+    old = {"format": "solepath-packets", "version": 1, "began": "2001-01-01T00:00:00Z", "began_t": -1.0, "path": "x"}
+    now, passed_on = asyncio.run(recorded(old))
+    said = read_header(tmp_path / "walk.jsonl")
+    known = began(said)
+    assert passed_on == PACKETS == list(read_packets(tmp_path / "walk.jsonl"))
+    assert said["path"] == "x" and known is not None
+    assert known[0].year > 2001 and now <= known[1] < now + 10
+
+
+@pytest.mark.parametrize(
+    ("header", "complaint"),
+    [
+        ({"format": "solepath-samples"}, 'a header that is not .*: "format" is not "solepath-packets"'),
+        ({"version": 2}, "a header that is of version 2"),
+        ({"version": True}, "a header that is of version true"),
+        ({"note": float("nan")}, "not JSON compliant"),
+        ({"note": "x" * 70_000}, "a line of 70057 bytes is too long for a recording"),
+    ],
+)
+def test_a_header_that_none_can_be_costs_no_file(tmp_path, header, complaint):
+    path = tmp_path / "walk.jsonl"
+    path.write_text("precious")
+    with pytest.raises(ValueError, match=complaint):
+        PacketWriter(path, header)
+    assert path.read_text() == "precious"
 
 
 @pytest.mark.parametrize("content", ["", "hello\n", '{"format": "solepath-packets", "version": 7}\n', "{}"])

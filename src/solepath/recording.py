@@ -219,23 +219,36 @@ def _short(value: Any) -> str:
     return printable(json.dumps(value), 40)
 
 
+def _line(fields: dict[str, Any]) -> bytes:
+    encoded = json.dumps(fields, allow_nan=False).encode("utf-8") + b"\n"
+    if len(encoded) > LONGEST_LINE:
+        raise ValueError(f"a line of {len(encoded)} bytes is too long for a recording")
+    return encoded
+
+
 class PacketWriter:
     """Writes packets as a recording, every line handed to the operating system before the next packet is taken.
 
-        with PacketWriter("walk.jsonl", began="2026-11-21T09:30:00Z", began_t=12.5) as writer:
+        with PacketWriter("walk.jsonl", {"began": "2026-11-21T09:30:00Z", "began_t": 12.5}) as writer:
             writer.write(packet)
 
     An existing file is replaced. `count`: packets that are in it. A process that is killed loses nothing that was
     written. RecordingError when the file cannot be opened or written (disk full); then it ends with its last whole
     packet, and once there is room again writing may go on. ValueError for a packet that no recording can hold (a time
-    that is not finite, a line that would be too long); it leaves the file as it was.
+    that is not finite, a line that would be too long) and for such a header; it leaves the file as it was.
     """
 
-    def __init__(self, path: Path | str, **header: Any) -> None:
-        """`header`: further keys for the first line: `began` and `began_t` (protocol/recording.md), a note."""
+    def __init__(self, path: Path | str, header: Mapping[str, Any] = {}) -> None:
+        """`header`: further keys for the first line: `began` and `began_t` (protocol/recording.md), a note; or all that
+        `read_header` gave of another recording. ValueError when it says that this is of another format or version."""
         self.count = 0
         self._path = Path(path)
-        first = json.dumps({"format": FORMAT, "version": VERSION, **header}, allow_nan=False)
+        own = {"format": FORMAT, "version": VERSION}
+        try:
+            _check_header({**own, **header})
+        except _Flaw as flaw:
+            raise ValueError(f"a header that {flaw}") from None
+        first = _line({**own, **header})
         self._size = 0
         """Bytes of whole lines."""
         self._torn = False
@@ -257,13 +270,10 @@ class PacketWriter:
         line = {"t": packet.t, "site": packet.site.value, "channel": packet.channel, "data": packet.data.hex()}
         if packet.device:
             line["device"] = packet.device
-        self._put(json.dumps(line, allow_nan=False))
+        self._put(_line(line))
         self.count += 1
 
-    def _put(self, line: str) -> None:
-        encoded = line.encode("utf-8") + b"\n"
-        if len(encoded) > LONGEST_LINE:
-            raise ValueError(f"a line of {len(encoded)} bytes is too long for a recording")
+    def _put(self, encoded: bytes) -> None:
         if self._torn:
             raise RecordingError(self._path, f"ends in the middle of a line; {self._safe()}")
         done = 0

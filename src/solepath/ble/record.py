@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterable, AsyncIterator
+from collections.abc import AsyncIterable, AsyncIterator, Mapping
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -12,18 +12,20 @@ from ..recording import PacketWriter
 from ..types import Packet
 
 
-async def record(packets: AsyncIterable[Packet], path: Path | str, **header: Any) -> AsyncIterator[Packet]:
+async def record(
+    packets: AsyncIterable[Packet], path: Path | str, header: Mapping[str, Any] = {}
+) -> AsyncIterator[Packet]:
     """The same packets, each in the file before it is passed on, so that a replay feeds a session what was fed live.
 
         async for packet in record(devices, "walk.jsonl"):
             session.feed(packet)
 
-    `header`: further keys of the first line; the time of day (UTC) and what the packets' clock said then are there
-    already. RecordingError when the file cannot be made, or not written any further (the disk is full): what is in it
-    stays whole.
+    `header`: further keys of the first line; `began`, the time of day (UTC), and `began_t`, what the packets' clock
+    said then, are this recording's own. RecordingError when the file cannot be made, or not written any further (the
+    disk is full): what is in it stays whole.
     """
-    began, began_t = datetime.now(UTC).isoformat(timespec="milliseconds"), asyncio.get_running_loop().time()
-    with PacketWriter(path, began=began, began_t=began_t, **header) as writer:
+    now, t = datetime.now(UTC).isoformat(timespec="milliseconds"), asyncio.get_running_loop().time()
+    with PacketWriter(path, {**header, "began": now, "began_t": t}) as writer:
         async for packet in packets:
             writer.write(packet)
             yield packet

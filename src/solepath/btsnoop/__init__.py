@@ -1,7 +1,7 @@
 """Import of btsnoop logs, such as an Android phone's HCI snoop log: what a phone heard of insoles and SensorTags.
 
     log = open_btsnoop("btsnoop_hci.log", sites={"F0:12:34:56:78:9A": Site.LEFT_FOOT})
-    with PacketWriter("walk.jsonl", **log.header) as writer:
+    with PacketWriter("walk.jsonl", log.header) as writer:
         for packet in log:
             writer.write(packet)
 

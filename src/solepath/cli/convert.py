@@ -108,7 +108,7 @@ def run(options: argparse.Namespace) -> int:
             elif out.suffix.lower() == RECORDING:
                 raise Failure(f"{printable(str(source))}: is no btsnoop log; a recording is converted to {MCAP} only")
             else:
-                header = {key: value for key, value in read_header(source).items() if key not in ("format", "version")}
+                header = read_header(source)
                 packets = read_packets(source, report=note, progress=show)
             count, damage = _write(packets, header, make, source, out)
     except RecordingError as error:
@@ -159,12 +159,9 @@ def _maker(out: Path) -> Make:
     """What writes a file of this name."""
     from ..recording import PacketWriter, printable
 
-    def recording(path: Path, header: Mapping[str, Any]) -> _Writer:
-        return PacketWriter(path, **header)
-
     suffix = out.suffix.lower()
     if suffix == RECORDING:
-        return recording
+        return PacketWriter
     if suffix != MCAP:
         raise Failure(f"{printable(str(out))}: ends neither in {RECORDING} nor in {MCAP}, which says what to write")
     try:
