@@ -1,5 +1,9 @@
 """Tables, plots and summaries: what people are shown."""
 
+import re
+
+import pytest
+from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -16,12 +20,19 @@ from solepath.events import (
     StepFeatures,
     StepTaken,
 )
+from solepath.monitor import Monitor
 from solepath.output import event_record
+from solepath.session import Session
+from solepath.sim.insole_device import Insole
+from solepath.sim.radio import CLEAN, Radio
+from solepath.sim.walk import emulate
 from solepath.tally import Tally
 from solepath.types import Cell, Foot, Layout, Packet, Phase, Sample, Site
 from solepath.view.plot import plot
+from solepath.view.status import status
 from solepath.view.summary import link_health, summary
 from solepath.view.table import milliseconds, number, percent, table
+from walks import SHORT, packets
 
 STEP = StepTaken(
     t=2.0, known_at=2.0625, foot=Foot.LEFT, number=1, t_start=1.0, t_end=2.0, displacement=(1.25, 0.0, 0.0),
@@ -94,7 +105,7 @@ def test_of_packets_a_tally_counts_the_samples_with_a_position():
 def test_a_healthy_link_is_not_mentioned_and_a_bad_one_line_by_line():
     tally = Tally()
     assert link_health(tally) == []
-    tally.packets = 97
+    tally.came = 100
     tally.add(PacketsLost(t=0.0, known_at=1.0, site=Site.LEFT_FOOT, channel="insole/frame", count=3))
     for reason in (Rejection.CHECKSUM, Rejection.DUPLICATE, Rejection.CHECKSUM):
         tally.add(PacketRejected(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, channel="insole/frame", reason=reason))
@@ -126,7 +137,41 @@ def test_numbers_that_are_none_are_null_in_json():
 
 def test_a_layout_is_written_whole():
 
-
     layout = Layout(2, Foot.LEFT, (Cell(0.0, 0.0), Cell(0.25, 0.0)), 0.25)
     record = event_record(LayoutKnown(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, layout=layout))
     assert record["layout"]["cells"][1] == {"x": 0.25, "y": 0.0, "area": 1e-4}
+
+
+def test_of_a_sensor_that_is_on_no_foot_the_samples_are_counted_too():
+    monitor = Monitor(Session(poses=True))
+    site = Site.PELVIS
+    for packet in packets()["cc2650"]:
+        if packet.site is Site.LEFT_FOOT and packet.t < 10.0:
+            monitor.take(evolve(packet, site=site))
+    (line,) = status(monitor)
+    assert re.match(r"pelvis: ([6-9]|10|11) Hz", line)
+
+
+@pytest.mark.parametrize("batch", [1, 4])
+def test_loss_is_a_share_of_packets_not_of_samples(batch):
+    walk = emulate(SHORT, devices={Site.LEFT_FOOT: Insole(cells=8, batch=batch)}, radio=Radio(loss=0.25), seed=1)
+    monitor = Monitor(Session(poses=True))
+    for packet in walk.packets:
+        monitor.take(packet)
+    assert monitor.links[Site.LEFT_FOOT].loss == pytest.approx(0.25, abs=0.06)
+    assert monitor.links[Site.LEFT_FOOT].samples > 0.9 * batch * monitor.links[Site.LEFT_FOOT].came
+
+
+def test_a_frame_in_pieces_is_one_packet():
+    monitor = Monitor(Session(poses=True))
+    for packet in emulate(SHORT, devices={Site.LEFT_FOOT: Insole(mtu=60)}, radio=CLEAN, seed=1).packets:
+        monitor.take(packet)
+    link = monitor.links[Site.LEFT_FOOT]
+    assert link.came == link.samples == monitor.tally.came < 0.5 * monitor.tally.packets
+
+
+def test_control_codes_of_devices_do_not_reach_the_terminal():
+    monitor = Monitor(Session(poses=True))
+    monitor.take(Packet(1.0, Site.LEFT_FOOT, "receiver/trouble", b"\x1b[31mA\x07 is none"))
+    for text in (*status(monitor), *link_health(monitor.tally)):
+        assert text.isprintable() and "A" in text

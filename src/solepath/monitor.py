@@ -7,10 +7,20 @@ from math import hypot
 
 from attrs import define, field
 
-from .events import BatteryLevel, Connected, Disconnected, Event, FootMoved, LinkTrouble, PacketsLost
+from .events import (
+    BatteryLevel,
+    Connected,
+    Disconnected,
+    Event,
+    FootMoved,
+    LinkTrouble,
+    PacketRejected,
+    PacketsLost,
+)
+from .link.decoder import Decoder
 from .session import Session
-from .tally import Tally
-from .types import SITE_OF_FOOT, Foot, Packet, Site
+from .tally import Tally, streamed, whole
+from .types import SITE_OF_FOOT, Foot, Packet, Sample, Site
 
 SPACING = 0.15
 """m between the points of the track that is drawn."""
@@ -22,7 +32,8 @@ WINDOW = 2.0
 
 @define
 class LinkHealth:
-    """One site's link. `samples`: that were used; `lost`: packets known never to have come."""
+    """One site's link. `samples`: that were used; `came`: packets of samples that were; `lost`: packets known never to
+    have come."""
 
     connected: bool = False
     name: str = ""
@@ -31,6 +42,7 @@ class LinkHealth:
     battery: float | None = None
     """0 to 1."""
     samples: int = 0
+    came: int = 0
     lost: int = 0
     connections: int = 0
     trouble: str = ""
@@ -39,8 +51,8 @@ class LinkHealth:
 
     @property
     def loss(self) -> float | None:
-        """Share of the packets that were lost, one sample to a packet."""
-        return self.lost / (self.samples + self.lost) if self.samples else None
+        """Share of the packets that were lost."""
+        return self.lost / (self.came + self.lost) if self.came else None
 
     def sampled(self, t: float) -> None:
         """A sample of `t` s was used."""
@@ -63,8 +75,10 @@ class LinkHealth:
                 self.connected = False
             case BatteryLevel(level=level):
                 self.battery = level
-            case PacketsLost(count=count):
+            case PacketsLost(channel=channel, count=count) if streamed(channel):
                 self.lost += count
+            case PacketRejected(channel=channel) if streamed(channel):
+                self.came = max(0, self.came - 1)
             case LinkTrouble(what=what):
                 self.trouble = what
 
@@ -81,11 +95,20 @@ class Monitor:
     now: float = 0.0
     """Arrival of the newest packet, s."""
     _drawn: dict[Foot, tuple[float, float]] = field(factory=dict)
+    _elsewhere: dict[Site, Decoder] = field(factory=dict)
+    """What counts the samples of sites that are no feet: a session has no use for them."""
 
     def take(self, packet: Packet) -> list[Event]:
         """What `Session.feed` says of it."""
         self.now = packet.t
         self.tally.fed_packet(packet)
+        if whole(packet):
+            self.link(packet.site).came += 1
+        if packet.site.foot is None:
+            decoder = self._elsewhere.setdefault(packet.site, Decoder(packet.site))
+            for item in decoder.feed(packet):
+                if isinstance(item, Sample):
+                    self.link(packet.site).sampled(item.t)
         return self._count(self.session.feed(packet))
 
     def finish(self) -> list[Event]:

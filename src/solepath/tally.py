@@ -27,7 +27,10 @@ from .events import (
     StreamStale,
     ToeOff,
 )
+from .link.known import KINDS
 from .types import Foot, Packet, Phase, Sample, Site, Vec3
+from .wire.error import WireError
+from .wire.fragment import is_fragment, parse_fragment
 
 DATED: dict[type[Event], str] = {
     HeelStrike: "heel-strike",
@@ -36,6 +39,24 @@ DATED: dict[type[Event], str] = {
     ToeOff: "toe-off",
 }
 """The events of a foot's phases, and what they are called."""
+
+
+def streamed(channel: str) -> bool:
+    """Whether samples come on this channel, so that packets of it are counted as come or lost."""
+    kind = KINDS.get(channel.partition("/")[0])
+    return kind is not None and channel in kind.profile.streams
+
+
+def whole(packet: Packet) -> bool:
+    """Whether a packet of samples, in pieces perhaps, is whole with this one."""
+    if not streamed(packet.channel):
+        return False
+    if packet.channel != "insole/frame" or not is_fragment(packet.data):
+        return True
+    try:
+        return parse_fragment(packet.data).last
+    except WireError:
+        return False
 
 
 @define
@@ -80,6 +101,8 @@ class Tally:
 
     feet: dict[Foot, FootTally] = field(factory=dict)
     packets: int = 0
+    came: int = 0
+    """Of them, those with samples that were used."""
     first: float | None = None
     last: float | None = None
     lost: Counter[Site] = field(factory=Counter)
@@ -112,6 +135,7 @@ class Tally:
     def fed_packet(self, packet: Packet) -> None:
         self.fed(packet.t)
         self.packets += 1
+        self.came += whole(packet)
 
     def fed_sample(self, sample: Sample) -> None:
         self.fed(sample.t)
@@ -144,7 +168,8 @@ class Tally:
             case SampleGap(site=site, duration=duration) if site.foot is not None:
                 self.foot(site.foot).gaps += 1
                 self.foot(site.foot).gap_time += duration
-            case PacketRejected(reason=reason):
+            case PacketRejected(reason=reason, channel=channel):
+                self.came -= streamed(channel) and self.came > 0
                 self.rejected["packets", reason.value] += 1
             case SampleRejected(reason=reason):
                 self.rejected["samples", reason.value] += 1

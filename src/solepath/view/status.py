@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..monitor import LinkHealth, Monitor
+from ..recording import printable
 from ..types import Site
 
 
@@ -22,5 +23,5 @@ def _line(site: Site, link: LinkHealth, now: float) -> str:
     if link.connections and not link.connected:
         told.append("disconnected")
     if link.trouble:
-        told.append(link.trouble)
+        told.append(printable(link.trouble))
     return ", ".join(told)

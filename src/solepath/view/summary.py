@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from statistics import median
 
+from ..recording import printable
 from ..tally import DATED, Tally
 from ..types import Foot, Site
 from .table import milliseconds, number, table
@@ -32,8 +33,8 @@ def summary(tally: Tally, *, title: str, seconds: float) -> str:
             lines.append(f"{foot.value}: {one.degraded} of {one.steps} steps degraded by missing or saturated samples")
     lines += link_health(tally)
     lines += latency(tally)
-    lines += [f"limitation, {what}" for what in tally.limitations]
-    lines += [f"suspect scale, {what}" for what in tally.suspects]
+    lines += [f"limitation, {printable(what)}" for what in tally.limitations]
+    lines += [f"suspect scale, {printable(what)}" for what in tally.suspects]
     samples = sum(one.samples for one in tally.feet.values())
     if seconds > 0.0 and samples:
         pace = f", {1e6 * seconds / samples:.0f} us a sample"
@@ -45,7 +46,7 @@ def link_health(tally: Tally) -> list[str]:
     """What the links did wrong, a line each; nothing when all went well."""
     lines = []
     if lost := tally.lost.total():
-        share = f" of {lost + tally.packets}" if tally.packets else ""
+        share = f" of {lost + tally.came}" if tally.came else ""
         lines.append(f"{lost}{share} packets lost")
     for kind in ("packets", "samples"):
         reasons = {reason: count for (what, reason), count in tally.rejected.items() if what == kind}
@@ -63,7 +64,7 @@ def link_health(tally: Tally) -> list[str]:
     for site in Site:
         if tally.connections[site] > 1:
             lines.append(f"{site.words}: connected {tally.connections[site]} times")
-    lines += [f"trouble, {what}" for what in tally.troubles]
+    lines += [f"trouble, {printable(what)}" for what in tally.troubles]
     return lines
 
 
