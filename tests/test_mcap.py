@@ -2,11 +2,13 @@
 
 import io
 import json
+import struct
 import subprocess
 import sys
 from base64 import b64decode
 from collections import Counter
 from collections.abc import Iterable
+from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -20,6 +22,8 @@ from solepath.recording import RecordingError
 from toys import NUMBERED
 
 pytest.importorskip("mcap", reason="the extra mcap is not installed")
+from mcap.exceptions import EndOfFile  # noqa: E402
+from mcap.opcode import Opcode  # noqa: E402
 from mcap.reader import make_reader  # noqa: E402
 from mcap.records import Chunk, Message  # noqa: E402
 from mcap.stream_reader import StreamReader  # noqa: E402
@@ -30,6 +34,7 @@ BEGAN = {"began": "2026-11-21T09:30:00.25Z", "began_t": 2.0}
 AT_ZERO = int(datetime(2026, 11, 21, 9, 29, 58, 250_000, UTC).timestamp() * 1000) * 1_000_000
 """ns since 1970 at t = 0."""
 LEFT = Site.LEFT_FOOT
+MAGIC = b"\x89MCAP0\r\n"
 
 
 def written(path: Path, packets: Iterable[Packet], **header) -> Path:
@@ -108,6 +113,27 @@ def test_the_samples_in_it_are_what_the_link_made_of_the_packets(exported):
         assert said["pressure"] == sum(sample.pressure)
 
 
+def test_the_samples_in_it_are_those_that_a_session_uses_when_a_site_falls_silent(tmp_path):
+    """At a site that is silent time passes with the packets of the others: what waited there for a packet that never
+    came is used then, and not when the walk has ended."""
+    packets = walks.packets()["cc2541"]
+    end = packets[len(packets) // 2].t
+    ends = {"cc2541/gyroscope": end - 0.15}  # of its last accelerations the gyroscope's part is missing
+    packets = [p for p in packets if p.site is not LEFT or p.t < ends.get(p.channel, end)]
+    decoders: dict[Site, Decoder] = {}
+    used = []
+    for packet in packets:
+        items = decoders.setdefault(packet.site, Decoder(packet.site)).feed(packet)
+        items = [i for site, d in decoders.items() if site is not packet.site for i in d.advance(packet.t)] + items
+        used += items
+    used += [item for decoder in decoders.values() for item in decoder.finish()]
+    found = messages(written(tmp_path / "walk.mcap", packets, **BEGAN))
+    for site in decoders:
+        rows = [(said["t"], publish) for _, publish, said in found[f"/{site.value}/samples"]]
+        samples = [item for item in used if isinstance(item, Sample) and item.site is site]
+        assert rows == [(s.t, AT_ZERO + round(s.known_at * 1e9)) for s in samples]
+
+
 def test_the_events_in_it_are_a_sessions(exported):
     session = Session(poses=True)
     events = session.feed(walks.insoles().packets) + session.finish()
@@ -149,14 +175,35 @@ def test_a_file_tells_what_it_is_and_its_chunks_are_small(tmp_path):
 
 
 def test_of_a_torn_file_all_but_the_last_chunk_is_read(tmp_path):
-    path = written(tmp_path / "walk.mcap", walks.insoles().packets)
-    content = path.read_bytes()
-    whole = sum(isinstance(record, Message) for record in StreamReader(io.BytesIO(content)).records)
-    kept = 0
-    with pytest.raises(Exception):  # noqa: B017 - whatever the library says of an end in the middle
-        for record in StreamReader(io.BytesIO(content[: len(content) // 2])).records:
-            kept += isinstance(record, Message)
-    assert kept > 0.3 * whole
+    """Cut anywhere, the file holds the messages of every chunk that is whole, in their order."""
+    content = written(tmp_path / "walk.mcap", walks.insoles().packets).read_bytes()
+    whole = [record for record in StreamReader(io.BytesIO(content)).records if isinstance(record, Message)]
+    ends, counts, at = [0], [0], len(MAGIC)
+    while at + 9 <= len(content) - len(MAGIC):  # opcode, length, and what they are of
+        opcode, size = struct.unpack_from("<BQ", content, at)
+        if opcode == Opcode.CHUNK:
+            chunk = StreamReader(io.BytesIO(MAGIC + content[at : at + 9 + size]), skip_magic=False)
+            ends.append(at + 9 + size)
+            counts.append(counts[-1] + messages_in(chunk))
+        at += 9 + size
+    assert len(ends) > 20 and counts[-1] == len(whole)
+    for number in (1, len(ends) // 2, len(ends) - 1):
+        for cut in (ends[number] - 1, ends[number], ends[number] + 5):
+            kept = []
+            with pytest.raises(Exception):  # noqa: B017 - whatever the library says of an end in the middle
+                for record in StreamReader(io.BytesIO(content[:cut])).records:
+                    if isinstance(record, Message):
+                        kept.append(record)
+            assert kept == whole[: counts[number if cut >= ends[number] else number - 1]]
+
+
+def messages_in(reader: StreamReader) -> int:
+    """Up to the end of what there is, which is no end of a file."""
+    count = 0
+    with suppress(EndOfFile):
+        for record in reader.records:
+            count += isinstance(record, Message)
+    return count
 
 
 ODD = [

@@ -5,7 +5,7 @@ Every message is JSON with a JSON schema, and has `t`, the exact time in s on th
 | topic | what | log time |
 |---|---|---|
 | `/SITE/packets/CHANNEL` | the packets as they arrived, `data` in base64 | arrival |
-| `/SITE/samples` | what the sensors measured, SI units; `pressure` is the sum over the cells | when measured |
+| `/SITE/samples` | the samples that the session took, SI units; `pressure` is the sum over the cells | when measured |
 | `/SITE/pose` | live position and velocity, world frame, phase by name and number | when measured |
 | `/SITE/gait` | heel-strikes, foot-flats, heel-offs, toe-offs | when it happened |
 | `/SITE/steps` | final steps | when the step ended |
@@ -31,9 +31,7 @@ from typing import Any
 from mcap.writer import CompressionType, Writer
 
 from .events import Event, FootFlat, FootMoved, HeelOff, HeelStrike, StepTaken, ToeOff
-from .link.decoder import Decoder
 from .link.driver import Driver
-from .link.known import kinds
 from .output import event_record, plain
 from .recording import FORMAT, VERSION, RecordingError, began, why
 from .session import Session
@@ -84,6 +82,21 @@ SCHEMAS: dict[str, dict[str, Any]] = {
 }
 
 
+class _Overheard(Session):
+    """A session that keeps the samples which it takes, until they are taken from `samples`."""
+
+    __slots__ = ("samples",)
+
+    def __init__(self, profiles: Iterable[Driver]) -> None:
+        super().__init__(poses=True, profiles=profiles)
+        self.samples: list[Sample] = []
+
+    def _take(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:
+        items = list(items)
+        self.samples += [item for item in items if isinstance(item, Sample)]
+        super()._take(site, items, events)
+
+
 class McapWriter:
     """Writes packets, and what a session makes of them, as MCAP.
 
@@ -98,15 +111,10 @@ class McapWriter:
     a file that was never closed has no index, but its chunks can be read.
     """
 
-    def __init__(
-        self, path: Path | str, header: Mapping[str, Any] | None = None, *, profiles: Iterable[Driver] = ()
-    ) -> None:
-        drivers = tuple(profiles)
+    def __init__(self, path: Path | str, header: Mapping[str, Any] = {}, *, profiles: Iterable[Driver] = ()) -> None:
         self.path, self.count, self.outside = Path(path), 0, 0
-        self._header = dict(header or {})
-        self._kinds = kinds(drivers)
-        self._session = Session(poses=True, profiles=drivers)
-        self._decoders: dict[Site, Decoder] = {}
+        self._header = dict(header)
+        self._session = _Overheard(profiles)
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
         self._sequences: dict[int, int] = {}
@@ -137,13 +145,7 @@ class McapWriter:
             about = {"site": site, "channel": _sound(packet.channel)}
             self._put(topic, "solepath.Packet", packet.t, packet.t, data, about)
             self.count += 1
-            decoder = self._decoders.get(packet.site)
-            if decoder is None:
-                decoder = self._decoders[packet.site] = Decoder(packet.site)
-            for item in decoder.feed(packet, self._kinds):
-                self._sample(item)
-            for event in self._session.feed(packet):
-                self._event(event)
+            self._made(self._session.feed(packet))
 
     def close(self) -> None:
         """What was held back, and the index."""
@@ -151,11 +153,7 @@ class McapWriter:
             return
         try:
             with self._told():
-                for decoder in self._decoders.values():
-                    for item in decoder.finish():
-                        self._sample(item)
-                for event in self._session.finish():
-                    self._event(event)
+                self._made(self._session.finish())
                 self._writer.finish()  # type: ignore[no-untyped-call]
                 self._file.flush()
         finally:
@@ -178,9 +176,15 @@ class McapWriter:
             return topic
         return f"/{packet.site.value}/packets"  # a damaged recording may hold any number of channels
 
-    def _sample(self, item: Sample | Event) -> None:
-        if not isinstance(item, Sample):
-            return
+    def _made(self, events: list[Event]) -> None:
+        """What the session made of a packet, or of the end: the samples that it took, and then the events."""
+        samples, self._session.samples = self._session.samples, []
+        for sample in samples:
+            self._sample(sample)
+        for event in events:
+            self._event(event)
+
+    def _sample(self, item: Sample) -> None:
         data: dict[str, Any] = {"t": item.t}
         for name in ("acc", "gyro", "mag"):
             vector: Vec3 | None = getattr(item, name)
