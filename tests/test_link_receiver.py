@@ -102,6 +102,16 @@ def test_a_site_that_was_bound_beforehand_hears_no_other_device() -> None:
     assert reasons(Session(), Packet(0.0, Site.RIGHT_FOOT, "device/battery", CHARGED, "F0:01")) == [None]
 
 
+@pytest.mark.parametrize(("bound", "said"), [("f0:5e:00", "F0:5E:00"), ("F0:5E:00", "f0:5e:00")])
+def test_an_address_is_the_same_device_in_upper_and_lower_case(bound: str, said: str) -> None:
+    session = Session(devices={LEFT: bound})
+    heard = [packet(0.0, "device/battery", CHARGED, said), packet(1.0, "device/battery", CHARGED, "F0:5E:01")]
+    assert reasons(session, *heard) == [None, Rejection.WRONG_DEVICE]
+    saved = session.snapshot()
+    session.bind(LEFT, said)
+    assert session.snapshot() == saved
+
+
 def test_a_packet_that_is_rejected_binds_nothing() -> None:
     session = Session()
     bad, good = packet(0.0, "device/battery", b"\xff", "F0:01"), packet(0.0, "device/battery", CHARGED, "F0:02")

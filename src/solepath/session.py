@@ -61,9 +61,9 @@ class _State:
 
 class Session:
     """One wearer. `recipe`: which parts to use. `poses`: also emit FootMoved, the live position at every sample.
-    `devices`: the address of the device at a site (`Packet.device`); packets of other devices are rejected there. A
-    site that is not named is bound to the first device that it hears. `profiles`: devices of the app's own
-    (link/driver.py), beside those that are known.
+    `devices`: the address of the device at a site (`Packet.device`, in upper or lower case); packets of other devices
+    are rejected there. A site that is not named is bound to the first device that it hears. `profiles`: devices of the
+    app's own (link/driver.py), beside those that are known.
 
     `feed`, `advance` and `finish` return the events that became known, in the order in which they did. `feed` is
     total: any bytes give events, never an exception, unless a reader of the app's own is itself wrong. TypeError for
@@ -148,7 +148,7 @@ class Session:
         if not isinstance(site, Site) or not isinstance(device, str):
             raise TypeError("a Site is bound to the address of a device, a str")
         known = self._state.decoders.get(site)
-        if known is not None and known.device == device:
+        if known is not None and known.is_bound_to(device):
             return
         self._state.decoders = _in_order({**self._state.decoders, site: Decoder(site, device)}, Site)
         if site.foot is not None and site.foot in self._state.feet:

@@ -7,8 +7,8 @@ devices, stream.py; known.py has the table of all. An app that adds devices hand
 it holds functions, and a decoder is data.
 
 A site is bound to the first device that says its address (`Packet.device`), or to the one that it was made for. From
-then on packets of other devices, and of devices that do not say, are rejected. What the receiver says of itself is of
-no device, and is heard all the same.
+then on packets of other devices, and of devices that do not say, are rejected; upper and lower case are one address.
+What the receiver says of itself is of no device, and is heard all the same.
 
 Arrival time must not run backwards: such packets are rejected, but a receiver's clock that was set back for good must
 not end the stream, so the twentieth in a row is taken as ClockReset and times begin anew there, before the old ones.
@@ -83,7 +83,7 @@ class Decoder:
         if packet.site is not self.site:
             return self._reject(packet, Rejection.WRONG_SITE, f"of {packet.site.value}, not {self.site.value}")
         prefix = packet.channel.partition("/")[0]
-        if self.device and packet.device != self.device and (packet.device or prefix != "receiver"):
+        if self._is_another(packet.device) and (packet.device or prefix != "receiver"):
             return self._reject(packet, Rejection.WRONG_DEVICE, f"of {packet.device or 'nobody'}, not {self.device}")
         if self.arrived is not None and t < self.arrived:
             if self.backwards + 1 < SET_BACK:
@@ -112,6 +112,13 @@ class Decoder:
     def finish(self) -> Output:
         """What still waits, at the end of all data."""
         return [] if self.link is None or self.arrived is None else self.link.flush(self.arrived)
+
+    def is_bound_to(self, device: str) -> bool:
+        """Is the site bound to just this address, in whatever case? "" asks whether it is bound to none."""
+        return device == self.device or device.upper() == self.device.upper()
+
+    def _is_another(self, device: str) -> bool:
+        return self.device != "" and not self.is_bound_to(device)
 
     def _use(self, packet: Packet, kinds: Kinds) -> Output:
         """WireError, before anything has changed, when the packet cannot be used."""
