@@ -119,6 +119,30 @@ def test_to_keep_what_was_read_costs_no_notification_its_place() -> None:
     assert [packet.channel for packet in emptied(inbox)] == ["setup"] + ["stream"] * 3
 
 
+def test_what_was_dropped_before_a_new_connection_is_told_before_it() -> None:
+    _, _, inbox = lived(3, [*[(LEFT, True)] * 4, *[(LEFT, False)] * 2, *[(LEFT, True)] * 5])
+    told = [(packet.channel, packet.t) for packet in emptied(inbox)]
+    assert told[:4] == [(DROPPED, 3.0), ("setup", 4.0), ("setup", 5.0), (DROPPED, 7.0)]
+    assert told[4:] == [("stream", 8.0), ("stream", 9.0), ("stream", 10.0)]
+
+
+@given(capacities, st.lists(puts, max_size=40))
+def test_a_count_stands_where_the_dropped_stood_unless_what_was_read_fills_the_room(
+    capacity: int, life: list[tuple[Site, bool]]
+) -> None:
+    put, _, inbox = lived(capacity, [*life])
+    left = emptied(inbox)
+    if 2 * sum(not notified for _, notified in life) > capacity:
+        return
+    for site in (LEFT, RIGHT, PELVIS):
+        mine, came = [packet for packet in left if packet.site is site], [one for one in put if one.site is site]
+        for packet in mine:
+            count = parse_dropped(packet.data) if packet.channel == DROPPED else 1
+            gone, came = came[:count], came[count:]
+            assert packet.channel != DROPPED or {one.channel for one in gone} == {"stream"}
+            assert packet.channel == DROPPED or gone == [packet]
+
+
 @given(capacities, lives)
 def test_a_session_refuses_nothing_that_comes_out_and_says_how_many_were_dropped(
     capacity: int, life: list[tuple[Site, bool] | None]

@@ -8,7 +8,9 @@ from collections.abc import Callable
 from attrs import define, field
 
 from ..types import Packet, Site
-from ..wire.receiver import build_dropped
+from ..wire.receiver import build_dropped, parse_dropped
+
+DROPPED = "receiver/dropped"
 
 
 @define
@@ -16,8 +18,9 @@ class Inbox:
     """First in, first out. Holds `capacity` notifications; when one more comes, the oldest goes.
 
     What was read, written or said by the receiver is not dropped for a notification's sake, so that a recording keeps
-    its ranges and layouts; of that too there is at most `capacity`. In place of what was dropped stands one packet
-    receiver/dropped for each site, before the next one of `take`.
+    its ranges and layouts; of that too there is at most `capacity`, the oldest go. What was dropped of a site is told
+    by a packet receiver/dropped where it stood among what was kept of that site. Only when so much was kept that such
+    a packet would not fit is its count told later, with the next.
     """
 
     capacity: int
@@ -44,25 +47,38 @@ class Inbox:
 
     def _make_room(self) -> None:
         packet, notified = self._packets.popleft()
+        if notified:
+            self._passed[packet.site] = packet
+            self._drop(packet)
+            return
+        if packet.site in self._dropped:
+            self._kept.append(self._tell(packet.site))
         self._passed[packet.site] = packet
-        if not notified:
-            self._kept.append(packet)
-            if len(self._kept) <= self.capacity:
-                return
-            packet = self._kept.popleft()
-        self._dropped[packet.site] = self._dropped.get(packet.site, 0) + 1
+        self._kept.append(packet)
+        while len(self._kept) > self.capacity:
+            self._drop(self._kept.popleft())
+
+    def _drop(self, packet: Packet) -> None:
+        """Count it; if it is a count itself, add that."""
+        count = parse_dropped(packet.data) if packet.channel == DROPPED else 1
+        self._dropped[packet.site] = self._dropped.get(packet.site, 0) + count
+
+    def _tell(self, site: Site) -> Packet:
+        """How many of the site were dropped that were not told yet."""
+        newest = self._passed[site]
+        return Packet(newest.t, site, DROPPED, build_dropped(self._dropped.pop(site)), newest.device)
 
     def take(self) -> Packet | None:
         """The oldest packet; None when there is none."""
         if self._kept:
             return self._kept.popleft()
         if self._dropped:
-            site, count = next(iter(self._dropped.items()))
-            del self._dropped[site]
-            newest = self._passed[site]
+            told = self._tell(next(iter(self._dropped)))
             if self._packets:  # it comes next whatever is dropped meanwhile: who is slow shall not hear of drops alone
                 packet, _ = self._packets.popleft()
+                if packet.site in self._dropped:
+                    self._kept.append(self._tell(packet.site))
                 self._passed[packet.site] = packet
                 self._kept.append(packet)
-            return Packet(newest.t, site, "receiver/dropped", build_dropped(count), newest.device)
+            return told
         return self._packets.popleft()[0] if self._packets else None
