@@ -19,7 +19,7 @@ from .wanted import identify
 
 RETRY = 2.0
 """s before a scan that failed is begun again."""
-DEAF = 30.0
+DEAF = 60.0
 """s without any advertisement after which it is begun anew: it may not have outlived that Bluetooth was off and on."""
 WEAKEST, STRONGEST = -127, 20
 """dBm that a controller may report (Bluetooth Core, vol 4 part E, 7.7.65.2); what systems say instead is no signal."""

@@ -63,6 +63,9 @@ class Devices:
         self._connections: list[Connection] = []
         self._waiter: asyncio.Future[None] | None = None
         self._taken = 0
+        self._entered = False
+        """At least once."""
+        self._in_use = False
         self._fault: asyncio.Task[None] | None = None
         free = [site for site in Site if site not in {one.site for one in wanted}]
         for one in wanted:
@@ -76,13 +79,18 @@ class Devices:
         return tuple(self._connections)
 
     async def __aenter__(self) -> Devices:
-        if self._tasks:
+        if self._in_use:
             raise RuntimeError("these devices are in use already")
+        self._in_use = True
         try:
             async with scanner(self._backend, lambda _: None):
                 pass
-        except FAILURES as error:
-            raise BluetoothError(sentence(error)) from error
+        except BaseException as error:
+            self._in_use = False
+            if isinstance(error, FAILURES):
+                raise BluetoothError(sentence(error)) from error
+            raise
+        self._entered = True
         lives = [self._air.run(), *(connection.run() for connection in self._connections)]
         self._tasks = [asyncio.create_task(life) for life in lives]
         for task in self._tasks:
@@ -97,17 +105,20 @@ class Devices:
         try:
             await asyncio.gather(*self._tasks, return_exceptions=True)
         finally:
-            self._tasks, self._fault = [], None
+            self._tasks, self._fault, self._in_use = [], None, False
             self._wake()
 
     def __aiter__(self) -> AsyncIterator[Packet]:
         return self
 
     async def __anext__(self) -> Packet:
-        """The next packet; StopAsyncIteration when the devices were left and all is taken.
+        """The next packet; StopAsyncIteration when the devices were left and all is taken. RuntimeError when they were
+        never entered.
 
         A fault of this program in one of the tasks is raised as it is.
         """
+        if not self._entered:
+            raise RuntimeError("nothing comes of devices before they are entered: async with Devices(...) as devices")
         self._taken += 1
         if self._taken >= IN_A_ROW:
             self._taken = 0
