@@ -170,7 +170,7 @@ def test_a_link_that_is_lost_while_a_frozen_stream_is_set_up_again_is_made_again
     order = of((StreamRestarted, Disconnected, Connected, StreamResumed), found)  # type: ignore[arg-type]
     assert [type(e) for e in order] == [Connected, StreamRestarted, Disconnected, Connected, StreamResumed]
     [trouble] = of(LinkTrouble, found)
-    assert trouble.what.endswith(" was lost")
+    assert trouble.what.startswith("the connection was lost: the device is sought again")
 
 
 @both

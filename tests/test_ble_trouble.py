@@ -21,6 +21,7 @@ from solepath.ble import Backend, BluetoothError, Devices, Wanted, scan
 from solepath.ble.trouble import sentence
 from solepath.link.profile import CC2650
 from solepath.loopback.memory import Air
+from solepath.loopback.peripheral import Outgoing
 from solepath.types import Packet, Site
 from strap import Strap
 
@@ -36,7 +37,10 @@ UNAVAILABLE = [
     PermissionError(13, "Permission denied"),
     BleakError("something that nobody foresaw"),
 ]
-DO = ("plug", "turn it on", "is it on?", "allow", "ask", "can", "start", "join", "(", "nobody foresaw")
+DO = ("plug", "turn it on", "is it on?", "allow", "ask", "can", "start", "join", "install", "nobody foresaw")
+
+
+NOT_IN_TIME = "the device did not answer in time: it is sought again; if this goes on, switch it off and on"
 
 
 def without_bluetooth(error: Exception) -> Backend:
@@ -69,6 +73,11 @@ def test_to_enter_or_to_scan_without_bluetooth_is_an_error_that_says_what_to_do(
     assert any(words in one for words in DO)
 
 
+@pytest.mark.parametrize("words", ["Not connected", "disconnected", "the link was lost"])
+def test_a_lost_connection_is_told_in_one_phrase_with_what_comes_next(words: str) -> None:
+    assert sentence(BleakError(words)).startswith("the connection was lost: the device is sought again")
+
+
 @pytest.mark.parametrize("code", list(BleakGATTProtocolErrorCode))
 def test_every_att_error_has_one_line(code: BleakGATTProtocolErrorCode) -> None:
     words = sentence(BleakGATTProtocolError(code))
@@ -77,7 +86,9 @@ def test_every_att_error_has_one_line(code: BleakGATTProtocolErrorCode) -> None:
 
 
 class Fleeting(Strap):
-    """It loses each of its first links after so many s."""
+    """It loses each of its first links after so many s, and says nothing over the first `silent` of them."""
+
+    silent = 0
 
     def __init__(self, *lasting: float) -> None:
         super().__init__("strap 1", address(1))
@@ -92,6 +103,10 @@ class Fleeting(Strap):
         nth = len(self.begun) - 1
         lost = self.is_connected and nth < len(self.lasting) and now - self.begun[-1] >= self.lasting[nth]
         return super().hang_up(now) or lost
+
+    def poll(self, now: float) -> list[Outgoing]:
+        said = super().poll(now)
+        return said if len(self.begun) > self.silent else []
 
     def pauses(self) -> list[float]:
         return [b - a for a, b in zip(self.begun, self.begun[1:], strict=False)]
@@ -116,8 +131,9 @@ def test_a_device_that_fails_again_and_again_is_tried_less_and_less_often_and_ne
     assert [round(b - a) for a, b in zip(told, told[1:], strict=False)] == pytest.approx([60] * (len(told) - 1), abs=9)
 
 
-def test_links_that_break_at_once_are_made_less_and_less_often_until_one_holds() -> None:
+def test_links_that_break_before_anything_comes_are_made_less_and_less_often_until_one_holds() -> None:
     device = Fleeting(*[0.3] * 5, 3.0, 3.0)
+    device.silent = 5
     used(device, Wanted(PELVIS, address(1), STRAP), 30.0)
     pauses = device.pauses()
     assert pauses[0] < pauses[1] < pauses[2] < pauses[3] < pauses[4] < 5.0
@@ -137,7 +153,7 @@ def test_a_request_that_is_never_answered_ends_the_attempt() -> None:
 
     packets = in_virtual_time(main)
     [said] = [packet.data.decode() for packet in packets if packet.channel == "receiver/trouble"]
-    assert said == "the device did not answer in time"
+    assert said == NOT_IN_TIME
     assert [packet for packet in packets if packet.channel == "strap/beat"]
 
 
@@ -155,5 +171,5 @@ def test_a_subscription_that_is_never_answered_ends_the_attempt_too() -> None:
             return await hear(devices, 12.0)
 
     packets = in_virtual_time(main)
-    assert [p.data for p in packets if p.channel == "receiver/trouble"] == [b"the device did not answer in time"]
+    assert [p.data for p in packets if p.channel == "receiver/trouble"] == [NOT_IN_TIME.encode()]
     assert len([packet for packet in packets if packet.channel == "receiver/disconnected"]) == 2

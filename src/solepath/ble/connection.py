@@ -9,6 +9,7 @@ from enum import Enum
 
 from attrs import define, field
 from bleak import BleakClient
+from bleak.exc import BleakDeviceNotFoundError
 from bleak_retry_connector import establish_connection
 
 from ..types import Site
@@ -16,10 +17,11 @@ from ..wire.receiver import LONGEST_NAME, build_connected
 from ..wire.receiver import Connection as Made
 from .air import WEAKEST, Air, Found
 from .backend import Backend
+from .calls import calling
 from .listening import Listening
-from .search import Search
-from .setup import Unfit, lacking, site_of
-from .trouble import FAILURES, sentence
+from .search import FORGET, Search
+from .setup import INFO, Unfit, ask_info, lacking, site_in
+from .trouble import FAILURES, NO_ANSWER, sentence
 from .voice import Voice, shortened
 from .wanted import Wanted
 
@@ -28,11 +30,12 @@ ATTEMPTS = 2
 CONNECTING = 20.0
 """s that all of this may take, so that a device which left meanwhile is soon looked for again."""
 PAUSE = 0.25
-"""s before the next search after a connection failed; twice as long after each further failure ..."""
+"""s before the next search after a link that broke soon, and after a connection failed, that is, brought nothing of a
+stream; twice as long after each further failure ..."""
 LONGEST_PAUSE = 8.0
 """... up to this."""
 STEADY = 1.0
-"""s that a device must have been listened to for the connection not to have failed."""
+"""s of listening after which a link that is lost is sought again at once."""
 PARTING = 5.0
 """s that a disconnection may take."""
 RECONSIDER = 60.0
@@ -70,6 +73,10 @@ class Connection:
     """The address in use just now."""
     _since: float = field(default=0.0, init=False)
     """When it began to listen, s."""
+    _lacking_since: float = field(default=0.0, init=False)
+    """From when on nothing of a stream was heard, however often it was tried, s."""
+    _streamed: bool = field(default=False, init=False)
+    """Something of a stream came in the connection that is made, or was last."""
     _unfit: dict[str, float] = field(factory=dict, init=False)
     """Addresses that were not the one, and when that was seen."""
 
@@ -85,11 +92,11 @@ class Connection:
 
     async def run(self) -> None:
         """For ever."""
-        pause = PAUSE
+        pause, self._lacking_since = PAUSE, _now()
         while True:
-            search = Search(self.air, self.wanted, self.address, self._barred, self.patience, self.voice.complain)
-            found = await search.run()
+            found = await self._search()
             self._trying, self.signal = found.address, found.signal if found.signal > WEAKEST else None
+            self._streamed = False
             try:
                 await self._use(found)
             except Unfit as error:
@@ -98,13 +105,18 @@ class Connection:
             except FAILURES as error:
                 self.voice.complain(sentence(error))
             finally:
-                steady = self.state is State.LISTENING and _now() - self._since >= STEADY
+                steady = self._streamed and self.state is State.LISTENING and _now() - self._since >= STEADY
                 self._trying, self.state = "", State.SEEKING
-            if steady:
-                pause = PAUSE
-            else:
+            if self._streamed:
+                pause, self._lacking_since = PAUSE, _now()
+            if not steady:
                 await asyncio.sleep(pause)
+            if not self._streamed:
                 pause = min(2.0 * pause, LONGEST_PAUSE)
+
+    async def _search(self) -> Found:
+        since, complain = self._lacking_since, self.voice.complain
+        return await Search(self.air, self.wanted, self.address, self._barred, self.patience, since, complain).run()
 
     def _barred(self, found: Found) -> bool:
         """Is it another's, or known not to be the one?"""
@@ -126,37 +138,46 @@ class Connection:
         self.state = State.CONNECTING
         gone = asyncio.Event()
         client = await self._connect(found, name, gone)
-        listening = Listening(client, profile, self.voice, gone)
         try:
             self.state = State.SETTING_UP
             if lacks := lacking(client, profile):
                 raise Unfit(f"{name} is no {profile.name}: it has no {lacks}")
-            self._settle(await site_of(client, profile), found, name)
+            info = await ask_info(client, profile)
+            self._settle(None if info is None else site_in(info, name), found, name)
+            listening = Listening(client, profile, self.voice, gone, {} if info is None else {INFO: info})
             self.voice.say("receiver/connected", build_connected(Made(shortened(name, LONGEST_NAME), self.signal)))
             try:
                 await listening.set_up()
                 self.state, self._since = State.LISTENING, _now()
                 await listening.run()
             finally:
-                listening.closed = True
+                listening.closed, self._streamed = True, listening.streamed
                 self.voice.say("receiver/disconnected")
         finally:
             with suppress(*FAILURES):
-                async with asyncio.timeout(PARTING):
+                async with calling(PARTING):
                     await client.disconnect()
 
     async def _connect(self, found: Found, name: str, gone: asyncio.Event) -> BleakClient:
         """`gone` is set when the connection is lost. FAILURES."""
-        async with asyncio.timeout(CONNECTING):
-            client = await establish_connection(
-                BleakClient,
-                found.device,
-                name,
-                lambda _: gone.set(),
-                max_attempts=ATTEMPTS,
-                pair=self.pair,
-                backend=self.backend.client,
-            )
+        loop = asyncio.get_running_loop()
+        late = max(self._lacking_since + self.patience, _now() + min(FORGET, self.patience))
+        telling = loop.call_at(late, self.voice.complain, NO_ANSWER)
+        try:
+            async with calling(CONNECTING):
+                client = await establish_connection(
+                    BleakClient,
+                    found.device,
+                    name,
+                    lambda _: gone.set(),
+                    max_attempts=ATTEMPTS,
+                    pair=self.pair,
+                    backend=self.backend.client,
+                )
+        except TimeoutError as error:
+            raise BleakDeviceNotFoundError(found.address) from error
+        finally:
+            telling.cancel()
         if client.is_connected:
             gone.clear()  # it was set if the first attempt was connected, for a moment
         return client

@@ -24,18 +24,26 @@ SHORTEST = 0.01
 
 @define(eq=False)
 class Listening:
-    """`gone`: set when the connection is lost. `closed`: whatever comes after that is not passed on."""
+    """`gone`: set when the connection is lost. `known`: values by channel that were read from it already.
+
+    `streamed`: something came on one of the streams. `closed`: whatever comes after that is not passed on.
+    """
 
     client: BleakClient
     profile: Profile
     voice: Voice
     gone: asyncio.Event
+    known: dict[str, bytes] = field(factory=dict)
+    streamed: bool = field(default=False, init=False)
     closed: bool = field(default=False, init=False)
     _watchdog: Watchdog = field(factory=lambda: Watchdog((), 0.0, 0.0), init=False)
 
     async def set_up(self) -> None:
         """Read, then subscribe (a value read after that would come twice on BlueZ), then write. FAILURES."""
         for name in self.profile.reads:
+            if name in self.known:
+                self.voice.say(name, self.known[name])
+                continue
             await read(self.client, self.profile.channel(name), self.voice)
         await subscribe(self.client, self.profile, self._hearer, self.voice)
         written = await write_setup(self.client, self.profile, self.voice)
@@ -58,8 +66,11 @@ class Listening:
             await write_setup(self.client, self.profile, self.voice)
 
     def _hearer(self, channel: str) -> Callable[[BleakGATTCharacteristic, bytearray], None]:
+        streams = channel in self.profile.streams
+
         def heard(_: BleakGATTCharacteristic, data: bytearray) -> None:
             if not self.closed:
+                self.streamed = self.streamed or streams
                 self._watchdog.heard(channel, self.voice.pass_on(channel, bytes(data)))
 
         return heard

@@ -23,7 +23,8 @@ MISTAKEN = 30.0
 class Search:
     """One search. `address`: the only one that will do, once it is known; else "". `barred`: devices not to be used.
 
-    `patience`: s after which `complain` is told why nothing was found yet; once, for it may go on for hours.
+    `patience`: s after `since` at which `complain` is told why nothing was found yet; once, for it may go on for hours.
+    `since` may be before this search, which then listens for a moment at least.
     """
 
     air: Air
@@ -31,6 +32,7 @@ class Search:
     address: str
     barred: Callable[[Found], bool]
     patience: float
+    since: float
     complain: Callable[[str], None]
     _heard: dict[str, Found] = field(factory=dict, init=False)
     _news: asyncio.Event = field(factory=asyncio.Event, init=False)
@@ -40,7 +42,7 @@ class Search:
         """The device, as soon as it advertises and cannot be mistaken for another one."""
         loop = asyncio.get_running_loop()
         first: float | None = None
-        began = loop.time()
+        late = max(self.since + self.patience, loop.time() + min(FORGET, self.patience))
         with self.air.listening(self._hear):
             while True:
                 now = loop.time()
@@ -51,7 +53,7 @@ class Search:
                 chosen = self._choose(able, there, settled=first is not None and now - first >= SETTLE)
                 if chosen is not None:
                     return chosen
-                if not self._heard and now - began >= self.patience:
+                if not self._heard and now >= late:
                     self._complain_once(self._nobody())
                 self._news.clear()
                 await either(self._news, SETTLE / 2)

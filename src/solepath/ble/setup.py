@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Callable
 
 from bleak import BleakClient
 from bleak.backends.characteristic import BleakGATTCharacteristic
-from bleak.exc import BleakGATTProtocolError
+from bleak.exc import BleakError, BleakGATTProtocolError
 
 from ..link.profile import Channel, How, Profile
 from ..types import SITE_OF_FOOT, Packet, Site
 from ..wire.error import WireError
 from ..wire.insole_info import parse_info
+from .calls import calling
 from .trouble import sentence
 from .voice import Voice
 from .wanted import says_its_site
 
 ANSWER = 5.0
 """s for which an answer is waited for; TimeoutError after that, and the connection is begun anew."""
+
+INFO = "insole/info"
+"""The channel that tells where a device is worn."""
 
 Hearer = Callable[[BleakGATTCharacteristic, bytearray], None]
 
@@ -46,30 +49,43 @@ def lacking(client: BleakClient, profile: Profile) -> str | None:
     return next((channel.name for channel in channels if speaking(client, channel) is None), None)
 
 
-async def site_of(client: BleakClient, profile: Profile) -> Site | None:
-    """Where the device says that it is worn; None when it says nothing. Unfit when nobody understands it."""
-    if not says_its_site(profile):
-        return None
-    info = characteristic(client, profile.channel("insole/info"))
+async def ask_info(client: BleakClient, profile: Profile) -> bytes | None:
+    """What a device holds that says where it is worn; None when it says nothing. FAILURES."""
+    info = characteristic(client, profile.channel(INFO)) if says_its_site(profile) else None
     if info is None:
         return None
-    async with asyncio.timeout(ANSWER):
-        data = await client.read_gatt_char(info)
+    async with calling(ANSWER):
+        return bytes(await client.read_gatt_char(info))
+
+
+def site_in(info: bytes, name: str) -> Site:
+    """Where the device `name` says that it is worn. Unfit when nobody understands it."""
     try:
-        return SITE_OF_FOOT[parse_info(bytes(data)).foot]
+        return SITE_OF_FOOT[parse_info(info).foot]
     except WireError as error:
-        raise Unfit(f"its INFO record cannot be read: {error.detail}") from error
+        raise Unfit(
+            f"the INFO record of {name} cannot be read ({error.detail}): switch it off and on, "
+            "or update its firmware; it is looked at again in a minute"
+        ) from error
+
+
+def refused(error: BleakError, client: BleakClient) -> bool:
+    """Was this request refused, while the connection stands? Not every system says it with an ATT error: Windows has
+    "Access Denied", BlueZ its own names."""
+    return isinstance(error, BleakGATTProtocolError) or client.is_connected
 
 
 async def read(client: BleakClient, channel: Channel, voice: Voice) -> None:
-    """Say what the channel holds, where the device has it."""
+    """Say what the channel holds, where the device has it. That it refuses to tell is told and passed over."""
     one = characteristic(client, channel)
     if one is None:
         return
     try:
-        async with asyncio.timeout(ANSWER):
+        async with calling(ANSWER):
             data = await client.read_gatt_char(one)
-    except BleakGATTProtocolError as error:
+    except BleakError as error:
+        if not refused(error, client):
+            raise
         voice.complain(f"{channel.name} cannot be read: {sentence(error)}")
         return
     voice.say(channel.name, bytes(data))
@@ -82,10 +98,10 @@ async def subscribe(client: BleakClient, profile: Profile, hearer: Callable[[str
         if channel.how is not How.NOTIFY or (one := speaking(client, channel)) is None:
             continue
         try:
-            async with asyncio.timeout(ANSWER):
+            async with calling(ANSWER):
                 await client.start_notify(one, hearer(channel.name))
-        except BleakGATTProtocolError as error:
-            if channel.name in profile.streams:
+        except BleakError as error:
+            if channel.name in profile.streams or not refused(error, client):
                 raise
             voice.complain(f"{channel.name} cannot be subscribed: {sentence(error)}")
 
@@ -103,9 +119,11 @@ async def write_setup(client: BleakClient, profile: Profile, voice: Voice) -> li
             voice.complain(f"{write.channel} is not there to be set: the device keeps to its own")
             continue
         try:
-            async with asyncio.timeout(ANSWER):
+            async with calling(ANSWER):
                 await client.write_gatt_char(one, write.value)  # with a response, where it gives one
-        except BleakGATTProtocolError as error:
+        except BleakError as error:
+            if not refused(error, client):
+                raise
             voice.complain(f"{write.channel} was not set to {write.value.hex()}: {sentence(error)}")
             continue
         written.append(voice.say(write.channel, write.value))

@@ -26,12 +26,20 @@ class BluetoothError(Exception):
     """Bluetooth cannot be used at all; the message says why, and what can be done."""
 
 
+class Surprise(Exception):
+    """Something came out of bleak that it does not promise to raise; the cause has it, and the message names it."""
+
+    def __init__(self, error: Exception) -> None:
+        words = _plain(error)
+        super().__init__(type(error).__name__ if words == type(error).__name__ else f"{type(error).__name__}: {words}")
+
+
 if sys.platform == "linux":
     from dbus_fast import AuthError, InvalidAddressError
 
-    FAILURES = (BleakError, OSError, EOFError, TimeoutError, AuthError, InvalidAddressError)
+    FAILURES = (BleakError, OSError, EOFError, TimeoutError, Surprise, AuthError, InvalidAddressError)
 else:
-    FAILURES = (BleakError, OSError, EOFError, TimeoutError)
+    FAILURES = (BleakError, OSError, EOFError, TimeoutError, Surprise)
 """What bleak and the systems below it raise when Bluetooth does not do what it should."""
 
 _REASON = BleakBluetoothNotAvailableReason
@@ -62,8 +70,9 @@ _PAIRING = {
     BleakGATTProtocolErrorCode.INSUFFICIENT_ENCRYPTION,
     BleakGATTProtocolErrorCode.INSUFFICIENT_ENCRYPTION_KEY_SIZE,
 }
-_LOST = ("not connected", "disconnected", "service discovery has not been performed")
-"""How bleak and BlueZ say that a connection ended during a request."""
+_LOST = ("not connected", "disconnected", "link was lost", "service discovery has not been performed")
+"""How bleak, BlueZ and the loopback say that a connection ended during a request."""
+NO_ANSWER = "the device does not answer: bring it near, and see that no other program or phone holds it"
 
 
 def sentence(error: BaseException) -> str:
@@ -87,19 +96,21 @@ def sentence(error: BaseException) -> str:
         case BleakOutOfConnectionSlotsError():
             return "the adapter holds as many connections as it can: disconnect another device"
         case BleakNotFoundError() | BleakDeviceNotFoundError():
-            return "the device does not answer: bring it near, and see that no other program or phone holds it"
+            return NO_ANSWER
         case BleakAbortedError():
             return "the connection broke off while it was made: bring the device near"
         case BleakConnectionError() if isinstance(error.__cause__, FAILURES):
             return f"cannot connect: {sentence(error.__cause__)}"
         case BleakError() if any(words in str(error).lower() for words in _LOST):
-            return "the connection was lost"
+            return "the connection was lost: the device is sought again, bring it near if this happens often"
         case FileNotFoundError() | ConnectionRefusedError():
-            return f"this machine has no Bluetooth service to talk to ({_plain(error)})"
+            return f"no Bluetooth service to talk to ({_plain(error)}): install BlueZ, and systemctl start bluetooth"
         case PermissionError():
-            return f"this user may not use Bluetooth ({_plain(error)})"
+            return f"this user may not use Bluetooth ({_plain(error)}): join the group bluetooth"
         case TimeoutError():
-            return "the device did not answer in time"
+            return "the device did not answer in time: it is sought again; if this goes on, switch it off and on"
+        case Surprise():
+            return f"Bluetooth failed unexpectedly ({error}): the device is sought again, see the log for more"
     return _plain(error)
 
 
