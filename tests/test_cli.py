@@ -16,6 +16,7 @@ import pytest
 
 from solepath import Event, FootMoved, PacketsLost, Session, StepTaken
 from solepath.cli import main
+from solepath.cli.failure import note
 from solepath.output import event_record
 from solepath.recording import PacketWriter, read_packets
 from solepath.sim.radio import Radio
@@ -115,6 +116,11 @@ def test_help_names_every_command_and_loads_nothing_heavy():
 def test_no_command_prints_the_help_and_the_version_is_told():
     assert "COMMAND" in solepath().stdout
     assert solepath("--version").stdout.startswith("solepath 0.")
+
+
+def test_what_devices_call_themselves_is_told_without_control_codes(capsys):
+    note("\x1b[31mred\n: taken for the right foot's")
+    assert capsys.readouterr().err == "solepath: \ufffd[31mred\ufffd: taken for the right foot's\n"
 
 
 def test_an_option_that_does_not_exist_is_refused():

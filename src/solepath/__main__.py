@@ -1,6 +1,10 @@
 """`python -m solepath`: the same as the command `solepath`."""
 
-from .cli import main
-
 if __name__ == "__main__":
-    raise SystemExit(main())
+    try:
+        from .cli import main
+
+        status = main()
+    except KeyboardInterrupt:  # while it was being loaded
+        status = 130
+    raise SystemExit(status)

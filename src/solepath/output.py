@@ -65,7 +65,7 @@ class TrackFiles:
     """The three files in `directory`, which is made when there is none. Files of an earlier run are replaced.
 
     A FootMoved is a row of track.csv, a final StepTaken one of steps.csv, and every event but FootMoved a line of
-    events.jsonl.
+    events.jsonl. OSError, naming the directory, when they cannot be made or written (the disk is full).
     """
 
     directory: Path
@@ -85,6 +85,15 @@ class TrackFiles:
         return self._stack.enter_context((self.directory / name).open("w", encoding="utf-8", newline=""))
 
     def write(self, event: Event) -> None:
+        try:
+            self._write(event)
+        except OSError as error:
+            raise self._named(error) from None
+
+    def _named(self, error: OSError) -> OSError:
+        return OSError(error.errno, error.strerror, str(self.directory))
+
+    def _write(self, event: Event) -> None:
         if isinstance(event, FootMoved):
             x, y, z = event.position
             self._track.write(f"{event.t!r},{event.foot.value},{x:.6f},{y:.6f},{z:.6f},{event.phase.value}\n")
@@ -97,7 +106,10 @@ class TrackFiles:
             self._steps.writerow([*row, int(event.degraded)])
 
     def close(self) -> None:
-        self._stack.close()
+        try:
+            self._stack.close()
+        except OSError as error:
+            raise self._named(error) from None
 
     def __enter__(self) -> TrackFiles:
         return self

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import argparse
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+from .choosing import UNATTENDED
 from .failure import Failure, positive
-from .wearing import UNATTENDED
 
 HERE = "127.0.0.1:9735"
 KINDS = ("insole", "cc2650", "cc2541", "cc2541-20hz")
@@ -53,8 +54,8 @@ def run(options: argparse.Namespace) -> int:
     for package in ("bleak", "bumble"):
         if find_spec(package) is None:
             raise Failure(f"emulated Bluetooth needs {package}: pip install 'solepath[loopback]'")
-    import asyncio
+    from .emulate_run import prepared, serve_devices
+    from .loop import run_to_end
 
-    from .serving import serve_devices
-
-    return asyncio.run(serve_devices(options))
+    # not on the loop: a walk takes its time to be worked out, and Ctrl-C ends that on the spot
+    return run_to_end(partial(serve_devices, options, prepared(options)))

@@ -7,6 +7,11 @@ import sys
 from collections.abc import Sequence
 from math import isfinite, nan
 
+from ..recording import printable
+
+LONGEST = 2000
+"""Characters of a sentence that are shown."""
+
 
 class Failure(Exception):
     """The command cannot go on: one sentence for stderr, exit status 2."""
@@ -15,7 +20,7 @@ class Failure(Exception):
 def note(sentence: str) -> None:
     """One line on stderr that does not stop anything."""
     sys.stdout.flush()
-    print(f"solepath: {sentence}", file=sys.stderr)
+    print(f"solepath: {printable(sentence, LONGEST)}", file=sys.stderr)
 
 
 def positive(text: str) -> float:

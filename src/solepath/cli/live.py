@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import argparse
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+from .choosing import add_devices, need_bleak
 from .failure import known_recipe
-from .wearing import add_devices, need_bleak
 
 
 def add_to(commands: Any) -> None:
@@ -15,7 +16,7 @@ def add_to(commands: Any) -> None:
         "live",
         help="listen to sensors and show what they say",
         description="Connect to sensors on the feet and show gait, track and links as they are worn. Without "
-        "--left and --right it takes the insoles that it hears, who know their feet.",
+        "--left and --right it takes two insoles when it hears any, who know their feet.",
         epilog="example: solepath live --left F0:5E:00:00:00:01 --right F0:5E:00:00:00:02 --record walk.jsonl",
     )
     add_devices(live)
@@ -43,7 +44,7 @@ def run(options: argparse.Namespace) -> int:
 
     recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
     need_bleak()
-    from .listening import listen
+    from .live_run import listen
     from .loop import run_to_end
 
-    return run_to_end(listen(options, recipe))
+    return run_to_end(partial(listen, options, recipe))

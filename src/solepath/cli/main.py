@@ -11,7 +11,7 @@ import sys
 from collections.abc import Sequence
 
 from . import convert, demo, emulate, evaluate, live, scan, track
-from .failure import Failure
+from .failure import Failure, note
 
 COMMANDS = (demo, track, scan, live, emulate, convert, evaluate)
 
@@ -27,8 +27,7 @@ def parser() -> argparse.ArgumentParser:
     return top
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command; the exit status."""
+def run(arguments: Sequence[str] | None) -> int:
     top = parser()
     options = top.parse_args(arguments)
     if options.version:
@@ -39,8 +38,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.command is None:
         top.print_help()
         return 0
+    status: int = options.run(options)
+    return status
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; the exit status."""
     try:
-        status: int = options.run(options)
+        status = run(arguments)
         sys.stdout.flush()
     except Failure as failure:
         return complain(str(failure))
@@ -57,6 +62,5 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def complain(sentence: str) -> int:
     """One line on stderr; the exit status that goes with it."""
-    sys.stdout.flush()
-    print(f"solepath: {sentence}", file=sys.stderr)
+    note(sentence)
     return 2

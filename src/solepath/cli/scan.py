@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from ..recording import printable
 from ..view.table import table
+from .choosing import LISTENED, add_air, need_bleak
 from .failure import positive
-from .wearing import LISTENED, add_air, need_bleak
 
 if TYPE_CHECKING:
     from ..ble import Found
@@ -31,22 +31,28 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     need_bleak()
+    import asyncio
+
     from ..ble import scan
-    from .loop import air, run_to_end
+    from .loop import air, run_to_end, unless_told
 
-    async def heard() -> list[Found]:
-        async with air(options.via) as backend:
-            return await scan(options.seconds, backend=backend)
+    async def listen(stop: asyncio.Event) -> int:
+        async with unless_told(stop), air(options.via) as backend:
+            found = await scan(options.seconds, backend=backend)
+        _tell(found, options.all)
+        return 0
 
-    found = run_to_end(heard())
+    return run_to_end(listen)
+
+
+def _tell(found: list[Found], strangers: bool) -> None:
     known = [one for one in found if one.profile is not None]
-    if shown := found if options.all else known:
+    if shown := found if strangers else known:
         print(table(["address", "kind", "dBm", "name"], [_row(one) for one in shown]))
     else:
         print("no sensor is heard: switch it on, bring it near, and see that no other program or phone holds it")
-    if not options.all and len(known) < len(found):
+    if not strangers and len(known) < len(found):
         print(f"{len(found) - len(known)} of other kinds (--all shows them)")
-    return 0
 
 
 def _row(one: Found) -> list[str]:

@@ -1,18 +1,15 @@
-"""What the commands that listen to devices have in common: which devices, and until when."""
+"""Which devices a command listens to, by which Bluetooth, and for how long."""
 
 from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from .failure import Failure, note, positive
 
 if TYPE_CHECKING:
     from ..ble import Found, Wanted
-    from ..monitor import Monitor
 
 LISTENED = 4.0
 """s for which devices are looked for when none was named."""
@@ -20,8 +17,6 @@ UNWATCHED = 30.0
 """s that a command listens where there is no terminal to end it from, unless it is told how long."""
 UNATTENDED = 600.0
 """s that emulated devices are served there."""
-REPORT_EVERY = 5.0
-"""s between two lines where there is no terminal."""
 
 
 def add_air(command: argparse.ArgumentParser) -> None:
@@ -79,19 +74,27 @@ def wanted(options: argparse.Namespace) -> list[Wanted]:
     return devices
 
 
-def chosen(found: list[Found]) -> list[Wanted]:
-    """What to listen to when nothing was said: the insoles, who say their feet; or the one other device, on the right
-    foot as in `track`. Failure where that is not clear."""
+def chosen(found: list[Found], kind: str | None) -> list[Wanted]:
+    """What to listen to when no device was named: two insoles, who say their feet, as soon as one is heard; or the one
+    other device, on the right foot as in `track`. `kind`: the profile that was named. Failure where that is not
+    clear."""
     from ..ble import Wanted
+    from ..link.known import BY_NAME
+    from ..link.profile import INSOLE
     from ..types import Site
 
-    known = [one for one in found if one.profile is not None]
-    insoles = [one for one in known if one.profile is not None and one.profile.name == "insole"]
-    if insoles:
-        return [Wanted(None, one.address, one.profile) for one in insoles[:2]]
+    told = None if kind is None else BY_NAME[kind]
+    if told is not None:
+        known = [one for one in found if told.answers_to(one.name) or not {*told.services}.isdisjoint(one.services)]
+    else:
+        known = [one for one in found if one.profile is not None]
+    if any(one.profile is INSOLE for one in known):
+        return [Wanted(None, profile=INSOLE), Wanted(None, profile=INSOLE)]
     if len(known) == 1:
         note(f"{known[0].name}: taken for the right foot's (--left {known[0].address} says otherwise)")
-        return [Wanted(Site.RIGHT_FOOT, known[0].address, known[0].profile)]
+        return [Wanted(Site.RIGHT_FOOT, known[0].address, told or known[0].profile)]
+    if not known and told is not None:
+        raise Failure(f"no {told.name} is heard: switch it on, or say which device it is with --left and --right")
     if not known:
         raise Failure("no device is heard that is known here: switch it on, or say which with --left and --right")
     heard = ", ".join(f"{one.address} ({one.name})" for one in known)
@@ -115,31 +118,3 @@ def how_long(options: argparse.Namespace) -> float | None:
         return None
     print(f"no terminal to end this from: it ends after {UNWATCHED:g} s (--duration says otherwise)", flush=True)
     return UNWATCHED
-
-
-@contextmanager
-def shown(monitor: Monitor, title: str) -> Iterator[Callable[[], None]]:
-    """How the session goes: a picture in a terminal that can draw one, else lines now and then."""
-    from importlib.util import find_spec
-
-    if sys.stdout.isatty() and find_spec("rich") is not None:
-        from rich.console import Console
-
-        from ..view.terminal import screen
-
-        with screen(Console()) as drawn:
-            yield lambda: drawn.show(monitor, title)
-        return
-    began: float | None = None
-    due = REPORT_EVERY
-
-    def report() -> None:
-        nonlocal began, due
-        from ..view.status import status
-
-        began = monitor.now if began is None else began
-        if monitor.now - began >= due:
-            due += REPORT_EVERY
-            print("\n".join(f"{monitor.now - began:6.1f} s  {line}" for line in status(monitor)), flush=True)
-
-    yield report

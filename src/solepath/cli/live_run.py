@@ -1,0 +1,129 @@
+"""What `solepath live` and `solepath record` do once their options are read."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+from contextlib import AsyncExitStack
+from datetime import UTC, datetime
+from pathlib import Path
+
+from attrs import define
+
+from ..ble import Devices, scan
+from ..events import Event
+from ..monitor import Monitor
+from ..output import EVENTS, STEPS, TRACK, TrackFiles
+from ..recipes import Recipe
+from ..recording import PacketWriter, RecordingError, printable, why
+from ..session import Session
+from ..types import Packet
+from ..view.summary import summary
+from .choosing import LISTENED, chosen, how_long, wanted
+from .failure import Failure, note
+from .loop import air, unless_told, until
+from .showing import shown
+
+
+async def listen(options: argparse.Namespace, recipe: Recipe, stop: asyncio.Event) -> int:
+    """Until it is told to stop; the exit status."""
+    devices = wanted(options)
+    check_writable(options.record, options.out)
+    seconds = how_long(options)
+    monitor = Monitor(Session(recipe, poses=True))
+    async with AsyncExitStack() as stack:
+        async with unless_told(stop):
+            backend = await stack.enter_async_context(air(options.via))
+            if not devices:
+                print(f"looking for sensors for {LISTENED:g} s ...", flush=True)
+                devices = chosen(await scan(LISTENED, backend=backend), options.profile)
+            heard = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
+        files = Files(options.record, options.out)  # not before: a search in vain replaces nothing of an earlier run
+        try:
+            with shown(monitor, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
+                async for packet in until(heard, stop, seconds):
+                    files.packet(packet)
+                    for event in monitor.take(packet):
+                        files.event(event)
+                    report()
+                    if files.failure is not None:
+                        break
+        except asyncio.CancelledError:
+            note("interrupted")
+        finally:
+            for event in monitor.finish():
+                files.event(event)
+            files.close()
+    print(summary(monitor.tally, title=f"recipe {recipe.name}", seconds=0.0))
+    if files.failure is not None:
+        raise Failure(files.failure)
+    if options.record:
+        print(f"recorded in {printable(str(options.record))}")
+    if options.out:
+        print(f"written to {printable(str(options.out))}")
+    return 0
+
+
+@define(init=False)
+class Files:
+    """What is written meanwhile. `failure`: why nothing is any more."""
+
+    failure: str | None
+    _packets: PacketWriter | None
+    _events: TrackFiles | None
+
+    def __init__(self, record: Path | None, out: Path | None) -> None:
+        """Failure when one cannot be opened."""
+        self.failure = self._packets = self._events = None
+        try:
+            if record is not None:
+                began, at = datetime.now(UTC).isoformat(timespec="milliseconds"), asyncio.get_running_loop().time()
+                self._packets = PacketWriter(record, {"began": began, "began_t": at})
+            if out is not None:
+                self._events = TrackFiles(out)
+        except (RecordingError, OSError) as error:
+            self.close()
+            raise Failure(_words(error)) from None
+
+    def packet(self, packet: Packet) -> None:
+        if self._packets is not None and self.failure is None:
+            try:
+                self._packets.write(packet)
+            except RecordingError as error:
+                self.failure = _words(error)
+
+    def event(self, event: Event) -> None:
+        if self._events is not None:
+            try:
+                self._events.write(event)
+            except OSError as error:
+                self._events, self.failure = None, self.failure or _words(error)
+
+    def close(self) -> None:
+        for file in (self._packets, self._events):
+            try:
+                if file is not None:
+                    file.close()
+            except (RecordingError, OSError) as error:
+                self.failure = self.failure or _words(error)
+
+
+def check_writable(record: Path | None, out: Path | None) -> None:
+    """Failure now when these will not be opened later. What is in them stays."""
+    try:
+        if out is not None:
+            out.mkdir(parents=True, exist_ok=True)
+        for path in [*([record] if record else []), *([out / name for name in (EVENTS, TRACK, STEPS)] if out else [])]:
+            there = path.exists()
+            if not there or path.is_file() or path.is_dir():  # a pipe would take it for the end
+                path.open("ab").close()
+            if not there:
+                path.unlink()
+    except OSError as error:
+        raise Failure(_words(error)) from None
+
+
+def _words(error: RecordingError | OSError) -> str:
+    if isinstance(error, RecordingError):
+        return str(error)
+    return f"{error.filename}: {why(error)}" if error.filename else why(error)
