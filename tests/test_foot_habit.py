@@ -6,6 +6,7 @@ import json
 from functools import cache
 from itertools import pairwise
 from math import hypot, radians
+from random import Random
 
 import pytest
 from attrs import evolve
@@ -328,6 +329,86 @@ def test_a_stride_with_a_gap_or_round_a_corner_is_not_the_habit() -> None:
     assert habit.last is not kept  # who does nothing but turn has turning for a habit
     stride(habit, 40.0, 0.0, duration=3.0)  # too slow to be kept whole, and memory is bounded
     assert len(habit.now) <= habit.most
+
+
+# --- what is possible -------------------------------------------------------------------------------------------------
+
+
+def test_a_stride_that_zero_velocity_had_to_put_right_is_not_the_habit() -> None:
+    habit, up = Habit(), (0.0, 0.0, GRAVITY)
+
+    def stride(t: float, speed: float) -> None:
+        habit.lift(t)
+        for k in range(20):
+            habit.keep(t + 0.035 * k, IDENTITY, (speed, 0.0, 0.0), (2.0 * 0.035 * k, 0.0, 0.0), up, ZERO)
+        habit.flat(t + 0.7, t + 0.2, t + 0.6, 0.0, (1.33, 0.0, 0.0), 0.01)
+
+    stride(1.0, -5.0)
+    assert habit.last is None
+    stride(2.0, 2.0)
+    assert habit.last is not None
+
+
+@pytest.mark.parametrize("way", [(3.3, 0.0, 0.0), (1.3, 0.0, 1.18), (1.3, 0.5, -1.18), (-40.0, 9.0, 7.0)])
+@pytest.mark.parametrize("filled", [True, False])
+def test_a_stride_with_a_gap_goes_hardly_further_than_those_before_and_no_higher_than_two_stairs(
+    way: Vec3, filled: bool
+) -> None:
+    habit, up = Habit(), (0.0, 0.0, GRAVITY)
+    for n in range(2):
+        habit.lift(1.2 * n + 0.4)
+        for k in range(20):
+            habit.keep(habit.due, IDENTITY, (2.0, 0.0, 0.0), (2.0 * 0.032 * k, 0.0, 0.0), up, ZERO)
+        t = 1.2 * (n + 1)
+        habit.flat(t, t - 0.5, t - 0.1, 0.0, (1.3, 0.0, 0.0), 0.01)
+    assert habit.last is not None
+    habit.lift(2.8)
+    if filled:
+        habit.guess(2.8, 0.3)
+    else:
+        habit.cross()
+    mended = habit.flat(3.6, 3.1, 3.5, 0.0, way, 0.01)
+    assert mended is not None
+    assert hypot(mended.way[0], mended.way[1]) <= 1.25 * 1.3 * 1.2
+    assert abs(mended.way[2]) <= 0.5
+
+
+@pytest.mark.parametrize("duration", [0.15, 0.3, 0.6, 1.2, 2.0])
+def test_in_a_gap_no_foot_goes_faster_than_feet_go_and_a_long_one_is_not_filled(duration: float) -> None:
+    samples, steps = walked()
+    tracker = FootTracker(Foot.LEFT, Session().recipe.detector, ErrorStateFilter())
+    a = steps[4].t_toe_off + 0.1
+    before = [sample for sample in samples if sample.t <= a]
+    for sample in before:
+        tracker.feed(sample)
+    after = next(sample for sample in samples if sample.t >= a + duration)
+    assert after.acc is not None and after.gyro is not None
+    for speed in (3.0, 60.0):
+        x, y, z = tracker.corrector.position
+        tracker.corrector.velocity = (speed, 0.0, -speed)
+        dt = after.t - before[-1].t
+        found = leap(tracker.gait.habit, tracker.corrector, before[-1].t, after.t, after.acc, after.gyro)
+        assert (duration > 1.5) == (found is NoLeap.UNKNOWN) or speed == 60.0
+        if not isinstance(found, NoLeap):
+            u, v, w = found.position
+            assert hypot(u - x, v - y, w - z) <= 4.0 * dt + 1e-9
+            assert hypot(*found.velocity) < 9.0
+
+
+@pytest.mark.parametrize("rate", [20.0, 100.0])
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_however_many_gaps_there_are_no_stride_is_longer_or_higher_than_a_stride_can_be(rate: float, seed: int) -> None:
+    walker = Walker(Route().stand(2.0).walk(30.0).turn(radians(178), radius=1.0).walk(30.0).stop(1.0))
+    random, holes, t = Random(seed), list[tuple[float, float]](), 8.0
+    while t < 50.0:
+        holes.append((t, t + random.choice([0.1, 0.2, 0.4, 0.7, 1.0])))
+        t += random.uniform(0.3, 4.0)
+    told, _ = heard(without(tuple(walker.samples(Foot.LEFT, rate)), *holes))
+    longest = max(step.length for step in walker.truth().steps(Foot.LEFT))
+    for step in of(StepTaken, told):
+        if step.degraded:
+            assert step.stride_length < 2.5 * longest
+            assert abs(step.height_change) < 0.85
 
 
 # --- contracts --------------------------------------------------------------------------------------------------------

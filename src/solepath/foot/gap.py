@@ -13,7 +13,7 @@ from typing import NamedTuple
 from ..types import Quat, Vec3
 from ..vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, sub
 from .habit import Habit
-from .moment import Moment, Stride, at, length, turned
+from .moment import Moment, Stride, at, length, limited, turned
 from .navigate import LONGEST_BRIDGE, Corrector
 from .turn import heading_turned
 
@@ -30,9 +30,15 @@ TILT_SIGMA = 0.1
 SPEED_SIGMA = 0.3
 PERSISTENCE = 0.5
 """How much of what the velocity was off before a gap it still is after it."""
+UNUSUAL = 1.0
+"""What a velocity is off beyond this is not the wearer's doing, m/s."""
 UNLIKE = 60.0
 """When the foot, before or after a gap, is more unlike the last stride than this (a sum of squares of the standard
 deviations above), a straight line is the better guess as long as there is one."""
+LONGEST = 1.5
+"""A gap longer than this is not filled: habit tells one stride, not how many, s."""
+FASTEST = 4.0
+"""No foot is faster than this on the mean of a stride, m/s."""
 UP = (0.0, 0.0, 1.0)
 
 
@@ -68,7 +74,7 @@ def leap(habit: Habit, corrector: Corrector, a: float, b: float, acc: Vec3, gyro
     x, y, z = gyro
     still = (x * x + y * y + z * z) / 0.25 + (force - GRAVITY) ** 2 / 2.0
     stride = habit.last
-    if stride is None:
+    if stride is None or b - a > LONGEST:
         return NoLeap.STOOD if habit.lifted is None and still < 8.0 else NoLeap.UNKNOWN
     last = stride.moments
     whole = last[-1].since
@@ -147,13 +153,14 @@ def _to(
         now = multiply(from_yaw(0.5 * min(dt, b - a) * (before + after)), now)
     now = normalise(now)
     ux, uy, uz = turned(end.velocity, yaw)
-    ex, ey, ez = sub(corrector.velocity, turned(first.velocity, yaw))
+    ex, ey, ez = limited(sub(corrector.velocity, turned(first.velocity, yaw)), UNUSUAL)
     k = PERSISTENCE
     speed = ZERO if landed else (ux + k * ex, uy + k * ey, uz + k * ez)
     k *= 0.5 * dt
     px, py, pz = turned(sub(end.position, first.position), yaw)
     x, y, z = corrector.position
-    here = (x + px + k * ex, y + py + k * ey, z + pz + k * ez)
+    wx, wy, wz = limited((px + k * ex, py + k * ey, pz + k * ez), FASTEST * (b - a))
+    here = (x + wx, y + wy, z + wz)
     lifted = _lifted(habit, landed, start, end, a, b)
     # none of it before the gap: it would have been seen
     cleared = max(a, lifted + stride.toe_off) if end.since >= stride.toe_off else None

@@ -14,7 +14,7 @@ from attrs import define, field
 
 from ..types import Quat, Vec3
 from ..vector import sub
-from .moment import Moment, Stride, turned
+from .moment import Moment, Stride, corrected, limited, turned
 from .straight import StraightOn, share
 
 
@@ -47,6 +47,12 @@ class Habit:
     corner: float = 0.2
     """A stride that turns further than this is not kept, rad, unless what was kept is `old` strides old."""
     old: int = 20
+    drift: float = 0.4
+    """A stride that zero velocity moved further than this when the foot came down was not followed well, m."""
+    room: float = 1.2
+    """A stride with a gap in it is no longer than so many times the longest that was seen lately; and no higher than
+    two steps of stairs, m:"""
+    highest: float = 0.4
     # state
     last: Stride | None = field(default=None, init=False)
     age: int = field(default=1000, init=False)
@@ -63,6 +69,12 @@ class Habit:
     """When the next moment is kept, s."""
     guessed: float = field(default=0.0, init=False)
     """Of the movement since the heel's rise, how long was not seen, s."""
+    crossed: bool = field(default=False, init=False)
+    """A gap in this stride was bridged by a straight line."""
+    landed: float | None = field(default=None, init=False)
+    """When the last stride ended, whatever came since, s."""
+    longest: float = field(default=0.0, init=False)
+    """Of the strides seen whole lately, m."""
     straight_on: StraightOn = field(factory=StraightOn, init=False)
 
     def lift(self, t: float) -> None:
@@ -76,6 +88,10 @@ class Habit:
         """The heel rose at `lifted`, s, and for `duration` of the stride since, s, the last one stands in."""
         self.guessed += duration
         self.lifted = self.due = lifted
+
+    def cross(self) -> None:
+        """A gap was bridged by a straight line."""
+        self.crossed = True
 
     def interrupt(self) -> None:
         """Nobody knows what the foot does now."""
@@ -109,6 +125,9 @@ class Habit:
         middle = straight_on.yaw + 0.5 * turn
         self._learn(t, toe_off, heel_strike, turn, turned(way, -middle))
         guessed, self.guessed = self.guessed, 0.0
+        crossed, self.crossed = self.crossed, False
+        lasted = None if self.landed is None else t - self.landed
+        self.landed = t
         self.now = []
         self.lifted = None
         self.stood_since = t
@@ -123,14 +142,29 @@ class Habit:
                 k = share(dx * dx + dy * dy + dz * dz, self.gap_way * unsure, self.way_sigma, 3.0, 2)
                 x, y, z = x + k * dx, y + k * dy, z + k * dz
             mended = Mended(yaw, (x, y, z))
+        if toe_off is not None and lasted is not None and (guessed > 0.0 or crossed):
+            mended = self._bounded(Mended(0.0, way) if mended is None else mended, lasted)
         straight_on.footfall(turn, yaw, unsure, sparse)
         return mended
+
+    def _bounded(self, mended: Mended, lasted: float) -> Mended:
+        """Within what is possible for a stride that took so long, s."""
+        if self.last is None:
+            return mended
+        # two strides are one when a gap that was not filled hid the foot-flat between them
+        k = max(1.0, min(2.0, lasted / (self.last.moments[-1].since + self.stance)))
+        x, y, z = mended.way
+        x, y, _ = limited((x, y, 0.0), k * self.room * self.longest)
+        return Mended(mended.turn, (x, y, max(-k * self.highest, min(z, k * self.highest))))
 
     def _learn(self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, way: Vec3) -> None:
         """Keep the stride that ends at `t` if it was seen whole; `way` as in `Stride`."""
         self.age = min(self.age + 1, 1000)
-        if self.lifted is None or toe_off is None or self.guessed > 0.0 or len(self.now) < self.least:
+        if self.lifted is None or toe_off is None or self.guessed > 0.0 or self.crossed or len(self.now) < self.least:
             return
+        if corrected(self.now) > self.drift:
+            return
+        self.longest = max(0.95 * self.longest, hypot(way[0], way[1]))
         # a stride round a corner is no habit, unless no other comes for long
         if abs(turn) < self.corner or self.age > self.old:
             struck = t if heel_strike is None else heel_strike

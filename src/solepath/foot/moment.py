@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import cos, hypot, sin
 
 from attrs import define, frozen
 
 from ..types import Quat, Vec3
-from ..vector import normalise
+from ..vector import normalise, sub
 
 
 @frozen
@@ -57,8 +58,24 @@ def at(moments: list[Moment], since: float) -> Moment:
     return before
 
 
+def corrected(moments: list[Moment]) -> float:
+    """How far zero velocity moved the foot in a stride when it came down, m: what the velocities do not tell."""
+    x, y, z = sub(moments[-1].position, moments[0].position)
+    for a, b in pairwise(moments):
+        k = 0.5 * (b.since - a.since)
+        (ax, ay, az), (bx, by, bz) = a.velocity, b.velocity
+        x, y, z = x - k * (ax + bx), y - k * (ay + by), z - k * (az + bz)
+    return length((x, y, z))
+
+
 def length(v: Vec3) -> float:
     return hypot(v[0], v[1], v[2])
+
+
+def limited(v: Vec3, most: float) -> Vec3:
+    """In the same direction, no longer than `most`."""
+    far = length(v)
+    return v if far <= most else (v[0] * most / far, v[1] * most / far, v[2] * most / far)
 
 
 def turned(v: Vec3, yaw: float) -> Vec3:

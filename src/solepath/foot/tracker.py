@@ -178,6 +178,7 @@ class FootTracker:
         acc, gyro = self._calibrated(sample.acc, sample.gyro)
         found = leap(habit, corrector, last, t, acc, gyro)
         if found is NoLeap.UNKNOWN:
+            habit.cross()
             if dt > LONGEST_BRIDGE:
                 habit.interrupt()
             return corrector.bridge(dt)
