@@ -114,6 +114,12 @@ def test_what_was_read_or_written_outlives_any_flood_of_notifications() -> None:
     assert [packet.channel for packet in emptied(inbox)] == ["setup"] * 4 + [DROPPED] + ["stream"] * 4
 
 
+def test_counts_take_no_room_from_what_was_read() -> None:
+    life = [(LEFT, False), (LEFT, True), (LEFT, True)] * 4 + [(LEFT, True)] * 4
+    _, _, inbox = lived(4, life)
+    assert [packet.channel for packet in emptied(inbox) if packet.channel != DROPPED] == ["setup"] * 4 + ["stream"] * 4
+
+
 def test_to_keep_what_was_read_costs_no_notification_its_place() -> None:
     _, _, inbox = lived(3, [(LEFT, False), (LEFT, True), (LEFT, True), (LEFT, True)])
     assert [packet.channel for packet in emptied(inbox)] == ["setup"] + ["stream"] * 3

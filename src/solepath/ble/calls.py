@@ -10,6 +10,7 @@ from contextlib import asynccontextmanager
 from .trouble import FAILURES, Surprise
 
 LOG = logging.getLogger("solepath.ble")
+LOG.addHandler(logging.NullHandler())  # who wants to see it says so; a terminal is not ours to write to
 
 
 @asynccontextmanager

@@ -56,7 +56,10 @@ class Inbox:
         self._passed[packet.site] = packet
         self._kept.append(packet)
         while len(self._kept) > self.capacity:
-            self._drop(self._kept.popleft())
+            counts = (k for k, kept in enumerate(self._kept) if kept.channel == DROPPED)
+            oldest = next(counts, 0)  # a count can be told later, a value cannot
+            self._drop(self._kept[oldest])
+            del self._kept[oldest]
 
     def _drop(self, packet: Packet) -> None:
         """Count it; if it is a count itself, add that."""

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from bleak import BleakClient
 from bleak.backends.characteristic import BleakGATTCharacteristic
-from bleak.exc import BleakError, BleakGATTProtocolError
+from bleak.exc import BleakDBusError, BleakError, BleakGATTProtocolError
 
 from ..link.profile import Channel, How, Profile
 from ..types import SITE_OF_FOOT, Packet, Site
@@ -71,7 +71,9 @@ def site_in(info: bytes, name: str) -> Site:
 
 def refused(error: BleakError, client: BleakClient) -> bool:
     """Was this request refused, while the connection stands? Not every system says it with an ATT error: Windows has
-    "Access Denied", BlueZ its own names."""
+    "Access Denied", BlueZ its own names. What D-Bus itself says, that BlueZ is gone or silent, is no refusal."""
+    if isinstance(error, BleakDBusError) and error.dbus_error.startswith("org.freedesktop.DBus."):
+        return False
     return isinstance(error, BleakGATTProtocolError) or client.is_connected
 
 

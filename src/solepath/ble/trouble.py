@@ -110,7 +110,7 @@ def sentence(error: BaseException) -> str:
         case TimeoutError():
             return "the device did not answer in time: it is sought again; if this goes on, switch it off and on"
         case Surprise():
-            return f"Bluetooth failed unexpectedly ({error}): the device is sought again, see the log for more"
+            return f"Bluetooth failed unexpectedly ({error}): the device is sought again, the log solepath.ble has more"
     return _plain(error)
 
 
