@@ -78,6 +78,11 @@ def events_of(packets: list[Packet]) -> list[Event]:
 def test_a_minute_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_the_walk_fed_directly(
     mtu: int,
 ) -> None:
+    """Compared are, byte for byte, the frames that arrive with those of the emulator, and the delay of each; then the
+    events of what arrived with the events of the emulator's own frames, stamped with the times at which they arrived
+    here. So the events show that nothing is added, missing or out of order, and nothing about the stamps: those are
+    held by the delay, which is below 10 ms.
+    """
     bench = Bench(MINUTE, mtu=mtu)
     duration = bench.truth().duration
     assert duration > 60.0
