@@ -5,7 +5,10 @@ from __future__ import annotations
 import asyncio
 import gc
 import sys
+import threading
+from array import array
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +23,7 @@ from solepath.loopback.bench import Bench
 from solepath.loopback.faults import Fault, What
 from solepath.sim import Route, emulate
 from solepath.sim.truth import Truth
-from solepath.types import Foot, Site, Vec3
+from solepath.types import Foot, Site
 
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 ROUTE = Route().stand(3.0).walk(90.0).turn(1.5, radius=2.0).walk(60.0).turn(-1.5, radius=2.0).walk(60.0).stop(3.0)
@@ -36,32 +39,38 @@ class Walked:
     truth: Truth
     began: float = 0.0
     """The walk's 0 on the loop's clock, s."""
-    places: dict[Foot, list[Vec3]] = field(factory=lambda: {foot: [] for foot in Foot})
-    """Where each foot was said to be at the ends of its true steps."""
+    places: dict[Foot, array[float]] = field(factory=lambda: {foot: array("d") for foot in Foot})
+    """Where each foot was said to be at the ends of its true steps: x, y, z and so on. An array is one block of memory,
+    so that what is collected here does not look like a leak."""
     steps: int = 0
     connected: int = 0
     disconnected: int = 0
     rejected: int = 0
-    gaps: list[SampleGap] = field(factory=list)
+    gaps: array[float] = field(factory=lambda: array("d"))
+    """How long they were, s."""
     tasks: list[int] = field(factory=list)
     """Beside the app's own, at every connection."""
     blocks: list[int] = field(factory=list)
     """Memory that Python holds, in its blocks, at every 20th connection."""
+    threads_before: int = 0
+    threads: list[int] = field(factory=list)
+    """At every connection."""
     left: int = -1
-    """Tasks that are left at the end."""
+    """Tasks of the adapter that are left once it is left, while the air is still there."""
 
     def take(self, event: object) -> None:
         match event:
             case FootMoved(foot=foot, t=t, position=position):
-                done = len(self.places[foot])
+                done = len(self.places[foot]) // 3
                 ends = self.ends(foot)
                 if done < len(ends) and t - self.began >= ends[done]:
-                    self.places[foot].append(position)
+                    self.places[foot].extend(position)
             case StepTaken():
                 self.steps += 1
             case Connected():
                 self.connected += 1
                 self.tasks.append(len(others()))
+                self.threads.append(threading.active_count())
                 if self.connected % 20 == 0:
                     gc.collect()
                     self.blocks.append(sys.getallocatedblocks())
@@ -69,8 +78,8 @@ class Walked:
                 self.disconnected += 1
             case PacketRejected():
                 self.rejected += 1
-            case SampleGap():
-                self.gaps.append(event)
+            case SampleGap() as gap:
+                self.gaps.append(gap.duration)
 
     def ends(self, foot: Foot) -> list[float]:
         """The rests between the true steps, s."""
@@ -83,8 +92,13 @@ class Walked:
         for foot in Foot:
             ends = np.array(self.ends(foot))
             true = self.truth.feet[foot].pose(ends).position[:, :2]
-            errors += position_errors(ends, true, ends, np.array(self.places[foot])).tolist()
+            errors += position_errors(ends, true, ends, np.array(self.places[foot]).reshape(-1, 3)).tolist()
         return float(np.mean(errors))
+
+
+def advertises(task: asyncio.Task[Any]) -> bool:
+    """Is it an emulated device that does so again, once its link is gone?"""
+    return getattr(task.get_coro(), "__qualname__", "") == "Server._advertise"
 
 
 @cache
@@ -101,13 +115,16 @@ def walk(seed: int) -> Walked:
         bench.began = walked.began = began
         bench.prepare()
         session = Session(poses=True)
-        async with bumble(bench) as backend, Devices([Wanted(None, profile=INSOLE)] * 2, backend=backend) as devices:
-            async for packet in devices:
-                if packet.t > began + truth.duration:
-                    break
-                for event in session.feed(packet):
-                    walked.take(event)
-        walked.left = len(others())
+        async with bumble(bench) as backend:
+            before, walked.threads_before = others(), threading.active_count()
+            async with Devices([Wanted(None, profile=INSOLE)] * 2, backend=backend) as devices:
+                async for packet in devices:
+                    if packet.t > began + truth.duration:
+                        break
+                    for event in session.feed(packet):
+                        walked.take(event)
+            walked.left = sum(not advertises(task) for task in others() - before)
+        assert not others()
 
     in_virtual_time(listen)
     return walked
@@ -122,17 +139,18 @@ def test_a_session_goes_on_through_two_hundred_disconnections_and_every_gap_is_a
     assert true > 300
     assert abs(walked.steps - true) <= 0.02 * true
     # each cut costs samples, so each is a gap; none is longer than it takes to find and set up a device again
-    cut = [event for event in walked.gaps if event.duration > 0.05]
+    cut = [duration for duration in walked.gaps if duration > 0.05]
     assert len(cut) == CUTS
-    assert max(event.duration for event in cut) < 0.5
+    assert max(cut) < 0.5
 
 
 def test_nothing_is_left_behind_by_two_hundred_connections() -> None:
     walked = walk(1)
     assert walked.left == 0
     assert max(walked.tasks[-50:]) <= max(walked.tasks[:50])
-    early, late = walked.blocks[2], walked.blocks[-1]
-    assert late - early < 0.01 * early, walked.blocks
+    assert set(walked.threads) == {walked.threads_before}
+    early, late = walked.blocks[2], walked.blocks[-1]  # the 60th connection, the 200th
+    assert late - early <= 10 * 140, walked.blocks
 
 
 def undisturbed(seed: int) -> float:
