@@ -123,6 +123,7 @@ TAGS: dict[str, tuple[Profile, Device]] = {
 TAGGED = Route().stand(3.0).walk(30.0).turn(1.5, radius=1.5).walk(15.0, speed=1.1).stop(3.0)
 
 
+@pytest.mark.soak
 def test_insoles_whose_links_wait_for_connection_events_give_the_same_steps_at_the_same_times() -> None:
     interval = 0.03
     settled = 8.0  # s of the walk until the clock knows which of the frames did not have to wait
@@ -148,7 +149,7 @@ def test_insoles_whose_links_wait_for_connection_events_give_the_same_steps_at_t
             assert waited == pytest.approx(at_once, abs=0.005)
 
 
-@pytest.mark.parametrize("interval", [None, 0.03])
+@pytest.mark.parametrize("interval", [None, pytest.param(0.03, marks=pytest.mark.soak)])
 @pytest.mark.parametrize("tag", TAGS)
 def test_sensortags_give_the_steps_of_a_walk_end_to_end(tag: str, interval: float | None) -> None:
     profile, device = TAGS[tag]

@@ -189,7 +189,9 @@ def nearly_the_same(quoted: list[str], fresh: list[str]) -> None:
             assert float(a) == pytest.approx(float(b), abs=1.01 * last), f"quoted: {old}\nprinted: {new}"
 
 
-@pytest.mark.parametrize(("mark", "ends"), [("try", "solepath demo"), ("test", "python -m pytest -n auto --dist loadfile")])
+@pytest.mark.parametrize(
+    ("mark", "ends"), [("try", "solepath demo"), ("test", "pytest -n auto --dist loadfile --no-loadscope-reorder")]
+)
 def test_each_of_its_two_lines_is_one_line(mark, ends):
     (line,) = below(mark)
     assert line.startswith("python3 -m venv .venv && ") and line.endswith(ends)
