@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import shutil
+from abc import ABC, abstractmethod
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -64,7 +65,7 @@ class Refused(Exception):
         self.name, self.words = name, words
 
 
-class Service:
+class Service(ABC):
     """Objects by path, of each the properties by interface. `refusals`: errors that the next calls of a method
     ("Device1.Connect") are answered with. `calls`: what was called so far."""
 
@@ -75,13 +76,13 @@ class Service:
         self._answers: set[asyncio.Task[None]] = set()
         self._bus: MessageBus | None = None
 
+    @abstractmethod
     async def call(self, method: str, path: str, sender: str, body: list[Any]) -> tuple[str, list[Any]]:
         """Do it; what it returns, and of which signature. Refused."""
-        raise NotImplementedError
 
+    @abstractmethod
     def client_left(self, sender: str) -> None:
         """The program with this name on the bus has left it."""
-        raise NotImplementedError
 
     @asynccontextmanager
     async def owning(self, name: str, address: str) -> AsyncIterator[None]:

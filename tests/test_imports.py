@@ -52,7 +52,7 @@ ALLOWED: dict[str, set[str]] = {
 """Room (a module or a folder of src/solepath) -> the rooms that it may import."""
 
 FORBIDDEN = {"numpy", "bleak", "asyncio"}
-LIVE = NOUNS | {"wire", "link", "foot", "recipes", "session", "__init__"}
+LIVE = NOUNS | {"wire", "link", "foot", "body", "recipes", "session", "__init__"}
 
 
 def modules() -> dict[str, Path]:

@@ -1,6 +1,7 @@
 """solepath: bytes of foot-worn sensors in; gait events, steps and a track out."""
 
 from . import recipes
+from .body.position import Position
 from .events import (
     BatteryLevel,
     ClockReset,
@@ -31,7 +32,7 @@ from .events import (
 )
 from .machine import SnapshotError
 from .recipes import Recipe
-from .session import Position, Session
+from .session import Session
 from .types import Cell, Foot, Layout, Packet, Phase, Quat, Sample, Site, Support, Vec3
 
 __all__ = [

@@ -15,33 +15,24 @@ from copy import deepcopy
 from math import inf, isfinite
 from typing import Any, TypeVar
 
-from attrs import define, evolve, field, frozen
+from attrs import define, evolve, field
 
+from .body.position import Position, mean_of
 from .events import ClockReset, Event, LayoutKnown, Limitation, PacketRejected, SampleRejected
 from .foot.phase import SUPPORT
 from .foot.refusal import rejected, wrong_time
 from .foot.tracker import FootTracker
-from .foot.world import Covariance3
 from .link.decoder import Decoder
 from .link.driver import Driver
 from .link.known import Kinds, kinds
 from .machine import Json, SnapshotError, checksum, load, save
 from .recipes import DEFAULT, Recipe
-from .types import Foot, Packet, Phase, Sample, Site, Support, Vec3
+from .types import Foot, Packet, Phase, Sample, Site, Support
 
 SNAPSHOT_VERSION = 1
 
 _Key = TypeVar("_Key")
 _Held = TypeVar("_Held")
-
-
-@frozen
-class Position:
-    """Where the wearer is: world frame, m, with covariance xx, xy, xz, yy, yz, zz in m^2, at `t` s."""
-
-    t: float
-    position: Vec3
-    covariance: Covariance3
 
 
 @define
@@ -262,15 +253,7 @@ class Session:
     def position(self) -> Position | None:
         """Where the wearer is: the mean of the feet, each in the world frame of its own first heading. None before any
         sample."""
-        known = [foot for foot in self._state.feet.values() if foot.t is not None]
-        if not known:
-            return None
-        k = 1.0 / len(known)
-        x, y, z = (sum([foot.position[axis] for foot in known]) * k for axis in range(3))
-        covariances = [foot.covariance for foot in known]
-        xx, xy, xz, yy, yz, zz = (sum([c[i] for c in covariances]) * k * k for i in range(6))
-        t = max([foot.t for foot in known if foot.t is not None])
-        return Position(t, (x, y, z), (xx, xy, xz, yy, yz, zz))
+        return mean_of(self._state.feet.values())
 
     @property
     def support(self) -> Support | None:

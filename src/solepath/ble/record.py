@@ -24,8 +24,13 @@ async def record(
     said then, are this recording's own. RecordingError when the file cannot be made, or not written any further (the
     disk is full): what is in it stays whole.
     """
-    now, t = datetime.now(UTC).isoformat(timespec="milliseconds"), asyncio.get_running_loop().time()
-    with PacketWriter(path, {**header, "began": now, "began_t": t}) as writer:
+    with PacketWriter(path, {**header, **beginning()}) as writer:
         async for packet in packets:
             writer.write(packet)
             yield packet
+
+
+def beginning() -> dict[str, Any]:
+    """The keys of a header that say when a recording began, now: time of day, and the packets' clock (recording.md)."""
+    now = datetime.now(UTC).isoformat(timespec="milliseconds")
+    return {"began": now, "began_t": asyncio.get_running_loop().time()}

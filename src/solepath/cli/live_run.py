@@ -5,12 +5,12 @@ from __future__ import annotations
 import argparse
 import asyncio
 from contextlib import AsyncExitStack
-from datetime import UTC, datetime
 from pathlib import Path
 
 from attrs import define
 
 from ..ble import Devices, scan
+from ..ble.record import beginning
 from ..events import Event
 from ..monitor import Monitor
 from ..output import EVENTS, STEPS, TRACK, TrackFiles
@@ -77,8 +77,7 @@ class Files:
         self.failure = self._packets = self._events = None
         try:
             if record is not None:
-                began, at = datetime.now(UTC).isoformat(timespec="milliseconds"), asyncio.get_running_loop().time()
-                self._packets = PacketWriter(record, {"began": began, "began_t": at})
+                self._packets = PacketWriter(record, beginning())
             if out is not None:
                 self._events = TrackFiles(out)
         except (RecordingError, OSError) as error:
