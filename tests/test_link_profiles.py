@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from solepath.link.decoder import Decoder
-from solepath.link.devices import dot, orphe, thingy
+from solepath.link.devices import dot, dot_orientation, orphe, thingy
 from solepath.link.known import BY_NAME, PROFILES
 from solepath.link.profile import CC2541, CC2541_20HZ, CC2650, INSOLE, How, Profile, Write
 from solepath.types import Packet, Site
@@ -110,7 +110,9 @@ def test_a_device_is_known_by_its_whole_name_or_by_how_it_begins() -> None:
     assert known == {"INS0123": ["orphe"], "Thingy": ["thingy"], "Thingy 2": [], "": []}
 
 
-@pytest.mark.parametrize("profile", [orphe.PROFILE, dot.PROFILE, thingy.PROFILE], ids=lambda profile: profile.name)
+@pytest.mark.parametrize(
+    "profile", [orphe.PROFILE, dot.PROFILE, dot_orientation.PROFILE, thingy.PROFILE], ids=lambda profile: profile.name
+)
 def test_a_declared_device_has_the_uuids_of_its_document(profile: Profile) -> None:
     text = (PROTOCOL / f"{profile.name}.md").read_text()
     base = re.search(r"`([0-9a-f]{4})xxxx(-[0-9a-f-]{27})`", text)

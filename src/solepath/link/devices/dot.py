@@ -1,5 +1,5 @@
 """Movella DOT, formerly Xsens DOT (protocol/dot.md), in its mode "rate quantities": acceleration and angular velocity
-at 60 Hz with the device's own microseconds. Never tried on hardware.
+at 60 Hz with the device's own microseconds. dot_orientation.py is its mode "orientation". Never tried on hardware.
 
 Source: Movella DOT BLE Service Specification, document XD0506P, revision C, July 2023.
 """
@@ -26,11 +26,11 @@ FULL_ACC, FULL_GYRO = 0.99 * 16.0 * GRAVITY, 0.99 * radians(2000.0)
 """Ends of the ranges (Movella DOT User Manual), less what calibration may take off."""
 
 
-def _uuid(short: int) -> str:
+def uuid(short: int) -> str:
     return f"1517{short:04x}-4947-11e9-8646-d663bd873d93"
 
 
-def _all_finite(values: Any, _: Any) -> bool:
+def all_finite(values: Any, _: Any) -> bool:
     return all(map(isfinite, values))
 
 
@@ -43,10 +43,10 @@ PROFILE = Profile(
     names=("Movella DOT", "Xsens DOT"),
     services=(),
     channels=(
-        Channel("dot/rates", _uuid(0x2000), _uuid(0x2003), How.NOTIFY),
-        Channel("dot/control", _uuid(0x2000), _uuid(0x2001), How.WRITE),
-        Channel("dot/device-control", _uuid(0x1000), _uuid(0x1002), How.WRITE),
-        Channel("dot/battery", _uuid(0x3000), _uuid(0x3001), How.NOTIFY),
+        Channel("dot/rates", uuid(0x2000), uuid(0x2003), How.NOTIFY),
+        Channel("dot/control", uuid(0x2000), uuid(0x2001), How.WRITE),
+        Channel("dot/device-control", uuid(0x1000), uuid(0x1002), How.WRITE),
+        Channel("dot/battery", uuid(0x3000), uuid(0x3001), How.NOTIFY),
     ),
     setup=(
         Write("dot/device-control", b"\x10" + bytes(23) + b"\x3c\x00" + bytes(6)),  # 60 Hz, the most that it streams
@@ -61,8 +61,8 @@ PROFILE = Profile(
 FORMATS = {
     "dot/rates": Struct(
         "ticks" / Int32ul,
-        "acc" / ExprValidator(Fields("<3f"), _all_finite),
-        "gyro" / ExprValidator(Fields("<3f"), _all_finite),
+        "acc" / ExprValidator(Fields("<3f"), all_finite),
+        "gyro" / ExprValidator(Fields("<3f"), all_finite),
         Const(bytes(12)),
         Terminated,
     ),
@@ -99,11 +99,11 @@ def _control(sent: Any, known: Known) -> Reading:
     return Reading(silent=sent.action == 0 or sent.mode != RATES)
 
 
-def _device_control(sent: Any, known: Known) -> Reading:
+def device_control(sent: Any, known: Known) -> Reading:
     return Reading(rate=float(sent.rate)) if sent.visit & VISIT_RATE else Reading()
 
 
-def _battery(sent: Any, known: Known) -> Reading:
+def battery(sent: Any, known: Known) -> Reading:
     return Reading(battery=sent.percent / 100.0)
 
 
@@ -113,8 +113,8 @@ DRIVER = Driver(
     readers={
         "dot/rates": _rates,
         "dot/control": _control,
-        "dot/device-control": _device_control,
-        "dot/battery": _battery,
+        "dot/device-control": device_control,
+        "dot/battery": battery,
     },
     tick_rate=1e6,
     tick_modulus=1 << 32,

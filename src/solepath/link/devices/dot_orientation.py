@@ -1,0 +1,85 @@
+"""Movella DOT (dot.py) in its mode "orientation (quaternion)": the device's own attitude at 60 Hz, for the sites of a
+lower-limb chain, which needs nothing else (protocol/dot-orientation.md). Never tried on hardware.
+
+Source: Movella DOT BLE Service Specification, document XD0506P, revision C, July 2023.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from attrs import evolve
+from construct import ExprValidator, Int32ul, Struct, Terminated
+
+from ...wire.fields import Fields
+from ..driver import Driver, Known, Measured, Reading
+from ..profile import Channel, How, Write
+from . import dot
+
+QUATERNION = 5
+"""Payload mode: timestamp, orientation as a quaternion."""
+NAME = "dot-orientation"
+LENGTH_ERROR = 0.01
+"""A unit quaternion in binary32 is as long as this allows; another mode's numbers are not."""
+
+
+def _of_length_one(quat: tuple[float, ...], _: Any) -> bool:
+    return dot.all_finite(quat, None) and abs(sum([part * part for part in quat]) - 1.0) < 2.0 * LENGTH_ERROR
+
+
+def _named(channel: str) -> str:
+    """A channel of dot.py under this profile's name."""
+    return channel.replace(dot.PROFILE.name, NAME, 1)
+
+
+PROFILE = evolve(
+    dot.PROFILE,
+    name=NAME,
+    channels=(
+        Channel("dot-orientation/quaternion", dot.uuid(0x2000), dot.uuid(0x2004), How.NOTIFY),
+        *[
+            evolve(channel, name=_named(channel.name))
+            for channel in dot.PROFILE.channels
+            if channel.name != "dot/rates"
+        ],
+    ),
+    setup=(
+        Write("dot-orientation/device-control", dot.PROFILE.setup[0].value),
+        Write("dot-orientation/control", bytes([1, 1, QUATERNION])),
+    ),
+    reads=("dot-orientation/battery",),
+    streams=("dot-orientation/quaternion",),
+)
+
+FORMATS = {
+    "dot-orientation/quaternion": Struct(
+        "ticks" / Int32ul,
+        "quat" / ExprValidator(Fields("<4f"), _of_length_one),
+        Terminated,
+    ),
+    "dot-orientation/control": dot.FORMATS["dot/control"],
+    "dot-orientation/device-control": dot.FORMATS["dot/device-control"],
+    "dot-orientation/battery": dot.FORMATS["dot/battery"],
+}
+
+
+def _quaternion(sent: Any, known: Known) -> Reading:
+    return Reading((Measured(quat=sent.quat),), ticks=sent.ticks)
+
+
+def _control(sent: Any, known: Known) -> Reading:
+    return Reading(silent=sent.action == 0 or sent.mode != QUATERNION)
+
+
+DRIVER = Driver(
+    PROFILE,
+    FORMATS,
+    readers={
+        "dot-orientation/quaternion": _quaternion,
+        "dot-orientation/control": _control,
+        "dot-orientation/device-control": dot.device_control,
+        "dot-orientation/battery": dot.battery,
+    },
+    tick_rate=1e6,
+    tick_modulus=1 << 32,
+)
