@@ -2,16 +2,23 @@
 
 from . import recipes
 from .body.position import Position
+from .calibration import Calibration, CalibrationError, read_calibration
 from .events import (
     BatteryLevel,
+    CellFault,
+    CellsFailed,
     ClockReset,
     Connected,
     Disconnected,
     Event,
+    FeetSwapped,
     FootFlat,
+    FootHeard,
     FootMoved,
+    FootSilent,
     HeelOff,
     HeelStrike,
+    InsoleNeverUnloads,
     KeysChanged,
     LayoutKnown,
     Limitation,
@@ -28,25 +35,36 @@ from .events import (
     StreamRestarted,
     StreamResumed,
     StreamStale,
+    StrideFused,
     ToeOff,
+    TouchedDown,
+    WalkingModeChanged,
 )
 from .machine import SnapshotError
 from .recipes import Recipe
 from .session import Session
-from .types import Cell, Foot, Layout, Packet, Phase, Quat, Sample, Site, Support, Vec3
+from .types import Cell, Foot, Layout, Packet, Phase, Quat, Sample, Site, Support, Vec3, WalkingMode
 
 __all__ = [
     "BatteryLevel",
+    "Calibration",
+    "CalibrationError",
     "Cell",
+    "CellFault",
+    "CellsFailed",
     "ClockReset",
     "Connected",
     "Disconnected",
     "Event",
+    "FeetSwapped",
     "Foot",
     "FootFlat",
+    "FootHeard",
     "FootMoved",
+    "FootSilent",
     "HeelOff",
     "HeelStrike",
+    "InsoleNeverUnloads",
     "KeysChanged",
     "Layout",
     "LayoutKnown",
@@ -73,8 +91,13 @@ __all__ = [
     "StreamRestarted",
     "StreamResumed",
     "StreamStale",
+    "StrideFused",
     "Support",
     "ToeOff",
+    "TouchedDown",
     "Vec3",
+    "WalkingMode",
+    "WalkingModeChanged",
+    "read_calibration",
     "recipes",
 ]

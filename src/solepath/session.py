@@ -17,7 +17,8 @@ from typing import Any, TypeVar
 
 from attrs import define, evolve, field
 
-from .body.position import Position, mean_of
+from .body.position import Position
+from .calibration import Calibration
 from .events import ClockReset, Event, LayoutKnown, Limitation, PacketRejected, SampleRejected
 from .foot.phase import SUPPORT
 from .foot.refusal import rejected, wrong_time
@@ -26,7 +27,7 @@ from .link.decoder import Decoder
 from .link.driver import Driver
 from .link.known import Kinds, kinds
 from .machine import Json, SnapshotError, checksum, load, save
-from .recipes import DEFAULT, Recipe
+from .recipes import DEFAULT, AnyBody, Recipe
 from .types import Foot, Packet, Phase, Sample, Site, Support
 
 SNAPSHOT_VERSION = 1
@@ -41,6 +42,8 @@ class _State:
 
     recipe: Recipe
     poses: bool
+    calibration: Calibration
+    body: AnyBody
     now: float | None = None
     """The latest moment that anything is known of, s."""
     decoders: dict[Site, Decoder] = field(factory=dict)
@@ -51,10 +54,11 @@ class _State:
 
 
 class Session:
-    """One wearer. `recipe`: which parts to use. `poses`: also emit FootMoved, the live position at every sample.
-    `devices`: the address of the device at a site (`Packet.device`, in upper or lower case); packets of other devices
-    are rejected there. A site that is not named is bound to the first device that it hears. `profiles`: devices of the
-    app's own (link/driver.py), beside those that are known.
+    """One wearer. `recipe`: which parts to use. `calibration`: what is known of wearer, shoes and insoles. `poses`:
+    also emit FootMoved, the live position at every sample. `devices`: the address of the device at a site
+    (`Packet.device`, in upper or lower case); packets of other devices are rejected there. A site that is not named is
+    bound to the first device that it hears. `profiles`: devices of the app's own (link/driver.py), beside those that
+    are known.
 
     `feed`, `advance` and `finish` return the events that became known, in the order in which they did. `feed` is
     total: any bytes give events, never an exception, unless a reader of the app's own is itself wrong. TypeError for
@@ -73,6 +77,7 @@ class Session:
         self,
         recipe: Recipe = DEFAULT,
         *,
+        calibration: Calibration | None = None,
         poses: bool = False,
         devices: Mapping[Site, str] | None = None,
         profiles: Iterable[Driver] = (),
@@ -80,7 +85,11 @@ class Session:
         if not isinstance(recipe, Recipe):
             raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}")
         self._kinds: Kinds = kinds(profiles)
-        self._state = _State(deepcopy(recipe), poses)
+        known = Calibration() if calibration is None else calibration
+        if not isinstance(known, Calibration):
+            raise TypeError(f"calibration must be a Calibration, not {type(known).__name__}")
+        recipe = deepcopy(recipe)
+        self._state = _State(recipe, poses, deepcopy(known), _calibrated(recipe.body, known))
         for site, device in ({} if devices is None else devices).items():
             self.bind(site, device)
 
@@ -194,15 +203,7 @@ class Session:
         foot = site.foot
         for item in items:
             if isinstance(item, Sample):
-                if foot is None:
-                    self._say_unused(item, events)
-                else:
-                    tracker = self._tracker(foot)
-                    # said once, and by the link, which knows the range
-                    tracker.scale_said = tracker.scale_said or site in self._state.decoders
-                    events += tracker.feed(item)
-                    if tracker.t is not None:  # else it could not be used: nothing is known of this foot yet
-                        self._keep(tracker)
+                events += self._limb(item) if foot is None else self._foot(foot, item)
                 continue
             events.append(item)
             if foot is None:
@@ -214,12 +215,34 @@ class Session:
             elif isinstance(item, ClockReset):
                 tracker.interrupt()
 
+    def _foot(self, foot: Foot, sample: Sample) -> list[Event]:
+        tracker = self._tracker(foot)
+        # said once, and by the link, which knows the range
+        tracker.scale_said = tracker.scale_said or sample.site in self._state.decoders
+        events = tracker.feed(sample)
+        if tracker.t is not None:  # else it could not be used: nothing is known of this foot yet
+            self._keep(tracker)
+            if not (events and isinstance(events[0], SampleRejected)):
+                events += self._state.body.foot_moved(tracker, sample, events)
+        return events
+
     def _tracker(self, foot: Foot) -> FootTracker:
         """The foot's own tracker, or a new one that nobody holds yet."""
         tracker = self._state.feet.get(foot)
         if tracker is None:
-            recipe = deepcopy(self._state.recipe)
-            tracker = FootTracker(foot, recipe.detector, recipe.corrector, self._state.poses)
+            recipe, known = deepcopy(self._state.recipe), self._state.calibration
+            tracker = FootTracker(
+                foot,
+                _calibrated(recipe.detector, known, foot),
+                _calibrated(recipe.corrector, known, foot),
+                self._state.poses,
+                cues=_calibrated(recipe.cues, known, foot),
+                insole=_calibrated(recipe.insole, known, foot),
+                needs_pressure=recipe.needs_pressure,
+            )
+            layout = known.insole(foot).layout
+            if layout is not None:
+                tracker.wear(layout)
         return tracker
 
     def _keep(self, tracker: FootTracker) -> None:
@@ -227,15 +250,20 @@ class Session:
         if tracker.foot not in state.feet:
             state.feet = _in_order({**state.feet, tracker.foot: tracker}, Foot)
 
-    def _say_unused(self, sample: Sample, events: list[Event]) -> None:
+    def _limb(self, sample: Sample) -> list[Event]:
+        """A sample from above the ankle: the body's, if it has a use for it."""
+        state = self._state
         wrong = wrong_time(sample)
         if wrong is not None:
-            events.append(rejected(sample, wrong, None))
-        elif sample.site not in self._state.unused:
-            self._state.unused.append(sample.site)
-            known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
-            what = f"recipe {self._state.recipe.name} has no use for a sensor at the {sample.site.value}"
-            events.append(Limitation(t=sample.t, known_at=known_at, site=sample.site, what=what))
+            return [rejected(sample, wrong, None)]
+        if sample.site in state.body.sites:
+            return state.body.limb_moved(sample)
+        if sample.site in state.unused:
+            return []
+        state.unused.append(sample.site)
+        known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
+        what = f"recipe {state.recipe.name} has no use for a sensor at the {sample.site.value}"
+        return [Limitation(t=sample.t, known_at=known_at, site=sample.site, what=what)]
 
     # --- out ---
 
@@ -251,9 +279,9 @@ class Session:
 
     @property
     def position(self) -> Position | None:
-        """Where the wearer is: the mean of the feet, each in the world frame of its own first heading. None before any
-        sample."""
-        return mean_of(self._state.feet.values())
+        """Where the wearer is, as the recipe's body has it; the mean of the feet, each in the world frame of its own
+        first heading, in most. None before any sample."""
+        return self._state.body.position(self._state.feet)
 
     @property
     def support(self) -> Support | None:
@@ -317,3 +345,12 @@ def _number(value: float) -> float:
         return float(value)
     except OverflowError:
         return inf
+
+
+_Part = TypeVar("_Part")
+
+
+def _calibrated(part: _Part, known: Calibration, *foot: Foot) -> _Part:
+    """The part with what is known that concerns it; `foot`: whose it is, none for a body's."""
+    calibrated = getattr(part, "calibrated", None)
+    return part if calibrated is None else calibrated(*foot, known)

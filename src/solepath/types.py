@@ -67,6 +67,17 @@ class Support(Enum):
     FLIGHT = "FLIGHT"
 
 
+class WalkingMode(Enum):
+    """How the wearer walks: straight on, round a wide (4 m) or a tight (2 m) bend, or not at all."""
+
+    STRAIGHT = "STRAIGHT"
+    LEFT_WIDE = "LEFT_WIDE"
+    LEFT_TIGHT = "LEFT_TIGHT"
+    RIGHT_WIDE = "RIGHT_WIDE"
+    RIGHT_TIGHT = "RIGHT_TIGHT"
+    STANDING = "STANDING"
+
+
 @frozen
 class Packet:
     """One notification (or one value read from a device) as it came in.

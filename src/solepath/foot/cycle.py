@@ -13,8 +13,8 @@ from math import exp, inf, log, sqrt
 
 from attrs import define, field
 
-from ..types import Phase, Vec3
-from ..vector import TIE, ZERO
+from ..types import Phase, Quat, Vec3
+from ..vector import IDENTITY, TIE, ZERO
 from .stance import SIGMA_ACC, SIGMA_GYRO, Load, Shoe, Stance
 
 
@@ -52,7 +52,9 @@ class Cycle:
     past_low: float = field(default=1e12, init=False)
     past_high: float = field(default=0.0, init=False)
 
-    def update(self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None) -> Stance:
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
         force, rate = self.shoe.parts(t, acc, gyro)
         statistic = force / SIGMA_ACC**2 + rate / SIGMA_GYRO**2
         self._remember(t, statistic)

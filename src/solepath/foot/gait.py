@@ -7,7 +7,8 @@ from attrs import define, field
 from ..events import Event
 from ..types import Foot, Phase, Vec3
 from ..vector import ZERO, sub
-from .cues import InertialCues, Seen
+from .cues import Seen
+from .gait_cues import Cues
 from .gap import Leap
 from .habit import Habit
 from .navigate import Corrector
@@ -75,7 +76,7 @@ class Gait:
         return events
 
     def leapt(
-        self, leap: Leap, cues: InertialCues, known_at: float, corrector: Corrector, interval: float
+        self, leap: Leap, cues: Cues, known_at: float, corrector: Corrector, interval: float
     ) -> list[Event]:
         """The phases that a gap has hidden."""
         self.habit.guess(leap.lifted, leap.lasted)
@@ -105,7 +106,9 @@ class Gait:
         if not self.headed and step.t_toe_off is not None:
             # the first step fixes the heading; until then it was the direction in which the foot set out
             self.headed = world.find(position, step.shortest)
-        taken = step.finish(t, known_at, position, attitude, corrector.covariance(), world)
+        taken = step.finish(
+            t, known_at, position, attitude, corrector.covariance(), world, error_index=corrector.error_index
+        )
         if taken is not None:
             # a final step is never seen from another frame again, even when it was too short to give a direction
             self.headed = True

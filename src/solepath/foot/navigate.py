@@ -14,6 +14,7 @@ from attrs import define, field
 
 from ..types import Quat, Vec3
 from ..vector import GRAVITY, IDENTITY, ZERO, from_yaw, multiply, normalise, rotate
+from .phase import Cue
 from .stance import Stance
 
 LONGEST_BRIDGE = 0.25
@@ -31,8 +32,15 @@ class Corrector(Protocol):
     rate: Vec3 | None
     """Angular rate of the last sample, sensor frame, rad/s; None when there was none or a gap since."""
 
+    @property
+    def error_index(self) -> float | None:
+        """By how much the integration missed a known velocity in the motion that ended last, m/s (StepFeatures)."""
+
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         """Stand still at the origin with this attitude, its tilt known to `tilt_sigma` rad."""
+
+    def told(self, attitude: Quat) -> None:
+        """The device says its own attitude at the sample that comes next: sensor to a world of its own, z up."""
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         """One sample: `acc` in m/s^2 and `gyro` in rad/s, sensor frame, bias removed, `dt` s after the one before;
@@ -40,6 +48,9 @@ class Corrector(Protocol):
 
     def correct(self, t: float, stance: Stance) -> bool:
         """Use the evidence of the sample just predicted; True when it agreed with the motion so far."""
+
+    def mark(self, t: float, cue: Cue) -> None:
+        """The sample just corrected, at `t` s, is the best candidate so far for the moment of this cue."""
 
     def bridge(self, dt: float) -> float:
         """`dt` s without samples lie before the next one: trust the motion accordingly less. Returns how long to
@@ -70,6 +81,17 @@ class Strapdown:
     """Specific force of the last sample in this frame, m/s^2."""
     rate: Vec3 | None = field(default=None, init=False)
     """Angular rate of the last sample, sensor frame, rad/s."""
+
+    @property
+    def error_index(self) -> float | None:
+        """As in `Corrector`; one that knows no velocity but zero has none."""
+        return None
+
+    def told(self, attitude: Quat) -> None:
+        """As in `Corrector`; not used here."""
+
+    def mark(self, t: float, cue: Cue) -> None:
+        """As in `Corrector`; not used here."""
 
     def mend(self, yaw: float, position: Vec3) -> None:
         """As in `Corrector`."""

@@ -10,16 +10,12 @@ from __future__ import annotations
 
 from operator import mul
 
-from attrs import define, field
+from attrs import define, evolve, field
 
-from ..types import Layout
+from ..calibration import Calibration, Newtons
+from ..types import Foot, Layout
 from ..vector import TIE
 from .stance import Load
-
-HEEL = 0.33
-"""Cells behind this share of the insole's length are the heel's."""
-FOREFOOT = 0.55
-"""Cells in front of this share are the forefoot's."""
 
 
 @define
@@ -52,7 +48,11 @@ class Extremes:
 
 @define
 class Insole:
-    """One insole: cell values in, `Load` out."""
+    """One insole: cell values in, `Load` out.
+
+    With a calibration raw values become newtons by a cubic (calibration.Newtons), and each cell's noise in the air is
+    taken off, never below 0 (Chen et al. 2019: noise "could be removed through deleting p_noise", equation (1)).
+    """
 
     contrast: float = 0.2
     """Lowest and highest load must differ by this share of the highest before they mean anything."""
@@ -60,6 +60,13 @@ class Insole:
     """Below this share of the full load the foot is in the air."""
     least: float = 0.05
     """Below this share of the full load the centre of pressure is noise."""
+    heel_ends: float = 0.33
+    """Cells behind this share of the insole's length are the heel's area."""
+    forefoot_begins: float = 0.55
+    """Cells in front of this share are the forefoot's area."""
+    newtons: Newtons | None = None
+    noise: tuple[float, ...] = ()
+    """Of each cell, in the unit of the samples, or N with `newtons`."""
     # state
     layout: Layout | None = field(default=None, init=False)
     heel_cells: list[int] = field(factory=list, init=False)
@@ -78,14 +85,20 @@ class Insole:
     risen: bool = field(default=False, init=False)
     """The load has come up again from its lowest."""
 
+    def calibrated(self, foot: Foot, calibration: Calibration) -> Insole:
+        """The same with what is known of this foot's insole."""
+        known = calibration.insole(foot)
+        return evolve(self, newtons=known.newtons or self.newtons, noise=known.noise or self.noise)
+
     def wear(self, layout: Layout) -> None:
         """The device said where its cells are."""
         self.layout = layout
-        self.heel_cells = [i for i, cell in enumerate(layout.cells) if cell.x < HEEL * layout.length]
+        heel_ends, forefoot_begins = self.heel_ends * layout.length, self.forefoot_begins * layout.length
+        self.heel_cells = [i for i, cell in enumerate(layout.cells) if cell.x < heel_ends]
         self.xs = [cell.x for cell in layout.cells]
         self.ys = [cell.y for cell in layout.cells]
         self.tare = [0.0] * len(layout.cells)
-        self.forefoot_cells = [i for i, cell in enumerate(layout.cells) if cell.x > FOREFOOT * layout.length]
+        self.forefoot_cells = [i for i, cell in enumerate(layout.cells) if cell.x > forefoot_begins]
 
     def interrupt(self) -> None:
         """Times begin anew: the extremes are kept, but their spans end here."""
@@ -93,6 +106,11 @@ class Insole:
 
     def update(self, t: float, cells: tuple[float, ...]) -> Load | None:
         """The load as shares of the wearer's full load, or None while that is not known."""
+        if self.newtons is not None:
+            cells = in_newtons(self.newtons, cells)
+        if len(self.noise) == len(cells):
+            pairs = zip(cells, self.noise, strict=True)
+            cells = tuple([value - zero if value > zero else 0.0 for value, zero in pairs])
         total = sum(cells)
         self.total.update(t, total)
         largest = max(cells, default=0.0)
@@ -121,7 +139,8 @@ class Insole:
         if forefoot is not None:
             forefoot /= reach
         highest = largest / self.highest if self.highest > 0.0 else 0.0
-        return Load(share, heel, forefoot, highest, airborne)
+        centre = None if airborne else self.centre_of_pressure(cells)
+        return Load(share, heel, forefoot, highest, airborne, cells, centre)
 
     @staticmethod
     def _above_least(t: float, cells: tuple[float, ...], indices: list[int], extremes: Extremes) -> float | None:
@@ -142,3 +161,11 @@ class Insole:
         if load <= self.least * (self.total.high - self.total.low):
             return None
         return (sum(map(mul, self.xs, loads)) / load, sum(map(mul, self.ys, loads)) / load)
+
+
+def in_newtons(newtons: Newtons, cells: tuple[float, ...]) -> tuple[float, ...]:
+    """Raw values as N: 0 below the threshold, and no more than the most that was calibrated."""
+    a, b, c, d = newtons.coefficients
+    least, most = newtons.threshold, newtons.most
+    forces = [a + value * (b + value * (c + value * d)) for value in cells]
+    return tuple([0.0 if force < least else min(force, most) for force in forces])

@@ -9,8 +9,8 @@ from math import inf
 
 from attrs import define
 
-from ..types import Phase, Vec3
-from ..vector import ZERO
+from ..types import Phase, Quat, Vec3
+from ..vector import IDENTITY, ZERO
 from .stance import Load, Stance
 
 _SILENT = Stance(ZERO, inf, 0.0, None)
@@ -28,7 +28,9 @@ class TwoArea:
     on: float = 0.05
     sigma: float = 0.01
 
-    def update(self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None) -> Stance:
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
         if load is None or load.heel is None or load.forefoot is None:
             return _SILENT
         statistic = min(load.heel, load.forefoot)
@@ -49,7 +51,9 @@ class MaximumPressure:
     threshold: float = 0.25
     sigma: float = 0.05
 
-    def update(self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None) -> Stance:
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
         if load is None:
             return _SILENT
         if load.highest > self.threshold and not load.airborne:

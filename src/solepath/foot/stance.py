@@ -20,8 +20,8 @@ from typing import NamedTuple, Protocol
 
 from attrs import define, field, frozen
 
-from ..types import Phase, Vec3
-from ..vector import GRAVITY, ZERO
+from ..types import Phase, Quat, Vec3
+from ..vector import GRAVITY, IDENTITY, ZERO
 
 
 @frozen
@@ -35,13 +35,17 @@ class Load:
     """The most loaded single cell, as a fraction of the most loaded cell ever seen."""
     airborne: bool
     """No load at all: the foot is in the air."""
+    cells: tuple[float, ...] = ()
+    """Every cell by itself, newtons and noise seen to, in the unit of the samples."""
+    centre: tuple[float, float] | None = None
+    """Centre of pressure (x, y), foot frame, m; None with hardly any load or without a layout."""
 
 
 class Stance(NamedTuple):
     """What one sample says about the velocity of the sensor."""
 
     v_ref: Vec3
-    """The velocity that the sensor ought to have now, m/s, world frame; zero for ZUPT."""
+    """The velocity that the sensor ought to have now, m/s, navigation frame (navigate.py); zero for ZUPT."""
     sigma: float
     """How far to trust it, m/s an axis, for one update every 5 ms; infinite where the detector has nothing to say."""
     statistic: float
@@ -51,9 +55,12 @@ class Stance(NamedTuple):
 
 
 class Detector(Protocol):
-    """`acc` in m/s^2 and `gyro` in rad/s, sensor frame; `load` None without pressure cells; `t` and `dt` in s."""
+    """`acc` in m/s^2 and `gyro` in rad/s, sensor frame; `load` None without pressure cells; `t` and `dt` in s;
+    `attitude` sensor to navigation frame, predicted to this sample (of no meaning before the foot was levelled)."""
 
-    def update(self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None) -> Stance: ...
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance: ...
 
 
 SIGMA_ACC = 0.01
@@ -82,7 +89,9 @@ class Shoe:
     entries: deque[tuple[float, float, float, float, float, float]] = field(factory=deque, init=False)
     sums: tuple[float, float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0, 0.0), init=False)
 
-    def update(self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None) -> Stance:
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
         from_acc, from_gyro = self.parts(t, acc, gyro)
         statistic = from_acc / SIGMA_ACC**2 + from_gyro / SIGMA_GYRO**2
         return soften(statistic, self.sigma, self.base, self.gate)
@@ -128,7 +137,9 @@ class AngularRate:
     entries: deque[tuple[float, float]] = field(factory=deque, init=False)
     total: float = field(default=0.0, init=False)
 
-    def update(self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None) -> Stance:
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
         wx, wy, wz = gyro
         w2 = wx * wx + wy * wy + wz * wz
         self.entries.append((t, w2))
@@ -152,7 +163,9 @@ class MovingVariance:
     entries: deque[tuple[float, float, float, float]] = field(factory=deque, init=False)
     sums: tuple[float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0), init=False)
 
-    def update(self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None) -> Stance:
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
         ax, ay, az = acc
         sx, sy, sz, s2 = self.sums
         sx, sy, sz, s2 = sx + ax, sy + ay, sz + az, s2 + ax * ax + ay * ay + az * az
@@ -184,7 +197,9 @@ class Graph:
     # state
     entries: deque[Vec3] = field(factory=deque, init=False)
 
-    def update(self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None) -> Stance:
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
         entries = self.entries
         entries.append(acc)
         while len(entries) > self.count:

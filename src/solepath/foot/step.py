@@ -131,7 +131,15 @@ class StepBuilder:
             self.cop_stride *= 2
 
     def finish(
-        self, t: float, known_at: float, position: Vec3, attitude: Quat, stretch: tuple[float, ...], world: World
+        self,
+        t: float,
+        known_at: float,
+        position: Vec3,
+        attitude: Quat,
+        stretch: tuple[float, ...],
+        world: World,
+        *,
+        error_index: float | None = None,
     ) -> StepTaken | None:
         """The foot is flat again: the step, if it was one. `position`, `attitude` and `stretch` as `begin` had them."""
         if self.t_start is None or self.t_toe_off is None or max(self.t_start, self.t_toe_off) > t:
@@ -164,5 +172,6 @@ class StepBuilder:
                 swing_pitch=self.pitch_high - self.pitch_low,
                 contact_load=self.load_sum / self.load_count if self.load_count else None,
                 cop=tuple(self.cop),
+                error_index=error_index,
             ),
         )

@@ -14,14 +14,14 @@ from ..events import Event, FootMoved, Limitation, SampleGap, ScaleSuspect
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..vector import GRAVITY, ZERO, sub
 from .attitude import Levelling, Rest
-from .cues import InertialCues, PressureCues, Seen
+from .cues import Seen
 from .cycle import Cycle
 from .dedrift import LinearDedrift
 from .eskf import ErrorStateFilter
 from .gait import Gait
+from .gait_cues import GaitCues
 from .gap import SHORTEST, NoLeap, leap
 from .navigate import LONGEST_BRIDGE
-from .phase import Cue
 from .pressure import Insole
 from .pressure_stance import MaximumPressure, TwoArea
 from .refusal import refusal, rejected
@@ -31,6 +31,7 @@ from .world import Covariance3
 
 AnyDetector = Cycle | Shoe | AngularRate | MovingVariance | Graph | TwoArea | MaximumPressure
 AnyCorrector = ErrorStateFilter | LinearDedrift
+AnyCues = GaitCues
 
 STILL = 0.35
 """A foot that is faster than this after the correction is not flat, however much noise the evidence has, m/s."""
@@ -48,6 +49,10 @@ class FootTracker:
     corrector: AnyCorrector
     poses: bool = False
     """Emit FootMoved for every navigated sample."""
+    cues: AnyCues = field(factory=GaitCues)
+    insole: Insole = field(factory=Insole)
+    needs_pressure: bool = False
+    """Without pressure cells nothing is said of this foot."""
     # state
     t: float | None = field(default=None, init=False)
     """The newest sample, s."""
@@ -63,11 +68,13 @@ class FootTracker:
     levelling: Levelling = field(factory=Levelling, init=False)
     levelled: bool = field(default=False, init=False)
     rest: Rest = field(factory=Rest, init=False)
-    insole: Insole = field(factory=Insole, init=False)
-    inertial_cues: InertialCues = field(factory=InertialCues, init=False)
-    pressure_cues: PressureCues = field(factory=PressureCues, init=False)
+    pressed: bool = field(default=False, init=False)
+    """Cells were heard of."""
+    lacking: str | None = field(default=None, init=False)
+    """What the detector must do without on this layout, not said yet."""
     gait: Gait = field(init=False)
     said: list[str] = field(factory=list, init=False)
+    """Limitations so far; what a detector lacks is among them once it was told."""
     scale_said: bool = field(default=False, init=False)
     """That acc does not read 1 g at rest has been said, or is another's to say."""
 
@@ -106,6 +113,14 @@ class FootTracker:
     def wear(self, layout: Layout) -> None:
         """The device said where its pressure cells are."""
         self.insole.wear(layout)
+        self._wear_parts(layout)
+
+    def _wear_parts(self, layout: Layout) -> None:
+        for part in (self.detector, self.cues):
+            wear = getattr(part, "wear", None)
+            if wear is not None:
+                wear(layout)
+        self.lacking = getattr(self.detector, "lacking", None)
 
     def interrupt(self) -> None:
         """The clock of the samples begins anew, before or after the old one; what the foot did between is unknown."""
@@ -114,11 +129,10 @@ class FootTracker:
         self.t = self.moved_at = self.pressed_at = self.lacking_since = self.load = None
         self.gait.interrupt()
         # Windows over the old times would wait for the new ones to catch up. What was learnt stays.
-        axis = self.inertial_cues.axis
         self.detector = evolve(self.detector)
-        self.inertial_cues = evolve(self.inertial_cues)
-        self.inertial_cues.axis = axis
-        self.pressure_cues = evolve(self.pressure_cues)
+        self.cues.anew()
+        if self.insole.layout is not None:
+            self._wear_parts(self.insole.layout)
         self.levelling = evolve(self.levelling)
         self.insole.interrupt()
         self.rest.interrupt()
@@ -140,15 +154,21 @@ class FootTracker:
             self.gait.step.spoil(t)
         load: Load | None = None
         if sample.pressure:
+            self.pressed = True
             load = self.insole.update(t, sample.pressure)
             if self.phase is not Phase.SWING and load is not None and self.gait.step.t_toe_off is None:
-                self.gait.step.loaded(sum(sample.pressure), self.insole.centre_of_pressure(sample.pressure))
+                self.gait.step.loaded(sum(load.cells), load.centre)
+        elif self.needs_pressure and not self.pressed:
+            self._say_without_pressure(t, known_at, events)
+            return events
         if sample.acc is not None and sample.gyro is not None:
             dt = 0.0 if last is None else self._watch_for_gaps(last, t, known_at, sample, events)
             self.moved_at = t
             self.lacking_since = None
             if load is None:
                 load, self.load = self.load, None
+            if sample.quat is not None:
+                self.corrector.told(sample.quat)
             self._inertial(t, dt, known_at, sample.acc, sample.gyro, sample.saturated, load, events)
             return events
         self.pressed_at = t
@@ -185,9 +205,9 @@ class FootTracker:
         for _ in range(2):  # within a second a foot may land, stand, and leave again
             if isinstance(found, NoLeap):
                 break
-            self.inertial_cues.interrupt()
+            self.cues.interrupt()
             corrector.leap(t - last, found.attitude, found.velocity, found.position)
-            events += self.gait.leapt(found, self.inertial_cues, known_at, corrector, self.rhythm.usual or 0.0)
+            events += self.gait.leapt(found, self.cues, known_at, corrector, self.rhythm.usual or 0.0)
             if found.landed is None:
                 break
             last = found.landed
@@ -214,7 +234,12 @@ class FootTracker:
             self._check_scale(t, known_at, events)
         acc, gyro = self._calibrated(acc, gyro)
         corrector, gait = self.corrector, self.gait
-        stance = self.detector.update(t, dt, acc, gyro, load)
+        if self.levelled:
+            corrector.predict(dt, acc, gyro, saturated)
+        stance = self.detector.update(t, dt, acc, gyro, load, corrector.attitude)
+        if self.lacking is not None:
+            self._limit(self.lacking, t, known_at, events)
+            self.lacking = None
         if not self.levelled:
             first = self.levelling.update(t, acc, gyro)
             if first is not None:
@@ -223,21 +248,21 @@ class FootTracker:
                 self.gait.step.begin(t, ZERO, corrector.attitude)
             self._say_where(t, known_at, events)
             return
-        corrector.predict(dt, acc, gyro, saturated)
         believed = corrector.correct(t, stance)
         vx, vy, vz = corrector.velocity
         speed = sqrt(vx * vx + vy * vy + vz * vz)
         still = believed and speed < STILL
-        cues = self.inertial_cues
-        seen = cues.update(t, dt, gyro, still, speed, gait.phase)
-        if load is not None:
-            seen = self._with_pressure(t, dt, load, seen)
+        cues = self.cues
+        seen = cues.update(t, dt, gyro, still, speed, gait.phase, load, stance)
+        if cues.mark is not None:
+            corrector.mark(t, cues.mark)
         habit = gait.habit
         if habit.lifted is not None and t >= habit.due:
             habit.keep(t, corrector.attitude, corrector.velocity, corrector.position, acc, gyro)
         self.gait.step.moved(dt, corrector.position[2], speed, cues.sagittal if cues.axis is not None else 0.0)
-        if seen is not None:
-            self._see(seen, known_at, events)
+        if seen:
+            for one in seen:
+                self._see(one, known_at, events)
         elif gait.world.north is None:
             gait.world.find(corrector.position)
         self._say_where(t, known_at, events)
@@ -249,30 +274,32 @@ class FootTracker:
                 FootMoved(t=t, known_at=known_at, foot=self.foot, position=here, velocity=velocity, phase=self.phase)
             )
 
-    def _with_pressure(self, t: float, dt: float, load: Load, seen: Seen | None) -> Seen | None:
-        """Contact and clear are the pressure's to say, flat and lift the inertial sensor's; the heel dates the lift."""
-        pressed = self.pressure_cues.update(t, dt, load, self.phase)
-        if pressed is not None:
-            return pressed
-        if seen is None or seen.cue is Cue.FLAT:
-            return seen
-        return self.pressure_cues.dated(seen) if seen.cue is Cue.LIFT else None
-
     def _pressure_alone(
         self, t: float, dt: float, known_at: float, sample: Sample, load: Load | None, events: list[Event]
     ) -> None:
         if self.lacking_since is None:
             self.lacking_since = t
-        lacking = "accelerometer" if sample.acc is None else "gyroscope"
-        if t - self.lacking_since >= WITHOUT and lacking not in self.said:
-            self.said.append(lacking)
+        if t - self.lacking_since >= WITHOUT:
+            lacking = "accelerometer" if sample.acc is None else "gyroscope"
             what = f"no {lacking} on the {self.foot.value} foot: no steps and no track from it"
-            events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[self.foot], what=what))
+            self._limit(what, t, known_at, events)
         if load is None:
             return
-        seen = self.pressure_cues.update(t, dt, load, self.phase) or self.pressure_cues.areas(t, load, self.phase)
-        if seen is not None:
+        for seen in self.cues.alone(t, dt, load, self.phase):
             self._see(seen, known_at, events)
+
+    def _say_without_pressure(self, t: float, known_at: float, events: list[Event]) -> None:
+        if self.lacking_since is None:
+            self.lacking_since = t
+        if t - self.lacking_since >= WITHOUT:
+            what = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
+            self._limit(what, t, known_at, events)
+
+    def _limit(self, what: str, t: float, known_at: float, events: list[Event]) -> None:
+        """Say once what must be done without."""
+        if what not in self.said:
+            self.said.append(what)
+            events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[self.foot], what=what))
 
     def _see(self, seen: Seen, known_at: float, events: list[Event]) -> None:
         corrector = self.corrector if self.levelled else None

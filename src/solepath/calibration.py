@@ -1,0 +1,151 @@
+"""What is known of a wearer, a pair of shoes and a pair of insoles beyond what they say themselves.
+
+Everything here is optional: a session without a calibration runs on defaults and on what it learns. The file is JSON
+(protocol/calibration.md); `solepath calibrate` writes it.
+"""
+
+from __future__ import annotations
+
+import json
+from math import isfinite
+from pathlib import Path
+from typing import Any, TypeVar
+
+from attrs import evolve, field, fields, frozen
+
+from .machine import SnapshotError, load, save
+from .types import Foot, Layout, WalkingMode
+
+FORMAT = "solepath-calibration"
+VERSION = 1
+
+
+class CalibrationError(ValueError):
+    """A calibration cannot be read or used: one sentence that says what is wrong."""
+
+
+@frozen
+class Newtons:
+    """From a cell's raw value to newtons by a cubic, N = a + b c + c2 c^2 + c3 c^3, as fitted to gauge data (Gong et
+    al. 2023, Sensors 23, 5417, fig. 6). Below `threshold` (N) a cell reads 0, beyond `most` (N) it reads `most`."""
+
+    coefficients: tuple[float, float, float, float]
+    threshold: float = 5.0
+    most: float = 200.0
+
+
+@frozen
+class InsoleCalibration:
+    """One insole. `layout`: where its cells are, for devices and files that do not say. `noise`: what each cell shows
+    in the air, unit of the samples, or N where there are `newtons` (Chen et al. 2019, equation (1))."""
+
+    layout: Layout | None = None
+    newtons: Newtons | None = None
+    noise: tuple[float, ...] = ()
+
+
+@frozen
+class ShoeGeometry:
+    """The shoe as Chen et al. 2019 have it in figs. 5 to 7; the defaults are their shoe (10.5 US), in m.
+
+    `heel_radius`: L_r from the heel's end to the point below the sensor. `height`: H_imu, from there to the sensor.
+    `forefoot_radius` and `pivot_to_toe`: L_r and L_p2t as polynomials of the heel-up pitch (rad), constant first, good
+    from flat to `steepest` (rad). The default curves are those of a sole that rolls over a forefoot rocker of 5 cm
+    radius, tangent to the ground 19.5 cm before the heel's end, in a shoe 28.5 cm long.
+    """
+
+    heel_radius: float = 0.125
+    height: float = 0.029
+    forefoot_radius: tuple[float, ...] = (0.070, 0.050)
+    pivot_to_toe: tuple[float, ...] = (0.090, -0.050)
+    steepest: float = 1.2
+
+
+@frozen
+class Limbs:
+    """Lengths of the lower limbs, m: between the hip joints, thigh, shank, foot from below the ankle to its end, and
+    height of the ankle above the ground.
+
+    The defaults are those of a wearer of 1.75 m by the proportions of Drillis and Contini (1966), as in Winter,
+    Biomechanics and Motor Control of Human Movement: hips 0.191, thigh 0.245, shank 0.246, foot 0.152 and ankle 0.039
+    of the height.
+    """
+
+    hip_width: float = 0.334
+    thigh: float = 0.429
+    shank: float = 0.431
+    foot: float = 0.266
+    ankle_height: float = 0.068
+
+
+@frozen
+class Calibration:
+    """All of it; what was not calibrated is None or absent.
+
+    `drift`: slope of a foot's position in the navigation frame, m/s (x, y). That frame has the heading that the sensor
+    had at the start, so a drift holds for walks that start as the calibration did. `weight`: of the wearer, N.
+    `modes`: compensation of a touchdown by foot and walking mode, (forward, left), m.
+    """
+
+    insoles: dict[Foot, InsoleCalibration] = field(factory=dict)
+    shoe: ShoeGeometry | None = None
+    drift: tuple[float, float] | None = None
+    limbs: Limbs | None = None
+    weight: float | None = None
+    modes: dict[Foot, dict[WalkingMode, tuple[float, float]]] | None = None
+
+    def insole(self, foot: Foot) -> InsoleCalibration:
+        """Of this foot's insole; an empty one where none is known."""
+        return self.insoles.get(foot, InsoleCalibration())
+
+
+def merged(known: Calibration, newer: Calibration) -> Calibration:
+    """`known` with everything that `newer` holds in its place, insole by insole and part by part."""
+    insoles = dict(known.insoles)
+    for foot, insole in newer.insoles.items():
+        insoles[foot] = _over(insoles.get(foot, InsoleCalibration()), insole)
+    return evolve(_over(known, newer), insoles={foot: insoles[foot] for foot in Foot if foot in insoles})
+
+
+_Known = TypeVar("_Known", Calibration, InsoleCalibration)
+
+
+def _over(known: _Known, newer: _Known) -> _Known:
+    said = {f.name: getattr(newer, f.name) for f in fields(type(newer)) if getattr(newer, f.name)}
+    return evolve(known, **said)
+
+
+def write_calibration(path: Path | str, calibration: Calibration) -> None:
+    """Write it to a file; OSError where that cannot be."""
+    told = {"format": FORMAT, "version": VERSION, "calibration": save(calibration)}
+    Path(path).write_text(json.dumps(told, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def read_calibration(path: Path | str) -> Calibration:
+    """The calibration in a file. CalibrationError when the file cannot be read or is not one."""
+    try:
+        told = json.loads(Path(path).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise CalibrationError(f"{path}: {error.strerror}") from None
+    except ValueError as error:
+        raise CalibrationError(f"{path}: is not JSON ({error})") from None
+    if not isinstance(told, dict) or told.get("format") != FORMAT:
+        raise CalibrationError(f"{path}: is not a calibration")
+    if told.get("version") != VERSION:
+        raise CalibrationError(f"{path}: is of version {told.get('version')!r}; this release reads {VERSION}")
+    try:
+        found = load(Calibration, told.get("calibration"))
+    except SnapshotError as error:
+        raise CalibrationError(f"{path}: {error}") from None
+    for number in _numbers(told["calibration"]):
+        if not isfinite(number):
+            raise CalibrationError(f"{path}: holds {number}")
+    return found
+
+
+def _numbers(value: Any) -> list[float]:
+    if isinstance(value, dict):
+        value = list(value.values())
+    if isinstance(value, list):
+        return [number for item in value for number in _numbers(item)]
+    return [float(value)] if isinstance(value, int | float) else []

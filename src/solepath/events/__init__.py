@@ -1,0 +1,118 @@
+"""Everything that a session can say.
+
+Every event is frozen, compares with == and carries the same three times of truth: `t`, when it happened (s, sample
+clock); `known_at`, when that was known (s, arrival of the packet that settled it); `final`, whether anything may still
+revise it. Final events never change, however much data follows.
+"""
+
+from __future__ import annotations
+
+from .body import (
+    StrideFused,
+    TouchedDown,
+    WalkingModeChanged,
+)
+from .gait import (
+    FootFlat,
+    FootMoved,
+    HeelOff,
+    HeelStrike,
+    StepFeatures,
+    StepTaken,
+    ToeOff,
+)
+from .link import (
+    BatteryLevel,
+    ClockReset,
+    Connected,
+    Disconnected,
+    KeysChanged,
+    LayoutKnown,
+    Limitation,
+    LinkTrouble,
+    PacketRejected,
+    PacketsDropped,
+    PacketsLost,
+    Rejection,
+    SampleGap,
+    SampleRejected,
+    ScaleSuspect,
+    StreamRestarted,
+    StreamResumed,
+    StreamStale,
+)
+from .wear import (
+    CellFault,
+    CellsFailed,
+    FeetSwapped,
+    FootHeard,
+    FootSilent,
+    InsoleNeverUnloads,
+)
+
+__all__ = [
+    "BatteryLevel",
+    "BodyEvent",
+    "CellFault",
+    "CellsFailed",
+    "ClockReset",
+    "Connected",
+    "Disconnected",
+    "Event",
+    "FeetSwapped",
+    "FootFlat",
+    "FootHeard",
+    "FootMoved",
+    "FootSilent",
+    "GaitEvent",
+    "HeelOff",
+    "HeelStrike",
+    "InsoleNeverUnloads",
+    "KeysChanged",
+    "LayoutKnown",
+    "Limitation",
+    "LinkEvent",
+    "LinkTrouble",
+    "PacketRejected",
+    "PacketsDropped",
+    "PacketsLost",
+    "Rejection",
+    "SampleGap",
+    "SampleRejected",
+    "ScaleSuspect",
+    "StepFeatures",
+    "StepTaken",
+    "StreamRestarted",
+    "StreamResumed",
+    "StreamStale",
+    "StrideFused",
+    "ToeOff",
+    "TouchedDown",
+    "WalkingModeChanged",
+    "WearEvent",
+]
+
+GaitEvent = HeelStrike | FootFlat | HeelOff | ToeOff | StepTaken | FootMoved
+LinkEvent = (
+    PacketRejected
+    | SampleRejected
+    | PacketsLost
+    | SampleGap
+    | ClockReset
+    | StreamStale
+    | StreamResumed
+    | Connected
+    | Disconnected
+    | PacketsDropped
+    | StreamRestarted
+    | LinkTrouble
+    | ScaleSuspect
+    | LayoutKnown
+    | BatteryLevel
+    | KeysChanged
+    | Limitation
+)
+BodyEvent = StrideFused | TouchedDown | WalkingModeChanged
+WearEvent = CellsFailed | InsoleNeverUnloads | FeetSwapped | FootSilent | FootHeard
+Event = GaitEvent | LinkEvent | BodyEvent | WearEvent
+"""All of them."""

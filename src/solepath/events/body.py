@@ -1,0 +1,58 @@
+"""What both feet together did: fused strides, touchdowns, walking modes."""
+
+from __future__ import annotations
+
+from attrs import frozen
+
+from ..types import Foot, Vec3, WalkingMode
+from .happening import Happening
+
+
+@frozen(kw_only=True)
+class StrideFused(Happening):
+    """The stride of one foot, calibrated by the other's, and whose path the wearer's is now (Chen et al. 2019, IEEE
+    Internet of Things Journal, equations (9) to (13)). Known at the foot-flat that ends the stride, which is `t`.
+    """
+
+    foot: Foot
+    number: int
+    """Of the foot's step (StepTaken.number)."""
+    stride_length: float
+    """Calibrated, D of (12), m."""
+    own_length: float
+    """As this foot alone has it, d, m."""
+    similarity: float | None
+    """r of (9); None when there was no stride of the other foot to compare with."""
+    error_index: float
+    """EI of (10), m/s."""
+    coefficient: float
+    """Of (11): the share of the foot's own length in the calibrated one."""
+    chosen: Foot
+    """Whose path is the wearer's after this step, by (13)."""
+    distance: float
+    """Sum of the calibrated stride lengths of the chosen foot, m."""
+    position: Vec3
+    """End of the chosen foot's calibrated path, world frame, m."""
+
+
+@frozen(kw_only=True)
+class TouchedDown(Happening):
+    """A foot came down and carries from now on; the other is measured from it (Gong et al. 2023, Sensors 23, 5417,
+    equations (1) to (3) and (8))."""
+
+    foot: Foot
+    position: Vec3
+    """Where it came down, compensated, world frame, m."""
+    mode: WalkingMode
+    """The walking mode that the compensation is of."""
+    compensation: Vec3
+    """What was added to the measured place, world frame, m."""
+
+
+@frozen(kw_only=True)
+class WalkingModeChanged(Happening):
+    """The wearer walks another way than before; known when the contact that shows it ends."""
+
+    mode: WalkingMode
+    foot: Foot
+    """Whose contact showed it."""

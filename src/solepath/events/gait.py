@@ -1,0 +1,101 @@
+"""What one foot did: phases, steps, live positions."""
+
+from __future__ import annotations
+
+from attrs import frozen
+
+from ..types import Foot, Phase, Vec3
+from .happening import Happening
+
+
+@frozen(kw_only=True)
+class _Phase(Happening):
+    foot: Foot
+    inferred: bool = False
+    """True when no sample was there to see it: it is what this foot does as a rule, dated within a gap."""
+
+
+@frozen(kw_only=True)
+class HeelStrike(_Phase):
+    """The foot touched the ground; LOADING begins."""
+
+
+@frozen(kw_only=True)
+class FootFlat(_Phase):
+    """The whole sole is on the ground and still; STATIONARY begins and a step may end."""
+
+
+@frozen(kw_only=True)
+class HeelOff(_Phase):
+    """The heel lifted; PUSH_OFF begins."""
+
+
+@frozen(kw_only=True)
+class ToeOff(_Phase):
+    """The toe left the ground; SWING begins."""
+
+
+@frozen
+class StepFeatures:
+    """What was measured along one step, for whoever compares steps; None where the sensors could not tell.
+
+    `clearance`: highest rise of the sensor above the higher end of the step, m. `peak_speed`: m/s. `swing_pitch`:
+    range of the pitch angle over the step, rad. `contact_load`: mean load from foot-flat to toe-off, in the unit of the
+    samples. `cop`: centre-of-pressure path (x, y) in the foot frame over the same time, m, at most 32
+    points evenly spaced in samples. `error_index`: by how much the integrated velocity missed the known one at toe-off
+    and heel-strike, m/s (Chen et al. 2019, equation (10)); None where the velocity of the rolling shoe was not used.
+    """
+
+    clearance: float
+    peak_speed: float
+    swing_pitch: float
+    contact_load: float | None = None
+    cop: tuple[tuple[float, float], ...] = ()
+    error_index: float | None = None
+
+
+@frozen(kw_only=True)
+class StepTaken(Happening):
+    """One foot went from foot-flat to its next foot-flat (clinically: a stride). Known at the second foot-flat.
+
+    `t` is the second foot-flat. Vectors are in the world frame (z up, x along the first heading, y left), m.
+    """
+
+    foot: Foot
+    number: int
+    """1 for the first step of this foot, and so on."""
+    t_start: float
+    """The foot-flat at which the step began, s."""
+    t_end: float
+    """The foot-flat that ended it, s; the same as `t`."""
+    displacement: Vec3
+    """From the first to the second foot-flat, m."""
+    position: Vec3
+    """Where the foot stands after the step, m."""
+    stride_length: float
+    """Horizontal length of `displacement`, m."""
+    heading_change: float
+    """Turn of the foot about the vertical between the two foot-flats, rad, counter-clockwise positive, in (-pi, pi]."""
+    height_change: float
+    """Vertical part of `displacement`, m."""
+    covariance: tuple[float, float, float, float, float, float]
+    """Of `displacement`: xx, xy, xz, yy, yz, zz in m^2."""
+    t_toe_off: float | None = None
+    t_heel_strike: float | None = None
+    degraded: bool = False
+    """True when samples were missing or saturated within the step."""
+    features: StepFeatures
+
+
+@frozen(kw_only=True)
+class FootMoved(Happening):
+    """Where a foot is after one sample; only from a session made with `poses=True`.
+
+    Live, so never final: the step that it belongs to says where the foot really went. World frame, m and m/s.
+    """
+
+    foot: Foot
+    position: Vec3
+    velocity: Vec3
+    phase: Phase
+    final: bool = False
