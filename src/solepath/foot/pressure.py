@@ -69,6 +69,8 @@ class Insole:
     """Of each cell, in the unit of the samples, or N with `newtons`."""
     # state
     layout: Layout | None = field(default=None, init=False)
+    cells: tuple[float, ...] = field(default=(), init=False)
+    """The newest values, noise taken off."""
     heel_cells: list[int] = field(factory=list, init=False)
     forefoot_cells: list[int] = field(factory=list, init=False)
     total: Extremes = field(factory=Extremes, init=False)
@@ -111,6 +113,7 @@ class Insole:
         if len(self.noise) == len(cells):
             pairs = zip(cells, self.noise, strict=True)
             cells = tuple([value - zero if value > zero else 0.0 for value, zero in pairs])
+        self.cells = cells
         total = sum(cells)
         self.total.update(t, total)
         largest = max(cells, default=0.0)
