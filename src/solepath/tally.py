@@ -7,13 +7,17 @@ from collections import Counter
 from attrs import define, field
 
 from .events import (
+    CellsFailed,
     ClockReset,
     Connected,
     Event,
+    FeetSwapped,
     FootFlat,
     FootMoved,
+    FootSilent,
     HeelOff,
     HeelStrike,
+    InsoleNeverUnloads,
     Limitation,
     LinkTrouble,
     PacketRejected,
@@ -25,10 +29,12 @@ from .events import (
     StepTaken,
     StreamRestarted,
     StreamStale,
+    StrideFused,
     ToeOff,
+    TouchedDown,
 )
 from .link.known import KINDS
-from .types import Foot, Packet, Phase, Sample, Site, Vec3
+from .types import Foot, Packet, Phase, Sample, Site, Vec3, WalkingMode
 from .wire.error import WireError
 from .wire.fragment import is_fragment, parse_fragment
 
@@ -119,6 +125,13 @@ class Tally:
     """By gait event: how long after it happened each one was known, s."""
     limitations: list[str] = field(factory=list)
     suspects: list[str] = field(factory=list)
+    fused: StrideFused | None = None
+    """The last one: how far the wearer came by both feet."""
+    modes: Counter[WalkingMode] = field(factory=Counter)
+    """Touchdowns by the walking mode that they were in."""
+    worn: list[str] = field(factory=list)
+    """What is wrong with how sensors are worn, or with their cells; each once."""
+    silences: Counter[Foot] = field(factory=Counter)
 
     @property
     def duration(self) -> float:
@@ -194,5 +207,22 @@ class Tally:
             case ScaleSuspect(site=site, magnitude=magnitude, suggestion=suggestion):
                 told = f": {suggestion}" if suggestion else ""
                 self.suspects.append(f"{site.words}: |acc| is {magnitude:.2f} m/s^2 at rest{told}")
+            case StrideFused(final=True):
+                self.fused = event
+            case TouchedDown(mode=mode, final=True):
+                self.modes[mode] += 1
+            case CellsFailed(site=site, fault=fault, cells=cells):
+                told = ", ".join(map(str, cells))
+                self._wrong(f"{site.words}: cell{'s' * (len(cells) > 1)} {told} {fault.value}, left out")
+            case InsoleNeverUnloads(site=site):
+                self._wrong(f"{site.words}: the insole never unloads; phases come from the inertial sensor")
+            case FeetSwapped():
+                self._wrong("the feet look swapped: what comes as the left one is like a right one")
+            case FootSilent(foot=foot):
+                self.silences[foot] += 1
             case _:
                 pass
+
+    def _wrong(self, told: str) -> None:
+        if told not in self.worn:
+            self.worn.append(told)

@@ -6,7 +6,7 @@ from statistics import median
 
 from ..recording import printable
 from ..tally import DATED, Tally
-from ..types import Foot, Site
+from ..types import Foot, Site, WalkingMode
 from .table import milliseconds, number, table
 
 
@@ -31,6 +31,8 @@ def summary(tally: Tally, *, title: str, seconds: float) -> str:
             lines.append(f"{foot.value}: {one.gaps} gaps in the samples, {one.gap_time:.2f} s in all")
         if one.degraded:
             lines.append(f"{foot.value}: {one.degraded} of {one.steps} steps degraded by missing or saturated samples")
+    lines += _together(tally)
+    lines += _worn(tally)
     lines += link_health(tally)
     lines += latency(tally)
     lines += [f"limitation, {printable(what)}" for what in tally.limitations]
@@ -40,6 +42,23 @@ def summary(tally: Tally, *, title: str, seconds: float) -> str:
         pace = f", {1e6 * seconds / samples:.0f} us a sample"
         lines.append(f"computed in {seconds:.2f} s: {tally.duration / seconds:.0f} times as fast as walked{pace}")
     return "\n".join(lines)
+
+
+def _together(tally: Tally) -> list[str]:
+    """What came of both feet together; nothing when the recipe looks at each by itself."""
+    lines = []
+    if (fused := tally.fused) is not None:
+        lines.append(f"both feet fused: {number(fused.distance)} m, at the end by the {fused.chosen.value} foot's path")
+    if tally.modes:
+        modes = ", ".join(f"{mode.value} {tally.modes[mode]}" for mode in WalkingMode if tally.modes[mode])
+        lines.append(f"{tally.modes.total()} touchdowns: {modes}")
+    return lines
+
+
+def _worn(tally: Tally) -> list[str]:
+    """What is wrong with how it is worn, a line each; nothing when all is well."""
+    silent = {foot: tally.silences[foot] for foot in Foot if tally.silences[foot]}
+    return [*tally.worn, *(f"{foot.value}: silent {n} times while the other walked on" for foot, n in silent.items())]
 
 
 def link_health(tally: Tally) -> list[str]:
