@@ -12,6 +12,8 @@ DEAD = 150.0
 """A switch whose counts range less than this between unloaded and loaded is dead or too weak to tell anything."""
 CLOSES, OPENS = 0.20, 0.10
 """Shares of a switch's range at which contact begins and ends: well above its rest level, early in its slope."""
+FORCE = 20.0
+"""N that a foot on the ground shows at the least."""
 SHORTEST = 0.15
 """s; contacts and flights shorter than this are bounces of the switch."""
 
@@ -32,6 +34,14 @@ def switch_contacts(t: NDArray[Any], counts: NDArray[Any]) -> list[tuple[float, 
             closed = not closed
             edges.append((at, closed))
     edges = without_bounces(edges)
+    return [(a, b) for (a, on), (b, _) in zip(edges, edges[1:], strict=False) if on]
+
+
+def force_contacts(t: NDArray[Any], force: NDArray[Any]) -> list[tuple[float, float]]:
+    """The spans of contact [begin, end] in s of a force (n,) at `t` (n,), N; those cut off at an end are left out."""
+    closed = force > FORCE
+    turns = np.flatnonzero(closed[1:] != closed[:-1]) + 1
+    edges = without_bounces([(float(t[k]), bool(closed[k])) for k in turns])
     return [(a, b) for (a, on), (b, _) in zip(edges, edges[1:], strict=False) if on]
 
 

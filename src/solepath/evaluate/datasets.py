@@ -13,17 +13,16 @@ from typing import Any
 import numpy as np
 from attrs import frozen
 
+from .. import recipes
 from ..types import Foot
 from .alignment import at_times, path_length, track_error
-from .contacts import merged, switch_contacts
 from .gathered import FootRun
-from .matching import TOLERANCE, Matching, match
-from .run import Run, run
+from .insoles import in_dataset
+from .recorded import Arrays, Meta, scored, truth_of
+from .run import run
 from .score import Figures, Scored
-from .strides import StrideScore, position_errors, stride_score, surveyed_score
-
-Meta = dict[str, Any]
-Arrays = dict[str, Any]
+from .strides import StrideScore, position_errors, surveyed_score
+from .timing import score_borders, score_force, score_pressed, score_swings, score_switches, score_treadmill
 
 
 @frozen
@@ -38,15 +37,12 @@ class DataSet:
     figures: tuple[str, ...]
     each: bool = True
     """Whether the table has a line for every recording."""
+    pressed: bool = False
+    """Whether the session gets pressure."""
 
-
-def _truth(path: Path) -> Arrays:
-    with np.load(path, allow_pickle=False) as archive:
-        return {key: archive[key] for key in archive.files if key == "t" or key.startswith(("t_", "gt_", "pressure"))}
-
-
-def _scored(path: Path, went: Run, **parts: Any) -> Scored:
-    return Scored(path.stem, samples=went.samples, seconds=went.seconds, **parts)
+    def suits(self, recipe: str) -> bool:
+        """Whether the recipe has something to say of these data."""
+        return self.pressed or not recipes.BY_NAME[recipe].needs_pressure
 
 
 def _always(meta: Meta) -> bool:
@@ -58,20 +54,20 @@ def _always(meta: Meta) -> bool:
 
 def score_vicon(path: Path, meta: Meta, recipe: str) -> Scored:
     """The live position at every sample against the marker's."""
-    truth, went = _truth(path), run(path, recipe)
+    truth, went = truth_of(path), run(path, recipe)
     foot = went.feet[Foot.RIGHT]
     bipedal = meta.get("llio_tag") == 1
     strides = _surveyed(truth, foot) if bipedal and "gt_stride_xy" in truth else None
     figures = _track_figures(foot, truth["t"], truth["gt_pos"])
-    return _scored(path, went, figures=figures, strides=strides, groups=("all", "bipedal") if bipedal else ("all",))
+    return scored(path, went, figures=figures, strides=strides, groups=("all", "bipedal") if bipedal else ("all",))
 
 
 def score_optitrack(path: Path, meta: Meta, recipe: str) -> Scored:
     """The marker has a clock and a span of its own: scored where both are known."""
-    truth, went = _truth(path), run(path, recipe)
+    truth, went = truth_of(path), run(path, recipe, calibration=in_dataset(path))
     both = (truth["gt_t"] >= truth["t"][0]) & (truth["gt_t"] <= truth["t"][-1])
     figures = _track_figures(went.feet[Foot.RIGHT], truth["gt_t"][both], truth["gt_pos"][both])
-    return _scored(path, went, figures=figures)
+    return scored(path, went, figures=figures)
 
 
 def _track_figures(foot: FootRun, t: Any, truth: Any) -> Figures:
@@ -101,14 +97,14 @@ def score_loop(path: Path, meta: Meta, recipe: str) -> Scored:
             "path": float(meta["path_m_about"]),
             "relative": end / float(meta["path_m_about"]),
         }
-    return _scored(path, went, figures=figures)
+    return scored(path, went, figures=figures)
 
 
 # --- strides --------------------------------------------------------------------------------------------------------
 
 
 def score_surveyed(path: Path, meta: Meta, recipe: str) -> Scored:
-    truth, went = _truth(path), run(path, recipe)
+    truth, went = truth_of(path), run(path, recipe)
     foot = went.feet[Foot.RIGHT]
     figures: Figures = {}
     if len(foot.t):
@@ -120,7 +116,7 @@ def score_surveyed(path: Path, meta: Meta, recipe: str) -> Scored:
             "path": surveyed,
             "relative": float(np.mean(errors)) / surveyed,
         }
-    return _scored(path, went, figures=figures, strides=_surveyed(truth, foot))
+    return scored(path, went, figures=figures, strides=_surveyed(truth, foot))
 
 
 def _surveyed(truth: Arrays, foot: FootRun) -> StrideScore:
@@ -134,63 +130,7 @@ def score_counted(path: Path, meta: Meta, recipe: str) -> Scored:
     """Somebody counted the strides; where they were is not known."""
     went = run(path, recipe)
     true, found = int(meta["n_true_strides"]), len(went.feet[Foot.RIGHT].steps)
-    return _scored(path, went, strides=StrideScore(true, min(true, found), max(0, found - true)))
-
-
-# --- heel-strike and toe-off ----------------------------------------------------------------------------------------
-
-
-def score_swings(path: Path, meta: Meta, recipe: str) -> Scored:
-    """Labels of every swing: it starts with toe-off and ends with heel-strike."""
-    truth, went = _truth(path), run(path, recipe)
-    heel_strike, toe_off = Matching(), Matching()
-    for foot, ran in went.feet.items():
-        swings = truth[f"gt_{foot.value}"]
-        toe_off += match(swings[:, 0].tolist(), ran.toe_offs)
-        heel_strike += match(swings[:, 1].tolist(), ran.heel_strikes)
-    return _scored(path, went, events={"heel_strike": heel_strike, "toe_off": toe_off})
-
-
-def score_borders(path: Path, meta: Meta, recipe: str) -> Scored:
-    """Strides from heel-strike to heel-strike, known only while the walker is in view of the cameras."""
-    truth, went = _truth(path), run(path, recipe)
-    heel_strike = Matching()
-    for foot, ran in went.feet.items():
-        borders = [(float(a), float(b)) for a, b in truth[f"gt_borders_{foot.value}"]]
-        seen = merged(borders)
-        # a border that two strides share is one heel-strike
-        strikes = [at for at, _ in merged([(at, at) for border in borders for at in border])]
-        heel_strike += match(strikes, ran.heel_strikes, windows=seen)
-    return _scored(path, went, events={"heel_strike": heel_strike})
-
-
-def score_treadmill(path: Path, meta: Meta, recipe: str) -> Scored:
-    """Contact times of a light barrier. The belt is an inertial frame of its own, in which the standing foot rests, so
-    stride lengths compare as they are; positions in the room do not."""
-    truth, went = _truth(path), run(path, recipe)
-    heel_strike, toe_off, strides = Matching(), Matching(), StrideScore()
-    for foot, ran in went.feet.items():
-        rows = truth["gt_foot"] == (0 if foot is Foot.LEFT else 1)
-        strikes = truth["gt_hs_t"][rows]
-        heel_strike += match(strikes.tolist(), ran.heel_strikes)
-        toe_off += match((strikes + truth["gt_contact_s"][rows]).tolist(), ran.toe_offs)
-        # the stride that a heel-strike ends, ours ending at the foot-flat after it: well before the next heel-strike
-        strides += stride_score(strikes, truth["gt_stride_len"][rows][:-1], ran.step_lengths, slack=-TOLERANCE)
-    return _scored(path, went, events={"heel_strike": heel_strike, "toe_off": toe_off}, strides=strides)
-
-
-def score_switches(path: Path, meta: Meta, recipe: str) -> Scored:
-    """Heel and toe switches under the foot are the truth here, so the session does without them."""
-    truth, went = _truth(path), run(path, recipe, without_pressure=True)
-    heel_strike, toe_off = Matching(), Matching()
-    for foot, ran in went.feet.items():
-        t, counts = truth[f"t_{foot.value}"], truth[f"pressure_{foot.value}"]
-        heel, toe = switch_contacts(t, counts[:, 1]), switch_contacts(t, counts[:, 0])
-        if heel:
-            heel_strike += match([begin for begin, _ in heel], ran.heel_strikes)
-        if toe:
-            toe_off += match([end for _, end in toe], ran.toe_offs)
-    return _scored(path, went, events={"heel_strike": heel_strike, "toe_off": toe_off})
+    return scored(path, went, strides=StrideScore(true, min(true, found), max(0, found - true)))
 
 
 # --- all of them ----------------------------------------------------------------------------------------------------
@@ -242,7 +182,10 @@ DATASETS = (
         score_loop,
         ("end_error", "end_error_2d", "path", "relative"),
     ),
-    DataSet("smart_insole_35", "smart_insole_35", "OptiTrack tracks, one insole", _tracked, score_optitrack, TRACK),
+    DataSet(
+        "smart_insole_35", "smart_insole_35", "OptiTrack tracks, one insole", _tracked, score_optitrack, TRACK,
+        pressed=True,
+    ),
     DataSet(
         "ipol_10m_uturn",
         "ipol_10m_uturn",
@@ -264,5 +207,23 @@ DATASETS = (
         _always,
         score_switches,
         HEEL_STRIKE + TOE_OFF,
+    ),
+    DataSet(
+        "marpino_pressed",
+        "marpino_heel_toe",
+        "heel and toe switches as an insole of two cells, both feet",
+        _always,
+        score_pressed,
+        HEEL_STRIKE + TOE_OFF,
+        pressed=True,
+    ),
+    DataSet(
+        "gaitpdb_vgrf",
+        "gaitpdb_vgrf",
+        "eight force sensors below each foot and nothing else",
+        _always,
+        score_force,
+        HEEL_STRIKE + TOE_OFF,
+        pressed=True,
     ),
 )  # fmt: skip

@@ -12,7 +12,8 @@ from pathlib import Path
 from attrs import frozen
 
 from ..recording import RecordingError
-from .datasets import DATASETS, DataSet, Meta
+from .datasets import DATASETS, DataSet
+from .recorded import Meta
 from .report import Result
 from .score import Scored
 
@@ -72,7 +73,7 @@ def evaluate(
     progress: Callable[[int, int], None] | None = None,
 ) -> Iterator[Result]:
     """The result of each recipe on each data set of `folder`, as they are done; `progress` gets (done, all)."""
-    plan = [(d, r, jobs(folder, d, r)) for r in recipes for d in find(folder, only)]
+    plan = [(d, r, jobs(folder, d, r)) for r in recipes for d in find(folder, only) if d.suits(r)]
     everything = [job for _, _, part in plan for job in part]
     with ExitStack() as stack:
         if processes > 1:

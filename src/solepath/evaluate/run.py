@@ -12,6 +12,7 @@ import attrs
 from attrs import frozen
 
 from .. import recipes
+from ..calibration import Calibration
 from ..events import Event
 from ..samples import load_samples
 from ..session import Session
@@ -27,12 +28,12 @@ class Run:
     """Wall time that the session took."""
 
 
-def run(path: Path, recipe: str, *, without_pressure: bool = False) -> Run:
+def run(path: Path, recipe: str, *, without_pressure: bool = False, calibration: Calibration | None = None) -> Run:
     """The recording at `path` through a session of the named recipe, sample by sample.
 
-    `without_pressure`: leave the pressure out, because the truth was made of it.
+    `without_pressure`: leave the pressure out, because the truth was made of it. `calibration`: where the cells are.
     """
-    session = Session(recipes.BY_NAME[recipe], poses=True)
+    session = Session(recipes.BY_NAME[recipe], calibration=calibration, poses=True)
     recording = load_samples(path)
     samples = list(recording)
     if without_pressure:
