@@ -23,8 +23,8 @@ class StrideFused(Happening):
     """As this foot alone has it, d, m."""
     similarity: float | None
     """r of (9); None when there was no stride of the other foot to compare with."""
-    error_index: float
-    """EI of (10), m/s."""
+    error_index: float | None
+    """EI of (10), m/s; None for an abnormal stride, which neither is calibrated nor calibrates."""
     coefficient: float
     """Of (11): the share of the foot's own length in the calibrated one."""
     chosen: Foot
