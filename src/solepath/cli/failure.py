@@ -31,6 +31,14 @@ def positive(text: str) -> float:
     return value
 
 
+def count(text: str) -> int:
+    """An argparse type: a whole number above 0."""
+    value = int(text) if text.isdecimal() and len(text) < 10 else 0
+    if value <= 0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of 1 or more")
+    return value
+
+
 def share(text: str) -> float:
     """An argparse type: a number from 0 to 1."""
     value = _number(text)

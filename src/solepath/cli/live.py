@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from .calibrated import add_calibration, calibration_of
 from .choosing import add_devices, need_bleak
 from .failure import known_recipe
 
@@ -21,6 +22,7 @@ def add_to(commands: Any) -> None:
     )
     add_devices(live)
     live.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
+    add_calibration(live)
     live.add_argument("--record", metavar="FILE", type=Path, help="write the packets as a recording too")
     live.add_argument(
         "--out", metavar="DIR", type=Path, help="write events.jsonl, track.csv and steps.csv into this directory"
@@ -36,15 +38,16 @@ def add_to(commands: Any) -> None:
     )
     add_devices(record)
     record.add_argument("--out", metavar="FILE", dest="record", type=Path, required=True, help="the recording")
-    record.set_defaults(run=run, recipe="default", out=None)
+    record.set_defaults(run=run, recipe="default", calibration=None, out=None)
 
 
 def run(options: argparse.Namespace) -> int:
     from .. import recipes
 
     recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
+    calibration = calibration_of(options)
     need_bleak()
     from .live_run import listen
     from .loop import run_to_end
 
-    return run_to_end(partial(listen, options, recipe))
+    return run_to_end(partial(listen, options, recipe, calibration))

@@ -11,6 +11,7 @@ from attrs import define
 
 from ..ble import Devices, scan
 from ..ble.record import beginning
+from ..calibration import Calibration
 from ..events import Event
 from ..monitor import Monitor
 from ..output import EVENTS, STEPS, TRACK, TrackFiles
@@ -25,12 +26,14 @@ from .loop import air, unless_told, until
 from .showing import shown
 
 
-async def listen(options: argparse.Namespace, recipe: Recipe, stop: asyncio.Event) -> int:
+async def listen(
+    options: argparse.Namespace, recipe: Recipe, calibration: Calibration | None, stop: asyncio.Event
+) -> int:
     """Until it is told to stop; the exit status."""
     devices = wanted(options)
     check_writable(options.record, options.out)
     seconds = how_long(options)
-    monitor = Monitor(Session(recipe, poses=True))
+    monitor = Monitor(Session(recipe, calibration=calibration, poses=True))
     async with AsyncExitStack() as stack:
         async with unless_told(stop):
             backend = await stack.enter_async_context(air(options.via))

@@ -7,6 +7,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
+from .calibrated import add_calibration, calibration_of, check_pressure
 from .failure import Failure, known_recipe, note
 
 LONG = 4_000_000
@@ -23,6 +24,7 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("file", metavar="FILE", type=Path, help="the recording")
     command.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
+    add_calibration(command)
     command.add_argument(
         "--foot",
         choices=["left", "right"],
@@ -48,11 +50,13 @@ def run(options: argparse.Namespace) -> int:
     from ..view.summary import summary
 
     recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
+    calibration = calibration_of(options)
     try:
         source = open_source(options.file, Foot(options.foot) if options.foot else None, report=note)
     except RecordingError as error:
         raise Failure(str(error)) from None
-    session = Session(recipe, poses=True)
+    check_pressure(recipe, source)
+    session = Session(recipe, calibration=calibration, poses=True)
     tally = Tally()
     failure: Failure | None = None
     began = perf_counter()

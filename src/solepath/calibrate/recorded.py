@@ -1,0 +1,42 @@
+"""The samples of a recording, whichever kind it is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from attrs import frozen
+
+from ..events import LayoutKnown
+from ..link.decoder import Decoder
+from ..types import Foot, Layout, Packet, Sample, Site
+
+
+@frozen
+class Recorded:
+    """`samples` in the order in which they became known; `layouts` of the insoles that said theirs."""
+
+    samples: tuple[Sample, ...]
+    layouts: dict[Foot, Layout]
+
+
+def recorded(items: Iterable[Packet | Sample]) -> Recorded:
+    """What packets hold, decoded, and samples as they are. Packets that cannot be used are passed over."""
+    samples: list[Sample] = []
+    layouts: dict[Foot, Layout] = {}
+    decoders: dict[Site, Decoder] = {}
+
+    def take(found: Iterable[object]) -> None:
+        for one in found:
+            if isinstance(one, Sample):
+                samples.append(one)
+            elif isinstance(one, LayoutKnown):
+                layouts[one.layout.foot] = one.layout
+
+    for item in items:
+        if isinstance(item, Sample):
+            samples.append(item)
+        else:
+            take(decoders.setdefault(item.site, Decoder(item.site)).feed(item))
+    for decoder in decoders.values():
+        take(decoder.finish())
+    return Recorded(tuple(samples), layouts)
