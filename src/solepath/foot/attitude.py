@@ -6,9 +6,12 @@ accelerometer's scale, from spans in which the foot lies as still as only a stan
 
 from __future__ import annotations
 
+from math import inf, isfinite
+
 from attrs import define, field
 
-from ..types import Quat, Vec3
+from ..events import ScaleSuspect
+from ..types import Quat, Site, Vec3
 from ..vector import GRAVITY, TIE, ZERO, levelling
 
 COARSEST = 0.7
@@ -164,3 +167,12 @@ class Rest:
         self.bias = (x + (gx - x) * weight, y + (gy - y) * weight, z + (gz - z) * weight)
         self.count += 1
         return True
+
+
+def suspected(t: float, known_at: float, site: Site, magnitude: float | None) -> ScaleSuspect | None:
+    """What to say of an accelerometer that reads `magnitude` at rest, m/s^2: nothing as long as that is about 1 g."""
+    if magnitude is None or 0.85 < magnitude / GRAVITY < 1.15:
+        return None
+    ratio = GRAVITY / magnitude if magnitude > 0.0 else inf
+    suggestion = f"multiply acc by {ratio:.3g}" if isfinite(ratio) else "acc reads nothing at all"
+    return ScaleSuspect(t=t, known_at=known_at, site=site, magnitude=magnitude, suggestion=suggestion)

@@ -6,14 +6,14 @@ Everything that happens is an event; the live position is read from `position` a
 
 from __future__ import annotations
 
-from math import inf, isfinite, sqrt
+from math import inf, sqrt
 
 from attrs import define, evolve, field
 
-from ..events import Event, FootMoved, Limitation, SampleGap, ScaleSuspect
+from ..events import Event, FootMoved, Limitation, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
-from ..vector import GRAVITY, ZERO, sub
-from .attitude import Levelling, Rest
+from ..vector import ZERO, sub
+from .attitude import Levelling, Rest, suspected
 from .cues import Seen
 from .cycle import Cycle
 from .dedrift import LinearDedrift
@@ -306,14 +306,8 @@ class FootTracker:
         events += self.gait.see(seen, known_at, corrector, self.rhythm.usual or 0.0)
 
     def _check_scale(self, t: float, known_at: float, events: list[Event]) -> None:
-        magnitude = self.rest.magnitude
-        if magnitude is None or self.scale_said or 0.85 < magnitude / GRAVITY < 1.15:
-            return
-        self.scale_said = True
-        ratio = GRAVITY / magnitude if magnitude > 0.0 else inf
-        suggestion = f"multiply acc by {ratio:.3g}" if isfinite(ratio) else "acc reads nothing at all"
-        events.append(
-            ScaleSuspect(
-                t=t, known_at=known_at, site=SITE_OF_FOOT[self.foot], magnitude=magnitude, suggestion=suggestion
-            )
-        )
+        if not self.scale_said:
+            suspect = suspected(t, known_at, SITE_OF_FOOT[self.foot], self.rest.magnitude)
+            if suspect is not None:
+                self.scale_said = True
+                events.append(suspect)
