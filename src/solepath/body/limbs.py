@@ -1,0 +1,196 @@
+"""The lower limbs as a chain of seven segments: where the ends of the feet are, seen from the pelvis.
+
+After Gong et al. 2023 (Sensors 23, 5417), section 3.2.2 and fig. 8: O_0 at the hips, O_1 the knee, O_2 the ankle, O_3 the
+end of the foot, and P_R, P_L "from the last column" of the product (7) of the transforms between them.
+
+A sensor is strapped on in any way, so what its attitude says of its segment is taken from the first time that all seven
+are quiet together: the wearer stands upright, thighs and shanks vertical, feet level, everything facing the first
+heading (N-pose). Attitudes come from the devices (`Sample.quat`), which share one world with z up, as sensors with a
+magnetometer do; or from acceleration and angular velocity (inclination.py), each in a world of its own heading.
+"""
+
+from __future__ import annotations
+
+from math import atan2, cos, hypot, sqrt
+
+from attrs import define, field, frozen
+
+from ..calibration import Limbs
+from ..types import Foot, Quat, Site, Vec3
+from ..vector import IDENTITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate
+
+ABOVE = (Site.PELVIS, Site.LEFT_THIGH, Site.RIGHT_THIGH, Site.LEFT_SHANK, Site.RIGHT_SHANK)
+"""The sites above the ankles."""
+LEGS = {
+    Foot.LEFT: (Site.LEFT_THIGH, Site.LEFT_SHANK, Site.LEFT_FOOT),
+    Foot.RIGHT: (Site.RIGHT_THIGH, Site.RIGHT_SHANK, Site.RIGHT_FOOT),
+}
+SEGMENTS = (*ABOVE, Site.LEFT_FOOT, Site.RIGHT_FOOT)
+QUIET = 0.04
+"""A segment that turns by no more than this is quiet, rad: twice the 0.81 degrees to which the paper's sensor is good,
+and some sway."""
+STOOD = 0.5
+"""For so long all seven must be quiet, s."""
+STALE = 0.25
+"""An attitude older than this is nobody's any more, s."""
+FIRST_WAY = 0.15
+"""A step that is longer tells the first heading, m (as foot/world.py has it)."""
+
+LARGEST = 1e6
+"""A quaternion with a part beyond this, or shorter than its inverse, is none."""
+
+
+@frozen
+class Transform:
+    """A homogeneous transform: `rotation`, then `translation` (m). The last column of its matrix is `translation`."""
+
+    rotation: Quat = IDENTITY
+    translation: Vec3 = ZERO
+
+    def then(self, other: Transform) -> Transform:
+        """The product: `other` is seen from this one's end."""
+        x, y, z = self.translation
+        dx, dy, dz = rotate(self.rotation, other.translation)
+        return Transform(multiply(self.rotation, other.rotation), (x + dx, y + dy, z + dz))
+
+
+def foot_end(pelvis: Quat, thigh: Quat, shank: Quat, foot: Quat, hip: Vec3, limbs: Limbs) -> Vec3:
+    """O_3 seen from the middle of the hips, in the frame that the segments' attitudes lead to, m: the last column of
+
+        0_3R = 0_1R 1_2R 2_3R                                                                                   (7)
+
+    hung on the pelvis. `hip`: the hip joint in the pelvis, m. In the N-pose all attitudes are the identity: thigh and
+    shank point down, the foot forward from below the ankle."""
+    chain = Transform(pelvis, ZERO).then(Transform(multiply(conjugate(pelvis), thigh), hip))
+    chain = chain.then(Transform(multiply(conjugate(thigh), shank), (0.0, 0.0, -limbs.thigh)))
+    chain = chain.then(Transform(multiply(conjugate(shank), foot), (0.0, 0.0, -limbs.shank)))
+    return chain.then(Transform(IDENTITY, (limbs.foot, 0.0, -limbs.ankle_height))).translation
+
+
+@define
+class Segment:
+    """One segment's attitude, from its sensor's."""
+
+    # state
+    t: float | None = field(default=None, init=False)
+    """Of the newest attitude, s."""
+    sensor: Quat = field(default=IDENTITY, init=False)
+    """Sensor to its own world."""
+    anchor: Quat = field(default=IDENTITY, init=False)
+    """About where it was since `quiet_since`, s."""
+    quiet_since: float | None = field(default=None, init=False)
+    total: Quat = field(default=(0.0, 0.0, 0.0, 0.0), init=False)
+    """Sum of the attitudes since."""
+    standing: Quat | None = field(default=None, init=False)
+    """The sensor's attitude in the N-pose."""
+    heading: float | None = field(default=None, init=False)
+    """Of the wearer's first heading in the sensor's world, rad; None where it is the one that the devices share."""
+
+    def told(self, t: float, sensor: Quat) -> None:
+        """A new attitude: sensor to its own world, a unit quaternion."""
+        self.t = t
+        self.sensor = sensor
+        if self.standing is not None:
+            return
+        w, x, y, z = self.anchor
+        dot = w * sensor[0] + x * sensor[1] + y * sensor[2] + z * sensor[3]
+        if self.quiet_since is None or abs(dot) < cos(0.5 * QUIET) or t < self.quiet_since:
+            self.anchor, self.total, self.quiet_since = sensor, sensor, t
+            return
+        k = 1.0 if dot >= 0.0 else -1.0
+        w, x, y, z = self.total
+        self.total = (w + k * sensor[0], x + k * sensor[1], y + k * sensor[2], z + k * sensor[3])
+
+    def quiet_for(self) -> float:
+        """s."""
+        return 0.0 if self.t is None or self.quiet_since is None else self.t - self.quiet_since
+
+    def attitude(self, shared: float) -> Quat:
+        """Segment to world (x along the first heading). `shared`: the first heading in the devices' world, rad."""
+        if self.standing is None:
+            return IDENTITY
+        heading = shared if self.heading is None else self.heading
+        turned = multiply(self.sensor, conjugate(self.standing))
+        if heading == 0.0:
+            return turned
+        return multiply(multiply(from_yaw(-heading), turned), from_yaw(heading))
+
+
+@define
+class LowerLimbs:
+    """The chain of one wearer: attitudes in, the ends of both feet out."""
+
+    limbs: Limbs = field(factory=Limbs)
+    heading: float | None = None
+    """The first heading in the world that the devices share, rad, where it is known beforehand, as on a floor that was
+    surveyed; None: it is that of the first step."""
+    # state
+    segments: dict[Site, Segment] = field(init=False)
+    aligned: bool = field(default=False, init=False)
+    given_up: bool = field(default=False, init=False)
+    """The wearer walked off before all seven were quiet."""
+
+    def __attrs_post_init__(self) -> None:
+        self.segments = {site: Segment() for site in SEGMENTS}
+
+    def told(self, site: Site, t: float, quat: Quat) -> None:
+        """A new attitude of a sensor, of any length but 0."""
+        if not all([-LARGEST < part < LARGEST for part in quat]):
+            return
+        length = sqrt(sum([part * part for part in quat]))
+        if length < 1.0 / LARGEST:
+            return
+        k = 1.0 / length
+        self.segments[site].told(t, (quat[0] * k, quat[1] * k, quat[2] * k, quat[3] * k))
+        if not self.aligned and not self.given_up:
+            self._align()
+
+    def headed(self, site: Site, heading: float | None) -> None:
+        """Where the wearer's first heading points in this sensor's own world, rad; None: the devices share one."""
+        self.segments[site].heading = heading
+
+    def _align(self) -> None:
+        if any([segment.quiet_for() < STOOD for segment in self.segments.values()]):
+            return
+        for segment in self.segments.values():
+            segment.standing = normalise(segment.total)
+        self.aligned = True
+
+    def current(self, t: float) -> bool:
+        """Whether the chain can be used for this instant, s."""
+        return self.aligned and all(
+            [segment.t is not None and abs(t - segment.t) < STALE for segment in self.segments.values()]
+        )
+
+    def missing(self) -> tuple[Site, ...]:
+        """The sites above the ankles that nothing was heard of."""
+        return tuple([site for site in ABOVE if self.segments[site].t is None])
+
+    def end(self, foot: Foot) -> Vec3:
+        """P_L or P_R: the end of the foot seen from the middle of the hips, world frame, m."""
+        shared = self.heading or 0.0
+        segments = self.segments
+        thigh, shank, end = [segments[site].attitude(shared) for site in LEGS[foot]]
+        side = 0.5 if foot is Foot.LEFT else -0.5
+        hip = (0.0, side * self.limbs.hip_width, 0.0)
+        return foot_end(segments[Site.PELVIS].attitude(shared), thigh, shank, end, hip, self.limbs)
+
+    def forward(self, foot: Foot) -> tuple[float, float]:
+        """Which way a foot points: a horizontal vector of the world frame, of length 1; (1, 0) when it points up."""
+        x, y, _ = rotate(self.segments[LEGS[foot][2]].attitude(self.heading or 0.0), (1.0, 0.0, 0.0))
+        length = hypot(x, y)
+        return (x / length, y / length) if length > 1e-6 else (1.0, 0.0)
+
+    def stepped(self, foot: Foot) -> None:
+        """The foot has come down: if this was the first step, it tells the first heading. Hips and feet are left out,
+        so that the heading need not be known for it: legs that hang down do so whatever they face."""
+        if self.heading is not None or not self.aligned:
+            return
+        x = y = 0.0
+        for leg, sign in ((foot, 1.0), (Foot.LEFT if foot is Foot.RIGHT else Foot.RIGHT, -1.0)):
+            for site, length in zip(LEGS[leg], (self.limbs.thigh, self.limbs.shank), strict=False):
+                dx, dy, _ = rotate(self.segments[site].attitude(0.0), (0.0, 0.0, -length))
+                x += sign * dx
+                y += sign * dy
+        if hypot(x, y) > FIRST_WAY:
+            self.heading = atan2(y, x)

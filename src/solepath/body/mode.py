@@ -1,0 +1,91 @@
+"""How the wearer walks, told from where the load of a contact lay: straight on, round a wide or a tight bend, standing.
+
+After Gong et al. 2023 (Sensors 23, 5417), section 3.3, fig. 13 and table 2: fourteen of the 99 cells in seven regions,
+F1 and F2 across the sole, L1 to L3 and R1, R2 along it, against a threshold `th`.
+
+What the paper leaves open, and what is taken here:
+
+- Fig. 13 as a picture is not to be had. A region is two points, given as shares of the insole (`POINTS`), and each
+  point is the cell that lies nearest: so the regions exist on any insole of enough cells, not on 99 alone.
+- Left and right. The text's example takes FL_PR1 > th for a right turn, table 2 for a left one. Tables 1 and 2 are
+  mirror images of each other if L and R name the same anatomical side in both shoes, R the inner (medial) and L the
+  outer (lateral) edge. Then table 2 says that in a left turn the load lies on the right edge of both feet, outward of
+  the bend, which is what a centripetal force does. The table is followed.
+- `th` has no value. Here a region counts as the mean load of its cells over the contact, as a multiple of that of all
+  cells of the insole; so no unit and no weight enters.
+- "Total pressure at the relevant positions" of standing still, 0.7 body weights, cannot stand on eight cells of two
+  feet: it is taken over both insoles.
+"""
+
+from __future__ import annotations
+
+from attrs import define, field
+
+from ..types import Foot, Layout, WalkingMode
+
+POINTS: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
+    "F1": ((0.68, -0.30), (0.68, 0.30)),
+    "F2": ((0.42, -0.30), (0.42, 0.30)),
+    "L1": ((0.62, 1.00), (0.72, 1.00)),
+    "L2": ((0.62, 0.70), (0.72, 0.70)),
+    "L3": ((0.12, 1.00), (0.20, 1.00)),
+    "R1": ((0.62, -0.70), (0.72, -0.70)),
+    "R2": ((0.62, -1.00), (0.72, -1.00)),
+}
+"""Fourteen points: share of the insole's length from the heel, and share of the way from the middle of the sole there
+to its edge, outer (lateral) positive."""
+LEAST_STEP = 0.15
+"""L_w: a shorter step is dragging, not walking, m (table 2)."""
+STANDING_WEIGHT = 0.7
+"""Of the body's, on both feet together (table 2)."""
+LINGERS = 1.5
+"""A contact that lasts longer has no step in it, s: even at 0.5 m/s a stance is shorter."""
+
+TURNS = {
+    (Foot.LEFT, "inner", "wide"): WalkingMode.LEFT_WIDE,
+    (Foot.LEFT, "inner", "tight"): WalkingMode.LEFT_TIGHT,
+    (Foot.LEFT, "outer", "wide"): WalkingMode.RIGHT_WIDE,
+    (Foot.LEFT, "outer", "tight"): WalkingMode.RIGHT_TIGHT,
+    (Foot.RIGHT, "inner", "wide"): WalkingMode.RIGHT_WIDE,
+    (Foot.RIGHT, "inner", "tight"): WalkingMode.RIGHT_TIGHT,
+    (Foot.RIGHT, "outer", "wide"): WalkingMode.LEFT_WIDE,
+    (Foot.RIGHT, "outer", "tight"): WalkingMode.LEFT_TIGHT,
+}
+"""Table 2, by the foot, the edge that bears the load, and how far out it does."""
+
+
+def regions(layout: Layout) -> dict[str, tuple[int, ...]]:
+    """The cells of each region: of each point the nearest one, measured across by the width of the sole there."""
+    lateral = 1.0 if layout.foot is Foot.LEFT else -1.0
+    cells = [(cell.x / layout.length, lateral * cell.y) for cell in layout.cells]
+    found: dict[str, tuple[int, ...]] = {}
+    for name, points in POINTS.items():
+        chosen: list[int] = []
+        for along, across in points:
+            beside = sorted(cells, key=lambda cell, along=along: abs(cell[0] - along))[: max(4, len(cells) // 10)]
+            low, high = min([y for _, y in beside]), max([y for _, y in beside])
+            y = 0.5 * (low + high) + 0.5 * across * (high - low)
+            rank = [((x - along) ** 2 * layout.length**2 + (cy - y) ** 2, k) for k, (x, cy) in enumerate(cells)]
+            chosen.append(min(rank)[1])
+        found[name] = tuple(sorted(set(chosen)))
+    return found
+
+
+def decide(foot: Foot, step: float, shares: dict[str, float], forward: float, th: float) -> WalkingMode | None:
+    """The mode by table 2, from a contact of `foot` that a step of `step` m ended in; None: no rule applies.
+
+    `shares`: of the regions of this foot, as multiples of the mean cell's. `forward`: F1 of both feet less F2 of both.
+    A tight bend goes before a wide one, and of two edges the one that is further beyond the threshold."""
+    edges = (
+        ("inner", "tight", shares["R2"]),
+        ("outer", "tight", shares["L1"]),
+        ("inner", "wide", shares["R1"]),
+        ("outer", "wide", max(shares["L2"], shares["L3"])),
+    )
+    for radius in ("tight", "wide"):
+        beyond = [(share, edge) for edge, of, share in edges if of == radius and share > th]
+        if beyond and step > LEAST_STEP:
+            return TURNS[foot, max(beyond)[1], radius]
+    if step > LEAST_STEP and forward > th:
+        return WalkingMode.STRAIGHT
+    return None
