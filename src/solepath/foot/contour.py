@@ -8,16 +8,16 @@ pressure along a ray first falls below a level is a point of that level's contou
     v_cntr = 1/pi integral of v(theta) r_hat dtheta         (2)
 
 The paper leaves out the factor 1/pi: a contour that moves as a whole with velocity u has v(theta) = u . r_hat, and the
-integral of (u . r_hat) r_hat is pi u. Two more things that it leaves open:
+integral of (u . r_hat) r_hat is pi u. Two more things are left open there:
 
-- Rays end where the cells do, and a contour that lies partly beyond them has no radius there. The integral is then taken
-  over the rays that have an opposite with a radius too, and normalised by least squares over those: with all rays that is
-  the factor 1/pi again. Opposites, because an elliptic contour about any point that grows or shrinks has equal v on both,
-  which cancels; half a contour that only grows would seem to move.
-- Which pressures. The paper's figure 4 shows 20 to 70 kPa. But at a fixed pressure the contour also shrinks by some cm/s
-  as the weight leaves the heel, and cells differ in gain by some per cent, so that a heel that lies still seems to move at
-  5 to 20 mm/s. A level that is a fixed share of the heel's present mean pressure does not see the weight change, and it
-  needs no scale. Shares are the default; `pascals` takes the paper's levels.
+- Rays end where the cells do, and a contour that lies partly beyond them has no radius there. The integral is then
+  taken over the rays that have an opposite with a radius too, and normalised by least squares over those: with all rays
+  that is the factor 1/pi again. Opposites, because an elliptic contour that grows or shrinks has equal v on both,
+  wherever the centre is, and that cancels; half a contour that only grows would seem to move.
+- Which pressures. The paper's figure 4 shows 20 to 70 kPa. But at a fixed pressure the contour also shrinks, by some
+  cm/s, as the weight leaves the heel, and cells differ in gain by some per cent: on emulated insoles a heel that lies
+  still then seems to move by 5 to 20 mm/s. A level that is a fixed share of the heel's present mean pressure does not
+  see the weight change (1 to 2 mm/s), and it needs no scale. Shares are the default; `pascals` takes the paper's.
 
 Work per sample: a weighted sum of three cells for each of some 60 points, and one pass along each ray.
 """
@@ -89,7 +89,7 @@ class Contours:
     def wear(self, layout: Layout) -> str | None:
         """Where the cells are. Returns what is wrong with them for this purpose, if anything."""
         self.past.clear()
-        self.points, self.rays = [], []
+        self.cells, self.points, self.rays = [], [], []
         heel = [cell for cell in layout.cells if cell.x < HEEL * layout.length]
         if len(heel) < FEWEST:
             return f"{len(heel)} pressure cells under the heel have no contour, {FEWEST} are the fewest"
@@ -119,6 +119,8 @@ class Contours:
             return None
         now = self._radii(cells)
         past = self.past
+        if past and past[-1][0] >= t:  # times began anew
+            past.clear()
         before = None
         while past and past[0][0] <= t - self.interval + TIE:
             before = past.popleft()
@@ -147,52 +149,74 @@ class Contours:
         at = 1
         for points, step in self.rays:
             found += missing
-            level, inner, ring = first, middle, 0
-            for outer in pressures[at : at + points]:
+            level, inner = first, middle
+            for ring, outer in enumerate(pressures[at : at + points]):
                 while level < count and outer < levels[level]:
                     found.append(step * (ring + (inner - levels[level]) / (inner - outer)))
                     level += 1
                 if level == count:
                     break
                 inner = outer
-                ring += 1
             found += (MISSING,) * (count - level)
             at += points
         return tuple(found)
 
     def _centre(self, now: tuple[float, ...], before: tuple[float, ...], rate: float) -> tuple[float, float] | None:
         """(1) and (2) for each level, and their mean."""
-        count = len(self.levels)
-        half = AXES * count
         sum_x = sum_y = 0.0
         contours = 0
-        for level in range(count):
-            xx = xy = yy = bx = by = 0.0
-            for (c, s, cc, cs, ss), r, q, p, o in zip(
-                _AXES,
-                now[level:half:count],
-                now[half + level :: count],
-                before[level:half:count],
-                before[half + level :: count],
-                strict=True,
-            ):
-                if r < 0.0 or q < 0.0 or p < 0.0 or o < 0.0:
-                    continue
-                moved = r - p - q + o  # twice the movement along this axis
+        for level in range(len(self.levels)):
+            found = self._by_pairs(level, now, before)
+            if found is None and not self.absolute:
+                found = self._by_rays(level, now, before)
+            if found is not None:
+                sum_x += found[0]
+                sum_y += found[1]
+                contours += 1
+        if not contours:
+            return None
+        k = rate / contours
+        return sum_x * k, sum_y * k
+
+    def _by_pairs(
+        self, level: int, now: tuple[float, ...], before: tuple[float, ...]
+    ) -> tuple[float, float] | None:
+        """How far the centre of one level's contour has moved, m, by its rays that have an opposite."""
+        count = len(self.levels)
+        half = AXES * count
+        xx = xy = yy = bx = by = 0.0
+        for (c, s, cc, cs, ss), r, q, p, o in zip(
+            _AXES,
+            now[level:half:count],
+            now[half + level :: count],
+            before[level:half:count],
+            before[half + level :: count],
+            strict=True,
+        ):
+            if r >= 0.0 and q >= 0.0 and p >= 0.0 and o >= 0.0:
+                moved = 0.5 * (r - p - q + o)
                 xx += cc
                 xy += cs
                 yy += ss
                 bx += moved * c
                 by += moved * s
-            determinant = xx * yy - xy * xy
-            if determinant > 1.0:  # three neighbouring axes have 1.5, the six 9
-                sum_x += (yy * bx - xy * by) / determinant
-                sum_y += (xx * by - xy * bx) / determinant
-                contours += 1
-        if not contours:
-            return None
-        k = 0.5 * rate / contours
-        return sum_x * k, sum_y * k
+        return _solved(xx, xy, yy, bx, by)
+
+    def _by_rays(
+        self, level: int, now: tuple[float, ...], before: tuple[float, ...]
+    ) -> tuple[float, float] | None:
+        """The same by all rays."""
+        count = len(self.levels)
+        xx = xy = yy = bx = by = 0.0
+        for (c, s, cc, cs, ss), r, p in zip(_RAYS, now[level::count], before[level::count], strict=True):
+            if r >= 0.0 and p >= 0.0:
+                moved = r - p
+                xx += cc
+                xy += cs
+                yy += ss
+                bx += moved * c
+                by += moved * s
+        return _solved(xx, xy, yy, bx, by)
 
     def _lay_rays(self, used: list[Cell], centre: tuple[float, float]) -> None:
         x, y = centre
@@ -212,12 +236,22 @@ class Contours:
             self.rays.append((len(self.points) - begun, step))
 
 
-_AXES = tuple(
-    (cos(pi * k / AXES), sin(pi * k / AXES), cos(pi * k / AXES) ** 2, cos(pi * k / AXES) * sin(pi * k / AXES),
-     sin(pi * k / AXES) ** 2)
-    for k in range(AXES)
-)  # fmt: skip
-"""Of each axis: its direction, and what it adds to the normal equations."""
+def _direction(angle: float) -> tuple[float, float, float, float, float]:
+    """A direction, and what it adds to the normal equations."""
+    c, s = cos(angle), sin(angle)
+    return c, s, c * c, c * s, s * s
+
+
+_RAYS = tuple(_direction(pi * k / AXES) for k in range(2 * AXES))
+_AXES = _RAYS[:AXES]
+
+
+def _solved(xx: float, xy: float, yy: float, bx: float, by: float) -> tuple[float, float] | None:
+    """The vector u for which the u . r_hat fit best; None where too few directions, or too similar ones, were seen."""
+    determinant = xx * yy - xy * xy
+    if determinant < 1.0:  # three neighbouring directions have 1.5, all six axes 9
+        return None
+    return (yy * bx - xy * by) / determinant, (xx * by - xy * bx) / determinant
 
 
 def _triangle(cells: list[Cell], x: float, y: float) -> Point | None:

@@ -1,0 +1,125 @@
+"""Stance evidence of "Personal navigation via high-resolution gait-corrected inertial measurement units" (IEEE Trans.
+Instrum. Meas. 59, 2010): the heel's pressure contours stand still, or, as its baseline, the gyroscope does.
+"""
+
+from __future__ import annotations
+
+from math import hypot, inf, sqrt
+
+from attrs import define, field
+
+from ..types import Layout, Phase, Quat, Vec3
+from ..vector import IDENTITY, TIE, ZERO
+from .contour import Contours
+from .stance import Load, Stance
+
+TARE_SAMPLES = 8
+"""The tare is the mean of about so many samples in the air."""
+
+
+@define
+class GyroscopeMagnitude:
+    """The sensor hardly turns, so it stands still: |w| has stayed below `below` for `lasting` s, and has not risen
+    above `above` since. The statistic is |w|, rad/s. Latency: `lasting`.
+
+    The paper says that angular velocity was used and no more. Thresholds of 0.6 to 0.9 rad/s are usual for finding
+    steps (Jimenez, Seco, Prieto, Guevara, "A comparison of pedestrian dead-reckoning algorithms using a low-cost MEMS
+    IMU", 2009: 50 deg/s); a sensor 12 cm from the heel's end moves at 0.1 m/s then, so for zero velocity lower ones are
+    taken: at `below` it moves at 3 cm/s. A slow swing is short of calm moments that last.
+    """
+
+    below: float = 0.25
+    above: float = 0.40
+    lasting: float = 0.03
+    sigma: float = 0.01
+    # state
+    since: float | None = field(default=None, init=False)
+    """Since when the rate has been low, s."""
+    still: bool = field(default=False, init=False)
+
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
+        x, y, z = gyro
+        rate = sqrt(x * x + y * y + z * z)
+        if rate >= (self.above if self.still else self.below):
+            self.since, self.still = None, False
+        else:
+            if self.since is None or self.since > t:
+                self.since = t
+            self.still = self.still or t - self.since >= self.lasting - TIE
+        if self.still:
+            return Stance(ZERO, self.sigma, rate, Phase.STATIONARY)
+        return Stance(ZERO, inf, rate, None)
+
+
+@define
+class ContourVelocity:
+    """The contours of the loaded heel move by no more than `threshold` (3), so the shoe stands still; until they move
+    by more than `leave`, or the heel is no longer loaded. The statistic is their speed, m/s.
+
+    `leave` is higher because what is left of the load near heel-off makes noisy contours, and a foot that has stood
+    does not move while its heel carries weight. Latency: that of `Contours`, 50 ms after the contours have stopped.
+
+    Where no contour can be had (no cells, unknown places, too few under the heel), and as long as the wearer's full
+    load is not known, the gyroscope stands in. So it does where a loaded heel has had no contour for `blind` s: in a
+    tight bend it stands on its edge, with hardly any pressure about its centre.
+    """
+
+    threshold: float = 0.004
+    """v_thrsh of (3): the paper's sensing bias, m/s."""
+    leave: float = 0.012
+    loaded: float = 0.12
+    """The heel carries at least this share of the wearer's full load."""
+    blind: float = 0.1
+    sigma: float = 0.01
+    contours: Contours = field(factory=Contours)
+    baseline: GyroscopeMagnitude = field(factory=GyroscopeMagnitude)
+    # state
+    lacking: str | None = field(default=None, init=False)
+    """Why the gyroscope stands in for good, as a sentence; None while it does not."""
+    count: int = field(default=0, init=False)
+    """How many cells the layout has; 0 as long as there is none."""
+    tare: list[float] = field(factory=list, init=False)
+    """What the used cells show in the air, unit of the samples."""
+    still: bool = field(default=False, init=False)
+    seen: float | None = field(default=None, init=False)
+    """When contours last existed, or else when the heel came down; None while it carries too little, s."""
+
+    def wear(self, layout: Layout) -> None:
+        """The device said where its cells are."""
+        why = self.contours.wear(layout)
+        self.lacking = None if why is None else f"{why}; the gyroscope says when the foot stands"
+        self.count = len(layout.cells)
+        self.tare = [0.0] * len(self.contours.cells)
+        self.still = False
+
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
+        otherwise = self.baseline.update(t, dt, acc, gyro, load, attitude)
+        if load is None or load.heel is None or not self.contours.points or len(load.cells) != self.count:
+            return otherwise
+        if load.heel < self.loaded:
+            self.still, self.seen = False, None
+            self.contours.interrupt()
+            if not load.airborne:
+                return Stance(ZERO, inf, 0.0, None)
+            cells = load.cells
+            self.tare = [
+                zero + (cells[i] - zero) / TARE_SAMPLES for i, zero in zip(self.contours.cells, self.tare, strict=True)
+            ]
+            return Stance(ZERO, inf, 0.0, Phase.SWING)
+        cells = load.cells
+        above = [cells[i] - zero for i, zero in zip(self.contours.cells, self.tare, strict=True)]
+        velocity = self.contours.velocity(t, above)
+        if self.seen is None or velocity is not None or self.seen > t:
+            self.seen = t
+        if velocity is None:
+            self.still = False
+            return otherwise if t - self.seen >= self.blind - TIE else Stance(ZERO, inf, 0.0, None)
+        speed = hypot(*velocity)
+        self.still = speed <= (self.leave if self.still else self.threshold)
+        if self.still:
+            return Stance(ZERO, self.sigma, speed, Phase.STATIONARY)
+        return Stance(ZERO, inf, speed, None)
