@@ -1,0 +1,210 @@
+"""Whether what comes as the left foot is the left one.
+
+Exchanged feet are seen in one of three ways, the surest first:
+
+1. By the layouts: the left foot's device is laid out as a right insole, and the other way round.
+2. By the roll of the foot, where there are inertial sensors. A foot lands on the outer edge of its heel: at
+   heel-strike it is rolled outwards against its mean over the swing. The axes are the foot's own (up as it stands, left
+   as it turns over the toes), so mounting does not matter.
+3. By the centre of pressure, where there are cells and no inertial sensors: towards toe-off it goes inwards, to the big
+   toe. Insoles whose cells are numbered as mirror images of each other look alike when they are exchanged together with
+   their layouts; this way sees nothing of that.
+
+Both feet must agree. Nothing is said of feet that hardly roll: who shuffles, or climbs, may be told late or never. A
+sensor frame that is left-handed on both feet (the sign of an axis lost) mirrors the motion, and a mirrored left foot
+is a right one: that is told as exchanged feet, and is as wrong.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from attrs import define, field
+
+from ..events import Event, FootFlat, StepTaken, ToeOff
+from ..foot.tracker import FootTracker
+from ..types import Foot, Sample, Vec3
+from ..vector import conjugate, rotate
+
+UP: Vec3 = (0.0, 0.0, 1.0)
+RARELY = 0.0195
+"""The roll is followed at about 50 Hz, s."""
+HIDDEN = 0.11
+"""Over a longer gap nothing is known of the roll, s."""
+REMEMBERED = 96
+"""Instants of the roll: a swing and the loading after it, at 50 Hz."""
+FEW = 4
+"""A swing with fewer instants is not judged."""
+SHORTEST = 0.4
+"""Nor a shorter step, m,"""
+STRAIGHT = 0.35
+"""nor one in which the foot turned further, rad."""
+LATE = 0.05
+"""The centre of pressure is looked at this often, s."""
+CONTACT = 40
+"""Instants of it that are remembered."""
+
+
+@define
+class Average:
+    """Mean and variance, the last `span` counting most."""
+
+    span: float = 24.0
+    count: int = 0
+    mean: float = 0.0
+    variance: float = 0.0
+
+    def add(self, value: float) -> None:
+        """One more."""
+        self.count += 1
+        k = 1.0 / min(float(self.count), self.span)
+        off = value - self.mean
+        self.mean += k * off
+        self.variance = (1.0 - k) * (self.variance + k * off * off)
+
+    def beyond(self, limit: float, least: int) -> bool:
+        """There are enough, and the mean is above the limit by twice its own error."""
+        if self.count < least:
+            return False
+        return self.mean - 2.0 * sqrt(self.variance / min(float(self.count), self.span)) > limit
+
+
+@define
+class Side:
+    """What speaks for one foot being the other. Positive: it does."""
+
+    roll: Average = field(factory=Average)
+    """How far it has rolled inwards at heel-strike, rad."""
+    centre: Average = field(factory=Average)
+    """How far outwards the centre of pressure goes before toe-off, m."""
+    mirrored: bool = False
+    """The layout is the other foot's."""
+    ahead: Vec3 | None = None
+    """Unit vector to the toe, sensor frame."""
+    angle: float = 0.0
+    """Roll about it, rad, right-handed: the left edge rises."""
+    times: list[float] = field(factory=list)
+    angles: list[float] = field(factory=list)
+    seen_at: float | None = None
+    """When the centre of pressure was last looked at, s."""
+    across: list[float] = field(factory=list)
+    """Its y over this contact, m."""
+
+
+@define
+class Sides:
+    """Evidence of both feet. Costs a dot product at 50 Hz, or a centre of pressure at 20 Hz for an insole alone."""
+
+    least: int = 8
+    """Steps of each foot before anything is said."""
+    rolled: float = 0.03
+    """rad."""
+    gone: float = 0.002
+    """m."""
+    # state
+    left: Side = field(factory=Side, init=False)
+    right: Side = field(factory=Side, init=False)
+
+    def swapped(self, foot: FootTracker, sample: Sample, events: list[Event]) -> bool:
+        """`foot` has used `sample` and said `events`; True once both feet look like the other."""
+        is_left = foot.foot is Foot.LEFT
+        side = self.left if is_left else self.right
+        if sample.gyro is not None and side.ahead is not None:
+            _roll(side, sample.t, sample.gyro)
+        elif foot.moved_at is None and sample.pressure:
+            _press(side, sample.t, foot)
+        judged = False
+        for event in events:
+            if isinstance(event, StepTaken):
+                judged = True
+                _land(side, event)
+            elif isinstance(event, FootFlat):
+                side.ahead = _ahead(foot)
+            elif isinstance(event, ToeOff) and side.across:
+                judged = True
+                _leave(side, is_left)
+        if not judged:
+            return False
+        layout = foot.insole.layout
+        side.mirrored = layout is not None and layout.foot is not foot.foot
+        return self._agree()
+
+    def _agree(self) -> bool:
+        left, right = self.left, self.right
+        if left.mirrored and right.mirrored:
+            return True
+        if left.roll.count or right.roll.count:
+            return left.roll.beyond(self.rolled, self.least) and right.roll.beyond(self.rolled, self.least)
+        return left.centre.beyond(self.gone, self.least) and right.centre.beyond(self.gone, self.least)
+
+
+def _ahead(foot: FootTracker) -> Vec3 | None:
+    """To the toe, from up and left as the foot stands; None while they are not known."""
+    left = foot.cues.axis
+    if left is None or not foot.levelled:
+        return None
+    lx, ly, lz = left
+    ux, uy, uz = rotate(conjugate(foot.corrector.attitude), UP)
+    x, y, z = ly * uz - lz * uy, lz * ux - lx * uz, lx * uy - ly * ux
+    length = sqrt(x * x + y * y + z * z)
+    return (x / length, y / length, z / length) if length > 0.5 else None
+
+
+def _roll(side: Side, t: float, gyro: Vec3) -> None:
+    """Go on with the angle."""
+    times = side.times
+    dt = t - times[-1] if times else HIDDEN
+    if 0.0 <= dt < RARELY or side.ahead is None:
+        return
+    x, y, z = side.ahead
+    gx, gy, gz = gyro
+    if 0.0 < dt < HIDDEN:
+        side.angle += dt * (x * gx + y * gy + z * gz)
+    else:
+        side.times, side.angles, side.angle = [], [], 0.0
+    side.times.append(t)
+    side.angles.append(side.angle)
+    if len(side.times) > REMEMBERED:
+        del side.times[: REMEMBERED // 2]
+        del side.angles[: REMEMBERED // 2]
+
+
+def _land(side: Side, step: StepTaken) -> None:
+    """A step is over: where the foot was rolled to as it landed."""
+    begin, end = step.t_toe_off, step.t_heel_strike
+    if begin is None or end is None or step.degraded:
+        return
+    if step.stride_length < SHORTEST or abs(step.heading_change) > STRAIGHT:
+        return
+    if not side.times or side.times[0] > begin + RARELY:
+        return
+    swing = [angle for t, angle in zip(side.times, side.angles, strict=True) if begin <= t <= end]
+    if len(swing) < FEW:
+        return
+    outwards = sum(swing) / len(swing) - swing[-1]
+    side.roll.add(-outwards if step.foot is Foot.LEFT else outwards)
+
+
+def _press(side: Side, t: float, foot: FootTracker) -> None:
+    """Look at the centre of pressure of an insole without an inertial sensor."""
+    if side.seen_at is not None and 0.0 <= t - side.seen_at < LATE:
+        return
+    side.seen_at = t
+    insole = foot.insole
+    centre = insole.centre_of_pressure(insole.cells)
+    if centre is None:
+        return
+    side.across.append(centre[1])
+    if len(side.across) > CONTACT:
+        del side.across[: CONTACT // 2]
+
+
+def _leave(side: Side, is_left: bool) -> None:
+    """A contact is over: which way the centre of pressure went, from the middle of the contact to its end."""
+    across, side.across = side.across, []
+    n = len(across)
+    if n < 6:
+        return
+    middle, last = across[n // 3 : n - n // 3], across[n - n // 6 :]
+    left = sum(last) / len(last) - sum(middle) / len(middle)
+    side.centre.add(left if is_left else -left)
