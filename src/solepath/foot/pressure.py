@@ -99,7 +99,8 @@ class Insole:
         self.heel_cells = [i for i, cell in enumerate(layout.cells) if cell.x < heel_ends]
         self.xs = [cell.x for cell in layout.cells]
         self.ys = [cell.y for cell in layout.cells]
-        self.tare = [0.0] * len(layout.cells)
+        if len(self.tare) != len(layout.cells):
+            self.tare = [0.0] * len(layout.cells)
         self.forefoot_cells = [i for i, cell in enumerate(layout.cells) if cell.x > forefoot_begins]
 
     def interrupt(self) -> None:
@@ -153,13 +154,19 @@ class Insole:
         extremes.update(t, value)
         return value - extremes.low
 
+    def above_tare(self, cells: tuple[float, ...]) -> tuple[float, ...]:
+        """The cells less what they show in the air, as far as that is known; unit of the samples."""
+        if len(cells) != len(self.tare):
+            return cells
+        return tuple([value - zero if value > zero else 0.0 for value, zero in zip(cells, self.tare, strict=True)])
+
     def centre_of_pressure(self, cells: tuple[float, ...]) -> tuple[float, float] | None:
         """(x, y) in the foot frame, m: the mean of the cells' places weighted by their load above tare. None with
         hardly any load or without a layout. Equations (2) and (3) of "Smart insole-based indoor localization system
         for Internet of Things applications", with load in place of pressure."""
         if not self.xs or not len(cells) == len(self.xs) == len(self.tare):
             return None
-        loads = [value - zero if value > zero else 0.0 for value, zero in zip(cells, self.tare, strict=True)]
+        loads = self.above_tare(cells)
         load = sum(loads)
         if load <= self.least * (self.total.high - self.total.low):
             return None

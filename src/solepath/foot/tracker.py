@@ -14,13 +14,15 @@ from ..events import Event, FootMoved, Limitation, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..vector import ZERO, sub
 from .attitude import Levelling, Rest, suspected
+from .crossing import cross
 from .cues import Seen
 from .cycle import Cycle
 from .dedrift import LinearDedrift
 from .eskf import ErrorStateFilter
 from .gait import Gait
 from .gait_cues import GaitCues
-from .gap import SHORTEST, NoLeap, leap
+from .gap import SHORTEST
+from .guess import LayoutGuess
 from .navigate import LONGEST_BRIDGE
 from .pressure import Insole
 from .pressure_stance import MaximumPressure, TwoArea
@@ -70,6 +72,7 @@ class FootTracker:
     rest: Rest = field(factory=Rest, init=False)
     pressed: bool = field(default=False, init=False)
     """Cells were heard of."""
+    guess: LayoutGuess = field(init=False)
     lacking: str | None = field(default=None, init=False)
     """What the detector must do without on this layout, not said yet."""
     gait: Gait = field(init=False)
@@ -80,6 +83,7 @@ class FootTracker:
 
     def __attrs_post_init__(self) -> None:
         self.gait = Gait(self.foot)
+        self.guess = LayoutGuess(self.foot)
 
     # --- what it knows ---
 
@@ -156,6 +160,8 @@ class FootTracker:
         if sample.pressure:
             self.pressed = True
             load = self.insole.update(t, sample.pressure)
+            if self.needs_pressure and self.insole.layout is None and load is not None:
+                self._guess_layout(t, known_at, load, events)
             if self.phase is not Phase.SWING and load is not None and self.gait.step.t_toe_off is None:
                 self.gait.step.loaded(sum(load.cells), load.centre)
         elif self.needs_pressure and not self.pressed:
@@ -179,6 +185,13 @@ class FootTracker:
             self._pressure_alone(t, dt, known_at, sample, load, events)
         return events
 
+    def _guess_layout(self, t: float, known_at: float, load: Load, events: list[Event]) -> None:
+        layout = self.guess.update(t, self.insole.above_tare(load.cells), load.total)
+        if layout is not None:
+            what = f"nobody says where the cells of the {self.foot.value} insole are: learnt from how steps load them"
+            self._limit(what, t, known_at, events)
+            self.wear(layout)
+
     def _watch_for_gaps(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
         """Name a gap between two samples; returns the time to integrate over, s."""
         dt = t - last
@@ -186,33 +199,14 @@ class FootTracker:
             events.append(SampleGap(t=last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=dt))
             self.gait.step.spoil(t)
             if self.levelled:
-                dt = self._over_gap(last, t, dt, known_at, sample, events)
+                return self._over_gap(last, t, known_at, sample, events)
         return dt
 
-    def _over_gap(
-        self, last: float, t: float, dt: float, known_at: float, sample: Sample, events: list[Event]
-    ) -> float:
-        corrector, habit = self.corrector, self.gait.habit
-        if dt <= SHORTEST or sample.acc is None or sample.gyro is None:
-            return corrector.bridge(dt)
-        acc, gyro = self._calibrated(sample.acc, sample.gyro)
-        found = leap(habit, corrector, last, t, acc, gyro)
-        if found is NoLeap.UNKNOWN:
-            habit.cross()
-            if dt > LONGEST_BRIDGE:
-                habit.interrupt()
-            return corrector.bridge(dt)
-        for _ in range(2):  # within a second a foot may land, stand, and leave again
-            if isinstance(found, NoLeap):
-                break
-            self.cues.interrupt()
-            corrector.leap(t - last, found.attitude, found.velocity, found.position)
-            events += self.gait.leapt(found, self.cues, known_at, corrector, self.rhythm.usual or 0.0)
-            if found.landed is None:
-                break
-            last = found.landed
-            found = leap(habit, corrector, last, t, acc, gyro)
-        return 0.0
+    def _over_gap(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
+        if t - last <= SHORTEST or sample.acc is None or sample.gyro is None:
+            return self.corrector.bridge(t - last)
+        seen = self._calibrated(sample.acc, sample.gyro)
+        return cross(self.gait, self.corrector, self.cues, last, t, known_at, seen, self.rhythm.usual or 0.0, events)
 
     def _calibrated(self, acc: Vec3, gyro: Vec3) -> tuple[Vec3, Vec3]:
         k = self.rest.scale
