@@ -32,11 +32,16 @@ def test_heel_and_forefoot_are_told_apart_after_two_stances() -> None:
     for cells in (24, 96):
         true, found = layout(cells, Foot.LEFT), guessed(cells)
         assert found is not None
+        told = 0
         for cell, learnt in zip(true.cells, found.cells, strict=True):
+            if learnt.x == 0.5 * found.length:
+                continue  # it never carries load
             if cell.x < 0.25 * true.length:
                 assert learnt.x < 0.45 * found.length, cell
             if cell.x > 0.75 * true.length:
-                assert learnt.x >= 0.5 * found.length, cell  # in the middle where it never carries load
+                assert learnt.x > 0.55 * found.length, cell
+            told += 1
+        assert told > 0.7 * cells
 
 
 def test_a_foot_that_stands_says_nothing_of_its_cells() -> None:
