@@ -6,10 +6,27 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from solepath.sim.parts import BMP280, KXTJ9_IMU3000, LSM6DSOX, MPU9250, RESISTIVE, T5400, BarometerPart, Imu, Triad
+from solepath.sim.parts import (
+    BMP280,
+    CRE_CC02,
+    INERTIACUBE3,
+    KXTJ9_IMU3000,
+    LSM6DSOX,
+    MOVELLA_DOT,
+    MPU9250,
+    RESISTIVE,
+    T5400,
+    WORN_CAPACITIVE,
+    WORN_RESISTIVE,
+    AttitudePart,
+    BarometerPart,
+    Imu,
+    Triad,
+)
 from solepath.sim.route import Route
 from solepath.sim.sensors import (
     air_pressure,
+    attitude_read,
     errors,
     instants,
     low_pass,
@@ -21,7 +38,7 @@ from solepath.sim.sensors import (
 )
 from solepath.sim.walker import Walker
 from solepath.types import Foot
-from solepath.vector import GRAVITY
+from solepath.vector import GRAVITY, from_rotation_vector, multiply
 
 PERFECT = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.0, bandwidth=1e9)
 
@@ -153,6 +170,60 @@ def test_cells_have_gain_preload_noise_and_an_end() -> None:
     assert found[1100:].std(axis=0).mean() == pytest.approx(RESISTIVE.noise, rel=0.1)
     crushed = read_cells(loads * 10.0, t, RESISTIVE, 0.05, np.random.default_rng(1))
     assert crushed.counts.max() == 4095 and crushed.saturated[1100:].all() and not crushed.saturated[:999].any()
+
+
+def test_a_foot_in_the_air_keeps_touching_cells_that_feel_it() -> None:
+    t = np.arange(0.0, 60.0, 0.01)
+    air = t < 30.0
+    loads = np.where(air, 0.0, 40.0)[:, None] * np.ones(40)
+    lift = np.full(len(t), GRAVITY)
+    found = read_cells(loads, t, WORN_RESISTIVE, 0.05, np.random.default_rng(1), lift=lift).counts * 0.05
+    quiet = evolve(WORN_RESISTIVE, rub=0.0)
+    calm = read_cells(loads, t, quiet, 0.05, np.random.default_rng(1), lift=lift).counts * 0.05
+    assert found[air].std(axis=0).mean() > 1.8 * calm[air].std(axis=0).mean()
+    assert found[~air][5:].std(axis=0).mean() == pytest.approx(WORN_RESISTIVE.noise, rel=0.15)
+    changes = found[air] - found[air].mean(axis=0)
+    after = int(round(WORN_RESISTIVE.rub_memory / 0.01))
+    assert 0.15 < np.mean(changes[:-after] * changes[after:]) / np.mean(changes**2) < 0.45  # a memory of that long
+    assert found.min() >= 0.0
+
+
+def test_a_shoe_that_is_pulled_up_presses_less_on_the_foot() -> None:
+    t = np.arange(0.0, 10.0, 0.01)
+    part = evolve(WORN_CAPACITIVE, rub=0.0, noise=0.0)
+    loads = np.zeros((len(t), 30))
+    means = [
+        read_cells(loads, t, part, 0.001, np.random.default_rng(3), lift=np.full(len(t), g * GRAVITY)).counts.mean()
+        for g in (-1.0, 0.0, 1.0, 2.0, 3.0, 9.0)
+    ]
+    assert np.array(means) / means[2] == pytest.approx([1.6, 1.3, 1.0, 0.7, 0.4, 0.0], abs=0.01)
+
+
+def test_parts_that_do_not_feel_the_foot_in_the_air_read_what_they_did() -> None:
+    t = np.arange(0.0, 2.0, 0.01)
+    loads = np.outer(np.maximum(np.sin(3.0 * t), 0.0), np.arange(12.0))
+    plain = read_cells(loads, t, RESISTIVE, 0.05, np.random.default_rng(1))
+    felt = read_cells(loads, t, RESISTIVE, 0.05, np.random.default_rng(1), lift=30.0 * np.cos(t))
+    assert np.array_equal(plain.counts, felt.counts)
+
+
+@pytest.mark.parametrize("part", [INERTIACUBE3, CRE_CC02, MOVELLA_DOT])
+def test_an_attitude_is_off_by_what_its_sheet_says_slowly_and_from_the_start(part: AttitudePart) -> None:
+    t = np.arange(0.0, 20.0, 0.1)
+    true = np.tile((1.0, 0.0, 0.0, 0.0), (len(t), 1))
+    read = np.stack([attitude_read(true, t, part, 0.0, np.random.default_rng(k)) for k in range(300)])
+    assert np.linalg.norm(read, axis=2) == pytest.approx(1.0)
+    for moment in (0, -1):
+        tilt, heading = 2.0 * read[:, moment, 1:3].std(), 2.0 * read[:, moment, 3].std()
+        assert tilt == pytest.approx(part.tilt, rel=0.1) and heading == pytest.approx(part.heading, rel=0.1)
+    assert np.abs(np.diff(2.0 * read[:, :, 1:], axis=1)).max() < 0.1 * max(part.tilt, part.heading)
+
+
+def test_a_device_with_another_north_turns_the_world_about_the_vertical() -> None:
+    part = AttitudePart("ideal", tilt=0.0, heading=0.0)
+    true = np.array([[0.8, 0.6, 0.0, 0.0]])
+    w, x, y, z = attitude_read(true, np.zeros(1), part, 0.5, np.random.default_rng(1))[0].tolist()
+    assert (w, x, y, z) == pytest.approx(multiply(from_rotation_vector((0.0, 0.0, -0.5)), (0.8, 0.6, 0.0, 0.0)))
 
 
 @pytest.mark.parametrize("part", [BMP280, T5400])

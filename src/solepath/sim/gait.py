@@ -48,6 +48,13 @@ class Wearer:
     """m."""
     angle_variation: float = 0.035
     """Of pitch angles (relative); toe-out varies by half of this in rad."""
+    load_variation: float = 0.0
+    """How far the load's place across the foot differs from step to step, m."""
+    aim: float = 0.01
+    """How far along the path a foot misses the mark that it is to step on, m (assumed)."""
+    centre_height: float = 0.97
+    """Of the body's centre of mass, m: 0.555 of a stature of 1.75 m (Winter, Biomechanics and Motor Control of Human
+    Movement, 2009)."""
 
 
 @frozen
@@ -83,6 +90,10 @@ class Stride:
     """Of the swing: roll in rad, yaw in rad, and outward swing in m; the largest deviation of each."""
     settle: float
     """How much the foot rocks during the stance that follows, rad."""
+    curvature: float
+    """Of the path where the foot comes down, 1/m; positive to the left."""
+    pace: float
+    """Of the body over this step, m/s: half of the foot's way in the step's time."""
 
 
 @frozen
@@ -103,11 +114,14 @@ def plan(route: Route, wearer: Wearer, rng: np.random.Generator) -> Plan:
 
 @frozen
 class _Footfall:
-    """One step to come: the place on the path, the speed, and how far the path advances in it."""
+    """One step to come: the place on the path, the speed, how far the path advances in it, how long it usually takes
+    (s), and how the path bends there (1/m)."""
 
     pose: Pose
     speed: float
     advance: float
+    duration: float
+    curvature: float = 0.0
 
 
 class _Planner:
@@ -147,7 +161,10 @@ class _Planner:
     # --- where ------------------------------------------------------------------------------------------------------
 
     def _along(self, path: Path) -> list[_Footfall]:
-        """Steps of natural length with a few per cent of variation, stretched to end exactly at the path's end."""
+        """Steps of natural length with a few per cent of variation, stretched to end exactly at the path's end; or one
+        step for every mark."""
+        if path.spacing is not None:
+            return self._on_marks(path, path.spacing)
         ends: list[float] = []
         s = 0.0
         while not ends or ends[-1] < path.length:
@@ -161,15 +178,27 @@ class _Planner:
         before = 0.0
         for end in (fit * end for end in ends):
             pose, speed = path.at(end)
-            falls.append(_Footfall(pose, speed, end - before))
+            falls.append(_Footfall(pose, speed, end - before, step_time(speed, self.wearer), path.curvature(end)))
             before = end
-        falls.append(evolve(falls[-1], advance=0.0))  # the closing half step: beside the foot that arrived
-        return falls
+        return [*falls, _closing(falls[-1])]
+
+    def _on_marks(self, path: Path, spacing: float) -> list[_Footfall]:
+        count = max(1, round(path.length / spacing))
+        each = path.length / count
+        falls = []
+        for k in range(1, count + 1):
+            _, speed = path.at(each * k)
+            hit = each * k + self.wearer.aim * float(np.clip(self.rng.standard_normal(), -3.0, 3.0))
+            falls.append(_Footfall(path.at(hit)[0], speed, each, each / speed, path.curvature(each * k)))
+        return [*falls, _closing(falls[-1])]
 
     def _on_the_spot(self, pivot: Pivot) -> list[_Footfall]:
         count = max(1, int(np.ceil(abs(pivot.angle) / self.wearer.pivot_step)))
         turned = [pivot.angle * k / count for k in range(1, count + 1)]
-        falls = [_Footfall(evolve(pivot.start, heading=pivot.start.heading + a), pivot.speed, 0.0) for a in turned]
+        duration = step_time(pivot.speed, self.wearer)
+        falls = [
+            _Footfall(evolve(pivot.start, heading=pivot.start.heading + a), pivot.speed, 0.0, duration) for a in turned
+        ]
         return [*falls, falls[-1]]
 
     def _stance(self, pose: Pose, foot: Foot, width: float, turned: float) -> Stance:
@@ -182,7 +211,7 @@ class _Planner:
 
     def _walk(self, falls: list[_Footfall]) -> None:
         for fall in falls:
-            step = step_time(fall.speed, self.wearer) * self._vary(self.wearer.time_variation)
+            step = fall.duration * self._vary(self.wearer.time_variation)
             if self.struck is None:
                 self.began = self.t
                 # As if the other foot had just landed: the weight needs that long to leave the foot that goes first.
@@ -204,7 +233,8 @@ class _Planner:
         width, out = (float(value) for value in self.rng.standard_normal(2))
         end = self._stance(fall.pose, foot, wearer.width_variation * width, 0.5 * wearer.angle_variation * out)
         # Short steps roll the foot less; the exponents keep half steps and steps in place looking like steps.
-        reach = min(hypot(end.x - start.x, end.y - start.y) / 1.42, 1.4)
+        moved = hypot(end.x - start.x, end.y - start.y)
+        reach = min(moved / 1.42, 1.4)
         roll, yaw, outward = (float(value) for value in self.rng.standard_normal(3))
         side = 1.0 if foot is Foot.LEFT else -1.0
         weave = (side * (0.16 + 0.03 * roll), -side * (0.10 + 0.02 * yaw), side * (0.012 + 0.004 * outward))
@@ -223,6 +253,8 @@ class _Planner:
                 clearance=wearer.clearance * self._vary(0.08),
                 weave=weave,
                 settle=4e-4 * float(np.clip(self.rng.standard_normal(), -1.0, 1.0)),
+                curvature=fall.curvature,
+                pace=0.5 * moved / step,
             )
         )
         self.at[foot] = end
@@ -230,6 +262,11 @@ class _Planner:
     def _vary(self, sigma: float) -> float:
         """A factor about 1, never further away than three sigma."""
         return 1.0 + sigma * float(np.clip(self.rng.standard_normal(), -3.0, 3.0))
+
+
+def _closing(last: _Footfall) -> _Footfall:
+    """The closing half step: beside the foot that arrived."""
+    return evolve(last, advance=0.0)
 
 
 def cadence(speed: float, wearer: Wearer) -> float:

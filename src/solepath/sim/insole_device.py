@@ -8,8 +8,8 @@ import numpy as np
 from attrs import frozen
 
 from ..link.profile import INSOLE
-from ..types import Site
-from ..vector import GRAVITY, from_rotation_vector, multiply
+from ..types import Foot, Layout, Site
+from ..vector import GRAVITY, conjugate, from_rotation_vector, multiply, rotate
 from ..wire.device import build_battery, build_firmware
 from ..wire.fragment import FRAME_IDS, split
 from ..wire.insole import build_frame
@@ -17,10 +17,10 @@ from ..wire.insole_info import InsoleInfo, build_info
 from .curves import Array
 from .device import Notification, foot_of, prepared, read_imu, samplings, started
 from .insole_signal import Counts, InsoleSignal
-from .insoles import SCALE, layout
-from .parts import LSM6DSOX, RESISTIVE, CellPart, Imu
-from .sensors import read_cells
-from .shoe import IN_SOLE, Mounting
+from .insoles import SCALE, heel_array, layout
+from .parts import HEEL_ARRAY, INERTIACUBE3, LSM6DSOX, RESISTIVE, AttitudePart, CellPart, Imu
+from .sensors import attitude_read, read_cells, sample
+from .shoe import IN_SOLE, ON_HEEL, Mounting, Shoe
 from .walker import Walker
 
 TICK_RATE = 32768
@@ -36,22 +36,29 @@ BATTERY = 87
 class Insole:
     """`cells` of 12 bits and an IMU at `rate` Hz (rounded to whole ticks), `batch` samples a frame.
 
-    `mtu`: of the link; frames that do not fit go in fragments. `ppm` and `ticks`: rate error and reading of the clock
-    at its first sample; drawn when None. `quaternion`: send the device's own attitude too.
+    `cells`: how many over the whole sole, or a layout for the foot that wears it (one without a scale is read at the
+    scale of the others and sent as counts). `mtu`: of the link; frames that do not fit go in fragments. `ppm` and
+    `ticks`: rate error and reading of the clock at its first sample; drawn when None. `quaternion`: send the device's
+    own attitude too, with the errors of `attitude` in a world whose x axis is turned by `north` rad from the walk's;
+    when `attitude` is None it is half a degree off in tilt, all the time, and has a heading of its own. `tells_full`:
+    a frame with a cell at its limit says so; a device whose cells are a unit of their own cannot.
     """
 
-    cells: int = 96
+    cells: int | Layout = 96
     rate: float = 100.0
     batch: int = 1
     mtu: int = 247
     imu: bool = True
     quaternion: bool = False
+    attitude: AttitudePart | None = None
+    north: float = 0.0
     mounting: Mounting = IN_SOLE
     part: Imu = LSM6DSOX
     cell_part: CellPart = RESISTIVE
     ppm: float | None = None
     ticks: int | None = None
     firmware: str = "emulated 1"
+    tells_full: bool = True
 
     def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
         signal = self.measure(walker, site, rng)
@@ -73,12 +80,15 @@ class Insole:
         clock = started(rng, self.interval / TICK_RATE, self.ppm)
         when = samplings(walker, clock, self.interval / TICK_RATE)
         drawn, sequence, serial = (int(n) for n in rng.integers(0, (2**32, 2**16, 2**24)))
-        shape = layout(self.cells, foot, walker.wearer.shoe.length, walker.wearer.shoe.width)
+        shape = self._layout(foot, walker.wearer.shoe)
 
         motion = walker.kinematics(foot, when.fine, self.mounting)
         acc, gyro = read_imu(motion, when, self.part, ACC_COUNT, GYRO_COUNT, rng, bandwidth=0.5 * self.rate)
-        loads = read_cells(walker.cell_loads(shape, when.taken), when.taken, self.cell_part, SCALE, rng)
-        attitude = self._attitudes(motion.attitude[when.before :: when.every], rng)
+        lift = sample(motion.force, when) @ np.array(rotate(conjugate(self.mounting.attitude), (0.0, 0.0, 1.0)))
+        loads = read_cells(
+            walker.cell_loads(shape, when.taken), when.taken, self.cell_part, shape.scale or SCALE, rng, lift=lift
+        )
+        attitude = self._attitudes(sample(motion.attitude, when), when.taken, rng)
         return InsoleSignal(
             layout=shape,
             interval=self.interval,
@@ -90,7 +100,7 @@ class Insole:
             cells=loads.counts.astype(np.int16),
             imu=np.concatenate((acc.counts, gyro.counts), axis=1).astype(np.int16) if self.imu else None,
             quats=attitude,
-            full=acc.saturated | gyro.saturated | loads.saturated,
+            full=acc.saturated | gyro.saturated | (loads.saturated & self.tells_full),
         )
 
     @property
@@ -108,18 +118,43 @@ class Insole:
             interval=signal.interval,
             acc_scale=ACC_COUNT,
             gyro_scale=GYRO_COUNT,
-            pressure_scale=SCALE,
+            pressure_scale=signal.layout.scale or 0.0,
             length=signal.layout.length,
             cells=signal.layout.cells,
             firmware=self.firmware,
         )
 
-    def _attitudes(self, true: Array, rng: np.random.Generator) -> Counts | None:
-        """The device's own idea of its attitude in Q14: half a degree off in tilt, with a heading of its own."""
+    def _layout(self, foot: Foot, shoe: Shoe) -> Layout:
+        if not isinstance(self.cells, Layout):
+            return layout(self.cells, foot, shoe.length, shoe.width)
+        if self.cells.foot is not foot:
+            raise ValueError(f"the {foot.value} foot cannot wear cells of the {self.cells.foot.value} foot")
+        return self.cells
+
+    def _attitudes(self, true: Array, t: Array, rng: np.random.Generator) -> Counts | None:
+        """The device's own idea of its attitude in Q14."""
         if not self.quaternion:
             return None
+        if self.attitude is not None:
+            found: Counts = np.rint(16384 * attitude_read(true, t, self.attitude, self.north, rng)).astype(np.int16)
+            return found
         tilt = radians(0.5) * rng.standard_normal(2)
         off = from_rotation_vector((float(tilt[0]), float(tilt[1]), float(rng.uniform(-3.0, 3.0))))
         felt = np.array([multiply(off, (w, x, y, z)) for w, x, y, z in true.tolist()])
         quats: Counts = np.rint(16384 * felt).astype(np.int16)
         return quats
+
+
+def boot(foot: Foot, rate: float = 100.0) -> Insole:
+    """The sensors of Bebek et al. 2010, IEEE Trans. Instrum. Meas. 59: an array of 24 cells under the heel and a unit
+    that knows its attitude on the back of it. The unit's acceleration and rate have the errors of the other insoles:
+    the paper gives none. How often it measured is not said either."""
+    return Insole(
+        cells=heel_array(foot),
+        rate=rate,
+        quaternion=True,
+        attitude=INERTIACUBE3,
+        mounting=ON_HEEL,
+        cell_part=HEEL_ARRAY,
+        tells_full=False,
+    )

@@ -42,6 +42,26 @@ def layout(count: int, foot: Foot, length: float = 0.285, width: float = 0.100) 
     return Layout(count, foot, tuple(cells), length, SCALE, FULL_SCALE)
 
 
+HEEL_LENGTH, HEEL_WIDTH = 0.0823, 0.0451
+"""Sensing area of a DigiTacts II array, m (Bebek et al. 2010, section IV); its 24 cells lie 6 by 4 (assumed)."""
+HEEL_PRESSURE = 140e3
+"""Pa: the most that it detects (the same)."""
+
+
+def heel_array(foot: Foot, length: float = 0.285, rear: float = 0.008) -> Layout:
+    """The 24 cells of a DigiTacts II array under the heel of a shoe of `length`, in rows from the back to the front,
+    each from right to left; the first row begins `rear` m before the heel's end (assumed). The id is 24, as for 24
+    cells over the whole sole: what a layout is, its INFO says."""
+    step, across = HEEL_LENGTH / 6, HEEL_WIDTH / 4
+    cells = [
+        Cell(rear + (row + 0.5) * step, -0.5 * HEEL_WIDTH + (column + 0.5) * across, step * across)
+        for row in range(6)
+        for column in range(4)
+    ]
+    full = HEEL_PRESSURE * step * across
+    return Layout(24, foot, tuple(cells), length, full / 4095, full)
+
+
 def _shares(widths: np.ndarray[tuple[int, ...], np.dtype[np.float64]], count: int) -> list[int]:
     """Split `count` cells over the rows in proportion to their widths, at least one each, largest remainders first."""
     exact = (count - len(widths)) * widths / widths.sum()

@@ -30,6 +30,7 @@ class Walk:
 
     distance: float
     speed: float
+    spacing: float | None = None
 
 
 @frozen
@@ -39,6 +40,7 @@ class Turn:
     angle: float
     radius: float
     speed: float
+    spacing: float | None = None
 
 
 Action = Stand | Walk | Turn
@@ -51,6 +53,13 @@ class Route:
     actions: tuple[Action, ...] = ()
     speed: float = 1.3
     """The speed of a move that names none, m/s: the last one named, or 1.3."""
+    spacing: float | None = None
+    """Of the marks that are stepped on, m along the path; None: steps of natural length."""
+
+    def paced(self, spacing: float | None) -> Route:
+        """From here on every footfall is on a mark: they are `spacing` m apart along the path from one halt to the
+        next, made even so that the last one is at its end. Halt before this; None: naturally again."""
+        return evolve(self, spacing=None if spacing is None else _positive("spacing", spacing))
 
     def stand(self, duration: float) -> Route:
         return self._then(Stand(_positive("duration", duration)))
@@ -61,14 +70,14 @@ class Route:
 
     def walk(self, distance: float, speed: float | None = None) -> Route:
         chosen = self.speed if speed is None else _positive("speed", speed)
-        return evolve(self._then(Walk(_positive("distance", distance), chosen)), speed=chosen)
+        return evolve(self._then(Walk(_positive("distance", distance), chosen, self.spacing)), speed=chosen)
 
     def turn(self, angle: float, radius: float = 0.0, speed: float | None = None) -> Route:
         if not isfinite(angle) or not isfinite(radius) or radius < 0.0:
             raise ValueError(f"turn: angle must be finite and radius not negative, got {angle}, {radius}")
         if speed is None:
             speed = min(self.speed, TIGHT_TURN if radius < 1.0 else inf)
-        return self._then(Turn(angle, radius, _positive("speed", speed)))
+        return self._then(Turn(angle, radius, _positive("speed", speed), self.spacing))
 
     @property
     def length(self) -> float:
@@ -121,12 +130,13 @@ class Pose:
 
 @frozen
 class Piece:
-    """A straight line or an arc from `start`, walked at `speed`."""
+    """A straight line or an arc from `start`, walked at `speed`; with marks `spacing` m apart, or None."""
 
     start: Pose
     length: float
     curvature: float
     speed: float
+    spacing: float | None = None
 
 
 @frozen
@@ -144,14 +154,26 @@ class Path:
         last = self.pieces[-1]
         return last.start.ahead(last.length, last.curvature)
 
+    @property
+    def spacing(self) -> float | None:
+        """Of the marks to step on, m: what its first move says."""
+        return self.pieces[0].spacing
+
     def at(self, s: float) -> tuple[Pose, float]:
         """The pose after `s` m from the halt, and the speed asked for there."""
+        piece, rest = self._piece(s)
+        return piece.start.ahead(rest, piece.curvature), piece.speed
+
+    def curvature(self, s: float) -> float:
+        """1/m after `s` m from the halt; positive to the left."""
+        return self._piece(s)[0].curvature
+
+    def _piece(self, s: float) -> tuple[Piece, float]:
         for piece in self.pieces[:-1]:
             if s < piece.length:
-                return piece.start.ahead(s, piece.curvature), piece.speed
+                return piece, s
             s -= piece.length
-        last = self.pieces[-1]
-        return last.start.ahead(s, last.curvature), last.speed
+        return self.pieces[-1], s
 
 
 @frozen
@@ -194,9 +216,10 @@ def legs(route: Route) -> list[Leg]:
                 pose = pivot.end
                 continue
             case Turn(angle=angle, radius=radius):
-                piece = Piece(pose, abs(angle) * radius, (1.0 if angle > 0.0 else -1.0) / radius, action.speed)
+                bend = (1.0 if angle > 0.0 else -1.0) / radius
+                piece = Piece(pose, abs(angle) * radius, bend, action.speed, action.spacing)
             case Walk(distance=distance):
-                piece = Piece(pose, distance, 0.0, action.speed)
+                piece = Piece(pose, distance, 0.0, action.speed, action.spacing)
         pieces.append(piece)
         pose = piece.start.ahead(piece.length, piece.curvature)
     close()

@@ -6,13 +6,14 @@ is too fast for the sample rate aliases or is rounded off as it is in the part.
 
 from __future__ import annotations
 
-from math import ceil, exp, pi, sqrt
+from math import ceil, cos, exp, pi, sin, sqrt
 
 import numpy as np
 from attrs import frozen
 
+from ..vector import GRAVITY
 from .curves import Array
-from .parts import BarometerPart, CellPart, Triad
+from .parts import AttitudePart, BarometerPart, CellPart, Triad
 
 INTERNAL_RATE = 800.0
 """Hz: instants per second at which a signal is worked out before it is filtered, at least."""
@@ -139,20 +140,47 @@ def wander(t: Array, memory: float, axes: int, rng: np.random.Generator) -> Arra
 
 
 def read_cells(
-    true: Array, when: Array, part: CellPart, count: float, rng: np.random.Generator, full: int = 4095
+    true: Array,
+    when: Array,
+    part: CellPart,
+    count: float,
+    rng: np.random.Generator,
+    full: int = 4095,
+    lift: Array | None = None,
 ) -> Reading:
-    """What the cells of an insole report of their true loads `true` (N, cells), N, taken at `when` (N)."""
+    """What the cells of an insole report of their true loads `true` (N, cells), N, taken at `when` (N).
+
+    `lift` (N): specific force along the sole's upward normal, m/s^2, for parts that feel how the shoe hangs.
+    """
     cells = true.shape[1]
     gain = 1.0 + part.gain * np.clip(rng.standard_normal(cells), -3.0, 3.0)
     preload = part.preload * np.asarray(rng.uniform(0.0, 2.0, cells))
     lagged = true.copy()
     interval = float(when[1] - when[0]) if len(when) > 1 else 1.0
+    if part.hang or part.rub:
+        lagged += _contact(true, interval, part, preload, lift, rng)
+        true = lagged.copy()
     follow = 1.0 - exp(-interval / part.lag)
     for k in range(1, len(lagged)):
         lagged[k] = lagged[k - 1] + follow * (true[k] - lagged[k - 1])
     counts = _in_place(lagged, gain, preload, part.noise * rng.standard_normal(true.shape), count)
     saturated = np.any(counts >= full, axis=1)
     return Reading(np.clip(counts, 0, full, out=counts).astype(np.int64), saturated)
+
+
+def _contact(
+    true: Array, interval: float, part: CellPart, preload: Array, lift: Array | None, rng: np.random.Generator
+) -> Array:
+    """What the foot in the air adds to the preload of each cell, (N, cells); nothing while it stands."""
+    keep = exp(-interval / part.rub_memory)
+    change = part.rub * sqrt(1.0 - keep * keep) * rng.standard_normal(true.shape)
+    for k in range(1, len(change)):
+        change[k] += keep * change[k - 1]
+    if lift is not None:
+        change += part.hang * np.outer(1.0 - lift / GRAVITY, preload)
+    np.maximum(change, -preload, out=change)
+    change[true.any(axis=1)] = 0.0
+    return change
 
 
 def _in_place(load: Array, gain: Array, preload: Array, noise: Array, count: float) -> Array:
@@ -174,3 +202,25 @@ def read_barometer(height: Array, t: Array, part: BarometerPart, rng: np.random.
     pressure = air_pressure(height) + part.offset * rng.standard_normal()
     pressure += part.wander * wander(t, part.memory, 1, rng)[:, 0]
     return np.asarray(pressure + part.noise * rng.standard_normal(len(t)))
+
+
+def attitude_read(true: Array, t: Array, part: AttitudePart, north: float, rng: np.random.Generator) -> Array:
+    """What a device says of its attitudes `true` (N, 4) at instants `t`, (N, 4): sensor to its own world.
+
+    That world is the walk's turned about the vertical by `north` rad and by the part's errors, a Gauss-Markov process
+    about each axis that is as large at the start as later.
+    """
+    begun = np.exp(-(t - t[0]) / part.memory)[:, None] * rng.standard_normal(3)
+    turned = (begun + wander(t, part.memory, 3, rng)) * (part.tilt, part.tilt, part.heading)
+    angle = np.linalg.norm(turned, axis=1, keepdims=True)
+    axis = 0.5 * np.sinc(angle / (2.0 * pi)) * turned  # sin(angle / 2) / angle
+    about = np.array([[cos(0.5 * north), 0.0, 0.0, -sin(0.5 * north)]])
+    return multiplied(multiplied(about, np.concatenate((np.cos(0.5 * angle), axis), axis=1)), true)
+
+
+def multiplied(p: Array, q: Array) -> Array:
+    """Hamilton products of two stacks of quaternions, (N, 4) each, or one of them (1, 4)."""
+    a, u = p[:, :1], p[:, 1:]
+    b, v = q[:, :1], q[:, 1:]
+    scalar = a * b - np.sum(u * v, axis=1, keepdims=True)
+    return np.concatenate((scalar, a * v + b * u + np.cross(u, v)), axis=1)

@@ -54,3 +54,6 @@ IN_SOLE = Mounting()
 
 ON_INSTEP = Mounting(position=(0.170, 0.0, 0.085))
 """On the laces, axes along the foot's."""
+
+ON_HEEL = Mounting(position=(-0.010, 0.0, 0.050))
+"""On the back of the heel, axes along the foot's."""

@@ -26,7 +26,7 @@ class Walker:
         self.seed = seed
         self.plan = plan(route, self.wearer, np.random.default_rng([seed, 0]))
         self.motions = foot_motions(self.plan, self.wearer.shoe)
-        self.loads = loads(self.plan, self.wearer)
+        self.loads = loads(self.plan, self.wearer, np.random.default_rng([seed, 4]))
 
     @property
     def duration(self) -> float:
