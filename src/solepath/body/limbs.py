@@ -1,7 +1,7 @@
 """The lower limbs as a chain of seven segments: where the ends of the feet are, seen from the pelvis.
 
-After Gong et al. 2023 (Sensors 23, 5417), section 3.2.2 and fig. 8: O_0 at the hips, O_1 the knee, O_2 the ankle, O_3 the
-end of the foot, and P_R, P_L "from the last column" of the product (7) of the transforms between them.
+After Gong et al. 2023 (Sensors 23, 5417), section 3.2.2 and fig. 8: O_0 at the hips, O_1 the knee, O_2 the ankle, O_3
+the end of the foot, and P_R, P_L "from the last column" of the product (7) of the transforms between them.
 
 A sensor is strapped on in any way, so what its attitude says of its segment is taken from the first time that all seven
 are quiet together: the wearer stands upright, thighs and shanks vertical, feet level, everything facing the first
@@ -83,8 +83,10 @@ class Segment:
     """Sum of the attitudes since."""
     standing: Quat | None = field(default=None, init=False)
     """The sensor's attitude in the N-pose."""
+    own: bool = field(default=False, init=False)
+    """Its world is its own, not the one that the devices share."""
     heading: float | None = field(default=None, init=False)
-    """Of the wearer's first heading in the sensor's world, rad; None where it is the one that the devices share."""
+    """Of the wearer's first heading in its own world, rad."""
 
     def told(self, t: float, sensor: Quat) -> None:
         """A new attitude: sensor to its own world, a unit quaternion."""
@@ -109,7 +111,7 @@ class Segment:
         """Segment to world (x along the first heading). `shared`: the first heading in the devices' world, rad."""
         if self.standing is None:
             return IDENTITY
-        heading = shared if self.heading is None else self.heading
+        heading = (self.heading or 0.0) if self.own else shared
         turned = multiply(self.sensor, conjugate(self.standing))
         if heading == 0.0:
             return turned
@@ -145,9 +147,13 @@ class LowerLimbs:
         if not self.aligned and not self.given_up:
             self._align()
 
-    def headed(self, site: Site, heading: float | None) -> None:
-        """Where the wearer's first heading points in this sensor's own world, rad; None: the devices share one."""
-        self.segments[site].heading = heading
+    def told_own(self, site: Site, t: float, quat: Quat, heading: float | None) -> None:
+        """The same of a sensor with a world of its own, in which the wearer's first heading is `heading`, rad, once
+        that is known. Nothing of it is used where the site has told an attitude in the shared world."""
+        segment = self.segments[site]
+        if segment.own or segment.t is None:
+            segment.own, segment.heading = True, heading
+            self.told(site, t, quat)
 
     def _align(self) -> None:
         if any([segment.quiet_for() < STOOD for segment in self.segments.values()]):
@@ -158,9 +164,12 @@ class LowerLimbs:
 
     def current(self, t: float) -> bool:
         """Whether the chain can be used for this instant, s."""
-        return self.aligned and all(
-            [segment.t is not None and abs(t - segment.t) < STALE for segment in self.segments.values()]
-        )
+        if not self.aligned:
+            return False
+        for segment in self.segments.values():
+            if segment.t is None or abs(t - segment.t) >= STALE or (segment.own and segment.heading is None):
+                return False
+        return True
 
     def missing(self) -> tuple[Site, ...]:
         """The sites above the ankles that nothing was heard of."""

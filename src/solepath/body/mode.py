@@ -62,7 +62,7 @@ def regions(layout: Layout) -> dict[str, tuple[int, ...]]:
     for name, points in POINTS.items():
         chosen: list[int] = []
         for along, across in points:
-            beside = sorted(cells, key=lambda cell, along=along: abs(cell[0] - along))[: max(4, len(cells) // 10)]
+            beside = sorted([(abs(x - along), y) for x, y in cells])[: max(4, len(cells) // 10)]
             low, high = min([y for _, y in beside]), max([y for _, y in beside])
             y = 0.5 * (low + high) + 0.5 * across * (high - low)
             rank = [((x - along) ** 2 * layout.length**2 + (cy - y) ** 2, k) for k, (x, cy) in enumerate(cells)]
@@ -89,3 +89,53 @@ def decide(foot: Foot, step: float, shares: dict[str, float], forward: float, th
     if step > LEAST_STEP and forward > th:
         return WalkingMode.STRAIGHT
     return None
+
+
+@define
+class Contact:
+    """What the regions of one insole bore since the foot came down."""
+
+    # state
+    layout: int | None = field(default=None, init=False)
+    """Number of cells that the regions are of."""
+    where: dict[str, tuple[int, ...]] = field(factory=dict, init=False)
+    began: float | None = field(default=None, init=False)
+    sums: dict[str, float] = field(factory=dict, init=False)
+    total: float = field(default=0.0, init=False)
+    lingers: bool = field(default=False, init=False)
+    """It has lasted too long for a step."""
+    forward: float = field(default=0.0, init=False)
+    """F1 less F2 of the last contact."""
+    newest: float = field(default=0.0, init=False)
+    """Load on the whole insole, newest sample, unit of the samples."""
+
+    def wear(self, layout: Layout | None) -> None:
+        """The insole's layout, as far as it is known; nothing is told without one."""
+        if layout is not None and self.layout != len(layout.cells):
+            self.layout, self.where = len(layout.cells), regions(layout)
+
+    def begin(self, t: float) -> None:
+        """The foot came down."""
+        self.began, self.total, self.lingers = t, 0.0, False
+        self.sums = dict.fromkeys(self.where, 0.0)
+
+    def add(self, cells: tuple[float, ...], total: float) -> None:
+        """A sample of the foot on the ground."""
+        if len(cells) != self.layout:
+            return
+        self.total += total
+        sums = self.sums
+        for name, where in self.where.items():
+            for k in where:
+                sums[name] += cells[k]
+
+    def lasted(self, t: float) -> float:
+        """s."""
+        return 0.0 if self.began is None else t - self.began
+
+    def shares(self) -> dict[str, float] | None:
+        """The mean cell of each region as a multiple of the insole's; None without load or layout."""
+        if self.layout is None or self.total <= 0.0 or not self.sums:
+            return None
+        mean = self.total / self.layout
+        return {name: total / len(self.where[name]) / mean for name, total in self.sums.items()}

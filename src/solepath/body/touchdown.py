@@ -120,10 +120,11 @@ class MaximumPressure:
     down: Flags = field(default=(False, False), init=False)
 
     def update(self, t: float, left: FootState, right: FootState) -> Flags:
-        self.down = (self._one(left, self.down[0]), self._one(right, self.down[1]))
+        self.down = (self.one(left, self.down[0]), self.one(right, self.down[1]))
         return self.down
 
-    def _one(self, foot: FootState, down: bool) -> bool:
+    def one(self, foot: FootState, down: bool) -> bool:
+        """Whether a foot is down that was `down` before."""
         if foot.pressure is None:
             return False
         threshold = self.threshold if foot.full is None else self.share * foot.full
