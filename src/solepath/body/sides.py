@@ -17,22 +17,27 @@ is a right one: that is told as exchanged feet, and is as wrong.
 
 from __future__ import annotations
 
-from math import sqrt
+from bisect import bisect_right
+from math import hypot, sqrt
 
 from attrs import define, field
 
-from ..events import Event, FootFlat, StepTaken, ToeOff
+from ..events import Event, StepTaken, ToeOff
 from ..foot.tracker import FootTracker
 from ..types import Foot, Sample, Vec3
-from ..vector import conjugate, rotate
+from ..vector import ZERO, conjugate, rotate, sub
 
 UP: Vec3 = (0.0, 0.0, 1.0)
 RARELY = 0.0195
-"""The roll is followed at about 50 Hz, s."""
+"""The turn of a foot is followed at about 50 Hz, s."""
 HIDDEN = 0.11
-"""Over a longer gap nothing is known of the roll, s."""
-REMEMBERED = 96
-"""Instants of the roll: a swing and the loading after it, at 50 Hz."""
+"""Over a longer gap nothing is known of it, s."""
+REMEMBERED = 128
+"""Instants of it: at 50 Hz at least the last 1.3 s, a push-off, a swing and the loading after it."""
+PUSH_OFF = 0.3
+"""The foot turns over its toes for about this long before toe-off, s,"""
+TURNED = 0.25
+"""and by more than this, rad."""
 FEW = 4
 """A swing with fewer instants is not judged."""
 SHORTEST = 0.4
@@ -79,15 +84,15 @@ class Side:
     """How far outwards the centre of pressure goes before toe-off, m."""
     mirrored: bool = False
     """The layout is the other foot's."""
-    ahead: Vec3 | None = None
-    """Unit vector to the toe, sensor frame."""
-    angle: float = 0.0
-    """Roll about it, rad, right-handed: the left edge rises."""
+    across: Vec3 | None = None
+    """To the left, as the foot turns over its toes, sensor frame."""
     times: list[float] = field(factory=list)
-    angles: list[float] = field(factory=list)
+    turns: list[Vec3] = field(factory=list)
+    """Integral of the angular rate up to these times, rad, sensor frame: its parts along axes that are fixed in the
+    foot."""
     seen_at: float | None = None
     """When the centre of pressure was last looked at, s."""
-    across: list[float] = field(factory=list)
+    sideways: list[float] = field(factory=list)
     """Its y over this contact, m."""
 
 
@@ -97,7 +102,7 @@ class Sides:
 
     least: int = 8
     """Steps of each foot before anything is said."""
-    rolled: float = 0.03
+    rolled: float = 0.02
     """rad."""
     gone: float = 0.002
     """m."""
@@ -109,18 +114,16 @@ class Sides:
         """`foot` has used `sample` and said `events`; True once both feet look like the other."""
         is_left = foot.foot is Foot.LEFT
         side = self.left if is_left else self.right
-        if sample.gyro is not None and side.ahead is not None:
-            _roll(side, sample.t, sample.gyro)
+        if sample.gyro is not None:
+            _turn(side, sample.t, sample.gyro)
         elif foot.moved_at is None and sample.pressure:
             _press(side, sample.t, foot)
         judged = False
         for event in events:
             if isinstance(event, StepTaken):
                 judged = True
-                _land(side, event)
-            elif isinstance(event, FootFlat):
-                side.ahead = _ahead(foot)
-            elif isinstance(event, ToeOff) and side.across:
+                _land(side, event, rotate(conjugate(foot.corrector.attitude), UP))
+            elif isinstance(event, ToeOff) and side.sideways:
                 judged = True
                 _leave(side, is_left)
         if not judged:
@@ -138,51 +141,62 @@ class Sides:
         return left.centre.beyond(self.gone, self.least) and right.centre.beyond(self.gone, self.least)
 
 
-def _ahead(foot: FootTracker) -> Vec3 | None:
-    """To the toe, from up and left as the foot stands; None while they are not known."""
-    left = foot.cues.axis
-    if left is None or not foot.levelled:
-        return None
-    lx, ly, lz = left
-    ux, uy, uz = rotate(conjugate(foot.corrector.attitude), UP)
-    x, y, z = ly * uz - lz * uy, lz * ux - lx * uz, lx * uy - ly * ux
-    length = sqrt(x * x + y * y + z * z)
-    return (x / length, y / length, z / length) if length > 0.5 else None
-
-
-def _roll(side: Side, t: float, gyro: Vec3) -> None:
-    """Go on with the angle."""
+def _turn(side: Side, t: float, gyro: Vec3) -> None:
+    """One sample of the angular rate, rad/s."""
     times = side.times
     dt = t - times[-1] if times else HIDDEN
-    if 0.0 <= dt < RARELY or side.ahead is None:
+    if 0.0 <= dt < RARELY:
         return
-    x, y, z = side.ahead
-    gx, gy, gz = gyro
     if 0.0 < dt < HIDDEN:
-        side.angle += dt * (x * gx + y * gy + z * gz)
+        x, y, z = side.turns[-1]
+        gx, gy, gz = gyro
+        side.turns.append((x + dt * gx, y + dt * gy, z + dt * gz))
     else:
-        side.times, side.angles, side.angle = [], [], 0.0
-    side.times.append(t)
-    side.angles.append(side.angle)
-    if len(side.times) > REMEMBERED:
-        del side.times[: REMEMBERED // 2]
-        del side.angles[: REMEMBERED // 2]
+        side.times = times = []
+        side.turns = [ZERO]
+    times.append(t)
+    if len(times) > REMEMBERED:
+        del times[: REMEMBERED // 2]
+        del side.turns[: REMEMBERED // 2]
 
 
-def _land(side: Side, step: StepTaken) -> None:
-    """A step is over: where the foot was rolled to as it landed."""
+def _land(side: Side, step: StepTaken, up: Vec3) -> None:
+    """A step is over, and the foot stands with `up` (sensor frame): how it was rolled as it landed."""
     begin, end = step.t_toe_off, step.t_heel_strike
     if begin is None or end is None or step.degraded:
         return
     if step.stride_length < SHORTEST or abs(step.heading_change) > STRAIGHT:
         return
-    if not side.times or side.times[0] > begin + RARELY:
+    if not side.times or side.times[0] > begin - PUSH_OFF:
         return
-    swing = [angle for t, angle in zip(side.times, side.angles, strict=True) if begin <= t <= end]
-    if len(swing) < FEW:
+    times, turns = side.times, side.turns
+    off, landed = bisect_right(times, begin), bisect_right(times, end)
+    pushed = sub(turns[off - 1], turns[bisect_right(times, begin - PUSH_OFF) - 1])
+    if landed - off < FEW or hypot(*pushed) < TURNED:
         return
-    outwards = sum(swing) / len(swing) - swing[-1]
+    k = 1.0 / hypot(*pushed)
+    x, y, z = pushed
+    axis = (k * x, k * y, k * z)
+    if side.across is not None:
+        u, v, w = side.across
+        axis = (u + 0.2 * (axis[0] - u), v + 0.2 * (axis[1] - v), w + 0.2 * (axis[2] - w))
+    side.across = axis
+    ahead = _ahead(axis, up)
+    if ahead is None:
+        return
+    a, b, c = ahead
+    angles = [a * x + b * y + c * z for x, y, z in turns[off:landed]]  # right-handed: the left edge rises
+    outwards = sum(angles) / len(angles) - angles[-1]
     side.roll.add(-outwards if step.foot is Foot.LEFT else outwards)
+
+
+def _ahead(left: Vec3, up: Vec3) -> Vec3 | None:
+    """Unit vector to the toe; None when the foot turned about the vertical rather than over its toes."""
+    lx, ly, lz = left
+    ux, uy, uz = up
+    x, y, z = ly * uz - lz * uy, lz * ux - lx * uz, lx * uy - ly * ux
+    length = hypot(x, y, z)
+    return (x / length, y / length, z / length) if length > 0.5 else None
 
 
 def _press(side: Side, t: float, foot: FootTracker) -> None:
@@ -194,17 +208,17 @@ def _press(side: Side, t: float, foot: FootTracker) -> None:
     centre = insole.centre_of_pressure(insole.cells)
     if centre is None:
         return
-    side.across.append(centre[1])
-    if len(side.across) > CONTACT:
-        del side.across[: CONTACT // 2]
+    side.sideways.append(centre[1])
+    if len(side.sideways) > CONTACT:
+        del side.sideways[: CONTACT // 2]
 
 
 def _leave(side: Side, is_left: bool) -> None:
     """A contact is over: which way the centre of pressure went, from the middle of the contact to its end."""
-    across, side.across = side.across, []
-    n = len(across)
+    ys, side.sideways = side.sideways, []
+    n = len(ys)
     if n < 6:
         return
-    middle, last = across[n // 3 : n - n // 3], across[n - n // 6 :]
+    middle, last = ys[n // 3 : n - n // 3], ys[n - n // 6 :]
     left = sum(last) / len(last) - sum(middle) / len(middle)
     side.centre.add(left if is_left else -left)
