@@ -7,6 +7,7 @@ import os
 from pathlib import Path
 from typing import Any
 
+from .calibrated import add_calibration, calibration_of
 from .failure import Failure, known_recipe, note
 
 ENVIRONMENT = "SOLEPATH_DATA"
@@ -25,6 +26,7 @@ def add_to(commands: Any) -> None:
     command.add_argument(
         "--recipe", metavar="NAME", action="append", default=[], help="this recipe only; may be given again"
     )
+    add_calibration(command)
     command.add_argument(
         "--markdown", action="store_true", help="print one table of the averages only, as the README quotes it"
     )
@@ -52,6 +54,7 @@ def run(options: argparse.Namespace) -> int:
         raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}")
     known = list(recipes.BY_NAME)
     chosen = [known_recipe(name, known) for name in options.recipe] or known
+    calibration = calibration_of(options)
     results = []
     try:
         with progress_bar("recordings", 100) as show:
@@ -60,7 +63,12 @@ def run(options: argparse.Namespace) -> int:
                 show(100 * done // total)
 
             for result in evaluate(
-                folder, chosen, only=options.only, processes=max(1, options.processes), progress=percent
+                folder,
+                chosen,
+                only=options.only,
+                calibration=calibration,
+                processes=max(1, options.processes),
+                progress=percent,
             ):
                 results.append(result)
                 if not options.markdown:

@@ -1,6 +1,6 @@
 """The recorded data that have a truth, and how each is scored. The folder's README says where they come from.
 
-Every scorer takes the recording's path, its entry in dataset.json and the recipe's name. The session gets the samples
+Every scorer takes the recording's path, its entry in dataset.json and how to compute. The session gets the samples
 and nothing else.
 """
 
@@ -19,7 +19,7 @@ from .alignment import at_times, path_length, track_error
 from .gathered import FootRun
 from .insoles import in_dataset
 from .recorded import Arrays, Meta, scored, truth_of
-from .run import run
+from .run import How, run
 from .score import Figures, Scored
 from .strides import StrideScore, position_errors, surveyed_score
 from .timing import score_borders, score_force, score_pressed, score_swings, score_switches, score_treadmill
@@ -33,7 +33,7 @@ class DataSet:
     folder: str
     title: str
     has_truth: Callable[[Meta], bool]
-    score: Callable[[Path, Meta, str], Scored]
+    score: Callable[[Path, Meta, How], Scored]
     figures: tuple[str, ...]
     each: bool = True
     """Whether the table has a line for every recording."""
@@ -52,9 +52,9 @@ def _always(meta: Meta) -> bool:
 # --- tracks ---------------------------------------------------------------------------------------------------------
 
 
-def score_vicon(path: Path, meta: Meta, recipe: str) -> Scored:
+def score_vicon(path: Path, meta: Meta, how: How) -> Scored:
     """The live position at every sample against the marker's."""
-    truth, went = truth_of(path), run(path, recipe)
+    truth, went = truth_of(path), run(path, how)
     foot = went.feet[Foot.RIGHT]
     bipedal = meta.get("llio_tag") == 1
     strides = _surveyed(truth, foot) if bipedal and "gt_stride_xy" in truth else None
@@ -62,9 +62,9 @@ def score_vicon(path: Path, meta: Meta, recipe: str) -> Scored:
     return scored(path, went, figures=figures, strides=strides, groups=("all", "bipedal") if bipedal else ("all",))
 
 
-def score_optitrack(path: Path, meta: Meta, recipe: str) -> Scored:
+def score_optitrack(path: Path, meta: Meta, how: How) -> Scored:
     """The marker has a clock and a span of its own: scored where both are known."""
-    truth, went = truth_of(path), run(path, recipe, calibration=in_dataset(path))
+    truth, went = truth_of(path), run(path, how, calibration=in_dataset(path))
     both = (truth["gt_t"] >= truth["t"][0]) & (truth["gt_t"] <= truth["t"][-1])
     figures = _track_figures(went.feet[Foot.RIGHT], truth["gt_t"][both], truth["gt_pos"][both])
     return scored(path, went, figures=figures)
@@ -83,9 +83,9 @@ def _track_figures(foot: FootRun, t: Any, truth: Any) -> Figures:
     }
 
 
-def score_loop(path: Path, meta: Meta, recipe: str) -> Scored:
+def score_loop(path: Path, meta: Meta, how: How) -> Scored:
     """From the last live position to the first: the foot ended where it began."""
-    went = run(path, recipe)
+    went = run(path, how)
     foot = went.feet[Foot.RIGHT]
     figures: Figures = {}
     if len(foot.t):
@@ -103,8 +103,8 @@ def score_loop(path: Path, meta: Meta, recipe: str) -> Scored:
 # --- strides --------------------------------------------------------------------------------------------------------
 
 
-def score_surveyed(path: Path, meta: Meta, recipe: str) -> Scored:
-    truth, went = truth_of(path), run(path, recipe)
+def score_surveyed(path: Path, meta: Meta, how: How) -> Scored:
+    truth, went = truth_of(path), run(path, how)
     foot = went.feet[Foot.RIGHT]
     figures: Figures = {}
     if len(foot.t):
@@ -126,9 +126,9 @@ def _surveyed(truth: Arrays, foot: FootRun) -> StrideScore:
     return surveyed_score(times, places, foot.t, foot.positions, foot.step_lengths)
 
 
-def score_counted(path: Path, meta: Meta, recipe: str) -> Scored:
+def score_counted(path: Path, meta: Meta, how: How) -> Scored:
     """Somebody counted the strides; where they were is not known."""
-    went = run(path, recipe)
+    went = run(path, how)
     true, found = int(meta["n_true_strides"]), len(went.feet[Foot.RIGHT].steps)
     return scored(path, went, strides=StrideScore(true, min(true, found), max(0, found - true)))
 

@@ -11,24 +11,26 @@ from pathlib import Path
 
 from attrs import frozen
 
+from ..calibration import Calibration
 from ..recording import RecordingError
 from .datasets import DATASETS, DataSet
 from .recorded import Meta
 from .report import Result
+from .run import How
 from .score import Scored
 
 
 @frozen
 class Job:
     data_set: DataSet
-    recipe: str
+    how: How
     path: Path
     meta: Meta
 
     def run(self) -> Scored | str:
         """The scores, or the sentence that says why there are none."""
         try:
-            return self.data_set.score(self.path, self.meta, self.recipe)
+            return self.data_set.score(self.path, self.meta, self.how)
         except RecordingError as error:
             return str(error)
 
@@ -49,7 +51,7 @@ def find(folder: Path, only: Sequence[str] = ()) -> list[DataSet]:
     return present
 
 
-def jobs(folder: Path, data_set: DataSet, recipe: str) -> list[Job]:
+def jobs(folder: Path, data_set: DataSet, how: How) -> list[Job]:
     """The recordings of a data set that have a truth."""
     about = folder / data_set.folder / "dataset.json"
     try:
@@ -58,7 +60,7 @@ def jobs(folder: Path, data_set: DataSet, recipe: str) -> list[Job]:
         raise RecordingError(about, "does not say which recordings there are") from error
     paths = {name: folder / data_set.folder / f"{name}.npz" for name in sorted(recordings)}
     return [
-        Job(data_set, recipe, path, recordings[name])
+        Job(data_set, how, path, recordings[name])
         for name, path in paths.items()
         if path.is_file() and data_set.has_truth(recordings[name])
     ]
@@ -69,11 +71,14 @@ def evaluate(
     recipes: Sequence[str],
     *,
     only: Sequence[str] = (),
+    calibration: Calibration | None = None,
     processes: int = 1,
     progress: Callable[[int, int], None] | None = None,
 ) -> Iterator[Result]:
-    """The result of each recipe on each data set of `folder`, as they are done; `progress` gets (done, all)."""
-    plan = [(d, r, jobs(folder, d, r)) for r in recipes for d in find(folder, only) if d.suits(r)]
+    """The result of each recipe on each data set of `folder`, as they are done; `calibration` is used for every
+    recording, and `progress` gets (done, all)."""
+    known = Calibration() if calibration is None else calibration
+    plan = [(d, r, jobs(folder, d, How(r, known))) for r in recipes for d in find(folder, only) if d.suits(r)]
     everything = [job for _, _, part in plan for job in part]
     with ExitStack() as stack:
         if processes > 1:

@@ -12,12 +12,20 @@ import attrs
 from attrs import frozen
 
 from .. import recipes
-from ..calibration import Calibration
+from ..calibration import Calibration, merged
 from ..events import Event
 from ..samples import load_samples
 from ..session import Session
 from ..types import Foot
 from .gathered import FootRun, Gathering
+
+
+@frozen
+class How:
+    """How a recording is computed: the recipe's name, and what is known beforehand."""
+
+    recipe: str
+    calibration: Calibration = Calibration()
 
 
 @frozen(eq=False)
@@ -28,12 +36,13 @@ class Run:
     """Wall time that the session took."""
 
 
-def run(path: Path, recipe: str, *, without_pressure: bool = False, calibration: Calibration | None = None) -> Run:
-    """The recording at `path` through a session of the named recipe, sample by sample.
+def run(path: Path, how: How, *, without_pressure: bool = False, calibration: Calibration | None = None) -> Run:
+    """The recording at `path` through a session, sample by sample.
 
     `without_pressure`: leave the pressure out, because the truth was made of it. `calibration`: where the cells are.
     """
-    session = Session(recipes.BY_NAME[recipe], calibration=calibration, poses=True)
+    known = how.calibration if calibration is None else merged(how.calibration, calibration)
+    session = Session(recipes.BY_NAME[how.recipe], calibration=known, poses=True)
     recording = load_samples(path)
     samples = list(recording)
     if without_pressure:

@@ -9,14 +9,14 @@ from .contacts import force_contacts, merged, switch_contacts
 from .insoles import force_sensors, switches
 from .matching import TOLERANCE, Matching, match
 from .recorded import Meta, scored, truth_of
-from .run import Run, run
+from .run import How, Run, run
 from .score import Scored
 from .strides import StrideScore, stride_score
 
 
-def score_swings(path: Path, meta: Meta, recipe: str) -> Scored:
+def score_swings(path: Path, meta: Meta, how: How) -> Scored:
     """Labels of every swing: it starts with toe-off and ends with heel-strike."""
-    truth, went = truth_of(path), run(path, recipe)
+    truth, went = truth_of(path), run(path, how)
     heel_strike, toe_off = Matching(), Matching()
     for foot, ran in went.feet.items():
         swings = truth[f"gt_{foot.value}"]
@@ -25,9 +25,9 @@ def score_swings(path: Path, meta: Meta, recipe: str) -> Scored:
     return scored(path, went, events={"heel_strike": heel_strike, "toe_off": toe_off})
 
 
-def score_borders(path: Path, meta: Meta, recipe: str) -> Scored:
+def score_borders(path: Path, meta: Meta, how: How) -> Scored:
     """Strides from heel-strike to heel-strike, known only while the walker is in view of the cameras."""
-    truth, went = truth_of(path), run(path, recipe)
+    truth, went = truth_of(path), run(path, how)
     heel_strike = Matching()
     for foot, ran in went.feet.items():
         borders = [(float(a), float(b)) for a, b in truth[f"gt_borders_{foot.value}"]]
@@ -38,10 +38,10 @@ def score_borders(path: Path, meta: Meta, recipe: str) -> Scored:
     return scored(path, went, events={"heel_strike": heel_strike})
 
 
-def score_treadmill(path: Path, meta: Meta, recipe: str) -> Scored:
+def score_treadmill(path: Path, meta: Meta, how: How) -> Scored:
     """Contact times of a light barrier. The belt is an inertial frame of its own, in which the standing foot rests, so
     stride lengths compare as they are; positions in the room do not."""
-    truth, went = truth_of(path), run(path, recipe)
+    truth, went = truth_of(path), run(path, how)
     heel_strike, toe_off, strides = Matching(), Matching(), StrideScore()
     for foot, ran in went.feet.items():
         rows = truth["gt_foot"] == (0 if foot is Foot.LEFT else 1)
@@ -53,14 +53,14 @@ def score_treadmill(path: Path, meta: Meta, recipe: str) -> Scored:
     return scored(path, went, events={"heel_strike": heel_strike, "toe_off": toe_off}, strides=strides)
 
 
-def score_switches(path: Path, meta: Meta, recipe: str) -> Scored:
+def score_switches(path: Path, meta: Meta, how: How) -> Scored:
     """Heel and toe switches under the foot are the truth here, so the session does without them."""
-    return _against_switches(path, run(path, recipe, without_pressure=True))
+    return _against_switches(path, run(path, how, without_pressure=True))
 
 
-def score_pressed(path: Path, meta: Meta, recipe: str) -> Scored:
+def score_pressed(path: Path, meta: Meta, how: How) -> Scored:
     """The same switches as the pressure cells of an insole of two: what a session makes of them, against themselves."""
-    return _against_switches(path, run(path, recipe, calibration=switches()))
+    return _against_switches(path, run(path, how, calibration=switches()))
 
 
 def _against_switches(path: Path, went: Run) -> Scored:
@@ -76,9 +76,9 @@ def _against_switches(path: Path, went: Run) -> Scored:
     return scored(path, went, events={"heel_strike": heel_strike, "toe_off": toe_off})
 
 
-def score_force(path: Path, meta: Meta, recipe: str) -> Scored:
+def score_force(path: Path, meta: Meta, how: How) -> Scored:
     """The force below each foot is the truth of contact, and its eight sensors are all that the session gets."""
-    truth, went = truth_of(path), run(path, recipe, calibration=force_sensors())
+    truth, went = truth_of(path), run(path, how, calibration=force_sensors())
     heel_strike, toe_off = Matching(), Matching()
     for foot, ran in went.feet.items():
         contacts = force_contacts(truth["t"], truth[f"pressure_{foot.value}"].sum(axis=1))
