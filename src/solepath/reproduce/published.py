@@ -1,0 +1,148 @@
+"""The figures that the papers print, as they print them.
+
+Chen et al. 2019: D. Chen and others, "Smart Insole-Based Indoor Localization System for Internet of Things
+Applications", IEEE Internet of Things Journal. Bebek et al. 2010: O. Bebek and others, "Personal Navigation via
+High-Resolution Gait-Corrected Inertial Measurement Units", IEEE Transactions on Instrumentation and Measurement. Gong
+et al. 2023: "Improving Accuracy of Real-Time Positioning and Path Tracking by Using an Error Compensation Algorithm
+against Walking Modes", Sensors.
+"""
+
+from __future__ import annotations
+
+from attrs import frozen
+
+from .tables import Statistics, Table, statistics
+
+# --- Chen et al. 2019 -------------------------------------------------------------------------------------------------
+
+KUPT_DFPC_TITLE = "Chen et al. 2019, table I"
+
+KUPT_DFPC: Table = {
+    "ZUPT-L": Statistics(20.97, 1.84, 19.74, 21.17, 22.56),
+    "ZUPT-R": Statistics(21.16, 0.73, 20.61, 21.07, 21.62),
+    "KUPT-L": Statistics(19.58, 1.24, 18.67, 19.64, 20.77),
+    "KUPT-R": Statistics(20.44, 0.5, 20.14, 20.36, 20.52),
+    "KUPT+DFPC": Statistics(20.08, 0.51, 19.74, 20.06, 20.46),
+}
+"""Table I: walked distance in m, of 20 walks of 20 m."""
+
+KUPT_L_MEAN_IN_TEXT = 19.68
+"""m. The text below the table has another mean of KUPT-L than the table, 19.58; its accuracy of 2.1 % is the table's."""
+
+CORRIDOR_DRIFT = {"ZUPT-L": 11.15, "ZUPT-R": 7.43, "KUPT+DFPC": 0.78}
+"""Section IV-C: drift of the total walking distance over about 91 m, m (fig. 13 draws the tracks)."""
+
+# --- Bebek et al. 2010 ------------------------------------------------------------------------------------------------
+
+PRESSURE_CONTOUR_TITLE = "Bebek et al. 2010, table I"
+
+
+@frozen
+class Loop:
+    """A half-hour walk of table I: its length and its loop-closing errors, m."""
+
+    distance: float
+    gyroscope: float
+    pressure: float
+
+
+LOOPS = (
+    Loop(987.0, 1.97, 2.96),
+    Loop(656.0, 4.98, 6.14),
+    Loop(930.0, 6.45, 4.90),
+    Loop(1056.0, 2.52, 1.04),
+    Loop(1848.0, 3.89, 1.45),
+    Loop(1811.0, 9.39, 9.33),
+)
+"""Table I, experiments 1 to 6. The fourth is the square of fig. 14, the fifth the random walk of figs. 15 and 16; of
+the others the paper does not say which they were."""
+
+
+def _pressure_contour() -> Table:
+    errors = {"Gyroscope": [loop.gyroscope for loop in LOOPS], "Pressure": [loop.pressure for loop in LOOPS]}
+    distances = [loop.distance for loop in LOOPS]
+    told = {f"{name} m": statistics(values) for name, values in errors.items()}
+    for name, values in errors.items():
+        told[f"{name} %"] = statistics([100.0 * e / d for e, d in zip(values, distances, strict=True)])
+    return told
+
+
+PRESSURE_CONTOUR: Table = _pressure_contour()
+"""Statistics of LOOPS: loop-closing error in m and in % of the path. Means and deviations in m are those that the paper
+prints (4.87 +- 2.75 and 4.30 +- 3.15); its mean percentages, 0.40 and 0.35, are those of the mean errors over the
+mean distance instead."""
+
+# --- Gong et al. 2023 -------------------------------------------------------------------------------------------------
+
+WALKING_MODES_TITLE = "Gong et al. 2023, table 4"
+
+
+@frozen
+class Corner:
+    """A line of table 4: mean, median and standard deviation of the deviation in x and y."""
+
+    mean: tuple[float, float]
+    median: tuple[float, float]
+    std: tuple[float, float]
+
+
+CORNERS: dict[str, dict[str, Corner]] = {
+    "A": {
+        "I": Corner((0.1556, -0.1141), (0.1569, -0.1134), (0.0298, 0.0225)),
+        "II": Corner((-0.0267, -0.1606), (-0.0286, -0.1579), (0.0154, 0.0322)),
+        "III": Corner((0.0073, -0.1733), (0.009, -0.1717), (0.0149, 0.0373)),
+        "IV": Corner((-0.0063, -0.0289), (-0.008, -0.0289), (0.0152, 0.0162)),
+    },
+    "B": {
+        "I": Corner((0.1226, 0.0865), (0.1247, 0.0872), (0.0317, 0.0283)),
+        "II": Corner((0.068, 0.034), (0.0709, 0.029), (0.0234, 0.0212)),
+        "III": Corner((0.0844, 0.0461), (0.0824, 0.0452), (0.0255, 0.0202)),
+        "IV": Corner((0.017, -0.0208), (0.0152, -0.0204), (0.0202, 0.0198)),
+    },
+    "C": {
+        "I": Corner((0.0478, 0.2299), (0.0483, 0.2207), (0.0287, 0.039)),
+        "II": Corner((0.0071, 0.043), (0.0077, 0.0379), (0.0259, 0.0333)),
+        "III": Corner((0.0259, 0.1708), (0.0273, 0.1704), (0.0286, 0.0415)),
+        "IV": Corner((0.0029, 0.015), (0.0007, 0.0217), (0.0283, 0.0309)),
+    },
+    "D": {
+        "I": Corner((0.0103, 0.1145), (0.0048, 0.1132), (0.0216, 0.031)),
+        "II": Corner((-0.0197, 0.0274), (-0.0166, 0.0286), (0.0203, 0.019)),
+        "III": Corner((-0.0181, 0.0846), (-0.0178, 0.0825), (0.0177, 0.0247)),
+        "IV": Corner((-0.0044, 0.01), (-0.0007, 0.0075), (0.0176, 0.0178)),
+    },
+}
+"""Table 4, point -> method -> deviation. The table heads its columns mm. No walker steps on a mark to some hundredths of
+a millimetre and no inertial sensor resolves that, so the figures are taken for m here."""
+
+
+def corner_row(point: str, method: str, axis: str) -> str:
+    """What the row of a point, a method and an axis (x, y) is called."""
+    return f"{point} {method} {axis}"
+
+
+WALKING_MODES: Table = {
+    corner_row(point, method, axis): Statistics(mean=corner.mean[k], std=corner.std[k], median=corner.median[k])
+    for point, methods in CORNERS.items()
+    for method, corner in methods.items()
+    for k, axis in enumerate("xy")
+}
+"""Table 4 as rows. Quartiles are not in it; its variances are the squares of its deviations."""
+
+
+@frozen
+class Subject:
+    """A line of table 3: height in m, mass in kg, shoe size (length of the foot) in m."""
+
+    height: float
+    mass: float
+    shoe_size: float
+
+
+SUBJECTS = (
+    Subject(1.72, 63.0, 0.245),
+    Subject(1.68, 52.5, 0.255),
+    Subject(1.60, 50.0, 0.235),
+    Subject(1.83, 81.0, 0.270),
+)
+"""Table 3; each walked ten rectangles."""

@@ -1,0 +1,104 @@
+"""Figures of reproduced experiments as files, drawn with matplotlib (the `figures` extra)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from matplotlib.axes import Axes
+from matplotlib.backend_bases import FigureCanvasBase
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from ..reproduce.picture import Boxes, Drawn, Floor, Track
+from ..reproduce.tables import Reproduction, Statistics
+
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
+"""Told apart by colour-blind readers too (Okabe and Ito 2008)."""
+MARKERS = ("o", "s", "^", "D", "v")
+GREY = "0.55"
+INCHES = 5.4
+"""Side of a panel."""
+
+
+def formats() -> list[str]:
+    """The endings of files that can be drawn, without the dot."""
+    return sorted(FigureCanvasBase.get_supported_filetypes())
+
+
+def draw(done: Reproduction, path: Path) -> None:
+    """The panels side by side into a file, in the format that its ending names. OSError when it cannot be written."""
+    figure = Figure(figsize=(INCHES * max(1, len(done.panels)), INCHES), layout="constrained")
+    axes = figure.subplots(1, max(1, len(done.panels)), squeeze=False)[0]
+    for ax, panel in zip(axes, done.panels, strict=False):
+        if isinstance(panel, Boxes):
+            _boxes(ax, panel, done)
+        else:
+            _floor(ax, panel)
+        ax.set_title(panel.title, fontsize=10)
+    figure.suptitle(f"{done.name}, emulated ({done.paper_title})", fontsize=11)
+    figure.savefig(path, dpi=120)
+
+
+def _boxes(ax: Axes, panel: Boxes, done: Reproduction) -> None:
+    rows = {row.name: row for row in done.rows}
+    chosen = [rows[name] for name in panel.rows]
+    at = range(1, len(chosen) + 1)
+    ax.boxplot(
+        [list(row.values) for row in chosen],
+        positions=[k - 0.18 for k in at],
+        widths=0.3,
+        manage_ticks=False,
+        patch_artist=True,
+        boxprops={"facecolor": "#a6cee3", "edgecolor": COLOURS[0]},
+        medianprops={"color": COLOURS[1], "linewidth": 2},
+        flierprops={"marker": "+", "markeredgecolor": COLOURS[0]},
+    )
+    for k, row in zip(at, chosen, strict=True):
+        _printed_box(ax, k + 0.04, row.paper)
+    if panel.target is not None:
+        ax.axhline(panel.target, color=GREY, linestyle="--", linewidth=1, zorder=0)
+    ax.set_xticks(list(at), [row.name for row in chosen])
+    ax.set_xlim(0.4, len(chosen) + 0.6)
+    ax.set_ylabel(panel.label)
+    ours = Rectangle((0, 0), 1, 1, facecolor="#a6cee3", edgecolor=COLOURS[0])
+    theirs = Rectangle((0, 0), 1, 1, facecolor="0.9", edgecolor=GREY)
+    ax.legend([ours, theirs], ["ours, emulated", "paper: quartiles and median"], fontsize=8)
+
+
+def _printed_box(ax: Axes, left: float, paper: Statistics) -> None:
+    """Quartiles and median are all that a paper prints."""
+    if paper.q1 is None or paper.q3 is None or paper.median is None:
+        return
+    ax.add_patch(Rectangle((left, paper.q1), 0.3, paper.q3 - paper.q1, facecolor="0.9", edgecolor=GREY))
+    ax.plot([left, left + 0.3], [paper.median] * 2, color=GREY, linewidth=2)
+    ax.update_datalim([(left, paper.q1), (left + 0.3, paper.q3)])
+    ax.autoscale_view()
+
+
+def _floor(ax: Axes, panel: Floor) -> None:
+    shown = 0
+    for track in panel.tracks:
+        if track.drawn is Drawn.TRUTH:
+            ax.plot(*_columns(track), color=GREY, linestyle="--", linewidth=1.2, label=track.name, zorder=1)
+            continue
+        colour, marker = COLOURS[shown % len(COLOURS)], MARKERS[shown % len(MARKERS)]
+        shown += 1
+        if track.drawn is Drawn.DOTS:
+            ax.scatter(*_columns(track), s=14, color=colour, marker=marker, alpha=0.7, label=track.name, zorder=2)
+        else:
+            ax.plot(*_columns(track), color=colour, linewidth=0.9, label=track.name, zorder=2)
+            x, y = track.points[-1] if track.points else (0.0, 0.0)
+            ax.plot([x], [y], marker="x", color=colour, markersize=7, zorder=4)
+    for name, x, y in panel.marks:
+        ax.plot([x], [y], marker="*", color="black", markersize=9, linestyle="none", zorder=5)
+        ax.annotate(name, (x, y), textcoords="offset points", xytext=(6, 6), fontsize=9)
+    ax.set_aspect("equal", adjustable="datalim")
+    ax.set_xlabel("x, m")
+    ax.set_ylabel("y, m")
+    ax.grid(color="0.92")
+    ax.set_axisbelow(True)
+    ax.legend(fontsize=8)
+
+
+def _columns(track: Track) -> tuple[list[float], list[float]]:
+    return [x for x, _ in track.points], [y for _, y in track.points]
