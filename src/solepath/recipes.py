@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from attrs import field, frozen
 
+from .body.fusion import DoubleFoot
 from .body.position import MeanOfFeet
+from .foot.bias_zupt import BiasZupt
+from .foot.contour_stance import ContourVelocity, GyroscopeMagnitude
 from .foot.cycle import Cycle
 from .foot.eskf import ErrorStateFilter
 from .foot.gait_cues import GaitCues
 from .foot.pressure import Insole
 from .foot.tracker import AnyCorrector, AnyCues, AnyDetector
 
-AnyBody = MeanOfFeet
+AnyBody = MeanOfFeet | DoubleFoot
 
 
 @frozen
@@ -35,4 +38,10 @@ class Recipe:
 DEFAULT = Recipe("default", Cycle(), ErrorStateFilter())
 """Stance judged within each gait cycle, nine-state error-state filter."""
 
-BY_NAME: dict[str, Recipe] = {recipe.name: recipe for recipe in (DEFAULT,)}
+PRESSURE_CONTOUR = Recipe("pressure-contour", ContourVelocity(), BiasZupt(), needs_pressure=True)
+"""Bebek et al. 2010: zero velocity where the contours of heel pressure stand still, accelerometer bias, square laps."""
+
+GYROSCOPE = Recipe("gyroscope", GyroscopeMagnitude(), BiasZupt())
+"""The same with zero velocity where the gyroscope is quiet: what Bebek et al. compare with."""
+
+BY_NAME: dict[str, Recipe] = {recipe.name: recipe for recipe in (DEFAULT, PRESSURE_CONTOUR, GYROSCOPE)}

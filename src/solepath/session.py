@@ -18,6 +18,7 @@ from typing import Any, TypeVar
 from attrs import define, evolve, field
 
 from .body.position import Position
+from .body.wear import Wear
 from .calibration import Calibration
 from .events import ClockReset, Event, LayoutKnown, Limitation, PacketRejected, SampleRejected
 from .foot.phase import SUPPORT
@@ -44,6 +45,7 @@ class _State:
     poses: bool
     calibration: Calibration
     body: AnyBody
+    wear: Wear = field(factory=Wear)
     now: float | None = None
     """The latest moment that anything is known of, s."""
     decoders: dict[Site, Decoder] = field(factory=dict)
@@ -223,6 +225,7 @@ class Session:
         if tracker.t is not None:  # else it could not be used: nothing is known of this foot yet
             self._keep(tracker)
             if not (events and isinstance(events[0], SampleRejected)):
+                events += self._state.wear.heard(tracker, sample, events)
                 events += self._state.body.foot_moved(tracker, sample, events)
         return events
 

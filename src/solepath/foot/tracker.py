@@ -14,6 +14,8 @@ from ..events import Event, FootMoved, Limitation, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..vector import ZERO, sub
 from .attitude import Levelling, Rest, suspected
+from .bias_zupt import BiasZupt
+from .contour_stance import ContourVelocity, GyroscopeMagnitude
 from .crossing import cross
 from .cues import Seen
 from .cycle import Cycle
@@ -31,8 +33,18 @@ from .rhythm import Rhythm
 from .stance import AngularRate, Graph, Load, MovingVariance, Shoe
 from .world import Covariance3
 
-AnyDetector = Cycle | Shoe | AngularRate | MovingVariance | Graph | TwoArea | MaximumPressure
-AnyCorrector = ErrorStateFilter | LinearDedrift
+AnyDetector = (
+    Cycle
+    | Shoe
+    | AngularRate
+    | MovingVariance
+    | Graph
+    | TwoArea
+    | MaximumPressure
+    | ContourVelocity
+    | GyroscopeMagnitude
+)
+AnyCorrector = ErrorStateFilter | LinearDedrift | BiasZupt
 AnyCues = GaitCues
 
 STILL = 0.35
