@@ -24,16 +24,19 @@ from attrs import define, field
 from ..types import Foot, Layout, WalkingMode
 
 POINTS: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
-    "F1": ((0.68, -0.30), (0.68, 0.30)),
-    "F2": ((0.42, -0.30), (0.42, 0.30)),
-    "L1": ((0.62, 1.00), (0.72, 1.00)),
-    "L2": ((0.62, 0.70), (0.72, 0.70)),
-    "L3": ((0.12, 1.00), (0.20, 1.00)),
-    "R1": ((0.62, -0.70), (0.72, -0.70)),
-    "R2": ((0.62, -1.00), (0.72, -1.00)),
+    "F1": ((0.66, 0.30), (0.71, -0.30)),
+    "F2": ((0.40, -0.30), (0.40, 0.30)),
+    "L1": ((0.66, 1.00), (0.71, 1.00)),
+    "L2": ((0.61, 0.65), (0.71, 0.65)),
+    "L3": ((0.13, 1.00), (0.18, 1.00)),
+    "R1": ((0.61, -1.00), (0.71, -0.65)),
+    "R2": ((0.71, -1.00), (0.82, -1.00)),
 }
 """Fourteen points: share of the insole's length from the heel, and share of the way from the middle of the sole there
 to its edge, outer (lateral) positive."""
+TH = 2.1
+"""`th`, times the mean cell. On the emulator's feet, whose load moves outward in a bend as physics has it, the regions'
+shares in contacts of another mode end below and those of their own begin above it, at 1.1 m/s."""
 LEAST_STEP = 0.15
 """L_w: a shorter step is dragging, not walking, m (table 2)."""
 STANDING_WEIGHT = 0.7

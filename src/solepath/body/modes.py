@@ -37,7 +37,7 @@ from ..types import SITE_OF_FOOT, Foot, Sample, Site, Vec3, WalkingMode
 from ..vector import GRAVITY, ZERO, rotate, sub
 from .inclination import Inclination
 from .limbs import ABOVE, LowerLimbs
-from .mode import LEAST_STEP, LINGERS, STANDING_WEIGHT, Contact, decide
+from .mode import LEAST_STEP, LINGERS, STANDING_WEIGHT, TH, Contact, decide
 from .position import Position
 from .touchdown import OTHER, AnyTouchdown, Carrier, FootState, MaximumPressure, suspended, v_change
 
@@ -108,7 +108,7 @@ class Modes:
     limbs: Limbs = field(factory=Limbs)
     weight: float | None = None
     heading: float | None = None
-    th: float = 1.0
+    th: float = TH
     step_sigma: float = 0.02
     """What one touchdown errs by, m an axis."""
     scale_sigma: float = 0.02
