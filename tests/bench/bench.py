@@ -12,13 +12,14 @@ import os
 import platform
 import tracemalloc
 from collections.abc import Callable, Iterable
+from functools import partial
 from statistics import median
 from time import perf_counter
 from typing import Any
 
 from yardstick import Yardstick
 
-from solepath import Foot, Recipe, Sample, Session, Site, StepTaken
+from solepath import Foot, Packet, Recipe, Sample, Session, Site, StepTaken, recipes
 from solepath.foot.cycle import Cycle
 from solepath.foot.dedrift import LinearDedrift
 from solepath.link.decoder import Decoder
@@ -81,6 +82,13 @@ def memory(items: Iterable[Any]) -> int:
     return held
 
 
+def told_of(recipe: Recipe, told: Packet) -> Session:
+    """A session that knows where the cells are."""
+    session = Session(recipe)
+    session.feed(told)
+    return session
+
+
 def main() -> None:
     walker = Walker(ROUTE, seed=1)
     bare: list[Sample] = walker.samples(Foot.LEFT, 100.0, LSM6DSOX)
@@ -119,6 +127,9 @@ def main() -> None:
     add("foot sample, 96 cells", each(pressed, knowing))
     add("foot sample, 96 cells, FootMoved", each(pressed, knowing_poses))
     add("foot sample, inertial, linear dedrift", each(bare, lambda: Session(linear)))
+    for recipe in recipes.BY_NAME.values():
+        if recipe is not recipes.DEFAULT:
+            add(f"foot sample, 96 cells, {recipe.name}", each(pressed, partial(told_of, recipe, told)))
     add("insole frame, 96 cells: decode", each(frames, decoder, info), "us a packet")
     add("insole frame, 96 cells: session", each(frames, Session, info), "us a packet")
     add("insole frame, 96 cells: session, FootMoved", each(frames, lambda: Session(poses=True), info), "us a packet")
