@@ -114,16 +114,15 @@ class CopCues:
         """As in `Cues`."""
         self.mark = None
         seen = self.inertial.update(t, dt, gyro, still, speed, phase)
-        if load is None:
-            if self.pressed_at is not None and t - self.pressed_at < self.stale:
-                return ()
+        if load is None and self.pressed_at is not None and t - self.pressed_at < self.stale:
+            return ()
+        stationary = still and stance.hint is Phase.STATIONARY
+        airborne = self.touch.update(t, load, stationary)
+        if load is None or not self.touch.known:
             self._forget(t)
             return () if seen is None else (seen,)
-        if self.pressed_at is None and phase is Phase.SWING:
-            # the load is known from when it has risen, so the foot has come down already: told, but no mark
-            self._enter(Stage.LANDING, t)
-            self.jump, self.moment = inf, t
-        found = self._step(t, still and stance.hint is Phase.STATIONARY, load)
+        found = self._begin(t, airborne, phase) if self.pressed_at is None else []
+        found += self._step(t, stationary, airborne, load)
         if self.stage is Stage.LEAVING and phase is not Phase.SWING and speed >= self.inertial.shuffle_speed:
             if self.fast_since is None:
                 self.fast_since = t
@@ -138,15 +137,26 @@ class CopCues:
         a heel-strike is then told at once, and nothing of the sole lying flat."""
         if load.heel is None or load.forefoot is None:
             self.flat = False
-            found = self._step(t, False, load)
+            found = self._step(t, False, self.touch.update(t, load), load)
             if self.stage is Stage.LANDING:
                 found += self._strike()
             return found
         self.flat = min(load.heel, load.forefoot) >= (self.area_off if self.flat else self.area_on)
-        return self._step(t, self.flat, load)
+        return self._step(t, self.flat, self.touch.update(t, load), load)
 
-    def _step(self, t: float, stationary: bool, load: Load) -> list[Seen]:
-        airborne = self.touch.update(t, load)
+    def _begin(self, t: float, airborne: bool, phase: Phase) -> list[Seen]:
+        """The cells are believed from here on, in a swing or at its end."""
+        if airborne:
+            left = self.touch.moving_since
+            self.stage = Stage.FLYING
+            self.airborne_since = t - self.rest
+            return [] if phase is Phase.SWING else [Seen(Cue.CLEAR, t if left is None else left)]
+        if phase is Phase.SWING:
+            self._enter(Stage.LANDING, t)
+            self.jump, self.moment = inf, t  # it was the first of its load that was seen: told, but no mark
+        return []
+
+    def _step(self, t: float, stationary: bool, airborne: bool, load: Load) -> list[Seen]:
         was, before = self.cop, self.pressed_at
         self.pressed_at = t
         if airborne:

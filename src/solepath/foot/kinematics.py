@@ -131,7 +131,7 @@ class Sagittal:
             self.ahead = (nx / level, ny / level)
 
     def lifts(self, attitude: Quat) -> None:
-        """The heel is up and the forefoot on the ground: one more tilt of this push-off."""
+        """The heel comes up: one more tilt of this push-off. Tilts after the largest, on the way back, do not count."""
         if self.up is None:
             return
         x, y, z = _up(attitude)
@@ -139,8 +139,11 @@ class Sagittal:
         along = x * u + y * v + z * w
         x, y, z = x - along * u, y - along * v, z - along * w
         size = x * x + y * y + z * z
-        if along < 0.0 or size > self.highest:
-            self.highest = 1.0 if along < 0.0 else size
+        if along < 0.0:
+            size = 1.0
+        if size < 0.8 * self.highest:
+            return
+        self.highest = max(self.highest, size)
         a, b, c = self.lift
         self.lift = (a + x, b + y, c + z)
 

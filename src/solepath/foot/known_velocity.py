@@ -31,8 +31,8 @@ class KnownVelocity:
     Both areas loaded: the foot is stationary, velocity zero. Then the forefoot alone: the shoe rolls over its forefoot
     and the velocity is that of (7). No load: swing. Then the heel: the velocity of (5). Rolling velocities are the mean
     since the sample before. They take a direction of the toes, which the first push-off teaches; before it, and when
-    the forefoot lands first, there is no evidence. As long as the load is not known an inertial detector speaks. The
-    statistic is the smaller of the two loads as a share of the wearer's full load.
+    the forefoot lands first, there is no evidence. As long as the cells are not to be believed an inertial detector
+    speaks. The statistic is the smaller of the two loads as a share of the wearer's full load.
     """
 
     on: float = 0.05
@@ -51,8 +51,8 @@ class KnownVelocity:
     sagittal: Sagittal = field(factory=Sagittal)
     """What was learnt of the mounting."""
     touch: Touch = field(factory=Touch)
-    unloaded: Shoe = field(factory=Shoe)
-    """Speaks as long as the load is not known: standing before the first step."""
+    inertial: Shoe = field(factory=Shoe)
+    """Speaks as long as the cells are not to be believed (touch.py): standing before the first step."""
     # state
     phase: Phase | None = field(default=None, init=False)
     """As far as the load tells; None while it does not."""
@@ -69,33 +69,39 @@ class KnownVelocity:
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
         """As in `Detector`."""
+        inertial = self.inertial.update(t, dt, acc, gyro, None)
+        still = inertial.hint is Phase.STATIONARY
         if load is not None:
             self.held, self.held_at = load, t
-        elif self.held is None or t - self.held_at >= self.stale:
-            self.held = self.phase = self.place = None
-            stance = self.unloaded.update(t, dt, acc, gyro, None)
-            if stance.hint is Phase.STATIONARY:
-                self.sagittal.stands(dt, attitude)
-            return stance
-        else:
+        elif self.held is not None and t - self.held_at < self.stale:
             load = self.held
-        airborne = self.touch.update(t, load)
+        else:
+            self.held = None
+        airborne = self.touch.update(t, load, still)
+        sagittal = self.sagittal
+        if load is None or not self.touch.known:
+            self.phase = self.place = None
+            if still:
+                sagittal.lifted()
+                sagittal.stands(dt, attitude)
+                return inertial
+            sagittal.lifts(attitude)
+            return Stance(ZERO, inf, inertial.statistic, None)
         heel, forefoot = load.heel, load.forefoot
         if heel is None or forefoot is None:
             self.phase = self.place = None
             return Stance(ZERO, inf, 0.0, Phase.SWING if airborne else None)
         statistic = min(heel, forefoot)
         was = self.phase
-        sagittal = self.sagittal
         sagittal.see(attitude)
         if airborne:
-            if was is Phase.PUSH_OFF:
+            if was is not Phase.SWING:
                 sagittal.lifted()
             self.phase = Phase.SWING
             self.place = None
             return Stance(ZERO, inf, statistic, Phase.SWING)
         if statistic >= (self.off if was is Phase.STATIONARY else self.on):
-            if was is Phase.PUSH_OFF:
+            if was is not Phase.STATIONARY:
                 sagittal.lifted()
             self.phase = Phase.STATIONARY
             gx, gy, gz = gyro

@@ -3,12 +3,17 @@
 Insoles of many cells tell by the total: whatever lies under the foot, some cells feel it. On one of few cells, a switch
 under heel and toe or eight sensors, a cell that is weak, or slow to let go, spoils the total; there every cell is
 looked at as a share of its own range, and the foot is in the air when none of them is loaded.
+
+What an insole shows in the air is learnt from the least that it showed (pressure.py), which is wrong before the first
+step and after a long stand: half of the wearer's weight is then the least. So what the cells say is believed
+(`known`) from a swing on, and no longer when a foot that they have in the air stands still.
 """
 
 from __future__ import annotations
 
 from attrs import define, field
 
+from ..vector import TIE
 from .pressure import Extremes
 from .stance import Load
 
@@ -30,13 +35,46 @@ class Touch:
     """A cell's range is known once it is this share of its highest value."""
     weak: float = 0.10
     """A cell whose range is below this share of the widest one's tells nothing."""
+    flight: float = 0.1
+    """A foot that is in the air and moves, or stands still, for so long: the cells are right, or wrong, s."""
     # state
+    known: bool = field(default=False, init=False)
+    """The cells were right when the foot swung last."""
+    moving_since: float | None = field(default=None, init=False)
+    """Since when the foot moved without load, or before any was known, s."""
+    still_since: float | None = field(default=None, init=False)
+    """Since when it stood still though the cells have it in the air, s."""
+    blind: bool = field(default=True, init=False)
+    """There was no load in the last sample."""
     airborne: bool = field(default=False, init=False)
     cells: list[Extremes] = field(factory=list, init=False)
     loaded: list[bool] = field(factory=list, init=False)
 
-    def update(self, t: float, load: Load) -> bool:
-        """True when the foot is in the air."""
+    def update(self, t: float, load: Load | None, still: bool = False) -> bool:
+        """True when the foot is in the air. `still`: it stands, whatever the cells say."""
+        airborne = load is not None and self._in_the_air(t, load)
+        moved = self.moving_since is not None and t - self.moving_since >= self.flight - TIE
+        if load is None:
+            self.known = False
+        elif self.blind:
+            # a load is known from when it has risen; it rose because the foot came down from a swing, or it stood
+            self.known = moved
+        if moved and airborne:
+            self.known = True
+        self.blind = load is None
+        if still or not (airborne or self.blind):
+            self.moving_since = None
+        elif self.moving_since is None:
+            self.moving_since = t
+        if not (still and airborne):
+            self.still_since = None
+        elif self.still_since is None:
+            self.still_since = t
+        elif t - self.still_since >= self.flight - TIE:
+            self.known = False
+        return airborne
+
+    def _in_the_air(self, t: float, load: Load) -> bool:
         if 0 < len(load.cells) <= FEW:
             self.airborne = self._by_cell(t, load.cells)
         elif self.airborne:
@@ -66,5 +104,6 @@ class Touch:
 
     def interrupt(self) -> None:
         """Times begin anew: the extremes are kept, but their spans end here."""
+        self.moving_since = self.still_since = None
         for extremes in self.cells:
             extremes.ends = None
