@@ -1,0 +1,181 @@
+"""A wearer's own compensation of touchdowns, from walks over marks on the floor.
+
+After Gong et al. 2023 (Sensors 23, 5417), section 3.3: the wearer steps on a marked point with each footfall, straight
+on and along bends of 4 m and 2 m, and the mean of (marked point - measured) is the compensation of that foot in that
+mode. Each step counts by itself: where a foot should have come down, seen from where the other one stood on its mark,
+so errors do not accumulate. The marks' frame is any on the floor; how it lies to the session's is found from all steps
+together. A mark is where the point of the ground below the ankle comes to be.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import atan2, cos, hypot, sin
+from pathlib import Path
+
+from attrs import evolve, frozen
+
+from ..body.modes import Modes
+from ..calibration import Calibration, CalibrationError
+from ..events import TouchedDown
+from ..foot.cycle import Cycle
+from ..foot.eskf import ErrorStateFilter
+from ..recipes import Recipe
+from ..session import Session
+from ..types import Foot, WalkingMode
+from .recorded import Recorded
+from .rows import read_rows
+
+NEAR = 0.3
+"""A mark that names a time is that of the touchdown within so many s of it."""
+MODES = tuple(mode for mode in WalkingMode if mode is not WalkingMode.STANDING)
+
+
+@frozen
+class Mark:
+    """A point on the floor, m, that a foot stepped on in this mode: at about `t` s, or with its `step`-th touchdown."""
+
+    where: str
+    foot: Foot
+    x: float
+    y: float
+    mode: WalkingMode
+    t: float | None = None
+    step: int | None = None
+
+
+@frozen
+class StepError:
+    """Marked less measured of one step, in the direction of the foot's stride, m."""
+
+    foot: Foot
+    mode: WalkingMode
+    forward: float
+    left: float
+
+
+def read_marks(path: Path | str) -> list[Mark]:
+    """The marks of a csv file with the columns foot (left, right), x, y (m), mode, and t (s) or step (from 1).
+    CalibrationError that names file and line."""
+    rows = read_rows(path, ("foot", "x", "y", "mode"))
+    if not rows:
+        raise CalibrationError(f"{path}: no marks")
+    marks = []
+    for row in rows:
+        foot = Foot(row.one_of("foot", [foot.value for foot in Foot]))
+        mode = WalkingMode[row.one_of("mode", [mode.name for mode in MODES])]
+        mark = Mark(row.where, foot, row.number("x"), row.number("y"), mode)
+        if row.has("t"):
+            mark = evolve(mark, t=row.number("t"))
+        elif row.has("step"):
+            step = row.number("step")
+            if step != int(step) or step < 1:
+                raise CalibrationError(f"{row.where}: step is {step:g}, not a whole number from 1")
+            mark = evolve(mark, step=int(step))
+        else:
+            raise CalibrationError(f"{row.where}: neither t nor step says which touchdown it is")
+        marks.append(mark)
+    return marks
+
+
+def touchdowns(walk: Recorded, known: Calibration) -> list[TouchedDown]:
+    """What method III makes of a walk, without any compensation, in the order of time."""
+    insoles = dict(known.insoles)
+    for foot, layout in walk.layouts.items():
+        insole = known.insole(foot)
+        insoles[foot] = insole if insole.layout is not None else evolve(insole, layout=layout)
+    recipe = Recipe("marked walk", Cycle(), ErrorStateFilter(), body=Modes())
+    session = Session(recipe, calibration=evolve(known, insoles=insoles))
+    events = [*session.feed(walk.samples), *session.finish()]
+    return sorted([event for event in events if isinstance(event, TouchedDown)], key=_time)
+
+
+def step_errors(marks: Iterable[Mark], downs: list[TouchedDown]) -> list[StepError]:
+    """Every step from a mark of one foot to a mark of the other, with a mark of that other before it to tell the
+    direction. CalibrationError for a mark that no touchdown belongs to, or two marks of one."""
+    at: dict[int, Mark] = {}
+    for mark in marks:
+        k = _touchdown_of(mark, downs)
+        if k in at:
+            raise CalibrationError(f"{mark.where}: the same touchdown as at {at[k].where}")
+        at[k] = mark
+    steps = []
+    last: dict[Foot, Mark] = {}
+    for k, down in enumerate(downs):
+        mark = at.get(k)
+        before = at.get(k - 1)
+        if mark is not None and before is not None and before.foot is not mark.foot and mark.foot in last:
+            (x, y, _), (px, py, _) = down.position, downs[k - 1].position
+            stride = last[mark.foot]
+            ahead = atan2(mark.y - stride.y, mark.x - stride.x)
+            steps.append((mark, (mark.x - before.x, mark.y - before.y), (x - px, y - py), ahead))
+        if mark is not None:
+            last[mark.foot] = mark
+        else:
+            last.pop(down.foot, None)
+    # the turn from the session's frame to the marks', least squares over the steps
+    turn = atan2(
+        sum([mx * true[1] - my * true[0] for _, true, (mx, my), _ in steps]),
+        sum([mx * true[0] + my * true[1] for _, true, (mx, my), _ in steps]),
+    )
+    c, s = cos(turn), sin(turn)
+    found = []
+    for mark, (tx, ty), (mx, my), ahead in steps:
+        ex, ey = tx - (c * mx - s * my), ty - (s * mx + c * my)
+        ca, sa = cos(ahead), sin(ahead)
+        found.append(StepError(mark.foot, mark.mode, ca * ex + sa * ey, ca * ey - sa * ex))
+    return found
+
+
+def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tuple[float, float]]]:
+    """(forward, left), m, by foot and mode, of those that there are."""
+    gathered: dict[Foot, dict[WalkingMode, list[StepError]]] = {}
+    for error in errors:
+        gathered.setdefault(error.foot, {}).setdefault(error.mode, []).append(error)
+    return {
+        foot: {
+            mode: (sum([e.forward for e in some]) / len(some), sum([e.left for e in some]) / len(some))
+            for mode, some in gathered[foot].items()
+        }
+        for foot in Foot
+        if foot in gathered
+    }
+
+
+def fit_modes(walks: Iterable[tuple[Recorded, Path | str]], known: Calibration | None = None) -> Calibration:
+    """A calibration with the compensation that marked walks show, each a recording and its csv file of marks
+    (`read_marks`). `known`: limbs and insoles of the wearer. CalibrationError when no step lies between two marks."""
+    known = Calibration() if known is None else known
+    errors: list[StepError] = []
+    for walk, path in walks:
+        found = step_errors(read_marks(path), touchdowns(walk, known))
+        if not found:
+            raise CalibrationError(f"{path}: no step from a mark of one foot to a mark of the other")
+        errors += found
+    return Calibration(modes=mean_errors(errors))
+
+
+def spread(errors: Iterable[StepError], compensation: dict[Foot, dict[WalkingMode, tuple[float, float]]]) -> float:
+    """What single steps differ by from the means, rms, m."""
+    squares = [
+        hypot(error.forward - forward, error.left - left) ** 2
+        for error in errors
+        for forward, left in [compensation[error.foot][error.mode]]
+    ]
+    return float((sum(squares) / len(squares)) ** 0.5) if squares else 0.0
+
+
+def _touchdown_of(mark: Mark, downs: list[TouchedDown]) -> int:
+    of_foot = [k for k, down in enumerate(downs) if down.foot is mark.foot]
+    if mark.t is not None:
+        near = [(abs(downs[k].t - mark.t), k) for k in of_foot if abs(downs[k].t - mark.t) <= NEAR]
+        if not near:
+            raise CalibrationError(f"{mark.where}: the {mark.foot.value} foot did not come down at {mark.t:g} s")
+        return min(near)[1]
+    if mark.step is None or mark.step > len(of_foot):
+        raise CalibrationError(f"{mark.where}: the {mark.foot.value} foot came down {len(of_foot)} times only")
+    return of_foot[mark.step - 1]
+
+
+def _time(down: TouchedDown) -> float:
+    return down.t
