@@ -1,5 +1,6 @@
 """The emulator: a wearer on a scripted route, devices and radio, and the truth. Needs numpy."""
 
+from .dot import Dot
 from .gait import Wearer
 from .insole_device import Insole
 from .radio import Radio
@@ -8,4 +9,4 @@ from .sensortags import CC2541, CC2650
 from .walk import EmulatedWalk, emulate
 from .walker import Walker
 
-__all__ = ["CC2541", "CC2650", "EmulatedWalk", "Insole", "Radio", "Route", "Walker", "Wearer", "emulate"]
+__all__ = ["CC2541", "CC2650", "Dot", "EmulatedWalk", "Insole", "Radio", "Route", "Walker", "Wearer", "emulate"]

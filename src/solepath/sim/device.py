@@ -49,7 +49,7 @@ class Clock:
 
 
 class Device(Protocol):
-    """An emulated device. `mounting`: where its inertial sensor sits on the foot."""
+    """An emulated device. `mounting`: where its inertial sensor sits on the foot or the limb."""
 
     @property
     def mounting(self) -> Mounting: ...
@@ -77,9 +77,9 @@ def device_numbers(seed: int, site: Site, *more: int) -> np.random.Generator:
 
 
 def foot_of(site: Site) -> Foot:
-    """The foot at `site`. ValueError for the sites above the ankle, whose motion this walker does not have."""
+    """The foot at `site`, for what only feet can wear. ValueError for the sites above the ankle."""
     if site.foot is None:
-        raise ValueError(f"only feet can wear a device, got {site.value}")
+        raise ValueError(f"only feet can wear this device, got {site.value}")
     return site.foot
 
 

@@ -13,6 +13,7 @@ from math import cos, hypot, sin
 import numpy as np
 from attrs import evolve, frozen
 
+from ..calibration import Limbs
 from ..types import Foot
 from .route import Leg, Path, Pivot, Pose, Route, Stand, legs
 from .shoe import Shoe
@@ -55,6 +56,7 @@ class Wearer:
     centre_height: float = 0.97
     """Of the body's centre of mass, m: 0.555 of a stature of 1.75 m (Winter, Biomechanics and Motor Control of Human
     Movement, 2009)."""
+    limbs: Limbs = Limbs()
 
 
 @frozen

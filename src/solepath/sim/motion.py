@@ -30,7 +30,7 @@ Rows = NDArray[np.intp]
 X, Y, Z, PITCH, YAW, ROLL = range(6)
 """The channels of a piece."""
 
-_BLOCK = 65536
+BLOCK = 65536
 """Instants worked out at once: what lies in between takes several times the memory of the result."""
 PHASES = (Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING, Phase.LOADING)
 """In the order of their numbers in `FootMotion.phase`."""
@@ -85,10 +85,7 @@ class FootMotion:
     def at(self, t: Array, mounting: Mounting) -> Kinematics:
         """Everything about a sensor mounted on this foot. `t` is any array of instants, s."""
         t = np.asarray(t, dtype=np.float64)
-        blocks = [self._block(t[k : k + _BLOCK], mounting) for k in range(0, max(len(t), 1), _BLOCK)]
-        if len(blocks) == 1:
-            return blocks[0]
-        return Kinematics(*(np.concatenate(columns) for columns in zip(*map(_columns, blocks), strict=True)))
+        return joined([self._block(t[k : k + BLOCK], mounting) for k in range(0, max(len(t), 1), BLOCK)])
 
     def _block(self, t: Array, mounting: Mounting) -> Kinematics:
         row = self._piece(t)
@@ -140,6 +137,13 @@ class FootMotion:
             total *= s
             total += factors[row, k]
         return total
+
+
+def joined(blocks: list[Kinematics]) -> Kinematics:
+    """One after the other."""
+    if len(blocks) == 1:
+        return blocks[0]
+    return Kinematics(*(np.concatenate(columns) for columns in zip(*map(_columns, blocks), strict=True)))
 
 
 def _columns(found: Kinematics) -> tuple[Array, ...]:

@@ -14,6 +14,7 @@ from attrs import frozen
 from ..vector import GRAVITY
 from .curves import Array
 from .parts import AttitudePart, BarometerPart, CellPart, Triad
+from .turning import multiplied
 
 INTERNAL_RATE = 800.0
 """Hz: instants per second at which a signal is worked out before it is filtered, at least."""
@@ -216,11 +217,3 @@ def attitude_read(true: Array, t: Array, part: AttitudePart, north: float, rng: 
     axis = 0.5 * np.sinc(angle / (2.0 * pi)) * turned  # sin(angle / 2) / angle
     about = np.array([[cos(0.5 * north), 0.0, 0.0, -sin(0.5 * north)]])
     return multiplied(multiplied(about, np.concatenate((np.cos(0.5 * angle), axis), axis=1)), true)
-
-
-def multiplied(p: Array, q: Array) -> Array:
-    """Hamilton products of two stacks of quaternions, (N, 4) each, or one of them (1, 4)."""
-    a, u = p[:, :1], p[:, 1:]
-    b, v = q[:, :1], q[:, 1:]
-    scalar = a * b - np.sum(u * v, axis=1, keepdims=True)
-    return np.concatenate((scalar, a * v + b * u + np.cross(u, v)), axis=1)

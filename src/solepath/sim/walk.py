@@ -17,7 +17,7 @@ import numpy as np
 from attrs import frozen
 
 from ..types import SITE_OF_FOOT, Foot, Packet, Site
-from .device import Device, device_numbers, foot_of
+from .device import Device, device_numbers
 from .gait import Wearer
 from .insole_device import Insole
 from .radio import CLEAN, Radio
@@ -46,7 +46,8 @@ def emulate(
 ) -> EmulatedWalk:
     """Walk `route` and record it. Without `devices`, both feet wear insoles of 96 cells at 100 Hz.
 
-    ValueError for a device at a site that is not a foot.
+    Sites above the ankle wear what knows its own attitude (Dot). ValueError for a device that only feet can wear at a
+    site that is none.
     """
     if devices is None:
         devices = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
@@ -56,7 +57,8 @@ def emulate(
     mountings = {}
     for site in sorted(devices, key=sites.index):
         device = devices[site]
-        mountings[foot_of(site)] = device.mounting
+        if site.foot is not None:
+            mountings[site.foot] = device.mounting
         sent = device.emit(walker, site, device_numbers(seed, site))
         packets += radio.carry(sent, site, np.random.default_rng([seed, 3, sites.index(site)]))
     packets.sort(key=_arrival)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from ..types import SITE_OF_FOOT, Foot, Layout, Sample, Vec3
 from .curves import Array
 from .gait import Wearer, plan
+from .limbs import Body, body
 from .load import loads
 from .motion import Kinematics
 from .parts import Imu
@@ -27,6 +30,12 @@ class Walker:
         self.plan = plan(route, self.wearer, np.random.default_rng([seed, 0]))
         self.motions = foot_motions(self.plan, self.wearer.shoe)
         self.loads = loads(self.plan, self.wearer, np.random.default_rng([seed, 4]))
+
+    @cached_property
+    def body(self) -> Body:
+        """The wearer above the feet."""
+        wearer = self.wearer
+        return body(self.plan, self.motions, self.loads, wearer.shoe, wearer.centre_height, wearer.limbs)
 
     @property
     def duration(self) -> float:

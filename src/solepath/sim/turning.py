@@ -1,0 +1,50 @@
+"""Rotations on stacks: matrices (N, 3, 3) and unit quaternions (N, 4), w x y z."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .curves import Array
+
+
+def unit(v: Array) -> Array:
+    """Each row at length one."""
+    return np.asarray(v / np.linalg.norm(v, axis=1, keepdims=True))
+
+
+def multiplied(p: Array, q: Array) -> Array:
+    """Hamilton products of two stacks of quaternions, (N, 4) each, or one of them (1, 4)."""
+    a, u = p[:, :1], p[:, 1:]
+    b, v = q[:, :1], q[:, 1:]
+    scalar = a * b - np.sum(u * v, axis=1, keepdims=True)
+    return np.concatenate((scalar, a * v + b * u + np.cross(u, v)), axis=1)
+
+
+def matrices(q: Array) -> Array:
+    """Rotation matrices (N, 3, 3) of unit quaternions (N, 4)."""
+    w, x, y, z = q.T
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.stack([np.stack(row, axis=1) for row in rows], axis=1)
+
+
+def quaternions(turn: Array) -> Array:
+    """Unit quaternions (N, 4) of rotation matrices; from each to the next by the shorter way.
+
+    Each of the four candidates is the quaternion times four times one of its parts; the one of the largest part counts.
+    """
+    m = [[turn[:, i, j] for j in range(3)] for i in range(3)]
+    trace = m[0][0] + m[1][1] + m[2][2]
+    w = [1.0 + trace, m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]]
+    x = [w[1], 1.0 + 2.0 * m[0][0] - trace, m[0][1] + m[1][0], m[0][2] + m[2][0]]
+    y = [w[2], x[2], 1.0 + 2.0 * m[1][1] - trace, m[1][2] + m[2][1]]
+    z = [w[3], x[3], y[3], 1.0 + 2.0 * m[2][2] - trace]
+    found = np.stack([np.stack(one, axis=1) for one in (w, x, y, z)], axis=1)
+    largest = np.argmax(np.stack([w[0], x[1], y[2], z[3]], axis=1), axis=1)
+    q = unit(found[np.arange(len(found)), largest])
+    flips = np.where(np.sum(q[1:] * q[:-1], axis=1) < 0.0, -1.0, 1.0)
+    q[1:] *= np.cumprod(flips)[:, None]
+    return np.asarray(q)

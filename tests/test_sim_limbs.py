@@ -1,0 +1,229 @@
+"""Pelvis, thighs and shanks go with the feet: joined at the joints, of constant length, without a jump."""
+
+from math import pi, radians
+
+import numpy as np
+import pytest
+from attrs import evolve
+
+from solepath.link.decoder import Decoder
+from solepath.sim.curves import Array
+from solepath.sim.dot import Dot
+from solepath.sim.gait import Wearer
+from solepath.sim.insoles import layout
+from solepath.sim.limbs import SLACK, Body, ankle_place
+from solepath.sim.parts import CRE_CC02, WORN_RESISTIVE
+from solepath.sim.radio import Radio
+from solepath.sim.route import Route
+from solepath.sim.shoe import Mounting
+from solepath.sim.suit import limb_samples, strapped, suit
+from solepath.sim.turning import matrices, multiplied, quaternions
+from solepath.sim.walk import emulate
+from solepath.sim.walker import Walker
+from solepath.types import Foot, Quat, Sample, Site
+from solepath.vector import GRAVITY
+
+ROUTE = Route().stand(2.0).walk(8.0, 1.3).turn(pi, 2.0, 1.1).walk(4.0).turn(pi / 2).walk(3.0).stop(2.0)
+ABOVE = [site for site in Site if site.foot is None]
+
+
+@pytest.fixture(scope="module")
+def walker() -> Walker:
+    return Walker(ROUTE, seed=3)
+
+
+@pytest.fixture(scope="module")
+def body(walker: Walker) -> Body:
+    return walker.body
+
+
+def times(walker: Walker, step: float = 0.01) -> Array:
+    return np.arange(0.0, walker.duration, step)
+
+
+def flexion(body: Body, foot: Foot, t: Array) -> Array:
+    """Of the knee, rad; positive when the shank goes back."""
+    leg = body.leg(foot, t)
+    ahead = np.sum(leg.shank[:, :, 2] * leg.thigh[:, :, 0], axis=1)  # how far the shank's top is before its bottom
+    return np.arcsin(np.clip(ahead, -1.0, 1.0))
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_thigh_and_shank_never_change_their_length(walker: Walker, body: Body, foot: Foot) -> None:
+    leg, limbs = body.leg(foot, times(walker)), walker.wearer.limbs
+    assert np.linalg.norm(leg.hip - leg.knee, axis=1) == pytest.approx(limbs.thigh)
+    assert np.linalg.norm(leg.knee - leg.ankle, axis=1) == pytest.approx(limbs.shank)
+
+
+def test_the_hips_are_a_constant_way_apart_on_the_pelvis(walker: Walker, body: Body) -> None:
+    t = times(walker)
+    left, right = (body.leg(foot, t).hip for foot in Foot)
+    assert np.linalg.norm(left - right, axis=1) == pytest.approx(walker.wearer.limbs.hip_width)
+    assert 0.5 * (left + right) == pytest.approx(body.pelvis(t)[0])
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_the_chain_from_the_pelvis_down_ends_at_the_ankle_in_the_shoe(walker: Walker, body: Body, foot: Foot) -> None:
+    """Equation (7) of Gong et al. 2023: products of rotations and constant lengths alone."""
+    t, limbs = times(walker), walker.wearer.limbs
+    side = 1.0 if foot is Foot.LEFT else -1.0
+    thigh, shank = (Site.LEFT_THIGH, Site.LEFT_SHANK) if foot is Foot.LEFT else (Site.RIGHT_THIGH, Site.RIGHT_SHANK)
+    at, pelvis = body.segment(Site.PELVIS, t)
+    down = np.array([0.0, 0.0, -1.0])
+    ankle = at + pelvis @ (0.0, 0.5 * side * limbs.hip_width, 0.0)
+    ankle = ankle + body.segment(thigh, t)[1] @ (limbs.thigh * down) + body.segment(shank, t)[1] @ (limbs.shank * down)
+    shoe = walker.kinematics(foot, t, Mounting(ankle_place(walker.wearer.shoe, limbs))).position
+    loose = np.linalg.norm(ankle - shoe, axis=1)
+    assert loose.max() < np.hypot(*SLACK) + 1e-9
+    assert loose == pytest.approx(np.linalg.norm(body.slip(foot, t), axis=1), abs=1e-9)
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_a_foot_slides_forward_in_its_shoe_when_it_brakes_and_is_in_place_in_the_air(
+    walker: Walker, body: Body, foot: Foot
+) -> None:
+    strides = walker.plan.strides[foot]
+    for one, two in zip(strides[2:5], strides[3:6], strict=True):
+        early, late = one.foot_flat + 0.05, two.heel_off + 0.05
+        braking, pushing = body.slip(foot, np.array([early, late]))[:, 0]
+        assert braking > 0.001 > -0.001 > pushing
+        middle = 0.5 * (one.toe_off + one.heel_strike)
+        assert np.abs(body.slip(foot, np.array([middle]))).max() < 1e-6
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_knees_bend_forward_only_and_most_in_swing(walker: Walker, body: Body, foot: Foot) -> None:
+    t = times(walker)
+    bent = flexion(body, foot, t)
+    assert radians(3) < bent.min() and bent.max() < radians(85)
+    for stride in walker.plan.strides[foot][2:5]:
+        swing = flexion(body, foot, np.linspace(stride.toe_off, stride.heel_strike, 20))
+        assert radians(55) < swing.max() < radians(80)  # about 60 degrees in life
+
+
+def test_who_stands_stands_upright(walker: Walker, body: Body) -> None:
+    t = np.array([0.3])
+    for site in ABOVE:
+        (turn,) = body.segment(site, t)[1]
+        assert turn[2, 2] > np.cos(radians(12)) and turn[0, 0] > np.cos(radians(12))
+    at, _ = body.pelvis(t)
+    assert at[0, 2] == pytest.approx(walker.wearer.limbs.thigh + walker.wearer.limbs.shank + 0.068, abs=0.02)
+    assert abs(at[0, 1]) < 0.002
+
+
+def test_the_pelvis_goes_as_people_do(walker: Walker, body: Body) -> None:
+    t = np.arange(4.0, 7.0, 0.005)
+    at, turn = body.pelvis(t)
+    speed = np.gradient(at[:, 0], t)
+    assert speed.mean() == pytest.approx(1.3, rel=0.08) and speed.std() < 0.15
+    assert 0.03 < np.ptp(at[:, 1]) < 0.07  # sway
+    assert 0.015 < np.ptp(at[:, 2]) < 0.05  # rise and fall
+    yaw = np.arctan2(turn[:, 1, 0], turn[:, 0, 0])
+    assert radians(4) < np.ptp(yaw) < radians(16)
+
+
+def test_the_body_leans_into_a_bend(walker: Walker) -> None:
+    circle = Walker(Route().stand(1.0).turn(2 * pi, 2.0, 1.1).stop(1.0), seed=2)
+    t = np.arange(4.0, 9.0, 0.01)
+    at = circle.body.pelvis(t)[0]
+    away = np.hypot(at[:, 0], at[:, 1] - 2.0)
+    assert away.mean() < 1.97  # the centre of the track is 2 m away: the pelvis is nearer to it
+
+
+@pytest.mark.parametrize("site", list(Site))
+def test_no_segment_jumps_or_spins(walker: Walker, body: Body, site: Site) -> None:
+    t = times(walker, 0.002)
+    at, turn = body.segment(site, t)
+    assert np.abs(np.diff(at, axis=0)).max() < 0.002 * 6.0
+    q = quaternions(turn)
+    assert (np.sum(q[1:] * q[:-1], axis=1) > np.cos(0.5 * 0.002 * 15.0)).all()  # under 15 rad/s
+    if site.foot is None:
+        rate = body.at(site, t, Mounting((0.0, 0.0, 0.0))).rate
+        assert np.abs(np.diff(rate, axis=0)).max() < 1.0  # the heel stops within 14 ms when it strikes
+
+
+@pytest.mark.parametrize("site", ABOVE)
+def test_rates_and_forces_of_body_sensors_are_those_of_their_motion(walker: Walker, body: Body, site: Site) -> None:
+    mounting = strapped(site, walker.wearer.limbs, 4)
+    t = np.arange(3.0, 6.0, 0.001)
+    found = body.at(site, t, mounting)
+    half = found.attitude[:-1]
+    turned = multiplied(half * (1.0, -1.0, -1.0, -1.0), found.attitude[1:])
+    middle = 0.5 * (found.rate[1:] + found.rate[:-1])
+    assert 2.0 * turned[:, 1:] / 0.001 == pytest.approx(middle, abs=0.02)
+    moved = found.position[-1] - found.position[0]
+    assert np.trapezoid(found.velocity, t, axis=0) == pytest.approx(moved, abs=1e-4)
+    felt = np.einsum("nij,nj->ni", matrices(found.attitude), found.force) - (0.0, 0.0, GRAVITY)
+    assert np.trapezoid(felt, t, axis=0) == pytest.approx(found.velocity[-1] - found.velocity[0], abs=0.02)
+
+
+def test_other_limbs_make_another_body_of_the_same_walk(walker: Walker) -> None:
+    tall = evolve(walker.wearer.limbs, thigh=0.47, shank=0.46)
+    other = Walker(ROUTE, Wearer(limbs=tall), seed=3)
+    assert other.plan == walker.plan
+    t = np.array([5.0])
+    assert other.body.pelvis(t)[0][0, 2] > walker.body.pelvis(t)[0][0, 2] + 0.05
+    one = limb_samples(walker, 20.0, tall, seed=2, errors=None)
+    assert [s.quat for s in one] == [s.quat for s in limb_samples(other, 20.0, seed=2, errors=None)]
+
+
+def by_site(samples: list[Sample]) -> dict[Site, list[Sample]]:
+    return {site: [sample for sample in samples if sample.site is site] for site in Site}
+
+
+def test_seven_sites_are_sampled_together_and_the_same_seed_gives_the_same() -> None:
+    walker = Walker(Route().stand(1.0).walk(4.0, 1.2).stop(1.0), seed=5)
+    layouts = {Site.LEFT_FOOT: layout(99, Foot.LEFT), Site.RIGHT_FOOT: layout(99, Foot.RIGHT)}
+    samples = limb_samples(walker, 50.0, seed=1, layouts=layouts, cell_part=WORN_RESISTIVE)
+    assert samples == limb_samples(walker, 50.0, seed=1, layouts=layouts, cell_part=WORN_RESISTIVE)
+    assert [sample.t for sample in samples] == sorted(sample.t for sample in samples)
+    for site, own in by_site(samples).items():
+        assert [sample.t for sample in own] == pytest.approx([k / 50.0 for k in range(len(own))])
+        assert all((sample.pressure is not None) is (site.foot is not None) for sample in own)
+        assert all(sample.quat and sample.acc and sample.gyro for sample in own)
+    assert samples != limb_samples(walker, 50.0, seed=2, layouts=layouts, cell_part=WORN_RESISTIVE)
+
+
+def test_attitudes_are_off_by_the_paper_s_sensor_and_mountings_stay(walker: Walker) -> None:
+    exact = by_site(limb_samples(walker, 10.0, seed=7, attitude=None, errors=None))
+    read = by_site(limb_samples(walker, 10.0, seed=7, attitude=CRE_CC02, errors=None))
+    off = [angle_between_quats(a.quat, b.quat) for site in Site for a, b in zip(exact[site], read[site], strict=True)]
+    assert np.sqrt(np.mean(np.square(off))) == pytest.approx(radians(0.81) * np.sqrt(3.0), rel=0.5)
+    for site in ABOVE:
+        mounting = strapped(site, walker.wearer.limbs, 7)
+        assert mounting == strapped(site, walker.wearer.limbs, 7) != strapped(site, walker.wearer.limbs, 8)
+        t = np.array([sample.t for sample in exact[site]])
+        turn = walker.body.segment(site, t)[1]
+        expected = multiplied(quaternions(turn), np.array([mounting.attitude]))
+        same = np.abs(np.sum(expected * np.array([sample.quat for sample in exact[site]]), axis=1))
+        assert same == pytest.approx(1.0, abs=1e-9)
+
+
+def test_seven_devices_feed_their_decoders_with_attitudes_of_the_segments() -> None:
+    route = Route().stand(1.5).walk(4.0, 1.2).stop(1.0)
+    worn = suit(Wearer().limbs, seed=3)
+    walk = emulate(route, devices=worn, radio=Radio(latency=0.0, jitter=0.0), seed=3)
+    assert {packet.site for packet in walk.packets} == set(Site)
+    for site in Site:
+        decoder = Decoder(site)
+        told = [item for packet in walk.packets if packet.site is site for item in decoder.feed(packet)]
+        samples = [item for item in told + decoder.finish() if isinstance(item, Sample)]
+        assert len(samples) == pytest.approx(walk.truth.duration * (60.0 if site.foot is None else 50.0), rel=0.03)
+        t = np.array([sample.t for sample in samples]) - 0.002
+        true = walk.walker.body.at(site, t, worn[site].mounting).attitude
+        off = [angle_between_quats(s.quat, tuple(q)) for s, q in zip(samples, true.tolist(), strict=True)]
+        assert max(off) < radians(7.0) and np.median(off) < radians(3.0)
+
+
+def test_a_dot_ticks_in_microseconds_and_can_be_worn_on_a_foot_too() -> None:
+    walk = emulate(
+        Route().stand(2.0), devices={Site.LEFT_FOOT: Dot(ticks=2**32 - 500_000, ppm=0.0)}, radio=Radio(), seed=2
+    )
+    ticks = [int.from_bytes(p.data[:4], "little") for p in walk.packets if p.channel == "dot-orientation/quaternion"]
+    assert ticks[0] == 2**32 - 500_000
+    assert {(b - a) % 2**32 for a, b in zip(ticks, ticks[1:], strict=False)} == {16666, 16667}
+
+
+def angle_between_quats(p: Quat | None, q: tuple[float, ...]) -> float:
+    assert p is not None
+    return 2.0 * float(np.arccos(min(1.0, abs(sum(a * b for a, b in zip(p, q, strict=True))))))
