@@ -76,6 +76,10 @@ class Segment:
     """Of the newest attitude, s."""
     sensor: Quat = field(default=IDENTITY, init=False)
     """Sensor to its own world."""
+    earlier: float | None = field(default=None, init=False)
+    """Of the attitude before the newest, s."""
+    before: Quat = field(default=IDENTITY, init=False)
+    """That attitude."""
     anchor: Quat = field(default=IDENTITY, init=False)
     """About where it was since `quiet_since`, s."""
     quiet_since: float | None = field(default=None, init=False)
@@ -90,6 +94,7 @@ class Segment:
 
     def told(self, t: float, sensor: Quat) -> None:
         """A new attitude: sensor to its own world, a unit quaternion."""
+        self.earlier, self.before = self.t, self.sensor
         self.t = t
         self.sensor = sensor
         if self.standing is not None:
@@ -107,12 +112,24 @@ class Segment:
         """s."""
         return 0.0 if self.t is None or self.quiet_since is None else self.t - self.quiet_since
 
-    def attitude(self, shared: float) -> Quat:
-        """Segment to world (x along the first heading). `shared`: the first heading in the devices' world, rad."""
+    def sensor_at(self, t: float) -> Quat:
+        """The sensor's attitude at an instant between its last two, s; else the nearer one."""
+        if self.t is None or self.earlier is None or t >= self.t or self.t <= self.earlier:
+            return self.sensor
+        if t <= self.earlier:
+            return self.before
+        k = (t - self.earlier) / (self.t - self.earlier)
+        (aw, ax, ay, az), (bw, bx, by, bz) = self.before, self.sensor
+        j = k - 1.0 if aw * bw + ax * bx + ay * by + az * bz < 0.0 else 1.0 - k
+        return normalise((j * aw + k * bw, j * ax + k * bx, j * ay + k * by, j * az + k * bz))
+
+    def attitude(self, shared: float, t: float) -> Quat:
+        """Segment to world (x along the first heading) at `t` s. `shared`: the first heading in the devices' world,
+        rad."""
         if self.standing is None:
             return IDENTITY
         heading = (self.heading or 0.0) if self.own else shared
-        turned = multiply(self.sensor, conjugate(self.standing))
+        turned = multiply(self.sensor_at(t), conjugate(self.standing))
         if heading == 0.0:
             return turned
         return multiply(multiply(from_yaw(-heading), turned), from_yaw(heading))
@@ -175,30 +192,35 @@ class LowerLimbs:
         """The sites above the ankles that nothing was heard of."""
         return tuple([site for site in ABOVE if self.segments[site].t is None])
 
-    def end(self, foot: Foot) -> Vec3:
-        """P_L or P_R: the end of the foot seen from the middle of the hips, world frame, m."""
+    def complete(self) -> float | None:
+        """Up to when every segment's attitude is known, s."""
+        times = [segment.t for segment in self.segments.values() if segment.t is not None]
+        return min(times) if len(times) == len(SEGMENTS) else None
+
+    def end(self, foot: Foot, t: float) -> Vec3:
+        """P_L or P_R at `t` s: the end of the foot seen from the middle of the hips, world frame, m."""
         shared = self.heading or 0.0
         segments = self.segments
-        thigh, shank, end = [segments[site].attitude(shared) for site in LEGS[foot]]
+        thigh, shank, end = [segments[site].attitude(shared, t) for site in LEGS[foot]]
         side = 0.5 if foot is Foot.LEFT else -0.5
         hip = (0.0, side * self.limbs.hip_width, 0.0)
-        return foot_end(segments[Site.PELVIS].attitude(shared), thigh, shank, end, hip, self.limbs)
+        return foot_end(segments[Site.PELVIS].attitude(shared, t), thigh, shank, end, hip, self.limbs)
 
-    def forward(self, foot: Foot) -> tuple[float, float]:
+    def forward(self, foot: Foot, t: float) -> tuple[float, float]:
         """Which way a foot points: a horizontal vector of the world frame, of length 1; (1, 0) when it points up."""
-        x, y, _ = rotate(self.segments[LEGS[foot][2]].attitude(self.heading or 0.0), (1.0, 0.0, 0.0))
+        x, y, _ = rotate(self.segments[LEGS[foot][2]].attitude(self.heading or 0.0, t), (1.0, 0.0, 0.0))
         length = hypot(x, y)
         return (x / length, y / length) if length > 1e-6 else (1.0, 0.0)
 
-    def stepped(self, foot: Foot) -> None:
-        """The foot has come down: if this was the first step, it tells the first heading. Hips and feet are left out,
+    def stepped(self, foot: Foot, t: float) -> None:
+        """The foot has come down at `t` s: the first step tells the first heading. Hips and feet are left out of it,
         so that the heading need not be known for it: legs that hang down do so whatever they face."""
         if self.heading is not None or not self.aligned:
             return
         x = y = 0.0
         for leg, sign in ((foot, 1.0), (Foot.LEFT if foot is Foot.RIGHT else Foot.RIGHT, -1.0)):
             for site, length in zip(LEGS[leg], (self.limbs.thigh, self.limbs.shank), strict=False):
-                dx, dy, _ = rotate(self.segments[site].attitude(0.0), (0.0, 0.0, -length))
+                dx, dy, _ = rotate(self.segments[site].attitude(0.0, t), (0.0, 0.0, -length))
                 x += sign * dx
                 y += sign * dy
         if hypot(x, y) > FIRST_WAY:

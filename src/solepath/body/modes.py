@@ -34,12 +34,12 @@ from ..foot.refusal import refusal, rejected
 from ..foot.tracker import FootTracker
 from ..foot.world import Covariance3
 from ..types import SITE_OF_FOOT, Foot, Sample, Site, Vec3, WalkingMode
-from ..vector import GRAVITY, ZERO, rotate, sub
+from ..vector import GRAVITY, TIE, ZERO, rotate, sub
 from .inclination import Inclination
 from .limbs import ABOVE, LowerLimbs
 from .mode import LEAST_STEP, LINGERS, STANDING_WEIGHT, TH, Contact, decide
 from .position import Position
-from .touchdown import OTHER, AnyTouchdown, Carrier, FootState, MaximumPressure, suspended, v_change
+from .touchdown import OTHER, AnyTouchdown, Carrier, FootState, Height, MaximumPressure, suspended, v_change
 
 Compensation = dict[Foot, dict[WalkingMode, tuple[float, float]]]
 """(forward, left), m, by the foot that comes down and the mode."""
@@ -69,6 +69,8 @@ modes` finds a wearer's own."""
 
 AWAY = 0.03
 """A foot that comes down nearer to where it stood was not away, m: the flags of standing feet flicker."""
+PATIENCE = 0.06
+"""How long a touchdown waits for attitudes of its instant, s: three samples of the paper's 50 Hz."""
 
 
 @define
@@ -123,6 +125,8 @@ class Modes:
     carrier: Carrier = field(factory=Carrier, init=False)
     pressing: MaximumPressure = field(factory=MaximumPressure, init=False)
     """Begins and ends the contacts that tell a mode."""
+    coming: tuple[Foot, float] | None = field(default=None, init=False)
+    """The foot that came down, and when, s, while the chain does not know that instant yet."""
     touchdowns: int = field(default=0, init=False)
     borne: float = field(default=0.0, init=False)
     """Mean of what both feet bear, unit of the samples."""
@@ -174,7 +178,7 @@ class Modes:
             attitude = leaning.update(t, sample.acc, sample.gyro)
             if attitude is not None:
                 self.chain.told_own(site, t, attitude, leaning.heading)
-        return []
+        return self._awaited(t, t if sample.known_at is None else max(t, sample.known_at))
 
     def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
         """A sample of a foot: who carries, what has come down, and what the contact that ended tells."""
@@ -194,23 +198,42 @@ class Modes:
                 x, y, z = rotate(foot.corrector.attitude, sample.acc)
                 state.acceleration = hypot(x, y, z - GRAVITY)
         told = self._pressed(foot, side, t, known_at) if sample.pressure else []
-        return told + self._carry(foot.foot, t, known_at)
+        return told + self._carry(t, known_at)
 
-    def _carry(self, foot: Foot, t: float, known_at: float) -> list[Event]:
+    def _carry(self, t: float, known_at: float) -> list[Event]:
         left, right = self.sides[Foot.LEFT], self.sides[Foot.RIGHT]
         if left.t is None or right.t is None:
             return []
-        if not isinstance(self.touchdown, MaximumPressure):
-            self._heights(t)
+        events = self._awaited(t, known_at)
+        seen = t
+        if isinstance(self.touchdown, Height):
+            seen = self._heights(t)
         taken = self.carrier.update(self.touchdown.update(t, left.state, right.state))
         if taken is None or not taken[1]:
-            return []  # a foot that has been down all the time carries from where it is
-        return self._came_down(taken[0], t, known_at)
+            return events  # a foot that has been down all the time carries from where it is
+        if self.coming is not None:
+            events += self._came_down(*self.coming, known_at)
+        self.coming = (taken[0], seen)
+        return events + self._awaited(t, known_at)
 
-    def _heights(self, t: float) -> None:
-        chained = self.chain.current(t)
+    def _heights(self, t: float) -> float:
+        """Take the heights of both feet, by the chain at the latest instant that it knows. Returns that instant, s."""
+        complete = self.chain.complete() if self.chain.current(t) else None
         for foot, side in self.sides.items():
-            side.state.height = self.chain.end(foot)[2] if chained else side.track[2]
+            side.state.height = side.track[2] if complete is None else self.chain.end(foot, complete)[2]
+        return t if complete is None else min(t, complete)
+
+    def _awaited(self, t: float, known_at: float) -> list[Event]:
+        """A touchdown is worked out once every attitude of that instant is there, or has not come for `PATIENCE`."""
+        if self.coming is None:
+            return []
+        foot, came = self.coming
+        if self.chain.current(came) and t - came < PATIENCE:
+            complete = self.chain.complete()
+            if complete is not None and complete < came - TIE:
+                return []
+        self.coming = None
+        return self._came_down(foot, came, known_at)
 
     # --- modes ---
 
@@ -268,7 +291,7 @@ class Modes:
     def _ends(self, t: float) -> tuple[Vec3, Vec3, bool]:
         """P_L and P_R in one frame, m, and whether they are the chain's."""
         if self.chain.current(t):
-            return self.chain.end(Foot.LEFT), self.chain.end(Foot.RIGHT), True
+            return self.chain.end(Foot.LEFT, t), self.chain.end(Foot.RIGHT, t), True
         left, right = self.sides[Foot.LEFT], self.sides[Foot.RIGHT]
         return suspended(left.track, left.offset), suspended(right.track, right.offset), False
 
@@ -278,19 +301,19 @@ class Modes:
         carrying = self.sides[OTHER[foot]]
         x, y, _ = suspended(carrying.place, v_change(left, right, OTHER[foot]))
         if chained:
-            reach = self._reach(foot)
+            reach = self._reach(foot, t)
             x += carrying.reach[0] - reach[0]
             y += carrying.reach[1] - reach[1]
         return (x, y, self.sides[foot].track[2]), chained
 
-    def _reach(self, foot: Foot) -> tuple[float, float]:
-        x, y = self.chain.forward(foot)
+    def _reach(self, foot: Foot, t: float) -> tuple[float, float]:
+        x, y = self.chain.forward(foot, t)
         return self.limbs.foot * x, self.limbs.foot * y
 
     def _came_down(self, foot: Foot, t: float, known_at: float) -> list[Event]:
         side = self.sides[foot]
         if self.chain.current(t):
-            self.chain.stepped(foot)
+            self.chain.stepped(foot, t)
         place, chained = self._place(foot, t)
         dx, dy = place[0] - side.place[0], place[1] - side.place[1]
         side.step = step = hypot(dx, dy)
@@ -306,7 +329,7 @@ class Modes:
         side.place = place = suspended(place, compensation)
         side.offset = sub(place, side.track)
         if chained:
-            side.reach = self._reach(foot)
+            side.reach = self._reach(foot, t)
         self.touchdowns += 1
         came = TouchedDown(t=t, known_at=known_at, foot=foot, position=place, mode=mode, compensation=compensation)
         return [*self._limited(chained, t, known_at), came]
