@@ -10,10 +10,10 @@ import os
 import sys
 from collections.abc import Sequence
 
-from . import convert, demo, emulate, evaluate, live, scan, track
+from . import calibrate, convert, demo, emulate, evaluate, live, scan, track
 from .failure import Failure, note
 
-COMMANDS = (demo, track, scan, live, emulate, convert, evaluate)
+COMMANDS = (demo, track, scan, live, emulate, convert, calibrate, evaluate)
 
 
 def parser() -> argparse.ArgumentParser:

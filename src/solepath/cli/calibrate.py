@@ -1,0 +1,205 @@
+"""`solepath calibrate KIND INPUT --out FILE`: from a recording, or from what was measured by hand, to a calibration."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .failure import Failure, note, share
+
+if TYPE_CHECKING:
+    from ..calibrate.recorded import Recorded
+    from ..calibration import Calibration
+
+MERGED = "What FILE holds already of other kinds, or of the other foot, stays."
+
+
+def add_to(commands: Any) -> None:
+    command: argparse.ArgumentParser = commands.add_parser(
+        "calibrate",
+        help="learn about a wearer, shoes and insoles",
+        description=f"Make a calibration for `track`, `live` and `evaluate` (--calibration FILE). {MERGED}",
+    )
+    kinds = command.add_subparsers(metavar="KIND", dest="kind", required=True)
+    for add in (_add_noise, _add_shoe, _add_newton, _add_modes):
+        kind = add(kinds)
+        kind.add_argument("--out", metavar="FILE", type=Path, required=True, help="the calibration file")
+        kind.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    from ..calibration import Calibration, CalibrationError, merged, read_calibration, write_calibration
+    from ..recording import RecordingError, printable
+
+    _check_writable(options.out)
+    try:
+        known = read_calibration(options.out) if options.out.exists() else Calibration()
+        learnt, lines = options.learn(options, known)
+    except (CalibrationError, RecordingError) as error:
+        raise Failure(printable(str(error), 2000)) from None
+    write_calibration(options.out, merged(known, learnt))
+    print("\n".join([*lines, f"written to {printable(str(options.out))}"]))
+    return 0
+
+
+def _check_writable(path: Path) -> None:
+    """OSError now, not after a long recording was read. What is in the file stays."""
+    there = path.exists()
+    path.open("ab").close()
+    if not there:
+        path.unlink()
+
+
+Learnt = tuple["Calibration", list[str]]
+"""What was learnt, and the lines that say so."""
+
+
+def _recording(command: argparse.ArgumentParser) -> None:
+    command.add_argument("file", metavar="RECORDING", type=Path, help="packets (.jsonl) or samples (.npz, .csv)")
+    command.add_argument(
+        "--foot",
+        choices=["left", "right"],
+        help="whose the samples of a recording of one foot are (default: right); of other recordings, the foot to use",
+    )
+
+
+def _recorded(path: Path, foot: str | None = None) -> Recorded:
+    """What a recording holds. RecordingError when it cannot be read to its end."""
+    from ..calibrate.recorded import recorded
+    from ..source import open_source
+    from ..types import Foot
+
+    return recorded(open_source(path, Foot(foot) if foot else None, report=note))
+
+
+# --- noise ------------------------------------------------------------------------------------------------------------
+
+
+def _add_noise(kinds: Any) -> argparse.ArgumentParser:
+    command: argparse.ArgumentParser = kinds.add_parser(
+        "noise",
+        help="what pressure cells show in the air, from a walk",
+        description="From some 20 s of walking: what every cell shows while the foot swings, which is taken off later.",
+        epilog="example: solepath calibrate noise walk.jsonl --out me.json",
+    )
+    _recording(command)
+    command.add_argument(
+        "--share",
+        metavar="SHARE",
+        type=share,
+        default=0.15,
+        help="of the samples with the least load that are taken for swing (default: 0.15)",
+    )
+    command.set_defaults(learn=_noise)
+    return command
+
+
+def _noise(options: argparse.Namespace, known: Calibration) -> Learnt:
+    from ..calibrate.noise import pressure_noise
+    from ..view.table import number, table
+
+    if options.share == 0.0:
+        raise Failure("--share 0: of no samples at all nothing is learnt")
+    learnt = pressure_noise(_recorded(options.file, options.foot).samples, options.share, known)
+    rows = [
+        [foot.value, str(len(one.noise)), number(sum(one.noise) / len(one.noise)), number(max(one.noise))]
+        for foot, one in learnt.insoles.items()
+    ]
+    return learnt, [table(["foot", "cells", "mean noise", "largest"], rows)]
+
+
+# --- shoe -------------------------------------------------------------------------------------------------------------
+
+
+def _add_shoe(kinds: Any) -> argparse.ArgumentParser:
+    command: argparse.ArgumentParser = kinds.add_parser(
+        "shoe",
+        help="how a shoe rolls over its forefoot, from postures measured with rulers",
+        description="From static postures between flat and toe-off: a csv file with the columns pitch_deg, L_r_m, "
+        "L_p2t_m, and H_imu_m and heel_L_r_m where they are known.",
+        epilog="example: solepath calibrate shoe postures.csv --out me.json",
+    )
+    command.add_argument("file", metavar="POSTURES", type=Path, help="the csv file")
+    command.set_defaults(learn=_shoe)
+    return command
+
+
+def _shoe(options: argparse.Namespace, known: Calibration) -> Learnt:
+    from math import degrees
+
+    from ..calibrate.shoe import fit_shoe
+
+    fit = fit_shoe(options.file)
+    shoe = fit.calibration.shoe
+    steepest = "" if shoe is None else f", flat to {degrees(shoe.steepest):.0f} degrees"
+    return fit.calibration, [
+        f"{fit.measurements} measurements of {fit.postures} postures{steepest}: rms error of L_r "
+        f"{1000.0 * fit.residual_radius:.1f} mm, of L_p2t {1000.0 * fit.residual_to_toe:.1f} mm, largest "
+        f"{1000.0 * fit.worst:.1f} mm",
+    ]
+
+
+# --- newton -----------------------------------------------------------------------------------------------------------
+
+
+def _add_newton(kinds: Any) -> argparse.ArgumentParser:
+    command: argparse.ArgumentParser = kinds.add_parser(
+        "newton",
+        help="from an insole's counts to newtons, from what a gauge pressed",
+        description="A cubic through what a gauge pressed and what the insole said: a csv file with the columns counts "
+        "and newtons.",
+        epilog="example: solepath calibrate newton gauge.csv --foot left --out me.json",
+    )
+    command.add_argument("file", metavar="GAUGE", type=Path, help="the csv file")
+    command.add_argument("--foot", choices=["left", "right"], help="whose insole it is (default: both are alike)")
+    command.set_defaults(learn=_newton)
+    return command
+
+
+def _newton(options: argparse.Namespace, known: Calibration) -> Learnt:
+    from ..calibrate.newton import fit_gauge
+    from ..calibration import Calibration, InsoleCalibration
+    from ..types import Foot
+
+    feet = [Foot(options.foot)] if options.foot else list(Foot)
+    fit = fit_gauge(options.file)
+    a, b, c, d = fit.newtons.coefficients
+    insole = InsoleCalibration(newtons=fit.newtons)
+    return Calibration(insoles={foot: insole for foot in feet}), [
+        f"{' and '.join(foot.value for foot in feet)}: N = {a:.4g} + {b:.4g} c + {c:.4g} c^2 + {d:.4g} c^3, "
+        f"{fit.points} points, rms error {fit.residual:.2f} N, largest {fit.worst:.2f} N",
+    ]
+
+
+# --- modes ------------------------------------------------------------------------------------------------------------
+
+
+def _add_modes(kinds: Any) -> argparse.ArgumentParser:
+    command: argparse.ArgumentParser = kinds.add_parser(
+        "modes",
+        help="a wearer's own compensation of touchdowns, from walks over marks",
+        description="From walks on marked points, straight on and along bends: what touchdowns are off by in each "
+        "walking mode. Each recording comes with a csv file of its marks: foot, x, y (m), mode, and t (s) or step. "
+        "Limbs and insoles that FILE knows already are used.",
+        epilog="example: solepath calibrate modes straight.jsonl straight.csv bend.jsonl bend.csv --out me.json",
+    )
+    command.add_argument("files", metavar="RECORDING MARKS", nargs="+", type=Path, help="two files for each walk")
+    command.set_defaults(learn=_modes)
+    return command
+
+
+def _modes(options: argparse.Namespace, known: Calibration) -> Learnt:
+    from ..calibrate.modes import fit_modes
+    from ..view.table import number, table
+
+    if len(options.files) % 2:
+        raise Failure("calibrate modes takes two files for each walk: the recording, and the csv file of its marks")
+    walks = [(_recorded(walk), marks) for walk, marks in zip(options.files[::2], options.files[1::2], strict=True)]
+    learnt = fit_modes(walks, known)
+    rows = [
+        [foot.value, mode.value, number(100.0 * forward, 2), number(100.0 * left, 2)]
+        for foot, modes in (learnt.modes or {}).items()
+        for mode, (forward, left) in modes.items()
+    ]
+    return learnt, [table(["foot", "mode", "forward cm", "left cm"], rows)]

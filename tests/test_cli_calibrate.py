@@ -1,0 +1,192 @@
+"""`solepath calibrate`, and the commands that take what it writes."""
+
+import io
+import json
+import subprocess
+from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from solepath.calibration import Calibration, InsoleCalibration, ShoeGeometry, read_calibration, write_calibration
+from solepath.cli import main
+from solepath.recipes import BY_NAME
+from solepath.recording import PacketWriter
+from solepath.sim.insole_device import Insole
+from solepath.sim.route import Route
+from solepath.sim.sensortags import CC2650
+from solepath.sim.walk import emulate
+from solepath.types import Foot, Site
+
+ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
+PRESSED = [name for name, recipe in BY_NAME.items() if recipe.needs_pressure]
+
+
+def run(*arguments: object) -> subprocess.CompletedProcess[str]:
+    """The command in this process, with nobody at a terminal."""
+    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
+        status = main([str(argument) for argument in arguments])
+    return subprocess.CompletedProcess(arguments, status, out.getvalue(), err.getvalue())
+
+
+def refused(*arguments: object) -> str:
+    """The one line with which it ends."""
+    done = run(*arguments)
+    assert done.returncode == 2 and done.stdout == ""
+    assert done.stderr.startswith("solepath: ") and done.stderr.count("\n") == 1
+    return done.stderr
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    return tmp_path_factory.mktemp("recordings")
+
+
+def written(path: Path, device: Insole | CC2650) -> Path:
+    walk = emulate(ROUTE, devices={Site.LEFT_FOOT: device, Site.RIGHT_FOOT: device}, seed=3)
+    with PacketWriter(path) as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    return path
+
+
+@pytest.fixture(scope="module")
+def packets(folder) -> Path:
+    """8 m in two insoles at 30 Hz."""
+    return written(folder / "insoles.jsonl", Insole(rate=30.0))
+
+
+@pytest.fixture(scope="module")
+def tags(folder) -> Path:
+    """8 m with SensorTags: no pressure."""
+    return written(folder / "tags.jsonl", CC2650())
+
+
+@pytest.fixture(scope="module")
+def bare(folder) -> Path:
+    """A foot that stands, without pressure."""
+    t = np.arange(200) / 100.0
+    np.savez(folder / "imu_only.npz", t=t, acc=np.tile([0.0, 0.0, 9.81], (200, 1)), gyro=np.zeros((200, 3)))
+    return folder / "imu_only.npz"
+
+
+# --- what the other commands do with one ------------------------------------------------------------------------------
+
+
+def test_a_recipe_of_pressure_refuses_samples_without_any(bare):
+    assert PRESSED
+    for name in PRESSED:
+        expected = f"solepath: recipe {name} needs pressure cells; {bare} has none\n"
+        assert refused("track", bare, "--recipe", name) == expected
+
+
+def test_a_recipe_of_pressure_refuses_packets_without_any(tags, folder):
+    out = folder / "nothing"
+    assert "needs pressure cells" in refused("track", tags, "--recipe", PRESSED[0], "--out", out)
+    assert not out.exists()
+
+
+def test_a_recipe_of_pressure_takes_packets_of_insoles(packets):
+    done = run("track", packets, "--recipe", PRESSED[0])
+    assert done.returncode == 0 and done.stderr == ""
+
+
+def test_track_runs_with_a_calibration(packets, folder):
+    write_calibration(folder / "shoe.json", Calibration(shoe=ShoeGeometry(height=0.03)))
+    done = run("track", packets, "--calibration", folder / "shoe.json")
+    assert done.returncode == 0 and done.stderr == ""
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("{", "is not JSON"),
+        ('{"format": "something"}', "is not a calibration"),
+        ('{"format": "solepath-calibration", "version": 99}', "is of version 99"),
+    ],
+)
+def test_a_file_that_is_no_calibration_is_refused_in_one_line(packets, folder, text, complaint):
+    file = folder / "wrong.json"
+    file.write_text(text)
+    assert complaint in refused("track", packets, "--calibration", file)
+
+
+def test_a_calibration_that_is_not_there_is_named(packets, folder):
+    assert f"{folder / 'none.json'}: No such file" in refused("track", packets, "--calibration", folder / "none.json")
+
+
+# --- calibrate --------------------------------------------------------------------------------------------------------
+
+POSTURES = "pitch_deg,L_r_m,L_p2t_m\n" + "".join(
+    f"{degrees},{0.07 + 0.0006 * degrees:.4f},{0.09 - 0.0006 * degrees:.4f}\n" for degrees in (0, 15, 30, 45, 60)
+)
+GAUGE = "counts,newtons\n" + "".join(f"{counts},{0.1 * counts:.1f}\n" for counts in (60, 100, 400, 800, 1200, 1900))
+
+
+def calibrated(path: Path) -> Calibration:
+    json.loads(path.read_text(), parse_constant=pytest.fail)
+    return read_calibration(path)
+
+
+def test_noise_of_a_walk_is_learnt_for_every_cell_of_both_feet(packets, tmp_path):
+    out = tmp_path / "me.json"
+    done = run("calibrate", "noise", packets, "--share", "0.2", "--out", out)
+    assert done.returncode == 0 and done.stderr == ""
+    header, _, left, right, last = done.stdout.splitlines()
+    assert header.split() == ["foot", "cells", "mean", "noise", "largest"]
+    assert left.split()[:2] == ["left", "96"] and right.split()[:2] == ["right", "96"]
+    assert last == f"written to {out}"
+    learnt = calibrated(out)
+    assert all(len(learnt.insole(foot).noise) == 96 for foot in Foot) and learnt.shoe is None
+    assert run("track", packets, "--recipe", PRESSED[0], "--calibration", out).returncode == 0
+
+
+def test_what_is_learnt_goes_beside_what_the_file_holds_already(tmp_path):
+    out, postures, gauge = tmp_path / "me.json", tmp_path / "postures.csv", tmp_path / "gauge.csv"
+    write_calibration(out, Calibration(insoles={Foot.LEFT: InsoleCalibration(noise=(0.5, 1.0))}, weight=700.0))
+    postures.write_text(POSTURES)
+    gauge.write_text(GAUGE)
+    shoe = run("calibrate", "shoe", postures, "--out", out)
+    assert shoe.stdout.startswith("5 measurements of 5 postures, flat to 60 degrees: rms error of L_r 0.0 mm")
+    newton = run("calibrate", "newton", gauge, "--foot", "left", "--out", out)
+    assert newton.stdout.startswith("left: N = ") and "6 points, rms error 0.00 N" in newton.stdout
+    assert shoe.returncode == newton.returncode == 0
+    found = calibrated(out)
+    assert found.weight == 700.0 and found.insole(Foot.LEFT).noise == (0.5, 1.0)
+    assert found.insole(Foot.LEFT).newtons.coefficients == pytest.approx((0.0, 0.1, 0.0, 0.0), abs=1e-9)
+    assert found.insole(Foot.RIGHT) == InsoleCalibration()
+    assert found.shoe.forefoot_radius[0] == pytest.approx(0.07)
+
+
+def test_what_cannot_be_learnt_from_is_refused_in_one_line_and_nothing_is_written(packets, bare, tmp_path):
+    out, odd = tmp_path / "me.json", tmp_path / "odd.csv"
+    odd.write_text("pitch_deg,L_r_m\n0,0.07\n")
+    for arguments, complaint in [
+        (("noise", bare), "no pressure cells in this recording"),
+        (("noise", tmp_path / "none.jsonl"), "none.jsonl: no such file"),
+        (("noise", packets, "--share", "0"), "--share 0"),
+        (("shoe", odd), "odd.csv: line 1: wants one column L_p2t_m"),
+        (("newton", odd), "odd.csv, line 1: no column counts"),
+        (("modes", packets), "takes two files for each walk"),
+        (("modes", packets, odd), "odd.csv, line 1: no column foot"),
+    ]:
+        assert complaint in refused("calibrate", *arguments, "--out", out), arguments
+        assert not out.exists()
+
+
+def test_a_file_that_is_no_calibration_is_not_overwritten(tmp_path):
+    out, gauge = tmp_path / "notes.txt", tmp_path / "gauge.csv"
+    out.write_text("my notes")
+    gauge.write_text(GAUGE)
+    assert "notes.txt: is not JSON" in refused("calibrate", "newton", gauge, "--out", out)
+    assert out.read_text() == "my notes"
+    assert "No such file or directory" in refused("calibrate", "newton", gauge, "--out", tmp_path / "none" / "me.json")
+
+
+def test_every_kind_of_calibration_is_in_the_help(capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["calibrate", "--help"])
+    assert stop.value.code == 0
+    words = {line.split()[0] for line in capsys.readouterr().out.splitlines() if line.strip()}
+    assert words >= {"noise", "shoe", "square", "newton", "modes"}
