@@ -12,8 +12,9 @@ magnetometer do; or from acceleration and angular velocity (inclination.py), eac
 from __future__ import annotations
 
 from math import atan2, cos, hypot, sqrt
+from typing import NamedTuple
 
-from attrs import define, field, frozen
+from attrs import define, field
 
 from ..calibration import Limbs
 from ..types import Foot, Quat, Site, Vec3
@@ -40,8 +41,7 @@ LARGEST = 1e6
 """A quaternion with a part beyond this, or shorter than its inverse, is none."""
 
 
-@frozen
-class Transform:
+class Transform(NamedTuple):
     """A homogeneous transform: `rotation`, then `translation` (m). The last column of its matrix is `translation`."""
 
     rotation: Quat = IDENTITY

@@ -18,13 +18,14 @@ What the paper leaves open, and what is taken here:
 - When the mode is known. A contact tells its mode when it ends, after the touchdown that it began with; so a touchdown
   takes the latest mode that was told by a contact of the same foot. Standing is no mode to walk in: the first step
   after it is taken for a straight one.
+- The first heading is settled when the wearer has gone 1.5 m; touchdowns before that are not final.
 - Height. The method is planar; heights of touchdowns are those of the feet's own tracks.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import atan2, hypot
+from math import atan2, cos, hypot, sin
 
 from attrs import define, evolve, field
 
@@ -69,6 +70,8 @@ modes` finds a wearer's own."""
 
 AWAY = 0.03
 """A foot that comes down nearer to where it stood was not away, m: the flags of standing feet flicker."""
+FIRST_WAY = 1.5
+"""So far the middle between the feet must go to tell the first heading for good, m."""
 PATIENCE = 0.06
 """How long a touchdown waits for attitudes of its instant, s: three samples of the paper's 50 Hz."""
 
@@ -132,9 +135,12 @@ class Modes:
     """Mean of what both feet bear, unit of the samples."""
     borne_count: int = field(default=0, init=False)
     limited: bool = field(default=False, init=False)
+    headed: bool = field(init=False)
+    """The first heading is settled."""
 
     def __attrs_post_init__(self) -> None:
         self.chain = LowerLimbs(self.limbs, self.heading)
+        self.headed = self.heading is not None
         self.sides = {}
         for foot, sign in ((Foot.LEFT, 0.5), (Foot.RIGHT, -0.5)):
             place = (0.0, sign * self.limbs.hip_width, 0.0)
@@ -313,7 +319,7 @@ class Modes:
     def _came_down(self, foot: Foot, t: float, known_at: float) -> list[Event]:
         side = self.sides[foot]
         if self.chain.current(t):
-            self.chain.stepped(foot, t)
+            self.chain.stepped(self._swung(foot), t)
         place, chained = self._place(foot, t)
         dx, dy = place[0] - side.place[0], place[1] - side.place[1]
         side.step = step = hypot(dx, dy)
@@ -326,13 +332,47 @@ class Modes:
                 self.chain.given_up = True
             if self.compensation is not None:
                 compensation = self._turned(side.direction, self.compensation.get(foot, {}).get(mode, (0.0, 0.0)))
-        side.place = place = suspended(place, compensation)
-        side.offset = sub(place, side.track)
+        side.place = suspended(place, compensation)
         if chained:
             side.reach = self._reach(foot, t)
+            self._head()
+        side.offset = sub(side.place, side.track)
         self.touchdowns += 1
-        came = TouchedDown(t=t, known_at=known_at, foot=foot, position=place, mode=mode, compensation=compensation)
+        came = TouchedDown(
+            t=t,
+            known_at=known_at,
+            final=self.headed or not chained,
+            foot=foot,
+            position=side.place,
+            mode=mode,
+            compensation=compensation,
+        )
         return [*self._limited(chained, t, known_at), came]
+
+    def _swung(self, foot: Foot) -> Foot:
+        """The foot whose own track has gone further: a method may take the wrong one for the one that came down."""
+        other = OTHER[foot]
+        (x, y, _), (u, v, _) = self.sides[foot].track, self.sides[other].track
+        return other if hypot(u, v) > hypot(x, y) + LEAST_STEP else foot
+
+    def _head(self) -> None:
+        """x along the first heading: until the wearer has gone `FIRST_WAY`, the world is turned so that the way so far
+        lies along it. One footfall is half a foot's width to the left or right of where it might have been."""
+        if self.headed or self.chain.heading is None:
+            return
+        left, right = self.sides.values()
+        x, y = left.place[0] + right.place[0], left.place[1] + right.place[1]
+        if hypot(x, y) < LEAST_STEP:
+            return
+        turn = atan2(y, x)
+        self.chain.heading += turn
+        c, s = cos(turn), -sin(turn)
+        for side in self.sides.values():
+            (px, py, pz), (rx, ry), (dx, dy) = side.place, side.reach, side.direction
+            side.place = (c * px - s * py, s * px + c * py, pz)
+            side.reach = (c * rx - s * ry, s * rx + c * ry)
+            side.direction = (c * dx - s * dy, s * dx + c * dy)
+        self.headed = hypot(x, y) > 2.0 * FIRST_WAY
 
     @staticmethod
     def _walks(side: Side) -> WalkingMode:
