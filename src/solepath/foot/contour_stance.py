@@ -13,8 +13,8 @@ from ..vector import IDENTITY, TIE, ZERO
 from .contour import Contours
 from .stance import Load, Stance
 
-TARE_SAMPLES = 8
-"""The tare is the mean of about so many samples in the air."""
+TARE_SAMPLES = 200
+"""The tare is the mean of about so many samples in the air: some swings, since a shoe that is swung presses unevenly."""
 
 
 @define
@@ -68,7 +68,7 @@ class ContourVelocity:
 
     threshold: float = 0.004
     """v_thrsh of (3): the paper's sensing bias, m/s."""
-    leave: float = 0.012
+    leave: float = 0.020
     loaded: float = 0.12
     """The heel carries at least this share of the wearer's full load."""
     blind: float = 0.1
@@ -82,6 +82,8 @@ class ContourVelocity:
     """How many cells the layout has; 0 as long as there is none."""
     tare: list[float] = field(factory=list, init=False)
     """What the used cells show in the air, unit of the samples."""
+    tared: int = field(default=0, init=False)
+    """Samples in the air so far, up to `TARE_SAMPLES`."""
     still: bool = field(default=False, init=False)
     seen: float | None = field(default=None, init=False)
     """When contours last existed, or else when the heel came down; None while it carries too little, s."""
@@ -92,6 +94,7 @@ class ContourVelocity:
         self.lacking = None if why is None else f"{why}; the gyroscope says when the foot stands"
         self.count = len(layout.cells)
         self.tare = [0.0] * len(self.contours.cells)
+        self.tared = 0
         self.still = False
 
     def update(
@@ -106,9 +109,9 @@ class ContourVelocity:
             if not load.airborne:
                 return Stance(ZERO, inf, 0.0, None)
             cells = load.cells
-            self.tare = [
-                zero + (cells[i] - zero) / TARE_SAMPLES for i, zero in zip(self.contours.cells, self.tare, strict=True)
-            ]
+            self.tared = min(self.tared + 1, TARE_SAMPLES)
+            k = 1.0 / self.tared
+            self.tare = [zero + k * (cells[i] - zero) for i, zero in zip(self.contours.cells, self.tare, strict=True)]
             return Stance(ZERO, inf, 0.0, Phase.SWING)
         cells = load.cells
         above = [cells[i] - zero for i, zero in zip(self.contours.cells, self.tare, strict=True)]
