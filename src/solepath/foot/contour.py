@@ -178,9 +178,7 @@ class Contours:
         k = rate / contours
         return sum_x * k, sum_y * k
 
-    def _by_pairs(
-        self, level: int, now: tuple[float, ...], before: tuple[float, ...]
-    ) -> tuple[float, float] | None:
+    def _by_pairs(self, level: int, now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
         """How far the centre of one level's contour has moved, m, by its rays that have an opposite."""
         count = len(self.levels)
         half = AXES * count
@@ -202,9 +200,7 @@ class Contours:
                 by += moved * s
         return _solved(xx, xy, yy, bx, by)
 
-    def _by_rays(
-        self, level: int, now: tuple[float, ...], before: tuple[float, ...]
-    ) -> tuple[float, float] | None:
+    def _by_rays(self, level: int, now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
         """The same by all rays."""
         count = len(self.levels)
         xx = xy = yy = bx = by = 0.0

@@ -14,7 +14,7 @@ from .contour import Contours
 from .stance import Load, Stance
 
 TARE_SAMPLES = 200
-"""The tare is the mean of about so many samples in the air: some swings, since a shoe that is swung presses unevenly."""
+"""The tare is the mean of about so many samples in the air: some swings, since a swung shoe presses unevenly."""
 
 
 @define

@@ -1,0 +1,201 @@
+"""Drift from laps of a square with marked steps, section V-B of "Personal navigation via high-resolution gait-corrected
+inertial measurement units" (IEEE Trans. Instrum. Meas. 59, 2010).
+
+The wearer walks four to six laps of a square on whose edges every step of one foot is marked (40 marks on 4 times 11.7
+m in the paper) and steps on the same marks in every lap. A foot that comes back to its mark is where it was, so a line
+through the positions of one mark over time (least squares) has the slope of the drift. The mean slope of all marks is
+taken off later positions.
+
+The paper finds a drift towards a fixed direction. What wanders about is not that: extrapolated from five minutes to a
+half hour it would do more harm than it removes. So the slope counts by how far the laps agree on it. From lap to lap
+the marks move by slope times time if the drift is fixed; with `scatter` the standard error of the mean of these
+movements, the slope that is kept is the mean slope times max(0, 1 - 2 scatter^2 / slope^2) (the positive-part estimator
+of James and Stein for two components with a scatter that is estimated).
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Mapping, Sequence
+from math import atan2, hypot, inf, isfinite
+from pathlib import Path
+
+import numpy as np
+from attrs import frozen
+
+from ..calibration import Calibration, CalibrationError
+from ..events import StepTaken
+from ..foot.bias_zupt import BiasZupt
+from ..recipes import PRESSURE_CONTOUR, Recipe
+from ..session import Session
+from ..types import Foot, Packet, Sample, Vec3
+from ..vector import from_yaw, rotate
+
+STEPS_PER_LAP = 40
+"""The paper's marks."""
+FEWEST_LAPS = 3
+"""Two points lie on any line."""
+NEAR = 1.0
+"""A step ends at a mark when it ends within this of the time that the marks' file says, s."""
+
+
+@frozen
+class Mark:
+    """The foot stood on mark `name` at `t`, s."""
+
+    name: str
+    t: float
+
+
+@frozen
+class SquareDrift:
+    """What the laps tell. `slope`: mean of the marks' slopes, m/s (x, y), in the frame of `Calibration.drift`;
+    `scatter`: its standard error by the laps' disagreement, m/s an axis; `kept`: what a calibration takes of it."""
+
+    foot: Foot
+    slope: tuple[float, float]
+    scatter: float
+    kept: tuple[float, float]
+    marks: int
+    visits: int
+    """Of all marks together."""
+
+
+def fit_square(
+    items: Iterable[Packet | Sample],
+    *,
+    foot: Foot | None = None,
+    marks: Sequence[Mark] | None = None,
+    steps_per_lap: int = STEPS_PER_LAP,
+    recipe: Recipe = PRESSURE_CONTOUR,
+    calibration: Calibration | None = None,
+) -> Calibration:
+    """The drift that a recording of laps shows, as `square_drift` finds it."""
+    found = square_drift(
+        items, foot=foot, marks=marks, steps_per_lap=steps_per_lap, recipe=recipe, calibration=calibration
+    )
+    return Calibration(drift=found.kept)
+
+
+def square_drift(
+    items: Iterable[Packet | Sample],
+    *,
+    foot: Foot | None = None,
+    marks: Sequence[Mark] | None = None,
+    steps_per_lap: int = STEPS_PER_LAP,
+    recipe: Recipe = PRESSURE_CONTOUR,
+    calibration: Calibration | None = None,
+) -> SquareDrift:
+    """Run the laps through a session and fit the lines. With `marks` every visit is the step that ends nearest to its
+    time; without, every `steps_per_lap`-th step is on the same mark. `foot`: whose; the right one's where both were
+    recorded. CalibrationError when there are too few laps, or a recipe that cannot use a drift."""
+    if not isinstance(recipe.corrector, BiasZupt):
+        raise CalibrationError(f"recipe {recipe.name} takes no drift off")
+    known = Calibration() if calibration is None else calibration
+    session = Session(recipe, calibration=_without_drift(known))
+    steps: dict[Foot, list[StepTaken]] = {one: [] for one in Foot}
+    for event in [*session.feed(items), *session.finish()]:
+        if isinstance(event, StepTaken):
+            steps[event.foot].append(event)
+    chosen = foot or (Foot.RIGHT if steps[Foot.RIGHT] else Foot.LEFT)
+    if not steps[chosen]:
+        raise CalibrationError(f"no step of the {chosen.value} foot in the recording")
+    visits = _counted(steps[chosen], steps_per_lap) if marks is None else _marked(steps[chosen], marks)
+    tracker = session.feet[chosen]
+    # Steps are in the world frame, whose first heading is the walk's; a drift is in that of the sensor, or the device.
+    corrector = tracker.corrector
+    turned = corrector.turned if isinstance(corrector, BiasZupt) else None
+    north = tracker.gait.world.north or (1.0, 0.0)
+    back = -atan2(north[1], north[0]) - (turned or 0.0)
+    return _fitted(chosen, visits, back)
+
+
+def read_marks(path: Path | str) -> tuple[Mark, ...]:
+    """Marks from a .csv with the columns `mark` and `t`, one row for every visit. CalibrationError when it is not."""
+    try:
+        with Path(path).open(encoding="utf-8-sig", newline="") as file:
+            rows = list(csv.DictReader(file))
+    except OSError as error:
+        raise CalibrationError(f"{path}: {error.strerror}") from None
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise CalibrationError(f"{path}: is not a table ({error})") from None
+    marks = []
+    for number, row in enumerate(rows, 2):
+        name, t = row.get("mark"), _number(row.get("t"))
+        if not name or t is None:
+            raise CalibrationError(f"{path}, line {number}: a visit is a name in column mark and seconds in column t")
+        marks.append(Mark(name.strip(), t))
+    if not marks:
+        raise CalibrationError(f"{path}: no visits of marks")
+    return tuple(marks)
+
+
+def _number(text: str | None) -> float | None:
+    try:
+        value = float(text or "")
+    except ValueError:
+        return None
+    return value if isfinite(value) else None
+
+
+def _without_drift(calibration: Calibration) -> Calibration:
+    return Calibration(
+        insoles=calibration.insoles,
+        shoe=calibration.shoe,
+        limbs=calibration.limbs,
+        weight=calibration.weight,
+        modes=calibration.modes,
+    )
+
+
+_Visits = dict[str, list[tuple[float, Vec3]]]
+"""By mark: when it was stood on and where that seemed to be, world frame, m."""
+
+
+def _counted(steps: Sequence[StepTaken], steps_per_lap: int) -> _Visits:
+    if steps_per_lap < 4:
+        raise CalibrationError(f"{steps_per_lap} marks are no square")
+    if len(steps) < FEWEST_LAPS * steps_per_lap:
+        raise CalibrationError(f"{len(steps)} steps are less than {FEWEST_LAPS} laps of {steps_per_lap} marks")
+    visits: _Visits = {}
+    for number, step in enumerate(steps):
+        visits.setdefault(str(number % steps_per_lap), []).append((step.t, step.position))
+    return visits
+
+
+def _marked(steps: Sequence[StepTaken], marks: Sequence[Mark]) -> _Visits:
+    visits: _Visits = {}
+    ends = np.array([step.t for step in steps])
+    for mark in marks:
+        nearest = int(np.argmin(np.abs(ends - mark.t)))
+        if abs(ends[nearest] - mark.t) > NEAR:
+            raise CalibrationError(f"no step ends at mark {mark.name} near {mark.t:.2f} s")
+        visits.setdefault(mark.name, []).append((steps[nearest].t, steps[nearest].position))
+    return visits
+
+
+def _fitted(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], back: float) -> SquareDrift:
+    """One line for each mark that was visited often enough; `back` turns from the world's frame to the drift's, rad."""
+    slopes: list[tuple[float, float]] = []
+    moves: dict[int, list[tuple[float, float]]] = {}
+    used = 0
+    for places in visits.values():
+        t = np.array([at for at, _ in places])
+        if len(places) < FEWEST_LAPS or not np.all(np.diff(t) > 0.0):
+            continue
+        at = np.array([(x, y) for _, (x, y, _) in places])
+        late = t - t.mean()
+        sx, sy = (late @ (at - at.mean(axis=0))) / (late @ late)
+        slopes.append((float(sx), float(sy)))
+        used += len(places)
+        for lap, (dx, dy) in enumerate(np.diff(at, axis=0) / np.diff(t)[:, None]):
+            moves.setdefault(lap, []).append((float(dx), float(dy)))
+    if not slopes:
+        raise CalibrationError(f"no mark was stood on {FEWEST_LAPS} times")
+    x, y = (float(value) for value in np.mean(slopes, axis=0))
+    laps = np.array([np.mean(lap, axis=0) for lap in moves.values()])
+    scatter = float(np.sqrt(np.mean(laps.var(axis=0, ddof=1)) / len(laps))) if len(laps) > 1 else inf
+    size = hypot(x, y)
+    share = max(0.0, 1.0 - 2.0 * (scatter / size) ** 2) if size > 0.0 else 0.0
+    sx, sy, _ = rotate(from_yaw(back), (x, y, 0.0))
+    return SquareDrift(foot, (sx, sy), scatter, (share * sx, share * sy), len(slopes), used)
