@@ -1,0 +1,172 @@
+"""The ways of published experiments: they close, marks lie under steps, and every step has its mode."""
+
+from itertools import pairwise
+from math import hypot, pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from solepath.calibrate.modes import read_marks
+from solepath.sim.gait import Wearer
+from solepath.sim.laps import (
+    ACROSS,
+    ALONG,
+    CORRIDOR,
+    EDGE,
+    FIELD,
+    MARK_STEPS,
+    MARKS_APART,
+    PER_LAP,
+    RADII,
+    corners,
+    corridor,
+    field_walk,
+    marked,
+    marks,
+    modes,
+    rectangle,
+    square,
+    straight,
+    through,
+    write_marks,
+)
+from solepath.sim.route import Route
+from solepath.sim.walker import Walker
+from solepath.types import Foot, WalkingMode
+
+
+@pytest.fixture(scope="module")
+def laps() -> Walker:
+    return Walker(square(laps=3), seed=4)
+
+
+@pytest.mark.parametrize("route", [square(laps=2), corridor(), field_walk(120.0, 1.0), rectangle()])
+def test_rounds_end_where_they_began(route: Route) -> None:
+    end = route.end
+    assert hypot(end.x, end.y) == pytest.approx(0.0, abs=1e-9)
+    walker = Walker(route, seed=2)
+    for foot in Foot:
+        moved = walker.truth().pose(foot, walker.duration).position[0]
+        assert hypot(moved[0], moved[1]) < 0.5  # the feet stand the other way round, perhaps
+
+
+def test_routes_are_as_long_as_the_papers_say() -> None:
+    assert straight().length == pytest.approx(20.0)
+    assert corridor().length == pytest.approx(CORRIDOR)
+    assert square(laps=1).length == pytest.approx(4 * EDGE, rel=0.02)
+    assert rectangle(corner=0.0).length == pytest.approx(2 * (ALONG + ACROSS))
+    for mode in (WalkingMode.STRAIGHT, *RADII):
+        assert marked(mode).length == pytest.approx(MARK_STEPS * MARKS_APART)
+
+
+def test_a_lap_of_the_square_has_forty_marks_for_each_foot(laps: Walker) -> None:
+    found = marks(laps, PER_LAP)
+    for foot in Foot:
+        own = [mark for mark in found if mark.foot is foot]
+        assert [(mark.lap, mark.number) for mark in own] == [divmod(k, PER_LAP) for k in range(3 * PER_LAP)]
+        assert [mark.step for mark in own] == list(range(1, 3 * PER_LAP + 1))
+        for lap in (1, 2):
+            for one, again in zip(own[:PER_LAP], own[lap * PER_LAP : (lap + 1) * PER_LAP], strict=True):
+                assert hypot(one.x - again.x, one.y - again.y) < 1e-6
+        apart = [hypot(a.x - b.x, a.y - b.y) for a, b in pairwise(own)]
+        assert max(apart) < 1.35 and min(apart) > 0.75
+
+
+@pytest.mark.parametrize("mode", [None, WalkingMode.STRAIGHT, *RADII])
+def test_feet_come_down_on_their_marks_within_centimetres(laps: Walker, mode: WalkingMode | None) -> None:
+    walker = laps if mode is None else Walker(marked(mode), seed=5)
+    found = marks(walker)
+    missed = []
+    for mark in found:
+        stride = walker.plan.strides[mark.foot][mark.step - 1]
+        assert mark.t == stride.foot_flat == walker.truth().steps(mark.foot)[mark.step - 1].t_end
+        missed.append(hypot(stride.end.x - mark.x, stride.end.y - mark.y))
+    assert max(missed) < 0.06 and np.sqrt(np.mean(np.square(missed))) == pytest.approx(0.0156, rel=0.3)
+    if mode is not None:
+        assert len(found) == MARK_STEPS
+        assert {mark.mode for mark in found} == {mode}
+        apart = [hypot(a.x - b.x, a.y - b.y) for a, b in pairwise(found)]
+        assert np.mean(apart) == pytest.approx(MARKS_APART, abs=0.04)
+
+
+def test_marks_round_a_bend_lie_on_its_circle() -> None:
+    for mode, radius in RADII.items():
+        walker = Walker(marked(mode), seed=5)
+        for mark in marks(walker)[2:]:
+            away = hypot(mark.x, mark.y - radius)
+            assert away == pytest.approx(abs(radius), abs=0.5 * walker.wearer.step_width + 1e-6)
+
+
+def test_steps_are_labelled_by_the_bend_they_come_down_in() -> None:
+    route = (
+        Route().stand(1.0).walk(6.0, 1.1).turn(pi, 2.0).walk(4.0).turn(-pi / 2, 4.0).walk(4.0).turn(pi / 2).stop(1.0)
+    )
+    walker = Walker(route, seed=3)
+    found = modes(walker)
+    for foot in Foot:
+        labels = [label for label, before in zip(found[foot], [None, *found[foot]], strict=False) if label != before]
+        assert labels[:5] == [
+            WalkingMode.STRAIGHT,
+            WalkingMode.LEFT_TIGHT,
+            WalkingMode.STRAIGHT,
+            WalkingMode.RIGHT_WIDE,
+            WalkingMode.STRAIGHT,
+        ]
+        assert len(found[foot]) == len(walker.truth().steps(foot))
+        assert WalkingMode.STANDING in found[foot][-3:]
+
+
+def test_the_corners_of_the_rectangle_are_passed_in_order_and_a_is_stood_on() -> None:
+    walker = Walker(rectangle(), seed=6)
+    found = corners(walker)
+    assert [corner.name for corner in found] == ["B", "C", "D", "A"]
+    assert [corner.place[:2] for corner in found] == [(2.8, 0.0), (2.8, 4.0), (0.0, 4.0), (0.0, 0.0)]
+    assert all(a.t < b.t for a, b in pairwise(found))
+    for corner in found:
+        # A bend of 0.5 m passes its corner 0.21 m away; the body leans inwards besides.
+        assert hypot(corner.body[0] - corner.place[0], corner.body[1] - corner.place[1]) < 0.4
+        for foot in Foot:
+            step = walker.truth().steps(foot)[corner.steps[foot] - 1]
+            assert abs(step.t_end - corner.t) < 1.0
+            assert hypot(corner.feet[foot][0] - corner.body[0], corner.feet[foot][1] - corner.body[1]) < 0.7
+    (a,) = found[3:]
+    assert hypot(a.body[0], a.body[1]) < 0.08
+
+
+def test_a_rectangle_can_be_turned_on_the_spot() -> None:
+    walker = Walker(rectangle(corner=0.0), seed=6)
+    for corner in corners(walker):
+        assert hypot(corner.body[0] - corner.place[0], corner.body[1] - corner.place[1]) < 0.12
+
+
+def test_a_random_walk_keeps_to_its_field_and_its_time() -> None:
+    for seed in (1, 2):
+        route = field_walk(600.0, 1.2, seed)
+        assert route.length == pytest.approx(720.0, rel=0.15)
+        walker = Walker(route, seed=seed)
+        for foot in Foot:
+            places = np.array([(stride.end.x, stride.end.y) for stride in walker.plan.strides[foot]])
+            assert (np.abs(places) < 0.5 * np.array(FIELD) + 0.5).all()
+    assert field_walk(600.0, 1.2, 1) == field_walk(600.0, 1.2, 1) != field_walk(600.0, 1.2, 2)
+
+
+def test_bends_that_do_not_fit_are_refused() -> None:
+    with pytest.raises(ValueError, match="no room"):
+        through(Route().stand(1.0), [(1.0, 0.0), (1.0, 0.5), (0.0, 0.5)], 1.0, 1.0)
+    with pytest.raises(ValueError):
+        marked(WalkingMode.STANDING)
+
+
+def test_marks_are_written_as_the_calibration_reads_them(tmp_path: Path) -> None:
+    walker = Walker(marked(WalkingMode.LEFT_TIGHT, steps=12), seed=5)
+    write_marks(tmp_path / "marks.csv", marks(walker))
+    read = read_marks(tmp_path / "marks.csv")
+    assert [(mark.foot, mark.mode) for mark in read] == [(mark.foot, mark.mode) for mark in marks(walker)]
+    assert [mark.t for mark in read] == pytest.approx([mark.t for mark in marks(walker)], abs=1e-3)
+
+
+def test_who_aims_at_marks_keeps_their_pace() -> None:
+    walker = Walker(marked(WalkingMode.STRAIGHT), Wearer(time_variation=0.0), seed=5)
+    strides = walker.plan.strides[Foot.LEFT]
+    assert np.diff([s.heel_strike for s in strides[:-1]]) == pytest.approx(2 * MARKS_APART / 1.1)
