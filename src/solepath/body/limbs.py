@@ -134,6 +134,13 @@ class Segment:
             return turned
         return multiply(multiply(from_yaw(-heading), turned), from_yaw(heading))
 
+    def upright(self, t: float) -> float:
+        """Cosine of its lean from the vertical at `t` s."""
+        if self.standing is None:
+            return 1.0
+        _, x, y, _ = multiply(self.sensor_at(t), conjugate(self.standing))
+        return 1.0 - 2.0 * (x * x + y * y)
+
 
 @define
 class LowerLimbs:
@@ -205,6 +212,16 @@ class LowerLimbs:
         side = 0.5 if foot is Foot.LEFT else -0.5
         hip = (0.0, side * self.limbs.hip_width, 0.0)
         return foot_end(segments[Site.PELVIS].attitude(shared, t), thigh, shank, end, hip, self.limbs)
+
+    def height(self, foot: Foot, t: float) -> float:
+        """Of the sole below the ankle at `t` s, seen from the middle of the hips, m. Not that of the foot's end, P_Lz
+        and P_Rz of (4): in a chain without toes it dips below the floor when the heel comes up, and the foot that
+        pushes off would be the lower one."""
+        segments, limbs = self.segments, self.limbs
+        thigh, shank, end = [segments[site].upright(t) for site in LEGS[foot]]
+        side = 0.5 if foot is Foot.LEFT else -0.5
+        _, _, hip = rotate(segments[Site.PELVIS].attitude(self.heading or 0.0, t), (0.0, side * limbs.hip_width, 0.0))
+        return hip - limbs.thigh * thigh - limbs.shank * shank - limbs.ankle_height * end
 
     def forward(self, foot: Foot, t: float) -> tuple[float, float]:
         """Which way a foot points: a horizontal vector of the world frame, of length 1; (1, 0) when it points up."""

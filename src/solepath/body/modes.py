@@ -25,7 +25,7 @@ What the paper leaves open, and what is taken here:
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import atan2, cos, hypot, sin
+from math import atan2, cos, hypot, pi, sin
 
 from attrs import define, evolve, field
 
@@ -226,7 +226,7 @@ class Modes:
         """Take the heights of both feet, by the chain at the latest instant that it knows. Returns that instant, s."""
         complete = self.chain.complete() if self.chain.current(t) else None
         for foot, side in self.sides.items():
-            side.state.height = side.track[2] if complete is None else self.chain.end(foot, complete)[2]
+            side.state.height = side.track[2] if complete is None else self.chain.height(foot, complete)
         return t if complete is None else min(t, complete)
 
     def _awaited(self, t: float, known_at: float) -> list[Event]:
@@ -365,7 +365,7 @@ class Modes:
         if hypot(x, y) < LEAST_STEP:
             return
         turn = atan2(y, x)
-        self.chain.heading += turn
+        self.chain.heading = (self.chain.heading + turn + pi) % (2.0 * pi) - pi
         c, s = cos(turn), -sin(turn)
         for side in self.sides.values():
             (px, py, pz), (rx, ry), (dx, dy) = side.place, side.reach, side.direction
