@@ -1,8 +1,8 @@
 """Toe-off and heel-strike from the centre of pressure; the phases that follow from them.
 
-After Chen et al. 2019 (IEEE Internet of Things Journal 6), section III.C.2 and fig. 4. In the air the centre of pressure
-is set to the foot's centre. Along the foot it jumps there from the toes when the foot leaves the ground (from sample A
-to B of the figure), rests there in the air, and jumps from there to the heel when it lands (C to D).
+After Chen et al. 2019 (IEEE Internet of Things Journal 6), section III.C.2 and fig. 4. In the air the centre of
+pressure is set to the foot's centre. Along the foot it jumps there from the toes when the foot leaves the ground (from
+sample A to B of the figure), rests there in the air, and jumps from there to the heel when it lands (C to D).
 
 - Toe-off is the sample before the largest jump from motion start to the first sample of swing (point A).
 - Heel-strike is the sample after the largest jump from swing to motion end (point D).
@@ -99,6 +99,7 @@ class CopCues:
         """The device said where its cells are."""
         xs = [cell.x for cell in layout.cells]
         self.middle = 0.5 * (min(xs) + max(xs)) if xs else None
+        self.touch.wear(layout)
 
     def update(
         self,
@@ -159,10 +160,8 @@ class CopCues:
     def _step(self, t: float, stationary: bool, airborne: bool, load: Load) -> list[Seen]:
         was, before = self.cop, self.pressed_at
         self.pressed_at = t
-        if airborne:
-            now = self.middle
-        else:
-            now = was if load.centre is None else load.centre[0]
+        on_ground = was if load.centre is None else load.centre[0]
+        now = self.middle if airborne else on_ground
         self.cop = now
         jump = 0.0 if was is None or now is None else abs(now - was)
         if stationary and not airborne:
@@ -217,12 +216,12 @@ class CopCues:
         if self.stage is Stage.STANDING:
             return []
         found: list[Seen] = []
-        if self.stage is Stage.FLYING and self.airborne_since is not None:
-            if t - self.airborne_since >= self.rest - TIE:
-                # it came down flat: the first sample of stance is the one after the jump
-                self._enter(Stage.LANDING, t)
-                self.moment = t
-                self.mark = Cue.CONTACT
+        since = self.airborne_since
+        if self.stage is Stage.FLYING and since is not None and t - since >= self.rest - TIE:
+            # it came down flat: the first sample of stance is the one after the jump
+            self._enter(Stage.LANDING, t)
+            self.moment = t
+            self.mark = Cue.CONTACT
         if self.stage is Stage.LANDING:
             found += self._strike()
         found.append(Seen(Cue.FLAT, t))

@@ -12,7 +12,7 @@ from math import hypot, inf
 from attrs import define, evolve, field, frozen
 
 from ..calibration import Calibration, ShoeGeometry
-from ..types import Foot, Phase, Quat, Vec3
+from ..types import Foot, Layout, Phase, Quat, Vec3
 from ..vector import IDENTITY, TIE, ZERO
 from .dedrift import LinearDedrift
 from .kinematics import ROCKER_SHOE, Sagittal, velocity
@@ -64,6 +64,10 @@ class KnownVelocity:
     def calibrated(self, foot: Foot, calibration: Calibration) -> KnownVelocity:
         """The same for the wearer's own shoe."""
         return self if calibration.shoe is None else evolve(self, shoe=calibration.shoe)
+
+    def wear(self, layout: Layout) -> None:
+        """The device said where its cells are."""
+        self.touch.wear(layout)
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY

@@ -1,8 +1,10 @@
 """Whether a foot is on the ground or in the air, from its cells.
 
 Insoles of many cells tell by the total: whatever lies under the foot, some cells feel it. On one of few cells, a switch
-under heel and toe or eight sensors, a cell that is weak, or slow to let go, spoils the total; there every cell is
-looked at as a share of its own range, and the foot is in the air when none of them is loaded.
+under heel and toe or eight sensors, a cell that is weak, or slow to let go, spoils the total, and in mid-stance the load
+may lie between them. There every cell is looked at as a share of its own range. The foot is in the air when the rear
+cells have let go and the front ones too after they had pushed off; it is on the ground again when a rear cell is
+loaded, or a front one for more than the shoe's own pressure as the toes are raised in swing.
 
 What an insole shows in the air is learnt from the least that it showed (pressure.py), which is wrong before the first
 step and after a long stand: half of the wearer's weight is then the least. So what the cells say is believed
@@ -13,6 +15,7 @@ from __future__ import annotations
 
 from attrs import define, field
 
+from ..types import Layout
 from ..vector import TIE
 from .pressure import Extremes
 from .stance import Load
@@ -28,11 +31,15 @@ class Touch:
     on: float = 0.03
     """Many cells: on the ground above this share of the wearer's full load; in the air when `Load.airborne` says so."""
     cell_on: float = 0.20
-    """Few cells: a cell is loaded above this share of its own range of the last seconds,"""
+    """Few cells: one is loaded above this share of its own range of the last seconds."""
     cell_off: float = 0.10
-    """and unloaded below this."""
+    """Without a layout, which tells front from rear, all cells are unloaded below this."""
     contrast: float = 0.5
     """A cell's range is known once it is this share of its highest value."""
+    pushed: float = 0.50
+    """A front cell has pushed off, or landed first, above this share."""
+    stance: float = 0.3
+    """A foot that did not push off stays on the ground for so long, s."""
     weak: float = 0.10
     """A cell whose range is below this share of the widest one's tells nothing."""
     flight: float = 0.1
@@ -48,7 +55,18 @@ class Touch:
     """There was no load in the last sample."""
     airborne: bool = field(default=False, init=False)
     cells: list[Extremes] = field(factory=list, init=False)
-    loaded: list[bool] = field(factory=list, init=False)
+    ahead: list[bool] = field(factory=list, init=False)
+    """Which cells lie in the front half of the foot; empty without a layout."""
+    peak: float = field(default=0.0, init=False)
+    """The highest share of a front cell since the foot came down."""
+    landed: float = field(default=0.0, init=False)
+    """When that was, s."""
+
+    def wear(self, layout: Layout) -> None:
+        """The device said where its cells are."""
+        xs = [cell.x for cell in layout.cells]
+        middle = 0.5 * (min(xs, default=0.0) + max(xs, default=0.0))
+        self.ahead = [x > middle for x in xs]
 
     def update(self, t: float, load: Load | None, still: bool = False) -> bool:
         """True when the foot is in the air. `still`: it stands, whatever the cells say."""
@@ -86,21 +104,39 @@ class Touch:
     def _by_cell(self, t: float, values: tuple[float, ...]) -> bool:
         if len(self.cells) != len(values):
             self.cells = [Extremes() for _ in values]
-            self.loaded = [True] * len(values)
+            if len(self.ahead) != len(values):
+                self.ahead = []
         widest = 0.0
         for extremes, value in zip(self.cells, values, strict=True):
             extremes.update(t, value)
             widest = max(widest, extremes.high - extremes.low)
-        known = any_loaded = False
+        front = rear = 0.0
+        known = False
         for k, (extremes, value) in enumerate(zip(self.cells, values, strict=True)):
             reach = extremes.high - extremes.low
             if reach <= 0.0 or reach < self.contrast * extremes.high or reach < self.weak * widest:
                 continue
             known = True
             share = (value - extremes.low) / reach
-            self.loaded[k] = share > (self.cell_off if self.loaded[k] else self.cell_on)
-            any_loaded = any_loaded or self.loaded[k]
-        return known and not any_loaded
+            if self.ahead and self.ahead[k]:
+                front = max(front, share)
+            else:
+                rear = max(rear, share)
+        if not known:
+            return False
+        if not self.ahead:
+            return rear < (self.cell_on if self.airborne else self.cell_off)
+        if self.airborne:
+            if rear > self.cell_on or front > self.pushed:
+                self.peak = front
+                self.landed = t
+                return False
+            return True
+        self.peak = max(self.peak, front)
+        if self.peak > self.pushed:
+            return rear < self.cell_on and front < self.cell_on
+        # it has not pushed off: a valley in mid-stance, where the load lies between the cells, is no swing
+        return max(rear, front) < 0.5 * self.cell_off and t - self.landed >= self.stance
 
     def interrupt(self) -> None:
         """Times begin anew: the extremes are kept, but their spans end here."""
