@@ -1,0 +1,186 @@
+"""How the feet are worn: one that falls silent, and left and right exchanged."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from math import radians
+from typing import Any
+
+import pytest
+from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath import Session, machine
+from solepath.body.sides import Average
+from solepath.calibration import Calibration, InsoleCalibration
+from solepath.events import FeetSwapped, FootHeard, FootSilent, StepTaken
+from solepath.sim.insoles import layout
+from solepath.sim.route import Route
+from solepath.sim.walker import Walker
+from solepath.types import Foot, Sample, Site
+from walks import LEFT, RIGHT, of, samples
+
+WALK = Route().stand(1.5).walk(16.0, 1.2).turn(radians(90), radius=1.5).walk(6.0).stop(1.0)
+OTHER = {LEFT: RIGHT, RIGHT: LEFT}
+
+
+def exchanged(walk: tuple[Sample, ...]) -> tuple[Sample, ...]:
+    """The same with the device of each foot taken for the other's."""
+    return tuple(evolve(sample, site=OTHER[sample.site]) for sample in walk)
+
+
+@cache
+def walk(seed: int = 1) -> tuple[Sample, ...]:
+    return samples(WALK, cells=0, rate=50.0, seed=seed)
+
+
+def said(kind: Any, items: tuple[Sample, ...], session: Session | None = None) -> list[Any]:
+    return of(kind, (Session() if session is None else session).feed(items))
+
+
+# --- a foot that falls silent ---
+
+
+def without(foot: Site, begin: float, end: float) -> tuple[Sample, ...]:
+    return tuple(s for s in walk() if s.site is not foot or not begin <= s.t < end)
+
+
+@pytest.mark.parametrize("foot", [LEFT, RIGHT])
+def test_a_foot_that_gives_no_samples_while_the_other_walks_on_is_silent_until_it_is_heard(foot: Site) -> None:
+    told = said(FootSilent | FootHeard, without(foot, 6.0, 12.0))
+    assert [type(event) for event in told] == [FootSilent, FootHeard]
+    silent, heard = told
+    assert {event.foot for event in told} == {foot.foot}
+    assert 8.9 < silent.t < 11.0
+    assert silent.silent_for == pytest.approx(silent.t - 6.0, abs=0.05)
+    assert heard.t == pytest.approx(12.0, abs=0.05)
+    assert heard.silent_for == pytest.approx(6.0, abs=0.05)
+
+
+def test_the_foot_that_is_left_takes_its_steps_as_before() -> None:
+    alone = [s for s in said(StepTaken, without(RIGHT, 6.0, 1e9)) if s.foot is Foot.LEFT]
+    assert alone == [s for s in said(StepTaken, walk()) if s.foot is Foot.LEFT]
+
+
+def test_a_short_silence_and_a_foot_that_was_never_heard_are_not_told() -> None:
+    assert said(FootSilent | FootHeard, without(RIGHT, 6.0, 8.0)) == []
+    assert said(FootSilent | FootHeard, tuple(s for s in walk() if s.site is LEFT)) == []
+
+
+def test_while_the_wearer_stands_nobody_is_missed() -> None:
+    standing = samples(Route().stand(8.0), cells=0, rate=50.0)
+    assert said(FootSilent, tuple(s for s in standing if s.site is LEFT or s.t < 2.0)) == []
+
+
+def test_a_foot_that_stays_away_is_told_once() -> None:
+    assert len(said(FootSilent, without(LEFT, 4.0, 1e9))) == 1
+
+
+# --- left and right exchanged ---
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_exchanged_feet_are_told_once_within_ten_steps_of_each(seed: int) -> None:
+    session = Session()
+    told = session.feed(exchanged(walk(seed)))
+    (swapped,) = of(FeetSwapped, told)
+    before = [step.foot for step in of(StepTaken, told) if step.t <= swapped.t]
+    assert 8 <= before.count(Foot.LEFT) <= 12
+    assert 8 <= before.count(Foot.RIGHT) <= 12
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_feet_that_are_worn_as_they_should_be_are_not_taken_for_exchanged(seed: int) -> None:
+    assert said(FeetSwapped, walk(seed)) == []
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("seed", range(1, 21))
+def test_twenty_walks_of_many_speeds_are_told_apart_from_their_exchanged_selves(seed: int) -> None:
+    turn = radians(90.0 if seed % 2 else -120.0)
+    route = Route().stand(1.5).walk(18.0, 0.8 + 0.04 * seed).turn(turn, radius=1.5).walk(8.0).stop(1.0)
+    both = samples(route, cells=24, seed=seed)
+    assert said(FeetSwapped, both) == []
+    assert len(said(FeetSwapped, exchanged(both))) == 1
+
+
+def test_one_foot_alone_is_never_taken_for_the_other() -> None:
+    assert said(FeetSwapped, tuple(s for s in exchanged(walk()) if s.site is LEFT)) == []
+
+
+def test_both_devices_on_the_same_foot_are_not_exchanged() -> None:
+    left = [s for s in walk() if s.site is LEFT]
+    twice = tuple(x for s in left for x in (s, evolve(s, site=RIGHT)))
+    assert said(FeetSwapped, twice) == []
+
+
+def test_layouts_of_the_other_foot_on_both_sides_are_told_after_a_step() -> None:
+    mirrored = Calibration({foot: InsoleCalibration(layout(24, other)) for foot, other in _MIRRORED.items()})
+    session = Session(calibration=mirrored)
+    told = session.feed(samples(WALK, rate=50.0))
+    (swapped,) = of(FeetSwapped, told)
+    assert len([step for step in of(StepTaken, told) if step.t <= swapped.t]) <= 2
+
+
+_MIRRORED = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
+
+
+def pressure_alone(numbered_alike: bool) -> tuple[tuple[Sample, ...], Calibration]:
+    """A walk of insoles without inertial sensors, and where their cells are. Numbered alike: cell k of the left insole
+    lies where cell k of the right one does, seen from above, and not where its mirror image does."""
+    walker = Walker(WALK, seed=1)
+    there = {foot: layout(24, Foot.LEFT if numbered_alike else foot) for foot in Foot}
+    both = [
+        evolve(sample, acc=None, gyro=None)
+        for foot in Foot
+        for sample in walker.samples(foot, 50.0, layout=evolve(there[foot], foot=foot))
+    ]
+    known = {foot: InsoleCalibration(evolve(there[foot], foot=foot)) for foot in Foot}
+    return tuple(sorted(both, key=_time)), Calibration(known)
+
+
+def _time(sample: Sample) -> float:
+    return sample.t
+
+
+def test_without_inertial_sensors_the_centre_of_pressure_tells_exchanged_feet() -> None:
+    both, known = pressure_alone(numbered_alike=True)
+    assert said(FeetSwapped, both, Session(calibration=known)) == []
+    assert len(said(FeetSwapped, exchanged(both), Session(calibration=known))) == 1
+
+
+def test_insoles_numbered_as_mirror_images_look_alike_when_exchanged_and_nothing_is_said() -> None:
+    both, known = pressure_alone(numbered_alike=False)
+    assert said(FeetSwapped, both, Session(calibration=known)) == []
+    assert said(FeetSwapped, exchanged(both), Session(calibration=known)) == []
+
+
+# --- any input ---
+
+
+@given(st.integers(0, 10_000))
+@settings(max_examples=5, deadline=None)
+def test_a_session_saved_at_any_moment_goes_on_to_tell_the_same(cut: int) -> None:
+    items = exchanged(without(LEFT, 6.0, 10.0))
+    k = cut % len(items)
+    session = Session()
+    told = session.feed(items[:k])
+    session = Session.restore(json.loads(json.dumps(session.snapshot(), allow_nan=False)))
+    told += session.feed(items[k:])
+    kinds = FeetSwapped | FootSilent | FootHeard
+    assert of(kinds, told) == said(kinds, items)
+    assert of(kinds, told) != []
+
+
+@given(st.lists(st.floats(-10.0, 10.0), min_size=1, max_size=60), st.floats(-5.0, 5.0))
+def test_an_average_is_a_number_between_the_lowest_and_the_highest(values: list[float], limit: float) -> None:
+    average = Average()
+    for value in values:
+        average.add(value)
+    assert min(values) - 1e-9 <= average.mean <= max(values) + 1e-9
+    assert average.variance >= 0.0
+    assert not average.beyond(max(values), 1)
+    assert not average.beyond(limit, len(values) + 1)
+    assert machine.load(Average, machine.save(average)) == average
