@@ -150,7 +150,7 @@ def test_rates_and_forces_of_body_sensors_are_those_of_their_motion(walker: Walk
     half = found.attitude[:-1]
     turned = multiplied(half * (1.0, -1.0, -1.0, -1.0), found.attitude[1:])
     middle = 0.5 * (found.rate[1:] + found.rate[:-1])
-    assert 2.0 * turned[:, 1:] / 0.001 == pytest.approx(middle, abs=0.02)
+    assert 2.0 * turned[:, 1:] / 0.001 == pytest.approx(middle, abs=0.03)  # differences of 1 ms
     moved = found.position[-1] - found.position[0]
     assert np.trapezoid(found.velocity, t, axis=0) == pytest.approx(moved, abs=1e-4)
     felt = np.einsum("nij,nj->ni", matrices(found.attitude), found.force) - (0.0, 0.0, GRAVITY)
