@@ -41,7 +41,8 @@ class Insole:
     `ticks`: rate error and reading of the clock at its first sample; drawn when None. `quaternion`: send the device's
     own attitude too, with the errors of `attitude` in a world whose x axis is turned by `north` rad from the walk's;
     when `attitude` is None it is half a degree off in tilt, all the time, and has a heading of its own. `tells_full`:
-    a frame with a cell at its limit says so; a device whose cells are a unit of their own cannot.
+    a frame with a cell at its limit says so; a device whose cells are a unit of their own cannot. `broken`: cells that
+    always say the same, and the count that each says.
     """
 
     cells: int | Layout = 96
@@ -59,6 +60,7 @@ class Insole:
     ticks: int | None = None
     firmware: str = "emulated 1"
     tells_full: bool = True
+    broken: tuple[tuple[int, int], ...] = ()
 
     def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
         signal = self.measure(walker, site, rng)
@@ -88,6 +90,10 @@ class Insole:
         loads = read_cells(
             walker.cell_loads(shape, when.taken), when.taken, self.cell_part, shape.scale or SCALE, rng, lift=lift
         )
+        full = loads.saturated
+        for cell, count in self.broken:
+            loads.counts[:, cell] = count
+            full = full | (count >= 4095)
         attitude = self._attitudes(sample(motion.attitude, when), when.taken, rng)
         return InsoleSignal(
             layout=shape,
@@ -100,7 +106,7 @@ class Insole:
             cells=loads.counts.astype(np.int16),
             imu=np.concatenate((acc.counts, gyro.counts), axis=1).astype(np.int16) if self.imu else None,
             quats=attitude,
-            full=acc.saturated | gyro.saturated | (loads.saturated & self.tells_full),
+            full=acc.saturated | gyro.saturated | (full & self.tells_full),
         )
 
     @property

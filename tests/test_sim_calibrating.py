@@ -1,0 +1,103 @@
+"""What is measured by hand for calibrations is what is true of the emulated shoe and insole, to a hand's accuracy."""
+
+from math import cos, radians, sin
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from solepath.calibrate.newton import fit_gauge
+from solepath.calibrate.shoe import fit_shoe
+from solepath.sim.gauge import MOST, RPPS_99, TWELVE_BIT, Characteristic, gauge, uncalibrated, write_gauge
+from solepath.sim.insoles import layout
+from solepath.sim.postures import PITCHES, REPEATED, posture, postures, write_postures
+from solepath.sim.route import Route
+from solepath.sim.shoe import IN_SOLE, Mounting, Shoe
+from solepath.sim.walker import Walker
+from solepath.types import Foot
+
+
+@pytest.mark.parametrize("mounting", [IN_SOLE, Mounting((0.10, 0.0, 0.04))])
+def test_with_the_lengths_of_a_posture_the_paper_s_equations_give_the_way_of_the_sensor(mounting: Mounting) -> None:
+    """(6) of Chen et al. 2019: P_h = L_r cos - H sin, P_z = L_r sin + H cos; the toe is P_h + L_p2t ahead."""
+    walker = Walker(Route().stand(1.0).walk(6.0, 1.3).stop(1.0), seed=3)
+    shoe, height = walker.wearer.shoe, mounting.position[2]
+    stride = walker.plan.strides[Foot.LEFT][2]
+    t = np.linspace(stride.heel_off + 1e-6, stride.toe_off - 1e-6, 30)
+    true = walker.kinematics(Foot.LEFT, t, mounting).position
+    yaw = np.array([cos(stride.start.yaw), sin(stride.start.yaw)])
+    ahead = (true[:, :2] - (stride.start.x, stride.start.y)) @ yaw + shoe.ankle[0]
+    for k, pitch in enumerate((-walker.motions[Foot.LEFT].pitch(t)).tolist()):
+        at = posture(pitch, shoe, mounting)
+        back = at.radius * cos(pitch) - height * sin(pitch) + at.to_toe
+        assert shoe.length - back == pytest.approx(ahead[k], abs=1e-9)
+        assert at.radius * sin(pitch) + height * cos(pitch) == pytest.approx(true[k, 2], abs=1e-9)
+
+
+def test_a_flat_shoe_has_the_distances_of_its_parts() -> None:
+    flat, shoe = posture(0.0), Shoe()
+    assert flat.radius == pytest.approx(shoe.forefoot.x - 0.125)
+    assert flat.to_toe == pytest.approx(shoe.length - shoe.forefoot.x)
+
+
+def test_five_postures_are_measured_three_times_to_the_millimetre() -> None:
+    found = postures(seed=3)
+    assert len(found) == len(PITCHES) * REPEATED == 15
+    assert found == postures(seed=3) != postures(seed=4)
+    for k, one in enumerate(found):
+        assert one.pitch == pytest.approx(PITCHES[k // REPEATED], abs=radians(5))
+        assert one.radius == pytest.approx(posture(one.pitch).radius, abs=0.0025)
+        assert one.to_toe == pytest.approx(posture(one.pitch).to_toe, abs=0.0025)
+        assert round(1000 * one.radius, 6) % 1 == 0.0
+
+
+def test_the_calibration_of_a_shoe_reads_the_postures_and_finds_the_shoe(tmp_path: Path) -> None:
+    write_postures(tmp_path / "postures.csv", postures(seed=3))
+    fitted = fit_shoe(tmp_path / "postures.csv")
+    shoe = fitted.calibration.shoe
+    assert shoe is not None and fitted.postures >= 5 and fitted.measurements == 15
+    assert (shoe.heel_radius, shoe.height) == (0.125, 0.029)
+    for pitch in np.linspace(0.2, 0.95, 5).tolist():
+        radius, to_toe = (
+            sum(c * pitch**k for k, c in enumerate(curve)) for curve in (shoe.forefoot_radius, shoe.pivot_to_toe)
+        )
+        assert radius == pytest.approx(posture(pitch).radius, abs=0.0015)
+        assert to_toe == pytest.approx(posture(pitch).to_toe, abs=0.0015)
+
+
+@pytest.mark.parametrize("characteristic", [RPPS_99, TWELVE_BIT])
+def test_counts_rise_with_the_force_and_lead_back_to_it(characteristic: Characteristic) -> None:
+    forces = np.linspace(1.0, 195.0, 50)
+    counts = characteristic.counts(forces)
+    assert (np.diff(counts) > 0).all() and counts.max() < characteristic.full
+    assert characteristic.newtons(counts) == pytest.approx(forces, abs=0.1)
+    assert characteristic.counts(np.array([-5.0, 0.0, 1e4])).tolist() == [0.0, 0.0, characteristic.full]
+    assert np.ptp(np.diff(counts) / np.diff(forces)) > 0.3 * np.mean(np.diff(counts) / np.diff(forces))  # no line
+
+
+def test_the_calibration_of_newtons_reads_the_gauge_and_finds_the_cubic(tmp_path: Path) -> None:
+    pressed = gauge(seed=5)
+    assert pressed == gauge(seed=5) != gauge(seed=6)
+    assert all(0.0 <= one.newtons <= MOST for one in pressed)
+    write_gauge(tmp_path / "gauge.csv", pressed)
+    found = fit_gauge(tmp_path / "gauge.csv").newtons
+    counts = RPPS_99.counts(np.linspace(10.0, 190.0, 19))
+    fitted = np.polynomial.polynomial.polyval(counts, found.coefficients)
+    assert fitted == pytest.approx(RPPS_99.newtons(counts), rel=0.015, abs=0.5)
+
+
+def test_a_gauge_is_off_by_its_accuracy() -> None:
+    off = [
+        one.newtons / float(RPPS_99.newtons(np.array([one.counts]))[0]) - 1.0
+        for seed in range(60)
+        for one in gauge(seed=seed, forces=(100.0, 150.0), noise=0.0)
+    ]
+    assert np.std(off) == pytest.approx(0.005, rel=0.3)
+
+
+def test_an_uncalibrated_insole_says_counts_where_others_say_newtons() -> None:
+    walker = Walker(Route().stand(1.0).walk(2.0, 1.2).stop(1.0), seed=1)
+    samples = walker.samples(Foot.LEFT, 50.0, layout=layout(99, Foot.LEFT))
+    for one, raw in zip(samples, uncalibrated(samples), strict=True):
+        assert raw.acc == one.acc and raw.t == one.t
+        assert RPPS_99.newtons(np.array(raw.pressure)) == pytest.approx(np.array(one.pressure), abs=0.1)
