@@ -1,9 +1,9 @@
 """Whether a foot is on the ground or in the air, from its cells.
 
-Insoles of many cells tell by the total: whatever lies under the foot, some cells feel it. On one of few cells, a switch
-under heel and toe or eight sensors, a cell that is weak, or slow to let go, spoils the total, and in mid-stance the load
-may lie between them. There every cell is looked at as a share of its own range. The foot is in the air when the rear
-cells have let go and the front ones too after they had pushed off; it is on the ground again when a rear cell is
+Insoles of many cells tell by the total: whatever lies under the foot, some cells feel it. On one of few, a switch
+under heel and toe or eight sensors, a cell that is weak, or slow to let go, spoils the total, and in mid-stance the
+load may lie between them. There every cell is looked at as a share of its own range. The foot is in the air when the
+rear cells have let go and the front ones too after they had pushed off; it is on the ground again when a rear cell is
 loaded, or a front one for more than the shoe's own pressure as the toes are raised in swing.
 
 What an insole shows in the air is learnt from the least that it showed (pressure.py), which is wrong before the first
@@ -28,7 +28,7 @@ FEW = 16
 class Touch:
     """Latency: none. A foot of which nothing is known yet is on the ground."""
 
-    on: float = 0.03
+    on: float = 0.07
     """Many cells: on the ground above this share of the wearer's full load; in the air when `Load.airborne` says so."""
     cell_on: float = 0.20
     """Few cells: one is loaded above this share of its own range of the last seconds."""
