@@ -123,16 +123,16 @@ class Segment:
         j = k - 1.0 if aw * bw + ax * bx + ay * by + az * bz < 0.0 else 1.0 - k
         return normalise((j * aw + k * bw, j * ax + k * bx, j * ay + k * by, j * az + k * bz))
 
-    def attitude(self, shared: float, t: float) -> Quat:
-        """Segment to world (x along the first heading) at `t` s. `shared`: the first heading in the devices' world,
-        rad."""
+    def attitude(self, facing: float, turn: float, t: float) -> Quat:
+        """Segment to world at `t` s. `facing`: where the wearer looked in the N-pose, in the devices' world, rad;
+        `turn`: from there to the x axis of the world."""
         if self.standing is None:
             return IDENTITY
-        heading = (self.heading or 0.0) if self.own else shared
+        looked = (self.heading or 0.0) if self.own else facing
         turned = multiply(self.sensor_at(t), conjugate(self.standing))
-        if heading == 0.0:
+        if looked == turn == 0.0:
             return turned
-        return multiply(multiply(from_yaw(-heading), turned), from_yaw(heading))
+        return multiply(multiply(from_yaw(-looked - turn), turned), from_yaw(looked))
 
     def upright(self, t: float) -> float:
         """Cosine of its lean from the vertical at `t` s."""
@@ -147,10 +147,12 @@ class LowerLimbs:
     """The chain of one wearer: attitudes in, the ends of both feet out."""
 
     limbs: Limbs = field(factory=Limbs)
-    heading: float | None = None
-    """The first heading in the world that the devices share, rad, where it is known beforehand, as on a floor that was
-    surveyed; None: it is that of the first step."""
+    facing: float | None = None
+    """Where the wearer looks in the N-pose, in the world that the devices share, rad, if it is known beforehand, as on
+    a floor that was surveyed; None: where the first step goes."""
     # state
+    turn: float = field(default=0.0, init=False)
+    """From there to the x axis of the world, rad."""
     segments: dict[Site, Segment] = field(init=False)
     aligned: bool = field(default=False, init=False)
     given_up: bool = field(default=False, init=False)
@@ -199,6 +201,9 @@ class LowerLimbs:
         """The sites above the ankles that nothing was heard of."""
         return tuple([site for site in ABOVE if self.segments[site].t is None])
 
+    def _attitude(self, site: Site, t: float) -> Quat:
+        return self.segments[site].attitude(self.facing or 0.0, self.turn, t)
+
     def complete(self) -> float | None:
         """Up to when every segment's attitude is known, s."""
         times = [segment.t for segment in self.segments.values() if segment.t is not None]
@@ -206,12 +211,10 @@ class LowerLimbs:
 
     def end(self, foot: Foot, t: float) -> Vec3:
         """P_L or P_R at `t` s: the end of the foot seen from the middle of the hips, world frame, m."""
-        shared = self.heading or 0.0
-        segments = self.segments
-        thigh, shank, end = [segments[site].attitude(shared, t) for site in LEGS[foot]]
+        thigh, shank, end = [self._attitude(site, t) for site in LEGS[foot]]
         side = 0.5 if foot is Foot.LEFT else -0.5
         hip = (0.0, side * self.limbs.hip_width, 0.0)
-        return foot_end(segments[Site.PELVIS].attitude(shared, t), thigh, shank, end, hip, self.limbs)
+        return foot_end(self._attitude(Site.PELVIS, t), thigh, shank, end, hip, self.limbs)
 
     def height(self, foot: Foot, t: float) -> float:
         """Of the sole below the ankle at `t` s, seen from the middle of the hips, m. Not that of the foot's end, P_Lz
@@ -220,25 +223,25 @@ class LowerLimbs:
         segments, limbs = self.segments, self.limbs
         thigh, shank, end = [segments[site].upright(t) for site in LEGS[foot]]
         side = 0.5 if foot is Foot.LEFT else -0.5
-        _, _, hip = rotate(segments[Site.PELVIS].attitude(self.heading or 0.0, t), (0.0, side * limbs.hip_width, 0.0))
+        _, _, hip = rotate(self._attitude(Site.PELVIS, t), (0.0, side * limbs.hip_width, 0.0))
         return hip - limbs.thigh * thigh - limbs.shank * shank - limbs.ankle_height * end
 
     def forward(self, foot: Foot, t: float) -> tuple[float, float]:
         """Which way a foot points: a horizontal vector of the world frame, of length 1; (1, 0) when it points up."""
-        x, y, _ = rotate(self.segments[LEGS[foot][2]].attitude(self.heading or 0.0, t), (1.0, 0.0, 0.0))
+        x, y, _ = rotate(self._attitude(LEGS[foot][2], t), (1.0, 0.0, 0.0))
         length = hypot(x, y)
         return (x / length, y / length) if length > 1e-6 else (1.0, 0.0)
 
     def stepped(self, foot: Foot, t: float) -> None:
-        """The foot has come down at `t` s: the first step tells the first heading. Hips and feet are left out of it,
-        so that the heading need not be known for it: legs that hang down do so whatever they face."""
-        if self.heading is not None or not self.aligned:
+        """The foot has come down at `t` s: the first step tells where the wearer looked. Hips and feet are left out of
+        it, so that this need not be known for it: legs that hang down do so whatever they face."""
+        if self.facing is not None or not self.aligned:
             return
         x = y = 0.0
         for leg, sign in ((foot, 1.0), (Foot.LEFT if foot is Foot.RIGHT else Foot.RIGHT, -1.0)):
             for site, length in zip(LEGS[leg], (self.limbs.thigh, self.limbs.shank), strict=False):
-                dx, dy, _ = rotate(self.segments[site].attitude(0.0, t), (0.0, 0.0, -length))
+                dx, dy, _ = rotate(self.segments[site].attitude(0.0, 0.0, t), (0.0, 0.0, -length))
                 x += sign * dx
                 y += sign * dy
         if hypot(x, y) > FIRST_WAY:
-            self.heading = atan2(y, x)
+            self.facing = atan2(y, x)

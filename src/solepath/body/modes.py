@@ -106,7 +106,8 @@ class Side:
 @define
 class Modes:
     """See above. `compensation`: epsilon_P, None for methods I to III. `weight`: of the wearer, N; None: it is learnt
-    as the mean of what both feet bear. `heading`: see `LowerLimbs`. `th`: see mode.py."""
+    as the mean of what both feet bear. `heading`: where the wearer looks at the start, in the world that the devices
+    share, rad, where it is known (`LowerLimbs.facing`). `th`: see mode.py."""
 
     touchdown: AnyTouchdown = field(factory=MaximumPressure)
     compensation: Compensation | None = None
@@ -358,14 +359,14 @@ class Modes:
     def _head(self) -> None:
         """x along the first heading: until the wearer has gone `FIRST_WAY`, the world is turned so that the way so far
         lies along it. One footfall is half a foot's width to the left or right of where it might have been."""
-        if self.headed or self.chain.heading is None:
+        if self.headed or self.chain.facing is None:
             return
         left, right = self.sides.values()
         x, y = left.place[0] + right.place[0], left.place[1] + right.place[1]
         if hypot(x, y) < LEAST_STEP:
             return
         turn = atan2(y, x)
-        self.chain.heading = (self.chain.heading + turn + pi) % (2.0 * pi) - pi
+        self.chain.turn = (self.chain.turn + turn + pi) % (2.0 * pi) - pi
         c, s = cos(turn), -sin(turn)
         for side in self.sides.values():
             (px, py, pz), (rx, ry), (dx, dy) = side.place, side.reach, side.direction
