@@ -19,13 +19,12 @@ cells is taken for another insole after `patience`.
 
 from __future__ import annotations
 
-from math import isfinite
-
 from attrs import define, field
 
 from ..events import CellFault, CellsFailed, Event, InsoleNeverUnloads
 from ..types import Layout, Phase, Site, Vec3
 from .cells import Span, enclosed, spacing
+from .refusal import ABSURD_TOTAL
 
 RARELY = 0.0795
 """Cells are looked at this often, s: a load under the toes lasts about 0.15 s."""
@@ -51,7 +50,7 @@ USED_TO_ALONE = 8
 FEW = 4
 FULL = 0.99
 """From this share of its range a cell is at the end of it."""
-HELD = 0.4
+HELD = 0.3
 """An insole in newtons does not unload when it never shows less than this share of its highest load;"""
 HELD_IN_COUNTS = 0.9
 """one whose zero is not known, this share."""
@@ -61,8 +60,8 @@ UNMOVED = 0.01
 
 @define
 class CellHealth:
-    """The cells of one insole. `update` with every sample that has cells, in the order of their time, and take what
-    `usable` leaves of it. Costs a sum a sample, and 12 times a second the lowest and highest of each cell."""
+    """The cells of one insole. `update` with every sample, in the order of their time, and take what `usable` leaves of
+    it. Costs a sum a sample, and 12 times a second the lowest and highest of each cell."""
 
     site: Site
     swings: int = 4
@@ -93,8 +92,8 @@ class CellHealth:
     """In how many windows in a row each cell was."""
     numberless: list[tuple[int, float]] = field(factory=list, init=False)
     """Cells without a number now, and since when, s."""
-    odd: int = field(default=0, init=False)
-    """The wrong number of cells that samples have now; 0 when it is right."""
+    odd: int | None = field(default=None, init=False)
+    """The wrong number of cells that samples have now."""
     odd_since: float = field(default=0.0, init=False)
     odd_said: bool = field(default=False, init=False)
     held: int = field(default=0, init=False)
@@ -116,16 +115,17 @@ class CellHealth:
     def interrupt(self) -> None:
         """Times begin anew: windows do too. What has failed stays failed."""
         self.looked = self.began = self.swing = None
-        self.span, self.swung, self.numberless, self.odd, self.odd_since = Span(), 0, [], 0, 0.0
+        self.span, self.swung, self.numberless, self.odd = Span(), 0, [], None
 
     def update(
         self, t: float, known_at: float, cells: tuple[float, ...], phase: Phase, gyro: Vec3 | None = None
     ) -> list[Event]:
-        """The cells of a sample taken at `t` s, not seen to in any way; `phase` of the foot, `gyro` in rad/s."""
+        """The cells of a sample taken at `t` s, not seen to in any way, () where it has none (inertial sensor and cells
+        may come apart); `phase` of the foot, `gyro` in rad/s."""
         events: list[Event] = []
         if len(cells) != self.count and not self._counted(t, known_at, len(cells), events):
             return events
-        self.odd = 0
+        self.odd = None
         if self.numberless or not _numbers(cells):
             self._watch_numbers(t, known_at, cells, events)
             cells = self.usable(cells)
@@ -165,6 +165,8 @@ class CellHealth:
     def _counted(self, t: float, known_at: float, count: int, events: list[Event]) -> bool:
         """Samples have another number of cells; True when that is right from now on."""
         if self.count == 0:
+            if count == 0:
+                return False
             self._anew(count)
             return True
         if count != self.odd or t < self.odd_since:
@@ -172,11 +174,11 @@ class CellHealth:
             return False
         if t - self.odd_since < self.patience:
             return False
-        if not self.odd_said or self.layout is None:
+        if not self.odd_said:
             missing = tuple(range(count, self.count)) or tuple(range(self.count, count))
             self.odd_said = True
             self._say(t, known_at, CellFault.MISSING, missing, events)
-        if self.layout is None:
+        if self.layout is None and count:
             self._anew(count)
             return True
         return False
@@ -314,12 +316,12 @@ class CellHealth:
 
 
 def _number(value: float | None) -> bool:
-    return value is not None and isfinite(value)
+    return value is not None and -ABSURD_TOTAL < value < ABSURD_TOTAL
 
 
 def _numbers(cells: tuple[float, ...]) -> bool:
     """All of them are numbers."""
     try:
-        return isfinite(sum(cells))
-    except TypeError:
+        return -ABSURD_TOTAL < sum(cells) < ABSURD_TOTAL
+    except (TypeError, OverflowError):
         return False
