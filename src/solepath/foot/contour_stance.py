@@ -56,22 +56,24 @@ class GyroscopeMagnitude:
 @define
 class ContourVelocity:
     """The contours of the loaded heel move by no more than `threshold` (3), so the shoe stands still; until they move
-    by more than `leave`, or the heel is no longer loaded. The statistic is their speed, m/s.
+    by more than `leave` for longer than `hold`, or the heel is no longer loaded. The statistic is their speed, m/s.
 
     `leave` is higher because what is left of the load near heel-off makes noisy contours, and a foot that has stood
     does not move while its heel carries weight. Latency: that of `Contours`, 50 ms after the contours have stopped.
 
     Where no contour can be had (no cells, unknown places, too few under the heel), and as long as the wearer's full
-    load is not known, the gyroscope stands in. So it does where a loaded heel has had no contour for `blind` s: in a
-    tight bend it stands on its edge, with hardly any pressure about its centre.
+    load is not known, the gyroscope stands in. So it does once a heel has borne weight for `blind` s and its contours
+    have not come to rest: in a tight bend it stands on its edge, and what contours lie over cells are cut off.
     """
 
     threshold: float = 0.004
     """v_thrsh of (3): the paper's sensing bias, m/s."""
     leave: float = 0.020
+    hold: float = 0.03
+    """s."""
     loaded: float = 0.12
     """The heel carries at least this share of the wearer's full load."""
-    blind: float = 0.1
+    blind: float = 0.2
     sigma: float = 0.01
     contours: Contours = field(factory=Contours)
     baseline: GyroscopeMagnitude = field(factory=GyroscopeMagnitude)
@@ -86,7 +88,7 @@ class ContourVelocity:
     """Samples in the air so far, up to `TARE_SAMPLES`."""
     still: bool = field(default=False, init=False)
     seen: float | None = field(default=None, init=False)
-    """When contours last existed, or else when the heel came down; None while it carries too little, s."""
+    """When contours last were at rest, or else when the heel came down; None while it carries too little, s."""
 
     def wear(self, layout: Layout) -> None:
         """The device said where its cells are."""
@@ -116,13 +118,15 @@ class ContourVelocity:
         cells = load.cells
         above = [cells[i] - zero for i, zero in zip(self.contours.cells, self.tare, strict=True)]
         velocity = self.contours.velocity(t, above)
-        if self.seen is None or velocity is not None or self.seen > t:
+        if self.seen is None or self.seen > t:
             self.seen = t
-        if velocity is None:
-            self.still = False
-            return otherwise if t - self.seen >= self.blind - TIE else Stance(ZERO, inf, 0.0, None)
-        speed = hypot(*velocity)
-        self.still = speed <= (self.leave if self.still else self.threshold)
+        speed = hypot(*(velocity or ZERO))
+        if velocity is not None and speed <= (self.leave if self.still else self.threshold):
+            self.still = True
+            self.seen = t
+        self.still = self.still and t - self.seen <= self.hold + TIE
         if self.still:
             return Stance(ZERO, self.sigma, speed, Phase.STATIONARY)
+        if t - self.seen >= self.blind - TIE:
+            return otherwise
         return Stance(ZERO, inf, speed, None)
