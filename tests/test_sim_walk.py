@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 from solepath.link import profile as profiles
+from solepath.link.decoder import Decoder
 from solepath.sim.device import SETUP, Device, Notification
 from solepath.sim.gait import Wearer
 from solepath.sim.insole_device import ACC_COUNT, GYRO_COUNT, TICK_RATE, Insole
+from solepath.sim.insoles import heel_array
 from solepath.sim.parts import CellPart, Imu, Triad
 from solepath.sim.radio import Radio
 from solepath.sim.route import Route
@@ -18,8 +20,8 @@ from solepath.sim.sensors import air_pressure
 from solepath.sim.sensortags import CC2541, CC2650, T5400_CALIBRATION, raw_air
 from solepath.sim.sensortags import GYRO_COUNT as TAG_GYRO_COUNT
 from solepath.sim.shoe import IN_SOLE, ON_INSTEP, Mounting
-from solepath.sim.walk import emulate
-from solepath.types import Foot, Packet, Phase, Site
+from solepath.sim.walk import emulate, sampled
+from solepath.types import Foot, Packet, Phase, Sample, Site
 from solepath.vector import GRAVITY, from_rotation_vector
 from solepath.wire import cc2541, cc2650
 from solepath.wire.fragment import parse_fragment
@@ -107,6 +109,28 @@ def test_what_an_insole_sends_sums_up_to_the_load() -> None:
             load = sum(parse_frame(packet.data).samples[0].cells) * info.pressure_scale
             true = walk.walker.loads.total(Foot.RIGHT, np.array([packet.t - 1e-3]))[0]
             assert load == pytest.approx(true, abs=99 * 0.5 * info.pressure_scale + 1e-6)
+
+
+def test_a_sampled_walk_has_what_a_perfect_link_makes_of_the_packets() -> None:
+    insoles = {
+        Site.LEFT_FOOT: Insole(cells=24, quaternion=True, ppm=0.0),
+        Site.RIGHT_FOOT: Insole(cells=heel_array(Foot.RIGHT), ppm=0.0),
+    }
+    found = sampled(SHORT, insoles=insoles, seed=4)
+    assert [s.t for s in found.samples] == sorted(s.t for s in found.samples)
+    for site in insoles:
+        decoder = Decoder(site)
+        packets = emulate(SHORT, devices=insoles, radio=PROMPT, seed=4).packets
+        heard = [item for packet in packets if packet.site is site for item in decoder.feed(packet)]
+        heard = [item for item in heard + decoder.finish() if isinstance(item, Sample)]
+        own = [s for s in found.samples if s.site is site]
+        assert len(own) == len(heard)
+        for one, other in zip(own, heard, strict=True):
+            assert one.t == pytest.approx(other.t, abs=2e-3)
+            assert one.acc == pytest.approx(other.acc) and one.gyro == pytest.approx(other.gyro)
+            assert one.pressure == pytest.approx(other.pressure) and one.saturated is other.saturated
+            assert (one.quat is None) is (other.quat is None)
+            assert one.quat is None or one.quat == pytest.approx(other.quat, abs=1e-4)
 
 
 def test_a_device_clock_has_its_own_rate() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from attrs import frozen
 
 from ..link.profile import INSOLE
-from ..types import Foot, Layout, Site
+from ..types import Foot, Layout, Sample, Site
 from ..vector import GRAVITY, conjugate, from_rotation_vector, multiply, rotate
 from ..wire.device import build_battery, build_firmware
 from ..wire.fragment import FRAME_IDS, split
@@ -108,6 +108,30 @@ class Insole:
             quats=attitude,
             full=acc.saturated | gyro.saturated | (full & self.tells_full),
         )
+
+    def samples(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Sample]:
+        """The same without a wire and a radio: what a perfect link makes of the walk, on the true clock."""
+        signal = self.measure(walker, site, rng)
+        scale = signal.layout.scale or 1.0
+        t = signal.first + signal.step * np.arange(len(signal.cells), dtype=np.float64)
+        cells = (scale * signal.cells).tolist()
+        imu = None if signal.imu is None else (signal.imu * ([ACC_COUNT] * 3 + [GYRO_COUNT] * 3)).tolist()
+        quats = None if signal.quats is None else (signal.quats / 16384.0).tolist()
+        found = []
+        for k, when in enumerate(t.tolist()):
+            fx, fy, fz, wx, wy, wz = imu[k] if imu is not None else (0.0,) * 6
+            found.append(
+                Sample(
+                    t=when,
+                    site=site,
+                    acc=None if imu is None else (fx, fy, fz),
+                    gyro=None if imu is None else (wx, wy, wz),
+                    pressure=tuple(cells[k]),
+                    quat=None if quats is None else tuple(quats[k]),
+                    saturated=bool(signal.full[k]),
+                )
+            )
+        return found
 
     @property
     def interval(self) -> int:

@@ -16,8 +16,8 @@ from collections.abc import Mapping
 import numpy as np
 from attrs import frozen
 
-from ..types import SITE_OF_FOOT, Foot, Packet, Site
-from .device import Device, device_numbers
+from ..types import SITE_OF_FOOT, Foot, Packet, Sample, Site
+from .device import Device, device_numbers, foot_of
 from .gait import Wearer
 from .insole_device import Insole
 from .radio import CLEAN, Radio
@@ -63,6 +63,34 @@ def emulate(
         packets += radio.carry(sent, site, np.random.default_rng([seed, 3, sites.index(site)]))
     packets.sort(key=_arrival)
     return EmulatedWalk(tuple(packets), walker.truth(mountings), walker)
+
+
+@frozen(eq=False)
+class SampledWalk:
+    """`samples` of both feet in the order of time; the rest as in EmulatedWalk."""
+
+    samples: tuple[Sample, ...]
+    truth: Truth
+    walker: Walker
+
+
+def sampled(
+    route: Route, *, wearer: Wearer | None = None, insoles: Mapping[Site, Insole] | None = None, seed: int = 1
+) -> SampledWalk:
+    """The walk of `emulate` with these arguments, without wire and radio: the same values at their true times."""
+    if insoles is None:
+        insoles = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
+    walker = Walker(route, wearer, seed)
+    found = [
+        one for site, insole in insoles.items() for one in insole.samples(walker, site, device_numbers(seed, site))
+    ]
+    found.sort(key=_moment)
+    mountings = {foot_of(site): insole.mounting for site, insole in insoles.items()}
+    return SampledWalk(tuple(found), walker.truth(mountings), walker)
+
+
+def _moment(sample: Sample) -> float:
+    return sample.t
 
 
 def _arrival(packet: Packet) -> float:
