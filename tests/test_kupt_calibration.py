@@ -1,0 +1,159 @@
+"""Noise of the cells, equation (1), and the wearer's own shoe."""
+
+from __future__ import annotations
+
+from math import radians, sqrt, tan
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from solepath.calibrate.noise import pressure_noise
+from solepath.calibrate.shoe import fit_shoe
+from solepath.calibration import Calibration, CalibrationError, InsoleCalibration, Newtons
+from solepath.foot.kinematics import ROCKER_SHOE, forefoot_place
+from solepath.foot.pressure import Insole
+from solepath.sim.insoles import layout
+from solepath.sim.route import Route
+from solepath.sim.walker import Walker
+from solepath.types import Foot, Sample, Site
+
+
+def worn(rows: list[tuple[float, ...]], site: Site = Site.LEFT_FOOT) -> list[Sample]:
+    return [Sample(t=0.05 * k, site=site, pressure=row) for k, row in enumerate(rows)]
+
+
+def test_noise_is_the_mean_of_the_least_loaded_samples_and_three_deviations() -> None:
+    # 20 of 100 samples are in the air, half of them (1, 4), half (3, 4): means 2 and 4, deviations 1 and 0
+    rows = [(1.0, 4.0), (3.0, 4.0)] * 10 + [(80.0, 90.0)] * 80
+    noise = pressure_noise(worn(rows), share=0.20).insoles[Foot.LEFT].noise
+    assert noise == pytest.approx((2.0 + 3.0, 4.0 + 0.0))
+
+
+def test_only_the_share_that_is_asked_for_counts() -> None:
+    # the 30 lowest totals: 20 in the air, and 10 with 10 on the first cell
+    rows = [(1.0, 4.0), (3.0, 4.0)] * 10 + [(10.0, 4.0)] * 10 + [(80.0, 90.0)] * 70
+    mean = (10 * 1.0 + 10 * 3.0 + 10 * 10.0) / 30
+    deviation = sqrt((10 * (1 - mean) ** 2 + 10 * (3 - mean) ** 2 + 10 * (10 - mean) ** 2) / 30)
+    noise = pressure_noise(worn(rows), share=0.30).insoles[Foot.LEFT].noise
+    assert noise == pytest.approx((mean + 3.0 * deviation, 4.0))
+
+
+def test_noise_is_in_newtons_where_the_calibration_makes_newtons() -> None:
+    known = Calibration(insoles={Foot.LEFT: InsoleCalibration(newtons=Newtons((0.0, 2.0, 0.0, 0.0), threshold=1.0))})
+    rows = [(1.0, 4.0)] * 20 + [(40.0, 45.0)] * 80
+    assert pressure_noise(worn(rows), 0.20, known).insoles[Foot.LEFT].noise == pytest.approx((2.0, 8.0))
+
+
+def test_each_foot_has_its_own_noise_and_nothing_else_is_said() -> None:
+    rows = [(1.0, 4.0)] * 40 + [(80.0, 90.0)] * 110
+    found = pressure_noise([*worn(rows), *worn([(2.0 * a, b) for a, b in rows], Site.RIGHT_FOOT)])
+    assert {foot: insole.noise for foot, insole in found.insoles.items()} == {
+        Foot.LEFT: pytest.approx((1.0, 4.0)),
+        Foot.RIGHT: pytest.approx((2.0, 4.0)),
+    }
+    assert found.shoe is None and found.insoles[Foot.LEFT].layout is None
+
+
+@pytest.mark.parametrize(
+    ("rows", "complaint"),
+    [
+        ([], "no pressure cells"),
+        ([(1.0, 2.0)] * 30, "too short a walk"),
+        ([(1.0, 2.0)] * 150 + [(1.0, 2.0, 3.0)], "2 cells and then 3"),
+    ],
+)
+def test_a_walk_that_tells_nothing_of_noise_is_refused(rows: list[tuple[float, ...]], complaint: str) -> None:
+    with pytest.raises(CalibrationError, match=complaint):
+        pressure_noise(worn(rows))
+
+
+def test_with_its_noise_taken_off_a_foot_in_the_air_carries_nothing() -> None:
+    walker = Walker(Route().stand(1.0).walk(20.0, 1.3).stop(1.0), seed=203)
+    cells = layout(96, Foot.LEFT)
+    rng = np.random.default_rng(5)
+    samples = []
+    for sample in walker.samples(Foot.LEFT, 50.0, layout=cells):
+        pressure = np.array(sample.pressure) + 0.8 + 0.15 * rng.standard_normal(96)
+        samples.append(Sample(t=sample.t, site=sample.site, pressure=tuple(pressure.tolist())))
+    noise = pressure_noise(samples).insoles[Foot.LEFT].noise
+    assert noise == pytest.approx([0.8 + 3 * 0.15] * 96, abs=0.12)
+    insole = Insole(noise=noise)
+    insole.wear(cells)
+    swings = walker.truth().feet[Foot.LEFT].steps[1:-1]
+    for sample in samples:
+        load = insole.update(sample.t, sample.pressure or ())
+        if load is not None and any(s.t_toe_off + 0.02 < sample.t < s.t_heel_strike - 0.02 for s in swings):
+            assert sum(load.cells) < 3.0
+
+
+# --- the shoe ---------------------------------------------------------------------------------------------------------
+
+HEADER = "pitch_deg,L_r_m,L_p2t_m\n"
+
+
+def measured(path: Path, noise: float = 0.0) -> Path:
+    """Five postures of the round sole, three times each, by rulers that are off by `noise` m."""
+    rng = np.random.default_rng(7)
+    lines = [HEADER]
+    for degrees in (0, 15, 30, 45, 60):
+        p = radians(degrees)
+        for _ in range(3):
+            radius = 0.070 + 0.050 * tan(p / 2) + noise * rng.standard_normal()
+            to_toe = 0.090 - 0.050 * p + 0.050 * tan(p / 2) + noise * rng.standard_normal()
+            lines.append(f"{degrees},{radius:.4f},{to_toe:.4f}\n")
+    path.write_text("".join(lines))
+    return path
+
+
+def test_postures_of_a_shoe_give_its_curves(tmp_path: Path) -> None:
+    fitted = fit_shoe(measured(tmp_path / "postures.csv"))
+    shoe = fitted.calibration.shoe
+    assert shoe is not None and fitted.calibration == Calibration(shoe=shoe)
+    for p in (0.0, 0.3, 0.7, 1.0):
+        assert forefoot_place(shoe, p) == pytest.approx(forefoot_place(ROCKER_SHOE, p), abs=5e-4)
+    assert shoe.steepest == pytest.approx(radians(60))
+    assert (fitted.postures, fitted.measurements) == (5, 15)
+
+
+def test_what_the_curves_leave_is_told(tmp_path: Path) -> None:
+    exact = fit_shoe(measured(tmp_path / "exact.csv"))
+    rough = fit_shoe(measured(tmp_path / "rough.csv", noise=0.002))
+    assert exact.residual_radius < 3e-4 < 1e-3 < rough.residual_radius < 3e-3
+    assert rough.worst > rough.residual_to_toe
+
+
+def test_height_and_heel_are_taken_from_columns_of_their_own(tmp_path: Path) -> None:
+    rows = "0,0.07,0.09,0.031,0.11\n30,0.083,0.077,0.031,0.11\n60,0.099,0.067,0.031,0.11\n"
+    file = tmp_path / "postures.csv"
+    file.write_text("pitch_deg,L_r_m,L_p2t_m,H_imu_m,heel_L_r_m\n" + rows)
+    shoe = fit_shoe(file).calibration.shoe
+    assert shoe is not None and (shoe.height, shoe.heel_radius) == (0.031, 0.11)
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("", "is empty"),
+        (HEADER, "holds no postures"),
+        ("pitch_deg,L_r_m\n1,2\n", "line 1: wants one column L_p2t_m"),
+        (HEADER + "0,0.07,0.09\n15,long,0.08\n", "line 3: L_r_m is 'long', not a number"),
+        (HEADER + "0,0.07\n", "line 2: 2 values for 3 columns"),
+        (HEADER + "0,7.0,9.0\n", "line 2: L_r_m is 7.0, which is not between 0 and 0.5 m"),
+        (HEADER + "0,nan,0.09\n", "line 2: L_r_m is nan"),
+        (HEADER + "95,0.07,0.09\n", "line 2: pitch_deg is 95, which is not between -5 and 80 degrees"),
+        (HEADER + "0,0.07,0.09\n0.5,0.07,0.09\n60,0.1,0.06\n", "2 postures; three different ones"),
+        (HEADER + "0,0.07,0.09\n10,0.07,0.09\n20,0.1,0.06\n", "the steepest posture is 20 degrees"),
+    ],
+)
+def test_a_bad_table_of_postures_is_refused_in_one_line(tmp_path: Path, text: str, complaint: str) -> None:
+    file = tmp_path / "postures.csv"
+    file.write_text(text)
+    with pytest.raises(ValueError, match=complaint) as caught:
+        fit_shoe(file)
+    assert str(caught.value).startswith(str(file)) and "\n" not in str(caught.value)
+
+
+def test_a_table_that_is_not_there_is_named(tmp_path: Path) -> None:
+    with pytest.raises(CalibrationError, match="none.csv: No such file"):
+        fit_shoe(tmp_path / "none.csv")

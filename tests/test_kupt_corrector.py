@@ -1,0 +1,264 @@
+"""Known velocity as evidence and as correction: two areas, equations (8) and (10) against arithmetic on paper."""
+
+from __future__ import annotations
+
+from math import inf, isinf
+
+import pytest
+
+from solepath import machine
+from solepath.calibration import Calibration, ShoeGeometry
+from solepath.foot.dedrift import LinearDedrift
+from solepath.foot.kinematics import Sagittal
+from solepath.foot.known_velocity import KnownVelocity, SwingDedrift
+from solepath.foot.phase import Cue
+from solepath.foot.stance import Load, Stance
+from solepath.foot.touch import Touch
+from solepath.types import Foot, Phase, Quat, Vec3
+from solepath.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
+
+CELLS = (0.0,) * 96
+BOTH = Load(1.0, 0.5, 0.5, 1.0, False, CELLS, (0.13, 0.0))
+FOREFOOT = Load(0.6, 0.0, 0.6, 1.0, False, CELLS, (0.20, 0.0))
+HEEL = Load(0.5, 0.5, 0.0, 1.0, False, CELLS, (0.03, 0.0))
+AIR = Load(0.0, 0.0, 0.0, 0.0, True, CELLS)
+STILL: Vec3 = (0.0, 0.0, GRAVITY)
+
+
+# --- the detector -----------------------------------------------------------------------------------------------------
+
+
+def heel_up(pitch: float) -> Quat:
+    return from_rotation_vector((0.0, pitch, 0.0))
+
+
+def detector() -> KnownVelocity:
+    """One that has learnt that the sensor's axes are the foot's, and whose cells were right in the last swing."""
+    known = KnownVelocity(sagittal=Sagittal(), touch=Touch())
+    known.sagittal.up, known.sagittal.toe = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)
+    known.touch.known, known.touch.blind = True, False
+    return known
+
+
+def said(known: KnownVelocity, *samples: tuple[Load | None, float]) -> list[Stance]:
+    """What it says of samples at 100 Hz: the load and the heel-up pitch, rad."""
+    told = []
+    for k, (load, pitch) in enumerate(samples):
+        # a foot that turns: no inertial detector takes it for still
+        told.append(known.update(0.01 * k, 0.01, STILL, (0.0, 0.4, 0.0), load, heel_up(pitch)))
+    return told
+
+
+def test_both_areas_loaded_is_a_zero_velocity() -> None:
+    stance = said(detector(), (BOTH, 0.0))[0]
+    assert stance.hint is Phase.STATIONARY and stance.v_ref == ZERO and stance.statistic == 0.5
+
+
+def test_then_the_forefoot_alone_is_a_rolling_shoe_with_the_velocity_of_its_pitch() -> None:
+    stances = said(detector(), (BOTH, 0.0), (FOREFOOT, 0.02), (FOREFOOT, 0.06))
+    assert [stance.hint for stance in stances] == [Phase.STATIONARY, Phase.PUSH_OFF, Phase.PUSH_OFF]
+    # a height of 0.029 to 0.033 m above a pivot times 4 rad/s
+    assert stances[2].v_ref[0] == pytest.approx(4.0 * 0.0315, rel=0.03)
+    assert stances[2].v_ref[1] == 0.0 and stances[2].v_ref[2] > 0.2
+    assert stances[2].sigma < inf
+
+
+def test_no_load_is_swing_about_whose_velocity_nothing_is_said() -> None:
+    stance = said(detector(), (BOTH, 0.0), (FOREFOOT, 0.5), (AIR, 0.9))[2]
+    assert stance.hint is Phase.SWING and isinf(stance.sigma)
+
+
+def test_the_heel_after_a_swing_is_a_foot_that_rolls_down_over_its_heel() -> None:
+    stances = said(detector(), (AIR, -0.35), (HEEL, -0.33), (HEEL, -0.30))
+    assert [stance.hint for stance in stances] == [Phase.SWING, Phase.LOADING, Phase.LOADING]
+    assert isinf(stances[1].sigma)  # the sample before was in the air
+    # (4): P_z at 0.315 rad = 0.125 x 0.310 + 0.029 x 0.951 = 0.0663, times 3 rad/s
+    assert stances[2].v_ref[0] == pytest.approx(3.0 * 0.0663, rel=0.01)
+    assert stances[2].v_ref[2] < 0.0
+
+
+def test_weight_that_goes_back_to_the_heel_is_no_push_off() -> None:
+    stance = said(detector(), (BOTH, 0.0), (HEEL, 0.0))[1]
+    assert stance.hint is None and isinf(stance.sigma)
+
+
+def test_a_foot_that_lands_on_its_toes_has_no_known_velocity() -> None:
+    stances = said(detector(), (AIR, 0.4), (HEEL, 0.4), (HEEL, 0.3))
+    assert all(isinf(stance.sigma) for stance in stances)
+
+
+def test_before_the_first_push_off_there_is_no_rolling_velocity() -> None:
+    known = detector()
+    known.sagittal = Sagittal()
+    stances = said(known, (BOTH, 0.0), (FOREFOOT, 0.2), (FOREFOOT, 0.5))
+    assert [stance.hint for stance in stances[1:]] == [Phase.PUSH_OFF] * 2
+    assert all(isinf(stance.sigma) for stance in stances[1:])
+
+
+def test_that_push_off_teaches_the_next_one() -> None:
+    known = detector()
+    known.sagittal = Sagittal()
+    first = ((BOTH, 0.0), (FOREFOOT, 0.3), (FOREFOOT, 0.8), (AIR, 1.0), (HEEL, -0.2), (BOTH, 0.0))
+    stances = said(known, *first, (FOREFOOT, 0.1), (FOREFOOT, 0.2))
+    assert stances[-1].sigma < inf and stances[-1].v_ref[0] > 0.0
+
+
+def test_without_any_load_a_foot_at_rest_stands() -> None:
+    stances = [KnownVelocity().update(0.0, 0.0, STILL, ZERO, load, IDENTITY) for load in (None, BOTH)]
+    assert [stance.hint for stance in stances] == [Phase.STATIONARY] * 2
+
+
+def test_a_foot_that_the_cells_have_in_the_air_and_that_stands_still_stands() -> None:
+    """After minutes of standing the least load is half of the wearer's weight."""
+    known = detector()
+    stances = [known.update(0.01 * k, 0.01, STILL, ZERO, AIR, IDENTITY) for k in range(20)]
+    assert stances[0].hint is Phase.SWING and stances[-1].hint is Phase.STATIONARY
+
+
+def test_loads_at_half_the_rate_of_the_inertial_sensor_hold_until_the_next() -> None:
+    hints = [stance.hint for stance in said(detector(), (BOTH, 0.0), (None, 0.0), (BOTH, 0.0), (None, 0.0))]
+    assert hints == [Phase.STATIONARY] * 4
+
+
+def test_the_wearers_own_shoe_is_taken_from_the_calibration() -> None:
+    shoe = ShoeGeometry(height=0.04)
+    known = KnownVelocity().calibrated(Foot.LEFT, Calibration(shoe=shoe))
+    assert known.shoe == shoe
+    assert KnownVelocity().calibrated(Foot.LEFT, Calibration()).shoe == KnownVelocity().shoe
+
+
+# --- the corrector ----------------------------------------------------------------------------------------------------
+
+ZERO_VELOCITY = Stance(ZERO, 0.01, 0.5, Phase.STATIONARY)
+SWING = Stance(ZERO, inf, 0.0, Phase.SWING)
+LANDED = Stance(ZERO, inf, 0.0, Phase.LOADING)
+DRIFTING: Vec3 = (1.0, 0.0, GRAVITY)
+"""1 m/s^2 ahead all the time, so that the raw velocity is the time since motion start and sums are easy."""
+
+
+def rolling(v: float, phase: Phase) -> Stance:
+    return Stance((v, 0.0, 0.0), 0.1, 0.0, phase)
+
+
+STEP: tuple[tuple[Stance, Cue | None], ...] = (
+    (rolling(0.01, Phase.PUSH_OFF), None),  # raw mean 0.05: error 0.04
+    (rolling(0.11, Phase.PUSH_OFF), None),  # raw mean 0.15: error 0.04, belongs to 0.15 s
+    (SWING, Cue.CLEAR),  # toe-off is the sample before, at 0.2 s
+    (SWING, None),
+    (LANDED, Cue.CONTACT),  # heel-strike, at 0.5 s
+    (rolling(0.40, Phase.LOADING), None),  # raw mean 0.55: error 0.15, belongs to 0.55 s
+    (rolling(0.50, Phase.LOADING), None),
+    (ZERO_VELOCITY, None),  # at 0.8 s; raw mean of this interval 0.75
+)
+
+
+def moved(corrector: LinearDedrift, step: tuple[tuple[Stance, Cue | None], ...] = STEP) -> LinearDedrift:
+    """After standing and one step in samples of 0.1 s."""
+    corrector.start(IDENTITY, 0.02)
+    for k, (stance, cue) in enumerate(((ZERO_VELOCITY, None), *step)):
+        corrector.predict(0.1, DRIFTING, ZERO)
+        corrector.correct(0.1 * k, stance)
+        if cue is not None:
+            corrector.mark(0.1 * k, cue)
+    return corrector
+
+
+def fresh(slide: float = 0.0) -> SwingDedrift:
+    return SwingDedrift(slide=slide, tilt_rate=0.0)
+
+
+def test_only_the_swing_loses_a_line_as_in_equation_8() -> None:
+    # drift rate (0.15 - 0.04) / (0.55 - 0.15) = 0.275 m/s^2
+    # up to toe-off     (0.01 + 0.11) x 0.1 = 0.012
+    # swing 0.2 to 0.5  raw 0.35 x 0.3 = 0.105, less 0.04 x 0.3 + 0.275 (0.35^2 - 0.05^2) / 2 = 0.012 + 0.0165
+    # from heel-strike  0.40 x 0.1 + 0.50 x 0.1, and the last 0.1 s with the same error: (0.75 - 0.15) x 0.1 = 0.06
+    corrector = moved(fresh())
+    assert corrector.position[0] == pytest.approx(0.012 + 0.0765 + 0.15)
+    assert corrector.velocity == ZERO
+
+
+def test_the_error_index_is_that_of_equation_10() -> None:
+    # |0.04 + 0.15|
+    assert moved(fresh()).error_index == pytest.approx(0.19)
+
+
+def test_a_heel_that_slides_first_is_compared_once_it_rolls() -> None:
+    # with slide 0.1 s the first interval that counts is the second: k_h at 0.6 s, error 0.65 - 0.50 = 0.15 there too
+    corrector = moved(fresh(slide=0.1))
+    assert corrector.error_index == pytest.approx(0.19)
+    # rate 0.11 / 0.5; swing 0.2 to 0.6: 0.40 x 0.4 - 0.04 x 0.4 - 0.22 (0.45^2 - 0.05^2) / 2 = 0.16 - 0.016 - 0.022
+    assert corrector.position[0] == pytest.approx(0.012 + 0.122 + 0.05 + 0.06)
+
+
+@pytest.mark.parametrize("left_out", [Cue.CLEAR, Cue.CONTACT])
+def test_a_step_without_both_marks_loses_a_line_over_its_whole_time(left_out: Cue) -> None:
+    step = tuple((stance, None if cue is left_out else cue) for stance, cue in STEP)
+    corrector, plain = moved(fresh(), step), moved(LinearDedrift(tilt_rate=0.0), step)
+    # raw way 0.32, velocity 0.8 gathered evenly over 0.8 s: 0.32 - 0.8 x 0.4 = 0
+    assert corrector.position == pytest.approx(plain.position, abs=1e-12)
+    assert corrector.position[0] == pytest.approx(0.0, abs=1e-12)
+    assert corrector.error_index is None
+
+
+def test_a_normal_step_before_an_abnormal_one_does_not_lend_it_its_error_index() -> None:
+    corrector = fresh()
+    plain = tuple((stance, None) for stance, _ in STEP)
+    moved(corrector, (*STEP, *plain))
+    assert corrector.error_index is None
+
+
+def test_the_error_index_lasts_through_the_stance() -> None:
+    corrector = moved(fresh(), (*STEP, (ZERO_VELOCITY, None), (ZERO_VELOCITY, None)))
+    assert corrector.error_index == pytest.approx(0.19)
+
+
+def test_a_later_and_better_mark_replaces_an_earlier_one() -> None:
+    early = ((STEP[0][0], None), (STEP[1][0], Cue.CLEAR), *STEP[2:])
+    assert moved(fresh(), early).position == moved(fresh()).position
+
+
+def test_a_gap_in_a_step_makes_it_abnormal() -> None:
+    corrector = fresh()
+    corrector.start(IDENTITY, 0.02)
+    for k, (stance, cue) in enumerate(((ZERO_VELOCITY, None), *STEP)):
+        corrector.predict(corrector.bridge(0.1) if k == 4 else 0.1, DRIFTING, ZERO)
+        corrector.correct(0.1 * k, stance)
+        if cue is not None:
+            corrector.mark(0.1 * k, cue)
+    assert corrector.error_index is None
+    assert corrector.position[0] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_while_the_shoe_rolls_the_live_position_goes_with_it() -> None:
+    corrector = moved(fresh(), STEP[:2])
+    assert corrector.position[0] == pytest.approx(0.012)
+    # raw 0.2 less the error of 0.04
+    assert corrector.velocity[0] == pytest.approx(0.16)
+
+
+def test_heights_lose_a_line_over_the_whole_motion_unless_they_are_asked_for() -> None:
+    up = tuple(
+        (Stance((0.1, 0.0, 0.3), 0.1, 0.0, stance.hint) if stance.sigma == 0.1 else stance, cue) for stance, cue in STEP
+    )
+    plain, known = moved(fresh(), up), moved(SwingDedrift(slide=0.0, tilt_rate=0.0, vertical=True), up)
+    assert plain.position[2] == pytest.approx(0.0, abs=1e-12)
+    assert known.position[2] > 0.05
+    assert plain.position[:2] == known.position[:2]
+
+
+def test_zero_velocity_updates_alone_take_no_notice_of_rolling() -> None:
+    corrector = LinearDedrift(tilt_rate=0.0)
+    moved(corrector, STEP[:2])
+    assert corrector.velocity[0] == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize("cut", range(1, len(STEP)))
+def test_a_corrector_saved_anywhere_in_a_step_goes_on_to_the_same_bits(cut: int) -> None:
+    whole, first = moved(fresh()), moved(fresh(), STEP[:cut])
+    second = machine.load(SwingDedrift, machine.save(first))
+    for k, (stance, cue) in enumerate(STEP[cut:], start=cut + 1):
+        second.predict(0.1, DRIFTING, ZERO)
+        second.correct(0.1 * k, stance)
+        if cue is not None:
+            second.mark(0.1 * k, cue)
+    assert second.position == whole.position and second.error_index == whole.error_index

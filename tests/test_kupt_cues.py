@@ -1,0 +1,215 @@
+"""Toe-off and heel-strike from the centre of pressure, fig. 4 of the paper, and the phases that follow."""
+
+from __future__ import annotations
+
+from math import inf
+
+import pytest
+
+from solepath.foot.cop_cues import CopCues, Stage
+from solepath.foot.cues import Seen
+from solepath.foot.phase import PHASES, Cue
+from solepath.foot.pressure import Insole
+from solepath.foot.stance import Load, Stance
+from solepath.foot.touch import Touch
+from solepath.sim.insoles import layout
+from solepath.sim.route import Route
+from solepath.sim.walker import Walker
+from solepath.types import Cell, Foot, Layout, Phase, Vec3
+from solepath.vector import ZERO
+
+FOUR = Layout(4, Foot.LEFT, (Cell(0.034, 0.0), Cell(0.07, 0.0), Cell(0.12, 0.0), Cell(0.166, 0.0)), 0.2)
+"""The paper's cells lie from 34 to 166 mm: its foot centre is 100 mm."""
+CELLS = (0.0,) * 96
+STANDS, MOVES = Stance(ZERO, 0.01, 0.5, Phase.STATIONARY), Stance(ZERO, inf, 0.0, None)
+
+Row = tuple[float | None, bool]
+"""x of the centre of pressure (None in the air), and whether the detector calls the sample stationary."""
+STANCE: list[Row] = [(0.10, True), (0.11, True)]
+PUSH: list[Row] = [(0.13, False), (0.15, False), (0.16, False)]
+FLIGHT: list[Row] = [(None, False)] * 12
+LANDING: list[Row] = [(0.05, False), (0.06, False), (0.08, False)]
+
+
+def believed() -> CopCues:
+    """One that stands and whose cells were right in the last swing."""
+    cues = CopCues(touch=Touch())
+    cues.wear(FOUR)
+    cues.touch.known, cues.touch.blind = True, False
+    cues.stage = Stage.STANDING
+    return cues
+
+
+def watch(
+    rows: list[Row], cues: CopCues | None = None, speed: float = 0.0
+) -> tuple[list[tuple[Seen, int]], list[Cue | None]]:
+    """What was seen, each with the number of the sample at which it was told, and the marks; 100 Hz."""
+    cues = cues or believed()
+    seen: list[tuple[Seen, int]] = []
+    marks: list[Cue | None] = []
+    phase = Phase.STATIONARY
+    gyro: Vec3 = (0.0, 0.5, 0.0)
+    for k, (x, stands) in enumerate(rows):
+        load = Load(0.0 if x is None else 0.5, 0.0, 0.0, 0.0, x is None, CELLS, None if x is None else (x, 0.0))
+        stance = STANDS if stands else MOVES
+        for one in cues.update(0.01 * k, 0.01, gyro, stands, 0.0 if stands else speed, phase, load, stance):
+            seen.append((one, k))
+            phase = PHASES[phase][one.cue]
+        marks.append(cues.mark)
+    return seen, marks
+
+
+def told(rows: list[Row]) -> list[tuple[Cue, int, int]]:
+    """(cue, number of the sample that it names, number of the sample at which it was told)."""
+    return [(one.cue, round(one.t / 0.01), k) for one, k in watch(rows)[0]]
+
+
+# --- equations (2) and (3) --------------------------------------------------------------------------------------------
+
+
+def test_the_centre_of_pressure_is_the_mean_of_places_weighted_by_pressure() -> None:
+    # (2): (0.05 x 10 + 0.05 x 30 + 0.20 x 40) / 80 = 10 / 80; (3): (0.01 x 10 - 0.01 x 30 + 0.02 x 40) / 80 = 0.6 / 80
+    cells = (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.20, 0.02))
+    insole = Insole()
+    insole.wear(Layout(3, Foot.LEFT, cells, 0.26))
+    for k, total in enumerate((0.0, 90.0, 0.0, 90.0)):
+        insole.update(0.01 * k, (total, total, total))
+    load = insole.update(0.04, (10.0, 30.0, 40.0))
+    assert load is not None and load.centre == pytest.approx((0.125, 0.0075))
+
+
+# --- fig. 4 -----------------------------------------------------------------------------------------------------------
+
+
+def test_toe_off_is_the_sample_before_the_jump_to_the_foots_centre_and_told_with_the_first_of_swing() -> None:
+    # samples 0 and 1 stand, 2 to 4 push off; A is 4, B is 5: from 0.16 to 0.10 is the largest jump
+    assert told(STANCE + PUSH + FLIGHT) == [(Cue.LIFT, 2, 2), (Cue.CLEAR, 4, 5)]
+
+
+def test_heel_strike_is_the_sample_after_the_jump_from_the_foots_centre_and_told_with_foot_flat() -> None:
+    # B to C are 5 to 16, D is 17: from 0.10 to 0.05; 20 is the first that stands
+    cues = told(STANCE + PUSH + FLIGHT + LANDING + STANCE)
+    assert cues[2:] == [(Cue.CONTACT, 17, 20), (Cue.FLAT, 20, 20)]
+
+
+def test_a_larger_jump_later_in_landing_is_the_heel_strike() -> None:
+    # the first contact is at 0.09, hardly off the centre; then the heel: from 0.09 to 0.04
+    landing: list[Row] = [(0.09, False), (0.04, False), (0.06, False)]
+    assert told(STANCE + PUSH + FLIGHT + landing + STANCE)[2] == (Cue.CONTACT, 18, 20)
+
+
+def test_marks_are_set_at_the_best_candidates_so_far() -> None:
+    _, marks = watch(STANCE + PUSH + FLIGHT + LANDING + STANCE)
+    # jumps from motion start: 0.02, 0.02, 0.01 and then 0.06; from swing on: 0.05 and smaller ones
+    clear = [k for k, mark in enumerate(marks) if mark is Cue.CLEAR]
+    assert clear == [2, 5]
+    assert [k for k, mark in enumerate(marks) if mark is Cue.CONTACT] == [17]
+
+
+def test_a_step_without_a_normal_swing_has_no_heel_strike_and_its_phases_go_on() -> None:
+    """The centre of pressure hardly rests at the foot's centre: 30 ms."""
+    rows = STANCE + PUSH + FLIGHT[:3] + LANDING + STANCE
+    seen, marks = watch(rows)
+    assert [one.cue for one, _ in seen] == [Cue.LIFT, Cue.CLEAR, Cue.FLAT]
+    assert Cue.CONTACT not in marks
+
+
+def test_a_toe_that_brushes_the_ground_once_more_leaves_it_later() -> None:
+    brushed: list[Row] = [*FLIGHT[:2], (0.16, False)]
+    cues = watch(STANCE + PUSH + brushed + FLIGHT + LANDING + STANCE)[0]
+    assert [one.cue for one, _ in cues if one.cue is not Cue.CLEAR] == [Cue.LIFT, Cue.CONTACT, Cue.FLAT]
+
+
+def test_a_heel_that_bounces_strikes_once() -> None:
+    bounce: list[Row] = [(0.05, False), (None, False), (None, False), (0.06, False)]
+    cues = [one.cue for one, _ in watch(STANCE + PUSH + FLIGHT + bounce + LANDING + STANCE)[0]]
+    assert cues == [Cue.LIFT, Cue.CLEAR, Cue.CONTACT, Cue.FLAT]
+
+
+def test_a_heel_strike_is_told_after_a_while_even_when_the_foot_never_lies_flat() -> None:
+    landing: list[Row] = [(0.05, False)] * 60
+    (contact,) = [(one, k) for one, k in watch(STANCE + PUSH + FLIGHT + landing)[0] if one.cue is Cue.CONTACT]
+    assert round(contact[0].t / 0.01) == 17 and contact[1] - 17 == 40
+
+
+def test_walking_on_tiptoe_is_steps_without_foot_flat() -> None:
+    toes: list[Row] = [(0.15, False)] * 20
+    cues = [one.cue for one, _ in watch(STANCE + PUSH + FLIGHT + toes + FLIGHT + toes + FLIGHT)[0]]
+    assert cues == [Cue.LIFT, Cue.CLEAR, Cue.CONTACT, Cue.CLEAR, Cue.CONTACT, Cue.CLEAR]
+
+
+def test_a_foot_that_shuffles_along_the_ground_has_left_its_place() -> None:
+    """It is never in the air; fast for 0.25 s is a step all the same, and nothing is calibrated by it."""
+    sliding: list[Row] = [(0.10, False)] * 40
+    seen, marks = watch(STANCE + sliding + STANCE, speed=0.6)
+    assert [one.cue for one, _ in seen if one.cue is not Cue.CLEAR] == [Cue.LIFT, Cue.FLAT]
+    assert Cue.CLEAR in [one.cue for one, _ in seen] and Cue.CONTACT not in marks
+
+
+def test_before_any_load_is_known_the_inertial_cues_speak() -> None:
+    cues = CopCues()
+    seen: list[Cue] = []
+    phase = Phase.STATIONARY
+    for k in range(80):
+        rate = 0.0 if k < 20 else 4.0 if k < 40 else 0.5
+        for one in cues.update(0.01 * k, 0.01, (0.0, rate, 0.0), k < 20, 0.3, phase, None, MOVES):
+            seen.append(one.cue)
+            phase = PHASES[phase][one.cue]
+    assert seen == [Cue.LIFT, Cue.CLEAR]
+
+
+# --- insoles alone ----------------------------------------------------------------------------------------------------
+
+WALK = Route().stand(2.0).walk(12.0, 1.2).stop(1.5)
+
+
+def alone(cells: Layout, walker: Walker) -> list[Seen]:
+    """The cues of an insole without an inertial sensor."""
+    foot = cells.foot
+    insole, cues = Insole(), CopCues()
+    insole.wear(cells)
+    cues.wear(cells)
+    seen: list[Seen] = []
+    phase = Phase.STATIONARY
+    for sample in walker.samples(foot, 100.0, layout=cells):
+        load = insole.update(sample.t, sample.pressure or ())
+        if load is None:
+            continue
+        for one in cues.alone(sample.t, 0.01, load, phase):
+            seen.append(one)
+            phase = PHASES[phase][one.cue]
+    return seen
+
+
+def few(count: int, foot: Foot) -> Layout:
+    """A switch at heel and toe, or the eight of a research insole."""
+    if count > 2:
+        return layout(count, foot)
+    return Layout(2, foot, (Cell(0.22, 0.0), Cell(0.04, 0.0)), 0.285)
+
+
+@pytest.mark.parametrize("count", [2, 8, 24, 96])
+def test_insoles_alone_tell_heel_strike_and_toe_off_with_few_cells_as_with_many(count: int) -> None:
+    walker = Walker(WALK, seed=211)
+    for foot in Foot:
+        seen, truth = alone(few(count, foot), walker), walker.truth().feet[foot]
+        strikes = [one.t for one in seen if one.cue is Cue.CONTACT]
+        leaves = [one.t for one in seen if one.cue is Cue.CLEAR]
+        # nothing is known of the load before it has fallen and risen once
+        for true in truth.heel_strikes[1:]:
+            assert min(abs(t - true) for t in strikes) < 0.06
+        for true in truth.toe_offs[1:]:
+            assert min(abs(t - true) for t in leaves) < 0.09
+        assert len(strikes) <= len(truth.heel_strikes)
+
+
+def test_a_valley_in_mid_stance_is_no_swing_on_an_insole_of_two_cells() -> None:
+    """Between heel and forefoot the load lies on neither cell."""
+    touch = Touch()
+    touch.wear(few(2, Foot.LEFT))
+    stride = [(0.0, 1.0)] * 20 + [(0.02, 0.02)] * 8 + [(1.0, 0.0)] * 20 + [(0.0, 0.0)] * 40
+    airborne = []
+    for k, cells in enumerate(stride * 3):
+        airborne.append(touch.update(0.01 * k, Load(sum(cells), None, None, 0.0, False, cells)))
+    last = airborne[2 * len(stride) :]
+    assert not any(last[:48]) and all(last[50:])

@@ -1,0 +1,158 @@
+"""The shoe as rockers: equations (4) to (7) against arithmetic on paper, and how a sensor is mounted."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin, tan
+
+import numpy as np
+import pytest
+
+from solepath.calibration import ShoeGeometry
+from solepath.foot.kinematics import ROCKER_SHOE, Sagittal, forefoot_place, heel_place, velocity
+from solepath.sim.shoe import Shoe
+from solepath.types import Quat
+from solepath.vector import IDENTITY, conjugate, from_rotation_vector, from_yaw, multiply, normalise, rotate
+
+STRAIGHT = ShoeGeometry(forefoot_radius=(0.070, 0.025), pivot_to_toe=(0.090, -0.025), steepest=1.2)
+"""Curves that are lines, for sums on paper."""
+CROOKED: Quat = normalise((0.6, -0.3, 0.5, 0.55))
+"""How a sensor may sit on a foot: sensor to foot."""
+
+
+def pitched(toe_up: float, yaw: float = 0.0) -> Quat:
+    """Foot to world: x to the toe, y left, z up; toes up by a turn about -y."""
+    return multiply(from_yaw(yaw), from_rotation_vector((0.0, -toe_up, 0.0)))
+
+
+def taught(mounting: Quat = IDENTITY) -> Sagittal:
+    """One that has stood and seen one push-off; `mounting` is sensor to foot."""
+    sagittal = Sagittal()
+    sagittal.stands(0.01, mounting)
+    for heel_up in (0.1, 0.3, 0.6, 0.9):
+        sagittal.lifts(multiply(pitched(-heel_up), mounting))
+    sagittal.lifted()
+    return sagittal
+
+
+def test_on_its_heel_the_sensor_is_where_equation_4_has_it() -> None:
+    # 30 degrees: P_h = 0.125 x 0.8660254 - 0.029 x 0.5 = 0.1082532 - 0.0145
+    #             P_z = 0.125 x 0.5 + 0.029 x 0.8660254 = 0.0625 + 0.0251147
+    assert heel_place(STRAIGHT, pi / 6) == pytest.approx((0.0937532, 0.0876147), abs=1e-7)
+    assert heel_place(STRAIGHT, 0.0) == pytest.approx((0.125, 0.029))
+
+
+def test_on_its_heel_it_moves_as_equation_5_has_it() -> None:
+    # 20 degrees: P_h = 0.125 x 0.9396926 - 0.029 x 0.3420201 = 0.1075430; P_z = 0.0427525 + 0.0272511 = 0.0700036
+    # in 0.02 s: (0.1075430 - 0.0937532) / 0.02 = 0.689 ahead, (0.0700036 - 0.0876147) / 0.02 = -0.881 down
+    sagittal = taught()
+    places = []
+    for degrees in (30.0, 20.0):
+        sagittal.see(pitched(degrees * pi / 180.0))
+        places.append(sagittal.heel_place(STRAIGHT))
+    assert velocity(*places, 0.02) == pytest.approx((0.68949, 0.0, -0.88056), abs=1e-4)
+
+
+def test_on_its_forefoot_the_sensor_is_where_equation_6_has_it() -> None:
+    # 0.4 rad: L_r = 0.070 + 0.025 x 0.4 = 0.080, L_p2t = 0.090 - 0.010 = 0.080
+    # P_h = 0.080 x 0.9210610 - 0.029 x 0.3894183 = 0.0736849 - 0.0112931 = 0.0623918, and 0.080 more to the toe
+    # P_z = 0.080 x 0.3894183 + 0.029 x 0.9210610 = 0.0311535 + 0.0267108
+    assert forefoot_place(STRAIGHT, 0.4) == pytest.approx((0.1423918, 0.0578643), abs=1e-7)
+
+
+def test_on_its_forefoot_it_moves_as_equation_7_has_it() -> None:
+    # 0.5 rad: L_r = 0.0825, L_p2t = 0.0775; P_h = 0.0724006 - 0.0139033 = 0.0584973; P_z = 0.0395526 + 0.0254499
+    # in 0.01 s: -(0.1359973 - 0.1423918) / 0.01 = 0.639 ahead, (0.0650025 - 0.0578643) / 0.01 = 0.714 up
+    sagittal = taught()
+    places = []
+    for heel_up in (0.4, 0.5):
+        sagittal.see(pitched(-heel_up))
+        places.append(sagittal.forefoot_place(STRAIGHT))
+    assert velocity(*places, 0.01) == pytest.approx((0.63945, 0.0, 0.71382), abs=1e-4)
+
+
+def test_velocities_point_where_the_foot_does() -> None:
+    sagittal = taught()
+    places = []
+    for heel_up in (0.4, 0.5):
+        sagittal.see(pitched(-heel_up, yaw=pi / 2))
+        places.append(sagittal.forefoot_place(STRAIGHT))
+    assert velocity(*places, 0.01) == pytest.approx((0.0, 0.63945, 0.71382), abs=1e-4)
+
+
+def test_beyond_the_steepest_posture_the_curves_stay_as_they_are() -> None:
+    # at 1.4 rad the curves are those of 1.2 rad: L_r = 0.100, L_p2t = 0.060
+    behind, above = forefoot_place(STRAIGHT, 1.4)
+    assert behind == pytest.approx(0.100 * cos(1.4) - 0.029 * sin(1.4) + 0.060)
+    assert above == pytest.approx(0.100 * sin(1.4) + 0.029 * cos(1.4))
+
+
+@pytest.mark.parametrize("heel_up", [0.0, 0.2, 0.5, 0.8, 1.0, 1.2])
+def test_the_default_shoe_rolls_like_the_round_sole_that_it_is_made_of(heel_up: float) -> None:
+    """Where the sensor of the emulated shoe is while that rolls without slip, worked out from its arc."""
+    arc, (x, _, z) = Shoe().forefoot, (0.125, 0.0, 0.029)
+    # the arc's centre moves ahead by radius times angle; the sensor turns about it
+    dx, dz = x - arc.x, z - arc.radius
+    ahead = arc.x + arc.radius * heel_up + dx * cos(heel_up) + dz * sin(heel_up)
+    above = arc.radius + dz * cos(heel_up) - dx * sin(heel_up)
+    behind_toe, up = forefoot_place(ROCKER_SHOE, heel_up)
+    assert (Shoe().length - behind_toe, up) == pytest.approx((ahead, above), abs=2e-4)
+
+
+def test_the_default_curves_are_those_of_a_ruler_along_the_sole() -> None:
+    for p in (0.1, 0.6, 1.1):
+        radius = sum(k * p**n for n, k in enumerate(ROCKER_SHOE.forefoot_radius))
+        to_toe = sum(k * p**n for n, k in enumerate(ROCKER_SHOE.pivot_to_toe))
+        assert radius == pytest.approx(0.070 + 0.050 * tan(p / 2), abs=1e-4)
+        assert to_toe == pytest.approx(0.090 - 0.050 * p + 0.050 * tan(p / 2), abs=1e-4)
+
+
+@pytest.mark.parametrize("mounting", [IDENTITY, CROOKED, from_rotation_vector((pi, 0.0, 0.0))])
+def test_a_push_off_teaches_where_the_toes_are_however_the_sensor_is_mounted(mounting: Quat) -> None:
+    toe = taught(mounting).toe
+    assert toe is not None
+    assert toe == pytest.approx(rotate(conjugate(mounting), (1.0, 0.0, 0.0)), abs=1e-9)
+
+
+@pytest.mark.parametrize("mounting", [IDENTITY, CROOKED])
+@pytest.mark.parametrize("toe_up", [0.35, 0.0, -0.9])
+def test_toes_up_is_a_positive_pitch_and_heel_up_a_negative_one(mounting: Quat, toe_up: float) -> None:
+    sagittal = taught(mounting)
+    sagittal.see(multiply(pitched(toe_up, yaw=2.0), mounting))
+    assert sagittal.pitch == pytest.approx(toe_up, abs=1e-9)
+    assert sagittal.ahead == pytest.approx((cos(2.0), sin(2.0)), abs=1e-9)
+
+
+def test_a_frame_whose_vertical_is_off_gives_the_same_pitch() -> None:
+    """An accelerometer that is off by 20 mg tilts the frame by a degree, always the same way."""
+    tilted = from_rotation_vector((0.012, -0.017, 0.0))
+    sagittal = taught(multiply(tilted, CROOKED))
+    sagittal.see(multiply(tilted, multiply(pitched(0.4), CROOKED)))
+    assert sagittal.pitch == pytest.approx(0.4, abs=0.01)
+
+
+def test_a_foot_that_hardly_lifts_teaches_nothing() -> None:
+    sagittal = Sagittal()
+    sagittal.stands(0.01, IDENTITY)
+    for heel_up in (0.1, 0.2, 0.3):
+        sagittal.lifts(pitched(-heel_up))
+    sagittal.lifted()
+    assert sagittal.toe is None
+
+
+def test_one_odd_push_off_changes_nothing_and_three_in_a_row_are_believed() -> None:
+    sagittal = taught()
+    aside = from_yaw(1.8)  # the sensor was turned on the foot
+    said = []
+    for _ in range(3):
+        for heel_up in (0.3, 0.6, 0.9):
+            sagittal.lifts(multiply(pitched(-heel_up), aside))
+        sagittal.lifted()
+        said.append(sagittal.toe)
+    assert said[:2] == [said[0]] * 2 and said[0] == pytest.approx((1.0, 0.0, 0.0), abs=1e-9)
+    assert said[2] == pytest.approx(rotate(conjugate(aside), (1.0, 0.0, 0.0)), abs=1e-9)
+
+
+def test_places_change_smoothly_from_flat_to_toe_off() -> None:
+    behind = [forefoot_place(ROCKER_SHOE, p)[0] for p in np.linspace(0.0, 1.3, 131)]
+    assert (np.diff(behind) < 0.0).all()
+    assert np.abs(np.diff(behind, 2)).max() < 1e-5
