@@ -1,0 +1,217 @@
+"""Accelerometer bias and zero-velocity resets: equations (4) to (10) and what is left of them, by hand."""
+
+from __future__ import annotations
+
+from math import cos, inf, pi, sin
+
+import pytest
+
+from solepath import machine
+from solepath.calibration import Calibration
+from solepath.foot.acc_bias import AccelerometerBias
+from solepath.foot.bias_zupt import BiasZupt
+from solepath.foot.stance import Stance
+from solepath.types import Foot, Phase, Quat, Vec3
+from solepath.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector, from_yaw, multiply, rotate
+
+STANDS = Stance(ZERO, 0.01, 0.0, Phase.STATIONARY)
+MOVES = Stance(ZERO, inf, 0.0, None)
+UP: Vec3 = (0.0, 0.0, GRAVITY)
+
+
+def begun(corrector: BiasZupt, attitude: Quat = IDENTITY) -> BiasZupt:
+    corrector.start(attitude, 0.02)
+    return corrector
+
+
+def fed(
+    corrector: BiasZupt, stance: Stance, acc: Vec3, count: int, dt: float = 0.01, told: Quat | None = None
+) -> None:
+    for k in range(count):
+        if told is not None:
+            corrector.told(told)
+        corrector.predict(dt, acc, ZERO)
+        corrector.correct(k * dt, stance)
+
+
+# --- the filter -------------------------------------------------------------------------------------------------------
+
+
+def test_two_steps_of_the_filter_are_those_of_the_paper() -> None:
+    bias = AccelerometerBias(spread=0.1, noise=0.1, wander=0.1)
+    # M = 0.01, Sigma_v = 0.01: P = M - M^2 / (M + Sigma_v) = 0.005, gain P / Sigma_v = 0.5, y = -a_m
+    bias.stood((-0.08, 0.04, 0.0))
+    assert bias.bias == pytest.approx((0.04, -0.02, 0.0))
+    assert bias.variance == pytest.approx(0.005)
+    # one second: M = P + Sigma_w = 0.015
+    bias.pass_time(1.0)
+    assert bias.variance == pytest.approx(0.015)
+    # P = 0.015 - 0.015^2 / 0.025 = 0.006, gain 0.6: 0.04 + 0.6 (0.08 - 0.04) and -0.02 + 0.6 (-0.04 + 0.02)
+    bias.stood((-0.08, 0.04, 0.01))
+    assert bias.bias == pytest.approx((0.064, -0.032, -0.006))
+    assert bias.variance == pytest.approx(0.006)
+
+
+def test_a_bias_that_never_changes_is_known_ever_better() -> None:
+    bias = AccelerometerBias()
+    for _ in range(1000):
+        bias.pass_time(0.01)
+        bias.stood((0.05, -0.1, 0.2))
+    assert bias.bias == pytest.approx((-0.05, 0.1, -0.2), rel=1e-3)
+    assert bias.variance is not None and 0.0 < bias.variance < 1e-6
+
+
+def test_between_stances_only_the_doubt_grows() -> None:
+    bias = AccelerometerBias()
+    bias.stood((0.1, 0.0, 0.0))
+    known, doubt = bias.bias, bias.variance
+    bias.pass_time(10.0)
+    assert bias.bias == known and bias.variance is not None and doubt is not None and bias.variance > doubt
+
+
+# --- the corrector ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("attitude", [IDENTITY, from_rotation_vector((0.3, -0.2, 1.0))])
+def test_the_bias_is_what_the_sensor_says_beside_gravity_in_its_own_frame(attitude: Quat) -> None:
+    corrector = begun(BiasZupt())
+    w, x, y, z = attitude
+    gravity = rotate((w, -x, -y, -z), UP)
+    off = (0.08, -0.05, 0.03)
+    acc = (gravity[0] + off[0], gravity[1] + off[1], gravity[2] + off[2])
+    fed(corrector, STANDS, acc, 500, told=attitude)
+    assert corrector.bias.bias == pytest.approx((-0.08, 0.05, -0.03), rel=0.01)
+
+
+def test_a_known_bias_no_longer_moves_the_foot_whichever_way_it_turns() -> None:
+    # (10) with the sign of (6): as printed, the error of 0.1 m/s^2 would double
+    corrector = begun(BiasZupt())
+    fed(corrector, STANDS, (0.1, 0.0, GRAVITY), 1000, told=IDENTITY)
+    turned = from_yaw(0.5 * pi)
+    fed(corrector, MOVES, (0.1, 0.0, GRAVITY), 1)
+    corrector.velocity, corrector.position = ZERO, ZERO
+    fed(corrector, MOVES, (0.1, 0.0, GRAVITY), 100, told=turned)
+    assert abs(corrector.velocity[0]) < 0.003 and abs(corrector.velocity[1]) < 0.003
+
+
+def test_a_standing_foot_has_no_velocity() -> None:
+    corrector = begun(BiasZupt())
+    fed(corrector, MOVES, (1.0, 0.0, GRAVITY), 50)
+    assert corrector.velocity[0] == pytest.approx(0.5, abs=0.02)
+    corrector.predict(0.01, (1.0, 0.0, GRAVITY), ZERO)
+    assert corrector.correct(1.0, STANDS) and corrector.velocity == ZERO
+
+
+def test_evidence_that_is_too_poor_is_no_stance() -> None:
+    corrector = begun(BiasZupt())
+    corrector.predict(0.01, UP, ZERO)
+    assert not corrector.correct(0.0, Stance(ZERO, 0.2, 0.0, None))
+    assert not corrector.correct(0.0, Stance(ZERO, 0.01, 0.0, Phase.SWING))
+
+
+def test_a_steady_error_of_a_swing_costs_no_way_when_it_is_spread_and_half_a_t_squared_when_not() -> None:
+    # an error of 0.2 m/s^2 for a second: a t^2 / 2 = 0.1 m
+    for spread, way in ((True, 0.0), (False, 0.1)):
+        corrector = begun(BiasZupt(spread=spread))
+        corrector.predict(0.0, UP, ZERO)
+        corrector.correct(0.0, STANDS)
+        fed(corrector, MOVES, (0.2, 0.0, GRAVITY), 99)
+        fed(corrector, STANDS, (0.2, 0.0, GRAVITY), 1)
+        assert corrector.position[0] == pytest.approx(way, abs=0.002)
+
+
+def test_a_gravity_that_leans_pulls_an_attitude_of_our_own_upright() -> None:
+    corrector = begun(BiasZupt(), from_rotation_vector((0.02, 0.0, 0.0)))
+    fed(corrector, STANDS, UP, 300)
+    x, y, _ = rotate(corrector.attitude, (0.0, 0.0, 1.0))
+    assert abs(x) < 1e-3 and abs(y) < 1e-3
+
+
+def test_the_device_knows_its_attitude_better_than_we_do() -> None:
+    corrector = begun(BiasZupt())
+    tilted = from_rotation_vector((0.02, 0.0, 0.0))
+    fed(corrector, STANDS, UP, 300, told=tilted)
+    assert corrector.attitude == pytest.approx(tilted, abs=1e-9)
+
+
+def test_the_heading_goes_on_as_it_was_when_a_device_tells_its_own() -> None:
+    corrector = begun(BiasZupt(), from_yaw(0.3))
+    north = from_yaw(2.0)  # the device's world is turned against ours
+    corrector.told(multiply(north, from_yaw(0.3)))
+    corrector.predict(0.01, UP, ZERO)
+    assert corrector.attitude == pytest.approx(from_yaw(0.3), abs=1e-9)
+    corrector.told(multiply(north, from_yaw(0.8)))
+    corrector.predict(0.01, UP, ZERO)
+    assert corrector.attitude == pytest.approx(from_yaw(0.8), abs=1e-9)
+
+
+# --- drift ------------------------------------------------------------------------------------------------------------
+
+
+def drifting(drift: tuple[float, float] | None) -> BiasZupt:
+    part = BiasZupt().calibrated(Foot.LEFT, Calibration(drift=drift))
+    return begun(part)
+
+
+def test_a_calibrated_drift_is_taken_off_every_sample() -> None:
+    corrector = drifting((0.02, -0.01))
+    fed(corrector, MOVES, UP, 250)
+    assert corrector.position == pytest.approx((-0.05, 0.025, 0.0), abs=1e-9)
+
+
+def test_a_drift_is_fixed_to_the_world_of_a_device_that_has_one() -> None:
+    corrector = drifting((0.02, 0.0))
+    # the device says 0.4 where navigation has 0: its x axis lies at -0.4 rad in navigation
+    fed(corrector, MOVES, UP, 100, told=from_yaw(0.4))
+    assert corrector.position == pytest.approx((-0.02 * cos(-0.4), -0.02 * sin(-0.4), 0.0), abs=1e-9)
+
+
+def test_who_stands_for_long_does_not_drift() -> None:
+    corrector = drifting((0.02, 0.0))
+    fed(corrector, STANDS, UP, 1000)
+    assert -0.0205 < corrector.position[0] < -0.0195
+
+
+def test_without_a_calibration_nothing_is_taken_off() -> None:
+    corrector = drifting(None)
+    fed(corrector, MOVES, UP, 100)
+    assert corrector.position == pytest.approx(ZERO, abs=1e-9)
+
+
+# --- what every corrector does ----------------------------------------------------------------------------------------
+
+
+def test_doubt_grows_with_the_way_and_an_anchor_ends_it() -> None:
+    corrector = begun(BiasZupt())
+    corrector.velocity = (1.0, 0.0, 0.0)
+    fed(corrector, MOVES, UP, 100)
+    stretch = corrector.covariance()
+    assert stretch[0] == pytest.approx(0.01**2, rel=0.05) and stretch[6] > 0.0
+    assert corrector.anchor() == stretch
+    assert corrector.covariance() == (0.0,) * 7
+
+
+def test_a_devices_heading_error_is_in_every_stretch_and_does_not_add_up() -> None:
+    corrector = begun(BiasZupt())
+    corrector.velocity = (1.0, 0.0, 0.0)
+    fed(corrector, MOVES, UP, 100, told=IDENTITY)
+    stretch = corrector.covariance()
+    assert stretch[0] == pytest.approx(0.01**2 + 0.0175**2, rel=0.05) and stretch[6] == 0.0
+
+
+def test_a_long_gap_stops_the_foot_where_it_was() -> None:
+    corrector = begun(BiasZupt())
+    corrector.velocity = (1.0, 0.0, 0.0)
+    assert corrector.bridge(0.2) == 0.2 and corrector.velocity == (1.0, 0.0, 0.0)
+    assert corrector.bridge(inf) == 0.0 and corrector.velocity == ZERO
+
+
+def test_it_goes_on_from_a_snapshot() -> None:
+    ours = drifting((0.01, 0.0))
+    fed(ours, STANDS, (0.1, 0.0, GRAVITY), 20, told=from_yaw(0.4))
+    fed(ours, MOVES, (0.5, 0.2, GRAVITY), 20, told=from_yaw(0.5))
+    theirs = machine.load(BiasZupt, machine.save(ours))
+    for one in (ours, theirs):
+        fed(one, MOVES, (0.1, 0.1, GRAVITY), 5, told=from_yaw(0.6))
+        fed(one, STANDS, UP, 5)
+    assert ours == theirs

@@ -1,0 +1,174 @@
+"""Contours of heel pressure: equations (1) and (2) against a contour worked out by hand, whatever the cells."""
+
+from __future__ import annotations
+
+from math import hypot, inf, pi
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath import machine
+from solepath.foot.contour import FIGURE_4, Contours
+from solepath.sim.insoles import heel_array, layout
+from solepath.types import Cell, Foot, Layout
+
+LENGTH = 0.28
+STEP = 0.05
+"""s between two looks."""
+PEAK, SLOPE = 2e5, 5e6
+"""Of a cone of pressure: Pa, and Pa/m; its foot is 40 mm from its tip."""
+
+
+def grid(spacing: float = 0.006, scale: float | None = 1.0) -> Layout:
+    """A fine square grid of cells about (0.046, 0), 84 mm each way, all of it under the heel."""
+    half = round(0.042 / spacing)
+    places = [(0.046 + spacing * i, spacing * j) for i in range(-half, half + 1) for j in range(-half, half + 1)]
+    cells = tuple(Cell(x, y, spacing * spacing) for x, y in places)
+    return Layout(len(cells), Foot.LEFT, cells, LENGTH, scale)
+
+
+def cone(where: Layout, x: float, y: float, part: float = 1.0) -> list[float]:
+    """Loads under a cone of pressure with its tip at (x, y), times `part`, N."""
+    return [
+        part * cell.area * max(0.0, PEAK - SLOPE * hypot(cell.x - x, cell.y - y)) for cell in where.cells
+    ]
+
+
+def moved(contours: Contours, where: Layout, first: list[float], second: list[float]) -> tuple[float, float]:
+    assert contours.wear(where) is None
+    assert contours.cells == list(range(len(where.cells)))
+    assert contours.velocity(1.0, first) is None, "one look shows no movement"
+    velocity = contours.velocity(1.0 + STEP, second)
+    assert velocity is not None
+    return velocity
+
+
+def integral(x: float, y: float, radius: float) -> tuple[float, float]:
+    """1/pi times the integral of dr/dt r_hat over theta for a circle that moves from the centre of the rays to (x, y)
+    within STEP: r = d cos(theta - phi) + sqrt(R^2 - d^2 sin^2(theta - phi)), by hand."""
+    theta = np.linspace(0.0, 2.0 * pi, 3600, endpoint=False)
+    d, phi = hypot(x, y), np.arctan2(y, x)
+    r = d * np.cos(theta - phi) + np.sqrt(radius**2 - (d * np.sin(theta - phi)) ** 2)
+    rate = (r - radius) / STEP
+    per = 2.0 * pi / len(theta) / pi
+    return float((rate * np.cos(theta)).sum() * per), float((rate * np.sin(theta)).sum() * per)
+
+
+def test_the_integral_over_all_directions_divided_by_pi_is_how_fast_the_contour_moves() -> None:
+    x, y = integral(0.003, -0.001, 0.02)
+    assert x == pytest.approx(0.003 / STEP, rel=1e-6) and y == pytest.approx(-0.001 / STEP, rel=1e-6)
+
+
+@pytest.mark.parametrize("pascals", [None, FIGURE_4])
+def test_a_cone_of_pressure_that_moves_is_seen_to_move_as_fast(pascals: tuple[float, ...] | None) -> None:
+    where = grid()
+    centre = (0.046, 0.0)
+    for dx, dy in ((0.002, 0.0), (0.0, 0.002), (-0.0015, 0.001)):
+        seen = moved(
+            Contours(pascals=pascals), where, cone(where, *centre), cone(where, centre[0] + dx, centre[1] + dy)
+        )
+        true = integral(dx, dy, 0.02)
+        assert hypot(seen[0] - true[0], seen[1] - true[1]) < 0.06 * hypot(*true)
+
+
+def test_a_contour_that_only_shrinks_does_not_move_wherever_the_rays_begin() -> None:
+    where = grid()
+    for tip in ((0.046, 0.0), (0.051, 0.003)):
+        seen = moved(Contours(pascals=(60e3, 100e3)), where, cone(where, *tip), cone(where, *tip, part=0.9))
+        # the level at 100 kPa comes in by 2.2 mm within 50 ms, 44 mm/s
+        assert hypot(*seen) < 0.0025
+
+
+def test_levels_that_follow_the_load_see_nothing_of_a_heel_that_is_unloaded() -> None:
+    where = grid()
+    seen = moved(Contours(), where, cone(where, 0.051, 0.003), cone(where, 0.051, 0.003, part=0.3))
+    assert hypot(*seen) < 1e-9
+
+
+def test_levels_that_follow_the_load_need_no_scale() -> None:
+    counts = grid(scale=None)
+    first, second = cone(counts, 0.046, 0.0), cone(counts, 0.048, 0.0)
+    newtons = moved(Contours(), grid(), first, second)
+    raw = moved(Contours(), counts, [4095.0 * load for load in first], [4095.0 * load for load in second])
+    assert raw == pytest.approx(newtons)
+
+
+def test_fixed_pressures_ask_for_newtons() -> None:
+    contours = Contours(pascals=FIGURE_4)
+    contours.wear(grid(scale=None))
+    assert not contours.absolute and contours.levels == Contours().shares
+
+
+def test_half_a_contour_is_followed_where_the_other_half_lies_beyond_the_cells() -> None:
+    where = grid()
+    edge = 0.030  # towards the side, where the cells end at 42 mm
+    seen = moved(Contours(), where, cone(where, 0.046, edge), cone(where, 0.048, edge))
+    assert seen[0] == pytest.approx(0.002 / STEP, rel=0.3)
+
+
+def test_looks_too_far_apart_are_not_compared() -> None:
+    where = grid()
+    contours = Contours()
+    contours.wear(where)
+    contours.velocity(1.0, cone(where, 0.046, 0.0))
+    assert contours.velocity(1.2, cone(where, 0.046, 0.0)) is None
+    assert contours.velocity(1.25, cone(where, 0.046, 0.0)) == pytest.approx((0.0, 0.0))
+
+
+def test_a_clock_that_begins_anew_is_not_waited_for() -> None:
+    where = grid()
+    contours = Contours()
+    contours.wear(where)
+    contours.velocity(100.0, cone(where, 0.046, 0.0))
+    assert contours.velocity(1.0, cone(where, 0.046, 0.0)) is None
+    assert contours.velocity(1.05, cone(where, 0.046, 0.0)) is not None
+
+
+@pytest.mark.parametrize("cells", [24, 35, 96, 99])
+@pytest.mark.parametrize("foot", list(Foot))
+def test_insoles_of_many_layouts_have_contours(cells: int, foot: Foot) -> None:
+    assert Contours().wear(layout(cells, foot)) is None
+
+
+def test_the_array_under_the_heel_has_contours() -> None:
+    assert Contours().wear(heel_array(Foot.RIGHT)) is None
+
+
+def test_too_few_cells_under_the_heel_have_none() -> None:
+    cells = tuple(Cell(x, 0.01 * k) for k, x in enumerate((0.02, 0.04, 0.06, 0.20, 0.22)))
+    contours = Contours()
+    assert contours.wear(Layout(1, Foot.LEFT, cells, LENGTH)) == (
+        "3 pressure cells under the heel have no contour, 4 are the fewest"
+    )
+    assert contours.velocity(0.0, []) is None
+
+
+def test_cells_in_a_row_surround_nothing() -> None:
+    cells = tuple(Cell(0.01 * k, 0.0) for k in range(1, 9))
+    assert "do not surround" in str(Contours().wear(Layout(1, Foot.LEFT, cells, LENGTH)))
+
+
+numbers = st.floats(-1e9, 1e9, allow_nan=False)
+places = st.tuples(st.floats(-0.1, 0.4), st.floats(-0.1, 0.1), st.sampled_from([0.0, 1e-6, 1e-4]))
+
+
+@given(st.lists(places, max_size=14), st.data())
+def test_no_cells_and_no_loads_are_too_odd(where: list[tuple[float, float, float]], data: st.DataObject) -> None:
+    contours = Contours()
+    contours.wear(Layout(1, Foot.LEFT, tuple(Cell(*place) for place in where), LENGTH, 1.0))
+    for t in (0.0, 0.05, 0.05, 0.1, 0.01):
+        loads = data.draw(st.lists(numbers, min_size=len(contours.cells), max_size=len(contours.cells)))
+        found = contours.velocity(t, loads)
+        assert found is None or all(abs(value) < inf for value in found)
+
+
+def test_it_goes_on_from_a_snapshot() -> None:
+    where = layout(35, Foot.LEFT)
+    ours = Contours()
+    ours.wear(where)
+    ours.velocity(0.0, [cone(where, 0.05, 0.0)[i] for i in ours.cells])
+    theirs = machine.load(Contours, machine.save(ours))
+    later = [cone(where, 0.051, 0.0)[i] for i in ours.cells]
+    assert ours.velocity(0.05, later) == theirs.velocity(0.05, later)
