@@ -180,11 +180,11 @@ def test_a_foot_in_the_air_keeps_touching_cells_that_feel_it() -> None:
     found = read_cells(loads, t, WORN_RESISTIVE, 0.05, np.random.default_rng(1), lift=lift).counts * 0.05
     quiet = evolve(WORN_RESISTIVE, rub=0.0)
     calm = read_cells(loads, t, quiet, 0.05, np.random.default_rng(1), lift=lift).counts * 0.05
-    assert found[air].std(axis=0).mean() > 1.8 * calm[air].std(axis=0).mean()
+    assert found[air].std(axis=0).mean() > 1.5 * calm[air].std(axis=0).mean()
     assert found[~air][5:].std(axis=0).mean() == pytest.approx(WORN_RESISTIVE.noise, rel=0.15)
     changes = found[air] - found[air].mean(axis=0)
     after = int(round(WORN_RESISTIVE.rub_memory / 0.01))
-    assert 0.15 < np.mean(changes[:-after] * changes[after:]) / np.mean(changes**2) < 0.45  # a memory of that long
+    assert 0.1 < np.mean(changes[:-after] * changes[after:]) / np.mean(changes**2) < 0.45  # a memory of that long
     assert found.min() >= 0.0
 
 

@@ -157,11 +157,11 @@ counts, the lag of the cover and the in-shoe preload are assumed."""
 CAPACITIVE = CellPart("capacitive", gain=0.025, preload=0.3, noise=0.06, lag=0.002)
 """Accuracy +-5 % of calibrated capacitive insoles (novel pedar); the rest as above."""
 
-WORN_RESISTIVE = evolve(RESISTIVE, name="FSR in a laced shoe", preload=1.0, hang=0.3, rub=0.3)
-WORN_CAPACITIVE = evolve(CAPACITIVE, name="capacitive in a laced shoe", preload=0.6, hang=0.3, rub=0.2)
-"""The same cells with the contact of the foot in swing. No sheet and none of the papers gives figures: that a laced
-foot presses with about 1 N on each of 96 cells, that a third of it goes with each g, and that it varies by a third are
-assumed."""
+WORN_RESISTIVE = evolve(RESISTIVE, name="FSR in a laced shoe", hang=0.3, rub=0.2)
+WORN_CAPACITIVE = evolve(CAPACITIVE, name="capacitive in a laced shoe", hang=0.3, rub=0.12)
+"""The same cells with the contact of the foot in swing. No sheet and none of the papers gives figures: that a third of
+the preload (of about 50 N in all that a laced foot presses with) goes with each g, and that each cell's varies by 0.4
+of its mean, are assumed."""
 
 HEEL_ARRAY = evolve(WORN_CAPACITIVE, name="DigiTacts II under a heel")
 """Pressure Profile Systems DigiTacts II: capacitive, calibrated before shipment (Bebek et al. 2010, IEEE Trans.
