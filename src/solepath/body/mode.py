@@ -13,6 +13,10 @@ What the paper leaves open, and what is taken here:
   the bend, which is what a centripetal force does. The table is followed.
 - `th` has no value. Here a region counts as the mean load of its cells over the contact, as a multiple of that of all
   cells of the insole; so no unit and no weight enters.
+- Speed. The load moves outward in a bend by a share of h v^2 / (r g), h the height of the centre of mass, and under
+  it the pressure grows about exponentially from the inner to the outer edge. So the same bend leaves less of a mark
+  at a slower pace, and `th` belongs to one speed (`PACE`): what a region bears beyond what it does on a straight way
+  (`STRAIGHT_ON`) is brought to that speed, its logarithm by the square (`at_pace`). The paper has one pace.
 - "Total pressure at the relevant positions" of standing still, 0.7 body weights, cannot stand on eight cells of two
   feet: it is taken over both insoles.
 """
@@ -37,6 +41,14 @@ to its edge, outer (lateral) positive."""
 TH = 2.1
 """`th`, times the mean cell. On the emulator's feet, whose load moves outward in a bend as physics has it, the regions'
 shares in contacts of another mode end below and those of their own begin above it, at 1.1 m/s."""
+PACE = 1.1
+"""m/s, of `TH`."""
+STRAIGHT_ON = {"L1": 0.58, "L2": 1.55, "L3": 0.87, "R1": 1.52, "R2": 0.68}
+"""The regions' shares on a straight way, times the mean cell: of the emulator's feet."""
+SWING = 0.38
+"""Share of a stride in which the foot is in the air, at that speed."""
+SLOWEST, FASTEST = 0.7, 1.7
+"""m/s: beyond these the shares are brought to `PACE` as from here, or the noise of a slow step would make a bend."""
 LEAST_STEP = 0.15
 """L_w: a shorter step is dragging, not walking, m (table 2)."""
 STANDING_WEIGHT = 0.7
@@ -74,11 +86,20 @@ def regions(layout: Layout) -> dict[str, tuple[int, ...]]:
     return found
 
 
+def at_pace(shares: dict[str, float], speed: float) -> dict[str, float]:
+    """The shares of the edges as they would be at `PACE`, from those at `speed` m/s; F1 and F2 as they are."""
+    k = (PACE / min(max(speed, SLOWEST), FASTEST)) ** 2
+    return {
+        name: STRAIGHT_ON[name] * (share / STRAIGHT_ON[name]) ** k if name in STRAIGHT_ON else share
+        for name, share in shares.items()
+    }
+
+
 def decide(foot: Foot, step: float, shares: dict[str, float], forward: float, th: float) -> WalkingMode | None:
     """The mode by table 2, from a contact of `foot` that a step of `step` m ended in; None: no rule applies.
 
-    `shares`: of the regions of this foot, as multiples of the mean cell's. `forward`: F1 of both feet less F2 of both.
-    A tight bend goes before a wide one, and of two edges the one that is further beyond the threshold."""
+    `shares`: of the regions of this foot, as multiples of the mean cell's, at `PACE`. `forward`: F1 of both feet less
+    F2 of both. A tight bend goes before a wide one, and of two edges the one that is further beyond the threshold."""
     edges = (
         ("inner", "tight", shares["R2"]),
         ("outer", "tight", shares["L1"]),
@@ -103,6 +124,9 @@ class Contact:
     """Number of cells that the regions are of."""
     where: dict[str, tuple[int, ...]] = field(factory=dict, init=False)
     began: float | None = field(default=None, init=False)
+    ended: float | None = field(default=None, init=False)
+    swung: float | None = field(default=None, init=False)
+    """How long the foot was in the air before it, s."""
     sums: dict[str, float] = field(factory=dict, init=False)
     total: float = field(default=0.0, init=False)
     lingers: bool = field(default=False, init=False)
@@ -119,6 +143,7 @@ class Contact:
 
     def begin(self, t: float) -> None:
         """The foot came down."""
+        self.swung = None if self.ended is None else t - self.ended
         self.began, self.total, self.lingers = t, 0.0, False
         self.sums = dict.fromkeys(self.where, 0.0)
 
@@ -136,9 +161,13 @@ class Contact:
         """s."""
         return 0.0 if self.began is None else t - self.began
 
+    def speed(self, step: float) -> float:
+        """Of the walk, m/s, from the length of the stride that it ended, m; `PACE` where nobody knows."""
+        return PACE if self.swung is None or self.swung <= 0.0 else SWING * step / self.swung
+
     def shares(self) -> dict[str, float] | None:
         """The mean cell of each region as a multiple of the insole's; None without load or layout."""
         if self.layout is None or self.total <= 0.0 or not self.sums:
             return None
         mean = self.total / self.layout
-        return {name: total / len(self.where[name]) / mean for name, total in self.sums.items()}
+        return {name: max(total, 0.0) / len(self.where[name]) / mean for name, total in self.sums.items()}

@@ -38,7 +38,7 @@ from ..types import SITE_OF_FOOT, Foot, Sample, Site, Vec3, WalkingMode
 from ..vector import GRAVITY, TIE, ZERO, rotate, sub
 from .inclination import Inclination
 from .limbs import ABOVE, LowerLimbs
-from .mode import LEAST_STEP, LINGERS, STANDING_WEIGHT, TH, Contact, decide
+from .mode import LEAST_STEP, LINGERS, STANDING_WEIGHT, TH, Contact, at_pace, decide
 from .position import Position
 from .touchdown import OTHER, AnyTouchdown, Carrier, FootState, Height, MaximumPressure, suspended, v_change
 
@@ -271,6 +271,7 @@ class Modes:
                 contact.lingers = True
                 mode = self._standing(both)
         elif side.pressed:
+            contact.ended = t
             mode = self._told(foot.foot, side, both)
         side.pressed = pressed
         if mode is None or mode is side.mode:
@@ -291,7 +292,8 @@ class Modes:
         contact.forward = shares["F1"] - shares["F2"]
         if side.step < LEAST_STEP:
             return self._standing(both)
-        return decide(foot, side.step, shares, contact.forward + self.sides[OTHER[foot]].contact.forward, self.th)
+        forward = contact.forward + self.sides[OTHER[foot]].contact.forward
+        return decide(foot, side.step, at_pace(shares, contact.speed(side.step)), forward, self.th)
 
     # --- places ---
 
