@@ -24,9 +24,7 @@ def begun(corrector: BiasZupt, attitude: Quat = IDENTITY) -> BiasZupt:
     return corrector
 
 
-def fed(
-    corrector: BiasZupt, stance: Stance, acc: Vec3, count: int, dt: float = 0.01, told: Quat | None = None
-) -> None:
+def fed(corrector: BiasZupt, stance: Stance, acc: Vec3, count: int, dt: float = 0.01, told: Quat | None = None) -> None:
     for k in range(count):
         if told is not None:
             corrector.told(told)

@@ -169,7 +169,9 @@ def test_cells_of_another_number_than_the_layouts_are_left_to_the_gyroscope() ->
 
 
 def test_too_few_cells_are_said_once_and_the_walk_goes_on_by_the_gyroscope() -> None:
-    sparse = Layout(2, LEFT, (Cell(0.03, 0.0), Cell(0.05, 0.01), Cell(0.20, 0.0), Cell(0.21, 0.02)), 0.285, 0.05, 204.75)
+    sparse = Layout(
+        2, LEFT, (Cell(0.03, 0.0), Cell(0.05, 0.01), Cell(0.20, 0.0), Cell(0.21, 0.02)), 0.285, 0.05, 204.75
+    )
     walk = emulate(LAP, devices={Site.LEFT_FOOT: Insole(cells=sparse)}, seed=107)
     session = Session(PRESSURE_CONTOUR)
     events = session.feed(walk.packets) + session.finish()

@@ -31,9 +31,7 @@ def grid(spacing: float = 0.006, scale: float | None = 1.0) -> Layout:
 
 def cone(where: Layout, x: float, y: float, part: float = 1.0) -> list[float]:
     """Loads under a cone of pressure with its tip at (x, y), times `part`, N."""
-    return [
-        part * cell.area * max(0.0, PEAK - SLOPE * hypot(cell.x - x, cell.y - y)) for cell in where.cells
-    ]
+    return [part * cell.area * max(0.0, PEAK - SLOPE * hypot(cell.x - x, cell.y - y)) for cell in where.cells]
 
 
 def moved(contours: Contours, where: Layout, first: list[float], second: list[float]) -> tuple[float, float]:

@@ -1,0 +1,154 @@
+"""Drift from laps of a square: a known slope comes out, and what the laps do not agree on does not."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import hypot
+from pathlib import Path
+
+import pytest
+from attrs import evolve
+
+from solepath import Session, StepTaken
+from solepath.calibrate.recorded import recorded
+from solepath.calibrate.square import Mark, fit_square, read_marks, square_drift
+from solepath.calibration import Calibration, CalibrationError
+from solepath.foot.bias_zupt import BiasZupt
+from solepath.recipes import DEFAULT, GYROSCOPE, Recipe
+from solepath.sim.insole_device import Insole
+from solepath.sim.laps import square
+from solepath.sim.parts import AttitudePart
+from solepath.sim.walk import EmulatedWalk, emulate
+from solepath.types import Foot, Packet, Sample, Site
+
+LEFT = Foot.LEFT
+EXACT = AttitudePart("exact", tilt=0.0, heading=0.0)
+PER_LAP = 8
+
+
+@cache
+def laps() -> EmulatedWalk:
+    """Four rounds of a small square, each foot on eight marks, in a device that knows its attitude."""
+    spacing_of_40 = square(4, edge=11.7 * PER_LAP / 40.0, corner=0.5)
+    route = evolve(
+        spacing_of_40,
+        actions=tuple(
+            evolve(action, spacing=action.spacing * 40.0 / PER_LAP) if getattr(action, "spacing", None) else action
+            for action in spacing_of_40.actions
+        ),
+    )
+    device = Insole(rate=50.0, quaternion=True, attitude=EXACT, north=0.7)
+    return emulate(route, devices={Site.LEFT_FOOT: device}, seed=109)
+
+
+@cache
+def samples() -> tuple[Packet | Sample, ...]:
+    """The samples, without what the cells say: the gyroscope alone is asked here."""
+    return tuple(evolve(sample, pressure=None) for sample in recorded(laps().packets).samples)
+
+
+def drifting(x: float, y: float) -> Recipe:
+    """A recipe whose positions drift by (x, y) m/s in the device's own world."""
+    return evolve(GYROSCOPE, corrector=BiasZupt(drift=(-x, -y)))
+
+
+def test_a_known_slope_comes_out_in_the_frame_of_the_device() -> None:
+    without = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
+    with_it = square_drift(samples(), steps_per_lap=PER_LAP, recipe=drifting(0.03, -0.02))
+    assert with_it.slope[0] - without.slope[0] == pytest.approx(0.03, abs=2e-4)
+    assert with_it.slope[1] - without.slope[1] == pytest.approx(-0.02, abs=2e-4)
+    assert with_it.marks == PER_LAP and with_it.foot is LEFT
+
+
+def test_a_drift_that_all_laps_agree_on_is_kept_and_then_taken_off() -> None:
+    found = square_drift(samples(), steps_per_lap=PER_LAP, recipe=drifting(0.12, -0.08))
+    assert hypot(*found.kept) > 0.9 * hypot(*found.slope)
+
+    def end(recipe: Recipe, calibration: Calibration) -> StepTaken:
+        session = Session(recipe, calibration=calibration)
+        steps = [event for event in session.feed(samples()) + session.finish() if isinstance(event, StepTaken)]
+        return steps[-1]
+
+    # what the recipe adds, the calibration takes off again, but for the stands, in which nothing is taken off
+    plain, mended = end(GYROSCOPE, Calibration()), end(GYROSCOPE, Calibration(drift=(0.12, -0.08)))
+    apart = hypot(*(a - b for a, b in zip(plain.position[:2], mended.position[:2], strict=True)))
+    assert apart == pytest.approx(hypot(0.12, 0.08) * plain.t, rel=0.1)
+
+
+def test_what_the_laps_do_not_agree_on_is_not_taken_off() -> None:
+    found = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
+    assert hypot(*found.kept) < hypot(*found.slope)
+    if hypot(*found.slope) < 2.0**0.5 * found.scatter:
+        assert found.kept == (0.0, 0.0)
+
+
+def test_marks_by_time_say_the_same_as_counted_steps() -> None:
+    session = Session(GYROSCOPE)
+    steps = [event for event in session.feed(samples()) + session.finish() if isinstance(event, StepTaken)]
+    marks = [Mark(str(k % PER_LAP), step.t + 0.1) for k, step in enumerate(steps)]
+    counted = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
+    assert square_drift(samples(), marks=marks, recipe=GYROSCOPE) == counted
+
+
+def test_a_calibration_has_the_drift_and_nothing_else() -> None:
+    found = fit_square(samples(), steps_per_lap=PER_LAP, recipe=drifting(0.03, -0.02))
+    assert found == Calibration(drift=found.drift) and found.drift is not None
+
+
+def test_a_drift_known_before_is_not_taken_off_while_calibrating() -> None:
+    known = Calibration(drift=(0.5, 0.5))
+    assert square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE, calibration=known) == square_drift(
+        samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE
+    )
+
+
+# --- bad input --------------------------------------------------------------------------------------------------------
+
+
+def refused(**asked: object) -> str:
+    with pytest.raises(CalibrationError) as error:
+        square_drift(**{"items": samples(), "recipe": GYROSCOPE, "steps_per_lap": PER_LAP, **asked})  # type: ignore[arg-type]
+    assert "\n" not in str(error.value)
+    return str(error.value)
+
+
+def test_what_cannot_be_used_is_said_in_one_line() -> None:
+    assert "less than 3 laps of 40 marks" in refused(steps_per_lap=40)
+    assert refused(items=()) == "no step of the left foot in the recording"
+    assert refused(foot=Foot.RIGHT) == "no step of the right foot in the recording"
+    assert refused(recipe=DEFAULT) == "recipe default takes no drift off"
+    assert refused(marks=[Mark("a", 1e4)]) == "no step ends at mark a near 10000.00 s"
+    assert refused(marks=[Mark("a", 5.0)]) == "no mark was stood on 3 times"
+    assert refused(steps_per_lap=0) == "0 marks are no square"
+
+
+def test_marks_are_read_from_a_table(tmp_path: Path) -> None:
+    file = tmp_path / "marks.csv"
+    file.write_text("mark,t\nA1,3.5\nA2,4.75\n")
+    assert read_marks(file) == (Mark("A1", 3.5), Mark("A2", 4.75))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("mark,t\nA1,soon\n", "line 2: a visit is a name in column mark and seconds in column t"),
+        ("mark,t\nA1,1.0\n,2.0\n", "line 3: a visit"),
+        ("mark,t\nA1,nan\n", "line 2: a visit"),
+        ("a,b\n1,2\n", "line 2: a visit"),
+        ("mark,t\n", "no visits of marks"),
+        ("", "no visits of marks"),
+    ],
+)
+def test_a_table_of_something_else_is_named(tmp_path: Path, text: str, said: str) -> None:
+    file = tmp_path / "marks.csv"
+    file.write_text(text)
+    with pytest.raises(CalibrationError, match=said):
+        read_marks(file)
+
+
+def test_no_file_and_no_text_are_named(tmp_path: Path) -> None:
+    with pytest.raises(CalibrationError, match="No such file"):
+        read_marks(tmp_path / "none.csv")
+    (tmp_path / "bytes.csv").write_bytes(b"\xff\xfe\x00mark")
+    with pytest.raises(CalibrationError, match="is not a table"):
+        read_marks(tmp_path / "bytes.csv")
