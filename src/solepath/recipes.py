@@ -5,16 +5,21 @@ from __future__ import annotations
 from attrs import field, frozen
 
 from .body.fusion import DoubleFoot
+from .body.modes import TABLE_1, Modes
 from .body.position import MeanOfFeet
+from .body.touchdown import Height, MaximumPressure, NetAcceleration
 from .foot.bias_zupt import BiasZupt
 from .foot.contour_stance import ContourVelocity, GyroscopeMagnitude
+from .foot.cop_cues import CopCues
 from .foot.cycle import Cycle
+from .foot.dedrift import LinearDedrift
 from .foot.eskf import ErrorStateFilter
 from .foot.gait_cues import GaitCues
+from .foot.known_velocity import KnownVelocity, SwingDedrift
 from .foot.pressure import Insole
 from .foot.tracker import AnyCorrector, AnyCues, AnyDetector
 
-AnyBody = MeanOfFeet | DoubleFoot
+AnyBody = MeanOfFeet | DoubleFoot | Modes
 
 
 @frozen
@@ -38,10 +43,60 @@ class Recipe:
 DEFAULT = Recipe("default", Cycle(), ErrorStateFilter())
 """Stance judged within each gait cycle, nine-state error-state filter."""
 
+BOARD = 0.44
+"""Where the circuit board parts an insole into two areas, as a share of its length: 12.5 cm of a shoe of 28.5 cm."""
+
+_TWO_AREAS = Insole(heel_ends=BOARD, forefoot_begins=BOARD)
+
+KUPT_DFPC = Recipe(
+    "kupt-dfpc", KnownVelocity(), SwingDedrift(), CopCues(), _TWO_AREAS, DoubleFoot(), needs_pressure=True
+)
+"""Chen et al. 2019: velocity known from heel-strike to toe-off, and both feet calibrating each other's strides."""
+
+KUPT = Recipe("kupt", KnownVelocity(), SwingDedrift(), CopCues(), _TWO_AREAS, needs_pressure=True)
+"""The same without the fusion."""
+
+ZUPT = Recipe("zupt", KnownVelocity(), LinearDedrift(), CopCues(), _TWO_AREAS, needs_pressure=True)
+"""The same stationary epochs, velocity known in them only: what Chen et al. compare with."""
+
 PRESSURE_CONTOUR = Recipe("pressure-contour", ContourVelocity(), BiasZupt(), needs_pressure=True)
 """Bebek et al. 2010: zero velocity where the contours of heel pressure stand still, accelerometer bias, square laps."""
 
 GYROSCOPE = Recipe("gyroscope", GyroscopeMagnitude(), BiasZupt())
 """The same with zero velocity where the gyroscope is quiet: what Bebek et al. compare with."""
 
-BY_NAME: dict[str, Recipe] = {recipe.name: recipe for recipe in (DEFAULT, PRESSURE_CONTOUR, GYROSCOPE)}
+WALKING_MODES = Recipe(
+    "walking-modes",
+    Cycle(),
+    ErrorStateFilter(),
+    body=Modes(MaximumPressure(), TABLE_1),
+    needs_pressure=True,
+)
+"""Gong et al. 2023, method IV: touchdowns by maximum pressure, compensated by walking mode."""
+
+TOUCHDOWN_HEIGHT = Recipe("touchdown-height", Cycle(), ErrorStateFilter(), body=Modes(Height()))
+"""Their method I: the lower foot carries."""
+
+TOUCHDOWN_ACCELERATION = Recipe("touchdown-acceleration", Cycle(), ErrorStateFilter(), body=Modes(NetAcceleration()))
+"""Their method II: the foot with little net acceleration carries."""
+
+TOUCHDOWN_PRESSURE = Recipe(
+    "touchdown-pressure", Cycle(), ErrorStateFilter(), body=Modes(MaximumPressure()), needs_pressure=True
+)
+"""Their method III: touchdowns by maximum pressure."""
+
+BY_NAME: dict[str, Recipe] = {
+    recipe.name: recipe
+    for recipe in (
+        DEFAULT,
+        KUPT_DFPC,
+        KUPT,
+        ZUPT,
+        PRESSURE_CONTOUR,
+        GYROSCOPE,
+        WALKING_MODES,
+        TOUCHDOWN_HEIGHT,
+        TOUCHDOWN_ACCELERATION,
+        TOUCHDOWN_PRESSURE,
+    )
+}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf
+from math import inf, isfinite
 
 from ..events import Rejection, SampleRejected
 from ..types import Sample
@@ -39,15 +39,25 @@ def refusal(sample: Sample, newest: float | None) -> Refusal | None:
                 return Rejection.NOT_FINITE, f"{name} is not a number"
             return Rejection.ABSURD, f"{name} of {_shown(worst)}"
     if sample.pressure:
-        try:
-            total = sum(sample.pressure)
-        except OverflowError:
-            return Rejection.ABSURD, "pressure of hundreds of digits"
+        total = _total(sample.pressure)
         if not -ABSURD_TOTAL < total < ABSURD_TOTAL:
-            if total != total or abs(total) == inf:
-                return Rejection.NOT_FINITE, "pressure is not a number"
-            return Rejection.ABSURD, f"pressure of {_shown(total)} in all"
+            return Rejection.ABSURD, "pressure of hundreds of digits" if abs(total) == inf else (
+                f"pressure of {_shown(total)} in all"
+            )
     return None
+
+
+def _total(cells: tuple[float, ...]) -> float:
+    """Of those cells that are numbers; the others are a matter of cell_health.py."""
+    try:
+        total = sum(cells)
+    except OverflowError:
+        return inf
+    except TypeError:
+        total = inf
+    if isfinite(total):
+        return total
+    return sum([value for value in cells if value is not None and isfinite(value)])
 
 
 def wrong_time(sample: Sample) -> Refusal | None:

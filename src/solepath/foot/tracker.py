@@ -15,7 +15,9 @@ from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..vector import ZERO, sub
 from .attitude import Levelling, Rest, suspected
 from .bias_zupt import BiasZupt
+from .cell_health import CellHealth
 from .contour_stance import ContourVelocity, GyroscopeMagnitude
+from .cop_cues import CopCues
 from .crossing import cross
 from .cues import Seen
 from .cycle import Cycle
@@ -25,6 +27,7 @@ from .gait import Gait
 from .gait_cues import GaitCues
 from .gap import SHORTEST
 from .guess import LayoutGuess
+from .known_velocity import KnownVelocity, SwingDedrift
 from .navigate import LONGEST_BRIDGE
 from .pressure import Insole
 from .pressure_stance import MaximumPressure, TwoArea
@@ -43,9 +46,10 @@ AnyDetector = (
     | MaximumPressure
     | ContourVelocity
     | GyroscopeMagnitude
+    | KnownVelocity
 )
-AnyCorrector = ErrorStateFilter | LinearDedrift | BiasZupt
-AnyCues = GaitCues
+AnyCorrector = ErrorStateFilter | LinearDedrift | SwingDedrift | BiasZupt
+AnyCues = GaitCues | CopCues
 
 STILL = 0.35
 """A foot that is faster than this after the correction is not flat, however much noise the evidence has, m/s."""
@@ -84,6 +88,7 @@ class FootTracker:
     rest: Rest = field(factory=Rest, init=False)
     pressed: bool = field(default=False, init=False)
     """Cells were heard of."""
+    health: CellHealth = field(init=False)
     guess: LayoutGuess = field(init=False)
     lacking: str | None = field(default=None, init=False)
     """What the detector must do without on this layout, not said yet."""
@@ -95,6 +100,7 @@ class FootTracker:
 
     def __attrs_post_init__(self) -> None:
         self.gait = Gait(self.foot)
+        self.health = CellHealth(SITE_OF_FOOT[self.foot])
         self.guess = LayoutGuess(self.foot)
 
     # --- what it knows ---
@@ -128,6 +134,10 @@ class FootTracker:
 
     def wear(self, layout: Layout) -> None:
         """The device said where its pressure cells are."""
+        self.health.wear(layout)
+        self._lay_out(layout)
+
+    def _lay_out(self, layout: Layout) -> None:
         self.insole.wear(layout)
         self._wear_parts(layout)
 
@@ -151,6 +161,7 @@ class FootTracker:
             self._wear_parts(self.insole.layout)
         self.levelling = evolve(self.levelling)
         self.insole.interrupt()
+        self.health.interrupt()
         self.rest.interrupt()
 
     def feed(self, sample: Sample) -> list[Event]:
@@ -169,9 +180,13 @@ class FootTracker:
         if sample.saturated:
             self.gait.step.spoil(t)
         load: Load | None = None
-        if sample.pressure:
+        cells: tuple[float, ...] = ()
+        if sample.pressure or self.pressed:
+            events += self.health.update(t, known_at, sample.pressure or (), self.phase, sample.gyro)
+            cells = self.health.usable(sample.pressure or ())
+        if cells:
             self.pressed = True
-            load = self.insole.update(t, sample.pressure)
+            load = self.insole.update(t, cells)
             if self.needs_pressure and self.insole.layout is None and load is not None:
                 self._guess_layout(t, known_at, load, events)
             if self.phase is not Phase.SWING and load is not None and self.gait.step.t_toe_off is None:
@@ -202,7 +217,7 @@ class FootTracker:
         if layout is not None:
             what = f"nobody says where the cells of the {self.foot.value} insole are: learnt from how steps load them"
             self._limit(what, t, known_at, events)
-            self.wear(layout)
+            self._lay_out(layout)
 
     def _watch_for_gaps(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
         """Name a gap between two samples; returns the time to integrate over, s."""
