@@ -27,7 +27,7 @@ KUPT_DFPC: Table = {
 """Table I: walked distance in m, of 20 walks of 20 m."""
 
 KUPT_L_MEAN_IN_TEXT = 19.68
-"""m. The text below the table has another mean of KUPT-L than the table, 19.58; its accuracy of 2.1 % is the table's."""
+"""m. The text below the table has another mean of KUPT-L than the table; its accuracy of 2.1 % is that of the table."""
 
 CORRIDOR_DRIFT = {"ZUPT-L": 11.15, "ZUPT-R": 7.43, "KUPT+DFPC": 0.78}
 """Section IV-C: drift of the total walking distance over about 91 m, m (fig. 13 draws the tracks)."""
@@ -112,8 +112,8 @@ CORNERS: dict[str, dict[str, Corner]] = {
         "IV": Corner((-0.0044, 0.01), (-0.0007, 0.0075), (0.0176, 0.0178)),
     },
 }
-"""Table 4, point -> method -> deviation. The table heads its columns mm. No walker steps on a mark to some hundredths of
-a millimetre and no inertial sensor resolves that, so the figures are taken for m here."""
+"""Table 4, point -> method -> deviation. The table heads its columns mm. Nobody steps on a mark to some hundredths of a
+millimetre and no inertial sensor resolves that, so the figures are taken for m here."""
 
 
 def corner_row(point: str, method: str, axis: str) -> str:

@@ -5,46 +5,59 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 import numpy as np
+from attrs import evolve, frozen
 
-from ..calibration import Calibration
+from ..calibrate.recorded import recorded
+from ..calibration import Calibration, InsoleCalibration
 from ..evaluate.alignment import Floats, align
 from ..events import Event
 from ..recipes import BY_NAME
 from ..session import Session
-from ..sim.truth import Truth
+from ..sim.route import Route, Stand
 from ..sim.walk import EmulatedWalk
-from ..types import Foot, Packet, Sample
+from ..sim.walker import Walker
+from ..types import Sample
 
-STREAMS = ("insole/frame",)
-"""Channels of samples; what comes on others (how an insole is laid out and scaled) is read at every beginning."""
 ALIGNED_OVER = 2.0
 """m at the beginning over which a track's heading is laid on the truth's, as everywhere in evaluate."""
 
 
-def longest_rest(truth: Truth) -> float:
-    """The middle of the longest stand between two steps of the walk, s."""
-    moving = sorted((step.t_heel_off, step.t_end) for foot in Foot for step in truth.steps(foot))
-    rest, until = (0.0, 0.0), moving[0][1]
-    for begin, end in moving[1:]:
-        rest = max(rest, (begin - until, 0.5 * (begin + until)))
-        until = max(until, end)
-    return rest[1]
+def then(first: Route, second: Route) -> Route:
+    """One after the other, the second from where and whither the first ends."""
+    return evolve(first, actions=(*first.actions, *second.actions), speed=second.speed)
 
 
-def cut(walk: EmulatedWalk, t: float) -> tuple[list[Packet], list[Packet]]:
-    """The packets before and after `t` (s), as two recordings: devices say in both what they are."""
-    before = [packet for packet in walk.packets if packet.t < t]
-    known = [packet for packet in before if packet.channel not in STREAMS]
-    return before, known + [packet for packet in walk.packets if packet.t >= t]
+def rest_after(walker: Walker, first: Route) -> float:
+    """The middle of the stand with which `first`, the beginning of the walker's route, ends, s."""
+    walked = [not isinstance(action, Stand) for action in first.actions]
+    stretches = sum(now and not before for before, now in zip([False, *walked], walked, strict=False))
+    bouts = walker.plan.bouts
+    return 0.5 * (bouts[stretches - 1][1] + bouts[stretches][0])
 
 
-def heard(
-    recipe: str, items: Sequence[Packet | Sample], calibration: Calibration, *, poses: bool = False
-) -> list[Event]:
+@frozen(eq=False)
+class Parts:
+    """A walk decoded and cut in two: samples `before` and `after`, and where the cells are, which an app that hears the
+    devices from the beginning would know too."""
+
+    before: tuple[Sample, ...]
+    after: tuple[Sample, ...]
+    layouts: Calibration
+
+
+def cut(walk: EmulatedWalk, t: float) -> Parts:
+    """The samples of a walk's packets, measured before and after `t` s."""
+    heard = recorded(walk.packets)
+    insoles = {foot: InsoleCalibration(layout=layout) for foot, layout in heard.layouts.items()}
+    before = tuple([sample for sample in heard.samples if sample.t < t])
+    after = tuple([sample for sample in heard.samples if sample.t >= t])
+    return Parts(before, after, Calibration(insoles=insoles))
+
+
+def heard(recipe: str, samples: Sequence[Sample], calibration: Calibration) -> list[Event]:
     """All that a session of the named recipe says."""
-    session = Session(BY_NAME[recipe], calibration=calibration, poses=poses)
-    events = session.feed(items)
-    return events + session.finish()
+    session = Session(BY_NAME[recipe], calibration=calibration)
+    return session.feed(samples) + session.finish()
 
 
 def laid(track: Floats, truth: Floats, over: float = ALIGNED_OVER) -> Floats:

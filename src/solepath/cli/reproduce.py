@@ -1,0 +1,106 @@
+"""`solepath reproduce NAME`: a paper's experiment again, on the emulator, beside the paper's own table."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+from typing import Any
+
+from .failure import Failure, count
+
+NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes")
+"""As reproduce.EXPERIMENTS has them; said here so that --help loads nothing heavy."""
+
+
+def add_to(commands: Any) -> None:
+    command: argparse.ArgumentParser = commands.add_parser(
+        "reproduce",
+        help="walk a paper's experiment again on the emulator",
+        description="Walk the experiment of a paper again with emulated wearers and emulated sensors, and print its "
+        "table beside the paper's.",
+        epilog="example: solepath reproduce kupt-dfpc --walks 5 --figure kupt.png",
+    )
+    command.add_argument("name", metavar="NAME", help=", ".join(NAMES))
+    command.add_argument(
+        "--walks", metavar="N", type=count, help="so many walks (default: as many as the paper: 20, 6 and 40)"
+    )
+    command.add_argument("--seed", metavar="S", type=int, default=1, help="other walks and other sensors (default: 1)")
+    command.add_argument("--json", metavar="FILE", type=Path, help="write the table as JSON too")
+    command.add_argument(
+        "--figure",
+        metavar="FILE",
+        nargs="?",
+        const=Path(),
+        type=Path,
+        help="draw the paper's main figure into this file, .png, .svg or .pdf (default: NAME.png)",
+    )
+    command.add_argument(
+        "--processes", metavar="N", type=count, default=os.cpu_count() or 1, help="how many walks at a time"
+    )
+    command.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    import json
+
+    if options.name not in NAMES:
+        raise Failure(f"there is no experiment {options.name!r}; there are: {', '.join(NAMES)}")
+    figure = _figure(options)
+    for path in (options.json, figure):
+        if path is not None:
+            _check_writable(path)
+
+    from ..recording import printable
+    from ..reproduce.experiments import EXPERIMENTS
+    from ..reproduce.tables import as_json
+    from ..view.progress import progress_bar
+    from ..view.reproduced import reproduced
+
+    with progress_bar("walks", 100) as show:
+
+        def percent(done: int, total: int) -> None:
+            show(100 * done // total)
+
+        experiment = EXPERIMENTS[options.name]
+        done = experiment(options.walks, abs(options.seed), processes=options.processes, progress=percent)
+    print(reproduced(done))
+    if options.json is not None:
+        with options.json.open("w", encoding="utf-8") as file:
+            json.dump(as_json(done), file, indent=1, allow_nan=False)
+            file.write("\n")
+    if figure is not None:
+        from ..view.figures import draw
+
+        draw(done, figure)
+        print(f"figure drawn in {printable(str(figure))}")
+    return 0
+
+
+def _figure(options: argparse.Namespace) -> Path | None:
+    """Where the figure goes. Failure when it could not be drawn there."""
+    from importlib.util import find_spec
+
+    from ..recording import printable
+
+    path: Path | None = options.figure
+    if path is None:
+        return None
+    if find_spec("matplotlib") is None:
+        raise Failure("figures need matplotlib: pip install 'solepath[figures]'")
+    if path == Path():
+        path = Path(f"{options.name}.png")
+    from ..view.figures import formats
+
+    if path.suffix[1:].lower() not in formats():
+        raise Failure(f"{printable(str(path))}: ends in none of {', '.join(formats())}, which says what to draw")
+    return path
+
+
+def _check_writable(path: Path) -> None:
+    """OSError now, not after all the walks. What is in it stays."""
+    there = path.exists()
+    if not there or not path.is_fifo():  # a pipe would take it for the end
+        path.open("ab").close()
+    if not there:
+        path.unlink()

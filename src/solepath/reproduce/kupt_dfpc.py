@@ -1,0 +1,178 @@
+"""Chen et al. 2019: 20 walks of 20 m, and 91 m through a building, with two smart insoles at 30 Hz.
+
+Each walk is another wearer's first with another pair of insoles: 20 s of walking for the pressure noise (section
+III-B), a halt, and then the 20 m, in one recording. The sessions hear what comes after the halt. Distances are the sums
+of stride lengths, as in section IV-B; of the corridor the drift of that sum, as in section IV-C. The corridor's shape
+is not in the text; here it is once around the inner block of a floor (sim/laps.py).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from attrs import field, frozen
+
+from ..calibrate.noise import pressure_noise
+from ..calibration import merged
+from ..evaluate.alignment import Floats
+from ..events import Event, StepTaken, StrideFused
+from ..sim.insole_device import Insole
+from ..sim.laps import corridor, straight
+from ..sim.parts import WORN_RESISTIVE
+from ..sim.truth import Truth
+from ..sim.walk import emulate
+from ..types import SITE_OF_FOOT, Foot
+from . import published
+from .picture import Boxes, Drawn, Floor, Track
+from .pool import Progress, each
+from .tables import Reproduction, Row, statistics
+from .walks import cut, heard, laid, rest_after, then, thinned
+
+NAME = "kupt-dfpc"
+WALKS = 20
+RATE = 30.0
+"""Hz, section III-A."""
+SPEED = 1.3
+"""m/s: comfortable."""
+DISTANCE = 20.0
+"""m."""
+CORRIDOR = 91.0
+"""m, section IV-C."""
+NOISE_WALK = straight(20.0 * SPEED, SPEED).stand(4.0)
+"""20 s for the pressure noise, and a halt."""
+FEET = {Foot.LEFT: "L", Foot.RIGHT: "R"}
+
+
+@frozen
+class Job:
+    """One walk; `corridor`: of CORRIDOR m instead of DISTANCE."""
+
+    seed: int
+    corridor: bool = False
+
+
+@frozen
+class Walked:
+    """`distances` by row and `true`, how far each foot really went, m. Of the corridor only: `tracks`, where each step
+    ended, the true path first, and `closing`, from the end of each to its start, m."""
+
+    distances: dict[str, float]
+    true: dict[Foot, float]
+    tracks: tuple[Track, ...] = ()
+    closing: dict[str, float] = field(factory=dict)
+
+
+def reproduce(
+    walks: int | None = None, seed: int = 1, *, processes: int = 1, progress: Progress | None = None
+) -> Reproduction:
+    """So many walks of 20 m, and one through the corridor."""
+    count = WALKS if walks is None else walks
+    jobs = [Job(1000 * seed, corridor=True), *(Job(1000 * seed + k) for k in range(1, count + 1))]
+    long, *short = each(walk, jobs, processes=processes, progress=progress)
+    rows = tuple(
+        Row(name, tuple(one.distances[name] for one in short), published.KUPT_DFPC[name])
+        for name in published.KUPT_DFPC
+    )
+    return Reproduction(
+        name=NAME,
+        paper_title=published.KUPT_DFPC_TITLE,
+        walked=f"{count} walks of {DISTANCE:g} m at {RATE:g} Hz, another pair of insoles each time",
+        unit="m",
+        rows=rows,
+        panels=(
+            Boxes(f"distance of {count} walks of {DISTANCE:g} m (fig. 12)", tuple(published.KUPT_DFPC), "m", DISTANCE),
+            Floor(f"{CORRIDOR:g} m of corridors (fig. 13)", long.tracks, marks=(("start", *long.tracks[0].points[0]),)),
+        ),
+        notes=_notes(rows, short, long),
+    )
+
+
+def _notes(rows: tuple[Row, ...], short: list[Walked], long: Walked) -> tuple[str, ...]:
+    off = ", ".join(f"{row.name} {_off(row):.2f}" for row in rows)
+    paths = statistics([one.true[foot] for one in short for foot in Foot])
+    told = [
+        f"Root mean square of the error of {len(short)} walks, m: {off}.",
+        f"The feet really went {paths.mean:.2f} m on average: they weave a little.",
+    ]
+    for name, drift in published.CORRIDOR_DRIFT.items():
+        foot = Foot.RIGHT if name.endswith("R") else Foot.LEFT
+        ours = long.distances[name] - long.true[foot]
+        told.append(
+            f"{CORRIDOR:g} m of corridors, {name}: distance off by {abs(ours):.2f} m "
+            f"({100.0 * abs(ours) / CORRIDOR:.2f} %), paper {drift:.2f} m ({100.0 * drift / CORRIDOR:.2f} %); "
+            f"its end {long.closing[name]:.2f} m from its start, which it is in truth."
+        )
+    told.append(
+        f"The paper contradicts itself: the mean of KUPT-L is {published.KUPT_DFPC['KUPT-L'].mean} m in table I and "
+        f"{published.KUPT_L_MEAN_IN_TEXT} m in the text below it."
+    )
+    return tuple(told)
+
+
+def _off(row: Row) -> float:
+    return float(np.sqrt(np.mean([(value - DISTANCE) ** 2 for value in row.values])))
+
+
+def walk(job: Job) -> Walked:
+    """One walk: emulate it, calibrate on its first part, hear the second with each recipe."""
+    route = corridor(CORRIDOR, SPEED) if job.corridor else straight(DISTANCE, SPEED)
+    walked = emulate(
+        then(NOISE_WALK, route),
+        devices={SITE_OF_FOOT[foot]: Insole(rate=RATE, cell_part=WORN_RESISTIVE) for foot in Foot},
+        seed=job.seed,
+    )
+    halt = rest_after(walked.walker, NOISE_WALK)
+    parts = cut(walked, halt)
+    known = merged(parts.layouts, pressure_noise(parts.before))
+    said = {recipe: heard(recipe, parts.after, known) for recipe in ("zupt", "kupt", NAME)}
+    distances = {
+        f"{recipe.upper()}-{letter}": sum(s.stride_length for s in _steps(said[recipe], foot))
+        for recipe in ("zupt", "kupt")
+        for foot, letter in FEET.items()
+    }
+    fused = [event for event in said[NAME] if isinstance(event, StrideFused)]
+    distances["KUPT+DFPC"] = fused[-1].distance if fused else 0.0
+    true = {foot: sum(step.length for step in walked.truth.steps(foot) if step.t_heel_off > halt) for foot in Foot}
+    if not job.corridor:
+        return Walked(distances, true)
+    tracks, closing = _tracks(walked.truth, halt, said["zupt"], fused)
+    return Walked(distances, true, tracks, closing)
+
+
+def _steps(events: list[Event], foot: Foot) -> list[StepTaken]:
+    return [event for event in events if isinstance(event, StepTaken) and event.final and event.foot is foot]
+
+
+def _tracks(
+    truth: Truth, halt: float, zupt: list[Event], fused: list[StrideFused]
+) -> tuple[tuple[Track, ...], dict[str, float]]:
+    """Where steps ended, laid on the floor by their first two metres, and how far each end is from its start, m."""
+    ends = {
+        f"ZUPT-{letter}": [(step.t_end, foot, step.position) for step in _steps(zupt, foot)]
+        for foot, letter in FEET.items()
+    }
+    # the place after each stride is the end of the chosen foot's path; between its own strides that stands still
+    ends["KUPT+DFPC"] = [(one.t, one.foot, one.position) for one in fused if one.foot is one.chosen]
+    tracks, closing = [_true_path(truth, halt)], {}
+    for name, places in ends.items():
+        if len(places) < 2:
+            continue
+        track = np.array([(0.0, 0.0), *((x, y) for _, _, (x, y, _) in places)])
+        true = np.array(
+            [_true_place(truth, places[0][1], halt), *(_true_place(truth, foot, t) for t, foot, _ in places)]
+        )
+        tracks.append(Track(name, thinned(laid(track, true)), Drawn.DOTS))
+        closing[name] = float(np.linalg.norm(track[-1] - track[0]))
+    return tuple(tracks), closing
+
+
+def _true_place(truth: Truth, foot: Foot, t: float) -> Floats:
+    """(x, y) on the floor, m."""
+    place: Floats = truth.pose(foot, t).position[0, :2] + truth.feet[foot].origin[:2]
+    return place
+
+
+def _true_path(truth: Truth, halt: float) -> Track:
+    """Midway between the feet."""
+    t = np.arange(halt, truth.duration, 0.2)
+    both = [truth.pose(foot, t).position[:, :2] + truth.feet[foot].origin[:2] for foot in Foot]
+    return Track("true path", thinned(0.5 * (both[0] + both[1])), Drawn.TRUTH)
