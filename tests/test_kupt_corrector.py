@@ -13,7 +13,6 @@ from solepath.foot.kinematics import Sagittal
 from solepath.foot.known_velocity import KnownVelocity, SwingDedrift
 from solepath.foot.phase import Cue
 from solepath.foot.stance import Load, Stance
-from solepath.foot.touch import Touch
 from solepath.types import Foot, Phase, Quat, Vec3
 from solepath.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
 
@@ -34,7 +33,7 @@ def heel_up(pitch: float) -> Quat:
 
 def detector() -> KnownVelocity:
     """One that has learnt that the sensor's axes are the foot's, and whose cells were right in the last swing."""
-    known = KnownVelocity(sagittal=Sagittal(), touch=Touch())
+    known = KnownVelocity(sagittal=Sagittal())
     known.sagittal.up, known.sagittal.toe = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)
     known.touch.known, known.touch.blind = True, False
     return known

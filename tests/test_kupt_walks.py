@@ -158,3 +158,17 @@ def test_a_foot_without_pressure_has_no_use_for_this_recipe() -> None:
     bare = [evolve(sample, pressure=None) for sample in samples(221, Foot.LEFT, 30.0)]
     assert all(sample.site is SITE_OF_FOOT[Foot.LEFT] for sample in bare)
     assert not steps(run("kupt", tuple(bare)))
+
+
+def test_when_the_clock_begins_anew_the_next_steps_are_found() -> None:
+    """As when a device restarts: the same walk again, at earlier times."""
+    walk = samples(221, Foot.LEFT, 100.0)
+    late = [evolve(sample, t=sample.t + 1000.0) for sample in walk]
+    session = Session(recipes.BY_NAME["kupt"], calibration=LAYOUTS)
+    first = steps(session.feed(late))
+    session.feet[Foot.LEFT].interrupt()
+    again = steps(session.feed(walk))
+    # where the first step began is a matter of the old clock
+    assert [step.stride_length for step in again] == pytest.approx([step.stride_length for step in first[1:]], abs=0.05)
+    # the direction of the toes is still known
+    assert all(step.features.error_index is not None for step in again)

@@ -260,11 +260,10 @@ class CopCues:
 
     def anew(self) -> None:
         """As in `Cues`."""
-        axis, middle = self.inertial.axis, self.middle
+        axis = self.inertial.axis
         self.inertial = evolve(self.inertial)
         self.inertial.axis = axis
-        self.touch.interrupt()
-        fresh = evolve(self)
-        self.stage, self.since = fresh.stage, fresh.since
-        self.cop = self.pressed_at = self.loaded_at = self.moment = self.airborne_since = self.fast_since = None
-        self.mark, self.middle, self.jump, self.told, self.flat = None, middle, -1.0, False, False
+        self.touch = self.touch.anew()
+        self._enter(Stage.LEAVING, 0.0)
+        self.cop = self.pressed_at = self.loaded_at = self.fast_since = self.mark = None
+        self.flat = False

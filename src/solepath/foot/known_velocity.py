@@ -53,10 +53,10 @@ class KnownVelocity:
     shoe: ShoeGeometry = ROCKER_SHOE
     sagittal: Sagittal = field(factory=Sagittal)
     """What was learnt of the mounting."""
-    touch: Touch = field(factory=Touch)
-    inertial: Shoe = field(factory=Shoe)
-    """Speaks as long as the cells are not to be believed (touch.py): standing before the first step."""
     # state
+    touch: Touch = field(factory=Touch, init=False)
+    inertial: Shoe = field(factory=Shoe, init=False)
+    """Speaks as long as the cells are not to be believed (touch.py): standing before the first step."""
     phase: Phase | None = field(default=None, init=False)
     """As far as the load tells; None while it does not."""
     place: Vec3 | None = field(default=None, init=False)

@@ -13,7 +13,7 @@ step and after a long stand: half of the wearer's weight is then the least. So w
 
 from __future__ import annotations
 
-from attrs import define, field
+from attrs import define, evolve, field
 
 from ..types import Layout
 from ..vector import TIE
@@ -69,6 +69,12 @@ class Touch:
         xs = [cell.x for cell in layout.cells]
         middle = 0.5 * (min(xs, default=0.0) + max(xs, default=0.0))
         self.ahead = [x > middle for x in xs]
+
+    def anew(self) -> Touch:
+        """For times that begin anew: where the cells are is kept, what they showed is not."""
+        fresh = evolve(self)
+        fresh.ahead = self.ahead
+        return fresh
 
     def update(self, t: float, load: Load | None, still: bool = False) -> bool:
         """True when the foot is in the air. `still`: it stands, whatever the cells say."""
@@ -137,9 +143,3 @@ class Touch:
             return rear < self.cell_on and front < self.cell_on
         # it has not pushed off: a valley in mid-stance, where the load lies between the cells, is no swing
         return max(rear, front) < 0.5 * self.cell_off and t - self.landed >= self.stance
-
-    def interrupt(self) -> None:
-        """Times begin anew: the extremes are kept, but their spans end here."""
-        self.moving_since = self.still_since = None
-        for extremes in self.cells:
-            extremes.ends = None
