@@ -9,8 +9,9 @@ from attrs import evolve
 from solepath.link.decoder import Decoder
 from solepath.sim.curves import Array
 from solepath.sim.dot import Dot
-from solepath.sim.gait import Wearer
+from solepath.sim.gait import Wearer, step_length
 from solepath.sim.insoles import layout
+from solepath.sim.laps import rectangle
 from solepath.sim.limbs import SLACK, Body, ankle_place
 from solepath.sim.parts import CRE_CC02, WORN_RESISTIVE
 from solepath.sim.radio import Radio
@@ -20,6 +21,7 @@ from solepath.sim.suit import limb_samples, strapped, suit
 from solepath.sim.turning import matrices, multiplied, quaternions
 from solepath.sim.walk import emulate
 from solepath.sim.walker import Walker
+from solepath.sim.wearers import SUBJECTS
 from solepath.types import Foot, Quat, Sample, Site
 from solepath.vector import GRAVITY
 
@@ -227,3 +229,20 @@ def test_a_dot_ticks_in_microseconds_and_can_be_worn_on_a_foot_too() -> None:
 def angle_between_quats(p: Quat | None, q: tuple[float, ...]) -> float:
     assert p is not None
     return 2.0 * float(np.arccos(min(1.0, abs(sum(a * b for a, b in zip(p, q, strict=True))))))
+
+
+def test_tall_wearers_have_long_legs_and_long_steps_and_all_can_walk_a_rectangle() -> None:
+    assert [one.mass for one in SUBJECTS] == [63.0, 52.5, 50.0, 81.0]
+    legs = [one.limbs.thigh + one.limbs.shank for one in SUBJECTS]
+    assert np.argsort(legs).tolist() == np.argsort([1.72, 1.68, 1.60, 1.83]).tolist()
+    assert step_length(1.2, SUBJECTS[3]) > step_length(1.2, SUBJECTS[2])
+    for one in SUBJECTS:
+        walker = Walker(rectangle(), one, seed=2)
+        t = times(walker, 0.02)
+        for foot in Foot:
+            leg = walker.body.leg(foot, t)
+            assert np.linalg.norm(leg.knee - leg.ankle, axis=1) == pytest.approx(one.limbs.shank)
+            assert np.linalg.norm(leg.hip - leg.knee, axis=1) == pytest.approx(one.limbs.thigh)
+        stood = np.array([0.2])
+        together = sum(walker.loads.total(foot, stood)[0] for foot in Foot)
+        assert together == pytest.approx(one.mass * GRAVITY)
