@@ -32,8 +32,8 @@ RARELY = 0.0195
 """The turn of a foot is followed at about 50 Hz, s."""
 HIDDEN = 0.11
 """Over a longer gap nothing is known of it, s."""
-REMEMBERED = 128
-"""Instants of it: at 50 Hz at least the last 1.3 s, a push-off, a swing and the loading after it."""
+REMEMBERED = 80
+"""Instants of it: at 50 Hz at least the last 1.4 s of a step, for a push-off, a swing and the loading after it."""
 PUSH_OFF = 0.3
 """The foot turns over its toes for about this long before toe-off, s,"""
 TURNED = 0.25
@@ -123,6 +123,7 @@ class Sides:
             if isinstance(event, StepTaken):
                 judged = True
                 _land(side, event, rotate(conjugate(foot.corrector.attitude), UP))
+                side.times, side.turns = side.times[-1:], side.turns[-1:]
             elif isinstance(event, ToeOff) and side.sideways:
                 judged = True
                 _leave(side, is_left)
@@ -156,8 +157,8 @@ def _turn(side: Side, t: float, gyro: Vec3) -> None:
         side.turns = [ZERO]
     times.append(t)
     if len(times) > REMEMBERED:
-        del times[: REMEMBERED // 2]
-        del side.turns[: REMEMBERED // 2]
+        del times[: REMEMBERED // 8]
+        del side.turns[: REMEMBERED // 8]
 
 
 def _land(side: Side, step: StepTaken, up: Vec3) -> None:
