@@ -216,16 +216,35 @@ def test_a_later_and_better_mark_replaces_an_earlier_one() -> None:
     assert moved(fresh(), early).position == moved(fresh()).position
 
 
-def test_a_gap_in_a_step_makes_it_abnormal() -> None:
+@pytest.mark.parametrize("at", [1, 2, 4, 6, 8])
+def test_a_gap_anywhere_in_a_step_makes_it_abnormal(at: int) -> None:
     corrector = fresh()
     corrector.start(IDENTITY, 0.02)
     for k, (stance, cue) in enumerate(((ZERO_VELOCITY, None), *STEP)):
-        corrector.predict(corrector.bridge(0.1) if k == 4 else 0.1, DRIFTING, ZERO)
+        corrector.predict(corrector.bridge(0.1) if k == at else 0.1, DRIFTING, ZERO)
         corrector.correct(0.1 * k, stance)
         if cue is not None:
             corrector.mark(0.1 * k, cue)
     assert corrector.error_index is None
     assert corrector.position[0] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_one_sample_lost_at_30_hz_leaves_a_step_as_good_as_it_was() -> None:
+    corrector = moved(fresh(), STEP[:3])
+    assert corrector.bridge(0.067) == 0.067
+    assert not corrector.spoilt
+
+
+def test_after_a_long_gap_the_foot_is_taken_up_where_it_was() -> None:
+    corrector = moved(fresh(), STEP[:4])
+    before = corrector.position
+    assert corrector.bridge(1.0) == 0.0
+    assert corrector.position == before and corrector.velocity == ZERO
+    for k, (stance, _) in enumerate(STEP[4:]):
+        corrector.predict(0.1, DRIFTING, ZERO)
+        corrector.correct(0.1 * k, stance)
+    assert corrector.position[0] == pytest.approx(before[0], abs=1e-12)
+    assert corrector.error_index is None
 
 
 def test_while_the_shoe_rolls_the_live_position_goes_with_it() -> None:

@@ -167,8 +167,8 @@ class SwingDedrift(LinearDedrift):
     over the same interval, and the errors belong to the middle of it: over the last interval before toe-off and, as in
     (5), the one after heel-strike. A heel does not roll at once: it slides on the ground and the sole gives way for
     `slide` s, and (4) knows nothing of that, so k_h of (8) is the first sample that long after heel-strike; 0 gives
-    the paper's. While the foot moves, the live position takes the velocities as they become known
-    and goes on from the last of them in swing; at motion end it is put right in one jump.
+    the paper's. While the foot moves, the live position takes the velocities as they become known and goes on from the
+    last of them in swing; at motion end it is put right in one jump.
 
     The vertical part of a rolling velocity is about L_r times the pitch rate: a pivot that is off by 1 cm at toe-off
     makes 8 cm/s, and in level walking nothing of a height that a line over the whole motion does not give as well. So
@@ -202,6 +202,8 @@ class SwingDedrift(LinearDedrift):
     strike_error: Vec3 | None = field(default=None, init=False)
     strike_from: float = field(default=0.0, init=False)
     last_interval: float = field(default=0.0, init=False)
+    stood: bool = field(default=True, init=False)
+    """The last sample was one of stance: a motion starts with the next."""
     moved: bool = field(default=False, init=False)
     """There was a sample without a zero velocity since the last with one."""
     spoilt: bool = field(default=False, init=False)
@@ -220,7 +222,7 @@ class SwingDedrift(LinearDedrift):
         self.index = None
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
-        if self.swing == 0.0:
+        if self.stood:
             self._begin()
         ux, uy, uz = self.velocity
         LinearDedrift.predict(self, dt, acc, gyro, saturated)
@@ -262,7 +264,6 @@ class SwingDedrift(LinearDedrift):
         self._advance(v_ref)
         # live: where the known velocity led, and the raw velocity less its error
         (ux, uy, uz), (px, py, pz) = self.raw_velocity, self.velocity
-        now = (ux - error[0], uy - error[1], uz - error[2])
         # the step from the last sample to this one was made with a mean of (p + p_before)/2; make it with v_ref
         change = (ux - vx, uy - vy, uz - vz)  # half of the velocity's change over the interval
         x, y, z = self.position
@@ -272,7 +273,7 @@ class SwingDedrift(LinearDedrift):
             y + (ry - (py - change[1])) * dt,
             z + (rz - (pz - change[2])) * dt,
         )
-        self.velocity = now
+        self.velocity = (ux - error[0], uy - error[1], uz - error[2])
         before, strike = self.before, self.strike
         settled = before is not None and strike is not None and before.at - strike.at >= self.slide - TIE
         if settled and self.strike_error is None:
@@ -314,6 +315,7 @@ class SwingDedrift(LinearDedrift):
         self.velocity = ZERO
         self._level(duration)
         self.swing = 0.0
+        self.stood = True
 
     def _calibrated_way(self, duration: float) -> Vec3 | None:
         """The way of a normal motion that ends here, m; sets the error index. None for any other."""
@@ -347,17 +349,22 @@ class SwingDedrift(LinearDedrift):
         self.raw_way = self.known_way = ZERO
         self.here = self.before = self.toe_off = self.strike = None
         self.strike_error = None
-        self.moved = self.spoilt = False
+        self.stood = self.moved = self.spoilt = False
 
     def bridge(self, dt: float) -> float:
+        if self.stood:
+            self._begin()
+        over = LinearDedrift.bridge(self, dt)
+        if over == 0.0:
+            self._begin()  # taken up where it was, and at rest
         if dt > SHORT_GAP:
             self.spoilt = True
             self.here = self.before = None
         self.moved = True
-        return LinearDedrift.bridge(self, dt)
+        return over
 
     def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
-        if self.swing == 0.0:
+        if self.stood:
             self._begin()
         LinearDedrift.leap(self, dt, attitude, velocity, position)
         x, y, z = position
