@@ -172,3 +172,11 @@ def test_when_the_clock_begins_anew_the_next_steps_are_found() -> None:
     assert [step.stride_length for step in again] == pytest.approx([step.stride_length for step in first[1:]], abs=0.05)
     # the direction of the toes is still known
     assert all(step.features.error_index is not None for step in again)
+
+
+def test_a_session_can_be_saved_at_any_sample_of_its_first_steps() -> None:
+    """Before the load is known, and as it becomes known in the first landing."""
+    session = Session(recipes.BY_NAME["kupt"], calibration=LAYOUTS)
+    for sample in samples(222, Foot.LEFT, 30.0)[:120]:
+        session.feed(sample)
+        json.dumps(session.snapshot(), allow_nan=False)

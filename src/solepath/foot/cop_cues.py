@@ -19,7 +19,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import Enum
-from math import inf
 
 from attrs import define, evolve, field
 
@@ -29,6 +28,9 @@ from .cues import InertialCues, Seen
 from .phase import Cue
 from .stance import Load, Stance
 from .touch import Touch
+
+FARTHEST = 1e3
+"""No centre of pressure jumps so far, m."""
 
 
 class Stage(Enum):
@@ -154,7 +156,7 @@ class CopCues:
             return [] if phase is Phase.SWING else [Seen(Cue.CLEAR, t if left is None else left)]
         if phase is Phase.SWING:
             self._enter(Stage.LANDING, t)
-            self.jump, self.moment = inf, t  # it was the first of its load that was seen: told, but no mark
+            self.jump, self.moment = FARTHEST, t  # it was the first of its load that was seen: told, but no mark
         return []
 
     def _step(self, t: float, stationary: bool, airborne: bool, load: Load) -> list[Seen]:
