@@ -13,8 +13,8 @@ What the paper leaves open, and what is taken here:
   seven steps, by less than 5 mm, while table 4 has IV better than III by up to 15 cm there. Centimetres fit that in
   kind. Table 4 is headed mm as well, and its values (0.17 at the corner C of 4.0 m) are metres.
 - Axes of table 1. x goes across and y along the direction of walking; x to the right, so that x, y and up are right
-  handed. The direction is that of the foot's stride, from its last touchdown to this one: chords of a bend lag behind
-  it by the same angle in calibration and use.
+  handed. The direction is where both feet point together when one has come down, which in a bend is the tangent half a
+  step back; with the feet's own tracks it is that of the foot's stride, from its last touchdown to this one.
 - When the mode is known. A contact tells its mode when it ends, after the touchdown that it began with; so a touchdown
   takes the latest mode that was told by a contact of the same foot. Standing is no mode to walk in: the first step
   after it is taken for a straight one.
@@ -93,7 +93,7 @@ class Side:
     track: Vec3 = field(default=ZERO, init=False)
     """Its own inertial track, m."""
     direction: tuple[float, float] = field(default=(1.0, 0.0), init=False)
-    """Of its last stride, of length 1."""
+    """Of walking when it last came down, of length 1."""
     step: float = field(default=0.0, init=False)
     """Length of the stride that ended with its last touchdown, m."""
     contact: Contact = field(factory=Contact, init=False)
@@ -144,8 +144,17 @@ class Modes:
         self.headed = self.heading is not None
         self.sides = {}
         for foot, sign in ((Foot.LEFT, 0.5), (Foot.RIGHT, -0.5)):
-            place = (0.0, sign * self.limbs.hip_width, 0.0)
+            place = (0.0, sign * self._apart(), 0.0)
             self.sides[foot] = Side(place, place, (self.limbs.foot, 0.0))
+
+    def _apart(self) -> float:
+        """Between the feet at the start, m: the hips' width, as the chain has it in the N-pose. If feet that walk on
+        are known to come down nearer to each other than the chain has them, they stood so as well."""
+        apart = self.limbs.hip_width
+        if self.compensation is None:
+            return apart
+        left, right = (self.compensation.get(foot, {}).get(WalkingMode.STRAIGHT, (0.0, 0.0))[1] for foot in Foot)
+        return apart + 0.5 * (left - right)
 
     def calibrated(self, calibration: Calibration) -> Modes:
         """The same with the wearer's limbs, weight and compensation; what methods I to III do without stays out."""
@@ -330,7 +339,7 @@ class Modes:
             return []
         compensation, mode = ZERO, self._walks(side)
         if step > LEAST_STEP:
-            side.direction = (dx / step, dy / step)
+            side.direction = self._facing(t) if chained else (dx / step, dy / step)
             if not self.chain.aligned:
                 self.chain.given_up = True
             if self.compensation is not None:
@@ -376,6 +385,13 @@ class Modes:
             side.reach = (c * rx - s * ry, s * rx + c * ry)
             side.direction = (c * dx - s * dy, s * dx + c * dy)
         self.headed = hypot(x, y) > 2.0 * FIRST_WAY
+
+    def _facing(self, t: float) -> tuple[float, float]:
+        """Where both feet point together, world, of length 1."""
+        (lx, ly), (rx, ry) = self.chain.forward(Foot.LEFT, t), self.chain.forward(Foot.RIGHT, t)
+        x, y = lx + rx, ly + ry
+        length = hypot(x, y)
+        return (x / length, y / length) if length > LEAST_STEP else (lx, ly)
 
     @staticmethod
     def _walks(side: Side) -> WalkingMode:

@@ -46,7 +46,7 @@ class Mark:
 
 @frozen
 class StepError:
-    """Marked less measured of one step, in the direction of the foot's stride, m."""
+    """Marked less measured of one step, in the direction of walking half a step before it ended, m."""
 
     foot: Foot
     mode: WalkingMode
@@ -91,8 +91,8 @@ def touchdowns(walk: Recorded, known: Calibration) -> list[TouchedDown]:
 
 
 def step_errors(marks: Iterable[Mark], downs: list[TouchedDown]) -> list[StepError]:
-    """Every step from a mark of one foot to a mark of the other, with a mark of that other before it to tell the
-    direction. CalibrationError for a mark that no touchdown belongs to, or two marks of one."""
+    """Every step from a mark of one foot to a mark of the other, with a mark of each before them to tell the direction.
+    CalibrationError for a mark that no touchdown belongs to, or two marks of one."""
     at: dict[int, Mark] = {}
     for mark in marks:
         k = _touchdown_of(mark, downs)
@@ -100,19 +100,19 @@ def step_errors(marks: Iterable[Mark], downs: list[TouchedDown]) -> list[StepErr
             raise CalibrationError(f"{mark.where}: the same touchdown as at {at[k].where}")
         at[k] = mark
     steps = []
-    last: dict[Foot, Mark] = {}
-    for k, down in enumerate(downs):
-        mark = at.get(k)
-        before = at.get(k - 1)
-        if mark is not None and before is not None and before.foot is not mark.foot and mark.foot in last:
-            (x, y, _), (px, py, _) = down.position, downs[k - 1].position
-            stride = last[mark.foot]
-            ahead = atan2(mark.y - stride.y, mark.x - stride.x)
-            steps.append((mark, (mark.x - before.x, mark.y - before.y), (x - px, y - py), ahead))
-        if mark is not None:
-            last[mark.foot] = mark
-        else:
-            last.pop(down.foot, None)
+    for k in range(3, len(downs)):
+        four = [at.get(j) for j in range(k - 3, k + 1)]
+        earliest, earlier, before, newest = four
+        if earliest is None or earlier is None or before is None or newest is None:
+            continue
+        if not earliest.foot is before.foot is not newest.foot is earlier.foot:
+            continue
+        (x, y, _), (px, py, _) = downs[k].position, downs[k - 1].position
+        # the chord of a foot's stride is the tangent a step back, that of the other's two; half a step back it is
+        ahead = atan2(newest.y - earlier.y, newest.x - earlier.x)
+        behind = atan2(before.y - earliest.y, before.x - earliest.x)
+        ahead += 0.5 * atan2(sin(ahead - behind), cos(ahead - behind))
+        steps.append((newest, (newest.x - before.x, newest.y - before.y), (x - px, y - py), ahead))
     # the turn from the session's frame to the marks', least squares over the steps
     turn = atan2(
         sum([mx * true[1] - my * true[0] for _, true, (mx, my), _ in steps]),
@@ -120,10 +120,10 @@ def step_errors(marks: Iterable[Mark], downs: list[TouchedDown]) -> list[StepErr
     )
     c, s = cos(turn), sin(turn)
     found = []
-    for mark, (tx, ty), (mx, my), ahead in steps:
+    for reached, (tx, ty), (mx, my), ahead in steps:
         ex, ey = tx - (c * mx - s * my), ty - (s * mx + c * my)
         ca, sa = cos(ahead), sin(ahead)
-        found.append(StepError(mark.foot, mark.mode, ca * ex + sa * ey, ca * ey - sa * ex))
+        found.append(StepError(reached.foot, reached.mode, ca * ex + sa * ey, ca * ey - sa * ex))
     return found
 
 
@@ -150,7 +150,7 @@ def fit_modes(walks: Iterable[tuple[Recorded, Path | str]], known: Calibration |
     for walk, path in walks:
         found = step_errors(read_marks(path), touchdowns(walk, known))
         if not found:
-            raise CalibrationError(f"{path}: no step from a mark of one foot to a mark of the other")
+            raise CalibrationError(f"{path}: no four marks one after the other, left and right in turn")
         errors += found
     return Calibration(modes=mean_errors(errors))
 
