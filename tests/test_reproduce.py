@@ -11,6 +11,7 @@ import pytest
 
 from solepath.cli import main
 from solepath.cli.reproduce import NAMES
+from solepath.reproduce import pressure_contour, walking_modes
 from solepath.reproduce.experiments import EXPERIMENTS
 from solepath.reproduce.picture import Boxes, Drawn, Floor, Track
 from solepath.reproduce.pool import each
@@ -189,8 +190,11 @@ def test_the_command_knows_every_experiment():
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name):
+def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeypatch):
     pytest.importorskip("matplotlib")
+    monkeypatch.setattr(pressure_contour, "LASTING", 100.0)
+    monkeypatch.setattr(pressure_contour, "LAPS", 3)
+    monkeypatch.setattr(walking_modes, "STEPS", 10)
     told, figure = tmp_path / "table.json", tmp_path / "figure.png"
     done = run("reproduce", name, "--walks", 1, "--seed", 3, "--processes", 1, "--json", told, "--figure", figure)
     assert done.returncode == 0 and done.stderr == ""

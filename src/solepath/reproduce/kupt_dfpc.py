@@ -91,7 +91,7 @@ def _notes(rows: tuple[Row, ...], short: list[Walked], long: Walked) -> tuple[st
     paths = statistics([one.true[foot] for one in short for foot in Foot])
     told = [
         f"Root mean square of the error of {len(short)} walks, m: {off}.",
-        f"The feet really went {paths.mean:.2f} m on average: they weave a little.",
+        f"The feet really went {paths.mean:.2f} m on average.",
     ]
     for name, drift in published.CORRIDOR_DRIFT.items():
         foot = Foot.RIGHT if name.endswith("R") else Foot.LEFT
@@ -99,7 +99,7 @@ def _notes(rows: tuple[Row, ...], short: list[Walked], long: Walked) -> tuple[st
         told.append(
             f"{CORRIDOR:g} m of corridors, {name}: distance off by {abs(ours):.2f} m "
             f"({100.0 * abs(ours) / CORRIDOR:.2f} %), paper {drift:.2f} m ({100.0 * drift / CORRIDOR:.2f} %); "
-            f"its end {long.closing[name]:.2f} m from its start, which it is in truth."
+            f"the track of this closed way ends {long.closing[name]:.2f} m from where it began."
         )
     told.append(
         f"The paper contradicts itself: the mean of KUPT-L is {published.KUPT_DFPC['KUPT-L'].mean} m in table I and "
@@ -152,7 +152,9 @@ def _tracks(
     }
     # the place after each stride is the end of the chosen foot's path; between its own strides that stands still
     ends["KUPT+DFPC"] = [(one.t, one.foot, one.position) for one in fused if one.foot is one.chosen]
-    tracks, closing = [_true_path(truth, halt)], {}
+    path = _true_path(truth, halt)
+    start = path[0].copy()
+    tracks, closing = [Track("true path", thinned(path - start), Drawn.TRUTH)], {}
     for name, places in ends.items():
         if len(places) < 2:
             continue
@@ -160,7 +162,7 @@ def _tracks(
         true = np.array(
             [_true_place(truth, places[0][1], halt), *(_true_place(truth, foot, t) for t, foot, _ in places)]
         )
-        tracks.append(Track(name, thinned(laid(track, true)), Drawn.DOTS))
+        tracks.append(Track(name, thinned(laid(track, true) - start), Drawn.DOTS))
         closing[name] = float(np.linalg.norm(track[-1] - track[0]))
     return tuple(tracks), closing
 
@@ -171,8 +173,9 @@ def _true_place(truth: Truth, foot: Foot, t: float) -> Floats:
     return place
 
 
-def _true_path(truth: Truth, halt: float) -> Track:
-    """Midway between the feet."""
+def _true_path(truth: Truth, halt: float) -> Floats:
+    """Midway between the feet, (n, 2), m."""
     t = np.arange(halt, truth.duration, 0.2)
-    both = [truth.pose(foot, t).position[:, :2] + truth.feet[foot].origin[:2] for foot in Foot]
-    return Track("true path", thinned(0.5 * (both[0] + both[1])), Drawn.TRUTH)
+    left, right = (truth.pose(foot, t).position[:, :2] + truth.feet[foot].origin[:2] for foot in Foot)
+    middle: Floats = 0.5 * (left + right)
+    return middle

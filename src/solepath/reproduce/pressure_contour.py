@@ -38,8 +38,10 @@ NAME = "pressure-contour"
 WALKS = 6
 RATE = 50.0
 """Hz (assumed)."""
-LASTING = 1800.0
-"""s: half an hour."""
+HALF_HOUR = 1800.0
+"""s."""
+LASTING = HALF_HOUR
+"""s of each walk; the lengths of LOOPS go with it."""
 LAPS = 5
 """Of the calibration square; "four to six"."""
 PACE = 0.8
@@ -64,7 +66,7 @@ class Job:
     @property
     def square(self) -> bool:
         """Rounds of the square, else a random walk."""
-        return published.LOOPS[self.number].distance < PACE * LASTING
+        return published.LOOPS[self.number].distance < PACE * HALF_HOUR
 
 
 @frozen
@@ -134,7 +136,7 @@ def _number(one: Walked) -> int:
 
 def route_of(job: Job) -> tuple[Route, Route]:
     """The calibration laps with a halt of half a minute, and all of it."""
-    distance = published.LOOPS[job.number].distance * job.lasting / LASTING
+    distance = published.LOOPS[job.number].distance * job.lasting / HALF_HOUR
     before = square(job.laps, speed=PACE).stand(28.0)
     if job.square:
         lap = square(1, speed=PACE)

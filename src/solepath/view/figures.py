@@ -97,7 +97,7 @@ def _floor(ax: Axes, panel: Floor) -> None:
     ax.set_ylabel("y, m")
     ax.grid(color="0.92")
     ax.set_axisbelow(True)
-    ax.legend(fontsize=8)
+    ax.legend(fontsize=8, loc="center" if len(panel.marks) > 1 else "best")
 
 
 def _columns(track: Track) -> tuple[list[float], list[float]]:
