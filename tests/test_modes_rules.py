@@ -1,0 +1,148 @@
+"""Walking modes: the regions of fig. 13, the rules of table 2 and the values of table 1 of Gong et al. 2023."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath.body.mode import PACE, POINTS, STRAIGHT_ON, TH, Contact, at_pace, decide, regions
+from solepath.body.modes import TABLE_1
+from solepath.sim.insoles import layout
+from solepath.types import Foot, WalkingMode
+
+LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
+NOWHERE = dict.fromkeys(POINTS, 0.0)
+
+
+def pressed(**shares: float) -> dict[str, float]:
+    """Nothing on any region but these."""
+    return {**NOWHERE, **shares}
+
+
+TABLE_2 = [
+    (LEFT, "R1", WalkingMode.LEFT_WIDE),
+    (LEFT, "R2", WalkingMode.LEFT_TIGHT),
+    (LEFT, "L2", WalkingMode.RIGHT_WIDE),
+    (LEFT, "L3", WalkingMode.RIGHT_WIDE),
+    (LEFT, "L1", WalkingMode.RIGHT_TIGHT),
+    (RIGHT, "L2", WalkingMode.LEFT_WIDE),
+    (RIGHT, "L3", WalkingMode.LEFT_WIDE),
+    (RIGHT, "L1", WalkingMode.LEFT_TIGHT),
+    (RIGHT, "R1", WalkingMode.RIGHT_WIDE),
+    (RIGHT, "R2", WalkingMode.RIGHT_TIGHT),
+]
+
+
+@pytest.mark.parametrize(("foot", "region", "mode"), TABLE_2)
+def test_a_region_beyond_the_threshold_is_the_bend_of_table_2(foot: Foot, region: str, mode: WalkingMode) -> None:
+    assert decide(foot, 1.0, pressed(**{region: 1.1 * TH}), 0.0, TH) is mode
+    assert decide(foot, 1.0, pressed(**{region: 0.9 * TH}), 0.0, TH) is None
+
+
+def test_a_tight_bend_goes_before_a_wide_one() -> None:
+    assert decide(LEFT, 1.0, pressed(R1=3.0 * TH, R2=1.1 * TH), 0.0, TH) is WalkingMode.LEFT_TIGHT
+
+
+def test_of_two_edges_the_one_that_bears_more_counts() -> None:
+    assert decide(LEFT, 1.0, pressed(R1=1.2 * TH, L2=1.1 * TH), 0.0, TH) is WalkingMode.LEFT_WIDE
+    assert decide(LEFT, 1.0, pressed(R1=1.1 * TH, L3=1.2 * TH), 0.0, TH) is WalkingMode.RIGHT_WIDE
+
+
+def test_straight_on_is_a_long_step_over_the_front_of_the_foot_with_nothing_else() -> None:
+    assert decide(LEFT, 0.16, NOWHERE, 1.1 * TH, TH) is WalkingMode.STRAIGHT
+    assert decide(LEFT, 0.14, NOWHERE, 1.1 * TH, TH) is None
+    assert decide(LEFT, 0.16, NOWHERE, 0.9 * TH, TH) is None
+
+
+def test_whoever_drags_a_foot_round_is_in_no_bend() -> None:
+    assert decide(LEFT, 0.14, pressed(R2=3.0 * TH), 0.0, TH) is None
+
+
+def test_the_same_edge_of_both_feet_bears_the_same_turn() -> None:
+    """R is the inner and L the outer edge: in a left turn the load is on the right edge of either foot."""
+    for region, mirrored in (("R1", "L2"), ("R2", "L1")):
+        shown = {pressed_mode(LEFT, region), pressed_mode(RIGHT, mirrored)}
+        assert len(shown) == 1
+
+
+def pressed_mode(foot: Foot, region: str) -> WalkingMode | None:
+    return decide(foot, 1.0, pressed(**{region: 2.0 * TH}), 0.0, TH)
+
+
+def test_table_1_is_taken_in_centimetres_with_x_to_the_right_and_y_ahead() -> None:
+    assert TABLE_1[LEFT][WalkingMode.STRAIGHT] == pytest.approx((0.0055, -0.0034))
+    assert TABLE_1[RIGHT][WalkingMode.STRAIGHT] == pytest.approx((0.0062, 0.0023))
+    assert TABLE_1[LEFT][WalkingMode.RIGHT_WIDE] == pytest.approx((-0.0052, 0.0094))  # the example of the text
+    assert TABLE_1[RIGHT][WalkingMode.LEFT_TIGHT] == pytest.approx((-0.018, -0.0125))
+    assert all(len(TABLE_1[foot]) == 5 for foot in Foot)
+
+
+@pytest.mark.parametrize("cells", [96, 99])
+@pytest.mark.parametrize("foot", list(Foot))
+def test_seven_regions_of_two_points_each_are_on_any_fine_insole(cells: int, foot: Foot) -> None:
+    insole = layout(cells, foot)
+    found = regions(insole)
+    assert {name: len(where) for name, where in found.items()} == dict.fromkeys(POINTS, 2)
+    outward = 1.0 if foot is LEFT else -1.0
+    for name, where in found.items():
+        across = [outward * insole.cells[k].y for k in where]
+        if name.startswith("L"):
+            assert min(across) > 0.02
+        elif name.startswith("R"):
+            assert max(across) < -0.02
+
+
+def test_the_regions_of_both_feet_are_mirror_images() -> None:
+    for name in POINTS:
+        (left, right) = (
+            sorted([(insole.cells[k].x, abs(insole.cells[k].y)) for k in regions(insole)[name]])
+            for insole in (layout(99, LEFT), layout(99, RIGHT))
+        )
+        assert [x for cell in left for x in cell] == pytest.approx([x for cell in right for x in cell])
+
+
+def test_coarse_insoles_have_every_region_though_some_share_cells() -> None:
+    assert all(regions(layout(cells, LEFT))[name] for cells in (8, 24, 35) for name in POINTS)
+
+
+def test_a_contact_tells_each_region_as_a_multiple_of_the_mean_cell() -> None:
+    insole, contact = layout(99, LEFT), Contact()
+    contact.wear(insole)
+    contact.begin(0.0)
+    cells = [1.0] * 99
+    for k in regions(insole)["R1"]:
+        cells[k] = 3.0
+    for _ in range(2):
+        contact.add(tuple(cells), sum(cells))
+    shares = contact.shares()
+    assert shares is not None
+    assert shares["R1"] == pytest.approx(3.0 / (sum(cells) / 99))
+    assert shares["L1"] == pytest.approx(1.0 / (sum(cells) / 99))
+
+
+def test_at_its_own_pace_a_share_is_what_it_is_and_a_straight_way_is_straight_at_any() -> None:
+    shares = pressed(R1=2.5, R2=1.0, F1=2.0)
+    assert at_pace(shares, PACE) == pytest.approx(shares)
+    for speed in (0.0, 0.8, 1.4, 9.0):
+        assert at_pace({**STRAIGHT_ON, "F1": 1.0, "F2": 0.0}, speed) == pytest.approx(
+            {**STRAIGHT_ON, "F1": 1.0, "F2": 0.0}
+        )
+
+
+def test_a_slow_bend_leaves_less_of_a_mark_and_counts_for_more() -> None:
+    assert at_pace(pressed(R1=2.0), 0.8)["R1"] > 2.0 > at_pace(pressed(R1=2.0), 1.4)["R1"]
+
+
+@given(st.lists(st.lists(st.floats(-1e3, 1e5), min_size=99, max_size=99), max_size=4), st.floats(0.0, 5.0))
+def test_whatever_the_cells_bear_a_contact_ends_in_a_mode_or_in_none(rows: list[list[float]], step: float) -> None:
+    contact = Contact()
+    contact.wear(layout(99, LEFT))
+    contact.begin(0.0)
+    for row in rows:
+        contact.add(tuple(row), sum(row))
+    shares = contact.shares()
+    if shares is not None:
+        paced = at_pace(shares, contact.speed(step))
+        assert all(0.0 <= share < float("inf") for share in paced.values())
+        assert decide(LEFT, step, paced, shares["F1"] - shares["F2"], TH) in (None, *WalkingMode)

@@ -1,0 +1,126 @@
+"""Which foot carries, and where the other comes down: equations (1) to (6) and (8) of Gong et al. 2023 by hand."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath import machine
+from solepath.body.touchdown import (
+    AnyTouchdown,
+    Carrier,
+    FootState,
+    Height,
+    MaximumPressure,
+    NetAcceleration,
+    suspended,
+    v_change,
+)
+from solepath.types import Foot
+
+LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
+
+
+def test_while_the_right_foot_is_down_the_left_one_is_seen_from_it() -> None:
+    assert v_change((0.5, 0.1, 0.2), (0.1, -0.1, 0.0), RIGHT) == pytest.approx((0.4, 0.2, 0.2))  # (1)
+
+
+def test_while_the_left_foot_is_down_the_right_one_is_seen_from_it() -> None:
+    assert v_change((0.5, 0.1, 0.2), (0.1, -0.1, 0.0), LEFT) == pytest.approx((-0.4, -0.2, -0.2))  # (2)
+
+
+def test_the_foot_in_the_air_is_the_change_away_from_the_one_that_is_down() -> None:
+    assert suspended((1.0, 2.0, 0.0), (0.4, 0.2, 0.2)) == pytest.approx((1.4, 2.2, 0.2))  # (3)
+
+
+def test_the_compensation_is_added_to_it() -> None:
+    assert suspended((1.0, 2.0, 0.0), (0.4, 0.2, 0.2), (0.0055, -0.0034, 0.0)) == pytest.approx((1.4055, 2.1966, 0.2))
+
+
+def test_the_lower_foot_is_down() -> None:
+    method = Height()
+    assert method.update(0.0, FootState(height=-0.90), FootState(height=-0.85)) == (True, False)  # (4)
+    assert method.update(0.1, FootState(height=-0.85), FootState(height=-0.90)) == (False, True)
+
+
+def test_two_feet_at_one_height_leave_things_as_they_are() -> None:
+    method = Height()
+    method.update(0.0, FootState(height=-0.90), FootState(height=-0.85))
+    assert method.update(0.1, FootState(height=-0.90), FootState(height=-0.905)) == (True, False)
+
+
+def test_a_foot_without_net_acceleration_for_a_while_is_down() -> None:
+    method = NetAcceleration(threshold=1.0, steady=0.05)
+    flags = [method.update(0.02 * k, FootState(acceleration=a), FootState(acceleration=5.0)) for k, a in _ACCELERATIONS]
+    assert flags == [(down, False) for down in (False, False, False, True, True, True, False)]  # (5)
+
+
+_ACCELERATIONS = list(enumerate((9.0, 0.9, 0.5, 0.2, 0.3, 0.8, 1.0)))
+
+
+def test_a_foot_is_down_when_one_cell_bears_more_than_five_newtons() -> None:
+    method = MaximumPressure()
+    assert method.update(0.0, FootState(pressure=5.1), FootState(pressure=4.9)) == (True, False)  # (6)
+
+
+def test_where_nobody_knows_what_a_newton_is_a_share_of_the_most_counts() -> None:
+    method = MaximumPressure()
+    left, right = FootState(pressure=401.0, full=4000.0), FootState(pressure=399.0, full=4000.0)
+    assert method.update(0.0, left, right) == (True, False)
+
+
+def test_a_cell_that_flickers_about_the_threshold_is_one_touchdown() -> None:
+    method, carrier = MaximumPressure(), Carrier()
+    came = []
+    for k, force in enumerate((0.0, 0.0, 4.0, 5.5, 4.5, 5.5, 4.0, 20.0)):
+        taken = carrier.update(method.update(0.01 * k, FootState(pressure=force), FootState(pressure=50.0)))
+        came.append(taken)
+    assert came == [(RIGHT, False), None, None, (LEFT, True), None, None, None, None]
+
+
+def test_in_walking_each_foot_carries_from_its_own_touchdown_to_the_others() -> None:
+    carrier = Carrier()
+    walk = [(True, True), (False, True), (True, True), (True, False), (True, True), (False, True)]
+    assert [carrier.update(flags) for flags in walk] == [
+        (LEFT, False),  # both stand
+        (RIGHT, False),  # the left one has left
+        (LEFT, True),  # and comes down
+        None,
+        (RIGHT, True),
+        None,
+    ]
+
+
+def test_a_foot_that_lifts_hands_over_to_the_one_that_stands() -> None:
+    carrier = Carrier()
+    for flags in ((False, True), (True, True)):
+        carrier.update(flags)
+    assert carrier.foot is LEFT
+    assert carrier.update((False, True)) == (RIGHT, False)
+
+
+def test_in_flight_nothing_changes() -> None:
+    carrier = Carrier()
+    carrier.update((True, False))
+    assert carrier.update((False, False)) is None
+    assert carrier.foot is LEFT
+
+
+values = st.none() | st.floats(-1e6, 1e6)
+
+
+@given(st.lists(st.tuples(st.floats(-10.0, 10.0), *[values] * 8), max_size=30))
+def test_whatever_the_feet_show_somebody_carries_or_nobody(samples: list[tuple[float | None, ...]]) -> None:
+    methods: list[AnyTouchdown] = [Height(), NetAcceleration(), MaximumPressure()]
+    carriers = [Carrier() for _ in methods]
+    for t, *shown in samples:
+        left, right = FootState(*shown[:4]), FootState(*shown[4:])
+        for k, method in enumerate(methods):
+            flags = method.update(t or 0.0, left, right)
+            taken = carriers[k].update(flags)
+            assert taken is None or taken[0] is carriers[k].foot
+            again = machine.load(type(method), json.loads(json.dumps(machine.save(method), allow_nan=False)))
+            assert again == method
