@@ -13,7 +13,8 @@ from solepath.calibration import Calibration, InsoleCalibration, ShoeGeometry, r
 from solepath.cli import main
 from solepath.recipes import BY_NAME
 from solepath.recording import PacketWriter
-from solepath.sim.insole_device import Insole
+from solepath.sim.insole_device import Insole, boot
+from solepath.sim.laps import square
 from solepath.sim.route import Route
 from solepath.sim.sensortags import CC2650
 from solepath.sim.walk import emulate
@@ -159,6 +160,18 @@ def test_what_is_learnt_goes_beside_what_the_file_holds_already(tmp_path):
     assert found.shoe.forefoot_radius[0] == pytest.approx(0.07)
 
 
+def test_laps_of_a_square_tell_the_drift(tmp_path):
+    laps, out = tmp_path / "laps.jsonl", tmp_path / "me.json"
+    walk = emulate(square(3), devices={Site.RIGHT_FOOT: boot(Foot.RIGHT, 50.0)}, seed=2)
+    with PacketWriter(laps) as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    done = run("calibrate", "square", laps, "--out", out)
+    assert done.returncode == 0 and done.stderr == ""
+    assert done.stdout.startswith("right foot: 120 visits of 40 marks, drift ")
+    assert len(calibrated(out).drift) == 2
+
+
 def test_what_cannot_be_learnt_from_is_refused_in_one_line_and_nothing_is_written(packets, bare, tmp_path):
     out, odd = tmp_path / "me.json", tmp_path / "odd.csv"
     odd.write_text("pitch_deg,L_r_m\n0,0.07\n")
@@ -167,6 +180,10 @@ def test_what_cannot_be_learnt_from_is_refused_in_one_line_and_nothing_is_writte
         (("noise", tmp_path / "none.jsonl"), "none.jsonl: no such file"),
         (("noise", packets, "--share", "0"), "--share 0"),
         (("shoe", odd), "odd.csv: line 1: wants one column L_p2t_m"),
+        (("square", packets), "steps are less than 3 laps of 40 marks"),
+        (("square", bare), "needs pressure cells"),
+        (("square", packets, "--recipe", "default"), "recipe default takes no drift off"),
+        (("square", packets, "--recipe", "circle"), "there is no recipe 'circle'"),
         (("newton", odd), "odd.csv, line 1: no column counts"),
         (("modes", packets), "takes two files for each walk"),
         (("modes", packets, odd), "odd.csv, line 1: no column foot"),

@@ -6,7 +6,8 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .failure import Failure, note, share
+from .calibrated import check_pressure
+from .failure import Failure, count, known_recipe, note, share
 
 if TYPE_CHECKING:
     from ..calibrate.recorded import Recorded
@@ -22,7 +23,7 @@ def add_to(commands: Any) -> None:
         description=f"Make a calibration for `track`, `live` and `evaluate` (--calibration FILE). {MERGED}",
     )
     kinds = command.add_subparsers(metavar="KIND", dest="kind", required=True)
-    for add in (_add_noise, _add_shoe, _add_newton, _add_modes):
+    for add in (_add_noise, _add_shoe, _add_square, _add_newton, _add_modes):
         kind = add(kinds)
         kind.add_argument("--out", metavar="FILE", type=Path, required=True, help="the calibration file")
         kind.set_defaults(run=run)
@@ -137,6 +138,55 @@ def _shoe(options: argparse.Namespace, known: Calibration) -> Learnt:
         f"{fit.measurements} measurements of {fit.postures} postures{steepest}: rms error of L_r "
         f"{1000.0 * fit.residual_radius:.1f} mm, of L_p2t {1000.0 * fit.residual_to_toe:.1f} mm, largest "
         f"{1000.0 * fit.worst:.1f} mm",
+    ]
+
+
+# --- square -----------------------------------------------------------------------------------------------------------
+
+
+def _add_square(kinds: Any) -> argparse.ArgumentParser:
+    command: argparse.ArgumentParser = kinds.add_parser(
+        "square",
+        help="which way positions drift, from laps of a square over marks",
+        description="From four to six laps of a square on whose edges every step of one foot is marked, the same marks "
+        "in every lap: how fast the positions of pressure-contour and gyroscope drift, which is taken off later.",
+        epilog="example: solepath calibrate square laps.jsonl --out me.json",
+    )
+    _recording(command)
+    command.add_argument(
+        "--marks",
+        metavar="MARKS",
+        type=Path,
+        help="a csv file of the visits, mark and t (s); without it they are counted",
+    )
+    command.add_argument("--steps", metavar="N", type=count, default=40, help="marks around the square (default: 40)")
+    command.add_argument(
+        "--recipe",
+        metavar="NAME",
+        default="pressure-contour",
+        help="whose positions (default: pressure-contour; or gyroscope)",
+    )
+    command.set_defaults(learn=_square)
+    return command
+
+
+def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
+    from ..calibrate.square import read_marks, square_drift
+    from ..calibration import Calibration
+    from ..recipes import BY_NAME
+    from ..source import open_source
+    from ..types import Foot
+
+    recipe = BY_NAME[known_recipe(options.recipe, list(BY_NAME))]
+    foot = Foot(options.foot) if options.foot else None
+    marks = read_marks(options.marks) if options.marks else None
+    source = open_source(options.file, foot, report=note)
+    check_pressure(recipe, source)
+    found = square_drift(source, foot=foot, marks=marks, steps_per_lap=options.steps, recipe=recipe, calibration=known)
+    (x, y), (kept_x, kept_y) = found.slope, found.kept
+    return Calibration(drift=found.kept), [
+        f"{found.foot.value} foot: {found.visits} visits of {found.marks} marks, drift {1000.0 * x:.2f}, "
+        f"{1000.0 * y:.2f} mm/s, of which the laps agree on {1000.0 * kept_x:.2f}, {1000.0 * kept_y:.2f} mm/s",
     ]
 
 
