@@ -12,6 +12,9 @@ What the paper leaves open is settled here:
 - A step that has nothing to be compared with, or is itself abnormal (no error index), keeps its own length:
   coefficient 1. So does one that is not similar at all, r = 0, or whose similarity is undefined because a path of the
   centre of pressure is constant or unknown: (11) tends to 1 as r goes to 0.
+- A half stride and a whole one are not similar: fig. 11 has low similarities at the first and the last step of a walk.
+  Our paths of the centre of pressure end at toe-off, before it shows that a step closes the walk; so strides of which
+  one is shorter than `alike` of the other have r = 0.
 - (11) is computed as EI_other / (EI_other + r EI_own), which is the same and divides by zero only where both error
   indices are zero; there it is 1 / (1 + r), as for any two equal ones.
 - (13) adds up pairs of steps. A pair is a normal step and the step that calibrated it, each step in one pair at most:
@@ -39,7 +42,7 @@ POINTS = 64
 KEPT = 3
 """Latest steps of each foot that are remembered: samples of one foot may arrive a step later than the other's."""
 ABSENT = 1.0
-"""A foot that was last heard this long before the other does not move the live position, s."""
+"""A foot that was last heard this long before the other is absent, s."""
 LEAST_WAY = 1e-6
 """A shorter step has no direction, m."""
 LEAST_SPREAD = 1e-12
@@ -77,8 +80,6 @@ class Path:
     """By how much calibration has moved `end` against the foot's own track, m."""
     stood: Vec3 = ZERO
     """Where the foot's own track had it after its last step, world frame, m."""
-    other_stood: Vec3 = ZERO
-    """Where the other foot's own track had that foot then, m."""
     missed: int = 0
     """Steps that the other foot took since this one's last."""
 
@@ -88,13 +89,15 @@ class DoubleFoot:
     """Both feet's steps in, one `StrideFused` for each out. Latency: none beyond the step's own; the choice of (13) is
     made anew after every step and is final for it. O(1) memory.
 
-    The live position is the chosen path's end plus the mean of how far both feet have moved since the chosen foot's
-    last step, or that foot's own way where the other is absent. Its covariance is that of the chosen foot's own track,
-    and over it the square of what calibration has moved the path by: either may be right.
+    The live position is that of the chosen foot on its calibrated path: the path's end, and what the foot's own track
+    has moved by since; of the other foot while the chosen one is absent. So it stands while that foot does, and leaps
+    by half a stride when the choice changes. Its covariance is that of the foot's own track, and over it the square of
+    what calibration has moved the path by: either may be right.
     """
 
     patience: float = 1.0
     """s."""
+    alike: float = 0.75
     away: int = 3
     # state
     left: Path = field(factory=Path, init=False)
@@ -132,6 +135,9 @@ class DoubleFoot:
         paired = False
         if index is not None and partner is not None and partner.error_index is not None:
             similarity = correlation(rhythm, partner.rhythm)
+            shorter, longer = sorted((taken.stride_length, partner.length))
+            if similarity is not None and shorter < self.alike * longer:
+                similarity = 0.0
             coefficient = share(similarity, index, partner.error_index)
             length = coefficient * taken.stride_length + (1.0 - coefficient) * partner.length  # (12)
             if not partner.paired:
@@ -181,7 +187,7 @@ class DoubleFoot:
         path.distance += abs(length)
         sx, sy = path.shifted
         path.shifted = (sx + (k - 1.0) * dx, sy + (k - 1.0) * dy)
-        path.stood, path.other_stood, path.missed = taken.position, others.stood, 0
+        path.stood, path.missed = taken.position, 0
         others.missed = min(others.missed + 1, self.away)
 
     def _choose(self, stepped: Foot) -> None:
@@ -199,22 +205,19 @@ class DoubleFoot:
         return self.left if foot is Foot.LEFT else self.right
 
     def position(self, feet: Mapping[Foot, FootTracker]) -> Position | None:
-        """None before any sample. Before the first step the feet's own live displacement from the origin."""
+        """None before any sample."""
         times = {foot: tracker.t for foot, tracker in feet.items() if tracker.t is not None}
         if not times:
             return None
         newest = max(times.values())
         present = [foot for foot, t in times.items() if newest - t < ABSENT]
-        chosen = self.chosen if self.chosen in times else present[0]
-        path = self._path(chosen)
-        k = 1.0 / len(present)
+        chosen = self.chosen if self.chosen in present else present[0]
+        path, foot = self._path(chosen), feet[chosen]
+        dx, dy, dz = sub(foot.position, path.stood)
         x, y, z = path.end
-        for foot in present:
-            dx, dy, dz = sub(feet[foot].position, path.stood if foot is chosen else path.other_stood)
-            x, y, z = x + k * dx, y + k * dy, z + k * dz
-        xx, xy, xz, yy, yz, zz = feet[chosen].covariance
+        xx, xy, xz, yy, yz, zz = foot.covariance
         sx, sy = path.shifted
-        return Position(newest, (x, y, z), (xx + sx * sx, xy + sx * sy, xz, yy + sy * sy, yz, zz))
+        return Position(newest, (x + dx, y + dy, z + dz), (xx + sx * sx, xy + sx * sy, xz, yy + sy * sy, yz, zz))
 
 
 def resampled(taken: StepTaken, centre: float) -> tuple[float, ...]:
