@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import cache
 from math import isfinite
 from typing import Any
 
@@ -10,10 +11,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import machine
+from solepath import Session, machine, recipes
 from solepath.body.fusion import POINTS, DoubleFoot, correlation, resampled, share
-from solepath.events import StepFeatures, StepTaken, StrideFused
-from solepath.types import Foot
+from solepath.events import Event, FootSilent, StepFeatures, StepTaken, StrideFused
+from solepath.sim.route import Route
+from solepath.types import Foot, Site
+from walks import insoles, of
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 CENTRE = 0.14
@@ -238,6 +241,58 @@ def test_a_foot_that_stops_stepping_is_left_and_taken_up_where_the_other_is() ->
     again = body.step(step(LEFT, 12.0, 1.0, index=0.1, number=5), CENTRE)
     assert again.chosen is LEFT
     assert again.distance == pytest.approx(10.0)
+
+
+# --- a whole walk ---
+
+WALK = Route().stand(1.5).walk(14.0, 1.25).stop(1.5)
+
+
+@cache
+def heard(silent: bool = False) -> tuple[Session, list[Event]]:
+    """A straight walk of 14 m with two insoles through the recipe; `silent`: the left one says nothing from 8 s on."""
+    session = Session(recipes.BY_NAME["kupt-dfpc"])
+    packets = insoles(WALK).packets
+    return session, session.feed([p for p in packets if not (silent and p.site is Site.LEFT_FOOT and p.t > 8.0)])
+
+
+def test_every_step_of_either_foot_is_fused_once_and_in_order() -> None:
+    told = heard()[1]
+    steps = [(one.foot, one.number, one.t, one.stride_length) for one in of(StepTaken, told)]
+    assert [(one.foot, one.number, one.t, one.own_length) for one in of(StrideFused, told)] == steps
+    assert len(steps) > 15
+
+
+def test_most_steps_of_a_steady_walk_are_similar_and_calibrated() -> None:
+    fused = [one for one in of(StrideFused, heard()[1]) if one.similarity is not None]
+    assert len(fused) > 12
+    steady = fused[:-1]
+    assert min([one.similarity for one in steady]) > 0.8
+    assert all([0.05 < one.coefficient < 0.95 for one in steady])
+
+
+def test_the_wearer_stands_at_the_end_of_the_chosen_path_and_within_its_covariance() -> None:
+    session, told = heard()
+    fused = of(StrideFused, told)
+    here = session.position
+    assert here is not None
+    assert here.position == pytest.approx(fused[-1].position, abs=0.02)
+    assert fused[-1].distance == pytest.approx(14.0, rel=0.03)
+    xx, xy, _, yy, _, _ = here.covariance
+    assert xx > 0.0
+    assert xx * yy > xy * xy
+    assert abs(here.position[0] - 14.0) < 3.0 * xx**0.5
+
+
+def test_with_one_foot_silent_the_other_carries_the_path_on() -> None:
+    session, told = heard(silent=True)
+    last = of(StrideFused, told)[-1]
+    assert (last.foot, last.chosen) == (Foot.RIGHT, Foot.RIGHT)
+    assert last.distance == pytest.approx(14.0, rel=0.05)
+    here = session.position
+    assert here is not None
+    assert here.position == pytest.approx(last.position, abs=0.02)
+    assert [event.foot for event in of(FootSilent, told)] == [Foot.LEFT]
 
 
 # --- any input --------------------------------------------------------------------------------------------------------
