@@ -1,5 +1,6 @@
 """Tables, plots and summaries: what people are shown."""
 
+import json
 import re
 
 import pytest
@@ -8,8 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.events import (
+    CellFault,
+    CellsFailed,
+    FeetSwapped,
+    FootHeard,
     FootMoved,
+    FootSilent,
     HeelStrike,
+    InsoleNeverUnloads,
     LayoutKnown,
     Limitation,
     PacketRejected,
@@ -19,6 +26,8 @@ from solepath.events import (
     ScaleSuspect,
     StepFeatures,
     StepTaken,
+    StrideFused,
+    TouchedDown,
 )
 from solepath.monitor import Monitor
 from solepath.output import event_record
@@ -27,10 +36,10 @@ from solepath.sim.insole_device import Insole
 from solepath.sim.radio import CLEAN, Radio
 from solepath.sim.walk import emulate
 from solepath.tally import Tally
-from solepath.types import Cell, Foot, Layout, Packet, Phase, Sample, Site
+from solepath.types import Cell, Foot, Layout, Packet, Phase, Sample, Site, WalkingMode
 from solepath.view.plot import plot
 from solepath.view.status import status
-from solepath.view.summary import link_health, summary
+from solepath.view.summary import link_health, summary, worn
 from solepath.view.table import milliseconds, number, percent, table
 from walks import SHORT, packets
 
@@ -119,6 +128,59 @@ def test_what_a_session_does_without_and_suspects_is_told():
     text = summary(tally, title="walk", seconds=0.0)
     assert "limitation, left foot: no gyroscope" in text
     assert "suspect scale, left foot: |acc| is 4.90 m/s^2 at rest: 16 g, not 8 g" in text
+
+
+FUSED = StrideFused(
+    t=2.0, known_at=2.0, foot=Foot.LEFT, number=4, stride_length=1.375, own_length=1.25, similarity=None,
+    error_index=None, coefficient=1.0, chosen=Foot.RIGHT, distance=5.25, position=(5.0, 0.25, 0.0),
+)  # fmt: skip
+
+
+def down(mode: WalkingMode) -> TouchedDown:
+    zero = (0.0, 0.0, 0.0)
+    return TouchedDown(t=1.0, known_at=1.0, foot=Foot.LEFT, position=zero, mode=mode, compensation=zero)
+
+
+def test_what_both_feet_did_together_is_summed_up():
+    tally = Tally()
+    tally.add(FUSED)
+    for mode in (WalkingMode.LEFT_WIDE, WalkingMode.STRAIGHT, WalkingMode.STRAIGHT):
+        tally.add(down(mode))
+    text = summary(tally, title="walk", seconds=0.0)
+    assert "both feet fused: 5.25 m, at the end by the right foot's path" in text
+    assert "3 touchdowns: STRAIGHT 2, LEFT_WIDE 1" in text
+
+
+def test_what_is_wrong_with_how_it_is_worn_is_told_once():
+    tally = Tally()
+    assert worn(tally) == []
+    for cells in ((3, 11), (3, 11), tuple(range(40))):
+        tally.add(CellsFailed(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, fault=CellFault.DEAD, cells=cells))
+    tally.add(InsoleNeverUnloads(t=1.0, known_at=1.0, site=Site.RIGHT_FOOT, seconds=5.0))
+    tally.add(FeetSwapped(t=1.0, known_at=1.0))
+    tally.add(FootSilent(t=1.0, known_at=1.0, foot=Foot.RIGHT, silent_for=2.0))
+    tally.add(FootHeard(t=3.0, known_at=3.0, foot=Foot.RIGHT, silent_for=4.0))
+    assert worn(tally) == [
+        "left foot: cells 3, 11 dead, left out",
+        "left foot: 40 cells dead, left out",
+        "right foot: the insole never unloads; phases come from the inertial sensor",
+        "the feet look swapped: what comes as the left one is like a right one",
+        "right: silent 1 times while the other walked on",
+    ]
+
+
+def test_events_of_bodies_and_of_wear_are_strict_json_with_feet_and_modes_by_their_names():
+    told = json.loads(json.dumps([event_record(FUSED), event_record(down(WalkingMode.LEFT_TIGHT))], allow_nan=False))
+    assert (told[0]["event"], told[0]["foot"], told[0]["chosen"]) == ("StrideFused", "left", "right")
+    assert told[0]["similarity"] is None and told[0]["position"] == [5.0, 0.25, 0.0]
+    assert (told[1]["event"], told[1]["mode"]) == ("TouchedDown", "LEFT_TIGHT")
+    failed = CellsFailed(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, fault=CellFault.STUCK, cells=(3,))
+    assert event_record(failed) == {
+        "event": "CellsFailed", "t": 1.0, "known_at": 1.0, "final": True, "foot": "left", "site": "left_foot",
+        "fault": "stuck", "cells": [3],
+    }  # fmt: skip
+    swapped = event_record(FeetSwapped(t=1.0, known_at=1.0))
+    assert swapped == {"event": "FeetSwapped", "t": 1.0, "known_at": 1.0, "final": True}
 
 
 def test_an_event_is_written_with_its_name_and_times_first_and_records_within_it_as_objects():

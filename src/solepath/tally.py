@@ -47,6 +47,10 @@ DATED: dict[type[Event], str] = {
 """The events of a foot's phases, and what they are called."""
 
 
+NAMED = 8
+"""Cells that are named one by one."""
+
+
 def streamed(channel: str) -> bool:
     """Whether samples come on this channel, so that packets of it are counted as come or lost."""
     kind = KINDS.get(channel.partition("/")[0])
@@ -63,6 +67,13 @@ def whole(packet: Packet) -> bool:
         return parse_fragment(packet.data).last
     except WireError:
         return False
+
+
+def _cells(numbers: tuple[int, ...]) -> str:
+    """Cells in words: their numbers, or how many they are where nobody would read them all."""
+    if len(numbers) > NAMED:
+        return f"{len(numbers)} cells"
+    return f"cell{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"
 
 
 @define
@@ -212,8 +223,7 @@ class Tally:
             case TouchedDown(mode=mode, final=True):
                 self.modes[mode] += 1
             case CellsFailed(site=site, fault=fault, cells=cells):
-                told = ", ".join(map(str, cells))
-                self._wrong(f"{site.words}: cell{'s' * (len(cells) > 1)} {told} {fault.value}, left out")
+                self._wrong(f"{site.words}: {_cells(cells)} {fault.value}, left out")
             case InsoleNeverUnloads(site=site):
                 self._wrong(f"{site.words}: the insole never unloads; phases come from the inertial sensor")
             case FeetSwapped():

@@ -32,7 +32,7 @@ def summary(tally: Tally, *, title: str, seconds: float) -> str:
         if one.degraded:
             lines.append(f"{foot.value}: {one.degraded} of {one.steps} steps degraded by missing or saturated samples")
     lines += _together(tally)
-    lines += _worn(tally)
+    lines += worn(tally)
     lines += link_health(tally)
     lines += latency(tally)
     lines += [f"limitation, {printable(what)}" for what in tally.limitations]
@@ -55,7 +55,7 @@ def _together(tally: Tally) -> list[str]:
     return lines
 
 
-def _worn(tally: Tally) -> list[str]:
+def worn(tally: Tally) -> list[str]:
     """What is wrong with how it is worn, a line each; nothing when all is well."""
     silent = {foot: tally.silences[foot] for foot in Foot if tally.silences[foot]}
     return [*tally.worn, *(f"{foot.value}: silent {n} times while the other walked on" for foot, n in silent.items())]

@@ -17,7 +17,7 @@ from ..monitor import Monitor
 from ..types import Foot, Phase
 from .plot import plot
 from .status import status
-from .summary import link_health
+from .summary import link_health, worn
 from .table import number
 
 FRAMES = 12.0
@@ -73,7 +73,7 @@ def picture(monitor: Monitor, title: str) -> Group:
     for foot in Foot:
         feet.add_row(*_foot(monitor, foot))
     lines = plot(monitor.track, *PLOT)
-    health = status(monitor) + link_health(monitor.tally)
+    health = status(monitor) + worn(monitor.tally) + link_health(monitor.tally)
     return Group(
         Panel(feet, title=title, width=PLOT[0] + 4),
         Panel(Text("\n".join(lines)), title="track", width=PLOT[0] + 4),
