@@ -21,7 +21,7 @@ from solepath.foot.cells import enclosed, spacing
 from solepath.sim.insoles import FULL_SCALE, layout
 from solepath.sim.route import Route
 from solepath.types import Cell, Foot, Layout, Phase, Sample, Site
-from walks import LEFT, RIGHT, of, samples
+from walks import LEFT, of, samples
 
 WALK = Route().stand(1.5).walk(30.0, 1.3).stop(1.0)
 COUNTS = (24, 35, 96, 99)
@@ -55,22 +55,14 @@ def among_loading_cells(cells: int) -> int:
 
 def heard(cells: int, fault: Fault | None = None, since: float = -inf) -> tuple[list[Event], list[Event]]:
     """A walk in which a cell of the left insole fails: what is said of cells, and what the session says of the rest."""
-    session = Session(calibration=known(cells))
-    health = {foot: CellHealth(site) for foot, site in ((Foot.LEFT, LEFT), (Foot.RIGHT, RIGHT))}
-    for foot, one in health.items():
-        one.wear(layout(cells, foot))
-    which = among_loading_cells(cells)
+    session, which = Session(calibration=known(cells)), among_loading_cells(cells)
     told: list[Event] = []
-    rest: list[Event] = []
     for sample in walk(cells):
-        foot, pressure = sample.site.foot, sample.pressure
-        assert foot is not None and pressure is not None
-        if fault is not None and sample.site is LEFT and sample.t >= since:
-            pressure = fault(sample.t, pressure, which)
-        phase = session.phase(foot) or Phase.STATIONARY
-        told += health[foot].update(sample.t, sample.t, pressure, phase, sample.gyro)
-        rest += session.feed(evolve(sample, pressure=health[foot].usable(pressure) or None))
-    return told, rest
+        if fault is not None and sample.site is LEFT and sample.t >= since and sample.pressure is not None:
+            sample = evolve(sample, pressure=fault(sample.t, sample.pressure, which) or None)
+        told += session.feed(sample)
+    kinds = CellsFailed | InsoleNeverUnloads
+    return of(kinds, told), [event for event in told if not isinstance(event, kinds)]
 
 
 @cache
