@@ -15,9 +15,10 @@ What the paper leaves open, and what is taken here:
 - Axes of table 1. x goes across and y along the direction of walking; x to the right, so that x, y and up are right
   handed. The direction is where both feet point together when one has come down, which in a bend is the tangent half a
   step back; with the feet's own tracks it is that of the foot's stride, from its last touchdown to this one.
-- When the mode is known. A contact tells its mode when it ends, after the touchdown that it began with; so a touchdown
-  takes the latest mode that was told by a contact of the same foot. Standing is no mode to walk in: the first step
-  after it is taken for a straight one.
+- When the mode is known. A contact tells its mode when it ends, long after the touchdown that it began with. But when
+  a foot comes down the other has borne the whole weight, and what that contact has shown up to then is the mode of the
+  step that ends; where it shows none, the latest that it told. Standing is no mode to walk in: the first step after
+  it is taken for a straight one.
 - The first heading is settled when the wearer has gone 1.5 m; touchdowns before that are not final.
 - Height. The method is planar; heights of touchdowns are those of the feet's own tracks.
 """
@@ -294,14 +295,21 @@ class Modes:
         return WalkingMode.STANDING if both > STANDING_WEIGHT * weight else None
 
     def _told(self, foot: Foot, side: Side, both: float) -> WalkingMode | None:
+        """What a contact tells that has ended."""
         contact = side.contact
         shares = contact.shares()
         if shares is None or contact.lingers:
             return None
         contact.forward = shares["F1"] - shares["F2"]
-        if side.step < LEAST_STEP:
-            return self._standing(both)
-        forward = contact.forward + self.sides[OTHER[foot]].contact.forward
+        return self._standing(both) if side.step < LEAST_STEP else self._shown(foot, side)
+
+    def _shown(self, foot: Foot, side: Side) -> WalkingMode | None:
+        """What the contact of a foot has shown so far, by table 2."""
+        contact = side.contact
+        shares = contact.shares()
+        if shares is None:
+            return None
+        forward = shares["F1"] - shares["F2"] + self.sides[OTHER[foot]].contact.forward
         return decide(foot, side.step, at_pace(shares, contact.speed(side.step)), forward, self.th)
 
     # --- places ---
@@ -337,7 +345,7 @@ class Modes:
         side.step = step = hypot(dx, dy)
         if step < AWAY:
             return []
-        compensation, mode = ZERO, self._walks(side)
+        compensation, mode = ZERO, self._walks(foot)
         if step > LEAST_STEP:
             side.direction = self._facing(t) if chained else (dx / step, dy / step)
             if not self.chain.aligned:
@@ -393,9 +401,14 @@ class Modes:
         length = hypot(x, y)
         return (x / length, y / length) if length > LEAST_STEP else (lx, ly)
 
-    @staticmethod
-    def _walks(side: Side) -> WalkingMode:
-        return WalkingMode.STRAIGHT if side.mode in (None, WalkingMode.STANDING) else side.mode
+    def _walks(self, foot: Foot) -> WalkingMode:
+        """The mode of the step that ends as `foot` comes down."""
+        other = OTHER[foot]
+        carrying = self.sides[other]
+        mode = self._shown(other, carrying) if carrying.pressed and not carrying.contact.lingers else None
+        if mode is None:
+            mode = carrying.mode
+        return WalkingMode.STRAIGHT if mode is None or mode is WalkingMode.STANDING else mode
 
     @staticmethod
     def _turned(direction: tuple[float, float], along: tuple[float, float]) -> Vec3:

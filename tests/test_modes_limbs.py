@@ -1,0 +1,192 @@
+"""The chain of seven attitudes, equation (7) of Gong et al. 2023, against poses worked out by hand."""
+
+from __future__ import annotations
+
+import json
+from math import cos, pi, radians, sin
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath import machine
+from solepath.body.inclination import Inclination
+from solepath.body.limbs import SEGMENTS, LowerLimbs, Transform, foot_end
+from solepath.calibration import Limbs
+from solepath.sim.gait import Wearer
+from solepath.sim.parts import MPU9250
+from solepath.sim.route import Route
+from solepath.sim.suit import limb_samples
+from solepath.sim.turning import matrices
+from solepath.sim.walker import Walker
+from solepath.types import Foot, Quat, Site, Vec3
+from solepath.vector import GRAVITY, IDENTITY, conjugate, from_rotation_vector, from_yaw, multiply, normalise, rotate
+
+LIMBS = Limbs(hip_width=0.2, thigh=0.4, shank=0.45, foot=0.2, ankle_height=0.1)
+HIP: Vec3 = (0.0, 0.1, 0.0)
+
+
+def pitched(degrees: float) -> Quat:
+    """About the axis to the left: what points up leans forward."""
+    return from_rotation_vector((0.0, radians(degrees), 0.0))
+
+
+def test_who_stands_straight_has_the_ends_of_the_feet_below_and_before_the_hips() -> None:
+    assert foot_end(IDENTITY, IDENTITY, IDENTITY, IDENTITY, HIP, LIMBS) == pytest.approx((0.2, 0.1, -0.95))
+
+
+def test_a_thigh_lifted_to_the_front_carries_the_shank_and_the_foot_along() -> None:
+    # thigh horizontal, pointing ahead; shank down, foot level
+    end = foot_end(IDENTITY, pitched(-90), IDENTITY, IDENTITY, HIP, LIMBS)
+    assert end == pytest.approx((0.4 + 0.2, 0.1, -0.55))
+
+
+def test_a_leg_swung_back_by_30_degrees_with_the_foot_on_it() -> None:
+    end = foot_end(IDENTITY, pitched(30), pitched(30), pitched(30), HIP, LIMBS)
+    c, s = cos(pi / 6), sin(pi / 6)
+    assert end == pytest.approx((-0.95 * s + 0.2 * c, 0.1, -0.95 * c - 0.2 * s))
+
+
+def test_a_pelvis_turned_left_carries_its_left_hip_back() -> None:
+    end = foot_end(from_yaw(pi / 2), IDENTITY, IDENTITY, IDENTITY, HIP, LIMBS)
+    assert end == pytest.approx((0.2 - 0.1, 0.0, -0.95))
+
+
+quaternions = st.tuples(*[st.floats(-1.0, 1.0)] * 4).filter(lambda q: sum(x * x for x in q) > 0.01).map(normalise)
+
+
+def as_matrix(rotation: Quat, translation: Vec3) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+    made = np.eye(4)
+    made[:3, :3] = matrices(np.array([rotation]))[0]
+    made[:3, 3] = translation
+    return made
+
+
+@given(quaternions, quaternions, quaternions, quaternions)
+def test_the_end_is_the_last_column_of_the_product_of_homogeneous_matrices(
+    pelvis: Quat, thigh: Quat, shank: Quat, foot: Quat
+) -> None:
+    product = (
+        as_matrix(pelvis, (0.0, 0.0, 0.0))
+        @ as_matrix(multiply(conjugate(pelvis), thigh), HIP)
+        @ as_matrix(multiply(conjugate(thigh), shank), (0.0, 0.0, -LIMBS.thigh))
+        @ as_matrix(multiply(conjugate(shank), foot), (0.0, 0.0, -LIMBS.shank))
+        @ as_matrix(IDENTITY, (LIMBS.foot, 0.0, -LIMBS.ankle_height))
+    )
+    assert foot_end(pelvis, thigh, shank, foot, HIP, LIMBS) == pytest.approx(tuple(product[:3, 3]), abs=1e-9)
+
+
+def test_transforms_one_after_the_other_are_the_product_of_their_matrices() -> None:
+    first, second = Transform(from_yaw(pi / 2), (1.0, 0.0, 0.0)), Transform(IDENTITY, (2.0, 0.0, 0.0))
+    assert first.then(second).translation == pytest.approx((1.0, 2.0, 0.0))
+
+
+# --- sensors on the segments ------------------------------------------------------------------------------------------
+
+
+def stood(chain: LowerLimbs, mounted: dict[Site, Quat], segments: dict[Site, Quat] | None = None) -> None:
+    """0.6 s of attitudes at 50 Hz of sensors that are turned by `mounted` against their segments."""
+    for k in range(31):
+        for site in SEGMENTS:
+            turned = IDENTITY if segments is None else segments.get(site, IDENTITY)
+            chain.told(site, 0.02 * k, multiply(turned, mounted[site]))
+
+
+MOUNTED = {site: normalise((1.0, 0.1 * k, -0.2 * k, 0.3)) for k, site in enumerate(SEGMENTS)}
+
+
+def test_standing_tells_how_every_sensor_sits_on_its_segment() -> None:
+    chain = LowerLimbs(LIMBS)
+    stood(chain, MOUNTED)
+    assert chain.aligned
+    assert chain.end(Foot.LEFT, 0.6) == pytest.approx((0.2, 0.1, -0.95))
+    assert chain.end(Foot.RIGHT, 0.6) == pytest.approx((0.2, -0.1, -0.95))
+    # the left leg swings back as one, by 30 degrees
+    for site in (Site.LEFT_THIGH, Site.LEFT_SHANK, Site.LEFT_FOOT):
+        chain.told(site, 0.62, multiply(pitched(30), MOUNTED[site]))
+    x, y, z = foot_end(IDENTITY, pitched(30), pitched(30), pitched(30), HIP, LIMBS)
+    assert chain.end(Foot.LEFT, 0.62) == pytest.approx((x, y, z))
+    assert chain.height(Foot.LEFT, 0.62) == pytest.approx(-0.95 * cos(pi / 6))
+
+
+def test_who_does_not_stand_still_is_not_aligned() -> None:
+    chain = LowerLimbs(LIMBS)
+    for k in range(100):
+        for site in SEGMENTS:
+            chain.told(site, 0.02 * k, pitched(3.0 * k) if site is Site.LEFT_SHANK else IDENTITY)
+    assert not chain.aligned
+
+
+def test_between_two_attitudes_the_chain_is_between() -> None:
+    chain = LowerLimbs(LIMBS)
+    stood(chain, MOUNTED)
+    chain.told(Site.LEFT_THIGH, 0.62, multiply(pitched(20), MOUNTED[Site.LEFT_THIGH]))
+    x, _, _ = chain.end(Foot.LEFT, 0.61)
+    assert x == pytest.approx(0.2 - 0.4 * sin(radians(10)), abs=1e-4)
+
+
+def test_the_first_step_tells_where_the_wearer_looked_in_the_world_of_the_sensors() -> None:
+    north = 2.0
+    chain = LowerLimbs(LIMBS)
+    away = {site: multiply(from_yaw(north), q) for site, q in MOUNTED.items()}
+    stood(chain, away)
+    for site, lean in ((Site.LEFT_THIGH, -20), (Site.LEFT_SHANK, -20), (Site.RIGHT_THIGH, 15), (Site.RIGHT_SHANK, 15)):
+        chain.told(site, 0.62, multiply(multiply(from_yaw(north), pitched(lean)), MOUNTED[site]))
+    chain.stepped(Foot.LEFT, 0.62)
+    assert chain.facing == pytest.approx(north)
+    step = np.subtract(chain.end(Foot.LEFT, 0.62), chain.end(Foot.RIGHT, 0.62))
+    assert step[0] == pytest.approx(0.85 * (sin(radians(20)) + sin(radians(15))))
+    assert step[1] == pytest.approx(0.2)
+
+
+@given(st.lists(st.tuples(st.sampled_from(SEGMENTS), st.floats(-5, 5), st.tuples(*[st.floats()] * 4)), max_size=40))
+def test_whatever_the_sensors_say_the_chain_is_somewhere(told: list[tuple[Site, float, Quat]]) -> None:
+    chain = LowerLimbs(LIMBS)
+    stood(chain, MOUNTED)
+    for site, t, quat in told:
+        chain.told(site, t, quat)
+    chain.stepped(Foot.LEFT, 0.7)
+    for foot in Foot:
+        assert all(abs(value) < 2.0 for value in (*chain.end(foot, 0.6), *chain.forward(foot, 0.6)))
+    assert machine.load(LowerLimbs, json.loads(json.dumps(machine.save(chain), allow_nan=False))) == chain
+
+
+def test_a_sensor_without_an_attitude_of_its_own_is_held_upright_by_gravity() -> None:
+    """A shank of an emulated walk: its lean from where it stood, against the truth. What the accelerometer is off by at
+    rest is in both attitudes, and so in neither lean."""
+    walker = Walker(Route().stand(2.0).walk(15.0, 1.2).stop(1.0), Wearer(), seed=5)
+    site = Site.LEFT_SHANK
+    exact = [s for s in limb_samples(walker, 100.0, seed=5, attitude=None, errors=None) if s.site is site]
+    felt = [s for s in limb_samples(walker, 100.0, seed=5, attitude=None, errors=MPU9250) if s.site is site]
+    sensor = Inclination()
+    off: list[float] = []
+    stood: tuple[Quat, Quat] | None = None
+    for true, sample in zip(exact, felt, strict=True):
+        assert true.quat is not None and sample.acc is not None and sample.gyro is not None
+        attitude = sensor.update(sample.t, sample.acc, sample.gyro)
+        if attitude is None or sample.t < 1.0:
+            continue
+        stood = stood or (attitude, true.quat)
+        off.append(lean(attitude, stood[0]) - lean(true.quat, stood[1]))
+    assert len(off) > 1000
+    assert np.median(np.abs(off)) < radians(1.5) and np.abs(off).max() < radians(5.0)
+    assert sensor.heading is not None
+
+
+def lean(attitude: Quat, stood: Quat) -> float:
+    """rad from the vertical, of what stood upright."""
+    _, _, z = rotate(multiply(attitude, conjugate(stood)), (0.0, 0.0, 1.0))
+    return float(np.arccos(min(1.0, z)))
+
+
+@given(st.lists(st.tuples(*[st.floats(-40.0, 40.0)] * 6), max_size=60))
+def test_no_motion_turns_an_attitude_into_nonsense(samples: list[tuple[float, ...]]) -> None:
+    sensor = Inclination()
+    for k in range(40):
+        sensor.update(0.02 * k, (0.0, 0.0, GRAVITY), (0.0, 0.0, 0.0))
+    for k, (ax, ay, az, gx, gy, gz) in enumerate(samples):
+        attitude = sensor.update(0.8 + 0.02 * k, (ax, ay, az), (gx, gy, gz))
+        assert attitude is not None
+        assert sum(part * part for part in attitude) == pytest.approx(1.0)
+    assert machine.load(Inclination, machine.save(sensor)) == sensor
