@@ -113,7 +113,7 @@ class DoubleFoot:
 
     def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
         """The steps among `events`, fused."""
-        steps = [event for event in events if isinstance(event, StepTaken)]
+        steps = [event for event in events if isinstance(event, StepTaken)] if events else []
         if not steps:
             return []
         layout = foot.insole.layout

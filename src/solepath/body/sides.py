@@ -115,9 +115,13 @@ class Sides:
         is_left = foot.foot is Foot.LEFT
         side = self.left if is_left else self.right
         if sample.gyro is not None:
-            _turn(side, sample.t, sample.gyro)
+            dt = sample.t - side.times[-1] if side.times else HIDDEN
+            if not 0.0 <= dt < RARELY:
+                _turn(side, sample.t, dt, sample.gyro)
         elif foot.moved_at is None and sample.pressure:
             _press(side, sample.t, foot)
+        if not events:
+            return False
         judged = False
         for event in events:
             if isinstance(event, StepTaken):
@@ -142,12 +146,9 @@ class Sides:
         return left.centre.beyond(self.gone, self.least) and right.centre.beyond(self.gone, self.least)
 
 
-def _turn(side: Side, t: float, gyro: Vec3) -> None:
-    """One sample of the angular rate, rad/s."""
+def _turn(side: Side, t: float, dt: float, gyro: Vec3) -> None:
+    """One sample of the angular rate, rad/s, `dt` s after the last one that was used."""
     times = side.times
-    dt = t - times[-1] if times else HIDDEN
-    if 0.0 <= dt < RARELY:
-        return
     if 0.0 < dt < HIDDEN:
         x, y, z = side.turns[-1]
         gx, gy, gz = gyro

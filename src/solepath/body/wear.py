@@ -44,24 +44,24 @@ class Wear:
     def heard(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
         """`foot` has used `sample`, and `events` are what came of it."""
         t = sample.t
+        is_left = foot.foot is Foot.LEFT
+        this, other = (self.left, self.right) if is_left else (self.right, self.left)
         found: list[Event] = []
-        if foot.foot is Foot.LEFT:
-            this, other, silent = self.left, self.right, Foot.RIGHT
-        else:
-            this, other, silent = self.right, self.left, Foot.LEFT
         if this.said:
             this.said = False
             silence = 0.0 if this.t is None else max(0.0, t - this.t)
             found.append(FootHeard(t=t, known_at=_known_at(sample), foot=foot.foot, silent_for=silence))
-        this.t, this.missing = t, 0
-        if other.t is not None and not other.said:
+        this.t = t
+        this.missing = 0
+        if events and any([isinstance(event, StepTaken) for event in events]):
+            other.missing += 1
+        if other.missing and other.t is not None and not other.said:
             if t < other.t:
                 other.missing = 0  # this foot lags behind the other on the way here, or its times began anew
-            else:
-                other.missing += sum([isinstance(event, StepTaken) for event in events])
-                if other.missing >= self.steps and t - other.t >= self.seconds:
-                    other.said = True
-                    found.append(FootSilent(t=t, known_at=_known_at(sample), foot=silent, silent_for=t - other.t))
+            elif other.missing >= self.steps and t - other.t >= self.seconds:
+                other.said = True
+                silent = Foot.RIGHT if is_left else Foot.LEFT
+                found.append(FootSilent(t=t, known_at=_known_at(sample), foot=silent, silent_for=t - other.t))
         if not self.swapped and self.sides.swapped(foot, sample, events):
             self.swapped = True
             found.append(FeetSwapped(t=t, known_at=_known_at(sample)))
