@@ -79,7 +79,7 @@ def _floor(ax: Axes, panel: Floor) -> None:
     shown = 0
     for track in panel.tracks:
         if track.drawn is Drawn.TRUTH:
-            ax.plot(*_columns(track), color=GREY, linestyle="--", linewidth=1.2, label=track.name, zorder=1)
+            ax.plot(*_columns(track), color="0.3", linestyle="--", linewidth=1.0, label=track.name, zorder=3)
             continue
         colour, marker = COLOURS[shown % len(COLOURS)], MARKERS[shown % len(MARKERS)]
         shown += 1
