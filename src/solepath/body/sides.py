@@ -10,7 +10,9 @@ Exchanged feet are seen in one of three ways, the surest first:
    toe. Insoles whose cells are numbered as mirror images of each other look alike when they are exchanged together with
    their layouts; this way sees nothing of that.
 
-Both feet must agree. Nothing is said of feet that hardly roll: who shuffles, or climbs, may be told late or never. A
+Both feet must agree, over `least` steps each. Nothing is said of feet that hardly roll: who shuffles, or climbs, may be
+told late or never. Of 93 recordings of both feet (healthy walkers and patients, treadmill, stairs, 50 to 200 Hz) none is
+taken for exchanged, and 51 are when they are; of the others all but 9 have fewer than `least` steps of a foot. A
 sensor frame that is left-handed on both feet (the sign of an axis lost) mirrors the motion, and a mirrored left foot
 is a right one: that is told as exchanged feet, and is as wrong.
 """
