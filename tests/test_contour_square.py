@@ -11,7 +11,7 @@ from attrs import evolve
 
 from solepath import Session, StepTaken
 from solepath.calibrate.recorded import recorded
-from solepath.calibrate.square import Mark, fit_square, read_marks, square_drift
+from solepath.calibrate.square import Mark, fit_square, fitted, read_marks, square_drift
 from solepath.calibration import Calibration, CalibrationError
 from solepath.foot.bias_zupt import BiasZupt
 from solepath.recipes import DEFAULT, GYROSCOPE, Recipe
@@ -19,7 +19,7 @@ from solepath.sim.insole_device import Insole
 from solepath.sim.laps import square
 from solepath.sim.parts import AttitudePart
 from solepath.sim.walk import EmulatedWalk, emulate
-from solepath.types import Foot, Packet, Sample, Site
+from solepath.types import Foot, Packet, Sample, Site, Vec3
 
 LEFT = Foot.LEFT
 EXACT = AttitudePart("exact", tilt=0.0, heading=0.0)
@@ -62,7 +62,7 @@ def test_a_known_slope_comes_out_in_the_frame_of_the_device() -> None:
 
 def test_a_drift_that_all_laps_agree_on_is_kept_and_then_taken_off() -> None:
     found = square_drift(samples(), steps_per_lap=PER_LAP, recipe=drifting(0.12, -0.08))
-    assert hypot(*found.kept) > 0.9 * hypot(*found.slope)
+    assert found.agreed and found.kept == found.slope
 
     def end(recipe: Recipe, calibration: Calibration) -> StepTaken:
         session = Session(recipe, calibration=calibration)
@@ -75,11 +75,33 @@ def test_a_drift_that_all_laps_agree_on_is_kept_and_then_taken_off() -> None:
     assert apart == pytest.approx(hypot(0.12, 0.08) * plain.t, rel=0.1)
 
 
-def test_what_the_laps_do_not_agree_on_is_not_taken_off() -> None:
+def test_what_the_laps_do_not_agree_on_is_not_taken_off_unless_it_is_asked_for() -> None:
     found = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
-    assert hypot(*found.kept) < hypot(*found.slope)
-    if hypot(*found.slope) < 2.0**0.5 * found.scatter:
-        assert found.kept == (0.0, 0.0)
+    assert not found.agreed and found.kept == (0.0, 0.0)
+    assert fit_square(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE).drift == (0.0, 0.0)
+    assert fit_square(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE, whole=True).drift == found.slope
+
+
+def test_laps_agree_when_a_wandering_foot_would_do_so_once_in_a_hundred_times() -> None:
+    # four laps, three movements, k = 2: slope^2 / (2 s^2) > 2 (100^(1/2) - 1) = 18
+    def visits(first: float, second: float, third: float) -> list[tuple[float, Vec3]]:
+        x = (0.0, first, first + second, first + second + third)
+        return [(60.0 * k, (at, 0.0, 0.0)) for k, at in enumerate(x)]
+
+    def agreed(spread: float) -> bool:
+        # movements of 1 - spread, 1 and 1 + spread m a minute: variance spread^2 along x, none along y
+        return fitted(LEFT, {"A": visits(1.0 - spread, 1.0, 1.0 + spread)}, 0.0).agreed
+
+    # s^2 = spread^2 / 2 / 3, slope 1: 3 / spread^2 > 18
+    assert agreed(0.40) and not agreed(0.42)
+
+
+def test_the_slope_is_the_mean_of_the_marks_lines() -> None:
+    # by least squares: (0, 0), (1, 1), (2, 5) has the slope 2.5, and (0, 0), (1, 3), (2, 3) has 1.5
+    first = [(0.0, (0.0, 0.0, 0.0)), (1.0, (1.0, 0.0, 0.0)), (2.0, (5.0, 0.0, 0.0))]
+    second = [(0.0, (0.0, 0.0, 0.0)), (1.0, (3.0, 0.0, 0.0)), (2.0, (3.0, 0.0, 0.0))]
+    found = fitted(LEFT, {"A": first, "B": second}, 0.0)
+    assert found.slope == pytest.approx((2.0, 0.0)) and (found.marks, found.visits) == (2, 6)
 
 
 def test_marks_by_time_say_the_same_as_counted_steps() -> None:

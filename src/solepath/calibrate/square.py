@@ -7,17 +7,17 @@ through the positions of one mark over time (least squares) has the slope of the
 taken off later positions.
 
 The paper finds a drift towards a fixed direction. What wanders about is not that: extrapolated from five minutes to a
-half hour it would do more harm than it removes. So the slope counts by how far the laps agree on it. From lap to lap
-the marks move by slope times time if the drift is fixed; with `scatter` the standard error of the mean of these
-movements, the slope that is kept is the mean slope times max(0, 1 - 2 scatter^2 / slope^2) (the positive-part estimator
-of James and Stein for two components with a scatter that is estimated).
+half hour it does more harm than it removes. A fixed drift moves all marks by the same amount from every lap to the
+next; so the slope is kept when it is larger than the laps' disagreement explains, by the test that is exact for
+independent movements of two components: with n movements of standard error s an axis, k = n - 1 and a chance of
+CHANCE, slope^2 / (2 s^2) > k (CHANCE^(-1/k) - 1), the F distribution with 2 and 2 k degrees of freedom.
 """
 
 from __future__ import annotations
 
 import csv
 from collections.abc import Iterable, Mapping, Sequence
-from math import atan2, hypot, inf, isfinite
+from math import atan2, inf, isfinite
 from pathlib import Path
 
 import numpy as np
@@ -35,6 +35,8 @@ STEPS_PER_LAP = 40
 """The paper's marks."""
 FEWEST_LAPS = 3
 """Two points lie on any line."""
+CHANCE = 0.01
+"""Of keeping a slope where nothing drifts."""
 NEAR = 1.0
 """A step ends at a mark when it ends within this of the time that the marks' file says, s."""
 
@@ -50,15 +52,20 @@ class Mark:
 @frozen
 class SquareDrift:
     """What the laps tell. `slope`: mean of the marks' slopes, m/s (x, y), in the frame of `Calibration.drift`;
-    `scatter`: its standard error by the laps' disagreement, m/s an axis; `kept`: what a calibration takes of it."""
+    `scatter`: its standard error by the laps' disagreement, m/s an axis; `agreed`: it is more than that explains."""
 
     foot: Foot
     slope: tuple[float, float]
     scatter: float
-    kept: tuple[float, float]
+    agreed: bool
     marks: int
     visits: int
     """Of all marks together."""
+
+    @property
+    def kept(self) -> tuple[float, float]:
+        """What a calibration takes of it: all or nothing, m/s."""
+        return self.slope if self.agreed else (0.0, 0.0)
 
 
 def fit_square(
@@ -69,12 +76,14 @@ def fit_square(
     steps_per_lap: int = STEPS_PER_LAP,
     recipe: Recipe = PRESSURE_CONTOUR,
     calibration: Calibration | None = None,
+    whole: bool = False,
 ) -> Calibration:
-    """The drift that a recording of laps shows, as `square_drift` finds it."""
+    """The drift that a recording of laps shows, as `square_drift` finds it; none where the laps do not agree on one,
+    unless the `whole` slope is asked for, as the paper takes it."""
     found = square_drift(
         items, foot=foot, marks=marks, steps_per_lap=steps_per_lap, recipe=recipe, calibration=calibration
     )
-    return Calibration(drift=found.kept)
+    return Calibration(drift=found.slope if whole else found.kept)
 
 
 def square_drift(
@@ -107,7 +116,7 @@ def square_drift(
     turned = corrector.turned if isinstance(corrector, BiasZupt) else None
     north = tracker.gait.world.north or (1.0, 0.0)
     back = -atan2(north[1], north[0]) - (turned or 0.0)
-    return _fitted(chosen, visits, back)
+    return fitted(chosen, visits, back)
 
 
 def read_marks(path: Path | str) -> tuple[Mark, ...]:
@@ -148,23 +157,23 @@ def _without_drift(calibration: Calibration) -> Calibration:
     )
 
 
-_Visits = dict[str, list[tuple[float, Vec3]]]
+Visits = dict[str, list[tuple[float, Vec3]]]
 """By mark: when it was stood on and where that seemed to be, world frame, m."""
 
 
-def _counted(steps: Sequence[StepTaken], steps_per_lap: int) -> _Visits:
+def _counted(steps: Sequence[StepTaken], steps_per_lap: int) -> Visits:
     if steps_per_lap < 4:
         raise CalibrationError(f"{steps_per_lap} marks are no square")
     if len(steps) < FEWEST_LAPS * steps_per_lap:
         raise CalibrationError(f"{len(steps)} steps are less than {FEWEST_LAPS} laps of {steps_per_lap} marks")
-    visits: _Visits = {}
+    visits: Visits = {}
     for number, step in enumerate(steps):
         visits.setdefault(str(number % steps_per_lap), []).append((step.t, step.position))
     return visits
 
 
-def _marked(steps: Sequence[StepTaken], marks: Sequence[Mark]) -> _Visits:
-    visits: _Visits = {}
+def _marked(steps: Sequence[StepTaken], marks: Sequence[Mark]) -> Visits:
+    visits: Visits = {}
     ends = np.array([step.t for step in steps])
     for mark in marks:
         nearest = int(np.argmin(np.abs(ends - mark.t)))
@@ -174,7 +183,7 @@ def _marked(steps: Sequence[StepTaken], marks: Sequence[Mark]) -> _Visits:
     return visits
 
 
-def _fitted(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], back: float) -> SquareDrift:
+def fitted(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], back: float) -> SquareDrift:
     """One line for each mark that was visited often enough; `back` turns from the world's frame to the drift's, rad."""
     slopes: list[tuple[float, float]] = []
     moves: dict[int, list[tuple[float, float]]] = {}
@@ -195,7 +204,7 @@ def _fitted(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], back: fl
     x, y = (float(value) for value in np.mean(slopes, axis=0))
     laps = np.array([np.mean(lap, axis=0) for lap in moves.values()])
     scatter = float(np.sqrt(np.mean(laps.var(axis=0, ddof=1)) / len(laps))) if len(laps) > 1 else inf
-    size = hypot(x, y)
-    share = max(0.0, 1.0 - 2.0 * (scatter / size) ** 2) if size > 0.0 else 0.0
+    k = len(laps) - 1
+    agreed = k > 0 and x * x + y * y > 2.0 * scatter * scatter * k * (CHANCE ** (-1.0 / k) - 1.0)
     sx, sy, _ = rotate(from_yaw(back), (x, y, 0.0))
-    return SquareDrift(foot, (sx, sy), scatter, (share * sx, share * sy), len(slopes), used)
+    return SquareDrift(foot, (sx, sy), scatter, agreed, len(slopes), used)
