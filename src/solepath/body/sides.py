@@ -11,8 +11,8 @@ Exchanged feet are seen in one of three ways, the surest first:
    their layouts; this way sees nothing of that.
 
 Both feet must agree, over `least` steps each. Nothing is said of feet that hardly roll: who shuffles, or climbs, may be
-told late or never. Of 93 recordings of both feet (healthy walkers and patients, treadmill, stairs, 50 to 200 Hz) none is
-taken for exchanged, and 51 are when they are; of the others all but 9 have fewer than `least` steps of a foot. A
+told late or never. Of 93 recordings of both feet (healthy walkers and patients, a treadmill, stairs, 50 to 200 Hz) none
+is taken for exchanged, and 51 are when they are; of the others all but 9 have fewer than `least` steps of a foot. A
 sensor frame that is left-handed on both feet (the sign of an axis lost) mirrors the motion, and a mirrored left foot
 is a right one: that is told as exchanged feet, and is as wrong.
 """
