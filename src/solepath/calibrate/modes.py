@@ -78,13 +78,13 @@ def read_marks(path: Path | str) -> list[Mark]:
     return marks
 
 
-def touchdowns(walk: Recorded, known: Calibration) -> list[TouchedDown]:
-    """What method III makes of a walk, without any compensation, in the order of time."""
+def touchdowns(walk: Recorded, known: Calibration, heading: float | None = None) -> list[TouchedDown]:
+    """What method III makes of a walk, without any compensation, in the order of time. `heading`: see body/modes.py."""
     insoles = dict(known.insoles)
     for foot, layout in walk.layouts.items():
         insole = known.insole(foot)
         insoles[foot] = insole if insole.layout is not None else evolve(insole, layout=layout)
-    recipe = Recipe("marked walk", Cycle(), ErrorStateFilter(), body=Modes())
+    recipe = Recipe("marked walk", Cycle(), ErrorStateFilter(), body=Modes(heading=heading))
     session = Session(recipe, calibration=evolve(known, insoles=insoles))
     events = [*session.feed(walk.samples), *session.finish()]
     return sorted([event for event in events if isinstance(event, TouchedDown)], key=_time)
@@ -104,6 +104,8 @@ def step_errors(marks: Iterable[Mark], downs: list[TouchedDown]) -> list[StepErr
         four = [at.get(j) for j in range(k - 3, k + 1)]
         earliest, earlier, before, newest = four
         if earliest is None or earlier is None or before is None or newest is None:
+            continue
+        if not downs[k - 1].final:  # told before the first heading was settled: in another frame
             continue
         if not earliest.foot is before.foot is not newest.foot is earlier.foot:
             continue
@@ -142,13 +144,17 @@ def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tup
     }
 
 
-def fit_modes(walks: Iterable[tuple[Recorded, Path | str]], known: Calibration | None = None) -> Calibration:
+def fit_modes(
+    walks: Iterable[tuple[Recorded, Path | str]], known: Calibration | None = None, heading: float | None = None
+) -> Calibration:
     """A calibration with the compensation that marked walks show, each a recording and its csv file of marks
-    (`read_marks`). `known`: limbs and insoles of the wearer. CalibrationError when no step lies between two marks."""
+    (`read_marks`). `known`: limbs and insoles of the wearer. `heading`: where the wearer looks at the start of each
+    walk in the world that the sensors share, rad; without it the first step has to tell, and should not go round a
+    bend. CalibrationError when no step lies between two marks."""
     known = Calibration() if known is None else known
     errors: list[StepError] = []
     for walk, path in walks:
-        found = step_errors(read_marks(path), touchdowns(walk, known))
+        found = step_errors(read_marks(path), touchdowns(walk, known, heading))
         if not found:
             raise CalibrationError(f"{path}: no four marks one after the other, left and right in turn")
         errors += found

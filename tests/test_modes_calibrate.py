@@ -1,0 +1,189 @@
+"""`solepath calibrate newton` and `modes`: what a gauge and marked walks teach."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import cos, sin
+from pathlib import Path
+
+import pytest
+
+from solepath.calibrate.modes import Mark, fit_modes, mean_errors, read_marks, step_errors
+from solepath.calibrate.newton import fit_gauge, fit_newtons
+from solepath.calibrate.recorded import Recorded
+from solepath.calibration import Calibration, CalibrationError
+from solepath.events import TouchedDown
+from solepath.foot.pressure import in_newtons
+from solepath.sim.insoles import layout
+from solepath.sim.laps import marked, marks, write_marks
+from solepath.sim.suit import limb_samples
+from solepath.sim.walker import Walker
+from solepath.types import SITE_OF_FOOT, Foot, WalkingMode
+
+# --- newtons ----------------------------------------------------------------------------------------------------------
+
+
+def cubic(counts: float) -> float:
+    """A cell of 14 bits that gets stiffer: 0 N at 0, 200 N at 16000 counts."""
+    u = counts / 16000.0
+    return 60.0 * u + 40.0 * u**2 + 100.0 * u**3
+
+
+def gauge(path: Path, counts: list[float], lines: tuple[str, ...] = ()) -> Path:
+    rows = [f"{count},{cubic(count)}" for count in counts]
+    path.write_text("\n".join(["counts,newtons", *rows, *lines]) + "\n")
+    return path
+
+
+def test_a_cubic_is_found_again(tmp_path: Path) -> None:
+    found = fit_gauge(gauge(tmp_path / "g.csv", [1000.0 * k for k in range(17)]))
+    assert found.points == 17 and found.residual < 1e-6 and found.worst < 1e-6
+    for count in (2500.0, 9000.0, 15500.0):
+        assert in_newtons(found.newtons, (count,))[0] == pytest.approx(cubic(count))
+
+
+def test_what_is_below_5_newtons_is_nothing_and_more_than_200_is_200(tmp_path: Path) -> None:
+    found = fit_gauge(gauge(tmp_path / "g.csv", [1000.0 * k for k in range(17)]))
+    low, high = in_newtons(found.newtons, (1000.0, 20000.0))
+    assert cubic(1000.0) < 5.0 and low == 0.0 and high == 200.0
+
+
+def test_it_is_of_the_insoles_named(tmp_path: Path) -> None:
+    path = gauge(tmp_path / "g.csv", [1000.0 * k for k in range(17)])
+    assert set(fit_newtons(path).insoles) == set(Foot)
+    assert set(fit_newtons(path, [Foot.LEFT]).insoles) == {Foot.LEFT}
+
+
+def test_noise_of_the_gauge_is_its_residual(tmp_path: Path) -> None:
+    path = tmp_path / "g.csv"
+    rows = [f"{500 * k},{cubic(500 * k) + (0.5 if k % 2 else -0.5)}" for k in range(1, 32)]
+    path.write_text("\n".join(["counts,newtons", *rows]))
+    assert fit_gauge(path).residual == pytest.approx(0.5, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (("hello,5",), "line 19: counts is 'hello', not a number"),
+        (("7,nan",), "line 19: newtons is 'nan', not a finite number"),
+        (("7",), "line 19: 1 values, and the header has 2"),
+        (("7,250",), "line 19: 250 N, and the range is 0 to 200 N"),
+    ],
+)
+def test_a_bad_line_is_named(tmp_path: Path, lines: tuple[str, ...], said: str) -> None:
+    path = gauge(tmp_path / "g.csv", [1000.0 * k for k in range(17)], lines)
+    with pytest.raises(CalibrationError, match=said) as error:
+        fit_gauge(path)
+    assert str(path) in str(error.value)
+
+
+def test_a_table_that_is_none_is_refused(tmp_path: Path) -> None:
+    empty, short, falling = (tmp_path / name for name in ("empty.csv", "short.csv", "falling.csv"))
+    empty.write_text("")
+    with pytest.raises(CalibrationError, match="line 1: no column counts"):
+        fit_gauge(empty)
+    with pytest.raises(CalibrationError, match="4 different counts"):
+        fit_gauge(gauge(short, [0.0, 1000.0, 2000.0, 3000.0]))
+    falling.write_text("counts,newtons\n" + "\n".join(f"{k},{200 - 20 * k}" for k in range(9)))
+    with pytest.raises(CalibrationError, match="does not rise"):
+        fit_gauge(falling)
+    with pytest.raises(CalibrationError, match="No such file"):
+        fit_gauge(tmp_path / "nowhere.csv")
+
+
+# --- modes ------------------------------------------------------------------------------------------------------------
+
+
+def down(foot: Foot, t: float, x: float, y: float) -> TouchedDown:
+    return TouchedDown(
+        t=t, known_at=t, foot=foot, position=(x, y, 0.0), mode=WalkingMode.STRAIGHT, compensation=(0.0, 0.0, 0.0)
+    )
+
+
+def straight(short: float, turned: float = 0.0) -> tuple[list[Mark], list[TouchedDown]]:
+    """Nine steps of 0.6 m on marks, every one measured `short` m too short, on a floor turned by `turned` rad."""
+    found, downs = [], []
+    for k in range(9):
+        foot, y = (Foot.LEFT, 0.1) if k % 2 == 0 else (Foot.RIGHT, -0.1)
+        x = 0.6 * k
+        c, s = cos(turned), sin(turned)
+        found.append(Mark(f"line {k}", foot, c * x - s * y, s * x + c * y, WalkingMode.STRAIGHT, t=float(k)))
+        downs.append(down(foot, k + 0.02, (0.6 - short) * k, y))
+    return found, downs
+
+
+@pytest.mark.parametrize("turned", [0.0, 2.0])
+def test_steps_that_are_measured_too_short_are_told_so_wherever_the_marks_x_points(turned: float) -> None:
+    errors = step_errors(*straight(0.02, turned))
+    assert len(errors) == 6
+    assert [(error.forward, error.left) for error in errors] == [pytest.approx((0.02, 0.0), abs=1e-9)] * 6
+
+
+def test_errors_do_not_accumulate_and_are_told_by_foot() -> None:
+    marked_points, downs = straight(0.0)
+    moved = [down(one.foot, one.t, one.position[0] + (0.03 if k >= 5 else 0.0), one.position[1])
+             for k, one in enumerate(downs)]  # fmt: skip
+    errors = step_errors(marked_points, moved)
+    assert sorted(round(error.forward, 6) for error in errors)[:2] == pytest.approx([-0.03, 0.0], abs=0.002)
+    means = mean_errors(errors)
+    assert means[Foot.RIGHT][WalkingMode.STRAIGHT][0] == pytest.approx(-0.01, abs=0.002)
+    assert means[Foot.LEFT][WalkingMode.STRAIGHT][0] == pytest.approx(0.0, abs=0.002)
+
+
+def test_marks_that_belong_to_no_touchdown_are_named() -> None:
+    marked_points, downs = straight(0.0)
+    with pytest.raises(CalibrationError, match=r"line 7: the right foot did not come down at 7 s"):
+        step_errors(marked_points, downs[:7])
+    twice = [*marked_points, marked_points[0]]
+    with pytest.raises(CalibrationError, match="line 0: the same touchdown as at line 0"):
+        step_errors(twice, downs)
+    beyond = [Mark("line 9", Foot.LEFT, 0.0, 0.0, WalkingMode.STRAIGHT, step=6)]
+    with pytest.raises(CalibrationError, match="line 9: the left foot came down 5 times only"):
+        step_errors(beyond, downs)
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("middle,1,0,0,STRAIGHT", "line 2: foot is 'middle', not one of left, right"),
+        ("left,1,0,0,STANDING", "line 2: mode is 'STANDING', not one of STRAIGHT"),
+        ("left,,0,0,STRAIGHT", "line 2: neither t nor step"),
+        ("left,1,zero,0,STRAIGHT", "line 2: x is 'zero', not a number"),
+    ],
+)
+def test_a_bad_mark_is_named(tmp_path: Path, line: str, said: str) -> None:
+    path = tmp_path / "marks.csv"
+    path.write_text(f"foot,t,x,y,mode\n{line}\n")
+    with pytest.raises(CalibrationError, match=said):
+        read_marks(path)
+
+
+def test_marks_may_be_told_by_the_number_of_the_step(tmp_path: Path) -> None:
+    path = tmp_path / "marks.csv"
+    path.write_text("foot,step,x,y,mode\nleft,3,1.5,0.1,LEFT_WIDE\n")
+    (mark,) = read_marks(path)
+    assert (mark.foot, mark.step, mark.t, mark.mode) == (Foot.LEFT, 3, None, WalkingMode.LEFT_WIDE)
+    path.write_text("foot,step,x,y,mode\nleft,2.5,1.5,0.1,LEFT_WIDE\n")
+    with pytest.raises(CalibrationError, match="step is 2.5"):
+        read_marks(path)
+
+
+@cache
+def walked(mode: WalkingMode) -> tuple[Recorded, Walker]:
+    walker = Walker(marked(mode, steps=24), seed=103)
+    layouts = {SITE_OF_FOOT[foot]: layout(99, foot) for foot in Foot}
+    samples = limb_samples(walker, 50.0, seed=103, layouts=layouts)
+    return Recorded(tuple(samples), {foot: layout(99, foot) for foot in Foot}), walker
+
+
+def test_a_marked_walk_teaches_both_feet_some_centimetres(tmp_path: Path) -> None:
+    walks = []
+    for mode in (WalkingMode.STRAIGHT, WalkingMode.LEFT_TIGHT):
+        recording, walker = walked(mode)
+        write_marks(tmp_path / f"{mode.name}.csv", marks(walker))
+        walks.append((recording, tmp_path / f"{mode.name}.csv"))
+    found = fit_modes(walks, Calibration(limbs=walker.wearer.limbs), heading=0.0).modes
+    assert found is not None
+    for foot in Foot:
+        assert set(found[foot]) == {WalkingMode.STRAIGHT, WalkingMode.LEFT_TIGHT}
+        assert all(abs(value) < 0.06 for pair in found[foot].values() for value in pair)
