@@ -132,6 +132,8 @@ class Modes:
     """Begins and ends the contacts that tell a mode."""
     coming: tuple[Foot, float] | None = field(default=None, init=False)
     """The foot that came down, and when, s, while the chain does not know that instant yet."""
+    measured: float | None = field(default=None, init=False)
+    """The instant that the chain's heights are of, s."""
     touchdowns: int = field(default=0, init=False)
     borne: float = field(default=0.0, init=False)
     """Mean of what both feet bear, unit of the samples."""
@@ -236,6 +238,9 @@ class Modes:
     def _heights(self, t: float) -> float:
         """Take the heights of both feet, by the chain at the latest instant that it knows. Returns that instant, s."""
         complete = self.chain.complete() if self.chain.current(t) else None
+        if complete is not None and complete == self.measured:
+            return min(t, complete)
+        self.measured = complete
         for foot, side in self.sides.items():
             side.state.height = side.track[2] if complete is None else self.chain.height(foot, complete)
         return t if complete is None else min(t, complete)
