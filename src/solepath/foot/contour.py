@@ -26,8 +26,8 @@ from __future__ import annotations
 
 from collections import deque
 from itertools import combinations
-from math import cos, hypot, pi, sin
-from operator import mul
+from math import cos, hypot, inf, pi, sin
+from operator import mul, sub
 
 from attrs import define, field
 
@@ -67,7 +67,8 @@ class Contours:
     """
 
     shares: tuple[float, ...] = (1.4, 1.2, 1.0, 0.8, 0.6, 0.4)
-    """The levels as shares of the present mean pressure of the heel's cells, highest first."""
+    """The levels as shares of the present mean pressure of the heel's cells: 1.4 is still well below the peak of a patch
+    of pressure, 0.4 lies at its edge, where a heel that leans has its only contours."""
     pascals: tuple[float, ...] | None = None
     """Fixed levels in Pa instead, for cells whose scale is known."""
     interval: float = 0.05
@@ -144,19 +145,24 @@ class Contours:
         first = 0
         while first < count and middle <= levels[first]:
             first += 1
-        found: list[float] = []
         missing = (MISSING,) * first
+        levels.append(-inf)  # nothing is below it
+        found: list[float] = []
         at = 1
         for points, step in self.rays:
             found += missing
-            level, inner = first, middle
-            for ring, outer in enumerate(pressures[at : at + points]):
-                while level < count and outer < levels[level]:
-                    found.append(step * (ring + (inner - levels[level]) / (inner - outer)))
-                    level += 1
-                if level == count:
-                    break
+            level, target, inner, r = first, levels[first], middle, 0.0
+            for outer in pressures[at : at + points]:
+                if outer < target:
+                    along = step / (inner - outer)
+                    while outer < target:
+                        found.append(r + (inner - target) * along)
+                        level += 1
+                        target = levels[level]
+                    if level == count:
+                        break
                 inner = outer
+                r += step
             found += (MISSING,) * (count - level)
             at += points
         return tuple(found)
@@ -165,10 +171,21 @@ class Contours:
         """(1) and (2) for each level, and their mean."""
         sum_x = sum_y = 0.0
         contours = 0
-        for level in range(len(self.levels)):
-            found = self._by_pairs(level, now, before)
+        count = len(self.levels)
+        for level in range(count):
+            present, past = now[level::count], before[level::count]
+            if max(present) < 0.0 or max(past) < 0.0:
+                continue
+            if min(present) >= 0.0 and min(past) >= 0.0:
+                # all rays: the normal equations have AXES on their diagonal
+                moved = list(map(sub, present, past))
+                sum_x += sum(map(mul, moved, _COS)) / AXES
+                sum_y += sum(map(mul, moved, _SIN)) / AXES
+                contours += 1
+                continue
+            found = _by_pairs(present, past)
             if found is None and not self.absolute:
-                found = self._by_rays(level, now, before)
+                found = _by_rays(present, past)
             if found is not None:
                 sum_x += found[0]
                 sum_y += found[1]
@@ -177,42 +194,6 @@ class Contours:
             return None
         k = rate / contours
         return sum_x * k, sum_y * k
-
-    def _by_pairs(self, level: int, now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
-        """How far the centre of one level's contour has moved, m, by its rays that have an opposite."""
-        count = len(self.levels)
-        half = AXES * count
-        xx = xy = yy = bx = by = 0.0
-        for (c, s, cc, cs, ss), r, q, p, o in zip(
-            _AXES,
-            now[level:half:count],
-            now[half + level :: count],
-            before[level:half:count],
-            before[half + level :: count],
-            strict=True,
-        ):
-            if r >= 0.0 and q >= 0.0 and p >= 0.0 and o >= 0.0:
-                moved = 0.5 * (r - p - q + o)
-                xx += cc
-                xy += cs
-                yy += ss
-                bx += moved * c
-                by += moved * s
-        return _solved(xx, xy, yy, bx, by)
-
-    def _by_rays(self, level: int, now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
-        """The same by all rays."""
-        count = len(self.levels)
-        xx = xy = yy = bx = by = 0.0
-        for (c, s, cc, cs, ss), r, p in zip(_RAYS, now[level::count], before[level::count], strict=True):
-            if r >= 0.0 and p >= 0.0:
-                moved = r - p
-                xx += cc
-                xy += cs
-                yy += ss
-                bx += moved * c
-                by += moved * s
-        return _solved(xx, xy, yy, bx, by)
 
     def _lay_rays(self, used: list[Cell], centre: tuple[float, float]) -> None:
         x, y = centre
@@ -240,6 +221,36 @@ def _direction(angle: float) -> tuple[float, float, float, float, float]:
 
 _RAYS = tuple(_direction(pi * k / AXES) for k in range(2 * AXES))
 _AXES = _RAYS[:AXES]
+_COS = [ray[0] for ray in _RAYS]
+_SIN = [ray[1] for ray in _RAYS]
+
+
+def _by_pairs(now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
+    """How far the centre of one level's contour has moved, m, by its rays that have an opposite."""
+    xx = xy = yy = bx = by = 0.0
+    for (c, s, cc, cs, ss), r, q, p, o in zip(_AXES, now[:AXES], now[AXES:], before[:AXES], before[AXES:], strict=True):
+        if r >= 0.0 and q >= 0.0 and p >= 0.0 and o >= 0.0:
+            moved = 0.5 * (r - p - q + o)
+            xx += cc
+            xy += cs
+            yy += ss
+            bx += moved * c
+            by += moved * s
+    return _solved(xx, xy, yy, bx, by)
+
+
+def _by_rays(now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
+    """The same by all rays."""
+    xx = xy = yy = bx = by = 0.0
+    for (c, s, cc, cs, ss), r, p in zip(_RAYS, now, before, strict=True):
+        if r >= 0.0 and p >= 0.0:
+            moved = r - p
+            xx += cc
+            xy += cs
+            yy += ss
+            bx += moved * c
+            by += moved * s
+    return _solved(xx, xy, yy, bx, by)
 
 
 def _solved(xx: float, xy: float, yy: float, bx: float, by: float) -> tuple[float, float] | None:
