@@ -67,8 +67,8 @@ class Contours:
     """
 
     shares: tuple[float, ...] = (1.4, 1.2, 1.0, 0.8, 0.6, 0.4)
-    """The levels as shares of the present mean pressure of the heel's cells: 1.4 is still well below the peak of a patch
-    of pressure, 0.4 lies at its edge, where a heel that leans has its only contours."""
+    """The levels as shares of the present mean pressure of the heel's cells: 1.4 is still well below the peak of a
+    patch of pressure, 0.4 lies at its edge, where a heel that leans has its only contours."""
     pascals: tuple[float, ...] | None = None
     """Fixed levels in Pa instead, for cells whose scale is known."""
     interval: float = 0.05
@@ -197,7 +197,7 @@ class Contours:
 
     def _lay_rays(self, used: list[Cell], centre: tuple[float, float]) -> None:
         x, y = centre
-        step = max(hypot(cell.x - x, cell.y - y) for cell in used if cell.x < 2.0 * x) / RINGS
+        step = max((hypot(cell.x - x, cell.y - y) for cell in used if cell.x < 2.0 * x), default=0.0) / RINGS
         middle = _triangle(used, x, y)
         if middle is None or step <= 0.0:
             return
