@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from solepath.calibrate.modes import Mark, fit_modes, mean_errors, read_marks, step_errors
+from solepath.calibrate.modes import Mark, fit_modes, mean_errors, read_marks, step_errors, without_heading
 from solepath.calibrate.newton import fit_gauge, fit_newtons
 from solepath.calibrate.recorded import Recorded
 from solepath.calibration import Calibration, CalibrationError
@@ -128,6 +128,15 @@ def test_errors_do_not_accumulate_and_are_told_by_foot() -> None:
     means = mean_errors(errors)
     assert means[Foot.RIGHT][WalkingMode.STRAIGHT][0] == pytest.approx(-0.01, abs=0.002)
     assert means[Foot.LEFT][WalkingMode.STRAIGHT][0] == pytest.approx(0.0, abs=0.002)
+
+
+def test_what_both_feet_are_off_to_one_side_is_a_heading_and_no_compensation() -> None:
+    mode = WalkingMode.STRAIGHT
+    means = {Foot.LEFT: {mode: (0.01, -0.02)}, Foot.RIGHT: {mode: (0.02, 0.03), WalkingMode.LEFT_WIDE: (0.0, 0.04)}}
+    without_heading(means)
+    assert means[Foot.LEFT][mode] == pytest.approx((0.01, -0.025))
+    assert means[Foot.RIGHT][mode] == pytest.approx((0.02, 0.025))
+    assert means[Foot.RIGHT][WalkingMode.LEFT_WIDE] == (0.0, 0.04)
 
 
 def test_marks_that_belong_to_no_touchdown_are_named() -> None:

@@ -144,6 +144,17 @@ def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tup
     }
 
 
+def without_heading(means: dict[Foot, dict[WalkingMode, tuple[float, float]]]) -> None:
+    """Take out of both feet what they are off to the same side, mode by mode: that turns the way as a whole, as the
+    heading of a sensor does that errs on one walk this way and on the next that way. Where a touchdown is misplaced,
+    the feet are off against each other."""
+    left, right = means.get(Foot.LEFT, {}), means.get(Foot.RIGHT, {})
+    for mode in left.keys() & right.keys():
+        aside = 0.5 * (left[mode][1] + right[mode][1])
+        left[mode] = (left[mode][0], left[mode][1] - aside)
+        right[mode] = (right[mode][0], right[mode][1] - aside)
+
+
 def fit_modes(
     walks: Iterable[tuple[Recorded, Path | str]], known: Calibration | None = None, heading: float | None = None
 ) -> Calibration:
@@ -158,7 +169,9 @@ def fit_modes(
         if not found:
             raise CalibrationError(f"{path}: no four marks one after the other, left and right in turn")
         errors += found
-    return Calibration(modes=mean_errors(errors))
+    means = mean_errors(errors)
+    without_heading(means)
+    return Calibration(modes=means)
 
 
 def spread(errors: Iterable[StepError], compensation: dict[Foot, dict[WalkingMode, tuple[float, float]]]) -> float:
