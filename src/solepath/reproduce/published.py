@@ -128,21 +128,3 @@ WALKING_MODES: Table = {
     for k, axis in enumerate("xy")
 }
 """Table 4 as rows. Quartiles are not in it; its variances are the squares of its deviations."""
-
-
-@frozen
-class Subject:
-    """A line of table 3: height in m, mass in kg, shoe size (length of the foot) in m."""
-
-    height: float
-    mass: float
-    shoe_size: float
-
-
-SUBJECTS = (
-    Subject(1.72, 63.0, 0.245),
-    Subject(1.68, 52.5, 0.255),
-    Subject(1.60, 50.0, 0.235),
-    Subject(1.83, 81.0, 0.270),
-)
-"""Table 3; each walked ten rectangles."""

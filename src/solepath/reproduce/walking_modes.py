@@ -1,9 +1,9 @@
 """Gong et al. 2023: 40 rectangles of 2.8 m by 4.0 m, four wearers of ten each, with seven attitude sensors and two
 insoles of 99 cells at 50 Hz, by touchdown methods I to IV.
 
-The wearers have the statures, masses and shoe sizes of table 3; limbs follow from the stature. They walk from A over B,
-C and D back to A, turning left without a halt. At each corner every foot has a step that comes down nearest to it; a
-deviation is where a session has these two touchdowns, less where the feet truly came down, the mean of both.
+The wearers are those of table 3 (sim/wearers.py). They walk from A over B, C and D back to A, turning left without a
+halt. At each corner every foot has a step that comes down nearest to it; a deviation is where a session has these two
+touchdowns, less where the feet truly came down, the mean of both.
 
 The floor is surveyed, as the paper's was: sessions know how the first side lies to the sensors' common north. Method IV
 compensates by what each wearer's own marked walks (section 3.3) showed on another day: other walks, sensors strapped on
@@ -20,7 +20,7 @@ from attrs import evolve, frozen
 from ..body.modes import Modes
 from ..calibrate.modes import MODES, Mark, mean_errors, step_errors, touchdowns
 from ..calibrate.recorded import Recorded
-from ..calibration import Calibration, InsoleCalibration, Limbs, merged
+from ..calibration import Calibration, InsoleCalibration, merged
 from ..events import TouchedDown
 from ..recipes import BY_NAME
 from ..session import Session
@@ -29,15 +29,15 @@ from ..sim.insoles import layout
 from ..sim.laps import ACROSS, ALONG, Corner, corners, marked, rectangle
 from ..sim.laps import marks as marks_of
 from ..sim.parts import WORN_RESISTIVE
-from ..sim.shoe import Rocker, Shoe
 from ..sim.suit import limb_samples
 from ..sim.walker import Walker
+from ..sim.wearers import SUBJECTS
 from ..types import SITE_OF_FOOT, Foot, Sample
 from ..vector import GRAVITY
 from . import published
 from .picture import Drawn, Floor, Track
 from .pool import Progress, each
-from .published import Subject, corner_row
+from .published import corner_row
 from .tables import Reproduction, Row, statistics
 
 NAME = "walking-modes"
@@ -45,8 +45,8 @@ WALKS = 40
 RATE = 50.0
 """Hz, section 3.1."""
 CELLS = 99
-STEPS = 50
-"""Of each marked walk, section 3.3."""
+STEPS, REPEATS = 50, 3
+"""Of each marked walk, section 3.3: "50 steps at a time and repeated this three times along each path"."""
 METHODS = {"I": "touchdown-height", "II": "touchdown-acceleration", "III": "touchdown-pressure", "IV": NAME}
 PLACES = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D": (0.0, ACROSS)}
 """m; the walk begins and ends at A."""
@@ -65,11 +65,12 @@ class Job:
 
 @frozen
 class Learning:
-    """The marked walks of one wearer, of so many steps in each mode."""
+    """The marked walks of one wearer: so many steps in each mode, so many times."""
 
     subject: int
     seed: int
     steps: int
+    repeats: int
 
 
 @frozen
@@ -84,7 +85,7 @@ def reproduce(
 ) -> Reproduction:
     """So many rectangles, by the four wearers in turn."""
     count = WALKS if walks is None else walks
-    wearers = list(range(min(count, len(published.SUBJECTS))))
+    wearers = list(range(min(count, len(SUBJECTS))))
     total = count + len(wearers)
 
     def calibrating(done: int, of: int) -> None:
@@ -95,7 +96,7 @@ def reproduce(
         if progress is not None:
             progress(len(wearers) + done, total)
 
-    learning = [Learning(subject, 1000 * seed + 500 + subject, STEPS) for subject in wearers]
+    learning = [Learning(subject, 1000 * seed + 500 + 10 * subject, STEPS, REPEATS) for subject in wearers]
     known = list(each(learn, learning, processes=processes, progress=calibrating))
     jobs = [Job(k % len(known), 1000 * seed + k, known[k % len(known)]) for k in range(count)]
     done = list(each(walk, jobs, processes=processes, progress=walking))
@@ -156,22 +157,6 @@ def _notes(done: Sequence[Walked]) -> tuple[str, ...]:
 # --- wearers ----------------------------------------------------------------------------------------------------------
 
 
-def wearer_of(subject: Subject) -> Wearer:
-    """Table 3's wearer: the shoe is as much longer than the foot as the default one of size 43, 1 cm, and alike; limbs
-    by the proportions of calibration.Limbs."""
-    usual, body = Shoe(), Limbs()
-    k, h = (subject.shoe_size + 0.010) / usual.length, subject.height / 1.75
-    shoe = Shoe(
-        length=k * usual.length,
-        width=k * usual.width,
-        heel=Rocker(k * usual.heel.x, k * usual.heel.radius),
-        forefoot=Rocker(k * usual.forefoot.x, k * usual.forefoot.radius),
-        ankle=(k * usual.ankle[0], k * usual.ankle[1], k * usual.ankle[2]),
-    )
-    limbs = Limbs(h * body.hip_width, h * body.thigh, h * body.shank, h * body.foot, h * body.ankle_height)
-    return Wearer(mass=subject.mass, shoe=shoe, centre_height=h * Wearer().centre_height, limbs=limbs)
-
-
 def known_of(wearer: Wearer) -> Calibration:
     """What a tape measure, scales and the maker of the insoles say."""
     insoles = {
@@ -187,25 +172,26 @@ def worn(walker: Walker, known: Calibration, seed: int) -> list[Sample]:
 
 
 def learn(job: Learning) -> Calibration:
-    """What is known of a wearer after marked walks in every mode."""
-    wearer = wearer_of(published.SUBJECTS[job.subject])
+    """What is known of a wearer after marked walks in every mode, with sensors strapped on anew for each round."""
+    wearer = SUBJECTS[job.subject]
     known = known_of(wearer)
     errors = []
-    for k, mode in enumerate(MODES):
-        walker = Walker(marked(mode, job.steps), wearer, 10 * job.seed + k)
-        marks = [
-            Mark(f"mark {n}", mark.foot, mark.x, mark.y, mark.mode, t=mark.t)
-            for n, mark in enumerate(marks_of(walker), 1)
-            if mark.mode is mode
-        ]
-        down = touchdowns(Recorded(tuple(worn(walker, known, job.seed)), {}), known)
-        errors += step_errors(marks, down)
+    for strapped in range(job.seed, job.seed + job.repeats):
+        for k, mode in enumerate(MODES):
+            walker = Walker(marked(mode, job.steps), wearer, 10 * strapped + k)
+            marks = [
+                Mark(f"mark {n}", mark.foot, mark.x, mark.y, mark.mode, t=mark.t)
+                for n, mark in enumerate(marks_of(walker), 1)
+                if mark.mode is mode
+            ]
+            down = touchdowns(Recorded(tuple(worn(walker, known, strapped)), {}), known, heading=0.0)
+            errors += step_errors(marks, down)
     return merged(known, Calibration(modes=mean_errors(errors)))
 
 
 def walk(job: Job) -> Walked:
     """One rectangle by all methods."""
-    walker = Walker(rectangle(), wearer_of(published.SUBJECTS[job.subject]), job.seed)
+    walker = Walker(rectangle(), SUBJECTS[job.subject], job.seed)
     samples = worn(walker, job.calibration, job.seed)
     passed = corners(walker)
     off = {}
