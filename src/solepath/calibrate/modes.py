@@ -130,11 +130,11 @@ def step_errors(marks: Iterable[Mark], downs: list[TouchedDown]) -> list[StepErr
 
 
 def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tuple[float, float]]]:
-    """(forward, left), m, by foot and mode, of those that there are."""
+    """(forward, left), m, by foot and mode, of those that there are; without what is a heading."""
     gathered: dict[Foot, dict[WalkingMode, list[StepError]]] = {}
     for error in errors:
         gathered.setdefault(error.foot, {}).setdefault(error.mode, []).append(error)
-    return {
+    means = {
         foot: {
             mode: (sum([e.forward for e in some]) / len(some), sum([e.left for e in some]) / len(some))
             for mode, some in gathered[foot].items()
@@ -142,6 +142,8 @@ def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tup
         for foot in Foot
         if foot in gathered
     }
+    without_heading(means)
+    return means
 
 
 def without_heading(means: dict[Foot, dict[WalkingMode, tuple[float, float]]]) -> None:
@@ -169,9 +171,7 @@ def fit_modes(
         if not found:
             raise CalibrationError(f"{path}: no four marks one after the other, left and right in turn")
         errors += found
-    means = mean_errors(errors)
-    without_heading(means)
-    return Calibration(modes=means)
+    return Calibration(modes=mean_errors(errors))
 
 
 def spread(errors: Iterable[StepError], compensation: dict[Foot, dict[WalkingMode, tuple[float, float]]]) -> float:
