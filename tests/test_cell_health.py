@@ -92,11 +92,10 @@ def shaky(t: float, cells: tuple[float, ...], which: int) -> tuple[float | None,
 def test_nothing_is_said_of_cells_that_work(cells: int) -> None:
     for there in (True, False):
         health = CellHealth(LEFT)
-        if there:
-            health.wear(layout(cells, Foot.LEFT))
+        shape = layout(cells, Foot.LEFT) if there else None
         for sample in walk(cells):
             if sample.site is LEFT and sample.pressure is not None:
-                assert health.update(sample.t, sample.t, sample.pressure, Phase.SWING, sample.gyro) == []
+                assert health.update(sample.t, sample.t, sample.pressure, Phase.SWING, sample.gyro, shape) == []
                 assert health.usable(sample.pressure) is sample.pressure
 
 
@@ -147,13 +146,13 @@ def test_several_cells_that_fail_together_are_told_together() -> None:
 def test_a_cell_that_loads_again_is_used_again() -> None:
     which = among_loading_cells(96)
     health = CellHealth(LEFT)
-    health.wear(layout(96, Foot.LEFT))
+    shape = layout(96, Foot.LEFT)
     used = {}
     for sample in walk():
         if sample.site is not LEFT or sample.pressure is None:
             continue
         cells = sample.pressure if sample.t > 13.0 else put(60.0)(sample.t, sample.pressure, which)
-        health.update(sample.t, sample.t, cells, Phase.SWING, sample.gyro)
+        health.update(sample.t, sample.t, cells, Phase.SWING, sample.gyro, shape)
         used[sample.t] = which not in health.out
     assert used[min(used)]
     assert not used[12.5]
@@ -221,10 +220,10 @@ def test_an_insole_that_shows_nothing_at_all_is_dead_in_every_cell() -> None:
 
 def test_a_wearer_who_stands_on_one_spot_has_no_stuck_cells() -> None:
     health = CellHealth(LEFT)
-    health.wear(layout(96, Foot.LEFT))
+    shape = layout(96, Foot.LEFT)
     cells = tuple([float(i % 7) for i in range(96)])
     still = (0.0, 0.0, 0.01)
-    assert [e for k in range(3000) for e in health.update(k / 50, k / 50, cells, Phase.STATIONARY, still)] == []
+    assert [e for k in range(3000) for e in health.update(k / 50, k / 50, cells, Phase.STATIONARY, still, shape)] == []
 
 
 # --- neighbours ---
@@ -261,11 +260,11 @@ FED = st.tuples(
 )
 
 
-def fed(health: CellHealth, items: list[Any], t: float = 0.0) -> list[Any]:
+def fed(health: CellHealth, items: list[Any], t: float = 0.0, shape: Layout | None = None) -> list[Any]:
     told: list[Any] = []
     for dt, cells, phase, gyro in items:
         t += dt
-        told.append(health.update(t, t, cells, phase, gyro))
+        told.append(health.update(t, t, cells, phase, gyro, shape))
         left = health.usable(cells)
         assert len(left) in (0, len(cells))
         assert all(isfinite(value) for value in left)
@@ -277,9 +276,8 @@ def fed(health: CellHealth, items: list[Any], t: float = 0.0) -> list[Any]:
 @settings(deadline=None, max_examples=150)
 def test_any_cells_at_any_time_give_numbers_and_no_exception(items: list[Any], there: bool) -> None:
     health = CellHealth(Site.RIGHT_FOOT)
-    if there:
-        health.wear(Layout(1, Foot.RIGHT, tuple(Cell(0.03 * i, 0.01 * (i % 2)) for i in range(5)), 0.25))
-    fed(health, items)
+    shape = Layout(1, Foot.RIGHT, tuple(Cell(0.03 * i, 0.01 * (i % 2)) for i in range(5)), 0.25)
+    fed(health, items, shape=shape if there else None)
     json.dumps(machine.save(health), allow_nan=False)
 
 

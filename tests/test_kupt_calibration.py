@@ -10,8 +10,8 @@ import pytest
 
 from solepath.calibrate.noise import pressure_noise
 from solepath.calibrate.shoe import fit_shoe
-from solepath.calibration import Calibration, CalibrationError, InsoleCalibration, Newtons
-from solepath.foot.kinematics import ROCKER_SHOE, forefoot_place
+from solepath.calibration import Calibration, CalibrationError, InsoleCalibration, Newtons, ShoeGeometry
+from solepath.foot.kinematics import forefoot_place
 from solepath.foot.pressure import Insole
 from solepath.sim.insoles import layout
 from solepath.sim.route import Route
@@ -111,7 +111,7 @@ def test_postures_of_a_shoe_give_its_curves(tmp_path: Path) -> None:
     shoe = fitted.calibration.shoe
     assert shoe is not None and fitted.calibration == Calibration(shoe=shoe)
     for p in (0.0, 0.3, 0.7, 1.0):
-        assert forefoot_place(shoe, p) == pytest.approx(forefoot_place(ROCKER_SHOE, p), abs=5e-4)
+        assert forefoot_place(shoe, p) == pytest.approx(forefoot_place(ShoeGeometry(), p), abs=5e-4)
     assert shoe.steepest == pytest.approx(radians(60))
     assert (fitted.postures, fitted.measurements) == (5, 15)
 

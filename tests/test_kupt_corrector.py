@@ -10,9 +10,10 @@ from solepath import machine
 from solepath.calibration import Calibration, ShoeGeometry
 from solepath.foot.dedrift import LinearDedrift
 from solepath.foot.kinematics import Sagittal
-from solepath.foot.known_velocity import KnownVelocity, SwingDedrift
+from solepath.foot.known_velocity import KnownVelocity
 from solepath.foot.phase import Cue
 from solepath.foot.stance import Load, Stance
+from solepath.foot.swing_dedrift import SwingDedrift
 from solepath.types import Foot, Phase, Quat, Vec3
 from solepath.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from solepath.calibration import ShoeGeometry
-from solepath.foot.kinematics import ROCKER_SHOE, Sagittal, forefoot_place, heel_place, velocity
+from solepath.foot.kinematics import Sagittal, forefoot_place, heel_place, velocity
 from solepath.sim.shoe import Shoe
 from solepath.types import Quat
 from solepath.vector import IDENTITY, conjugate, from_rotation_vector, from_yaw, multiply, normalise, rotate
@@ -94,14 +94,14 @@ def test_the_default_shoe_rolls_like_the_round_sole_that_it_is_made_of(heel_up: 
     dx, dz = x - arc.x, z - arc.radius
     ahead = arc.x + arc.radius * heel_up + dx * cos(heel_up) + dz * sin(heel_up)
     above = arc.radius + dz * cos(heel_up) - dx * sin(heel_up)
-    behind_toe, up = forefoot_place(ROCKER_SHOE, heel_up)
+    behind_toe, up = forefoot_place(ShoeGeometry(), heel_up)
     assert (Shoe().length - behind_toe, up) == pytest.approx((ahead, above), abs=2e-4)
 
 
 def test_the_default_curves_are_those_of_a_ruler_along_the_sole() -> None:
     for p in (0.1, 0.6, 1.1):
-        radius = sum(k * p**n for n, k in enumerate(ROCKER_SHOE.forefoot_radius))
-        to_toe = sum(k * p**n for n, k in enumerate(ROCKER_SHOE.pivot_to_toe))
+        radius = sum(k * p**n for n, k in enumerate(ShoeGeometry().forefoot_radius))
+        to_toe = sum(k * p**n for n, k in enumerate(ShoeGeometry().pivot_to_toe))
         assert radius == pytest.approx(0.070 + 0.050 * tan(p / 2), abs=1e-4)
         assert to_toe == pytest.approx(0.090 - 0.050 * p + 0.050 * tan(p / 2), abs=1e-4)
 
@@ -153,6 +153,6 @@ def test_one_odd_push_off_changes_nothing_and_three_in_a_row_are_believed() -> N
 
 
 def test_places_change_smoothly_from_flat_to_toe_off() -> None:
-    behind = [forefoot_place(ROCKER_SHOE, p)[0] for p in np.linspace(0.0, 1.3, 131)]
+    behind = [forefoot_place(ShoeGeometry(), p)[0] for p in np.linspace(0.0, 1.3, 131)]
     assert (np.diff(behind) < 0.0).all()
     assert np.abs(np.diff(behind, 2)).max() < 1e-5

@@ -11,7 +11,7 @@ from typing import Any
 from attrs import evolve, frozen
 
 import declared
-from solepath import machine
+from solepath import machine, recipes
 from solepath.foot.cycle import Cycle
 from solepath.foot.dedrift import LinearDedrift
 from solepath.foot.eskf import ErrorStateFilter
@@ -26,6 +26,7 @@ from solepath.sim.parts import LSM6DSOX
 from solepath.sim.radio import CLEAN, Radio
 from solepath.sim.route import Route
 from solepath.sim.sensortags import CC2541, CC2650
+from solepath.sim.suit import limb_samples
 from solepath.sim.walk import EmulatedWalk, emulate
 from solepath.sim.walker import Walker
 from solepath.types import Foot, Packet, Sample, Site
@@ -134,7 +135,21 @@ def machines() -> dict[str, Machine]:
         found.append(_session(name, items, Recipe(name, detector, ErrorStateFilter())))
     found.append(_session("LinearDedrift", plain, Recipe("LinearDedrift", Cycle(), LinearDedrift())))
     found.append(_session("LinearDedrift with pressure", pressed, Recipe("pressed", TwoArea(), LinearDedrift())))
+    for name in RECIPES:
+        found.append(_session(name, packets()["whole frames"], recipes.BY_NAME[name]))
+    found.append(_session("seven sites", suited(), recipes.WALKING_MODES))
     return {one.name: one for one in found}
+
+
+RECIPES = ("kupt-dfpc", "zupt", "pressure-contour", "gyroscope", "walking-modes", "touchdown-acceleration")
+"""Of the recipes, those that have a part of their own."""
+
+
+@cache
+def suited() -> tuple[Sample, ...]:
+    """Samples of pelvis, thighs, shanks and both feet, whose insoles have 99 cells, in the order of their time."""
+    layouts = {LEFT: layout(99, Foot.LEFT), RIGHT: layout(99, Foot.RIGHT)}
+    return tuple(limb_samples(Walker(SHORT, seed=3), 50.0, layouts=layouts))
 
 
 _STREAMS = (
@@ -163,6 +178,8 @@ SAMPLE_NAMES = tuple(
         "MaximumPressure",
         "LinearDedrift",
         "LinearDedrift with pressure",
+        *RECIPES,
+        "seven sites",
     )
 )
 NAMES = PACKET_NAMES + SAMPLE_NAMES

@@ -50,15 +50,23 @@ class ShoeGeometry:
 
     `heel_radius`: L_r from the heel's end to the point below the sensor. `height`: H_imu, from there to the sensor.
     `forefoot_radius` and `pivot_to_toe`: L_r and L_p2t as polynomials of the heel-up pitch (rad), constant first, good
-    from flat to `steepest` (rad). The default curves are those of a sole that rolls over a forefoot rocker of 5 cm
-    radius, tangent to the ground 19.5 cm before the heel's end, in a shoe 28.5 cm long.
+    from flat to `steepest` (rad).
+
+    The paper gives no coefficients for the forefoot. The defaults come from geometry: the sensor 12.5 cm before the
+    heel's end of a shoe of 28.5 cm with a rigid sole, and from 19.5 cm on a rocker of radius R = 5 cm, tangent to the
+    sole, that rolls without slip. A ruler along the flat bottom meets the ground R tan(p/2) behind the point of contact
+    at pitch p, while that point has moved R p ahead on the ground. With the pivot where ruler and ground meet
+
+        L_r = 0.070 + R tan(p/2)            L_p2t = 0.090 - R p + R tan(p/2)
+
+    in m, exactly; tan(p/2) = p/2 + p^3/24 + p^5/240 + ... makes polynomials of them, to 0.2 mm up to `steepest`.
     """
 
     heel_radius: float = 0.125
     height: float = 0.029
-    forefoot_radius: tuple[float, ...] = (0.070, 0.050)
-    pivot_to_toe: tuple[float, ...] = (0.090, -0.050)
-    steepest: float = 1.2
+    forefoot_radius: tuple[float, ...] = (0.070, 0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0)
+    pivot_to_toe: tuple[float, ...] = (0.090, -0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0)
+    steepest: float = 1.3
 
 
 @frozen

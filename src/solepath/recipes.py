@@ -15,8 +15,9 @@ from .foot.cycle import Cycle
 from .foot.dedrift import LinearDedrift
 from .foot.eskf import ErrorStateFilter
 from .foot.gait_cues import GaitCues
-from .foot.known_velocity import KnownVelocity, SwingDedrift
+from .foot.known_velocity import KnownVelocity
 from .foot.pressure import Insole
+from .foot.swing_dedrift import SwingDedrift
 from .foot.tracker import AnyCorrector, AnyCues, AnyDetector
 
 AnyBody = MeanOfFeet | DoubleFoot | Modes

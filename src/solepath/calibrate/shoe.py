@@ -25,7 +25,6 @@ from attrs import frozen
 from numpy.typing import NDArray
 
 from ..calibration import Calibration, CalibrationError, ShoeGeometry
-from ..foot.kinematics import ROCKER_SHOE
 
 COLUMNS = ("pitch_deg", "L_r_m", "L_p2t_m")
 SINGLE = ("H_imu_m", "heel_L_r_m")
@@ -69,8 +68,8 @@ def fit_shoe(path: Path | str) -> Fitted:
     radius, left_radius = _fit(pitch, rows[:, 1], degree)
     to_toe, left_to_toe = _fit(pitch, rows[:, 2], degree)
     shoe = ShoeGeometry(
-        heel_radius=single.get("heel_L_r_m", ROCKER_SHOE.heel_radius),
-        height=single.get("H_imu_m", ROCKER_SHOE.height),
+        heel_radius=single.get("heel_L_r_m", ShoeGeometry().heel_radius),
+        height=single.get("H_imu_m", ShoeGeometry().height),
         forefoot_radius=radius,
         pivot_to_toe=to_toe,
         steepest=steepest,

@@ -68,9 +68,6 @@ class CellHealth:
     patience: float = 1.0
     """s."""
     # state
-    layout: Layout | None = field(default=None, init=False)
-    between: float = field(default=0.0, init=False)
-    """Usual distance between cells, m."""
     count: int = field(default=0, init=False)
     """How many cells there are; 0 before any."""
     span: Span = field(factory=Span, init=False)
@@ -102,28 +99,26 @@ class CellHealth:
     unmoved: int = field(default=0, init=False)
     """The same in which no cell showed anything."""
 
-    def wear(self, layout: Layout) -> None:
-        """The device, or a calibration, said where the cells are."""
-        if layout == self.layout:
-            return
-        self.layout = layout
-        self.between = spacing(layout)
-        if self.count not in (0, len(layout.cells)):
-            self._anew(len(layout.cells))
-        self.count = len(layout.cells)
-
     def interrupt(self) -> None:
         """Times begin anew: windows do too. What has failed stays failed."""
         self.looked = self.began = self.swing = None
         self.span, self.swung, self.numberless, self.odd = Span(), 0, [], None
 
     def update(
-        self, t: float, known_at: float, cells: tuple[float, ...], phase: Phase, gyro: Vec3 | None = None
+        self,
+        t: float,
+        known_at: float,
+        cells: tuple[float, ...],
+        phase: Phase,
+        gyro: Vec3 | None = None,
+        layout: Layout | None = None,
     ) -> list[Event]:
         """The cells of a sample taken at `t` s, not seen to in any way, () where it has none (inertial sensor and cells
-        may come apart); `phase` of the foot, `gyro` in rad/s."""
+        may come apart); `phase` of the foot, `gyro` in rad/s; `layout` that the device or a calibration told."""
         events: list[Event] = []
-        if len(cells) != self.count and not self._counted(t, known_at, len(cells), events):
+        if layout is not None and self.count != len(layout.cells):
+            self._anew(len(layout.cells))
+        if len(cells) != self.count and not self._counted(t, known_at, len(cells), layout, events):
             return events
         self.odd = None
         if self.numberless or not _numbers(cells):
@@ -139,7 +134,7 @@ class CellHealth:
         if self._swings(t, phase, gyro):
             self.swung += 1
             if self.swung >= self.swings and self.began is not None and t - self.began >= SHORTEST:
-                self._judge(t, known_at, self.began, events)
+                self._judge(t, known_at, self.began, layout, events)
                 self.began, self.swung, self.span = t, 0, Span()
         return events
 
@@ -162,7 +157,9 @@ class CellHealth:
 
     # --- missing ones ---
 
-    def _counted(self, t: float, known_at: float, count: int, events: list[Event]) -> bool:
+    def _counted(
+        self, t: float, known_at: float, count: int, layout: Layout | None, events: list[Event]
+    ) -> bool:
         """Samples have another number of cells; True when that is right from now on."""
         if self.count == 0:
             if count == 0:
@@ -178,7 +175,7 @@ class CellHealth:
             missing = tuple(range(count, self.count)) or tuple(range(self.count, count))
             self.odd_said = True
             self._say(t, known_at, CellFault.MISSING, missing, events)
-        if self.layout is None and count:
+        if layout is None and count:
             self._anew(count)
             return True
         return False
@@ -215,7 +212,7 @@ class CellHealth:
         self.swing = t
         return True
 
-    def _judge(self, t: float, known_at: float, began: float, events: list[Event]) -> None:
+    def _judge(self, t: float, known_at: float, began: float, layout: Layout | None, events: list[Event]) -> None:
         span = self.span
         if not span.lows:
             return
@@ -227,8 +224,8 @@ class CellHealth:
             self._nothing_moves(t, known_at, began, highest, working, events)
             return
         self.unmoved = 0
-        self._unloading(t, known_at, began, events)
-        faults = self._faults(ranges, liveliest, working)
+        self._unloading(t, known_at, began, layout, events)
+        faults = self._faults(ranges, liveliest, working, layout)
         for fault, cells in faults.items():
             new = tuple([i for i in cells if i in self.suspects.get(fault, [])])
             if new:
@@ -249,8 +246,10 @@ class CellHealth:
             self._say(t, known_at, CellFault.DEAD, tuple(working), events)
             self.out = self._all_failed()
 
-    def _unloading(self, t: float, known_at: float, began: float, events: list[Event]) -> None:
-        in_newtons = self.layout is not None and self.layout.scale is not None
+    def _unloading(
+        self, t: float, known_at: float, began: float, layout: Layout | None, events: list[Event]
+    ) -> None:
+        in_newtons = layout is not None and layout.scale is not None
         share = HELD if in_newtons else HELD_IN_COUNTS
         if self.span.high > 0.0 and self.span.low > share * self.span.high:
             self._hold(t, known_at, began, events)
@@ -265,11 +264,13 @@ class CellHealth:
             seconds = t - self.held_since
             events.append(InsoleNeverUnloads(t=t, known_at=known_at, site=self.site, seconds=seconds))
 
-    def _faults(self, ranges: list[float], liveliest: float, working: list[int]) -> dict[CellFault, list[int]]:
+    def _faults(
+        self, ranges: list[float], liveliest: float, working: list[int], layout: Layout | None
+    ) -> dict[CellFault, list[int]]:
         """What this window says of the cells that have not failed yet."""
         lows = self.span.lows
         air = sorted([lows[i] for i in working])[len(working) // 2]
-        full = None if self.layout is None else self.layout.full_scale
+        full = None if layout is None else layout.full_scale
         faults: dict[CellFault, list[int]] = {}
         for i in working:
             if full is not None and 0.0 < FULL * full <= lows[i]:
@@ -280,19 +281,19 @@ class CellHealth:
                 if ranges[i] > CONSTANT * liveliest:
                     continue
                 fault = CellFault.STUCK
-            elif self._ought_to_load(i, ranges, LIVELY * liveliest):
+            elif self._ought_to_load(i, ranges, LIVELY * liveliest, layout):
                 fault = CellFault.DEAD
             else:
                 continue
             faults.setdefault(fault, []).append(i)
         return faults
 
-    def _ought_to_load(self, i: int, ranges: list[float], enough: float) -> bool:
+    def _ought_to_load(self, i: int, ranges: list[float], enough: float, layout: Layout | None) -> bool:
         loading = [r > enough for r in ranges]
         used_to = self.lively[i] if self.lively else 0
-        if self.layout is None:
+        if layout is None:
             return self.count <= FEW or used_to >= USED_TO_ALONE
-        all_around, some = enclosed(self.layout, self.between, i, loading)
+        all_around, some = enclosed(layout, spacing(layout), i, loading)
         return all_around or (used_to >= USED_TO and some)
 
     def _follow(self, ranges: list[float], liveliest: float) -> None:

@@ -30,7 +30,8 @@ class Cues(Protocol):
 
     @property
     def mark(self) -> Cue | None:
-        """The last sample is the best candidate so far for the moment of this cue (Corrector.mark)."""
+        """CONTACT: of all samples so far the last is most likely that of heel-strike. CLEAR: the one before it is most
+        likely that of toe-off (Corrector.mark)."""
 
     def update(
         self,

@@ -29,24 +29,6 @@ from ..calibration import ShoeGeometry
 from ..types import Quat, Vec3
 from ..vector import ZERO
 
-ROCKER_SHOE = ShoeGeometry(
-    heel_radius=0.125,
-    height=0.029,
-    forefoot_radius=(0.070, 0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0),
-    pivot_to_toe=(0.090, -0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0),
-    steepest=1.3,
-)
-"""A shoe of 28.5 cm (10.5 US) with a rigid sole and a round forefoot, for when nobody has measured the wearer's own.
-
-L_r of the heel and H_imu are the paper's. It gives no coefficients for the forefoot, so these come from geometry: the
-sensor 12.5 cm before the heel's end, and from 19.5 cm on a rocker of radius R = 5 cm, tangent to the sole, that rolls
-without slip. A ruler along the flat bottom meets the ground R tan(p/2) behind the point of contact at heel-up pitch p,
-while that point has moved R p ahead on the ground. So, with the pivot where ruler and ground meet,
-
-    L_r = 0.070 + R tan(p/2)            L_p2t = 0.090 - R p + R tan(p/2)
-
-in m, exactly; tan(p/2) = p/2 + p^3/24 + p^5/240 + ... makes polynomials of them (to 0.2 mm up to `steepest`)."""
-
 
 def heel_place(shoe: ShoeGeometry, toe_up: float) -> tuple[float, float]:
     """(4): (P_h ahead of the heel's end, P_z above the ground) of the sensor, m, at this toe-up pitch, rad."""

@@ -50,7 +50,8 @@ class Corrector(Protocol):
         """Use the evidence of the sample just predicted; True when it agreed with the motion so far."""
 
     def mark(self, t: float, cue: Cue) -> None:
-        """The sample just corrected, at `t` s, is the best candidate so far for the moment of this cue."""
+        """Of all samples so far the one just corrected, at `t` s, is most likely that of heel-strike (CONTACT), or the
+        one before it that of toe-off (CLEAR)."""
 
     def bridge(self, dt: float) -> float:
         """`dt` s without samples lie before the next one: trust the motion accordingly less. Returns how long to

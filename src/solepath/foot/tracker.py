@@ -27,13 +27,14 @@ from .gait import Gait
 from .gait_cues import GaitCues
 from .gap import SHORTEST
 from .guess import LayoutGuess
-from .known_velocity import KnownVelocity, SwingDedrift
+from .known_velocity import KnownVelocity
 from .navigate import LONGEST_BRIDGE
 from .pressure import Insole
 from .pressure_stance import MaximumPressure, TwoArea
 from .refusal import refusal, rejected
 from .rhythm import Rhythm
 from .stance import AngularRate, Graph, Load, MovingVariance, Shoe
+from .swing_dedrift import SwingDedrift
 from .world import Covariance3
 
 AnyDetector = (
@@ -90,6 +91,8 @@ class FootTracker:
     """Cells were heard of."""
     health: CellHealth = field(init=False)
     guess: LayoutGuess = field(init=False)
+    guessed: bool = field(default=False, init=False)
+    """The layout is a guess."""
     lacking: str | None = field(default=None, init=False)
     """What the detector must do without on this layout, not said yet."""
     gait: Gait = field(init=False)
@@ -134,7 +137,7 @@ class FootTracker:
 
     def wear(self, layout: Layout) -> None:
         """The device said where its pressure cells are."""
-        self.health.wear(layout)
+        self.guessed = False
         self._lay_out(layout)
 
     def _lay_out(self, layout: Layout) -> None:
@@ -182,7 +185,8 @@ class FootTracker:
         load: Load | None = None
         cells: tuple[float, ...] = ()
         if sample.pressure or self.pressed:
-            events += self.health.update(t, known_at, sample.pressure or (), self.phase, sample.gyro)
+            told = None if self.guessed else self.insole.layout
+            events += self.health.update(t, known_at, sample.pressure or (), self.phase, sample.gyro, told)
             cells = self.health.usable(sample.pressure or ())
         if cells:
             self.pressed = True
@@ -217,6 +221,7 @@ class FootTracker:
         if layout is not None:
             what = f"nobody says where the cells of the {self.foot.value} insole are: learnt from how steps load them"
             self._limit(what, t, known_at, events)
+            self.guessed = True
             self._lay_out(layout)
 
     def _watch_for_gaps(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:

@@ -97,9 +97,12 @@ def checked(table: FootTable) -> FootTable:
 def _first_bad_row(table: FootTable) -> tuple[int, str, str]:
     bad: list[tuple[int, str, str]] = [(len(table), "", "t")]
     for quantity, column in {"t": table.t, **table.columns}.items():
-        rows = np.flatnonzero(~np.isfinite(column.reshape(len(table), -1)).all(axis=1))
+        values = column.reshape(len(table), -1)
+        # cells without a number are missing cells, which is the session's to say
+        sound = np.isfinite(values) | np.isnan(values) if quantity == "pressure" else np.isfinite(values)
+        rows = np.flatnonzero(~sound.all(axis=1))
         if len(rows):
-            value = next(v for v in np.atleast_1d(column[rows[0]]).tolist() if not np.isfinite(v))
+            value = next(v for v in values[rows[0], ~sound[rows[0]]].tolist())
             when = f" (t = {table.t[rows[0]]:.6g} s)" if quantity != "t" else ""
             bad.append((int(rows[0]), f"is {value}, not a finite number{when}", quantity))
     falls = np.flatnonzero(np.diff(table.t) < 0.0)  # false where a time is not a number: those were found above
