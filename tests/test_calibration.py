@@ -31,7 +31,7 @@ WHOLE = Calibration(
         )
     },
     shoe=ShoeGeometry(),
-    drift=(0.001, -0.002),
+    drift={Foot.LEFT: (0.001, -0.002)},
     limbs=Limbs(),
     weight=700.0,
     modes={Foot.RIGHT: {WalkingMode.LEFT_TIGHT: (0.01, -0.02)}},

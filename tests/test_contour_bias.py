@@ -147,7 +147,7 @@ def test_the_heading_goes_on_as_it_was_when_a_device_tells_its_own() -> None:
 
 
 def drifting(drift: tuple[float, float] | None) -> BiasZupt:
-    part = BiasZupt().calibrated(Foot.LEFT, Calibration(drift=drift))
+    part = BiasZupt().calibrated(Foot.LEFT, Calibration(drift={} if drift is None else {Foot.LEFT: drift}))
     return begun(part)
 
 

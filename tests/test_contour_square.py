@@ -70,7 +70,7 @@ def test_a_drift_that_all_laps_agree_on_is_kept_and_then_taken_off() -> None:
         return steps[-1]
 
     # what the recipe adds, the calibration takes off again, but for the stands, in which nothing is taken off
-    plain, mended = end(GYROSCOPE, Calibration()), end(GYROSCOPE, Calibration(drift=(0.12, -0.08)))
+    plain, mended = end(GYROSCOPE, Calibration()), end(GYROSCOPE, Calibration(drift={LEFT: (0.12, -0.08)}))
     apart = hypot(*(a - b for a, b in zip(plain.position[:2], mended.position[:2], strict=True)))
     assert apart == pytest.approx(hypot(0.12, 0.08) * plain.t, rel=0.1)
 
@@ -78,8 +78,8 @@ def test_a_drift_that_all_laps_agree_on_is_kept_and_then_taken_off() -> None:
 def test_what_the_laps_do_not_agree_on_is_not_taken_off_unless_it_is_asked_for() -> None:
     found = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
     assert not found.agreed and found.kept == (0.0, 0.0)
-    assert fit_square(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE).drift == (0.0, 0.0)
-    assert fit_square(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE, whole=True).drift == found.slope
+    assert fit_square(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE).drift == {LEFT: (0.0, 0.0)}
+    assert fit_square(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE, whole=True).drift == {LEFT: found.slope}
 
 
 def test_laps_agree_when_a_wandering_foot_would_do_so_once_in_a_hundred_times() -> None:

@@ -91,14 +91,15 @@ class Limbs:
 class Calibration:
     """All of it; what was not calibrated is None or absent.
 
-    `drift`: slope of a foot's position in the navigation frame, m/s (x, y). That frame has the heading that the sensor
-    had at the start, so a drift holds for walks that start as the calibration did. `weight`: of the wearer, N.
+    `drift`: slope of a foot's position, m/s (x, y), in the world of the device where it tells its attitude, and else in
+    the navigation frame, whose heading is that of the sensor at the start: then it holds for walks that start as the
+    calibration did. `weight`: of the wearer, N.
     `modes`: compensation of a touchdown by foot and walking mode, (forward, left), m.
     """
 
     insoles: dict[Foot, InsoleCalibration] = field(factory=dict)
     shoe: ShoeGeometry | None = None
-    drift: tuple[float, float] | None = None
+    drift: dict[Foot, tuple[float, float]] = field(factory=dict)
     limbs: Limbs | None = None
     weight: float | None = None
     modes: dict[Foot, dict[WalkingMode, tuple[float, float]]] | None = None
@@ -113,7 +114,12 @@ def merged(known: Calibration, newer: Calibration) -> Calibration:
     insoles = dict(known.insoles)
     for foot, insole in newer.insoles.items():
         insoles[foot] = _over(insoles.get(foot, InsoleCalibration()), insole)
-    return evolve(_over(known, newer), insoles={foot: insoles[foot] for foot in Foot if foot in insoles})
+    drift = {**known.drift, **newer.drift}
+    return evolve(
+        _over(known, newer),
+        insoles={foot: insoles[foot] for foot in Foot if foot in insoles},
+        drift={foot: drift[foot] for foot in Foot if foot in drift},
+    )
 
 
 _Known = TypeVar("_Known", Calibration, InsoleCalibration)

@@ -83,7 +83,7 @@ def fit_square(
     found = square_drift(
         items, foot=foot, marks=marks, steps_per_lap=steps_per_lap, recipe=recipe, calibration=calibration
     )
-    return Calibration(drift=found.slope if whole else found.kept)
+    return Calibration(drift={found.foot: found.slope if whole else found.kept})
 
 
 def square_drift(

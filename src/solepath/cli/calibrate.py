@@ -184,7 +184,7 @@ def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
     check_pressure(recipe, source)
     found = square_drift(source, foot=foot, marks=marks, steps_per_lap=options.steps, recipe=recipe, calibration=known)
     (x, y), (kept_x, kept_y) = found.slope, found.kept
-    return Calibration(drift=found.kept), [
+    return Calibration(drift={found.foot: found.kept}), [
         f"{found.foot.value} foot: {found.visits} visits of {found.marks} marks, drift {1000.0 * x:.2f}, "
         f"{1000.0 * y:.2f} mm/s, of which the laps agree on {1000.0 * kept_x:.2f}, {1000.0 * kept_y:.2f} mm/s",
     ]

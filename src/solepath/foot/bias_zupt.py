@@ -71,7 +71,7 @@ class BiasZupt(Strapdown):
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> BiasZupt:
         """The same with the drift that is known."""
-        return self if calibration.drift is None else evolve(self, drift=calibration.drift)
+        return evolve(self, drift=calibration.drift[foot]) if foot in calibration.drift else self
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         self.attitude = attitude
