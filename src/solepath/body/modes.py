@@ -184,8 +184,6 @@ class Modes:
         newest = self.limb_times.get(site)
         wrong = refusal(sample, newest)
         if wrong is not None:
-            if newest is not None and t < newest - 1.0:
-                del self.limb_times[site]  # its clock begins anew
             return [rejected(sample, wrong, newest)]
         self.limb_times[site] = t
         if sample.quat is not None:
@@ -198,6 +196,10 @@ class Modes:
             if attitude is not None:
                 self.chain.told_own(site, t, attitude, leaning.heading)
         return self._awaited(t, t if sample.known_at is None else max(t, sample.known_at))
+
+    def interrupt(self, site: Site) -> None:
+        """The clock of a site above the ankle begins anew."""
+        self.limb_times.pop(site, None)
 
     def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
         """A sample of a foot: who carries, what has come down, and what the contact that ended tells."""
