@@ -458,7 +458,7 @@ def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path):
 
 
 def test_evaluate_in_short_is_a_markdown_table(data):
-    done = solepath("evaluate", data, "--markdown")
+    done = solepath("evaluate", data, "--markdown", "--recipe", "default")
     assert done.returncode == 0 and "not scored: " in done.stderr and "broken.npz: is empty" in done.stderr
     head, rule, first, second = done.stdout.splitlines()
     assert (head, rule) == ("| data | measured | came to |", "|---|---|---|")

@@ -14,13 +14,15 @@ from solepath.cli import main
 from solepath.recipes import BY_NAME
 from solepath.recording import PacketWriter
 from solepath.sim.insole_device import Insole, boot
-from solepath.sim.laps import square
+from solepath.sim.laps import marked, marks, square, write_marks
 from solepath.sim.route import Route
 from solepath.sim.sensortags import CC2650
 from solepath.sim.walk import emulate
-from solepath.types import Foot, Site
+from solepath.sim.walker import Walker
+from solepath.types import Foot, Site, WalkingMode
 
 ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
+FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 PRESSED = [name for name, recipe in BY_NAME.items() if recipe.needs_pressure]
 
 
@@ -99,6 +101,27 @@ def test_track_runs_with_a_calibration(packets, folder):
     assert done.returncode == 0 and done.stderr == ""
 
 
+def test_evaluate_runs_with_a_calibration_and_refuses_what_is_none(folder, tmp_path):
+    loops = tmp_path / "xio_closed_walks"
+    loops.mkdir()
+    samples = Walker(ROUTE, seed=3).samples(Foot.RIGHT, 100.0)
+    np.savez(loops / "loop.npz", **{key: np.array([getattr(s, key) for s in samples]) for key in ("t", "acc", "gyro")})
+    (loops / "dataset.json").write_text(
+        json.dumps({"recordings": {"loop": {"closed_loop": True, "path_m_about": 8.0}}})
+    )
+    write_calibration(folder / "known.json", Calibration(drift={Foot.RIGHT: (0.05, 0.0)}))
+    ends = []
+    for calibration in ([], ["--calibration", folder / "known.json"]):
+        told = tmp_path / "scores.json"
+        arguments = ("--recipe", "gyroscope", "--processes", 1, "--json", told, *calibration)
+        assert run("evaluate", tmp_path, *arguments).returncode == 0
+        scores = json.loads(told.read_text())["gyroscope"]["xio_closed_walks"]["recordings"]["loop"]
+        ends.append(scores["end_error_2d"])
+    # 5 cm/s taken off for the 7 s that the foot does not stand: another end, by decimetres
+    assert abs(ends[1] - ends[0]) > 0.1
+    assert "none.json: No such file" in refused("evaluate", tmp_path, "--calibration", tmp_path / "none.json")
+
+
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
@@ -170,6 +193,21 @@ def test_laps_of_a_square_tell_the_drift(tmp_path):
     assert done.returncode == 0 and done.stderr == ""
     assert done.stdout.startswith("right foot: 120 visits of 40 marks, drift ")
     assert set(calibrated(out).drift) == {Foot.RIGHT}
+
+
+def test_a_walk_over_marks_tells_what_touchdowns_are_off_by(tmp_path):
+    walk = emulate(marked(WalkingMode.STRAIGHT, 14), devices={site: Insole(rate=50.0) for site in FEET}, seed=2)
+    with PacketWriter(tmp_path / "walk.jsonl") as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    write_marks(tmp_path / "marks.csv", marks(walk.walker))
+    out = tmp_path / "me.json"
+    done = run("calibrate", "modes", tmp_path / "walk.jsonl", tmp_path / "marks.csv", "--heading", "0", "--out", out)
+    assert done.returncode == 0 and done.stderr == ""
+    header, _, left, right, _ = done.stdout.splitlines()
+    assert header.split() == ["foot", "mode", "forward", "cm", "left", "cm"]
+    assert [line.split()[:2] for line in (left, right)] == [["left", "STRAIGHT"], ["right", "STRAIGHT"]]
+    assert set(calibrated(out).modes) == set(Foot)
 
 
 def test_what_cannot_be_learnt_from_is_refused_in_one_line_and_nothing_is_written(packets, bare, tmp_path):

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .calibrated import check_pressure
-from .failure import Failure, count, known_recipe, note, share
+from .failure import Failure, count, degrees_of, known_recipe, note, share
 
 if TYPE_CHECKING:
     from ..calibrate.recorded import Recorded
@@ -166,6 +166,9 @@ def _add_square(kinds: Any) -> argparse.ArgumentParser:
         default="pressure-contour",
         help="whose positions (default: pressure-contour; or gyroscope)",
     )
+    command.add_argument(
+        "--whole", action="store_true", help="keep a drift that the laps do not agree on, as the paper"
+    )
     command.set_defaults(learn=_square)
     return command
 
@@ -183,10 +186,16 @@ def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
     source = open_source(options.file, foot, report=note)
     check_pressure(recipe, source)
     found = square_drift(source, foot=foot, marks=marks, steps_per_lap=options.steps, recipe=recipe, calibration=known)
-    (x, y), (kept_x, kept_y) = found.slope, found.kept
-    return Calibration(drift={found.foot: found.kept}), [
+    x, y = found.slope
+    if found.agreed:
+        verdict = "the laps agree on it, and it is taken off later"
+    elif options.whole:
+        verdict = "the laps do not agree on it, and it is taken off all the same"
+    else:
+        verdict = "the laps do not agree on it, so that nothing is taken off (--whole does all the same)"
+    return Calibration(drift={found.foot: found.slope if options.whole else found.kept}), [
         f"{found.foot.value} foot: {found.visits} visits of {found.marks} marks, drift {1000.0 * x:.2f}, "
-        f"{1000.0 * y:.2f} mm/s, of which the laps agree on {1000.0 * kept_x:.2f}, {1000.0 * kept_y:.2f} mm/s",
+        f"{1000.0 * y:.2f} mm/s within {1000.0 * found.scatter:.2f}: {verdict}",
     ]
 
 
@@ -235,6 +244,12 @@ def _add_modes(kinds: Any) -> argparse.ArgumentParser:
         epilog="example: solepath calibrate modes straight.jsonl straight.csv bend.jsonl bend.csv --out me.json",
     )
     command.add_argument("files", metavar="RECORDING MARKS", nargs="+", type=Path, help="two files for each walk")
+    command.add_argument(
+        "--heading",
+        metavar="DEGREES",
+        type=degrees_of,
+        help="where the wearer looks at the start, in the world that all sensors share (default: the first step says)",
+    )
     command.set_defaults(learn=_modes)
     return command
 
@@ -246,7 +261,7 @@ def _modes(options: argparse.Namespace, known: Calibration) -> Learnt:
     if len(options.files) % 2:
         raise Failure("calibrate modes takes two files for each walk: the recording, and the csv file of its marks")
     walks = [(_recorded(walk), marks) for walk, marks in zip(options.files[::2], options.files[1::2], strict=True)]
-    learnt = fit_modes(walks, known)
+    learnt = fit_modes(walks, known, options.heading)
     rows = [
         [foot.value, mode.value, number(100.0 * forward, 2), number(100.0 * left, 2)]
         for foot, modes in (learnt.modes or {}).items()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
-from math import isfinite, nan
+from math import isfinite, nan, radians
 
 from ..recording import printable
 
@@ -53,6 +53,14 @@ def seconds(text: str) -> float:
     if not isfinite(value) or value < 0.0:
         raise argparse.ArgumentTypeError(f"{text!r} is not a number of seconds")
     return value
+
+
+def degrees_of(text: str) -> float:
+    """An argparse type: a finite angle in degrees, as rad."""
+    value = _number(text)
+    if not isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of degrees")
+    return radians(value)
 
 
 def _number(text: str) -> float:
