@@ -194,8 +194,10 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeyp
     monkeypatch.setattr(pressure_contour, "LAPS", 3)
     monkeypatch.setattr(walking_modes, "STEPS", 10)
     monkeypatch.setattr(walking_modes, "REPEATS", 1)
-    told, figure = tmp_path / "table.json", tmp_path / "figure.png"
-    done = run("reproduce", name, "--walks", 1, "--seed", 3, "--processes", 1, "--json", told, "--figure", figure)
+    monkeypatch.chdir(tmp_path)
+    told, figure = Path("table.json"), Path(f"{name}.png")
+    options = ("--walks", 1, "--seed", 3, "--processes", 1, "--json", told)
+    done = run("reproduce", name, *options, "--figure")  # named after the experiment when nothing is said
     assert done.returncode == 0 and done.stderr == ""
     assert f"{name}: ours is emulated" in done.stdout
     assert done.stdout.endswith(f"figure drawn in {figure}\n") and figure.read_bytes().startswith(b"\x89PNG")
