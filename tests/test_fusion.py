@@ -363,3 +363,10 @@ def test_similarity_does_not_change_with_unit_or_zero() -> None:
     xs, ys = (0.1, 0.25, 0.2, 0.4), (0.3, 0.35, 0.2, 0.5)
     shifted = tuple(5.0 + 1000.0 * y for y in ys)
     assert correlation(xs, shifted) == pytest.approx(correlation(xs, ys))
+
+
+def test_steps_of_a_clock_that_began_anew_are_compared_with_nothing() -> None:
+    fused, _ = walked(step(LEFT, 2.0, 1.2))
+    fused.interrupt(Site.LEFT_FOOT)
+    told = fused.step(step(RIGHT, 2.55, 1.4), CENTRE)
+    assert (told.similarity, told.coefficient, told.stride_length) == (None, 1.0, 1.4)

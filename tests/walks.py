@@ -164,7 +164,10 @@ _STREAMS = (
     "dot",
     "thingy",
 )
-PACKET_NAMES = tuple(f"{kind}, {device}" for kind in ("session", "decoder") for device in _STREAMS)
+PACKET_NAMES = (
+    *(f"{kind}, {device}" for kind in ("session", "decoder") for device in _STREAMS),
+    *(f"session, {recipe}" for recipe in RECIPES),
+)
 SAMPLE_NAMES = tuple(
     f"session, {name}"
     for name in (
@@ -178,7 +181,6 @@ SAMPLE_NAMES = tuple(
         "MaximumPressure",
         "LinearDedrift",
         "LinearDedrift with pressure",
-        *RECIPES,
         "seven sites",
     )
 )

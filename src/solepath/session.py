@@ -208,6 +208,8 @@ class Session:
                 events += self._limb(item) if foot is None else self._foot(foot, item)
                 continue
             events.append(item)
+            if isinstance(item, ClockReset):
+                self._state.body.interrupt(site)
             if foot is None:
                 continue
             tracker = self._tracker(foot)

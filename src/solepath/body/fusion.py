@@ -123,6 +123,11 @@ class DoubleFoot:
         """Never called: it has no such sites."""
         return []
 
+    def interrupt(self, site: Site) -> None:
+        """The foot's steps so far have times of another clock: nothing is compared with them."""
+        if site.foot is not None:
+            self._path(site.foot).latest = []
+
     def step(self, taken: StepTaken, centre: float | None) -> StrideFused:
         """One step. `centre`: x of the insole's centre in the foot frame, m, where the centre of pressure is taken to
         be while the foot is in the air (section III.C.2); None when there is no insole."""

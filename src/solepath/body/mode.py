@@ -140,6 +140,7 @@ class Contact:
         """The insole's layout, as far as it is known; nothing is told without one."""
         if layout is not None and self.layout != len(layout.cells):
             self.layout, self.where = len(layout.cells), regions(layout)
+            self.sums, self.total = dict.fromkeys(self.where, 0.0), 0.0
 
     def begin(self, t: float) -> None:
         """The foot came down."""

@@ -27,5 +27,8 @@ class Body(Protocol):
     def limb_moved(self, sample: Sample) -> list[Event]:
         """A sample of one of `sites`."""
 
+    def interrupt(self, site: Site) -> None:
+        """The clock of the samples of a site begins anew."""
+
     def position(self, feet: Mapping[Foot, FootTracker]) -> Position | None:
         """Where the wearer is, of all feet that were heard of; None before any sample."""

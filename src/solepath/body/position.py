@@ -38,6 +38,9 @@ class MeanOfFeet:
         """Never called: it has no such sites."""
         return []
 
+    def interrupt(self, site: Site) -> None:
+        """Nothing is kept here."""
+
     def position(self, feet: Mapping[Foot, FootTracker]) -> Position | None:
         """None before any sample."""
         known = [foot for foot in feet.values() if foot.t is not None]
