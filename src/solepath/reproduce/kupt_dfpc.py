@@ -1,23 +1,29 @@
 """Chen et al. 2019: 20 walks of 20 m, and 91 m through a building, with two smart insoles at 30 Hz.
 
-Each walk is another wearer's first with another pair of insoles: 20 s of walking for the pressure noise (section
-III-B), a halt, and then the 20 m, in one recording. The sessions hear what comes after the halt. Distances are the sums
-of stride lengths, as in section IV-B; of the corridor the drift of that sum, as in section IV-C. The corridor's shape
-is not in the text; here it is once around the inner block of a floor (sim/laps.py).
+Each walk has another pair of insoles, and the shoe is measured anew in five postures, three times each (section III-C).
+A recording is 20 s of walking for the pressure noise (section III-B), a halt, and then the 20 m; the sessions hear what
+comes after the halt. Distances are the sums of stride lengths, as in section IV-B; of the corridor the drift of that
+sum, as in section IV-C. The corridor's shape is not in the text; here it is once around the inner block of a floor
+(sim/laps.py).
 """
 
 from __future__ import annotations
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 from attrs import field, frozen
 
 from ..calibrate.noise import pressure_noise
-from ..calibration import merged
+from ..calibrate.shoe import fit_shoe
+from ..calibration import Calibration, merged
 from ..evaluate.alignment import Floats
 from ..events import Event, StepTaken, StrideFused
 from ..sim.insole_device import Insole
 from ..sim.laps import corridor, straight
 from ..sim.parts import WORN_RESISTIVE
+from ..sim.postures import postures, write_postures
 from ..sim.truth import Truth
 from ..sim.walk import emulate
 from ..types import SITE_OF_FOOT, Foot
@@ -134,7 +140,7 @@ def walk(job: Job) -> Walked:
     )
     halt = rest_after(walked.walker, NOISE_WALK)
     parts = cut(walked, halt)
-    known = merged(parts.layouts, pressure_noise(parts.before))
+    known = merged(merged(parts.layouts, measured_shoe(job.seed)), pressure_noise(parts.before))
     said = {recipe: heard(recipe, parts.after, known) for recipe in ("zupt", "kupt", NAME)}
     distances = {
         f"{recipe.upper()}-{letter}": sum(s.stride_length for s in _steps(said[recipe], foot))
@@ -148,6 +154,14 @@ def walk(job: Job) -> Walked:
         return Walked(distances, true)
     tracks, closing = _tracks(walked.truth, halt, said["zupt"], fused)
     return Walked(distances, true, tracks, closing)
+
+
+def measured_shoe(seed: int) -> Calibration:
+    """What rulers and static postures tell of the shoe."""
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "postures.csv"
+        write_postures(file, postures(seed=seed))
+        return fit_shoe(file).calibration
 
 
 def _steps(events: list[Event], foot: Foot) -> list[StepTaken]:
