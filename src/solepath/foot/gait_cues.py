@@ -11,10 +11,11 @@ from typing import Protocol
 
 from attrs import define, evolve, field
 
-from ..types import Phase, Vec3
+from ..types import Layout, Phase, Vec3
 from .cues import InertialCues, PressureCues, Seen
 from .phase import Cue
 from .stance import Load, Stance
+from .touch import FEW, Touch
 
 
 class Cues(Protocol):
@@ -66,6 +67,12 @@ class GaitCues:
 
     inertial: InertialCues = field(factory=InertialCues)
     pressure: PressureCues = field(factory=PressureCues)
+    touch: Touch = field(factory=Touch)
+    """For insoles of few cells."""
+
+    def wear(self, layout: Layout) -> None:
+        """The device said where its cells are."""
+        self.touch.wear(layout)
 
     @property
     def axis(self) -> Vec3 | None:
@@ -97,6 +104,13 @@ class GaitCues:
         seen = self.inertial.update(t, dt, gyro, still, speed, phase)
         if load is not None:
             pressed = self.pressure.update(t, dt, load, phase)
+            if len(load.cells) <= FEW:
+                airborne = self.touch.update(t, load, still)
+                if not self.touch.known:
+                    return () if seen is None else (seen,)
+                pressed = None
+                if airborne is not (phase is Phase.SWING):
+                    pressed = Seen(Cue.CLEAR if airborne else Cue.CONTACT, t)
             if pressed is not None:
                 return (pressed,)
             if seen is not None and seen.cue is not Cue.FLAT:
@@ -122,3 +136,4 @@ class GaitCues:
         self.inertial = evolve(self.inertial)
         self.inertial.axis = axis
         self.pressure = evolve(self.pressure)
+        self.touch = self.touch.anew()

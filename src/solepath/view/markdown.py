@@ -21,9 +21,9 @@ EVENTS = {"heel_strike": "heel-strike", "toe_off": "toe-off"}
 
 
 def accuracy_table(results: Sequence[Result]) -> str:
-    """One line a figure over all recordings of each data set; the recipe is named where there are several."""
-    several = len({result.recipe for result in results}) > 1
-    lines = ["| data | measured | came to |", "|---|---|---|"]
+    """One line a figure over all recordings of each data set; a column for each recipe where there are several."""
+    recipes = list(dict.fromkeys(result.recipe for result in results))
+    rows: dict[tuple[str, str], dict[str, str]] = {}
     for result in results:
         for summary in result.summaries:
             if summary.group != "all":
@@ -31,9 +31,18 @@ def accuracy_table(results: Sequence[Result]) -> str:
             count = f"{summary.count} recording{'s' * (summary.count > 1)}"
             data = f"{result.data_set.title}: `{result.data_set.name}`, {count}"
             for what, figure in [*_places(summary), *_strides(summary.together), *_events(summary.together)]:
-                lines.append(f"| {f'{result.recipe}, ' if several else ''}{data} | {what} | {figure} |")
-                data = ""
+                rows.setdefault((data, what), {})[result.recipe] = figure
+    heads = ["came to"] if len(recipes) == 1 else [f"`{recipe}`" for recipe in recipes]
+    lines = [_line("data", "measured", *heads), "|" + "---|" * (2 + len(heads))]
+    before = ""
+    for (data, what), figures in rows.items():
+        lines.append(_line("" if data == before else data, what, *(figures.get(recipe, "-") for recipe in recipes)))
+        before = data
     return "\n".join(lines)
+
+
+def _line(*cells: str) -> str:
+    return f"| {' | '.join(cells)} |"
 
 
 def _places(summary: Summary) -> list[tuple[str, str]]:
