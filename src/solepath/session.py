@@ -91,7 +91,7 @@ class Session:
         if not isinstance(known, Calibration):
             raise TypeError(f"calibration must be a Calibration, not {type(known).__name__}")
         recipe = deepcopy(recipe)
-        self._state = _State(recipe, poses, deepcopy(known), _calibrated(recipe.body, known))
+        self._state = _State(recipe, poses, deepcopy(known), _calibrated(deepcopy(recipe.body), known))
         for site, device in ({} if devices is None else devices).items():
             self.bind(site, device)
 
