@@ -16,6 +16,13 @@ HEADER = ["| figure | came to | command |", "|---|---|---|"]
 LONG_DEMO = ["demo", "--distance", "100", "--loss", "0.05", "--jitter", "0.05"]
 BENCH = "tests/bench/bench.py"
 BLUETOOTH = "tests/bench/bluetooth.py"
+COMPARED = ("default", "kupt-dfpc", "zupt", "pressure-contour", "gyroscope")
+INSOLES = [
+    *(word for data in ("smart_insole_35", "marpino_pressed", "gaitpdb_vgrf") for word in ("--only", data)),
+    *(word for name in COMPARED for word in ("--recipe", name)),
+    "--markdown",
+]
+EXPERIMENTS = ("kupt-dfpc", "pressure-contour", "walking-modes")
 SURVEYED = ("exp31", "exp33", "exp37")
 EVENTS = ("heel-strike", "foot-flat", "heel-off", "toe-off")
 

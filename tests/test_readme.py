@@ -16,8 +16,10 @@ import figures
 from solepath import Event
 from solepath.cli.main import parser
 from solepath.evaluate.report import as_json
+from solepath.foot.pressure import Insole
+from solepath.foot.tracker import AnyCorrector, AnyCues, AnyDetector
 from solepath.output import STEP_COLUMNS, TRACK_COLUMNS
-from solepath.recipes import BY_NAME
+from solepath.recipes import BY_NAME, AnyBody
 from solepath.recording import PacketWriter
 from solepath.sim import Radio, Route, emulate
 from solepath.types import Foot
@@ -109,10 +111,12 @@ def test_columns_parts_and_recipes_are_those_of_the_library():
     assert f"`{','.join(TRACK_COLUMNS)}`" in README
     assert f"`{','.join(STEP_COLUMNS)}`" in README
     parts = re.findall(r"^\| (`[A-Z].*?) \| `(solepath[\w.]+)` \|", README, re.MULTILINE)
-    assert len(parts) == 5
-    for names, module in parts:
-        assert all(hasattr(import_module(module), name) for name in re.findall(r"`(\w+)`", names))
-    assert list(BY_NAME) == ["default"], "the README says that this is the only one"
+    told = {getattr(import_module(module), name) for names, module in parts for name in re.findall(r"`(\w+)`", names)}
+    kinds = (AnyDetector, AnyCorrector, AnyCues, AnyBody)
+    assert told == {Insole, *(part for kind in kinds for part in get_args(kind))}
+    table = README.split("| recipe | what it is |", 1)[1].split("\n\n", 1)[0]
+    names = [name for line in table.splitlines()[2:] for name in re.findall(r"`([\w-]+)`", line.split("|")[1])]
+    assert names == list(BY_NAME)
 
 
 def test_its_demonstration_is_the_one_that_the_command_gives():

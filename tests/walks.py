@@ -111,6 +111,7 @@ def packets() -> dict[str, tuple[Packet, ...]]:
         "fragments": Insole(cells=24, rate=50.0, mtu=23),
         "four samples a frame": Insole(cells=35, batch=4, quaternion=True),
         "pressure alone": Insole(cells=99, rate=50.0, imu=False),
+        "few frames": Insole(cells=24, rate=50.0),
         "cc2650": CC2650(presses=(2.0,)),
         "cc2541": CC2541(presses=(2.0,)),
         "cc2541 at 20 Hz": CC2541(rate=20.0),
@@ -136,7 +137,7 @@ def machines() -> dict[str, Machine]:
     found.append(_session("LinearDedrift", plain, Recipe("LinearDedrift", Cycle(), LinearDedrift())))
     found.append(_session("LinearDedrift with pressure", pressed, Recipe("pressed", TwoArea(), LinearDedrift())))
     for name in RECIPES:
-        found.append(_session(name, packets()["whole frames"], recipes.BY_NAME[name]))
+        found.append(_session(name, packets()["few frames"], recipes.BY_NAME[name]))
     found.append(_session("seven sites", suited(), recipes.WALKING_MODES))
     return {one.name: one for one in found}
 
@@ -149,7 +150,7 @@ RECIPES = ("kupt-dfpc", "zupt", "pressure-contour", "gyroscope", "walking-modes"
 def suited() -> tuple[Sample, ...]:
     """Samples of pelvis, thighs, shanks and both feet, whose insoles have 99 cells, in the order of their time."""
     layouts = {LEFT: layout(99, Foot.LEFT), RIGHT: layout(99, Foot.RIGHT)}
-    return tuple(limb_samples(Walker(SHORT, seed=3), 50.0, layouts=layouts))
+    return tuple(limb_samples(Walker(SHORT, seed=3), 25.0, layouts=layouts))
 
 
 _STREAMS = (
