@@ -88,3 +88,11 @@ def test_a_device_of_ones_own_is_one_file_and_its_vectors():
     assert sum("3 packets lost" in line for line in told) == 1
     assert sum("with a gap in it" in line for line in told) == 1
     assert "battery 87%" in told[0]
+
+
+def test_two_insoles_tell_how_far_both_feet_have_gone():
+    lines = run("two_insoles").splitlines()
+    assert [line.split()[0] for line in lines[:2]] == ["left", "right"]
+    assert all("96 cells" in line for line in lines[:2])
+    assert float(lines[-1].split()[0]) == pytest.approx(20.0, abs=0.4)
+    assert any(line.split()[3] != line.split()[6] for line in lines[2:-1]), "no stride was calibrated by the other foot"

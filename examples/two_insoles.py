@@ -1,0 +1,30 @@
+"""Two insoles, what their cells show in the air, and the distance walked by both feet together.
+
+`python two_insoles.py` emulates a short walk to calibrate by, and then 20 m at 30 samples a second.
+"""
+
+from attrs import evolve
+
+from solepath import Session, Site, StrideFused, recipes
+from solepath.calibrate.noise import pressure_noise
+from solepath.sim import Insole, Route, sampled
+from solepath.sim.insoles import layout
+
+INSOLES = {site: Insole(rate=30.0) for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
+
+# 20 s of walking tell what each cell shows while the foot is in the air
+warming_up = sampled(Route().stand(2.0).walk(25.0).stop(2.0), insoles=INSOLES, seed=1)
+calibration = pressure_noise(warming_up.samples)
+for foot, insole in calibration.insoles.items():
+    print(f"{foot.value} insole: {len(insole.noise)} cells, {max(insole.noise):.2f} N at the most in the air")
+
+# where the cells are a device says itself; with samples of one's own the calibration says it
+insoles = {foot: evolve(insole, layout=layout(96, foot)) for foot, insole in calibration.insoles.items()}
+session = Session(recipes.KUPT_DFPC, calibration=evolve(calibration, insoles=insoles))
+
+walk = sampled(Route().stand(2.0).walk(20.0).stop(2.0), insoles=INSOLES, seed=1)
+fused = [event for event in session.feed(walk.samples) if isinstance(event, StrideFused)]
+for event in fused:
+    lengths = f"{event.own_length:.2f} m alone, {event.stride_length:.2f} m by both"
+    print(f"{event.t:5.2f} s  {event.foot.value:5}  {lengths}")
+print(f"{fused[-1].distance:.2f} m, along the path of the {fused[-1].chosen.value} foot")
