@@ -210,7 +210,7 @@ def test_a_snapshot_of_another_version_is_refused_by_name(version: Any) -> None:
 
 def test_a_snapshot_of_a_recipe_that_nobody_knows_is_refused() -> None:
     saved = json.loads(taken("session, cc2650"))
-    saved["state"]["recipe"]["detector"] = {"kind": "CrystalBall", "is": {}}
+    saved["state"]["wearer"]["recipe"]["detector"] = {"kind": "CrystalBall", "is": {}}
     with pytest.raises(SnapshotError):
         Session.restore(saved)
 

@@ -110,10 +110,14 @@ class Calibration:
 
 
 def merged(known: Calibration, newer: Calibration) -> Calibration:
-    """`known` with everything that `newer` holds in its place, insole by insole and part by part."""
+    """`known` with everything that `newer` holds in its place, insole by insole and part by part. Noise that was learnt
+    in one unit is no longer known when newtons are: it goes."""
     insoles = dict(known.insoles)
     for foot, insole in newer.insoles.items():
-        insoles[foot] = _over(insoles.get(foot, InsoleCalibration()), insole)
+        before = insoles.get(foot, InsoleCalibration())
+        if insole.newtons is not None and insole.newtons != before.newtons:
+            before = evolve(before, noise=())  # it was measured in another unit
+        insoles[foot] = _over(before, insole)
     drift = {**known.drift, **newer.drift}
     return evolve(
         _over(known, newer),

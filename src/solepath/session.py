@@ -13,45 +13,34 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from copy import deepcopy
 from math import inf, isfinite
-from typing import Any, TypeVar
+from typing import Any
 
 from attrs import define, evolve, field
 
 from .body.position import Position
-from .body.wear import Wear
 from .calibration import Calibration
-from .events import ClockReset, Event, LayoutKnown, Limitation, PacketRejected, SampleRejected
+from .events import Event, PacketRejected, SampleRejected
 from .foot.phase import SUPPORT
-from .foot.refusal import rejected, wrong_time
 from .foot.tracker import FootTracker
 from .link.decoder import Decoder
 from .link.driver import Driver
 from .link.known import Kinds, kinds
 from .machine import Json, SnapshotError, checksum, load, save
-from .recipes import DEFAULT, AnyBody, Recipe
+from .recipes import DEFAULT, Recipe
 from .types import Foot, Packet, Phase, Sample, Site, Support
+from .wearer import Wearer, in_order
 
 SNAPSHOT_VERSION = 1
-
-_Key = TypeVar("_Key")
-_Held = TypeVar("_Held")
 
 
 @define
 class _State:
     """All that a session remembers."""
 
-    recipe: Recipe
-    poses: bool
-    calibration: Calibration
-    body: AnyBody
-    wear: Wear = field(factory=Wear)
+    wearer: Wearer
     now: float | None = None
     """The latest moment that anything is known of, s."""
     decoders: dict[Site, Decoder] = field(factory=dict)
-    feet: dict[Foot, FootTracker] = field(factory=dict)
-    unused: list[Site] = field(factory=list)
-    """Sites whose samples the recipe has no use for; said once."""
     finished: bool = False
 
 
@@ -90,8 +79,7 @@ class Session:
         known = Calibration() if calibration is None else calibration
         if not isinstance(known, Calibration):
             raise TypeError(f"calibration must be a Calibration, not {type(known).__name__}")
-        recipe = deepcopy(recipe)
-        self._state = _State(recipe, poses, deepcopy(known), _calibrated(deepcopy(recipe.body), known))
+        self._state = _State(Wearer(deepcopy(recipe), deepcopy(known), poses))
         for site, device in ({} if devices is None else devices).items():
             self.bind(site, device)
 
@@ -152,9 +140,8 @@ class Session:
         known = self._state.decoders.get(site)
         if known is not None and known.is_bound_to(device):
             return
-        self._state.decoders = _in_order({**self._state.decoders, site: Decoder(site, device)}, Site)
-        if site.foot is not None and site.foot in self._state.feet:
-            self._state.feet[site.foot].interrupt()
+        self._state.decoders = in_order({**self._state.decoders, site: Decoder(site, device)}, Site)
+        self._state.wearer.interrupt(site)
 
     def _packet(self, packet: Packet) -> list[Event]:
         state, events = self._state, list[Event]()
@@ -180,7 +167,7 @@ class Session:
                 events += [item for item in items if isinstance(item, PacketRejected)]
             return events
         if packet.site not in state.decoders:
-            state.decoders = _in_order({**state.decoders, packet.site: decoder}, Site)
+            state.decoders = in_order({**state.decoders, packet.site: decoder}, Site)
         for site, other in state.decoders.items():
             if site is not packet.site:
                 self._take(site, other.advance(packet.t, self._kinds), events)
@@ -201,104 +188,45 @@ class Session:
         return events
 
     def _take(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:
-        """Hand samples to the foot that they are of, and events to it where they matter to it."""
-        foot = site.foot
+        """Hand samples to the wearer, and events where they matter there."""
+        wearer = self._state.wearer
+        linked = site in self._state.decoders
         for item in items:
             if isinstance(item, Sample):
-                events += self._limb(item) if foot is None else self._foot(foot, item)
-                continue
-            events.append(item)
-            if isinstance(item, ClockReset):
-                self._state.body.interrupt(site)
-            if foot is None:
-                continue
-            tracker = self._tracker(foot)
-            if isinstance(item, LayoutKnown):
-                tracker.wear(item.layout)
-                self._keep(tracker)
-            elif isinstance(item, ClockReset):
-                tracker.interrupt()
-
-    def _foot(self, foot: Foot, sample: Sample) -> list[Event]:
-        tracker = self._tracker(foot)
-        # said once, and by the link, which knows the range
-        tracker.scale_said = tracker.scale_said or sample.site in self._state.decoders
-        events = tracker.feed(sample)
-        if tracker.t is not None:  # else it could not be used: nothing is known of this foot yet
-            self._keep(tracker)
-            if not (events and isinstance(events[0], SampleRejected)):
-                events += self._state.wear.heard(tracker, sample, events)
-                events += self._state.body.foot_moved(tracker, sample, events)
-        return events
-
-    def _tracker(self, foot: Foot) -> FootTracker:
-        """The foot's own tracker, or a new one that nobody holds yet."""
-        tracker = self._state.feet.get(foot)
-        if tracker is None:
-            recipe, known = deepcopy(self._state.recipe), self._state.calibration
-            tracker = FootTracker(
-                foot,
-                _calibrated(recipe.detector, known, foot),
-                _calibrated(recipe.corrector, known, foot),
-                self._state.poses,
-                cues=_calibrated(recipe.cues, known, foot),
-                insole=_calibrated(recipe.insole, known, foot),
-                needs_pressure=recipe.needs_pressure,
-            )
-            layout = known.insole(foot).layout
-            if layout is not None:
-                tracker.wear(layout)
-        return tracker
-
-    def _keep(self, tracker: FootTracker) -> None:
-        state = self._state
-        if tracker.foot not in state.feet:
-            state.feet = _in_order({**state.feet, tracker.foot: tracker}, Foot)
-
-    def _limb(self, sample: Sample) -> list[Event]:
-        """A sample from above the ankle: the body's, if it has a use for it."""
-        state = self._state
-        wrong = wrong_time(sample)
-        if wrong is not None:
-            return [rejected(sample, wrong, None)]
-        if sample.site in state.body.sites:
-            return state.body.limb_moved(sample)
-        if sample.site in state.unused:
-            return []
-        state.unused.append(sample.site)
-        known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
-        what = f"recipe {state.recipe.name} has no use for a sensor at the {sample.site.value}"
-        return [Limitation(t=sample.t, known_at=known_at, site=sample.site, what=what)]
+                events += wearer.feed(item, linked)
+            else:
+                events.append(item)
+                wearer.hear(site, item)
 
     # --- out ---
 
     @property
     def recipe(self) -> Recipe:
         """The parts that this session is made of."""
-        return deepcopy(self._state.recipe)
+        return deepcopy(self._state.wearer.recipe)
 
     @property
     def feet(self) -> dict[Foot, FootTracker]:
         """The trackers of the feet heard of so far: live position, velocity, attitude, covariance, phase. Read only."""
-        return dict(self._state.feet)
+        return dict(self._state.wearer.feet)
 
     @property
     def position(self) -> Position | None:
         """Where the wearer is, as the recipe's body has it; the mean of the feet, each in the world frame of its own
         first heading, in most. None before any sample."""
-        return self._state.body.position(self._state.feet)
+        return self._state.wearer.position
 
     @property
     def support(self) -> Support | None:
         """Which feet carry the body; None until both were heard of."""
-        left, right = self._state.feet.get(Foot.LEFT), self._state.feet.get(Foot.RIGHT)
+        left, right = self._state.wearer.feet.get(Foot.LEFT), self._state.wearer.feet.get(Foot.RIGHT)
         if left is None or right is None:
             return None
         return SUPPORT[left.phase][right.phase]
 
     def phase(self, foot: Foot) -> Phase | None:
         """What the foot is doing; None until it was heard of."""
-        tracker = self._state.feet.get(foot)
+        tracker = self._state.wearer.feet.get(foot)
         return None if tracker is None else tracker.phase
 
     # --- elsewhere ---
@@ -324,8 +252,9 @@ class Session:
         session = cls.__new__(cls)
         session._kinds = kinds(profiles)
         session._state = load(_State, saved["state"])
-        session._state.decoders = _in_order(session._state.decoders, Site)
-        session._state.feet = _in_order(session._state.feet, Foot)
+        session._state.decoders = in_order(session._state.decoders, Site)
+        wearer = session._state.wearer
+        wearer.feet = in_order(wearer.feet, Foot)
         if checksum(save(session._state)) != saved["check"]:
             raise SnapshotError("the snapshot was damaged: its checksum is another")
         for decoder in session._state.decoders.values():
@@ -339,23 +268,9 @@ class Session:
         return session
 
 
-def _in_order(held: dict[_Key, _Held], keys: Iterable[_Key]) -> dict[_Key, _Held]:
-    """The same in the order of the enum: what is done site by site must not depend on who was heard first."""
-    return {key: held[key] for key in keys if key in held}
-
-
 def _number(value: float) -> float:
     """An int may be too large for a float; then it is as good as infinite."""
     try:
         return float(value)
     except OverflowError:
         return inf
-
-
-_Part = TypeVar("_Part")
-
-
-def _calibrated(part: _Part, known: Calibration, *foot: Foot) -> _Part:
-    """The part with what is known that concerns it; `foot`: whose it is, none for a body's."""
-    calibrated = getattr(part, "calibrated", None)
-    return part if calibrated is None else calibrated(*foot, known)

@@ -10,7 +10,7 @@ from math import inf, sqrt
 
 from attrs import define, evolve, field
 
-from ..events import Event, FootMoved, Limitation, SampleGap
+from ..events import Event, FootMoved, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..vector import ZERO, sub
 from .attitude import Levelling, Rest, suspected
@@ -28,6 +28,7 @@ from .gait_cues import GaitCues
 from .gap import SHORTEST
 from .guess import LayoutGuess
 from .known_velocity import KnownVelocity
+from .limits import WITHOUT, Limits
 from .navigate import LONGEST_BRIDGE
 from .pressure import Insole
 from .pressure_stance import MaximumPressure, TwoArea
@@ -55,10 +56,6 @@ AnyCues = GaitCues | CopCues
 STILL = 0.35
 """A foot that is faster than this after the correction is not flat, however much noise the evidence has, m/s."""
 
-WITHOUT = 1.0
-"""For this long samples may lack acc or gyro before the foot is said to have none, s."""
-
-
 @define
 class FootTracker:
     """Feed it the samples of one foot in the order of their time."""
@@ -79,8 +76,6 @@ class FootTracker:
     """The newest sample with both acc and gyro, s."""
     pressed_at: float | None = field(default=None, init=False)
     """The newest sample that lacked one of them, s."""
-    lacking_since: float | None = field(default=None, init=False)
-    """Since when no sample has had both, s."""
     load: Load | None = field(default=None, init=False)
     """The newest load, when a sample without acc or gyro brought it."""
     rhythm: Rhythm = field(factory=Rhythm, init=False)
@@ -93,16 +88,14 @@ class FootTracker:
     guess: LayoutGuess = field(init=False)
     guessed: bool = field(default=False, init=False)
     """The layout is a guess."""
-    lacking: str | None = field(default=None, init=False)
-    """What the detector must do without on this layout, not said yet."""
     gait: Gait = field(init=False)
-    said: list[str] = field(factory=list, init=False)
-    """Limitations so far; what a detector lacks is among them once it was told."""
+    limits: Limits = field(init=False)
     scale_said: bool = field(default=False, init=False)
     """That acc does not read 1 g at rest has been said, or is another's to say."""
 
     def __attrs_post_init__(self) -> None:
         self.gait = Gait(self.foot)
+        self.limits = Limits(self.foot)
         self.health = CellHealth(SITE_OF_FOOT[self.foot])
         self.guess = LayoutGuess(self.foot)
 
@@ -142,6 +135,10 @@ class FootTracker:
 
     def _lay_out(self, layout: Layout) -> None:
         self.insole.wear(layout)
+        if self.insole.newtons is not None and layout.scale is not None and not self.guessed:
+            self.insole.newtons = None
+            what = f"the {self.foot.value} insole tells newtons itself: the calibration's cubic is not used"
+            self.limits.later(what)
         self._wear_parts(layout)
 
     def _wear_parts(self, layout: Layout) -> None:
@@ -149,13 +146,13 @@ class FootTracker:
             wear = getattr(part, "wear", None)
             if wear is not None:
                 wear(layout)
-        self.lacking = getattr(self.detector, "lacking", None)
+        self.limits.later(getattr(self.detector, "lacking", None))
 
     def interrupt(self) -> None:
         """The clock of the samples begins anew, before or after the old one; what the foot did between is unknown."""
         if self.t is not None and self.levelled:
             self.corrector.bridge(inf)
-        self.t = self.moved_at = self.pressed_at = self.lacking_since = self.load = None
+        self.t = self.moved_at = self.pressed_at = self.limits.since = self.load = None
         self.gait.interrupt()
         # Windows over the old times would wait for the new ones to catch up. What was learnt stays.
         self.detector = evolve(self.detector)
@@ -179,6 +176,8 @@ class FootTracker:
         if sample.acc is None and sample.gyro is None and not sample.pressure:
             return []  # a barometer's or magnetometer's: not a matter of the foot
         events: list[Event] = []
+        if self.limits.waiting:
+            self.limits.flush(t, known_at, events)
         self.t = t if self.t is None else max(self.t, t)
         if sample.saturated:
             self.gait.step.spoil(t)
@@ -196,12 +195,13 @@ class FootTracker:
             if self.phase is not Phase.SWING and load is not None and self.gait.step.t_toe_off is None:
                 self.gait.step.loaded(sum(load.cells), load.centre)
         elif self.needs_pressure and not self.pressed:
-            self._say_without_pressure(t, known_at, events)
+            what = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
+            self.limits.lacks(what, t, known_at, events)
             return events
         if sample.acc is not None and sample.gyro is not None:
             dt = 0.0 if last is None else self._watch_for_gaps(last, t, known_at, sample, events)
             self.moved_at = t
-            self.lacking_since = None
+            self.limits.since = None
             if load is None:
                 load, self.load = self.load, None
             if sample.quat is not None:
@@ -220,7 +220,7 @@ class FootTracker:
         layout = self.guess.update(t, self.insole.above_tare(load.cells), load.total)
         if layout is not None:
             what = f"nobody says where the cells of the {self.foot.value} insole are: learnt from how steps load them"
-            self._limit(what, t, known_at, events)
+            self.limits.say(what, t, known_at, events)
             self.guessed = True
             self._lay_out(layout)
 
@@ -263,9 +263,6 @@ class FootTracker:
         if self.levelled:
             corrector.predict(dt, acc, gyro, saturated)
         stance = self.detector.update(t, dt, acc, gyro, load, corrector.attitude)
-        if self.lacking is not None:
-            self._limit(self.lacking, t, known_at, events)
-            self.lacking = None
         if not self.levelled:
             first = self.levelling.update(t, acc, gyro)
             if first is not None:
@@ -303,29 +300,13 @@ class FootTracker:
     def _pressure_alone(
         self, t: float, dt: float, known_at: float, sample: Sample, load: Load | None, events: list[Event]
     ) -> None:
-        if self.lacking_since is None:
-            self.lacking_since = t
-        if t - self.lacking_since >= WITHOUT:
-            lacking = "accelerometer" if sample.acc is None else "gyroscope"
-            what = f"no {lacking} on the {self.foot.value} foot: no steps and no track from it"
-            self._limit(what, t, known_at, events)
+        lacking = "accelerometer" if sample.acc is None else "gyroscope"
+        what = f"no {lacking} on the {self.foot.value} foot: no steps and no track from it"
+        self.limits.lacks(what, t, known_at, events)
         if load is None:
             return
         for seen in self.cues.alone(t, dt, load, self.phase):
             self._see(seen, known_at, events)
-
-    def _say_without_pressure(self, t: float, known_at: float, events: list[Event]) -> None:
-        if self.lacking_since is None:
-            self.lacking_since = t
-        if t - self.lacking_since >= WITHOUT:
-            what = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
-            self._limit(what, t, known_at, events)
-
-    def _limit(self, what: str, t: float, known_at: float, events: list[Event]) -> None:
-        """Say once what must be done without."""
-        if what not in self.said:
-            self.said.append(what)
-            events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[self.foot], what=what))
 
     def _see(self, seen: Seen, known_at: float, events: list[Event]) -> None:
         corrector = self.corrector if self.levelled else None

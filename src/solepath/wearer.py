@@ -1,0 +1,128 @@
+"""One wearer: samples of all sites in, events out. What a session does once packets have become samples."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from copy import deepcopy
+from typing import TypeVar
+
+from attrs import define, field
+
+from .body.position import Position
+from .body.wear import Wear
+from .calibration import Calibration
+from .events import ClockReset, Event, LayoutKnown, Limitation, SampleRejected
+from .foot.refusal import rejected, wrong_time
+from .foot.tracker import FootTracker
+from .recipes import AnyBody, Recipe
+from .types import Foot, Sample, Site
+
+_Key = TypeVar("_Key")
+_Held = TypeVar("_Held")
+_Part = TypeVar("_Part")
+
+
+@define
+class Wearer:
+    """Trackers of the feet, the body that the recipe gave them, and how all of it is worn."""
+
+    recipe: Recipe
+    calibration: Calibration
+    poses: bool
+    """The feet emit FootMoved."""
+    # state
+    body: AnyBody = field(init=False)
+    wear: Wear = field(factory=Wear, init=False)
+    feet: dict[Foot, FootTracker] = field(factory=dict, init=False)
+    unused: list[Site] = field(factory=list, init=False)
+    """Sites whose samples the recipe has no use for; said once."""
+
+    def __attrs_post_init__(self) -> None:
+        self.body = _calibrated(deepcopy(self.recipe.body), self.calibration)
+
+    def feed(self, sample: Sample, scale_is_said: bool) -> list[Event]:
+        """A sample of any site. `scale_is_said`: by its link, which knows the range, so the foot need not."""
+        foot = sample.site.foot
+        if foot is None:
+            return self._limb(sample)
+        tracker = self._tracker(foot)
+        tracker.scale_said = tracker.scale_said or scale_is_said
+        events = tracker.feed(sample)
+        if tracker.t is not None:  # else it could not be used: nothing is known of this foot yet
+            self._keep(tracker)
+            if not (events and isinstance(events[0], SampleRejected)):
+                events += self.wear.heard(tracker, sample, events)
+                events += self.body.foot_moved(tracker, sample, events)
+        return events
+
+    def hear(self, site: Site, event: Event) -> None:
+        """What a link says, where it matters here."""
+        if isinstance(event, ClockReset):
+            self.body.interrupt(site)
+        foot = site.foot
+        if foot is None:
+            return
+        if isinstance(event, LayoutKnown):
+            tracker = self._tracker(foot)
+            tracker.wear(event.layout)
+            self._keep(tracker)
+        elif isinstance(event, ClockReset):
+            self._tracker(foot).interrupt()
+
+    def interrupt(self, site: Site) -> None:
+        """Another device is worn there from now on."""
+        if site.foot is not None and site.foot in self.feet:
+            self.feet[site.foot].interrupt()
+
+    @property
+    def position(self) -> Position | None:
+        """As the recipe's body has it; None before any sample."""
+        return self.body.position(self.feet)
+
+    def _tracker(self, foot: Foot) -> FootTracker:
+        """The foot's own tracker, or a new one that nobody holds yet."""
+        tracker = self.feet.get(foot)
+        if tracker is None:
+            recipe, known = deepcopy(self.recipe), self.calibration
+            tracker = FootTracker(
+                foot,
+                _calibrated(recipe.detector, known, foot),
+                _calibrated(recipe.corrector, known, foot),
+                self.poses,
+                cues=_calibrated(recipe.cues, known, foot),
+                insole=_calibrated(recipe.insole, known, foot),
+                needs_pressure=recipe.needs_pressure,
+            )
+            layout = known.insole(foot).layout
+            if layout is not None:
+                tracker.wear(layout)
+        return tracker
+
+    def _keep(self, tracker: FootTracker) -> None:
+        if tracker.foot not in self.feet:
+            self.feet = in_order({**self.feet, tracker.foot: tracker}, Foot)
+
+    def _limb(self, sample: Sample) -> list[Event]:
+        """A sample from above the ankle: the body's, if it has a use for it."""
+        wrong = wrong_time(sample)
+        if wrong is not None:
+            return [rejected(sample, wrong, None)]
+        if sample.site in self.body.sites:
+            return self.body.limb_moved(sample)
+        if sample.site in self.unused:
+            return []
+        self.unused.append(sample.site)
+        known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
+        what = f"recipe {self.recipe.name} has no use for a sensor at the {sample.site.value}"
+        return [Limitation(t=sample.t, known_at=known_at, site=sample.site, what=what)]
+
+
+def in_order(held: dict[_Key, _Held], keys: Iterable[_Key]) -> dict[_Key, _Held]:
+    """The same in the order of the enum: what is done site by site must not depend on who was heard first."""
+    return {key: held[key] for key in keys if key in held}
+
+
+def _calibrated(part: _Part, known: Calibration, *foot: Foot) -> _Part:
+    """The part with what is known that concerns it; `foot`: whose it is, none for a body's."""
+    calibrated = getattr(part, "calibrated", None)
+    return part if calibrated is None else calibrated(*foot, known)
