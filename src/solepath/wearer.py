@@ -12,7 +12,7 @@ from .body.position import Position
 from .body.wear import Wear
 from .calibration import Calibration
 from .events import ClockReset, Event, LayoutKnown, Limitation, SampleRejected
-from .foot.refusal import rejected, wrong_time
+from .foot.refusal import rejected, with_sound_attitude, wrong_time
 from .foot.tracker import FootTracker
 from .recipes import AnyBody, Recipe
 from .types import Foot, Sample, Site
@@ -42,6 +42,7 @@ class Wearer:
 
     def feed(self, sample: Sample, scale_is_said: bool) -> list[Event]:
         """A sample of any site. `scale_is_said`: by its link, which knows the range, so the foot need not."""
+        sample = with_sound_attitude(sample)
         foot = sample.site.foot
         if foot is None:
             return self._limb(sample)

@@ -63,7 +63,8 @@ class Gait:
         # cues look back by different spans; phases follow each other all the same
         t = seen.t if self.began is None else max(seen.t, self.began)
         self.began = t
-        events: list[Event] = [BEGINS[phase](t=t, known_at=max(known_at, t), foot=self.foot, inferred=inferred)]
+        known_at = max(known_at, t)
+        events: list[Event] = [BEGINS[phase](t=t, known_at=known_at, foot=self.foot, inferred=inferred)]
         if phase is Phase.SWING:
             self.step.t_toe_off = t
         elif phase is Phase.LOADING:

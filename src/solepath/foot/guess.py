@@ -76,9 +76,13 @@ class LayoutGuess:
 
     def _layout(self) -> Layout | None:
         most = max(self.weights)
+        if most <= 0.0:
+            return None
         placed = [w > self.least * most for w in self.weights]
         at = [m / w if known else 0.0 for m, w, known in zip(self.middles, self.weights, placed, strict=True)]
         known = [middle for middle, there in zip(at, placed, strict=True) if there]
+        if not known:
+            return None
         first, last = min(known), max(known)
         if last <= first:
             return None

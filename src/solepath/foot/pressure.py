@@ -60,6 +60,8 @@ class Insole:
     """Below this share of the full load the foot is in the air."""
     least: float = 0.05
     """Below this share of the full load the centre of pressure is noise."""
+    alive: float = 0.05
+    """An area whose load varies by less than this share of the full load is no area."""
     heel_ends: float = 0.33
     """Cells behind this share of the insole's length are the heel's area."""
     forefoot_begins: float = 0.55
@@ -138,10 +140,11 @@ class Insole:
             self.tare = list(cells)
             self.tare_total = total
         self.unloaded = airborne
+        # an area that never carries anything is dead, or there is none: nothing can be told by it
         if heel is not None:
-            heel /= reach
+            heel = heel / reach if self.heel.high - self.heel.low > self.alive * reach else None
         if forefoot is not None:
-            forefoot /= reach
+            forefoot = forefoot / reach if self.forefoot.high - self.forefoot.low > self.alive * reach else None
         highest = largest / self.highest if self.highest > 0.0 else 0.0
         centre = None if airborne else self.centre_of_pressure(cells)
         return Load(share, heel, forefoot, highest, airborne, cells, centre)

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from math import inf, isfinite
 
+from attrs import evolve
+
 from ..events import Rejection, SampleRejected
 from ..types import Sample
+from ..vector import normalise
 
 ABSURD_ACC = 500.0
 """No foot sensor measures more, m/s^2."""
@@ -15,6 +18,9 @@ ABSURD_TOTAL = 1e7
 """No insole measures more over all its cells, in newtons or in counts."""
 ABSURD_TIME = 1e11
 """s; a time beyond this (or before minus this) is no time."""
+
+SHORTEST_QUAT = 1e-12
+"""Square of the least length of an attitude."""
 
 Refusal = tuple[Rejection, str]
 
@@ -55,9 +61,25 @@ def _total(cells: tuple[float, ...]) -> float:
         return inf
     except TypeError:
         total = inf
-    if isfinite(total):
-        return total
-    return sum([value for value in cells if value is not None and isfinite(value)])
+    try:
+        if isfinite(total):
+            return total
+        return sum([value for value in cells if value is not None and isfinite(value)])
+    except OverflowError:  # an int may be too large for a float
+        return inf
+
+
+def with_sound_attitude(sample: Sample) -> Sample:
+    """The same with a unit quaternion, or with none where it is not one of any length."""
+    if sample.quat is None:
+        return sample
+    w, x, y, z = sample.quat
+    square = w * w + x * x + y * y + z * z
+    if 1.0 - 1e-9 < square < 1.0 + 1e-9:
+        return sample
+    if not SHORTEST_QUAT < square < 1.0 / SHORTEST_QUAT:  # false for what is no number too
+        return evolve(sample, quat=None)
+    return evolve(sample, quat=normalise(sample.quat))
 
 
 def wrong_time(sample: Sample) -> Refusal | None:

@@ -189,6 +189,8 @@ class FootTracker:
             cells = self.health.usable(sample.pressure or ())
         if cells:
             self.pressed = True
+            if self.guessed and self.insole.layout is not None and len(self.insole.layout.cells) != len(cells):
+                self._forget_layout()  # it was of another insole
             load = self.insole.update(t, cells)
             if self.needs_pressure and self.insole.layout is None and load is not None:
                 self._guess_layout(t, known_at, load, events)
@@ -223,6 +225,11 @@ class FootTracker:
             self.limits.say(what, t, known_at, events)
             self.guessed = True
             self._lay_out(layout)
+
+    def _forget_layout(self) -> None:
+        self.guessed = False
+        self.guess = LayoutGuess(self.foot)
+        self.insole = evolve(self.insole)
 
     def _watch_for_gaps(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
         """Name a gap between two samples; returns the time to integrate over, s."""
