@@ -19,7 +19,8 @@ from typing import Any
 
 from yardstick import Yardstick
 
-from solepath import Foot, Packet, Recipe, Sample, Session, Site, StepTaken, recipes
+from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StepTaken, recipes
+from solepath.calibration import InsoleCalibration
 from solepath.foot.cycle import Cycle
 from solepath.foot.dedrift import LinearDedrift
 from solepath.link.decoder import Decoder
@@ -28,8 +29,10 @@ from solepath.sim.insoles import layout
 from solepath.sim.parts import LSM6DSOX
 from solepath.sim.radio import CLEAN
 from solepath.sim.route import Route
+from solepath.sim.suit import limb_samples
 from solepath.sim.walk import emulate
 from solepath.sim.walker import Walker
+from solepath.types import SITE_OF_FOOT
 
 RUNS = 5
 ROUTE = Route().stand(2.0).walk(50.0, 1.3).stop(2.0)
@@ -82,11 +85,15 @@ def memory(items: Iterable[Any]) -> int:
     return held
 
 
-def told_of(recipe: Recipe, told: Packet) -> Session:
+def told_of(recipe: Recipe, infos: list[Packet]) -> Session:
     """A session that knows where the cells are."""
     session = Session(recipe)
-    session.feed(told)
+    session.feed(infos)
     return session
+
+
+def _moment(sample: Sample) -> float:
+    return sample.t
 
 
 def main() -> None:
@@ -127,9 +134,17 @@ def main() -> None:
     add("foot sample, 96 cells", each(pressed, knowing))
     add("foot sample, 96 cells, FootMoved", each(pressed, knowing_poses))
     add("foot sample, inertial, linear dedrift", each(bare, lambda: Session(linear)))
+    infos = [packet for packet in walk.packets if packet.channel == "insole/info"]
+    two_feet = walker.samples(Foot.RIGHT, 100.0, LSM6DSOX, layout=layout(96, Foot.RIGHT)) + pressed
+    two_feet.sort(key=_moment)
     for recipe in recipes.BY_NAME.values():
-        if recipe is not recipes.DEFAULT:
-            add(f"foot sample, 96 cells, {recipe.name}", each(pressed, partial(told_of, recipe, told)))
+        add(f"both feet, 96 cells, {recipe.name}", each(two_feet, partial(told_of, recipe, infos)))
+    layouts = {site: layout(99, foot) for foot, site in SITE_OF_FOOT.items()}
+    suit = limb_samples(walker, 50.0, seed=1, layouts=layouts)
+    insoles = sum(sample.pressure is not None for sample in suit)
+    worn = Calibration(insoles={foot: InsoleCalibration(layout(99, foot)) for foot in Foot})
+    microseconds = each(suit, partial(Session, recipes.WALKING_MODES, calibration=worn))
+    add("both feet, 99 cells, five limbs, walking-modes", microseconds * len(suit) / insoles, "us an insole sample")
     add("insole frame, 96 cells: decode", each(frames, decoder, info), "us a packet")
     add("insole frame, 96 cells: session", each(frames, Session, info), "us a packet")
     add("insole frame, 96 cells: session, FootMoved", each(frames, lambda: Session(poses=True), info), "us a packet")
@@ -155,9 +170,9 @@ def main() -> None:
     print(f"{len(bare)} samples, {len(frames)} frames, {steps} steps of both feet in {duration:.0f} s of walking")
     print()
     width = max(len(what) for what, _, _ in rows)
-    print(f"{'':{width}}  {'time':>8} {'':<12} {'of the yardstick':>16}")
+    print(f"{'':{width}}  {'time':>8} {'':<19} {'of the yardstick':>16}")
     for what, value, unit in rows:
-        print(f"{what:{width}}  {value:8.1f} {unit:<12} {value / yard:16.2f}")
+        print(f"{what:{width}}  {value:8.1f} {unit:<19} {value / yard:16.2f}")
     print()
     print(f"real-time factor, both feet with 96 cells at 100 Hz: {real_time:.0f}")
     print(f"snapshot {save * 1e3:.1f} ms, restore {load * 1e3:.1f} ms, {len(text) / 1000:.1f} kB as JSON")

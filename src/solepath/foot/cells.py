@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import atan2, hypot, pi
 
 from attrs import define, field
@@ -36,6 +37,7 @@ class Span:
         self.low, self.high = min(self.low, total), max(self.high, total)
 
 
+@lru_cache(maxsize=8)
 def spacing(layout: Layout) -> float:
     """The usual distance from one cell to the next, m; 0 with fewer than two."""
     places = [(cell.x, cell.y) for cell in layout.cells]
