@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from functools import cache
-from math import radians
+from math import hypot, radians, sqrt
 from typing import Any
 
 import pytest
@@ -16,11 +16,12 @@ from solepath import Session, machine
 from solepath.body.sides import Average
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.events import FeetSwapped, FootHeard, FootSilent, StepTaken
+from solepath.sim.faults import silent
 from solepath.sim.insoles import layout
 from solepath.sim.route import Route
 from solepath.sim.walker import Walker
 from solepath.types import Foot, Sample, Site
-from walks import LEFT, RIGHT, of, samples
+from walks import LEFT, RIGHT, SHORT, of, samples
 
 WALK = Route().stand(1.5).walk(16.0, 1.2).turn(radians(90), radius=1.5).walk(6.0).stop(1.0)
 OTHER = {LEFT: RIGHT, RIGHT: LEFT}
@@ -76,6 +77,109 @@ def test_while_the_wearer_stands_nobody_is_missed() -> None:
 
 def test_a_foot_that_stays_away_is_told_once() -> None:
     assert len(said(FootSilent, without(LEFT, 4.0, 1e9))) == 1
+
+
+# --- where the wearer is meanwhile ---
+
+FAR = Route().stand(1.5).walk(40.0, 1.2).stop(1.5)
+ROUND = Route().stand(1.5).walk(16.0, 1.2).turn(radians(90), radius=1.5).walk(22.0).stop(1.5)
+
+
+def place(walk: tuple[Sample, ...]) -> tuple[float, float, float, float]:
+    """Where the wearer is at its end: x, y, and their standard deviations, m."""
+    session = Session()
+    session.feed(walk)
+    where = session.position
+    assert where is not None
+    (x, y, _), (xx, _, _, yy, _, _) = where.position, where.covariance
+    return x, y, sqrt(xx), sqrt(yy)
+
+
+def both(route: Route) -> tuple[Sample, ...]:
+    return samples(route, cells=0, rate=50.0)
+
+
+@pytest.mark.parametrize("foot", [LEFT, RIGHT])
+def test_a_silent_foot_does_not_hold_the_wearer_back(foot: Site) -> None:
+    x, y, across, along = place(tuple(silent(both(FAR), foot, 12.0)))
+    whole = place(both(FAR))
+    assert x == pytest.approx(40.0, abs=0.8)
+    assert abs(y - whole[1]) < 1.5
+    assert across > 1.2 * whole[2] and along > 1.2 * whole[3], "one foot alone is known less well than the mean of two"
+
+
+@pytest.mark.parametrize("foot", [LEFT, RIGHT])
+def test_a_foot_that_comes_back_is_set_beside_the_other(foot: Site) -> None:
+    x, _, across, _ = place(tuple(silent(both(FAR), foot, 8.0, 20.0)))
+    whole = place(both(FAR))
+    assert x == pytest.approx(40.0, abs=0.8)
+    assert across > 1.2 * whole[2]
+
+
+@pytest.mark.parametrize("foot", [LEFT, RIGHT])
+def test_a_foot_that_was_away_while_the_wearer_turned_is_turned_too(foot: Site) -> None:
+    x, y, _, _ = place(tuple(silent(both(ROUND), foot, 11.0, 20.0)))
+    u, v, _, _ = place(both(ROUND))
+    assert hypot(x - u, y - v) < 1.6
+
+
+def test_feet_that_take_turns_in_falling_silent_lose_nothing_of_the_way() -> None:
+    one = silent(both(FAR), LEFT, 8.0, 12.0)
+    x, _, _, _ = place(tuple(silent(silent(one, RIGHT, 18.0, 22.0), LEFT, 27.0, 30.0)))
+    assert x == pytest.approx(40.0, abs=0.9)
+
+
+def test_a_foot_that_is_switched_on_while_the_other_walks_is_set_beside_it() -> None:
+    x, _, _, _ = place(tuple(silent(both(FAR), RIGHT, -1.0, 15.0)))
+    assert x == pytest.approx(40.0, abs=1.2)
+
+
+def test_a_foot_without_a_gyroscope_has_no_track_and_does_not_hold_the_wearer_back() -> None:
+    bare = tuple(evolve(s, gyro=None) if s.site is LEFT else s for s in both(FAR))
+    assert place(bare) == place(tuple(s for s in both(FAR) if s.site is RIGHT))
+
+
+def test_the_place_does_not_leap_when_a_foot_falls_silent_or_comes_back() -> None:
+    session = Session()
+    before = None
+    for sample in silent(both(FAR), LEFT, 8.0, 20.0):
+        session.feed(sample)
+        if session.position is not None:
+            here = session.position.position
+            assert before is None or hypot(here[0] - before[0], here[1] - before[1]) < 0.6
+            before = here
+
+
+@pytest.mark.parametrize("whole", [True, False])
+def test_while_both_feet_are_heard_the_place_is_their_mean_to_the_last_digit(whole: bool) -> None:
+    feet = both(SHORT)
+    # or first all samples of the one foot and then all of the other: neither was away
+    items = feet if whole else tuple(s for foot in (LEFT, RIGHT) for s in feet if s.site is foot)
+    session = Session()
+    for k, sample in enumerate(items):
+        session.feed(sample)
+        where = session.position
+        if k % 10 or where is None or (k < len(items) - 1 and not whole):
+            continue
+        trackers = list(session.feet.values())
+        share = 1.0 / len(trackers)
+        assert where.position == tuple(sum([foot.position[axis] for foot in trackers]) * share for axis in range(3))
+        sums = [sum([foot.covariance[i] for foot in trackers]) * share * share for i in range(6)]
+        assert where.covariance == tuple(sums)
+
+
+@given(st.integers(0, 10_000))
+@settings(max_examples=5, deadline=None)
+def test_a_session_saved_while_a_foot_is_away_goes_on_to_the_same_place(cut: int) -> None:
+    items = tuple(silent(walk(), LEFT, 4.0, 9.0))
+    k = cut % len(items)
+    session = Session()
+    session.feed(items[:k])
+    session = Session.restore(json.loads(json.dumps(session.snapshot(), allow_nan=False)))
+    session.feed(items[k:])
+    straight = Session()
+    straight.feed(items)
+    assert session.position == straight.position
 
 
 # --- left and right exchanged ---
