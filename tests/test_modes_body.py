@@ -11,7 +11,8 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.body.modes import TABLE_1, Modes
+from solepath.body.compensation import TABLE_1
+from solepath.body.modes import Modes
 from solepath.body.touchdown import Height, NetAcceleration
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.events import Event, Limitation, TouchedDown, WalkingModeChanged

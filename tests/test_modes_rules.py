@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from solepath.body.compensation import TABLE_1
 from solepath.body.mode import PACE, POINTS, STRAIGHT_ON, TH, Contact, at_pace, decide, regions
-from solepath.body.modes import TABLE_1
 from solepath.sim.insoles import layout
 from solepath.types import Foot, WalkingMode
 

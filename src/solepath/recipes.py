@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from attrs import field, frozen
 
+from .body.compensation import TABLE_1
 from .body.fusion import DoubleFoot
-from .body.modes import TABLE_1, Modes
+from .body.modes import Modes
 from .body.position import MeanOfFeet
 from .body.touchdown import Height, MaximumPressure, NetAcceleration
 from .foot.bias_zupt import BiasZupt

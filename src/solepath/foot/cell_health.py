@@ -2,14 +2,10 @@
 
 Cells are judged over windows of walking, `swings` swings of the foot each; two windows in a row must say the same.
 
-- DEAD: it varies by less than 1 % of what the most lively cell does, though all around it cells load (that takes a
-  layout), or it has loaded in every window before, or there are at most four cells, which are where the foot presses.
-- STUCK: it shows one value, well above what the other cells show in the air.
-- SATURATED: it is at the end of its range, or beyond, also while the foot is in the air (that takes a layout).
+- DEAD, STUCK, SATURATED: what it shows in a window says so (cell_window.py).
 - MISSING: no number comes from it, or samples do not have as many cells as the insole, for `patience` s.
 
-A cell at the rim of the sole or under a high arch may carry nothing for all its life. One that was dead from the
-beginning looks the same there: it is not reported, and does no harm. Without swings nothing is judged but MISSING.
+Without swings nothing is judged but MISSING.
 
 Failed cells read 0 from then on (`usable`), so that load, areas and centre of pressure go on without them. A cell that
 loads again for two windows is used again; that is not said, but if it fails once more that is. Samples with the wrong
@@ -23,7 +19,8 @@ from attrs import define, field
 
 from ..events import CellFault, CellsFailed, Event, InsoleNeverUnloads
 from ..types import Layout, Phase, Site, Vec3
-from .cells import Span, enclosed, spacing
+from .cell_window import USED_TO_ALONE, Window, unloads
+from .cells import Span
 from .refusal import ABSURD_TOTAL
 
 RARELY = 0.0795
@@ -34,28 +31,6 @@ ONE_SWING = 0.7
 """for this long at least it is the same swing, s."""
 SHORTEST, LONGEST = 3.0, 30.0
 """A window lasts this long, s."""
-
-LIVELY = 0.15
-"""A cell that varies by more than this share of what the most lively one does loads and unloads."""
-SILENT = 0.01
-"""One that varies by less carries nothing."""
-CONSTANT = 0.0025
-"""One that varies by less shows one value, and perhaps a count beside it."""
-RAISED = 0.1
-"""This share of the most lively one's variation above the others in the air is not the air."""
-USED_TO = 3
-"""A cell that was lively in so many windows in a row is expected to be,"""
-USED_TO_ALONE = 8
-"""where nobody knows which cells are next to it."""
-FEW = 4
-FULL = 0.99
-"""From this share of its range a cell is at the end of it."""
-HELD = 0.3
-"""An insole in newtons does not unload when it never shows less than this share of its highest load;"""
-HELD_IN_COUNTS = 0.9
-"""one whose zero is not known, this share."""
-UNMOVED = 0.01
-"""Of the highest value: if no cell varies by more, none shows anything."""
 
 
 @define
@@ -216,28 +191,29 @@ class CellHealth:
         span = self.span
         if not span.lows:
             return
-        ranges = [high - low for low, high in zip(span.lows, span.highs, strict=True)]
-        working = [i for i in range(self.count) if i not in self.out]
-        liveliest = max([ranges[i] for i in working], default=0.0)
-        highest = max([span.highs[i] for i in working], default=0.0)
-        if liveliest <= UNMOVED * highest or liveliest <= 0.0:
-            self._nothing_moves(t, known_at, began, highest, working, events)
+        window = Window.of(span, self.out)
+        if not window.moves:
+            self._nothing_moves(t, known_at, began, window, events)
             return
         self.unmoved = 0
-        self._unloading(t, known_at, began, layout, events)
-        faults = self._faults(ranges, liveliest, working, layout)
+        if unloads(span, layout):
+            self.held = 0
+        else:
+            self._hold(t, known_at, began, events)
+        faults = window.faults(layout, self.lively)
         for fault, cells in faults.items():
             new = tuple([i for i in cells if i in self.suspects.get(fault, [])])
             if new:
                 self.failed[fault] = sorted([*self.failed.get(fault, []), *new])
                 self._say(t, known_at, fault, new, events)
         self.suspects = faults
-        self._follow(ranges, liveliest)
+        self._follow(window)
 
     def _nothing_moves(
-        self, t: float, known_at: float, began: float, highest: float, working: list[int], events: list[Event]
+        self, t: float, known_at: float, began: float, window: Window, events: list[Event]
     ) -> None:
-        if highest > 0.0:
+        working = window.working
+        if window.highest > 0.0:
             self._hold(t, known_at, began, events)
             return
         self.unmoved += 1
@@ -245,16 +221,6 @@ class CellHealth:
             self.failed[CellFault.DEAD] = sorted([*self.failed.get(CellFault.DEAD, []), *working])
             self._say(t, known_at, CellFault.DEAD, tuple(working), events)
             self.out = self._all_failed()
-
-    def _unloading(
-        self, t: float, known_at: float, began: float, layout: Layout | None, events: list[Event]
-    ) -> None:
-        in_newtons = layout is not None and layout.scale is not None
-        share = HELD if in_newtons else HELD_IN_COUNTS
-        if self.span.high > 0.0 and self.span.low > share * self.span.high:
-            self._hold(t, known_at, began, events)
-        else:
-            self.held = 0
 
     def _hold(self, t: float, known_at: float, began: float, events: list[Event]) -> None:
         self.held += 1
@@ -264,46 +230,14 @@ class CellHealth:
             seconds = t - self.held_since
             events.append(InsoleNeverUnloads(t=t, known_at=known_at, site=self.site, seconds=seconds))
 
-    def _faults(
-        self, ranges: list[float], liveliest: float, working: list[int], layout: Layout | None
-    ) -> dict[CellFault, list[int]]:
-        """What this window says of the cells that have not failed yet."""
-        lows = self.span.lows
-        air = sorted([lows[i] for i in working])[len(working) // 2]
-        full = None if layout is None else layout.full_scale
-        faults: dict[CellFault, list[int]] = {}
-        for i in working:
-            if full is not None and 0.0 < FULL * full <= lows[i]:
-                fault = CellFault.SATURATED
-            elif ranges[i] > SILENT * liveliest:
-                continue
-            elif lows[i] - air > RAISED * liveliest:
-                if ranges[i] > CONSTANT * liveliest:
-                    continue
-                fault = CellFault.STUCK
-            elif self._ought_to_load(i, ranges, LIVELY * liveliest, layout):
-                fault = CellFault.DEAD
-            else:
-                continue
-            faults.setdefault(fault, []).append(i)
-        return faults
-
-    def _ought_to_load(self, i: int, ranges: list[float], enough: float, layout: Layout | None) -> bool:
-        loading = [r > enough for r in ranges]
-        used_to = self.lively[i] if self.lively else 0
-        if layout is None:
-            return self.count <= FEW or used_to >= USED_TO_ALONE
-        all_around, some = enclosed(layout, spacing(layout), i, loading)
-        return all_around or (used_to >= USED_TO and some)
-
-    def _follow(self, ranges: list[float], liveliest: float) -> None:
+    def _follow(self, window: Window) -> None:
         """Which cells were lively; those that had failed and are, twice in a row, are used again."""
         if len(self.lively) != self.count:
             self.lively = [0] * self.count
         suspected = {i for cells in self.suspects.values() for i in cells}
-        for i, r in enumerate(ranges):
+        for i, lively in enumerate(window.lively()):
             if i not in suspected:  # of those, what they used to do is why they are suspected
-                self.lively[i] = min(self.lively[i] + 1, USED_TO_ALONE) if r > LIVELY * liveliest else 0
+                self.lively[i] = min(self.lively[i] + 1, USED_TO_ALONE) if lively else 0
         for fault, cells in self.failed.items():
             if fault is not CellFault.MISSING:
                 self.failed[fault] = [i for i in cells if i in suspected or self.lively[i] < 2]

@@ -1,0 +1,56 @@
+"""epsilon_P: what a touchdown is compensated by, for the foot that comes down and the mode that the wearer walks in.
+
+After Gong et al. 2023 (Sensors 23, 5417), equation (8) and table 1. What the paper leaves open, and what is taken here:
+
+- Unit of table 1. Its header says mm, but values of 0.34 to 1.8 mm would move the end of a side of 4 m, some six or
+  seven steps, by less than 5 mm, while table 4 has IV better than III by up to 15 cm there. Centimetres fit that in
+  kind. Table 4 is headed mm as well, and its values (0.17 at the corner C of 4.0 m) are metres.
+- Axes of table 1. x goes across and y along the direction of walking; x to the right, so that x, y and up are right
+  handed.
+"""
+
+from __future__ import annotations
+
+from ..types import Foot, Vec3, WalkingMode
+
+Compensation = dict[Foot, dict[WalkingMode, tuple[float, float]]]
+"""(forward, left), m, by the foot that comes down and the mode."""
+
+_CM = 0.01
+TABLE_1: Compensation = {
+    foot: {mode: (y * _CM, -x * _CM) for mode, (x, y) in row.items()}
+    for foot, row in {
+        Foot.LEFT: {
+            WalkingMode.STRAIGHT: (0.34, 0.55),
+            WalkingMode.LEFT_WIDE: (0.19, 0.27),
+            WalkingMode.LEFT_TIGHT: (0.35, 0.97),
+            WalkingMode.RIGHT_WIDE: (-0.94, -0.52),
+            WalkingMode.RIGHT_TIGHT: (-1.28, -1.73),
+        },
+        Foot.RIGHT: {
+            WalkingMode.STRAIGHT: (-0.23, 0.62),
+            WalkingMode.LEFT_WIDE: (0.97, -0.48),
+            WalkingMode.LEFT_TIGHT: (1.25, -1.8),
+            WalkingMode.RIGHT_WIDE: (-0.16, 0.24),
+            WalkingMode.RIGHT_TIGHT: (-0.34, 1.02),
+        },
+    }.items()
+}
+"""Table 1, (x, y) in cm, as it is used here. It holds for the paper's wearers, limbs and sensors; `solepath calibrate
+modes` finds a wearer's own."""
+
+
+def chosen(table: Compensation, foot: Foot, mode: WalkingMode) -> tuple[float, float]:
+    """(forward, left) of `foot` in `mode`, m; nothing where the table has no such row."""
+    return table.get(foot, {}).get(mode, (0.0, 0.0))
+
+
+def epsilon_p(table: Compensation, foot: Foot, mode: WalkingMode, direction: tuple[float, float]) -> Vec3:
+    """epsilon_P of (8) as a vector of the world, m; `direction` of walking, world, of length 1."""
+    (c, s), (forward, left) = direction, chosen(table, foot, mode)
+    return (forward * c - left * s, forward * s + left * c, 0.0)
+
+
+def with_own(table: Compensation, own: Compensation) -> Compensation:
+    """The table with a wearer's `own` values in place of its own, where there are any."""
+    return {foot: {**table.get(foot, {}), **own.get(foot, {})} for foot in Foot}
