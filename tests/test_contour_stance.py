@@ -7,6 +7,8 @@ from math import inf, radians
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from solepath import LayoutKnown, Limitation, Session, StepTaken, machine
 from solepath.foot.contour_stance import ContourVelocity, GyroscopeMagnitude
@@ -51,19 +53,69 @@ def test_a_rate_that_stays_low_is_a_standing_foot() -> None:
     assert rates(GyroscopeMagnitude(), 3.0, 0.1, 0.1, 0.1, 0.1) == [False, False, False, False, True]
 
 
-def test_between_its_thresholds_it_says_what_it_said() -> None:
-    assert rates(GyroscopeMagnitude(lasting=0.0), 0.3, 0.2, 0.3, 0.45, 0.3, 0.2) == [
-        False,
-        True,
-        True,
-        False,
-        False,
-        True,
-    ]
+def test_it_says_what_it_said_until_the_foot_turns_much_faster_than_at_its_quietest() -> None:
+    # 0.2 rad/s is less than `below` 0.25: the stance ends at 1.6 times 0.25
+    assert rates(GyroscopeMagnitude(lasting=0.0), 0.6, 0.2, 0.39, 0.41, 0.6) == [False, True, True, False, False]
+    # and where 0.45 rad/s was the quietest moment, at 1.6 times that
+    assert rates(GyroscopeMagnitude(lasting=0.0), 0.6, 0.45, 0.71, 0.73) == [False, True, True, False]
 
 
 def test_a_calm_moment_within_a_swing_is_too_short() -> None:
     assert not any(rates(GyroscopeMagnitude(), 2.0, 0.2, 0.1, 0.1, 1.0, 2.0))
+
+
+def strides(quietest: float, count: int = 8) -> list[float]:
+    """Rates of so many strides of 1.1 s, at 100 Hz: half a second of swing, and a stance that is quietest in its
+    middle."""
+    swing = [3.0, *[5.0] * 48, 3.0]
+    stance = [quietest + (3.0 - quietest) * (abs(k - 30) / 30.0) ** 2 for k in range(60)]
+    return [rate for _ in range(count) for rate in (*swing, *stance)]
+
+
+@pytest.mark.parametrize("quietest", [0.03, 0.3, 0.6, 0.9, 1.2])
+def test_a_wobbling_foot_stands_in_each_of_its_stances_once_its_quietest_moments_are_known(quietest: float) -> None:
+    still = rates(GyroscopeMagnitude(), *strides(quietest))
+    stands = [any(still[k : k + 110]) for k in range(0, len(still), 110)]
+    assert all(stands[2:])
+    swings = [still[k + 10 : k + 50] for k in range(0, len(still), 110)]
+    assert not any(any(swing) for swing in swings)
+
+
+def test_the_threshold_of_a_foot_that_wobbles_little_is_no_higher_for_that() -> None:
+    detector = GyroscopeMagnitude()
+    rates(detector, *strides(0.03))
+    assert detector.levels == pytest.approx((0.03,) * 5, abs=0.02)
+    assert rates(detector, 3.0, *[0.3] * 50) == [False] * 51
+
+
+def test_standing_says_nothing_of_the_stances_of_walking() -> None:
+    detector = GyroscopeMagnitude()
+    rates(detector, *strides(0.6))
+    walking = detector.levels
+    rates(detector, *[5.0] * 50, *[0.0] * 200, 5.0)
+    assert detector.levels == walking
+
+
+@pytest.mark.parametrize("slowest", [0.5, 2.0, 6.0])
+def test_a_motion_without_any_rest_ends_at_its_quietest_moment(slowest: float) -> None:
+    turning = [slowest + (8.0 - slowest) * abs(k % 100 - 50) / 50.0 for k in range(500)]
+    still = rates(GyroscopeMagnitude(), *turning)
+    assert still.index(True) <= 350, "the first quietest moment after 2.5 s"
+    assert turning[still.index(True)] <= 1.8 * 1.4 * slowest
+
+
+@given(st.lists(st.integers(0, 400), min_size=20, max_size=60))
+def test_no_motion_of_any_kind_lasts_longer_than_some_seconds(values: list[int]) -> None:
+    cycle = [0.1 * value for value in values + values[::-1]]
+    repeated = (cycle * (1000 // len(cycle) + 1))[:1000]
+    assert any(rates(GyroscopeMagnitude(), *repeated))
+
+
+def test_a_gap_is_no_motion_that_has_lasted() -> None:
+    detector = GyroscopeMagnitude()
+    rates(detector, *[5.0] * 20)
+    later = [detector.update(9.0 + 0.01 * k, 0.01, ZERO, (0.0, 5.0, 0.0), None).hint for k in range(20)]
+    assert later == [None] * 20
 
 
 # --- the contours -----------------------------------------------------------------------------------------------------
@@ -149,7 +201,65 @@ def test_a_heel_without_contours_is_left_to_the_gyroscope_after_a_while() -> Non
     detector.wear(where)
     on_edge = heel(0.8, cells=tuple([100.0 if cell.y > 0.02 else 0.0 for cell in where.cells]))
     hints = fed(detector, [on_edge] * 30, rate=0.0)
-    assert hints[:20] == [None] * 20 and hints[21:] == [Phase.STATIONARY] * 9
+    assert hints[:10] == [None] * 10 and hints[11:] == [Phase.STATIONARY] * 19
+
+
+@pytest.mark.parametrize("pace", [2, 4])
+def test_between_loads_that_come_more_slowly_than_samples_the_contours_keep_their_word(pace: int) -> None:
+    where = layout(96, LEFT)
+    detector = ContourVelocity()
+    detector.wear(where)
+    air = heel(0.0, airborne=True, cells=(0.5,) * 96)
+    rests = heel(0.8, cells=pressed(where))
+    loads = [load if k % pace == 0 else None for k, load in enumerate([*[air] * 12, *[rests] * 28])]
+    hints = fed(detector, loads, rate=2.0)  # a gyroscope that never rests
+    assert hints[:12] == [Phase.SWING] * 12 and hints[20:] == [Phase.STATIONARY] * 20
+    detector = ContourVelocity()
+    detector.wear(where)
+    hints = fed(detector, loads, rate=0.0)  # and one that rests in the air
+    assert hints[:12] == [Phase.SWING] * 12
+
+
+def test_a_load_that_is_not_heard_of_for_long_is_left_to_the_gyroscope() -> None:
+    where = layout(96, LEFT)
+    detector = ContourVelocity()
+    detector.wear(where)
+    hints = fed(detector, [*[heel(0.8, cells=pressed(where))] * 10, *[None] * 10], rate=2.0)
+    assert hints[9:14] == [Phase.STATIONARY] * 5 and hints[15:] == [None] * 5
+
+
+def test_the_contours_of_a_loose_insole_rest_at_the_wearers_own_slowest() -> None:
+    where = layout(96, LEFT)
+    detector = ContourVelocity()
+    detector.wear(where)
+    air = heel(0.0, airborne=True, cells=(0.5,) * 96)
+    creeping = [heel(0.8, cells=pressed(where, 0.040 + 0.00008 * k)) for k in range(40)]  # 8 mm/s
+    rolling = [heel(0.8, cells=pressed(where, 0.035 + 0.0005 * k)) for k in range(40)]  # 5 cm/s
+    stride = [*[air] * 50, *creeping]
+    hints = fed(detector, stride)
+    assert Phase.STATIONARY not in hints
+    for k in range(3):
+        hints = [
+            detector.update(1.0 + k + 0.01 * n, 0.01, (0.0, 0.0, GRAVITY), (0.0, 2.0, 0.0), load).hint
+            for n, load in enumerate(stride)
+        ]
+    assert hints[60:] == [Phase.STATIONARY] * 30
+    for n, load in enumerate([*[air] * 50, *rolling]):
+        detector.update(4.0 + 0.01 * n, 0.01, (0.0, 0.0, GRAVITY), (0.0, 2.0, 0.0), load)
+        assert not detector.still
+
+
+@pytest.mark.parametrize("share", [0.0, 0.08])
+def test_a_heel_that_never_comes_down_leaves_no_motion_without_an_end(share: float) -> None:
+    where = layout(96, LEFT)
+    detector = ContourVelocity()
+    detector.wear(where)
+    on_toes = heel(share, airborne=share == 0.0, cells=pressed(where))
+    calm = [
+        detector.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, 2.0 + 3.0 * abs(k % 100 - 50) / 50.0, 0.0), on_toes)
+        for k in range(400)
+    ]
+    assert Phase.STATIONARY in [stance.hint for stance in calm]
 
 
 def test_as_long_as_the_load_is_not_known_the_gyroscope_speaks() -> None:
