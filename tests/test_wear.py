@@ -19,6 +19,7 @@ from solepath.events import FeetSwapped, FootHeard, FootSilent, StepTaken
 from solepath.sim.faults import silent
 from solepath.sim.insoles import layout
 from solepath.sim.route import Route
+from solepath.sim.walk import emulate
 from solepath.sim.walker import Walker
 from solepath.types import Foot, Sample, Site
 from walks import LEFT, RIGHT, SHORT, of, samples
@@ -208,6 +209,38 @@ def test_twenty_walks_of_many_speeds_are_told_apart_from_their_exchanged_selves(
     both = samples(route, cells=24, seed=seed)
     assert said(FeetSwapped, both) == []
     assert len(said(FeetSwapped, exchanged(both))) == 1
+
+
+def backwards(walk: tuple[Sample, ...]) -> tuple[Sample, ...]:
+    """The same walk from its end to its beginning: forces and places are as they were, turns are the other way."""
+    end = walk[-1].t
+    return tuple(
+        evolve(s, t=end - s.t, gyro=None if s.gyro is None else (-s.gyro[0], -s.gyro[1], -s.gyro[2]))
+        for s in reversed(walk)
+    )
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_who_walks_backwards_has_no_feet_exchanged(seed: int) -> None:
+    back = backwards(walk(seed))
+    assert len(said(StepTaken, back)) > 24
+    assert said(FeetSwapped, back) == []
+
+
+def test_devices_that_say_that_they_are_on_the_right_feet_are_believed() -> None:
+    session = Session()
+    told = session.feed(emulate(WALK, seed=1).packets)
+    assert of(FeetSwapped, told) == []
+    sides = session._state.wearer.wear.sides
+    assert sides.left.told and sides.right.told
+    sides.left.roll = sides.right.roll = Average(count=24, mean=0.2)
+    assert not sides._agree()
+
+
+def test_a_calibration_does_not_say_which_device_is_on_which_foot() -> None:
+    known = Calibration({foot: InsoleCalibration(layout(24, foot)) for foot in Foot})
+    items = exchanged(samples(WALK, rate=50.0))
+    assert len(said(FeetSwapped, items, Session(calibration=known))) == 1
 
 
 def test_one_foot_alone_is_never_taken_for_the_other() -> None:

@@ -66,6 +66,7 @@ class Wearer:
         if isinstance(event, LayoutKnown):
             tracker = self._tracker(foot)
             tracker.wear(event.layout)
+            self.wear.told(foot, event.layout)
             self._keep(tracker)
         elif isinstance(event, ClockReset):
             self._tracker(foot).interrupt()

@@ -2,10 +2,13 @@
 
 Exchanged feet are seen in one of three ways, the surest first:
 
-1. By the layouts: the left foot's device is laid out as a right insole, and the other way round.
+1. By the layouts: the left foot's device is laid out as a right insole, and the other way round. A device that says of
+   itself that it is on the right side is believed, whatever the other ways see.
 2. By the roll of the foot, where there are inertial sensors. A foot lands on the outer edge of its heel: at
    heel-strike it is rolled outwards against its mean over the swing. The axes are the foot's own (up as it stands, left
-   as it turns over the toes), so mounting does not matter.
+   as it turns over the toes), so mounting does not matter. Whoever walks backwards leaves the ground over the heel, and
+   looks exchanged by these axes; toes turn further than heels, so a step is judged only if the foot turned further
+   before it left the ground than after it landed.
 3. By the centre of pressure, where there are cells and no inertial sensors: towards toe-off it goes inwards, to the big
    toe. Insoles whose cells are numbered as mirror images of each other look alike when they are exchanged together with
    their layouts; this way sees nothing of that.
@@ -26,7 +29,7 @@ from attrs import define, field
 
 from ..events import Event, StepTaken, ToeOff
 from ..foot.tracker import FootTracker
-from ..types import Foot, Sample, Vec3
+from ..types import Foot, Layout, Sample, Vec3
 from ..vector import ZERO, conjugate, rotate, sub
 
 UP: Vec3 = (0.0, 0.0, 1.0)
@@ -86,6 +89,8 @@ class Side:
     """How far outwards the centre of pressure goes before toe-off, m."""
     mirrored: bool = False
     """The layout is the other foot's."""
+    told: bool = False
+    """The device says that it is this foot's."""
     across: Vec3 | None = None
     """To the left, as the foot turns over its toes, sensor frame."""
     times: list[float] = field(factory=list)
@@ -139,10 +144,17 @@ class Sides:
         side.mirrored = layout is not None and layout.foot is not foot.foot
         return self._agree()
 
+    def told(self, foot: Foot, layout: Layout) -> None:
+        """The device on `foot` has said where its cells are, and with it whose insole it is."""
+        side = self.left if foot is Foot.LEFT else self.right
+        side.told = layout.foot is foot
+
     def _agree(self) -> bool:
         left, right = self.left, self.right
         if left.mirrored and right.mirrored:
             return True
+        if left.told or right.told:
+            return False
         if left.roll.count or right.roll.count:
             return left.roll.beyond(self.rolled, self.least) and right.roll.beyond(self.rolled, self.least)
         return left.centre.beyond(self.gone, self.least) and right.centre.beyond(self.gone, self.least)
@@ -178,6 +190,8 @@ def _land(side: Side, step: StepTaken, up: Vec3) -> None:
     pushed = sub(turns[off - 1], turns[bisect_right(times, begin - PUSH_OFF) - 1])
     if landed - off < FEW or hypot(*pushed) < TURNED:
         return
+    if hypot(*sub(turns[-1], turns[landed - 1])) > hypot(*pushed):
+        return  # backwards
     k = 1.0 / hypot(*pushed)
     x, y, z = pushed
     axis = (k * x, k * y, k * z)

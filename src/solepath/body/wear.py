@@ -6,7 +6,7 @@ from attrs import define, field
 
 from ..events import Event, FeetSwapped, FootHeard, FootSilent, StepTaken
 from ..foot.tracker import FootTracker
-from ..types import Foot, Sample
+from ..types import Foot, Layout, Sample
 from .sides import Sides
 
 
@@ -40,6 +40,10 @@ class Wear:
     right: Hearing = field(factory=Hearing, init=False)
     swapped: bool = field(default=False, init=False)
     """That has been said."""
+
+    def told(self, foot: Foot, layout: Layout) -> None:
+        """The device on `foot` has said where its cells are."""
+        self.sides.told(foot, layout)
 
     def heard(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
         """`foot` has used `sample`, and `events` are what came of it."""
