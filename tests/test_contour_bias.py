@@ -176,6 +176,18 @@ def test_without_a_calibration_nothing_is_taken_off() -> None:
     assert corrector.position == pytest.approx(ZERO, abs=1e-9)
 
 
+@pytest.mark.parametrize("turn", [0.0, 0.5 * pi, -2.0])
+def test_after_a_clock_reset_the_way_goes_on_whatever_the_heading_of_the_devices_new_world(turn: float) -> None:
+    corrector = begun(BiasZupt())
+    for world in (from_yaw(0.3), from_yaw(0.3 + turn)):
+        fed(corrector, STANDS, UP, 10, told=world)
+        corrector.velocity = (1.0, 0.0, 0.0)
+        fed(corrector, MOVES, UP, 100, told=world)
+        corrector.bridge(inf)
+    assert corrector.position == pytest.approx((2.0, 0.0, 0.0), abs=0.03)
+    assert rotate(corrector.attitude, (1.0, 0.0, 0.0)) == pytest.approx((1.0, 0.0, 0.0), abs=1e-6)
+
+
 # --- what every corrector does ----------------------------------------------------------------------------------------
 
 

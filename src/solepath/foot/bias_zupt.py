@@ -5,7 +5,7 @@ while the foot stands, and the drift that calibration laps have shown (calibrate
 
 from __future__ import annotations
 
-from math import atan2, exp, sqrt
+from math import atan2, exp, inf, sqrt
 
 from attrs import define, evolve, field
 
@@ -53,7 +53,8 @@ class BiasZupt(Strapdown):
     given: Quat | None = field(default=None, init=False)
     """The device's own attitude at the sample that comes next."""
     turned: float | None = field(default=None, init=False)
-    """From the device's own heading to that of navigation, rad; None as long as it has told none."""
+    """From the device's own heading to that of navigation, rad; None as long as it has told none since its clock began.
+    """
     measured: Vec3 = field(default=ZERO, init=False)
     """a_m of the last sample, sensor frame, m/s^2."""
     swing: float = field(default=0.0, init=False)
@@ -133,6 +134,8 @@ class BiasZupt(Strapdown):
         self.velocity = ZERO
         self.force = self.rate = None
         self.stood = self.swing = 0.0
+        if dt == inf:  # a clock that begins anew may be that of a device that did, and its world with it
+            self.turned = self.given = None
         return 0.0
 
     def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
