@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import inf, isinf
 
 import pytest
+from attrs import evolve
 
 from solepath import machine
 from solepath.calibration import Calibration, ShoeGeometry
@@ -14,7 +15,7 @@ from solepath.foot.known_velocity import KnownVelocity
 from solepath.foot.phase import Cue
 from solepath.foot.stance import Load, Stance
 from solepath.foot.swing_dedrift import SwingDedrift
-from solepath.types import Foot, Phase, Quat, Vec3
+from solepath.types import Cell, Foot, Layout, Phase, Quat, Vec3
 from solepath.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
 
 CELLS = (0.0,) * 96
@@ -127,6 +128,60 @@ def test_the_wearers_own_shoe_is_taken_from_the_calibration() -> None:
     assert KnownVelocity().calibrated(Foot.LEFT, Calibration()).shoe == KnownVelocity().shoe
 
 
+NO_AREAS = evolve(BOTH, heel=None, forefoot=None, centre=None)
+"""Nobody has said where the cells are."""
+
+
+def test_as_long_as_nobody_says_where_the_cells_are_a_foot_at_rest_stands() -> None:
+    known = detector()
+    moves = known.update(0.0, 0.01, STILL, (0.0, 3.0, 0.0), NO_AREAS, IDENTITY)
+    rests = [known.update(0.01 * k, 0.01, STILL, ZERO, NO_AREAS, IDENTITY) for k in range(10, 20)][-1]
+    assert moves.hint is None and isinf(moves.sigma)
+    assert rests.hint is Phase.STATIONARY and rests.v_ref == ZERO and rests.sigma < 0.05
+    assert known.update(0.2, 0.01, STILL, (0.0, 3.0, 0.0), evolve(AIR, heel=None), IDENTITY).hint is Phase.SWING
+
+
+def test_a_motion_longer_than_any_stride_ends_where_the_foot_is_quiet() -> None:
+    """An area that feels nothing: the cells never have both loaded."""
+    known = detector()
+    quiet = [known.update(0.01 * k, 0.01, STILL, ZERO, HEEL, IDENTITY).hint for k in range(600)]
+    first = quiet.index(Phase.STATIONARY)
+    assert 2.0 < 0.01 * first < 4.0
+    assert set(quiet[first:]) == {Phase.STATIONARY}
+    # once it was overdue it need not be as quiet: half a radian per second
+    slow = [known.update(6.0 + 0.01 * k, 0.01, STILL, (0.0, 0.5, 0.0), HEEL, IDENTITY).hint for k in range(10)]
+    assert slow[5:] == [Phase.STATIONARY] * 5
+    turns = [known.update(6.1 + 0.01 * k, 0.01, STILL, (0.0, 3.0, 0.0), HEEL, IDENTITY).hint for k in range(10)]
+    assert Phase.STATIONARY not in turns[5:]
+
+
+def test_a_shoe_that_nobody_measured_is_as_long_as_its_insole() -> None:
+    known = detector()
+    known.wear(Layout(2, Foot.LEFT, (Cell(0.03, 0.0), Cell(0.2, 0.0)), 0.228))
+    stances = said(known, (AIR, -0.35), (HEEL, -0.33), (HEEL, -0.30))
+    # 22.8 cm are four fifths of 28.5: (4) with L_r = 0.100: P_z at 0.315 rad = 0.0310 + 0.0276, times 3 rad/s
+    assert stances[2].v_ref[0] == pytest.approx(3.0 * 0.0586, rel=0.01)
+    known = KnownVelocity().calibrated(Foot.LEFT, Calibration(shoe=ShoeGeometry(height=0.04)))
+    known.wear(Layout(2, Foot.LEFT, (Cell(0.03, 0.0), Cell(0.2, 0.0)), 0.228))
+    assert known.worn == ShoeGeometry(height=0.04)
+
+
+def test_cells_that_have_both_loaded_again_end_a_long_motion_and_speak_as_before() -> None:
+    known = detector()
+    for k in range(400):
+        known.update(0.01 * k, 0.01, STILL, ZERO, HEEL, IDENTITY)
+    stances = [known.update(4.0 + 0.01 * k, 0.01, STILL, ZERO, BOTH, IDENTITY) for k in range(5)]
+    assert {(stance.hint, stance.statistic) for stance in stances} == {(Phase.STATIONARY, 0.5)}
+    assert known.update(4.05, 0.01, STILL, ZERO, HEEL, IDENTITY).hint is None
+
+
+@pytest.mark.parametrize("length", [0.0, 60.0])
+def test_a_length_that_no_shoe_has_is_not_believed(length: float) -> None:
+    known = detector()
+    known.wear(Layout(2, Foot.LEFT, (Cell(0.03, 0.0), Cell(0.2, 0.0)), length))
+    assert known.worn == ShoeGeometry()
+
+
 # --- the corrector ----------------------------------------------------------------------------------------------------
 
 ZERO_VELOCITY = Stance(ZERO, 0.01, 0.5, Phase.STATIONARY)
@@ -175,6 +230,33 @@ def test_only_the_swing_loses_a_line_as_in_equation_8() -> None:
     corrector = moved(fresh())
     assert corrector.position[0] == pytest.approx(0.012 + 0.0765 + 0.15)
     assert corrector.velocity == ZERO
+
+
+def test_a_heel_that_never_rolls_leaves_the_line_to_run_to_motion_end() -> None:
+    step = tuple((LANDED if stance.hint is Phase.LOADING else stance, cue) for stance, cue in STEP)
+    # error 0.8 at 0.8 s; drift rate (0.8 - 0.04) / (0.8 - 0.15) = 1.1692; swing 0.2 to 0.8:
+    # raw 0.32 - 0.02 = 0.30, less 0.04 x 0.6 + 1.1692 (0.65^2 - 0.05^2) / 2 = 0.024 + 0.2455
+    corrector = moved(fresh(), step)
+    assert corrector.position[0] == pytest.approx(0.012 + 0.0305, abs=1e-4)
+    assert corrector.error_index == pytest.approx(0.84)
+
+
+@pytest.mark.parametrize("v", [-0.6, 0.8])
+def test_a_rolling_velocity_far_from_one_that_was_zero_a_moment_ago_is_not_believed(v: float) -> None:
+    """Raw means are 0.05 and 0.15 m/s: no integration goes wrong by half a metre per second within 0.2 s, but a foot
+    that has left the ground, or slides, does not roll."""
+    step = ((rolling(v, Phase.PUSH_OFF), None), (rolling(v, Phase.PUSH_OFF), None), *STEP[2:])
+    corrector, plain = moved(fresh(), step), moved(LinearDedrift(tilt_rate=0.0), step)
+    assert corrector.error_index is None
+    assert corrector.position == pytest.approx(plain.position, abs=1e-12)
+    live = moved(fresh(), step[:2])
+    assert live.velocity[0] == pytest.approx(0.2) and live.position[0] == pytest.approx(0.02)
+
+
+def test_a_roll_that_is_believed_up_to_a_good_toe_off_stays_believed() -> None:
+    """The foot that goes on to contradict it had left the ground."""
+    early = (STEP[0], STEP[1], (rolling(0.9, Phase.PUSH_OFF), Cue.CLEAR), *STEP[3:])
+    assert moved(fresh(), early).error_index == pytest.approx(0.19)
 
 
 def test_the_error_index_is_that_of_equation_10() -> None:

@@ -180,3 +180,13 @@ def test_a_session_can_be_saved_at_any_sample_of_its_first_steps() -> None:
     for sample in samples(222, Foot.LEFT, 30.0)[:120]:
         session.feed(sample)
         json.dumps(session.snapshot(), allow_nan=False)
+
+
+def test_insoles_that_say_nothing_of_their_cells_make_no_step_longer_than_the_wearers() -> None:
+    """Before the order of loading has told where the cells are there are no areas, and the foot still stands."""
+    walk = samples(223, Foot.RIGHT, 100.0)
+    session = Session(recipes.BY_NAME["kupt"])
+    found, true = steps(session.feed(walk) + session.finish()), walker(223).truth().steps(Foot.RIGHT)
+    assert len(found) == len(true)
+    assert sum(step.stride_length for step in found) == pytest.approx(sum(step.length for step in true), abs=0.6)
+    assert max(step.stride_length for step in found) < 1.2 * max(step.length for step in true)

@@ -24,6 +24,7 @@ from attrs import define, evolve, field
 
 from ..types import Layout, Phase, Vec3
 from ..vector import TIE
+from .centre import centre
 from .cues import InertialCues, Seen
 from .phase import Cue
 from .stance import Load, Stance
@@ -66,7 +67,7 @@ class CopCues:
     """CLEAR: the sample before the last is the best candidate so far for toe-off. CONTACT: the last sample is that for
     heel-strike."""
     middle: float | None = field(default=None, init=False)
-    """x of the foot's centre, half-way between the first and the last cell, m; None without a layout."""
+    """x of the foot's centre, m; None without a layout."""
     stage: Stage = field(default=Stage.LEAVING, init=False)
     cop: float | None = field(default=None, init=False)
     """x of the centre of pressure in the last sample, m."""
@@ -99,8 +100,7 @@ class CopCues:
 
     def wear(self, layout: Layout) -> None:
         """The device said where its cells are."""
-        xs = [cell.x for cell in layout.cells]
-        self.middle = 0.5 * (min(xs) + max(xs)) if xs else None
+        self.middle = centre(layout)
         self.touch.wear(layout)
 
     def update(

@@ -23,11 +23,31 @@ from __future__ import annotations
 
 from math import asin, cos, hypot, sin, sqrt
 
-from attrs import define, field
+from attrs import define, evolve, field
 
 from ..calibration import ShoeGeometry
 from ..types import Quat, Vec3
 from ..vector import ZERO
+
+LENGTH = 0.285
+"""Of the shoe whose geometry is the default, m."""
+SHORTEST, LONGEST = 0.15, 0.40
+"""No insole is shorter or longer, m."""
+
+
+def shoe_for(length: float) -> ShoeGeometry:
+    """The default shoe in the size of an insole of `length` m: all that lies along the sole grows with it, the height
+    of the sensor does not. The default itself for a length that no insole has."""
+    shoe = ShoeGeometry()
+    if not SHORTEST <= length <= LONGEST:
+        return shoe
+    k = length / LENGTH
+    return evolve(
+        shoe,
+        heel_radius=k * shoe.heel_radius,
+        forefoot_radius=tuple([k * c for c in shoe.forefoot_radius]),
+        pivot_to_toe=tuple([k * c for c in shoe.pivot_to_toe]),
+    )
 
 
 def heel_place(shoe: ShoeGeometry, toe_up: float) -> tuple[float, float]:

@@ -17,6 +17,7 @@ from attrs import define, evolve, field
 
 from ..types import Layout
 from ..vector import TIE
+from .centre import centre
 from .pressure import Extremes
 from .stance import Load
 
@@ -66,9 +67,8 @@ class Touch:
 
     def wear(self, layout: Layout) -> None:
         """The device said where its cells are."""
-        xs = [cell.x for cell in layout.cells]
-        middle = 0.5 * (min(xs, default=0.0) + max(xs, default=0.0))
-        self.ahead = [x > middle for x in xs]
+        middle = centre(layout)
+        self.ahead = [] if middle is None else [cell.x > middle for cell in layout.cells]
 
     def anew(self) -> Touch:
         """For times that begin anew: where the cells are is kept, what they showed is not."""
