@@ -13,9 +13,11 @@ from hypothesis import strategies as st
 
 from solepath import Session, machine, recipes
 from solepath.body.fusion import POINTS, DoubleFoot, correlation, resampled, share
+from solepath.calibration import Calibration, InsoleCalibration
 from solepath.events import Event, FootSilent, StepFeatures, StepTaken, StrideFused
+from solepath.foot.centre import centre as centre_of
 from solepath.sim.route import Route
-from solepath.types import Foot, Site
+from solepath.types import Cell, Foot, Layout, Sample, Site
 from walks import insoles, of
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
@@ -208,6 +210,40 @@ def test_the_choice_of_the_foot_is_the_sign_of_equation_13_worked_by_hand() -> N
         assert b.chosen is (RIGHT if expected > 0.0 else LEFT)
         chosen.add(b.chosen)
     assert chosen == {LEFT, RIGHT}
+
+
+def test_a_foot_whose_step_is_abnormal_beside_a_normal_one_is_not_chosen_for_having_no_error() -> None:
+    steps = [step(LEFT, 2.0, 1.2, index=0.3), step(RIGHT, 2.55, 1.2, index=0.1)]
+    body, told = walked(*steps)
+    assert told[-1].chosen is RIGHT
+    body.step(step(LEFT, 3.1, 1.2, index=0.3, number=2), CENTRE)
+    before = body.right.distance
+    last = body.step(step(RIGHT, 3.65, 20.1, index=None, number=2), CENTRE)
+    # it counts as 1 m/s worse than the other, by the mean of both lengths
+    assert body.weighted == pytest.approx(0.2 * 1.2 - 1.0 * 0.5 * (20.1 + 1.2), abs=0.02)
+    assert last.chosen is LEFT
+    assert last.distance == pytest.approx(before + 1.2, abs=0.3)
+    # the other way round, with the normal step after the abnormal one
+    body, told = walked(step(LEFT, 2.0, 9.0, index=None), step(RIGHT, 2.55, 1.2, index=0.1))
+    assert [one.chosen for one in told] == [LEFT, RIGHT]
+
+
+def test_two_abnormal_steps_favour_neither_foot() -> None:
+    body, _ = walked(step(LEFT, 2.0, 0.7, index=None), step(RIGHT, 2.55, 1.4, index=None), step(LEFT, 3.1))
+    assert body.weighted == 0.0 and body.chosen is LEFT
+
+
+def test_the_centre_of_the_foot_is_half_way_between_the_first_and_the_last_cell() -> None:
+    """The paper's lie from 34 to 166 mm and it has the centre at 100 mm, wherever the insole ends."""
+    insole = Layout(3, LEFT, (Cell(0.034, 0.0), Cell(0.12, 0.0), Cell(0.166, 0.0)), 0.26)
+    session = Session(recipes.BY_NAME["kupt-dfpc"], calibration=Calibration(insoles={LEFT: InsoleCalibration(insole)}))
+    flat = Sample(0.0, Site.LEFT_FOOT, acc=(0.0, 0.0, 9.8), gyro=(0.0, 0.0, 0.0), pressure=(1.0, 2.0, 3.0))
+    session.feed(flat)
+    body = DoubleFoot()
+    body.foot_moved(session.feet[LEFT], flat, [step(LEFT, 2.0)])
+    assert body.left.latest[-1].rhythm[-1] == pytest.approx(0.1)
+    assert centre_of(insole) == pytest.approx(0.1)
+    assert centre_of(Layout(0, LEFT, (), 0.26)) is None
 
 
 def test_the_chosen_path_is_the_calibrated_one_in_the_foots_own_direction() -> None:

@@ -17,9 +17,12 @@ What the paper leaves open is settled here:
   one is shorter than `alike` of the other have r = 0.
 - (11) is computed as EI_other / (EI_other + r EI_own), which is the same and divides by zero only where both error
   indices are zero; there it is 1 / (1 + r), as for any two equal ones.
-- (13) adds up pairs of steps. A pair is a normal step and the step that calibrated it, each step in one pair at most:
-  with feet that take turns that is the k-th left with the k-th right one, and a step that is missing on one side
-  shifts nothing. While the sum is zero the foot that stepped first is the chosen one.
+- (13) adds up pairs of steps. A pair is a step and the other foot's before it, each step in one pair at most: with feet
+  that take turns that is the k-th left with the k-th right one, and a step that is missing on one side shifts nothing.
+  While the sum is zero the foot that stepped first is the chosen one.
+- An abnormal step has no error index, and left out of (13) it would speak for its foot. In a pair with a normal step it
+  counts as `abnormal` m/s worse than that, by the mean of both lengths as in (13): an absurd one weighs as much as it
+  is long. A pair of two abnormal steps favours neither foot.
 - A foot that took no step during `away` steps of the other is not chosen, whatever (13) says, and when it steps again
   its path goes on from the other's end: what it did meanwhile is not known.
 """
@@ -32,6 +35,7 @@ from math import isfinite, sqrt
 from attrs import define, field
 
 from ..events import Event, StepTaken, StrideFused
+from ..foot.centre import centre
 from ..foot.tracker import FootTracker
 from ..types import Foot, Sample, Site, Vec3
 from ..vector import ZERO, sub
@@ -99,6 +103,8 @@ class DoubleFoot:
     """s."""
     alike: float = 0.75
     away: int = 3
+    abnormal: float = 1.0
+    """m/s: about as much as the error indices of normal steps on recorded insoles."""
     # state
     left: Path = field(factory=Path, init=False)
     right: Path = field(factory=Path, init=False)
@@ -117,7 +123,7 @@ class DoubleFoot:
         if not steps:
             return []
         layout = foot.insole.layout
-        return [self.step(step, None if layout is None else 0.5 * layout.length) for step in steps]
+        return [self.step(step, None if layout is None else centre(layout)) for step in steps]
 
     def limb_moved(self, sample: Sample) -> list[Event]:
         """Never called: it has no such sites."""
@@ -145,11 +151,11 @@ class DoubleFoot:
                 similarity = 0.0
             coefficient = share(similarity, index, partner.error_index)
             length = coefficient * taken.stride_length + (1.0 - coefficient) * partner.length  # (12)
-            if not partner.paired:
-                partner.paired = paired = True
-                errs = index - partner.error_index
-                mean = 0.5 * (abs(length) + abs(partner.calibrated))
-                self.weighted += (errs if foot is Foot.LEFT else -errs) * mean  # (13)
+        if partner is not None and not partner.paired:
+            partner.paired = paired = True
+            errs = self._errs(index, partner.error_index)
+            mean = 0.5 * (abs(length) + abs(partner.calibrated))
+            self.weighted += (errs if foot is Foot.LEFT else -errs) * mean  # (13)
         stepped = Stepped(taken.t_end, taken.stride_length, length, index, rhythm, paired)
         path.latest = [*path.latest[1 - KEPT :], stepped]
         self._extend(path, others, taken, length)
@@ -170,6 +176,12 @@ class DoubleFoot:
             distance=wearer.distance,
             position=wearer.end,
         )
+
+    def _errs(self, own: float | None, other: float | None) -> float:
+        """By how much the one step errs more than the other, m/s."""
+        if own is None:
+            return 0.0 if other is None else self.abnormal
+        return -self.abnormal if other is None else own - other
 
     def _partner(self, taken: StepTaken, others: Path) -> Stepped | None:
         """The other foot's latest step before this one, unless it is too old."""
