@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import re
+from math import inf, nan
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -19,8 +22,18 @@ from solepath import (
     WalkingMode,
     read_calibration,
 )
-from solepath.calibration import InsoleCalibration, Limbs, Newtons, ShoeGeometry, merged, write_calibration
+from solepath.calibration import (
+    InsoleCalibration,
+    Limbs,
+    Newtons,
+    ShoeGeometry,
+    _limits,
+    merged,
+    unusable,
+    write_calibration,
+)
 from solepath.foot.pressure import in_newtons
+from solepath.sim.insoles import layout
 
 WHOLE = Calibration(
     insoles={
@@ -97,10 +110,105 @@ def test_a_raw_value_becomes_newtons_by_the_cubic_within_5_to_200() -> None:
 def test_a_layout_of_the_calibration_serves_samples_that_do_not_say_where_their_cells_are() -> None:
     session = Session(calibration=WHOLE)
     session.feed(Sample(0.0, Site.LEFT_FOOT, (0.0, 0.0, 9.81), (0.0, 0.0, 0.0), (20.0, 30.0)))
-    layout = session.feet[Foot.LEFT].insole.layout
-    assert layout is not None and layout.length == 0.26
+    worn = session.feet[Foot.LEFT].insole.layout
+    assert worn is not None and worn.length == 0.26
 
 
 def test_only_a_calibration_is_one() -> None:
     with pytest.raises(TypeError, match="Calibration"):
         Session(calibration="me.json")  # type: ignore[arg-type]
+
+
+# --- what cannot be ---
+
+
+def cells(*at: Cell, length: float = 0.26) -> Calibration:
+    return insole(layout=Layout(2, Foot.LEFT, at, length))
+
+
+def insole(**known: Any) -> Calibration:
+    return Calibration(insoles={Foot.LEFT: InsoleCalibration(**known)})
+
+
+ABSURD = {
+    "shoe.heel_radius": Calibration(shoe=ShoeGeometry(heel_radius=1e308)),
+    "shoe.height": Calibration(shoe=ShoeGeometry(height=-0.01)),
+    "shoe.steepest": Calibration(shoe=ShoeGeometry(steepest=1e200)),
+    "shoe.forefoot_radius": Calibration(shoe=ShoeGeometry(forefoot_radius=(0.07, 1e200))),
+    "shoe.pivot_to_toe": Calibration(shoe=ShoeGeometry(pivot_to_toe=(0.09, 90.0))),
+    "coefficients in shoe.pivot_to_toe": Calibration(shoe=ShoeGeometry(pivot_to_toe=())),
+    "drift.left": Calibration(drift={Foot.LEFT: (0.0, 1e308)}),
+    "limbs.thigh": Calibration(limbs=Limbs(thigh=0.0)),
+    "limbs.shank": Calibration(limbs=Limbs(shank=-0.4)),
+    "weight": Calibration(weight=1e307),
+    "modes.right.LEFT_TIGHT": Calibration(modes={Foot.RIGHT: {WalkingMode.LEFT_TIGHT: (1e200, 0.0)}}),
+    r"insoles.left.noise\[1\]": insole(noise=(1.0, -1e308)),
+    r"insoles.left.layout.cells\[0\].x": cells(Cell(1e308, 0.0)),
+    r"insoles.left.layout.cells\[0\].y": cells(Cell(0.1, 1e308)),
+    "insoles.left.layout.length": cells(Cell(0.1, 0.0), length=0.0),
+    "insoles.left.layout.length is 1e\\+308": cells(Cell(0.1, 0.0), length=1e308),
+    "cells in insoles.left.layout": cells(),
+    "insoles.left.newtons.coefficients": insole(newtons=Newtons((0.0, 1e308, 0.0, 0.0))),
+    "insoles.left.newtons.threshold": insole(newtons=Newtons((0.0, 1.0, 0.0, 0.0), threshold=9.0, most=8.0)),
+    "insoles.left.newtons.most": insole(newtons=Newtons((0.0, 1.0, 0.0, 0.0), most=1e308)),
+}
+
+
+@pytest.mark.parametrize("key", ABSURD)
+def test_a_calibration_of_what_cannot_be_is_refused_with_its_file_and_its_key(tmp_path: Path, key: str) -> None:
+    write_calibration(tmp_path / "me.json", ABSURD[key])
+    with pytest.raises(CalibrationError, match=key) as refused:
+        read_calibration(tmp_path / "me.json")
+    assert "me.json" in str(refused.value) and "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("key", ABSURD)
+def test_a_session_does_not_begin_with_what_cannot_be(key: str) -> None:
+    with pytest.raises(ValueError, match=key):
+        Session(calibration=ABSURD[key])
+
+
+@pytest.mark.parametrize("what", [nan, inf, "heavy", True])
+def test_a_weight_that_is_no_number_is_refused(what: Any) -> None:
+    with pytest.raises(CalibrationError, match="weight"):
+        Session(calibration=Calibration(weight=what))
+
+
+def test_what_can_be_is_not_refused() -> None:
+    assert unusable(WHOLE) is None
+    assert unusable(Calibration()) is None
+    for size in (24, 35, 96, 99):
+        assert unusable(insole(layout=layout(size, Foot.LEFT))) is None
+
+
+def test_the_limits_are_those_of_the_protocol() -> None:
+    rows = (Path(__file__).parents[1] / "protocol" / "calibration.md").read_text().partition("## Limits")[2]
+    numbers = {float(number) for number in re.findall(r"-?\d+(?:\.\d+)?(?:e-?\d+)?", rows)}
+    limits = [*_limits(WHOLE)]
+    assert {least for _, _, least, _, _ in limits} | {most for _, _, _, most, _ in limits} <= numbers
+
+
+# --- files that are no calibrations ---
+
+
+@pytest.mark.parametrize("text", ["[" * 100_000, '{"format": ' * 100_000])
+def test_a_file_nested_a_hundred_thousand_deep_is_refused(tmp_path: Path, text: str) -> None:
+    (tmp_path / "deep.json").write_text(text)
+    with pytest.raises(CalibrationError, match="deep.json"):
+        read_calibration(tmp_path / "deep.json")
+
+
+def test_a_file_without_an_end_or_too_large_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(CalibrationError, match="/dev/zero: is no regular file"):
+        read_calibration("/dev/zero")
+    (tmp_path / "large.json").write_bytes(b" " * 20_000_000)
+    with pytest.raises(CalibrationError, match="large"):
+        read_calibration(tmp_path / "large.json")
+
+
+@pytest.mark.parametrize("text", ["null", '{"insoles": {"middle": {}}}', '{"insoles": []}'])
+def test_what_is_wrong_is_said_without_words_of_the_inside(tmp_path: Path, text: str) -> None:
+    (tmp_path / "bad.json").write_text(f'{{"format": "solepath-calibration", "version": 1, "calibration": {text}}}')
+    with pytest.raises(CalibrationError) as refused:
+        read_calibration(tmp_path / "bad.json")
+    assert "snapshot" not in str(refused.value)

@@ -7,9 +7,9 @@ Everything here is optional: a session without a calibration runs on defaults an
 from __future__ import annotations
 
 import json
-from math import isfinite
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from attrs import evolve, field, fields, frozen
 
@@ -18,6 +18,8 @@ from .types import Foot, Layout, WalkingMode
 
 FORMAT = "solepath-calibration"
 VERSION = 1
+LARGEST = 8_000_000
+"""Bytes of a file; two insoles of a thousand cells have a hundredth of that."""
 
 
 class CalibrationError(ValueError):
@@ -141,13 +143,15 @@ def write_calibration(path: Path | str, calibration: Calibration) -> None:
 
 
 def read_calibration(path: Path | str) -> Calibration:
-    """The calibration in a file. CalibrationError when the file cannot be read or is not one."""
+    """The calibration in a file. CalibrationError when the file cannot be read, is not one, or holds what cannot be."""
     try:
-        told = json.loads(Path(path).read_text(encoding="utf-8"))
+        told = json.loads(_text(Path(path)))
     except OSError as error:
         raise CalibrationError(f"{path}: {error.strerror}") from None
     except ValueError as error:
         raise CalibrationError(f"{path}: is not JSON ({error})") from None
+    except RecursionError:
+        raise CalibrationError(f"{path}: is not a calibration: it is nested too deeply") from None
     if not isinstance(told, dict) or told.get("format") != FORMAT:
         raise CalibrationError(f"{path}: is not a calibration")
     if told.get("version") != VERSION:
@@ -155,16 +159,98 @@ def read_calibration(path: Path | str) -> Calibration:
     try:
         found = load(Calibration, told.get("calibration"))
     except SnapshotError as error:
-        raise CalibrationError(f"{path}: {error}") from None
-    for number in _numbers(told["calibration"]):
-        if not isfinite(number):
-            raise CalibrationError(f"{path}: holds {number}")
+        what = str(error).removeprefix("not a snapshot of Calibration: ")
+        raise CalibrationError(f"{path}: is not a calibration ({what})") from None
+    why_not = unusable(found)
+    if why_not is not None:
+        raise CalibrationError(f"{path}: {why_not}")
     return found
 
 
-def _numbers(value: Any) -> list[float]:
-    if isinstance(value, dict):
-        value = list(value.values())
-    if isinstance(value, list):
-        return [number for item in value for number in _numbers(item)]
-    return [float(value)] if isinstance(value, int | float) else []
+def _text(path: Path) -> str:
+    """CalibrationError for what is no file, as a device that never ends, or too large to be a calibration."""
+    if path.exists() and not path.is_file():
+        raise CalibrationError(f"{path}: is no regular file")
+    with path.open("rb") as file:
+        data = file.read(LARGEST + 1)
+    if len(data) > LARGEST:
+        raise CalibrationError(f"{path}: is larger than any calibration, which has {LARGEST // 1_000_000} MB at most")
+    return data.decode("utf-8")
+
+
+# --- what can be ------------------------------------------------------------------------------------------------------
+
+_Limit = tuple[str, object, float, float, str]
+"""A key, its value, the least and the most that it can be, and their unit."""
+
+
+def unusable(calibration: Calibration) -> str | None:
+    """Why it cannot be used: the first key whose value is none of a wearer, a shoe or an insole; None when it can. The
+    limits are those of protocol/calibration.md."""
+    for key, value, least, most, unit in _limits(calibration):
+        if isinstance(value, bool) or not isinstance(value, int | float) or not least <= value <= most:
+            return f"{key} is {_shown(value)}; it can be {least:g} to {most:g}{unit}"
+    for foot, insole in calibration.insoles.items():
+        if insole.newtons is not None and insole.newtons.threshold > insole.newtons.most:
+            return f"insoles.{foot.value}.newtons.threshold is more than its most"
+    if calibration.shoe is not None:
+        return _unusable_shoe(calibration.shoe)
+    return None
+
+
+def _limits(calibration: Calibration) -> Iterator[_Limit]:
+    for foot, insole in calibration.insoles.items():
+        yield from _limits_of_insole(f"insoles.{foot.value}.", insole)
+    if calibration.shoe is not None:
+        shoe = calibration.shoe
+        yield "shoe.heel_radius", shoe.heel_radius, 0.001, 1.0, " m"
+        yield "shoe.height", shoe.height, 0.0, 1.0, " m"
+        yield "shoe.steepest", shoe.steepest, 0.01, 1.6, " rad"
+        for key, polynomial in (("forefoot_radius", shoe.forefoot_radius), ("pivot_to_toe", shoe.pivot_to_toe)):
+            yield f"the number of coefficients in shoe.{key}", len(polynomial), 1, 16, ""
+            yield from ((f"shoe.{key}", coefficient, -100.0, 100.0, "") for coefficient in polynomial)
+    for foot, slope in calibration.drift.items():
+        yield from ((f"drift.{foot.value}", speed, -1.0, 1.0, " m/s") for speed in slope)
+    if calibration.limbs is not None:
+        for one in fields(Limbs):
+            yield f"limbs.{one.name}", getattr(calibration.limbs, one.name), 0.001, 1.5, " m"
+    if calibration.weight is not None:
+        yield "weight", calibration.weight, 50.0, 5000.0, " N"
+    for foot, modes in (calibration.modes or {}).items():
+        for mode, way in modes.items():
+            yield from ((f"modes.{foot.value}.{mode.value}", length, -0.5, 0.5, " m") for length in way)
+
+
+def _limits_of_insole(key: str, insole: InsoleCalibration) -> Iterator[_Limit]:
+    layout, newtons = insole.layout, insole.newtons
+    if layout is not None:
+        yield f"{key}layout.length", layout.length, 0.01, 1.0, " m"
+        yield f"the number of cells in {key}layout", len(layout.cells), 1, 4096, ""
+        for i, cell in enumerate(layout.cells):
+            yield f"{key}layout.cells[{i}].x", cell.x, -1.0, 1.0, " m"
+            yield f"{key}layout.cells[{i}].y", cell.y, -1.0, 1.0, " m"
+            yield f"{key}layout.cells[{i}].area", cell.area, 0.0, 1.0, " m^2"
+        if layout.scale is not None:
+            yield f"{key}layout.scale", layout.scale, 1e-9, 1e6, " N"
+        yield f"{key}layout.full_scale", layout.full_scale, 1e-6, 1e9, ""
+    if newtons is not None:
+        yield from ((f"{key}newtons.coefficients", one, -1e6, 1e6, "") for one in newtons.coefficients)
+        yield f"{key}newtons.threshold", newtons.threshold, 0.0, 1e5, " N"
+        yield f"{key}newtons.most", newtons.most, 0.001, 1e5, " N"
+    yield from ((f"{key}noise[{i}]", value, 0.0, 1e6, "") for i, value in enumerate(insole.noise))
+
+
+def _unusable_shoe(shoe: ShoeGeometry) -> str | None:
+    """The polynomials say lengths wherever they are good."""
+    for key, polynomial in (("forefoot_radius", shoe.forefoot_radius), ("pivot_to_toe", shoe.pivot_to_toe)):
+        for k in range(5):
+            pitch, length = 0.25 * k * shoe.steepest, 0.0
+            for coefficient in reversed(polynomial):
+                length = length * pitch + coefficient
+            if abs(length) > 1.0:
+                return f"shoe.{key} is {length:g} m at {pitch:.2g} rad; it can be -1 to 1 m"
+    return None
+
+
+def _shown(value: object) -> str:
+    return f"{value:g}" if isinstance(value, float) else repr(value)[:40]

@@ -18,7 +18,7 @@ from typing import Any
 from attrs import define, evolve, field
 
 from .body.position import Position
-from .calibration import Calibration
+from .calibration import Calibration, CalibrationError, unusable
 from .events import Event, PacketRejected, SampleRejected
 from .foot.phase import SUPPORT
 from .foot.tracker import FootTracker
@@ -49,7 +49,7 @@ class Session:
     also emit FootMoved, the live position at every sample. `devices`: the address of the device at a site
     (`Packet.device`, in upper or lower case); packets of other devices are rejected there. A site that is not named is
     bound to the first device that it hears. `profiles`: devices of the app's own (link/driver.py), beside those that
-    are known.
+    are known. CalibrationError, a ValueError, for a calibration of what cannot be (protocol/calibration.md).
 
     `feed`, `advance` and `finish` return the events that became known, in the order in which they did. `feed` is
     total: any bytes give events, never an exception, unless a reader of the app's own is itself wrong. TypeError for
@@ -79,6 +79,9 @@ class Session:
         known = Calibration() if calibration is None else calibration
         if not isinstance(known, Calibration):
             raise TypeError(f"calibration must be a Calibration, not {type(known).__name__}")
+        why_not = unusable(known)
+        if why_not is not None:
+            raise CalibrationError(f"calibration: {why_not}")
         self._state = _State(Wearer(deepcopy(recipe), deepcopy(known), poses))
         for site, device in ({} if devices is None else devices).items():
             self.bind(site, device)
