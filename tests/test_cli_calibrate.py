@@ -197,6 +197,17 @@ def test_laps_of_a_square_tell_the_drift(tmp_path):
     assert set(calibrated(out).drift) == {Foot.RIGHT}
 
 
+def test_a_straight_walk_is_no_laps_of_a_square_however_often_its_steps_are_counted(tmp_path):
+    out = tmp_path / "me.json"
+    long = tmp_path / "long.jsonl"
+    walk = emulate(Route().stand(2.0).walk(24.0, speed=1.3).stop(1.5), devices={Site.RIGHT_FOOT: Insole()}, seed=2)
+    with PacketWriter(long) as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    assert "the laps do not close" in refused("calibrate", "square", long, "--steps", 4, "--out", out)
+    assert not out.exists()
+
+
 def test_a_walk_over_marks_tells_what_touchdowns_are_off_by(tmp_path):
     walk = emulate(marked(WalkingMode.STRAIGHT, 14), devices={site: Insole(rate=50.0) for site in FEET}, seed=2)
     with PacketWriter(tmp_path / "walk.jsonl") as writer:

@@ -11,13 +11,14 @@ from attrs import evolve
 
 from solepath import Session, StepTaken
 from solepath.calibrate.recorded import recorded
-from solepath.calibrate.square import Mark, fit_square, fitted, read_marks, square_drift
+from solepath.calibrate.square import Mark, check, fit_square, fitted, read_marks, square_drift
 from solepath.calibration import Calibration, CalibrationError
 from solepath.foot.bias_zupt import BiasZupt
 from solepath.recipes import DEFAULT, GYROSCOPE, Recipe
 from solepath.sim.insole_device import Insole
 from solepath.sim.laps import square
 from solepath.sim.parts import AttitudePart
+from solepath.sim.route import Route
 from solepath.sim.walk import EmulatedWalk, emulate
 from solepath.types import Foot, Packet, Sample, Site, Vec3
 
@@ -61,7 +62,8 @@ def test_a_known_slope_comes_out_in_the_frame_of_the_device() -> None:
 
 
 def test_a_drift_that_all_laps_agree_on_is_kept_and_then_taken_off() -> None:
-    found = square_drift(samples(), steps_per_lap=PER_LAP, recipe=drifting(0.12, -0.08))
+    fast = (0.04, -0.025)
+    found = square_drift(samples(), steps_per_lap=PER_LAP, recipe=drifting(*fast))
     assert found.agreed and found.kept == found.slope
 
     def end(recipe: Recipe, calibration: Calibration) -> StepTaken:
@@ -70,9 +72,9 @@ def test_a_drift_that_all_laps_agree_on_is_kept_and_then_taken_off() -> None:
         return steps[-1]
 
     # what the recipe adds, the calibration takes off again, but for the stands, in which nothing is taken off
-    plain, mended = end(GYROSCOPE, Calibration()), end(GYROSCOPE, Calibration(drift={LEFT: (0.12, -0.08)}))
+    plain, mended = end(GYROSCOPE, Calibration()), end(GYROSCOPE, Calibration(drift={LEFT: fast}))
     apart = hypot(*(a - b for a, b in zip(plain.position[:2], mended.position[:2], strict=True)))
-    assert apart == pytest.approx(hypot(0.12, 0.08) * plain.t, rel=0.1)
+    assert apart == pytest.approx(hypot(*fast) * plain.t, rel=0.1)
 
 
 def test_what_the_laps_do_not_agree_on_is_not_taken_off_unless_it_is_asked_for() -> None:
@@ -122,6 +124,49 @@ def test_a_drift_known_before_is_not_taken_off_while_calibrating() -> None:
     assert square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE, calibration=known) == square_drift(
         samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE
     )
+
+
+def steps_at(*places: tuple[float, float, float]) -> dict[str, list[tuple[float, Vec3]]]:
+    """Visits of four marks, from rows of t, x, y."""
+    visits: dict[str, list[tuple[float, Vec3]]] = {}
+    for number, (t, x, y) in enumerate(places):
+        visits.setdefault(str(number % 4), []).append((t, (x, y, 0.0)))
+    return visits
+
+
+def laps_of_four(drift: float, turn: float = 0.0) -> dict[str, list[tuple[float, Vec3]]]:
+    """Four laps of a square of 12 m, a corner every 15 s, that moves by `drift` m/s along y, and by `turn` m along x
+    after two laps."""
+    corners = ((0.0, 0.0), (12.0, 0.0), (12.0, 12.0), (0.0, 12.0))
+    return steps_at(
+        *[
+            (15.0 * k, corners[k % 4][0] + (turn if k >= 8 else 0.0), corners[k % 4][1] + drift * 15.0 * k)
+            for k in range(16)
+        ]
+    )
+
+
+def test_laps_that_drift_by_some_centimetres_a_second_are_taken() -> None:
+    check(fitted(LEFT, laps_of_four(0.045), 0.0), laps_of_four(0.045))
+
+
+def test_a_faster_drift_is_no_drift() -> None:
+    with pytest.raises(CalibrationError, match="a drift of 6.0 cm/s: more than 5 cm/s are no drift"):
+        check(fitted(LEFT, laps_of_four(0.06), 0.0), laps_of_four(0.06))
+
+
+def test_laps_that_do_not_close_are_refused_though_their_slope_is_small() -> None:
+    askew = laps_of_four(0.0, turn=9.0)
+    with pytest.raises(CalibrationError, match="laps do not close: a mark lies 9.0 m from where it lay a lap before"):
+        check(fitted(LEFT, askew, 0.0), askew)
+
+
+def test_a_straight_walk_is_no_laps() -> None:
+    straight = steps_at(*[(1.1 * k, 1.3 * k, 0.0) for k in range(20)])
+    with pytest.raises(CalibrationError, match="laps do not close: a mark lies 5.2 m from"):
+        check(fitted(LEFT, straight, 0.0), straight)
+    walk = emulate(Route().stand(2.0).walk(25.0, 1.2).stop(1.0), devices={Site.LEFT_FOOT: Insole(rate=50.0)}, seed=3)
+    assert "the laps do not close" in refused(items=walk.packets, steps_per_lap=4)
 
 
 # --- bad input --------------------------------------------------------------------------------------------------------

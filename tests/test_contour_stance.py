@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 from math import inf, radians
 
@@ -160,7 +161,7 @@ def heel(share: float, *, airborne: bool = False, cells: tuple[float, ...] = ())
     return Load(share, share, 0.0, share, airborne, cells)
 
 
-def fed(detector: ContourVelocity, loads: list[Load | None], rate: float = 2.0) -> list[Phase | None]:
+def fed(detector: ContourVelocity, loads: Sequence[Load | None], rate: float = 2.0) -> list[Phase | None]:
     return [
         detector.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, rate, 0.0), load).hint
         for k, load in enumerate(loads)

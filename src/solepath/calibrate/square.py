@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterable, Mapping, Sequence
-from math import atan2, inf, isfinite
+from math import atan2, hypot, inf, isfinite
 from pathlib import Path
 
 import numpy as np
@@ -37,6 +37,11 @@ FEWEST_LAPS = 3
 """Two points lie on any line."""
 CHANCE = 0.01
 """Of keeping a slope where nothing drifts."""
+LARGEST = 0.05
+"""A foot whose velocity is reset at every step does not drift faster, m/s: 5 cm a step."""
+CLOSES = 0.25
+"""From one visit of a mark to the next it may seem to move by this share of the square's diagonal, beside a drift: the
+laps of a square of 11.7 m then end within 4 m, 9 % of their way."""
 NEAR = 1.0
 """A step ends at a mark when it ends within this of the time that the marks' file says, s."""
 
@@ -97,7 +102,8 @@ def square_drift(
 ) -> SquareDrift:
     """Run the laps through a session and fit the lines. With `marks` every visit is the step that ends nearest to its
     time; without, every `steps_per_lap`-th step is on the same mark. `foot`: whose; the right one's where both were
-    recorded. CalibrationError when there are too few laps, or a recipe that cannot use a drift."""
+    recorded. CalibrationError when there are too few laps, or they are none (`check`), or a recipe that cannot use a
+    drift."""
     if not isinstance(recipe.corrector, BiasZupt):
         raise CalibrationError(f"recipe {recipe.name} takes no drift off")
     known = Calibration() if calibration is None else calibration
@@ -116,7 +122,9 @@ def square_drift(
     turned = corrector.turned if isinstance(corrector, BiasZupt) else None
     north = tracker.gait.world.north or (1.0, 0.0)
     back = -atan2(north[1], north[0]) - (turned or 0.0)
-    return fitted(chosen, visits, back)
+    found = fitted(chosen, visits, back)
+    check(found, visits)
+    return found
 
 
 def read_marks(path: Path | str) -> tuple[Mark, ...]:
@@ -208,3 +216,27 @@ def fitted(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], back: flo
     agreed = k > 0 and x * x + y * y > 2.0 * scatter * scatter * k * (CHANCE ** (-1.0 / k) - 1.0)
     sx, sy, _ = rotate(from_yaw(back), (x, y, 0.0))
     return SquareDrift(foot, (sx, sy), scatter, agreed, len(slopes), used)
+
+
+def check(found: SquareDrift, visits: Mapping[str, list[tuple[float, Vec3]]]) -> None:
+    """CalibrationError when what was walked is no laps of a square: when from one lap to the next the marks, in the
+    mean, lie farther apart than `LARGEST` and `CLOSES` allow, or the drift is larger than `LARGEST`."""
+    marks = [np.array([(t, x, y) for t, (x, y, _) in places]) for places in visits.values() if len(places) > 1]
+    middles = np.array([mark[:, 1:].mean(axis=0) for mark in marks])
+    diagonal = float(np.linalg.norm(np.ptp(middles, axis=0)))
+    moves: dict[int, list[tuple[float, float]]] = {}
+    for mark in marks:
+        for number, (lasted, dx, dy) in enumerate(np.diff(mark, axis=0)):
+            moves.setdefault(number, []).append((float(lasted), hypot(dx, dy)))
+    for lap in moves.values():
+        lasted, moved = np.mean(lap, axis=0)
+        if moved > LARGEST * lasted + CLOSES * diagonal:
+            raise CalibrationError(
+                f"the laps do not close: a mark lies {moved:.1f} m from where it lay a lap before, "
+                f"the diagonal of all marks is {diagonal:.1f} m; is the number of steps a lap right?"
+            )
+    speed = hypot(*found.slope)
+    if speed > LARGEST:
+        raise CalibrationError(
+            f"a drift of {100.0 * speed:.1f} cm/s: more than {100.0 * LARGEST:.0f} cm/s are no drift of steps"
+        )
