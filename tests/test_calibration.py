@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 import re
 from math import inf, nan
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
 import pytest
+from attrs import evolve
 
 from solepath import (
     Calibration,
@@ -19,8 +21,10 @@ from solepath import (
     Sample,
     Session,
     Site,
+    StepTaken,
     WalkingMode,
     read_calibration,
+    recipes,
 )
 from solepath.calibration import (
     InsoleCalibration,
@@ -32,8 +36,11 @@ from solepath.calibration import (
     unusable,
     write_calibration,
 )
+from solepath.events import CellsFailed, Limitation
 from solepath.foot.pressure import in_newtons
+from solepath.recipes import Recipe
 from solepath.sim.insoles import layout
+from walks import of, samples
 
 WHOLE = Calibration(
     insoles={
@@ -186,6 +193,46 @@ def test_the_limits_are_those_of_the_protocol() -> None:
     numbers = {float(number) for number in re.findall(r"-?\d+(?:\.\d+)?(?:e-?\d+)?", rows)}
     limits = [*_limits(WHOLE)]
     assert {least for _, _, least, _, _ in limits} | {most for _, _, _, most, _ in limits} <= numbers
+
+
+# --- of another insole ---
+
+OTHERS = Calibration({foot: InsoleCalibration(layout=layout(35, foot), noise=(0.5,) * 35) for foot in Foot})
+
+
+@pytest.mark.parametrize("recipe", [recipes.ZUPT, recipes.KUPT_DFPC, recipes.DEFAULT], ids=attrgetter("name"))
+def test_a_calibration_of_another_insole_is_named_and_the_walk_goes_on_without_it(recipe: Recipe) -> None:
+    items = samples(cells=96, rate=50.0)
+    session, bare = Session(recipe, calibration=OTHERS), Session(recipe)
+    told, plain = session.feed(items), bare.feed(items)
+    assert of(CellsFailed, told) == []
+    left = [event.what for event in of(Limitation, told) if event.site is Site.LEFT_FOOT]
+    assert [what for what in left if "calibration" in what] == [
+        "the calibration's layout has 35 cells, the left insole has 96: it is not used",
+        "the calibration's noise is of 35 cells, the left insole has 96: it is not used",
+    ]
+    assert of(StepTaken, told) == of(StepTaken, plain) != []
+
+
+def test_a_first_sample_that_is_cut_short_is_not_of_another_insole() -> None:
+    first, *others = samples(cells=96, rate=50.0)
+    known = Calibration({foot: InsoleCalibration(layout=layout(96, foot), noise=(0.0,) * 96) for foot in Foot})
+    session = Session(recipes.ZUPT, calibration=known)
+    told = session.feed([evolve(first, pressure=(0.0,) * 90), *others])
+    assert of(CellsFailed, told) == [] and of(Limitation, told) == []
+    assert all(foot.insole.layout == layout(96, foot.foot) for foot in session.feet.values())
+
+
+def test_cells_that_come_apart_from_the_inertial_samples_are_compared_too() -> None:
+    apart = [
+        part
+        for s in samples(cells=96, rate=50.0)
+        for part in (evolve(s, pressure=None), evolve(s, t=s.t + 0.004, acc=None, gyro=None))
+    ]
+    session = Session(recipes.ZUPT, calibration=OTHERS)
+    told = session.feed(sorted(apart, key=attrgetter("t")))
+    assert [event for event in of(Limitation, told) if "no pressure" in event.what] == []
+    assert of(StepTaken, told) != []
 
 
 # --- files that are no calibrations ---

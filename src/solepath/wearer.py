@@ -97,7 +97,7 @@ class Wearer:
             )
             layout = known.insole(foot).layout
             if layout is not None:
-                tracker.wear(layout)
+                tracker.suppose(layout)
         return tracker
 
     def _keep(self, tracker: FootTracker) -> None:

@@ -5,10 +5,12 @@ from __future__ import annotations
 from attrs import define, field
 
 from ..events import Event, Limitation
-from ..types import SITE_OF_FOOT, Foot
+from ..types import SITE_OF_FOOT, Foot, Layout
 
 WITHOUT = 1.0
 """For this long samples may lack something before the foot is said to have none, s."""
+CUT_SHORT = 0.5
+"""For this long samples may have another number of cells than the calibration before it is of another insole, s."""
 
 
 @define
@@ -21,6 +23,8 @@ class Limits:
     waiting: list[str] = field(factory=list, init=False)
     since: float | None = field(default=None, init=False)
     """Since when samples lack something, s."""
+    odd_since: float | None = field(default=None, init=False)
+    """Since when samples have another number of cells than the calibration says, s."""
 
     def later(self, what: str | None) -> None:
         """To be said with the next sample; None is nothing."""
@@ -45,3 +49,29 @@ class Limits:
             self.since = t
         if t - self.since >= WITHOUT:
             self.say(what, t, known_at, events)
+
+    def misfit(
+        self,
+        layout: Layout | None,
+        noise: tuple[float, ...],
+        count: int,
+        t: float,
+        known_at: float,
+        events: list[Event],
+    ) -> bool:
+        """This sample has `count` cells, and what the calibration says of them, layout or noise, is of another number;
+        True when that has lasted: it is said and not to be used."""
+        if self.odd_since is None or t < self.odd_since:
+            self.odd_since = t
+        if t - self.odd_since < CUT_SHORT:
+            return False
+        has = f"the {self.foot.value} insole has {count}: it is not used"
+        if layout is not None and len(layout.cells) != count:
+            self.say(f"the calibration's layout has {_cells(len(layout.cells))}, {has}", t, known_at, events)
+        if noise and len(noise) != count:
+            self.say(f"the calibration's noise is of {_cells(len(noise))}, {has}", t, known_at, events)
+        return True
+
+
+def _cells(count: int) -> str:
+    return "1 cell" if count == 1 else f"{count} cells"

@@ -88,6 +88,10 @@ class FootTracker:
     guess: LayoutGuess = field(init=False)
     guessed: bool = field(default=False, init=False)
     """The layout is a guess."""
+    supposed: Layout | None = field(default=None, init=False)
+    """The calibration's layout, until a sample with as many cells has come."""
+    compared: bool = field(default=False, init=False)
+    """What the calibration says of the cells is of as many as there are, or is not used."""
     gait: Gait = field(init=False)
     limits: Limits = field(init=False)
     scale_said: bool = field(default=False, init=False)
@@ -130,8 +134,24 @@ class FootTracker:
 
     def wear(self, layout: Layout) -> None:
         """The device said where its pressure cells are."""
-        self.guessed = False
+        self.guessed, self.supposed = False, None
         self._lay_out(layout)
+
+    def suppose(self, layout: Layout) -> None:
+        """A calibration says where the cells are: it is believed if samples have as many."""
+        self.supposed = layout
+
+    def _compare(self, count: int, t: float, known_at: float, events: list[Event]) -> None:
+        """A sample has `count` cells: whether the calibration is of this insole."""
+        layout, noise = self.supposed, self.insole.noise
+        if layout is not None and len(layout.cells) == count:
+            self.wear(layout)
+            layout = None
+        odd = layout is not None or (bool(noise) and len(noise) != count)
+        self.compared = not odd or self.limits.misfit(layout, noise, count, t, known_at, events)
+        if odd and self.compared:
+            self.supposed = None
+            self.insole.noise = noise if len(noise) == count else ()
 
     def _lay_out(self, layout: Layout) -> None:
         self.insole.wear(layout)
@@ -153,6 +173,7 @@ class FootTracker:
         if self.t is not None and self.levelled:
             self.corrector.bridge(inf)
         self.t = self.moved_at = self.pressed_at = self.limits.since = self.load = None
+        self.limits.odd_since = None
         self.gait.interrupt()
         # Windows over the old times would wait for the new ones to catch up. What was learnt stays.
         self.detector = evolve(self.detector)
@@ -183,6 +204,8 @@ class FootTracker:
             self.gait.step.spoil(t)
         load: Load | None = None
         cells: tuple[float, ...] = ()
+        if sample.pressure and not self.compared:
+            self._compare(len(sample.pressure), t, known_at, events)
         if sample.pressure or self.pressed:
             told = None if self.guessed else self.insole.layout
             events += self.health.update(t, known_at, sample.pressure or (), self.phase, sample.gyro, told)
