@@ -60,7 +60,7 @@ class GyroscopeMagnitude:
     t: float | None = field(default=None, init=False)
     """The last sample, s."""
     recent: deque[tuple[float, float]] = field(factory=deque, init=False)
-    """Time and |w| of the last `lasting` s."""
+    """|w| and time of the last `lasting` s."""
     since: float = field(default=0.0, init=False)
     """When the present stance or motion began, s."""
     still: bool = field(default=False, init=False)
@@ -98,13 +98,13 @@ class GyroscopeMagnitude:
     def _highest(self, t: float, rate: float) -> float | None:
         """|w| has not been higher for `lasting`; None while it has not been heard for so long."""
         recent = self.recent
-        recent.append((t, rate))
+        recent.append((rate, t))
         oldest = t - self.lasting + TIE
-        while len(recent) > 1 and recent[1][0] <= oldest:
+        while len(recent) > 1 and recent[1][1] <= oldest:
             recent.popleft()
-        if recent[0][0] > oldest:
+        if recent[0][1] > oldest:
             return None
-        return max([each for _, each in recent])
+        return max(recent)[0]
 
     def _threshold(self, moved: float) -> float:
         """For a foot that has moved for so long, s."""
