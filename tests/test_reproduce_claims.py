@@ -1,4 +1,6 @@
-"""What the README says came of the papers' claims, walked in full: `python -m pytest -m soak tests/test_reproduce_claims.py`.
+"""What the README says came of the papers' claims, walked in full.
+
+    python -m pytest -m soak tests/test_reproduce_claims.py
 
 Takes some minutes. What a claim missed is not asserted here but said there.
 """
