@@ -3,6 +3,7 @@
 import io
 import json
 import subprocess
+import sys
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
@@ -258,3 +259,55 @@ def test_every_kind_of_calibration_is_in_the_help(capsys):
     assert stop.value.code == 0
     words = {line.split()[0] for line in capsys.readouterr().out.splitlines() if line.strip()}
     assert words >= {"noise", "shoe", "square", "newton", "modes"}
+
+
+# --- what is no file, and nobody who reads ---------------------------------------------------------------------------
+
+
+def test_a_calibration_nested_too_deeply_is_refused_and_so_is_one_to_add_to(bare, tmp_path):
+    deep = tmp_path / "deep.json"
+    deep.write_text("[" * 100_000)
+    assert "deep.json" in refused("track", bare, "--calibration", deep)
+    (tmp_path / "postures.csv").write_text(POSTURES)
+    assert "deep.json" in refused("calibrate", "shoe", tmp_path / "postures.csv", "--out", deep)
+    assert deep.read_text() == "[" * 100_000
+
+
+@pytest.mark.parametrize("device", ["/dev/zero", "/dev/full"])
+def test_what_is_no_regular_file_is_neither_read_nor_written(bare, tmp_path, device):
+    (tmp_path / "postures.csv").write_text(POSTURES)
+    assert f"{device}: is no regular file" in refused("track", bare, "--calibration", device)
+    assert f"{device}: is no regular file" in refused("calibrate", "shoe", tmp_path / "postures.csv", "--out", device)
+
+
+def test_a_table_without_an_end_is_refused(tmp_path):
+    assert "/dev/zero: is larger" in refused("calibrate", "shoe", "/dev/zero", "--out", tmp_path / "me.json")
+
+
+def test_what_cannot_be_is_not_written_over_what_is_known(tmp_path):
+    out, below = tmp_path / "me.json", tmp_path / "below.npz"
+    write_calibration(out, Calibration(weight=700.0))
+    np.savez(below, t=np.arange(400) / 50.0, pressure=np.full((400, 4), -100.0))
+    why = refused("calibrate", "noise", below, "--out", out)
+    assert "nothing is written" in why and "insoles.right.noise[0] is -100" in why
+    assert calibrated(out) == Calibration(weight=700.0)
+
+
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
+def test_streams_that_are_closed_stop_nothing(bare, closed):
+    command = f'"{sys.executable}" -m solepath track "{bare}" {closed}'
+    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0 and "Traceback" not in done.stderr
+
+
+def test_a_full_device_is_told_in_one_line(bare):
+    command = f'"{sys.executable}" -m solepath track "{bare}" >/dev/full'
+    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2 and done.stderr.count("\n") == 1 and "No space left" in done.stderr
+
+
+def test_a_seed_below_zero_is_refused(capsys):
+    for command in (["reproduce", "kupt-dfpc"], ["demo"], ["emulate"]):
+        with pytest.raises(SystemExit, match="2"):
+            main([*command, "--seed", "-1"])
+        assert "'-1' is not a whole number" in capsys.readouterr().err

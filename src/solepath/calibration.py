@@ -145,7 +145,11 @@ def write_calibration(path: Path | str, calibration: Calibration) -> None:
 def read_calibration(path: Path | str) -> Calibration:
     """The calibration in a file. CalibrationError when the file cannot be read, is not one, or holds what cannot be."""
     try:
-        told = json.loads(_text(Path(path)))
+        if Path(path).exists() and not Path(path).is_file() and not Path(path).is_dir():
+            raise CalibrationError(f"{path}: is no regular file")
+        told = json.loads(bounded_text(Path(path)))
+    except CalibrationError:
+        raise
     except OSError as error:
         raise CalibrationError(f"{path}: {error.strerror}") from None
     except ValueError as error:
@@ -167,15 +171,14 @@ def read_calibration(path: Path | str) -> Calibration:
     return found
 
 
-def _text(path: Path) -> str:
-    """CalibrationError for what is no file, as a device that never ends, or too large to be a calibration."""
-    if path.exists() and not path.is_file():
-        raise CalibrationError(f"{path}: is no regular file")
+def bounded_text(path: Path, encoding: str = "utf-8") -> str:
+    """What is in a file. CalibrationError when it is larger than any of ours, or never ends; OSError and ValueError
+    when it cannot be read or is no text."""
     with path.open("rb") as file:
         data = file.read(LARGEST + 1)
     if len(data) > LARGEST:
-        raise CalibrationError(f"{path}: is larger than any calibration, which has {LARGEST // 1_000_000} MB at most")
-    return data.decode("utf-8")
+        raise CalibrationError(f"{path}: is larger than {LARGEST // 1_000_000} MB, too large for what it should be")
+    return data.decode(encoding)
 
 
 # --- what can be ------------------------------------------------------------------------------------------------------
@@ -234,7 +237,7 @@ def _limits_of_insole(key: str, insole: InsoleCalibration) -> Iterator[_Limit]:
             yield f"{key}layout.scale", layout.scale, 1e-9, 1e6, " N"
         yield f"{key}layout.full_scale", layout.full_scale, 1e-6, 1e9, ""
     if newtons is not None:
-        yield from ((f"{key}newtons.coefficients", one, -1e6, 1e6, "") for one in newtons.coefficients)
+        yield from ((f"{key}newtons.coefficients", one, -1e12, 1e12, "") for one in newtons.coefficients)
         yield f"{key}newtons.threshold", newtons.threshold, 0.0, 1e5, " N"
         yield f"{key}newtons.most", newtons.most, 0.001, 1e5, " N"
     yield from ((f"{key}noise[{i}]", value, 0.0, 1e6, "") for i, value in enumerate(insole.noise))

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Collection
+from io import StringIO
 from math import isfinite
 from pathlib import Path
 
 from attrs import frozen
 
-from ..calibration import CalibrationError
+from ..calibration import CalibrationError, bounded_text
 
 
 @frozen
@@ -46,8 +47,8 @@ def read_rows(path: Path | str, columns: Collection[str]) -> list[Row]:
     """The lines of a csv file below its header, empty ones left out. CalibrationError when the file cannot be read,
     lacks one of `columns`, or has a line of another length."""
     try:
-        with Path(path).open(encoding="utf-8-sig", newline="") as file:
-            lines = [[cell.strip() for cell in line] for line in csv.reader(file)]
+        text = StringIO(bounded_text(Path(path), "utf-8-sig"), newline="")
+        lines = [[cell.strip() for cell in line] for line in csv.reader(text)]
     except OSError as error:
         raise CalibrationError(f"{path}: {error.strerror}") from None
     except (UnicodeDecodeError, csv.Error) as error:

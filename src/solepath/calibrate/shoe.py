@@ -24,7 +24,7 @@ import numpy as np
 from attrs import frozen
 from numpy.typing import NDArray
 
-from ..calibration import Calibration, CalibrationError, ShoeGeometry
+from ..calibration import Calibration, CalibrationError, ShoeGeometry, bounded_text
 
 COLUMNS = ("pitch_deg", "L_r_m", "L_p2t_m")
 SINGLE = ("H_imu_m", "heel_L_r_m")
@@ -99,7 +99,7 @@ def _count(degrees: Column) -> int:
 
 def _read(path: Path) -> tuple[Column, dict[str, float]]:
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
+        lines = bounded_text(path, "utf-8-sig").splitlines()
     except OSError as error:
         raise CalibrationError(f"{path}: {error.strerror}") from None
     except UnicodeDecodeError:

@@ -30,23 +30,29 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from ..calibration import Calibration, CalibrationError, merged, read_calibration, write_calibration
+    from ..calibration import Calibration, CalibrationError, merged, read_calibration, unusable, write_calibration
     from ..recording import RecordingError, printable
 
     _check_writable(options.out)
     try:
         known = read_calibration(options.out) if options.out.exists() else Calibration()
         learnt, lines = options.learn(options, known)
+        whole = merged(known, learnt)
+        why_not = unusable(whole)
+        if why_not is not None:
+            raise CalibrationError(f"nothing is written, for this cannot be: {why_not}")
     except (CalibrationError, RecordingError) as error:
         raise Failure(printable(str(error), 2000)) from None
-    write_calibration(options.out, merged(known, learnt))
+    write_calibration(options.out, whole)
     print("\n".join([*lines, f"written to {printable(str(options.out))}"]))
     return 0
 
 
 def _check_writable(path: Path) -> None:
-    """OSError now, not after a long recording was read. What is in the file stays."""
+    """OSError now, not after a long recording was read, and Failure for what is no file. What is in the file stays."""
     there = path.exists()
+    if there and not path.is_file() and not path.is_dir():  # of a folder the system speaks
+        raise Failure(f"{path}: is no regular file")
     path.open("ab").close()
     if not there:
         path.unlink()

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .failure import Failure, note, positive, seconds, share
+from .failure import Failure, note, positive, seconds, seed, share
 
 if TYPE_CHECKING:
     from ..demo import Demo
@@ -23,7 +23,7 @@ def add_to(commands: Any) -> None:
         description="An emulated wearer walks a route with both insoles over a lossy radio; shown live in a "
         "terminal, and as fast as it can be computed where there is none.",
     )
-    command.add_argument("--seed", metavar="N", type=int, default=1, help="another walk of the same route (default: 1)")
+    command.add_argument("--seed", metavar="N", type=seed, default=1, help="another walk of this route (default: 1)")
     command.add_argument(
         "--distance", metavar="M", type=positive, help="walk so many metres straight on instead of the scripted route"
     )
@@ -45,7 +45,7 @@ def run(options: argparse.Namespace) -> int:
 
     route = ROUTE if options.distance is None else straight(options.distance)
     air = radio(options.loss, options.jitter)
-    demo = make_demo(abs(options.seed), route, air)
+    demo = make_demo(options.seed, route, air)
     print(
         f"An emulated wearer walks {route.length:.0f} m in {demo.duration:.0f} s with an insole in each shoe; "
         f"{100 * air.loss:.3g} % of the packets get lost.",

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from .choosing import UNATTENDED
-from .failure import Failure, positive
+from .failure import Failure, positive, seed
 
 HERE = "127.0.0.1:9735"
 KINDS = ("insole", "cc2650", "cc2541", "cc2541-20hz")
@@ -36,7 +36,7 @@ def add_to(commands: Any) -> None:
         "--device", choices=KINDS, default="insole", help="what is worn on both feet (default: insole)"
     )
     command.add_argument("--distance", metavar="M", type=positive, default=WALKED, help="how far (default: 300)")
-    command.add_argument("--seed", metavar="N", type=int, default=1, help="another walk of the same route (default: 1)")
+    command.add_argument("--seed", metavar="N", type=seed, default=1, help="another walk of this route (default: 1)")
     command.add_argument("--mtu", metavar="N", type=int, default=247, help="that insoles agree to (default: 247)")
     command.add_argument("--faults", metavar="FILE", type=Path, help="a script of what goes wrong")
     command.add_argument(

@@ -49,7 +49,7 @@ def prepared(options: argparse.Namespace) -> Bench:
         bench = Bench(
             straight(options.distance),
             devices=dict.fromkeys(feet, kinds[options.device]),
-            seed=abs(options.seed),
+            seed=options.seed,
             mtu=options.mtu,
             faults=parse_faults(options.faults.read_text("utf-8")) if options.faults else (),
         )

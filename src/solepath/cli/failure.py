@@ -39,6 +39,13 @@ def count(text: str) -> int:
     return value
 
 
+def seed(text: str) -> int:
+    """An argparse type: a whole number of 0 or more."""
+    if not text.isdecimal() or len(text) > 18:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a whole number of 0 or more")
+    return int(text)
+
+
 def share(text: str) -> float:
     """An argparse type: a number from 0 to 1."""
     value = _number(text)

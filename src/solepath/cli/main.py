@@ -44,6 +44,7 @@ def run(arguments: Sequence[str] | None) -> int:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; the exit status."""
+    _open_closed()
     try:
         status = run(arguments)
         sys.stdout.flush()
@@ -58,6 +59,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         return complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
     return status
+
+
+def _open_closed() -> None:
+    """A stream that was closed before we began is None: then nobody reads what we say, and there is nothing to read."""
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:
+            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode, encoding="utf-8"))
 
 
 def complain(sentence: str) -> int:

@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 from typing import Any
 
-from .failure import Failure, count
+from .failure import Failure, count, seed
 
 NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes")
 """As reproduce.EXPERIMENTS has them; said here so that --help loads nothing heavy."""
@@ -25,7 +25,7 @@ def add_to(commands: Any) -> None:
     command.add_argument(
         "--walks", metavar="N", type=count, help="so many walks (default: as many as the paper: 20, 6 and 40)"
     )
-    command.add_argument("--seed", metavar="S", type=int, default=1, help="other walks and other sensors (default: 1)")
+    command.add_argument("--seed", metavar="S", type=seed, default=1, help="other walks and other sensors (default: 1)")
     command.add_argument("--json", metavar="FILE", type=Path, help="write the table as JSON too")
     command.add_argument(
         "--figure",
@@ -63,7 +63,7 @@ def run(options: argparse.Namespace) -> int:
             show(100 * done // total)
 
         experiment = EXPERIMENTS[options.name]
-        done = experiment(options.walks, abs(options.seed), processes=options.processes, progress=percent)
+        done = experiment(options.walks, options.seed, processes=options.processes, progress=percent)
     print(reproduced(done))
     if options.json is not None:
         with options.json.open("w", encoding="utf-8") as file:
