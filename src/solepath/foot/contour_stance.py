@@ -26,8 +26,8 @@ class GyroscopeMagnitude:
     above `release` times the quietest moment of this stance since. The statistic is |w|, rad/s. Latency: `lasting`.
 
     The paper says that angular velocity was used and no more. Published thresholds of |w| are 0.5 rad/s in code after
-    Tunca et al. 2017 (Sensors 17, 825), 50 degrees/s in Jimenez et al. 2009 (IEEE WISP) and 1 rad/s in Feliz et al.
-    2009 (Journal of Physical Agents 3): shoes differ. In the recordings at hand a sensor in a tied shoe turns at 0.03
+    Tunca et al. 2017 (Sensors 17, 825) and 0.6 rad/s in the code of Fischer et al. 2013 (IEEE Pervasive Computing 12);
+    shoes differ, though. In the recordings at hand a sensor in a tied shoe turns at 0.03
     to 0.2 rad/s in the quietest 30 ms of its stances, loose insoles and shoes at 0.3 to 1.2, and quiet walkers swing
     through moments of 0.3. So the threshold is the wearer's own: `margin` times the median quietest moment of the last
     `KEPT` stances of walking, within `below` and `ceiling`, and `first` before there is one. A sensor 12 cm from the
