@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import pytest
+from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.body.compensation import TABLE_1
 from solepath.body.mode import PACE, POINTS, STRAIGHT_ON, TH, Contact, at_pace, decide, regions
 from solepath.sim.insoles import layout
-from solepath.types import Foot, WalkingMode
+from solepath.types import Cell, Foot, Layout, WalkingMode
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 NOWHERE = dict.fromkeys(POINTS, 0.0)
@@ -146,3 +147,41 @@ def test_whatever_the_cells_bear_a_contact_ends_in_a_mode_or_in_none(rows: list[
         paced = at_pace(shares, contact.speed(step))
         assert all(0.0 <= share < float("inf") for share in paced.values())
         assert decide(LEFT, step, paced, shares["F1"] - shares["F2"], TH) in (None, *WalkingMode)
+
+
+def shifted(insole: Layout) -> Layout:
+    """As many cells, in another order."""
+    return evolve(insole, cells=insole.cells[50:] + insole.cells[:50])
+
+
+BLIND = {
+    "guessed": evolve(layout(96, LEFT), cells=tuple(Cell(cell.x, 0.0) for cell in layout(96, LEFT).cells)),
+    "few": evolve(layout(96, LEFT), cells=layout(96, LEFT).cells[:6]),
+    "none": evolve(layout(96, LEFT), cells=()),
+    "no length": evolve(layout(96, LEFT), length=0.0),
+    "no insole's length": evolve(layout(96, LEFT), length=1e308),
+    "far away": evolve(layout(96, LEFT), cells=tuple(Cell(1e308, -1e308) for _ in range(96))),
+}
+
+
+@pytest.mark.parametrize("how", BLIND)
+def test_cells_that_do_not_tell_left_from_right_have_no_regions_and_tell_no_mode(how: str) -> None:
+    assert regions(BLIND[how]) == {}
+    contact = Contact()
+    contact.wear(BLIND[how])
+    contact.begin(0.0)
+    cells = (1.0,) * len(BLIND[how].cells)
+    contact.add(cells, sum(cells))
+    assert contact.shares() is None
+
+
+def test_another_layout_of_as_many_cells_has_regions_of_its_own() -> None:
+    contact = Contact()
+    contact.wear(layout(96, LEFT))
+    before = contact.where
+    contact.wear(shifted(layout(96, LEFT)))
+    assert contact.where == regions(shifted(layout(96, LEFT))) != before
+
+
+def test_a_share_that_no_insole_can_have_is_bounded() -> None:
+    assert at_pace({"L1": 1e200}, 0.5)["L1"] < 1e9

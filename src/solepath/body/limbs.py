@@ -11,7 +11,8 @@ magnetometer do; or from acceleration and angular velocity (inclination.py), eac
 
 from __future__ import annotations
 
-from math import atan2, cos, hypot, sqrt
+from collections.abc import Iterable
+from math import atan2, cos, hypot, sin, sqrt
 from typing import NamedTuple
 
 from attrs import define, field
@@ -19,6 +20,7 @@ from attrs import define, field
 from ..calibration import Limbs
 from ..types import Foot, Quat, Site, Vec3
 from ..vector import IDENTITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate
+from .segment import Segment
 
 ABOVE = (Site.PELVIS, Site.LEFT_THIGH, Site.RIGHT_THIGH, Site.LEFT_SHANK, Site.RIGHT_SHANK)
 """The sites above the ankles."""
@@ -27,9 +29,6 @@ LEGS = {
     Foot.RIGHT: (Site.RIGHT_THIGH, Site.RIGHT_SHANK, Site.RIGHT_FOOT),
 }
 SEGMENTS = (*ABOVE, Site.LEFT_FOOT, Site.RIGHT_FOOT)
-QUIET = 0.04
-"""A segment that turns by no more than this is quiet, rad: twice the 0.81 degrees to which the paper's sensor is good,
-and some sway."""
 STOOD = 0.5
 """For so long all seven must be quiet, s."""
 STALE = 0.25
@@ -68,81 +67,6 @@ def foot_end(pelvis: Quat, thigh: Quat, shank: Quat, foot: Quat, hip: Vec3, limb
 
 
 @define
-class Segment:
-    """One segment's attitude, from its sensor's."""
-
-    # state
-    t: float | None = field(default=None, init=False)
-    """Of the newest attitude, s."""
-    sensor: Quat = field(default=IDENTITY, init=False)
-    """Sensor to its own world."""
-    earlier: float | None = field(default=None, init=False)
-    """Of the attitude before the newest, s."""
-    before: Quat = field(default=IDENTITY, init=False)
-    """That attitude."""
-    anchor: Quat = field(default=IDENTITY, init=False)
-    """About where it was since `quiet_since`, s."""
-    quiet_since: float | None = field(default=None, init=False)
-    total: Quat = field(default=(0.0, 0.0, 0.0, 0.0), init=False)
-    """Sum of the attitudes since."""
-    standing: Quat | None = field(default=None, init=False)
-    """The sensor's attitude in the N-pose."""
-    own: bool = field(default=False, init=False)
-    """Its world is its own, not the one that the devices share."""
-    heading: float | None = field(default=None, init=False)
-    """Of the wearer's first heading in its own world, rad."""
-
-    def told(self, t: float, sensor: Quat) -> None:
-        """A new attitude: sensor to its own world, a unit quaternion."""
-        self.earlier, self.before = self.t, self.sensor
-        self.t = t
-        self.sensor = sensor
-        if self.standing is not None:
-            return
-        w, x, y, z = self.anchor
-        dot = w * sensor[0] + x * sensor[1] + y * sensor[2] + z * sensor[3]
-        if self.quiet_since is None or abs(dot) < cos(0.5 * QUIET) or t < self.quiet_since:
-            self.anchor, self.total, self.quiet_since = sensor, sensor, t
-            return
-        k = 1.0 if dot >= 0.0 else -1.0
-        w, x, y, z = self.total
-        self.total = (w + k * sensor[0], x + k * sensor[1], y + k * sensor[2], z + k * sensor[3])
-
-    def quiet_for(self) -> float:
-        """s."""
-        return 0.0 if self.t is None or self.quiet_since is None else self.t - self.quiet_since
-
-    def sensor_at(self, t: float) -> Quat:
-        """The sensor's attitude at an instant between its last two, s; else the nearer one."""
-        if self.t is None or self.earlier is None or t >= self.t or self.t <= self.earlier:
-            return self.sensor
-        if t <= self.earlier:
-            return self.before
-        k = (t - self.earlier) / (self.t - self.earlier)
-        (aw, ax, ay, az), (bw, bx, by, bz) = self.before, self.sensor
-        j = k - 1.0 if aw * bw + ax * bx + ay * by + az * bz < 0.0 else 1.0 - k
-        return normalise((j * aw + k * bw, j * ax + k * bx, j * ay + k * by, j * az + k * bz))
-
-    def attitude(self, facing: float, turn: float, t: float) -> Quat:
-        """Segment to world at `t` s. `facing`: where the wearer looked in the N-pose, in the devices' world, rad;
-        `turn`: from there to the x axis of the world."""
-        if self.standing is None:
-            return IDENTITY
-        looked = (self.heading or 0.0) if self.own else facing
-        turned = multiply(self.sensor_at(t), conjugate(self.standing))
-        if looked == turn == 0.0:
-            return turned
-        return multiply(multiply(from_yaw(-looked - turn), turned), from_yaw(looked))
-
-    def upright(self, t: float) -> float:
-        """Cosine of its lean from the vertical at `t` s."""
-        if self.standing is None:
-            return 1.0
-        _, x, y, _ = multiply(self.sensor_at(t), conjugate(self.standing))
-        return 1.0 - 2.0 * (x * x + y * y)
-
-
-@define
 class LowerLimbs:
     """The chain of one wearer: attitudes in, the ends of both feet out."""
 
@@ -169,7 +93,10 @@ class LowerLimbs:
         if length < 1.0 / LARGEST:
             return
         k = 1.0 / length
-        self.segments[site].told(t, (quat[0] * k, quat[1] * k, quat[2] * k, quat[3] * k))
+        segment = self.segments[site]
+        segment.told(t, (quat[0] * k, quat[1] * k, quat[2] * k, quat[3] * k))
+        if segment.adrift and segment.quiet_for() >= STOOD:
+            self._moor(segment)
         if not self.aligned and not self.given_up:
             self._align()
 
@@ -180,6 +107,31 @@ class LowerLimbs:
         if segment.own or segment.t is None:
             segment.own, segment.heading = True, heading
             self.told(site, t, quat)
+
+    def interrupt(self, site: Site) -> None:
+        """The clock of a sensor begins anew. If it tells its attitude, its world may be another from now on."""
+        segment = self.segments[site]
+        segment.t = segment.earlier = segment.quiet_since = None
+        segment.adrift = segment.standing is not None and not segment.own
+
+    def _moor(self, segment: Segment) -> None:
+        """A segment whose sensor's world is new stands as it did in the N-pose, turned as the others are that are
+        known: what its attitude is off by from there is the turn from its old world to its new one."""
+        standing = segment.standing
+        known = [s for s in self.segments.values() if s is not segment and s.standing is not None and not s.own]
+        x = y = 0.0
+        for other in known:
+            if other.standing is not None and other.t is not None and not other.adrift:
+                w, _, _, z = multiply(other.sensor, conjugate(other.standing))
+                yaw = 2.0 * atan2(z, w)
+                x, y = x + cos(yaw), y + sin(yaw)
+        if standing is None or hypot(x, y) < 1e-6:
+            return
+        expected = multiply(from_yaw(atan2(y, x)), standing)
+        w, _, _, z = multiply(normalise(segment.total), conjugate(expected))
+        segment.world = from_yaw(-2.0 * atan2(z, w))
+        segment.sensor = segment.before = multiply(segment.world, segment.sensor)
+        segment.adrift = False
 
     def _align(self) -> None:
         if any([segment.quiet_for() < STOOD for segment in self.segments.values()]):
@@ -193,13 +145,40 @@ class LowerLimbs:
         if not self.aligned:
             return False
         for segment in self.segments.values():
-            if segment.t is None or abs(t - segment.t) >= STALE or (segment.own and segment.heading is None):
+            if segment.t is None or abs(t - segment.t) >= STALE or segment.adrift:
+                return False
+            if segment.own and segment.heading is None:
                 return False
         return True
 
+    def hopeful(self) -> bool:
+        """It may yet be known, or known again."""
+        return (self.aligned or not self.given_up) and not self.missing()
+
     def missing(self) -> tuple[Site, ...]:
-        """The sites above the ankles that nothing was heard of."""
+        """The sites above the ankles that no attitude was heard of."""
         return tuple([site for site in ABOVE if self.segments[site].t is None])
+
+    def why_not(self, t: float, heard: Iterable[Site]) -> str:
+        """Why it cannot be used at `t` s; `heard`: the sites that samples came of."""
+        missing = self.missing()
+        if missing:
+            silent = [site for site in missing if site not in heard]
+            if silent:
+                return f"no sensor heard at the {_words(silent)}"
+            return f"no attitude, and no acceleration with angular velocity, of the {_words(missing)}"
+        adrift = [site for site in SEGMENTS if self.segments[site].adrift]
+        if adrift:
+            return f"the sensor at the {_words(adrift)} began anew, and its world with it"
+        if not self.aligned:
+            return "the wearer did not stand still before the first step"
+        old = [(site, t - s.t) for site, s in self.segments.items() if s.t is not None and abs(t - s.t) >= STALE]
+        if old:
+            most = max([age for _, age in old], key=abs)
+            names = _words([site for site, _ in old])
+            return f"the newest attitude of the {names} is {abs(most):.2g} s {'old' if most > 0.0 else 'ahead'}"
+        names = _words([site for site, s in self.segments.items() if s.own and s.heading is None])
+        return f"the sensor at the {names} does not know yet which way the wearer goes"
 
     def _attitude(self, site: Site, t: float) -> Quat:
         return self.segments[site].attitude(self.facing or 0.0, self.turn, t)
@@ -245,3 +224,7 @@ class LowerLimbs:
                 y += sign * dy
         if hypot(x, y) > FIRST_WAY:
             self.facing = atan2(y, x)
+
+
+def _words(sites: Iterable[Site]) -> str:
+    return ", ".join([site.words for site in sites])

@@ -56,6 +56,11 @@ STANDING_WEIGHT = 0.7
 LINGERS = 1.5
 """A contact that lasts longer has no step in it, s: even at 0.5 m/s a stance is shorter."""
 
+MOST = 1e3
+"""No insole has a region that bears more, times the mean cell: that is how many cells there are."""
+SHORTEST_SOLE, LONGEST_SOLE = 0.05, 1.0
+"""m; what is told to be outside of this is no insole's length."""
+
 TURNS = {
     (Foot.LEFT, "inner", "wide"): WalkingMode.LEFT_WIDE,
     (Foot.LEFT, "inner", "tight"): WalkingMode.LEFT_TIGHT,
@@ -70,7 +75,15 @@ TURNS = {
 
 
 def regions(layout: Layout) -> dict[str, tuple[int, ...]]:
-    """The cells of each region: of each point the nearest one, measured across by the width of the sole there."""
+    """The cells of each region: of each point the nearest one, measured across by the width of the sole there.
+
+    None at all where the cells do not tell left from right: fewer than there are regions, a layout that was guessed
+    (foot/guess.py), or places that are no insole's. Then nobody knows a mode but standing, and a touchdown is taken for
+    one straight on, which most are."""
+    if len(layout.cells) < len(POINTS) or not SHORTEST_SOLE <= layout.length <= LONGEST_SOLE:
+        return {}
+    if not all([abs(cell.x) <= LONGEST_SOLE and abs(cell.y) <= LONGEST_SOLE for cell in layout.cells]):
+        return {}
     lateral = 1.0 if layout.foot is Foot.LEFT else -1.0
     cells = [(cell.x / layout.length, lateral * cell.y) for cell in layout.cells]
     found: dict[str, tuple[int, ...]] = {}
@@ -83,14 +96,16 @@ def regions(layout: Layout) -> dict[str, tuple[int, ...]]:
             rank = [((x - along) ** 2 * layout.length**2 + (cy - y) ** 2, k) for k, (x, cy) in enumerate(cells)]
             chosen.append(min(rank)[1])
         found[name] = tuple(sorted(set(chosen)))
-    return found
+    inner = max([cells[k][1] for name in ("R1", "R2") for k in found[name]])
+    outer = min([cells[k][1] for name in ("L1", "L2", "L3") for k in found[name]])
+    return found if outer > inner else {}
 
 
 def at_pace(shares: dict[str, float], speed: float) -> dict[str, float]:
     """The shares of the edges as they would be at `PACE`, from those at `speed` m/s; F1 and F2 as they are."""
     k = (PACE / min(max(speed, SLOWEST), FASTEST)) ** 2
     return {
-        name: STRAIGHT_ON[name] * (share / STRAIGHT_ON[name]) ** k if name in STRAIGHT_ON else share
+        name: STRAIGHT_ON[name] * (min(share, MOST) / STRAIGHT_ON[name]) ** k if name in STRAIGHT_ON else share
         for name, share in shares.items()
     }
 
@@ -120,8 +135,8 @@ class Contact:
     """What the regions of one insole bore since the foot came down."""
 
     # state
-    layout: int | None = field(default=None, init=False)
-    """Number of cells that the regions are of."""
+    layout: Layout | None = field(default=None, init=False)
+    """That the regions are of."""
     where: dict[str, tuple[int, ...]] = field(factory=dict, init=False)
     began: float | None = field(default=None, init=False)
     ended: float | None = field(default=None, init=False)
@@ -138,9 +153,17 @@ class Contact:
 
     def wear(self, layout: Layout | None) -> None:
         """The insole's layout, as far as it is known; nothing is told without one."""
-        if layout is not None and self.layout != len(layout.cells):
-            self.layout, self.where = len(layout.cells), regions(layout)
+        if layout is None or layout is self.layout:
+            return
+        if layout != self.layout:
+            self.where = regions(layout)
             self.sums, self.total = dict.fromkeys(self.where, 0.0), 0.0
+        self.layout = layout  # a saved one is another object, and to compare all cells takes long
+
+    @property
+    def blind(self) -> bool:
+        """The cells do not tell left from right."""
+        return self.layout is not None and not self.where
 
     def begin(self, t: float) -> None:
         """The foot came down."""
@@ -150,7 +173,7 @@ class Contact:
 
     def add(self, cells: tuple[float, ...], total: float) -> None:
         """A sample of the foot on the ground."""
-        if len(cells) != self.layout:
+        if not self.where or self.layout is None or len(cells) != len(self.layout.cells):
             return
         self.total += total
         sums = self.sums
@@ -170,5 +193,5 @@ class Contact:
         """The mean cell of each region as a multiple of the insole's; None without load or layout."""
         if self.layout is None or self.total <= 0.0 or not self.sums:
             return None
-        mean = self.total / self.layout
+        mean = self.total / len(self.layout.cells)
         return {name: max(total, 0.0) / len(self.where[name]) / mean for name, total in self.sums.items()}

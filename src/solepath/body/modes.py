@@ -14,7 +14,11 @@ What the paper leaves open, and what is taken here:
   a bend is the tangent half a step back; with the feet's own tracks it is that of the foot's stride, from its last
   touchdown to this one.
 - The first heading is settled when the wearer has gone 1.5 m; touchdowns before that are not final.
-- Height. The method is planar; heights of touchdowns are those of the feet's own tracks.
+- Height. The method is planar; heights of touchdowns are those of the feet's own tracks. Those drift apart, so without
+  the chain method I compares how far each foot is above its own last foot-flat.
+- Feet of which a touchdown was not seen. One that takes over although it has gone on since its last touchdown came down
+  meanwhile: it is one. So is one that carries and comes down elsewhere. A foot whose sign fails (evidence.py) comes
+  down as its own steps do; without the other foot it carries alone, along its own track.
 """
 
 from __future__ import annotations
@@ -25,23 +29,27 @@ from math import atan2, hypot
 from attrs import define, evolve, field
 
 from ..calibration import Calibration, Limbs
-from ..events import Event, Limitation, TouchedDown, WalkingModeChanged
-from ..foot.refusal import refusal, rejected
+from ..events import Event, FootFlat, Limitation, StepTaken, TouchedDown, WalkingModeChanged
+from ..foot.refusal import rejected
 from ..foot.tracker import FootTracker
 from ..foot.world import Covariance3
-from ..types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
+from ..types import SITE_OF_FOOT, Foot, Phase, Sample, Site, WalkingMode
 from ..vector import GRAVITY, TIE, ZERO, rotate
+from .above import Above
 from .compensation import Compensation, chosen, epsilon_p, with_own
-from .inclination import Inclination
+from .evidence import UNSEEN, Evidence
 from .limbs import ABOVE
 from .mode import LEAST_STEP, TH
 from .places import Places
 from .position import Position
 from .recognition import Recognition
-from .touchdown import OTHER, AnyTouchdown, Carrier, FootState, Height, MaximumPressure, suspended
+from .touchdown import OTHER, AnyTouchdown, Carrier, Flags, FootState, Height, MaximumPressure, suspended
 
 AWAY = 0.03
 """A foot that comes down nearer to where it stood was not away, m: the flags of standing feet flicker."""
+HOP = 0.3
+"""A foot that carries and comes down so far from where it was has gone there itself, m: the heel of one that rolls over
+its toes does not come so far."""
 PATIENCE = 0.06
 """How long a touchdown waits for attitudes of its instant, s: three samples of the paper's 50 Hz."""
 
@@ -66,8 +74,8 @@ class Modes:
     """Of the first heading, rad."""
     # state
     places: Places = field(init=False)
-    leaning: dict[Site, Inclination] = field(factory=dict, init=False)
-    limb_times: dict[Site, float] = field(factory=dict, init=False)
+    above: Above = field(factory=Above, init=False)
+    evidence: dict[Foot, Evidence] = field(init=False)
     shown: dict[Foot, FootState] = field(factory=dict, init=False)
     """What each foot shows; of those heard so far."""
     recognition: Recognition = field(init=False)
@@ -78,8 +86,14 @@ class Modes:
     """The instant that the chain's heights are of, s."""
     touchdowns: int = field(default=0, init=False)
     limited: bool = field(default=False, init=False)
+    """Why the chain is not used has been said."""
+    unheard: list[Foot] = field(factory=list, init=False)
+    """Feet of which it was said that the other goes on without them."""
+    blind: list[Foot] = field(factory=list, init=False)
+    """Feet of which it was said that their cells tell no mode."""
 
     def __attrs_post_init__(self) -> None:
+        self.evidence = {foot: Evidence() for foot in Foot}
         self.recognition = Recognition(self.weight, self.th)
         self.places = Places(self.limbs, self.heading, self._apart())
 
@@ -113,61 +127,105 @@ class Modes:
 
     def limb_moved(self, sample: Sample) -> list[Event]:
         """A sample of pelvis, thigh or shank: its attitude, or acceleration and angular velocity."""
-        site, t = sample.site, sample.t
-        newest = self.limb_times.get(site)
-        wrong = refusal(sample, newest)
+        t = sample.t
+        wrong = self.above.take(sample, self.places.chain)
         if wrong is not None:
-            return [rejected(sample, wrong, newest)]
-        self.limb_times[site] = t
-        if sample.quat is not None:
-            self.places.chain.told(site, t, sample.quat)
-        elif sample.acc is not None and sample.gyro is not None:
-            leaning = self.leaning.get(site)
-            if leaning is None:
-                leaning = self.leaning[site] = Inclination()
-            attitude = leaning.update(t, sample.acc, sample.gyro)
-            if attitude is not None:
-                self.places.chain.told_own(site, t, attitude, leaning.heading)
+            return [rejected(sample, wrong, self.above.times.get(sample.site))]
         return self._awaited(t, t if sample.known_at is None else max(t, sample.known_at))
 
     def interrupt(self, site: Site) -> None:
-        """The clock of a site above the ankle begins anew."""
-        self.limb_times.pop(site, None)
+        """The clock of a site begins anew."""
+        self.places.chain.interrupt(site)
+        self.places.tracks.interrupt(site)
+        self.above.interrupt(site)
 
     def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
         """A sample of a foot: who carries, what has come down, and what the contact that ended tells."""
-        side, t = self.places.sides[foot.foot], sample.t
+        t = sample.t
         known_at = t if sample.known_at is None else max(t, sample.known_at)
-        state, site = self.shown.setdefault(foot.foot, FootState()), SITE_OF_FOOT[foot.foot]
+        state, evidence = self.shown.setdefault(foot.foot, FootState()), self.evidence[foot.foot]
+        self.above.passed(t)
+        self.places.moved(foot, sample, events)
+        state.swings = foot.phase is Phase.SWING
+        if events:
+            for event in events:
+                if isinstance(event, StepTaken):
+                    evidence.stepped()
+                elif isinstance(event, FootFlat):
+                    state.floor = self.places.sides[foot.foot].track[2]
         if foot.levelled:
-            side.track = foot.position
             if sample.quat is not None:
-                self.places.chain.told(site, t, sample.quat)
+                self.places.chain.told(SITE_OF_FOOT[foot.foot], t, sample.quat)
             elif sample.acc is not None:
                 north = foot.gait.world.north
                 heading = None if north is None else atan2(-north[1], north[0])
-                self.places.chain.told_own(site, t, foot.corrector.attitude, heading)
+                self.places.chain.told_own(SITE_OF_FOOT[foot.foot], t, foot.corrector.attitude, heading)
             if sample.acc is not None:
                 x, y, z = rotate(foot.corrector.attitude, sample.acc)
                 state.acceleration = hypot(x, y, z - GRAVITY)
-        told = self._pressed(foot, state, t, known_at) if sample.pressure else []
-        return told + self._carry(t, known_at)
+        told: list[Event] = []
+        usable = bool(sample.pressure) and bool(foot.health.usable(sample.pressure or ()))
+        if usable:
+            told = self._pressed(foot, state, t, known_at)
+        evidence.heard(t, usable or not isinstance(self.touchdown, MaximumPressure))
+        return told + self._carry(foot.foot, t, known_at)
 
-    def _carry(self, t: float, known_at: float) -> list[Event]:
-        left, right = self.shown.get(Foot.LEFT), self.shown.get(Foot.RIGHT)
-        if left is None or right is None:
-            return []
+    def _carry(self, foot: Foot, t: float, known_at: float) -> list[Event]:
         events = self._awaited(t, known_at)
         seen = t
         if isinstance(self.touchdown, Height):
             seen = self._heights(t)
-        taken = self.carrier.update(self.touchdown.update(t, left, right))
-        if taken is None or not taken[1]:
+        alone = self._alone(foot, t)
+        if alone and foot not in self.unheard:
+            self.unheard.append(foot)
+            what = f"the {OTHER[foot].value} foot is not heard: the wearer goes by the {foot.value} foot's own track"
+            events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[OTHER[foot]], what=what))
+        elif not alone and len(self.shown) < len(Foot):
+            return events
+        before = self.carrier.down
+        flags = self._down(t, foot if alone else None)
+        events += self._own_steps(t, known_at)
+        taken = self.carrier.update(flags)
+        if taken is None:
+            here = self.carrier.foot
+            k = 0 if here is Foot.LEFT else 1
+            if here is not None and flags[k] and not before[k] and self.places.sides[here].gone > HOP:
+                events += self._flushed(known_at)
+                events += self._came_down(here, t, known_at, by_itself=True)
+            return events
+        if not taken[1] and self.places.sides[taken[0]].gone < LEAST_STEP:
             return events  # a foot that has been down all the time carries from where it is
-        if self.coming is not None:
-            events += self._came_down(*self.coming, known_at)
+        events += self._flushed(known_at)
         self.coming = (taken[0], seen)
         return events + self._awaited(t, known_at)
+
+    def _alone(self, foot: Foot, t: float) -> bool:
+        """Nothing is heard of the other foot, and this one has taken steps meanwhile."""
+        other = OTHER[foot]
+        if other not in self.shown:
+            return self.evidence[foot].taken >= UNSEEN
+        return self.places.unheard(other, t)
+
+    def _down(self, t: float, alone: Foot | None) -> Flags:
+        """TD_L and TD_R, by the method or, where that cannot tell, by the foot's own steps; `alone`: the only one."""
+        left, right = [self.shown.get(foot, FootState()) for foot in Foot]
+        flags = self.touchdown.update(t, left, right)
+        none = alone is not None and isinstance(self.touchdown, Height)  # one foot is lower than no other
+        down_left = self.evidence[Foot.LEFT].down(flags[0], left.swings, none)
+        down_right = self.evidence[Foot.RIGHT].down(flags[1], right.swings, none)
+        return down_left and alone is not Foot.RIGHT, down_right and alone is not Foot.LEFT
+
+    def _own_steps(self, t: float, known_at: float) -> list[Event]:
+        """Say once of which foot the steps stand for touchdowns."""
+        said: list[Event] = []
+        for foot, evidence in self.evidence.items():
+            if not evidence.own or evidence.said or (foot not in self.shown):
+                continue
+            evidence.said = True
+            sign = "insole" if isinstance(self.touchdown, MaximumPressure) else "foot's motion"
+            what = f"the {foot.value} {sign} does not tell when it is down: its own steps stand for touchdowns"
+            said.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[foot], what=what))
+        return said
 
     def _heights(self, t: float) -> float:
         """Take the heights of both feet, by the chain at the latest instant that it knows. Returns that instant, s."""
@@ -177,8 +235,16 @@ class Modes:
             return min(t, complete)
         self.measured = complete
         for foot, state in self.shown.items():
-            state.height = chain.height(foot, complete) if complete is not None else self.places.sides[foot].track[2]
+            own = self.places.sides[foot].track[2] - state.floor
+            state.height = own if complete is None else chain.height(foot, complete)
         return t if complete is None else min(t, complete)
+
+    def _flushed(self, known_at: float) -> list[Event]:
+        """What still waits is worked out as it is."""
+        if self.coming is None:
+            return []
+        (foot, came), self.coming = self.coming, None
+        return self._came_down(foot, came, known_at)
 
     def _awaited(self, t: float, known_at: float) -> list[Event]:
         """A touchdown is worked out once every attitude of that instant is there, or has not come for `PATIENCE`."""
@@ -203,16 +269,28 @@ class Modes:
         state.full = None if newtons else insole.highest
         both_heard = OTHER[foot.foot] in self.shown
         mode = self.recognition.pressed(foot.foot, state, insole.cells, insole.layout, t, both_heard)
-        return [] if mode is None else [WalkingModeChanged(t=t, known_at=known_at, mode=mode, foot=foot.foot)]
+        told: list[Event] = []
+        if mode is not None:
+            told.append(WalkingModeChanged(t=t, known_at=known_at, mode=mode, foot=foot.foot))
+        if self.recognition.blind(foot.foot) and foot.foot not in self.blind:
+            self.blind.append(foot.foot)
+            what = f"the cells of the {foot.foot.value} insole do not tell left from right: no walking modes"
+            told.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[foot.foot], what=what))
+        return told
 
     # --- places ---
 
-    def _came_down(self, foot: Foot, t: float, known_at: float) -> list[Event]:
+    def _came_down(self, foot: Foot, t: float, known_at: float, by_itself: bool = False) -> list[Event]:
+        """`by_itself`: it carried already, so that nothing but its own track tells where it is now."""
         places = self.places
         side, chain = places.sides[foot], places.chain
         if chain.current(t):
             chain.stepped(places.swung(foot), t)
-        place, chained = places.seen(foot, t)
+        if by_itself or self._alone(foot, t):
+            (x, y, _), chained = side.own, False
+            place = (x, y, side.track[2])
+        else:
+            place, chained = places.seen(foot, t)
         dx, dy = place[0] - side.place[0], place[1] - side.place[1]
         step = hypot(dx, dy)
         self.recognition.stepped(foot, step)
@@ -230,25 +308,19 @@ class Modes:
         came = TouchedDown(
             t=t,
             known_at=known_at,
-            final=places.headed or not chained,
+            final=places.headed or not (chained or chain.hopeful()),
             foot=foot,
             position=side.place,
             mode=mode,
             compensation=compensation,
         )
-        return [*self._limited(chained, t, known_at), came]
+        return [*self._limited(chained or chain.current(t), t, known_at), came]
 
     def _limited(self, chained: bool, t: float, known_at: float) -> list[Event]:
         if chained or self.limited:
             return []
         self.limited = True
-        missing = self.places.chain.missing()
-        if missing:
-            why = f"no sensor heard at the {', '.join([site.words for site in missing])}"
-        elif not self.places.chain.aligned:
-            why = "the wearer did not stand still before the first step"
-        else:
-            why = "the sensors above the ankles do not know yet which way the wearer goes"
+        why = self.places.chain.why_not(t, self.above.times)
         what = f"{why}: the feet are where their own inertial tracks have them"
         return [Limitation(t=t, known_at=known_at, site=None, what=what)]
 
@@ -258,6 +330,10 @@ class Modes:
         if not known:
             return None
         t = max([tracker.t for tracker in known if tracker.t is not None])
+        for tracker in known:
+            if OTHER[tracker.foot] not in feet or self.places.unheard(OTHER[tracker.foot], t):
+                x, y, z = self.places.middle(tracker.foot)
+                return Position(t, (x, y, z), self._covariance(x, y, [tracker]))
         carrying = self.carrier.foot
         places = []
         for foot, side in self.places.sides.items():

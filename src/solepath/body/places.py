@@ -1,7 +1,8 @@
 """Where both feet are, each seen from the other: P_L and P_R, V_change, and the first heading (walking-modes).
 
 After Gong et al. 2023 (Sensors 23, 5417), equations (1) to (3). P_L and P_R are the ends of the chain of seven
-attitudes (limbs.py) while it knows them, else the feet's own inertial tracks, set apart as they stood at the start.
+attitudes (limbs.py) while it knows them, else the feet's own inertial tracks, set apart as they stood at the start; of
+a foot that was not heard for a while, as they go on together once it is heard again (`MeanOfFeet`).
 
 The chain has the ends of the feet, a touchdown is a place below an ankle; what lies between them is `Side.reach`.
 """
@@ -13,10 +14,13 @@ from math import atan2, cos, hypot, pi, sin
 from attrs import define, field
 
 from ..calibration import Limbs
-from ..types import Foot, Vec3
+from ..events import Event
+from ..foot.tracker import FootTracker
+from ..types import Foot, Sample, Vec3
 from ..vector import ZERO, sub
 from .limbs import LowerLimbs
 from .mode import LEAST_STEP
+from .position import MeanOfFeet, Placed
 from .touchdown import OTHER, suspended, v_change
 
 FIRST_WAY = 1.5
@@ -35,9 +39,20 @@ class Side:
     """From below its ankle to its end when it came down, world, m."""
     # state
     track: Vec3 = field(default=ZERO, init=False)
-    """Its own inertial track, m."""
+    """Its own inertial track, m; of a foot that came back, as it lies beside the other's."""
     direction: tuple[float, float] = field(default=(1.0, 0.0), init=False)
     """Of walking when it last came down, of length 1."""
+
+    @property
+    def own(self) -> Vec3:
+        """Where it is now by its own track alone, m."""
+        return suspended(self.track, self.offset)
+
+    @property
+    def gone(self) -> float:
+        """How far it is from where it last came down, by its own track, m."""
+        x, y, _ = sub(self.own, self.place)
+        return hypot(x, y)
 
 
 @define
@@ -53,6 +68,8 @@ class Places:
     sides: dict[Foot, Side] = field(init=False)
     headed: bool = field(init=False)
     """The first heading is settled."""
+    tracks: MeanOfFeet = field(factory=MeanOfFeet, init=False)
+    """Sets a foot that was not heard for a while beside the other."""
 
     def __attrs_post_init__(self) -> None:
         self.chain = LowerLimbs(self.limbs, self.heading)
@@ -62,10 +79,61 @@ class Places:
             place = (0.0, sign * self.apart, 0.0)
             self.sides[foot] = Side(place, place, (self.limbs.foot, 0.0))
 
+    def moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> None:
+        """A sample of a foot: where its own track has it."""
+        feet = self._placed()
+        before = [(placed.waits, placed.offset) for _, placed in feet]
+        self.tracks.foot_moved(foot, sample, events)
+        for (side, placed), (waited, offset) in zip(feet, before, strict=True):
+            if placed.offset is offset:
+                continue
+            if waited and not placed.waits:
+                self._beside(side, placed)
+            else:  # among both it is elsewhere from now on, in itself it is where it was
+                side.offset = sub(side.offset, sub(placed.offset, offset))
+                side.track = suspended(side.track, sub(placed.offset, offset))
+        if foot.levelled:
+            placed = self.tracks.left if foot.foot is Foot.LEFT else self.tracks.right
+            self.sides[foot.foot].track = placed.place(placed.here)
+
+    def _placed(self) -> tuple[tuple[Side, Placed], ...]:
+        left, right = self.sides.values()
+        return (left, self.tracks.left), (right, self.tracks.right)
+
+    def _beside(self, side: Side, placed: Placed) -> None:
+        """Its track is known among both again; they walk as far apart as they stood."""
+        foot, other = (Foot.LEFT, Foot.RIGHT) if side is self.sides[Foot.LEFT] else (Foot.RIGHT, Foot.LEFT)
+        side.track = placed.place(placed.here)
+        x, y = self._apart(foot, self.sides[other])
+        side.offset = suspended(self.sides[other].offset, (x, y, 0.0))
+        side.place = side.own
+
+    def _apart(self, foot: Foot, other: Side) -> tuple[float, float]:
+        """From the other foot to this one when they stand side by side, facing as the other last went, m."""
+        c, s = other.direction
+        k = self.apart if foot is Foot.LEFT else -self.apart
+        return -s * k, c * k
+
+    def unheard(self, foot: Foot, t: float) -> bool:
+        """The foot is absent, or its track is not known among both yet, and the chain does not tell either."""
+        placed = self.tracks.left if foot is Foot.LEFT else self.tracks.right
+        return (placed.absent or placed.waits) and not self.chain.current(t)
+
+    def middle(self, foot: Foot) -> Vec3:
+        """The middle between the feet as this foot alone has it, by its own track, m."""
+        side = self.sides[foot]
+        x, y, _ = side.own
+        dx, dy = self._apart(OTHER[foot], side)
+        return (x + 0.5 * dx, y + 0.5 * dy, side.track[2])
+
     def seen(self, foot: Foot, t: float) -> tuple[Vec3, bool]:
-        """Where `foot` is, seen from the other, by (1) to (3): the ground below it; and whether the chain tells it."""
+        """Where `foot` is, seen from the other, by (1) to (3): the ground below it; and whether the chain tells it. A
+        foot that by its track went on since it came down is no place to see another from: then by the own track."""
         left, right, chained = self._ends(t)
         carrying = self.sides[OTHER[foot]]
+        if not chained and carrying.gone > LEAST_STEP:
+            x, y, _ = self.sides[foot].own
+            return (x, y, self.sides[foot].track[2]), False
         x, y, _ = suspended(carrying.place, v_change(left, right, OTHER[foot]))
         if chained:
             reach = self._reach(foot, t)
@@ -92,8 +160,8 @@ class Places:
         side.place = place
         if chained:
             side.reach = self._reach(foot, t)
-            self._head()
         side.offset = sub(side.place, side.track)
+        self._head(chained)
 
     def _ends(self, t: float) -> tuple[Vec3, Vec3, bool]:
         """P_L and P_R in one frame, m, and whether they are the chain's."""
@@ -106,14 +174,18 @@ class Places:
         x, y = self.chain.forward(foot, t)
         return self.limbs.foot * x, self.limbs.foot * y
 
-    def _head(self) -> None:
+    def _head(self, chained: bool) -> None:
         """x along the first heading: until the wearer has gone `FIRST_WAY`, the world is turned so that the way so far
-        lies along it. One footfall is half a foot's width to the left or right of where it might have been."""
-        if self.headed or self.chain.facing is None:
+        lies along it. One footfall is half a foot's width to the left or right of where it might have been. The tracks'
+        world has its x there."""
+        if self.headed:
             return
         left, right = self.sides.values()
         x, y = left.place[0] + right.place[0], left.place[1] + right.place[1]
         if hypot(x, y) < LEAST_STEP:
+            return
+        self.headed = hypot(x, y) > 2.0 * FIRST_WAY
+        if not chained or self.chain.facing is None:
             return
         turn = atan2(y, x)
         self.chain.turn = (self.chain.turn + turn + pi) % (2.0 * pi) - pi
@@ -121,6 +193,6 @@ class Places:
         for side in self.sides.values():
             (px, py, pz), (rx, ry), (dx, dy) = side.place, side.reach, side.direction
             side.place = (c * px - s * py, s * px + c * py, pz)
+            side.offset = suspended(side.offset, sub(side.place, (px, py, pz)))
             side.reach = (c * rx - s * ry, s * rx + c * ry)
             side.direction = (c * dx - s * dy, s * dx + c * dy)
-        self.headed = hypot(x, y) > 2.0 * FIRST_WAY

@@ -5,7 +5,7 @@ After Gong et al. 2023 (Sensors 23, 5417), section 3.3. What the paper leaves op
 - When the mode is known. A contact tells its mode when it ends, long after the touchdown that it began with. But when
   a foot comes down the other has borne the whole weight, and what that contact has shown up to then is the mode of the
   step that ends; where it shows none, the latest that it told. Standing is no mode to walk in: the first step after
-  it is taken for a straight one.
+  it is taken for a straight one. So is every step of insoles whose cells do not tell left from right.
 """
 
 from __future__ import annotations
@@ -86,6 +86,10 @@ class Recognition:
             return None
         sole.mode = mode
         return mode
+
+    def blind(self, foot: Foot) -> bool:
+        """The cells of the foot do not tell left from right: no mode but standing comes of them."""
+        return self.soles[foot].contact.blind
 
     def stepped(self, foot: Foot, step: float) -> None:
         """The foot came down `step` m from where it stood before."""

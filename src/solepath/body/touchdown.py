@@ -7,7 +7,8 @@ into the flags TD_L and TD_R and are interchangeable: `Height` is method I, `Net
 
 The paper compares flags but does not say which foot carries while both are down, or neither. Here (`Carrier`): a foot
 whose flag rises takes over, whatever the other's; a foot whose flag falls hands over to the other if that one is down;
-else nothing changes. So in walking each foot carries from its own touchdown to the other's.
+else nothing changes. So in walking each foot carries from its own touchdown to the other's. Where a sign fails a foot
+(evidence.py) it may take over with no touchdown seen since it went on: it has come down unseen (modes.py).
 """
 
 from __future__ import annotations
@@ -47,6 +48,10 @@ class FootState:
     """MaxPressure of (6), unit of the samples."""
     full: float | None = None
     """What the most loaded cell has ever shown, where the unit of the samples is not known to be N; else None."""
+    swings: bool = False
+    """By its own phase (types.Phase)."""
+    floor: float = 0.0
+    """Height of its own track at its last foot-flat, m."""
 
 
 Flags = tuple[bool, bool]
