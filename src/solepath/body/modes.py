@@ -24,26 +24,28 @@ What the paper leaves open, and what is taken here:
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import deepcopy
 from math import atan2, hypot
 
 from attrs import define, evolve, field
 
 from ..calibration import Calibration, Limbs
-from ..events import Event, FootFlat, Limitation, StepTaken, TouchedDown, WalkingModeChanged
+from ..events import Event, Limitation, TouchedDown, WalkingModeChanged
 from ..foot.refusal import rejected
 from ..foot.tracker import FootTracker
 from ..foot.world import Covariance3
-from ..types import SITE_OF_FOOT, Foot, Phase, Sample, Site, WalkingMode
-from ..vector import GRAVITY, TIE, ZERO, rotate
+from ..types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
+from ..vector import TIE, ZERO
 from .above import Above
 from .compensation import Compensation, chosen, epsilon_p, with_own
-from .evidence import UNSEEN, Evidence
+from .evidence import UNSEEN
 from .limbs import ABOVE
 from .mode import LEAST_STEP, TH
 from .places import Places
 from .position import Position
 from .recognition import Recognition
-from .touchdown import OTHER, AnyTouchdown, Carrier, Flags, FootState, Height, MaximumPressure, suspended
+from .signs import Signs
+from .touchdown import OTHER, AnyTouchdown, Carrier, Height, MaximumPressure, suspended
 
 AWAY = 0.03
 """A foot that comes down nearer to where it stood was not away, m: the flags of standing feet flicker."""
@@ -75,9 +77,7 @@ class Modes:
     # state
     places: Places = field(init=False)
     above: Above = field(factory=Above, init=False)
-    evidence: dict[Foot, Evidence] = field(init=False)
-    shown: dict[Foot, FootState] = field(factory=dict, init=False)
-    """What each foot shows; of those heard so far."""
+    signs: Signs = field(init=False)
     recognition: Recognition = field(init=False)
     carrier: Carrier = field(factory=Carrier, init=False)
     coming: tuple[Foot, float] | None = field(default=None, init=False)
@@ -93,7 +93,7 @@ class Modes:
     """Feet of which it was said that their cells tell no mode."""
 
     def __attrs_post_init__(self) -> None:
-        self.evidence = {foot: Evidence() for foot in Foot}
+        self.signs = Signs(deepcopy(self.touchdown))
         self.recognition = Recognition(self.weight, self.th)
         self.places = Places(self.limbs, self.heading, self._apart())
 
@@ -143,31 +143,17 @@ class Modes:
         """A sample of a foot: who carries, what has come down, and what the contact that ended tells."""
         t = sample.t
         known_at = t if sample.known_at is None else max(t, sample.known_at)
-        state, evidence = self.shown.setdefault(foot.foot, FootState()), self.evidence[foot.foot]
         self.above.passed(t)
         self.places.moved(foot, sample, events)
-        state.swings = foot.phase is Phase.SWING
-        if events:
-            for event in events:
-                if isinstance(event, StepTaken):
-                    evidence.stepped()
-                elif isinstance(event, FootFlat):
-                    state.floor = self.places.sides[foot.foot].track[2]
-        if foot.levelled:
+        if foot.levelled and self.above.times:  # without sensors above the ankles there is no chain
             if sample.quat is not None:
                 self.places.chain.told(SITE_OF_FOOT[foot.foot], t, sample.quat)
             elif sample.acc is not None:
                 north = foot.gait.world.north
                 heading = None if north is None else atan2(-north[1], north[0])
                 self.places.chain.told_own(SITE_OF_FOOT[foot.foot], t, foot.corrector.attitude, heading)
-            if sample.acc is not None:
-                x, y, z = rotate(foot.corrector.attitude, sample.acc)
-                state.acceleration = hypot(x, y, z - GRAVITY)
-        told: list[Event] = []
-        usable = bool(sample.pressure) and bool(foot.health.usable(sample.pressure or ()))
-        if usable:
-            told = self._pressed(foot, state, t, known_at)
-        evidence.heard(t, usable or not isinstance(self.touchdown, MaximumPressure))
+        usable = self.signs.moved(foot, sample, events, self.places.sides[foot.foot].track[2])
+        told = self._pressed(foot, t, known_at) if usable and foot.insole.cells else []
         return told + self._carry(foot.foot, t, known_at)
 
     def _carry(self, foot: Foot, t: float, known_at: float) -> list[Event]:
@@ -180,11 +166,10 @@ class Modes:
             self.unheard.append(foot)
             what = f"the {OTHER[foot].value} foot is not heard: the wearer goes by the {foot.value} foot's own track"
             events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[OTHER[foot]], what=what))
-        elif not alone and len(self.shown) < len(Foot):
+        elif not alone and len(self.signs.shown) < len(Foot):
             return events
         before = self.carrier.down
-        flags = self._down(t, foot if alone else None)
-        events += self._own_steps(t, known_at)
+        flags = self.signs.down(t, foot if alone else None, known_at, events)
         taken = self.carrier.update(flags)
         if taken is None:
             here = self.carrier.foot
@@ -202,30 +187,9 @@ class Modes:
     def _alone(self, foot: Foot, t: float) -> bool:
         """Nothing is heard of the other foot, and this one has taken steps meanwhile."""
         other = OTHER[foot]
-        if other not in self.shown:
-            return self.evidence[foot].taken >= UNSEEN
+        if other not in self.signs.shown:
+            return self.signs.evidence[foot].taken >= UNSEEN
         return self.places.unheard(other, t)
-
-    def _down(self, t: float, alone: Foot | None) -> Flags:
-        """TD_L and TD_R, by the method or, where that cannot tell, by the foot's own steps; `alone`: the only one."""
-        left, right = [self.shown.get(foot, FootState()) for foot in Foot]
-        flags = self.touchdown.update(t, left, right)
-        none = alone is not None and isinstance(self.touchdown, Height)  # one foot is lower than no other
-        down_left = self.evidence[Foot.LEFT].down(flags[0], left.swings, none)
-        down_right = self.evidence[Foot.RIGHT].down(flags[1], right.swings, none)
-        return down_left and alone is not Foot.RIGHT, down_right and alone is not Foot.LEFT
-
-    def _own_steps(self, t: float, known_at: float) -> list[Event]:
-        """Say once of which foot the steps stand for touchdowns."""
-        said: list[Event] = []
-        for foot, evidence in self.evidence.items():
-            if not evidence.own or evidence.said or (foot not in self.shown):
-                continue
-            evidence.said = True
-            sign = "insole" if isinstance(self.touchdown, MaximumPressure) else "foot's motion"
-            what = f"the {foot.value} {sign} does not tell when it is down: its own steps stand for touchdowns"
-            said.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[foot], what=what))
-        return said
 
     def _heights(self, t: float) -> float:
         """Take the heights of both feet, by the chain at the latest instant that it knows. Returns that instant, s."""
@@ -234,7 +198,7 @@ class Modes:
         if complete is not None and complete == self.measured:
             return min(t, complete)
         self.measured = complete
-        for foot, state in self.shown.items():
+        for foot, state in self.signs.shown.items():
             own = self.places.sides[foot].track[2] - state.floor
             state.height = own if complete is None else chain.height(foot, complete)
         return t if complete is None else min(t, complete)
@@ -250,24 +214,18 @@ class Modes:
         """A touchdown is worked out once every attitude of that instant is there, or has not come for `PATIENCE`."""
         if self.coming is None:
             return []
-        foot, came = self.coming
+        _, came = self.coming
         chain = self.places.chain
         if chain.current(came) and t - came < PATIENCE:
             complete = chain.complete()
             if complete is not None and complete < came - TIE:
                 return []
-        self.coming = None
-        return self._came_down(foot, came, known_at)
+        return self._flushed(known_at)
 
-    def _pressed(self, foot: FootTracker, state: FootState, t: float, known_at: float) -> list[Event]:
+    def _pressed(self, foot: FootTracker, t: float, known_at: float) -> list[Event]:
         """The cells of a foot: what they show of it, and whether they tell another mode."""
-        insole = foot.insole
-        if not insole.cells:
-            return []
-        state.pressure = max(insole.cells)
-        newtons = insole.newtons is not None or (insole.layout is not None and insole.layout.scale is not None)
-        state.full = None if newtons else insole.highest
-        both_heard = OTHER[foot.foot] in self.shown
+        state, insole = self.signs.pressed(foot), foot.insole
+        both_heard = OTHER[foot.foot] in self.signs.shown
         mode = self.recognition.pressed(foot.foot, state, insole.cells, insole.layout, t, both_heard)
         told: list[Event] = []
         if mode is not None:

@@ -81,32 +81,28 @@ class Places:
 
     def moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> None:
         """A sample of a foot: where its own track has it."""
-        feet = self._placed()
-        before = [(placed.waits, placed.offset) for _, placed in feet]
+        left, right = self.tracks.left, self.tracks.right
+        was_left, was_right, waited = left.offset, right.offset, (left.waits, right.waits)
         self.tracks.foot_moved(foot, sample, events)
-        for (side, placed), (waited, offset) in zip(feet, before, strict=True):
-            if placed.offset is offset:
-                continue
-            if waited and not placed.waits:
-                self._beside(side, placed)
-            else:  # among both it is elsewhere from now on, in itself it is where it was
-                side.offset = sub(side.offset, sub(placed.offset, offset))
-                side.track = suspended(side.track, sub(placed.offset, offset))
+        if left.offset is not was_left:
+            self._shifted(Foot.LEFT, left, was_left, waited[0])
+        if right.offset is not was_right:
+            self._shifted(Foot.RIGHT, right, was_right, waited[1])
         if foot.levelled:
-            placed = self.tracks.left if foot.foot is Foot.LEFT else self.tracks.right
+            placed = left if foot.foot is Foot.LEFT else right
             self.sides[foot.foot].track = placed.place(placed.here)
 
-    def _placed(self) -> tuple[tuple[Side, Placed], ...]:
-        left, right = self.sides.values()
-        return (left, self.tracks.left), (right, self.tracks.right)
-
-    def _beside(self, side: Side, placed: Placed) -> None:
-        """Its track is known among both again; they walk as far apart as they stood."""
-        foot, other = (Foot.LEFT, Foot.RIGHT) if side is self.sides[Foot.LEFT] else (Foot.RIGHT, Foot.LEFT)
-        side.track = placed.place(placed.here)
-        x, y = self._apart(foot, self.sides[other])
-        side.offset = suspended(self.sides[other].offset, (x, y, 0.0))
-        side.place = side.own
+    def _shifted(self, foot: Foot, placed: Placed, offset: Vec3, waited: bool) -> None:
+        """Its track lies elsewhere among both than with `offset` before."""
+        side, other = self.sides[foot], self.sides[OTHER[foot]]
+        if waited and not placed.waits:  # it is known there again, and they walk as far apart as they stood
+            side.track = placed.place(placed.here)
+            x, y = self._apart(foot, other)
+            side.offset = suspended(other.offset, (x, y, 0.0))
+            side.place = side.own
+        else:  # in itself the foot is where it was
+            shift = sub(placed.offset, offset)
+            side.offset, side.track = sub(side.offset, shift), suspended(side.track, shift)
 
     def _apart(self, foot: Foot, other: Side) -> tuple[float, float]:
         """From the other foot to this one when they stand side by side, facing as the other last went, m."""

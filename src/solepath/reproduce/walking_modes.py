@@ -150,6 +150,11 @@ def _notes(done: Sequence[Walked]) -> tuple[str, ...]:
             f"{point}: ours is off by {', '.join(ours)} cm on average; the paper's means are off by "
             f"{', '.join(theirs)} cm."
         )
+    told.append(
+        "IV compensates each wearer by what the wearer's own marked walks showed; the table that the recipe ships, the "
+        "paper's table 1, does worse on these wearers."
+    )
+    told.append("How the first side lies to the sensors' common north is given to all four methods, not found by them.")
     told.append("The paper heads its table mm; its figures are taken for m, and so are ours. It has no quartiles.")
     return tuple(told)
 
