@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from solepath import machine
 from solepath.body.inclination import Inclination
-from solepath.body.limbs import SEGMENTS, LowerLimbs, Transform, foot_end
+from solepath.body.limbs import ABOVE, SEGMENTS, LowerLimbs, Transform, foot_end
 from solepath.calibration import Limbs
 from solepath.sim.gait import Wearer
 from solepath.sim.parts import MPU9250
@@ -190,3 +190,42 @@ def test_no_motion_turns_an_attitude_into_nonsense(samples: list[tuple[float, ..
         assert attitude is not None
         assert sum(part * part for part in attitude) == pytest.approx(1.0)
     assert machine.load(Inclination, machine.save(sensor)) == sensor
+
+
+def again(chain: LowerLimbs, site: Site, world: Quat, begin: float) -> None:
+    """The wearer stands for 0.6 s more, with a sensor whose world is turned by `world` from the one before."""
+    for k in range(31):
+        for other in SEGMENTS:
+            told = multiply(world, MOUNTED[other]) if other is site else MOUNTED[other]
+            chain.told(other, begin + 0.02 * k, told)
+
+
+def test_a_sensor_that_began_anew_is_used_again_in_its_new_world_once_it_stood_still() -> None:
+    chain = LowerLimbs(LIMBS)
+    stood(chain, MOUNTED)
+    world = from_yaw(2.0)
+    chain.interrupt(Site.LEFT_THIGH)
+    chain.told(Site.LEFT_THIGH, 0.62, multiply(world, MOUNTED[Site.LEFT_THIGH]))
+    assert not chain.current(0.62)
+    assert "left thigh began anew" in chain.why_not(0.62, SEGMENTS)
+    again(chain, Site.LEFT_THIGH, world, 0.64)
+    assert chain.current(1.24)
+    assert chain.end(Foot.LEFT, 1.24) == pytest.approx((0.2, 0.1, -0.95))
+    # the left leg swings back as one, by 30 degrees
+    for site in (Site.LEFT_THIGH, Site.LEFT_SHANK, Site.LEFT_FOOT):
+        told = multiply(pitched(30), MOUNTED[site])
+        chain.told(site, 1.26, multiply(world, told) if site is Site.LEFT_THIGH else told)
+    x, y, z = foot_end(IDENTITY, pitched(30), pitched(30), pitched(30), HIP, LIMBS)
+    assert chain.end(Foot.LEFT, 1.26) == pytest.approx((x, y, z))
+
+
+def test_why_the_chain_is_not_known_names_the_site() -> None:
+    chain = LowerLimbs(LIMBS)
+    assert chain.why_not(0.0, ()).startswith("no sensor heard at the pelvis, left thigh")
+    assert chain.why_not(0.0, ABOVE).startswith("no attitude, and no acceleration")
+    stood(chain, MOUNTED)
+    for site in SEGMENTS:
+        if site is not Site.RIGHT_SHANK:
+            chain.told(site, 1.0, MOUNTED[site])
+    assert not chain.current(1.0)
+    assert chain.why_not(1.0, ABOVE) == "the newest attitude of the right shank is 0.4 s old"
