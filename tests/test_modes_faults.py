@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
-from math import hypot
+from math import hypot, pi
 
 import pytest
 from attrs import evolve
 
 from solepath.calibration import Calibration, InsoleCalibration
-from solepath.events import Event, Limitation, SampleRejected, TouchedDown
+from solepath.events import Event, Limitation, SampleRejected, TouchedDown, WalkingModeChanged
 from solepath.recipes import BY_NAME
 from solepath.session import Session
 from solepath.sim import faults
@@ -19,7 +19,7 @@ from solepath.sim.parts import LSM6DSOX
 from solepath.sim.route import Route
 from solepath.sim.suit import limb_samples
 from solepath.sim.walker import Walker
-from solepath.types import SITE_OF_FOOT, Foot, Sample, Site
+from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 from walks import of
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
@@ -156,6 +156,39 @@ def test_with_the_chain_too() -> None:
     for silence in ((8.0, 100.0), (8.4, 13.3)):
         (x, y), _ = told("walking-modes", faults.silent(seven(), LEFT, *silence))
         assert hypot(x - FAR, y) < 2.0
+
+
+@cache
+def round_a_bend() -> tuple[Walker, tuple[Sample, ...], tuple[Sample, ...]]:
+    """Ten metres, a quarter to the left, fifteen metres: by two insoles, and by seven sensors."""
+    walked = Walker(Route().stand(2.0).walk(10.0, 1.2).turn(pi / 2, 3.0).walk(15.0).stop(2.0), seed=2)
+    layouts = {foot: layout(96, foot) for foot in Foot}
+    two = [s for foot in Foot for s in walked.samples(foot, 50.0, LSM6DSOX, layout=layouts[foot])]
+    sites = {SITE_OF_FOOT[foot]: one for foot, one in layouts.items()}
+    return walked, tuple(sorted(two, key=_time)), tuple(limb_samples(walked, 50.0, seed=2, layouts=sites))
+
+
+@pytest.mark.parametrize(("site", "end"), [(LEFT, 13.3), (RIGHT, 15.3), (RIGHT, 100.0)])
+def test_a_foot_that_comes_back_after_a_bend_goes_on_beside_the_other(site: Site, end: float) -> None:
+    walked, two, _ = round_a_bend()
+    (x, y), _ = told("walking-modes", faults.silent(two, site, 8.4, end))
+    assert hypot(x - walked.route.end.x, y - walked.route.end.y) < 1.0
+
+
+def test_a_chain_that_is_known_only_after_a_bend_lies_in_the_world_as_the_tracks_do() -> None:
+    """The sensors above the ankles are 0.3 s behind until 14 s, when the wearer is round the bend."""
+    walked, _, sensors = round_a_bend()
+    late = [evolve(s, known_at=s.t + 0.3) if s.site.foot is None and s.t < 14.0 else s for s in sensors]
+    (x, y), events = told("walking-modes", sorted(late, key=_known_at))
+    assert hypot(x - walked.route.end.x, y - walked.route.end.y) < 2.5
+    assert all(down.final for down in of(TouchedDown, events)[8:])
+
+
+def test_insoles_of_which_nobody_says_where_the_cells_are_tell_no_walking_modes() -> None:
+    _, events = told("walking-modes", feet(), Calibration())
+    assert {change.mode for change in of(WalkingModeChanged, events)} <= {WalkingMode.STANDING}
+    assert {down.mode for down in of(TouchedDown, events)} == {WalkingMode.STRAIGHT}
+    assert len([what for what in sentences(events) if "no walking modes" in what]) == 2
 
 
 def test_nothing_is_final_that_may_still_be_turned() -> None:

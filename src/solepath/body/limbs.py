@@ -211,9 +211,10 @@ class LowerLimbs:
         length = hypot(x, y)
         return (x / length, y / length) if length > 1e-6 else (1.0, 0.0)
 
-    def stepped(self, foot: Foot, t: float) -> None:
+    def stepped(self, foot: Foot, t: float, way: float = 0.0) -> None:
         """The foot has come down at `t` s: the first step tells where the wearer looked. Hips and feet are left out of
-        it, so that this need not be known for it: legs that hang down do so whatever they face."""
+        it, so that this need not be known for it: legs that hang down do so whatever they face. `way`: where it went,
+        rad from the x axis of the world, when the wearer has walked before the chain was known."""
         if self.facing is not None or not self.aligned:
             return
         x = y = 0.0
@@ -224,6 +225,8 @@ class LowerLimbs:
                 y += sign * dy
         if hypot(x, y) > FIRST_WAY:
             self.facing = atan2(y, x)
+            if not any([segment.own for segment in self.segments.values()]):  # those know the first heading themselves
+                self.facing -= way
 
 
 def _words(sites: Iterable[Site]) -> str:

@@ -35,7 +35,7 @@ from ..foot.refusal import rejected
 from ..foot.tracker import FootTracker
 from ..foot.world import Covariance3
 from ..types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
-from ..vector import TIE, ZERO
+from ..vector import TIE, ZERO, sub
 from .above import Above
 from .compensation import Compensation, chosen, epsilon_p, with_own
 from .evidence import UNSEEN
@@ -243,7 +243,9 @@ class Modes:
         places = self.places
         side, chain = places.sides[foot], places.chain
         if chain.current(t):
-            chain.stepped(places.swung(foot), t)
+            swung = places.swung(foot)
+            x, y, _ = sub(places.sides[swung].own, places.sides[swung].place)
+            chain.stepped(swung, t, atan2(y, x) if places.headed else 0.0)
         if by_itself or self._alone(foot, t):
             (x, y, _), chained = side.own, False
             place = (x, y, side.track[2])
