@@ -13,6 +13,7 @@ from .body.wear import Wear
 from .calibration import Calibration
 from .events import ClockReset, Event, LayoutKnown, Limitation, SampleRejected
 from .foot.refusal import rejected, with_sound_attitude, wrong_time
+from .foot.sole import Sole
 from .foot.tracker import FootTracker
 from .recipes import AnyBody, Recipe
 from .types import Foot, Sample, Site
@@ -73,6 +74,7 @@ class Wearer:
 
     def interrupt(self, site: Site) -> None:
         """Another device is worn there from now on."""
+        self.body.interrupt(site)
         if site.foot is not None and site.foot in self.feet:
             self.feet[site.foot].interrupt()
 
@@ -92,7 +94,7 @@ class Wearer:
                 _calibrated(recipe.corrector, known, foot),
                 self.poses,
                 cues=_calibrated(recipe.cues, known, foot),
-                insole=_calibrated(recipe.insole, known, foot),
+                sole=Sole(foot, _calibrated(recipe.insole, known, foot), recipe.needs_pressure),
                 needs_pressure=recipe.needs_pressure,
             )
             layout = known.insole(foot).layout

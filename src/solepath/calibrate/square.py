@@ -17,13 +17,14 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterable, Mapping, Sequence
+from io import StringIO
 from math import atan2, hypot, inf, isfinite
 from pathlib import Path
 
 import numpy as np
 from attrs import frozen
 
-from ..calibration import Calibration, CalibrationError
+from ..calibration import Calibration, CalibrationError, bounded_text
 from ..events import StepTaken
 from ..foot.bias_zupt import BiasZupt
 from ..recipes import PRESSURE_CONTOUR, Recipe
@@ -130,8 +131,7 @@ def square_drift(
 def read_marks(path: Path | str) -> tuple[Mark, ...]:
     """Marks from a .csv with the columns `mark` and `t`, one row for every visit. CalibrationError when it is not."""
     try:
-        with Path(path).open(encoding="utf-8-sig", newline="") as file:
-            rows = list(csv.DictReader(file))
+        rows = list(csv.DictReader(StringIO(bounded_text(Path(path), "utf-8-sig"), newline="")))
     except OSError as error:
         raise CalibrationError(f"{path}: {error.strerror}") from None
     except (UnicodeDecodeError, csv.Error) as error:

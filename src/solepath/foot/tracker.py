@@ -15,7 +15,6 @@ from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..vector import ZERO, sub
 from .attitude import Levelling, Rest, suspected
 from .bias_zupt import BiasZupt
-from .cell_health import CellHealth
 from .contour_stance import ContourVelocity, GyroscopeMagnitude
 from .cop_cues import CopCues
 from .crossing import cross
@@ -26,7 +25,6 @@ from .eskf import ErrorStateFilter
 from .gait import Gait
 from .gait_cues import GaitCues
 from .gap import SHORTEST
-from .guess import LayoutGuess
 from .known_velocity import KnownVelocity
 from .limits import WITHOUT, Limits
 from .navigate import LONGEST_BRIDGE
@@ -34,6 +32,7 @@ from .pressure import Insole
 from .pressure_stance import MaximumPressure, TwoArea
 from .refusal import refusal, rejected
 from .rhythm import Rhythm
+from .sole import Sole
 from .stance import AngularRate, Graph, Load, MovingVariance, Shoe
 from .swing_dedrift import SwingDedrift
 from .world import Covariance3
@@ -66,7 +65,8 @@ class FootTracker:
     poses: bool = False
     """Emit FootMoved for every navigated sample."""
     cues: AnyCues = field(factory=GaitCues)
-    insole: Insole = field(factory=Insole)
+    sole: Sole = field()
+    """Its cells."""
     needs_pressure: bool = False
     """Without pressure cells nothing is said of this foot."""
     # state
@@ -82,16 +82,6 @@ class FootTracker:
     levelling: Levelling = field(factory=Levelling, init=False)
     levelled: bool = field(default=False, init=False)
     rest: Rest = field(factory=Rest, init=False)
-    pressed: bool = field(default=False, init=False)
-    """Cells were heard of."""
-    health: CellHealth = field(init=False)
-    guess: LayoutGuess = field(init=False)
-    guessed: bool = field(default=False, init=False)
-    """The layout is a guess."""
-    supposed: Layout | None = field(default=None, init=False)
-    """The calibration's layout, until a sample with as many cells has come."""
-    compared: bool = field(default=False, init=False)
-    """What the calibration says of the cells is of as many as there are, or is not used."""
     gait: Gait = field(init=False)
     limits: Limits = field(init=False)
     scale_said: bool = field(default=False, init=False)
@@ -100,10 +90,17 @@ class FootTracker:
     def __attrs_post_init__(self) -> None:
         self.gait = Gait(self.foot)
         self.limits = Limits(self.foot)
-        self.health = CellHealth(SITE_OF_FOOT[self.foot])
-        self.guess = LayoutGuess(self.foot)
+
+    @sole.default
+    def _bare(self) -> Sole:
+        return Sole(self.foot, Insole(), self.needs_pressure)
 
     # --- what it knows ---
+
+    @property
+    def insole(self) -> Insole:
+        """What makes a load of its cells."""
+        return self.sole.insole
 
     @property
     def phase(self) -> Phase:
@@ -134,34 +131,15 @@ class FootTracker:
 
     def wear(self, layout: Layout) -> None:
         """The device said where its pressure cells are."""
-        self.guessed, self.supposed = False, None
-        self._lay_out(layout)
+        self.sole.wear(layout, self.limits)
+        self._wear_parts(layout)
 
     def suppose(self, layout: Layout) -> None:
         """A calibration says where the cells are: it is believed if samples have as many."""
-        self.supposed = layout
-
-    def _compare(self, count: int, t: float, known_at: float, events: list[Event]) -> None:
-        """A sample has `count` cells: whether the calibration is of this insole."""
-        layout, noise = self.supposed, self.insole.noise
-        if layout is not None and len(layout.cells) == count:
-            self.wear(layout)
-            layout = None
-        odd = layout is not None or (bool(noise) and len(noise) != count)
-        self.compared = not odd or self.limits.misfit(layout, noise, count, t, known_at, events)
-        if odd and self.compared:
-            self.supposed = None
-            self.insole.noise = noise if len(noise) == count else ()
-
-    def _lay_out(self, layout: Layout) -> None:
-        self.insole.wear(layout)
-        if self.insole.newtons is not None and layout.scale is not None and not self.guessed:
-            self.insole.newtons = None
-            what = f"the {self.foot.value} insole tells newtons itself: the calibration's cubic is not used"
-            self.limits.later(what)
-        self._wear_parts(layout)
+        self.sole.suppose(layout)
 
     def _wear_parts(self, layout: Layout) -> None:
+        self.sole.worn = False
         for part in (self.detector, self.cues):
             wear = getattr(part, "wear", None)
             if wear is not None:
@@ -181,8 +159,7 @@ class FootTracker:
         if self.insole.layout is not None:
             self._wear_parts(self.insole.layout)
         self.levelling = evolve(self.levelling)
-        self.insole.interrupt()
-        self.health.interrupt()
+        self.sole.interrupt()
         self.rest.interrupt()
 
     def feed(self, sample: Sample) -> list[Event]:
@@ -202,24 +179,13 @@ class FootTracker:
         self.t = t if self.t is None else max(self.t, t)
         if sample.saturated:
             self.gait.step.spoil(t)
-        load: Load | None = None
-        cells: tuple[float, ...] = ()
-        if sample.pressure and not self.compared:
-            self._compare(len(sample.pressure), t, known_at, events)
-        if sample.pressure or self.pressed:
-            told = None if self.guessed else self.insole.layout
-            events += self.health.update(t, known_at, sample.pressure or (), self.phase, sample.gyro, told)
-            cells = self.health.usable(sample.pressure or ())
-        if cells:
-            self.pressed = True
-            if self.guessed and self.insole.layout is not None and len(self.insole.layout.cells) != len(cells):
-                self._forget_layout()  # it was of another insole
-            load = self.insole.update(t, cells)
-            if self.needs_pressure and self.insole.layout is None and load is not None:
-                self._guess_layout(t, known_at, load, events)
-            if self.phase is not Phase.SWING and load is not None and self.gait.step.t_toe_off is None:
+        load = self.sole.press(sample, known_at, self.phase, self.limits, events)
+        if self.sole.worn and self.insole.layout is not None:
+            self._wear_parts(self.insole.layout)
+        if load is not None:
+            if self.phase is not Phase.SWING and self.gait.step.t_toe_off is None:
                 self.gait.step.loaded(sum(load.cells), load.centre)
-        elif self.needs_pressure and not self.pressed:
+        elif self.needs_pressure and not self.sole.pressed:
             what = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
             self.limits.lacks(what, t, known_at, events)
             return events
@@ -240,19 +206,6 @@ class FootTracker:
             dt = 0.0 if last is None else self._watch_for_gaps(last, t, known_at, sample, events)
             self._pressure_alone(t, dt, known_at, sample, load, events)
         return events
-
-    def _guess_layout(self, t: float, known_at: float, load: Load, events: list[Event]) -> None:
-        layout = self.guess.update(t, self.insole.above_tare(load.cells), load.total)
-        if layout is not None:
-            what = f"nobody says where the cells of the {self.foot.value} insole are: learnt from how steps load them"
-            self.limits.say(what, t, known_at, events)
-            self.guessed = True
-            self._lay_out(layout)
-
-    def _forget_layout(self) -> None:
-        self.guessed = False
-        self.guess = LayoutGuess(self.foot)
-        self.insole = evolve(self.insole)
 
     def _watch_for_gaps(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
         """Name a gap between two samples; returns the time to integrate over, s."""
