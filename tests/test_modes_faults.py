@@ -171,8 +171,12 @@ def round_a_bend() -> tuple[Walker, tuple[Sample, ...], tuple[Sample, ...]]:
 @pytest.mark.parametrize(("site", "end"), [(LEFT, 13.3), (RIGHT, 15.3), (RIGHT, 100.0)])
 def test_a_foot_that_comes_back_after_a_bend_goes_on_beside_the_other(site: Site, end: float) -> None:
     walked, two, _ = round_a_bend()
-    (x, y), _ = told("walking-modes", faults.silent(two, site, 8.4, end))
+    (x, y), events = told("walking-modes", faults.silent(two, site, 8.4, end))
     assert hypot(x - walked.route.end.x, y - walked.route.end.y) < 1.0
+    downs = [down.t for down in of(TouchedDown, events) if SITE_OF_FOOT[down.foot] is site]
+    strides = [s.heel_strike for foot in Foot for s in walked.plan.strides[foot] if SITE_OF_FOOT[foot] is site]
+    assert len([t for t in strides if t < 8.4 or t > end + 4.0]) <= len(downs) <= len(strides)
+    assert all(min(abs(t - strike) for strike in strides) < 0.15 for t in downs)
 
 
 def test_a_chain_that_is_known_only_after_a_bend_lies_in_the_world_as_the_tracks_do() -> None:

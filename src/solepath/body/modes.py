@@ -161,15 +161,16 @@ class Modes:
         seen = t
         if isinstance(self.touchdown, Height):
             seen = self._heights(t)
-        alone = self._alone(foot, t)
-        if alone and foot not in self.unheard:
-            self.unheard.append(foot)
-            what = f"the {OTHER[foot].value} foot is not heard: the wearer goes by the {foot.value} foot's own track"
-            events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[OTHER[foot]], what=what))
-        elif not alone and len(self.signs.shown) < len(Foot):
+        other = OTHER[foot]
+        alone = foot if self._alone(foot, t) else other if self._alone(other, t) else None
+        if alone is None and len(self.signs.shown) < len(Foot):
             return events
+        if alone is foot and foot not in self.unheard:
+            self.unheard.append(foot)
+            what = f"the {other.value} foot is not heard: the wearer goes by the {foot.value} foot's own track"
+            events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[other], what=what))
         before = self.carrier.down
-        flags = self.signs.down(t, foot if alone else None, known_at, events)
+        flags = self.signs.down(t, alone, known_at, events)
         taken = self.carrier.update(flags)
         if taken is None:
             here = self.carrier.foot
@@ -185,7 +186,7 @@ class Modes:
         return events + self._awaited(t, known_at)
 
     def _alone(self, foot: Foot, t: float) -> bool:
-        """Nothing is heard of the other foot, and this one has taken steps meanwhile."""
+        """Nothing is heard of the other foot while this one takes steps, or how it lies to this one is not known."""
         other = OTHER[foot]
         if other not in self.signs.shown:
             return self.signs.evidence[foot].taken >= UNSEEN
