@@ -74,7 +74,9 @@ WALKING_MODES = Recipe(
     body=Modes(MaximumPressure(), TABLE_1),
     needs_pressure=True,
 )
-"""Gong et al. 2023, method IV: touchdowns by maximum pressure, compensated by walking mode."""
+"""Gong et al. 2023, method IV: touchdowns by maximum pressure, compensated by walking mode. It ships the paper's table
+1, which holds for the paper's wearers: on emulated ones it does worse than what their own marked walks teach
+(`solepath calibrate modes`)."""
 
 TOUCHDOWN_HEIGHT = Recipe("touchdown-height", Cycle(), ErrorStateFilter(), body=Modes(Height()))
 """Their method I: the lower foot carries."""

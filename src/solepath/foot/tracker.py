@@ -65,10 +65,10 @@ class FootTracker:
     poses: bool = False
     """Emit FootMoved for every navigated sample."""
     cues: AnyCues = field(factory=GaitCues)
-    sole: Sole = field()
-    """Its cells."""
     needs_pressure: bool = False
     """Without pressure cells nothing is said of this foot."""
+    sole: Sole = field()
+    """Its cells."""
     # state
     t: float | None = field(default=None, init=False)
     """The newest sample, s."""
