@@ -38,7 +38,7 @@ class StrideFused(Happening):
 @frozen(kw_only=True)
 class TouchedDown(Happening):
     """A foot came down and carries from now on; the other is measured from it (Gong et al. 2023, Sensors 23, 5417,
-    equations (1) to (3) and (8))."""
+    equations (1) to (3) and (8)). Not final before the wearer's first heading is settled; later ones are."""
 
     foot: Foot
     position: Vec3
