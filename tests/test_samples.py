@@ -282,8 +282,20 @@ def test_a_sheet_with_a_fault_of_the_whole_is_refused_in_one_sentence(tmp_path, 
 # --- what is wrong from one row on: the rows before are used ----------------------------------------------------------
 
 
-@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
-@pytest.mark.parametrize("quantity", ["acc", "gyro", "pressure"])
+@pytest.mark.parametrize("kind", ["npz", "csv"])
+def test_a_pressure_cell_without_a_number_is_a_missing_cell_and_ends_no_file(tmp_path, kind):
+    columns = still()
+    columns["pressure"][7, 1] = np.nan
+    path = npz(tmp_path / "cell.npz", **columns) if kind == "npz" else sheet(tmp_path / "cell.csv", columns)
+    samples = list(load_samples(path))
+    assert len(samples) == len(columns["t"])
+    assert np.isnan(samples[7].pressure[1]) and np.isfinite(samples[7].pressure[0])
+
+
+@pytest.mark.parametrize(
+    ("quantity", "value"),
+    [(q, v) for q in ("acc", "gyro", "pressure") for v in (np.nan, np.inf, -np.inf) if (q, v) != ("pressure", np.nan)],
+)
 @pytest.mark.parametrize("kind", ["npz", "csv"])
 def test_a_value_that_is_not_finite_is_named_after_the_rows_before_it(tmp_path, kind, quantity, value):
     columns = still()
