@@ -1,15 +1,14 @@
 """`solepath calibrate`, and the commands that take what it writes."""
 
-import io
 import json
 import subprocess
 import sys
-from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from commands import refused, run
 from solepath.calibration import Calibration, InsoleCalibration, ShoeGeometry, read_calibration, write_calibration
 from solepath.cli import main
 from solepath.recipes import BY_NAME
@@ -25,21 +24,6 @@ from solepath.types import Foot, Site, WalkingMode
 ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 PRESSED = [name for name, recipe in BY_NAME.items() if recipe.needs_pressure]
-
-
-def run(*arguments: object) -> subprocess.CompletedProcess[str]:
-    """The command in this process, with nobody at a terminal."""
-    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
-        status = main([str(argument) for argument in arguments])
-    return subprocess.CompletedProcess(arguments, status, out.getvalue(), err.getvalue())
-
-
-def refused(*arguments: object) -> str:
-    """The one line with which it ends."""
-    done = run(*arguments)
-    assert done.returncode == 2 and done.stdout == ""
-    assert done.stderr.startswith("solepath: ") and done.stderr.count("\n") == 1
-    return done.stderr
 
 
 @pytest.fixture(scope="module")

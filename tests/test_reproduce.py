@@ -1,14 +1,13 @@
 """`solepath reproduce`: the statistics by hand, the papers' own figures, and the commands from end to end."""
 
-import io
 import json
 import subprocess
 import sys
-from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import pytest
 
+from commands import refused, run
 from solepath.cli import main
 from solepath.cli.reproduce import NAMES
 from solepath.reproduce import pressure_contour, walking_modes
@@ -28,21 +27,6 @@ from solepath.reproduce.tables import Reproduction, Row, Statistics, as_json, st
 from solepath.view.reproduced import reproduced
 
 FIVE = ["mean", "std", "q1", "median", "q3"]
-
-
-def run(*arguments: object) -> subprocess.CompletedProcess[str]:
-    """The command in this process, with nobody at a terminal."""
-    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
-        status = main([str(argument) for argument in arguments])
-    return subprocess.CompletedProcess(arguments, status, out.getvalue(), err.getvalue())
-
-
-def refused(*arguments: object) -> str:
-    """The one line with which it ends."""
-    done = run(*arguments)
-    assert done.returncode == 2 and done.stdout == ""
-    assert done.stderr.startswith("solepath: ") and done.stderr.count("\n") == 1
-    return done.stderr
 
 
 # --- statistics -------------------------------------------------------------------------------------------------------

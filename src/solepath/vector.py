@@ -71,6 +71,12 @@ def from_yaw(yaw: float) -> Quat:
     return (cos(0.5 * yaw), 0.0, 0.0, sin(0.5 * yaw))
 
 
+def tipped(q: Quat, tx: float, ty: float) -> Quat:
+    """q after a small turn in the world about the horizontal (2 tx, 2 ty, 0), rad."""
+    w, x, y, z = q
+    return normalise((w - tx * x - ty * y, x + tx * w + ty * z, y + ty * w - tx * z, z + tx * y - ty * x))
+
+
 def levelling(acc: Vec3) -> Quat:
     """The smallest turn that takes the specific force `acc` at rest to straight up; heading is left as it is."""
     x, y, z = acc

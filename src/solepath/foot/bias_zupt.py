@@ -11,7 +11,7 @@ from attrs import define, evolve, field
 
 from ..calibration import Calibration
 from ..types import Foot, Phase, Quat, Vec3
-from ..vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, sub
+from ..vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, sub, tipped
 from .acc_bias import AccelerometerBias
 from .navigate import LONGEST_BRIDGE, Strapdown
 from .stance import Stance
@@ -181,6 +181,4 @@ class BiasZupt(Strapdown):
         without the bias: with it, bias and tilt could drift against each other."""
         ax, ay, _ = rotate(self.attitude, self.measured)
         share = 0.5 * (1.0 - exp(-self.tilt_rate * min(dt, 0.1))) / GRAVITY
-        tx, ty = share * ay, -share * ax
-        w, x, y, z = self.attitude
-        self.attitude = normalise((w - tx * x - ty * y, x + tx * w + ty * z, y + ty * w - tx * z, z + tx * y - ty * x))
+        self.attitude = tipped(self.attitude, share * ay, -share * ax)

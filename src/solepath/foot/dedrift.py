@@ -14,7 +14,7 @@ from math import exp, sqrt
 from attrs import define, field
 
 from ..types import Phase, Quat, Vec3
-from ..vector import GRAVITY, ZERO, normalise, sub
+from ..vector import GRAVITY, ZERO, sub, tipped
 from .navigate import LONGEST_BRIDGE, Strapdown
 from .stance import Stance
 
@@ -101,6 +101,4 @@ class LinearDedrift(Strapdown):
             return
         fx, fy, _ = self.force
         share = 0.5 * (1.0 - exp(-self.tilt_rate * min(dt, 0.1))) / GRAVITY
-        tx, ty = share * fy, -share * fx
-        w, x, y, z = self.attitude
-        self.attitude = normalise((w - tx * x - ty * y, x + tx * w + ty * z, y + ty * w - tx * z, z + tx * y - ty * x))
+        self.attitude = tipped(self.attitude, share * fy, -share * fx)
