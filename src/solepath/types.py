@@ -78,6 +78,28 @@ class WalkingMode(Enum):
     STANDING = "STANDING"
 
 
+class Activity(Enum):
+    """What the wearer does."""
+
+    STANDING = "STANDING"
+    """Sitting as well: a foot on the ground cannot tell."""
+    WALKING = "WALKING"
+    RUNNING = "RUNNING"
+    STAIRS_UP = "STAIRS_UP"
+    STAIRS_DOWN = "STAIRS_DOWN"
+    ELEVATOR_UP = "ELEVATOR_UP"
+    ELEVATOR_DOWN = "ELEVATOR_DOWN"
+    UNKNOWN = "UNKNOWN"
+
+
+class Turn(Enum):
+    """Where the wearer turned to."""
+
+    LEFT = "LEFT"
+    RIGHT = "RIGHT"
+    ABOUT = "ABOUT"
+
+
 @frozen
 class Packet:
     """One notification (or one value read from a device) as it came in.

@@ -7,6 +7,12 @@ revise it. Final events never change, however much data follows.
 
 from __future__ import annotations
 
+from .activity import (
+    ActivityChanged,
+    FlightClimbed,
+    LiftRidden,
+    TurnMade,
+)
 from .body import (
     StrideFused,
     TouchedDown,
@@ -41,6 +47,11 @@ from .link import (
     StreamResumed,
     StreamStale,
 )
+from .place import (
+    Candidate,
+    Placed,
+    PlaceLost,
+)
 from .wear import (
     CellFault,
     CellsFailed,
@@ -51,8 +62,11 @@ from .wear import (
 )
 
 __all__ = [
+    "ActivityChanged",
+    "ActivityEvent",
     "BatteryLevel",
     "BodyEvent",
+    "Candidate",
     "CellFault",
     "CellsFailed",
     "ClockReset",
@@ -60,6 +74,7 @@ __all__ = [
     "Disconnected",
     "Event",
     "FeetSwapped",
+    "FlightClimbed",
     "FootFlat",
     "FootHeard",
     "FootMoved",
@@ -70,12 +85,16 @@ __all__ = [
     "InsoleNeverUnloads",
     "KeysChanged",
     "LayoutKnown",
+    "LiftRidden",
     "Limitation",
     "LinkEvent",
     "LinkTrouble",
     "PacketRejected",
     "PacketsDropped",
     "PacketsLost",
+    "PlaceEvent",
+    "PlaceLost",
+    "Placed",
     "Rejection",
     "SampleGap",
     "SampleRejected",
@@ -88,6 +107,7 @@ __all__ = [
     "StrideFused",
     "ToeOff",
     "TouchedDown",
+    "TurnMade",
     "WalkingModeChanged",
     "WearEvent",
 ]
@@ -113,6 +133,8 @@ LinkEvent = (
     | Limitation
 )
 BodyEvent = StrideFused | TouchedDown | WalkingModeChanged
+ActivityEvent = ActivityChanged | LiftRidden | FlightClimbed | TurnMade
+PlaceEvent = Placed | PlaceLost
 WearEvent = CellsFailed | InsoleNeverUnloads | FeetSwapped | FootSilent | FootHeard
-Event = GaitEvent | LinkEvent | BodyEvent | WearEvent
+Event = GaitEvent | LinkEvent | BodyEvent | ActivityEvent | PlaceEvent | WearEvent
 """All of them."""
