@@ -1,0 +1,128 @@
+"""A floor plan as plain records: levels with walls, doors and rooms, and the stairs and lifts that join them.
+
+Plan frame: x and y in m, right handed, z up; a level's z is its `elevation`. Readers of three formats (reading.py) make
+these records, and so can a program. Walls are solid: where one can go through, a reader has cut the door out of them
+(doors.py). What a plan must and should be is in checks.py.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from attrs import frozen
+
+from ..machine import checksum, save
+
+Point = tuple[float, float]
+"""(x, y) in m, plan frame."""
+
+
+class FloorPlanError(ValueError):
+    """A floor plan cannot be read or used: one line with the file, the feature and what does not fit."""
+
+
+@frozen
+class Wall:
+    """A straight solid wall without thickness."""
+
+    start: Point
+    end: Point
+
+
+@frozen
+class Door:
+    """A straight opening that one can walk through; where it lies on a wall, the wall has a gap."""
+
+    start: Point
+    end: Point
+    name: str = ""
+
+
+class Kind(Enum):
+    """How a connector takes one to another level."""
+
+    STAIRS = "stairs"
+    LIFT = "lift"
+
+
+@frozen
+class Stop:
+    """Where a connector meets a level. `place`: where one steps on and off. `outline`: of the stairwell or the cabin on
+    this level, a ring whose last point is not the first again; empty when it is not known."""
+
+    level: str
+    place: Point
+    outline: tuple[Point, ...] = ()
+
+
+@frozen
+class Connector:
+    """Stairs or a lift. `stops`: from the lowest to the highest. `flights`: of stairs, per storey; None when it is not
+    known. `rise`: m, of one step of the stairs; None when it is not known."""
+
+    kind: Kind
+    name: str
+    stops: tuple[Stop, ...]
+    flights: int | None = None
+    rise: float | None = None
+
+
+@frozen
+class Level:
+    """One storey. `ordinal`: its place in the order of storeys, 0 at the ground. `elevation`: of its floor, m, in the
+    plan's z. `rooms`: outlines within which one can walk, rings whose last point is not the first again; empty when
+    nothing is known of them."""
+
+    id: str
+    name: str
+    ordinal: int
+    elevation: float
+    walls: tuple[Wall, ...]
+    doors: tuple[Door, ...] = ()
+    rooms: tuple[tuple[Point, ...], ...] = ()
+
+
+@frozen
+class Anchor:
+    """Where on the Earth the plan is. `latitude`, `longitude`: of the plan's origin (0, 0), degrees, WGS84. `bearing`:
+    rad, clockwise from true north to the plan's +y; with 0, +x is east and +y is north."""
+
+    latitude: float
+    longitude: float
+    bearing: float = 0.0
+
+
+@frozen
+class FloorPlan:
+    """A building. `levels`: from the lowest to the highest. `connectors`: what joins them. `anchor`: None when nobody
+    knows where the building is, and nobody has to."""
+
+    name: str
+    levels: tuple[Level, ...]
+    connectors: tuple[Connector, ...] = ()
+    anchor: Anchor | None = None
+
+    @property
+    def fingerprint(self) -> int:
+        """The same for equal plans, on every machine; another, but for one chance in 2^32, for others. It is computed
+        anew, in a time that grows with the plan."""
+        return checksum(save(self))
+
+    def level(self, name: str) -> Level:
+        """The level with this id. FloorPlanError when there is none."""
+        for level in self.levels:
+            if level.id == name:
+                return level
+        known = ", ".join(level.id for level in self.levels)
+        raise FloorPlanError(f"the plan has no level {name!r}, only {known or 'none at all'}")
+
+
+@frozen
+class Start:
+    """Where a wearer sets out. `place`: m, plan frame. `heading`: rad, counter-clockwise from the plan's +x, of the
+    wearer's first heading; None when it is not known. `spread`: how far off `place` may be, m (rms)."""
+
+    level: str
+    place: Point
+    heading: float | None = None
+    spread: float = 0.5
