@@ -16,23 +16,24 @@ from walks import insoles, packets
 ROOT = Path(solepath.__file__).parent
 
 NOUNS = {"types", "events", "vector", "machine", "calibration"}
-CORE = NOUNS | {"wire", "link", "foot", "body", "recipes", "wearer", "session"}
+CORE = NOUNS | {"floorplan", "wire", "link", "foot", "body", "recipes", "wearer", "session"}
 ALLOWED: dict[str, set[str]] = {
     "types": set(),
     "vector": {"types"},
     "events": {"types"},
     "machine": set(),
     "calibration": {"types", "machine"},
+    "floorplan": NOUNS,
     "wire": NOUNS,
     "link": NOUNS | {"wire"},
     "foot": NOUNS | {"wire", "link"},
-    "body": NOUNS | {"foot"},
+    "body": NOUNS | {"foot", "floorplan"},
     "recipes": NOUNS | {"foot", "body"},
-    "wearer": NOUNS | {"foot", "body", "recipes"},
+    "wearer": NOUNS | {"foot", "body", "floorplan", "recipes"},
     "session": CORE - {"session"},
     "__init__": CORE,
     # the edges: they import the rooms, no room imports them
-    "sim": NOUNS | {"wire", "link"},
+    "sim": NOUNS | {"floorplan", "wire", "link"},
     "recording": NOUNS | {"wire", "link"},
     "samples": NOUNS | {"recording"},
     "btsnoop": {"types", "wire", "link", "recording"},
@@ -43,8 +44,9 @@ ALLOWED: dict[str, set[str]] = {
     "monitor": CORE | {"tally"},
     "demo": CORE | {"sim", "evaluate", "tally", "monitor"},
     "calibrate": CORE | {"recording", "samples", "source"},
-    "reproduce": CORE | {"sim", "calibrate", "evaluate"},
-    "evaluate": CORE | {"sim", "recording", "samples", "__init__"},
+    "reproduce": CORE | {"sim", "calibrate", "evaluate", "train"},
+    "train": CORE | {"sim", "recording", "samples"},
+    "evaluate": CORE | {"sim", "recording", "samples", "train", "__init__"},
     "ble": CORE | {"recording"},
     "loopback": CORE | {"recording", "sim", "ble"},
     "view": CORE | {"sim", "recording", "samples", "source", "output", "tally", "demo", "evaluate", "monitor",
@@ -56,7 +58,7 @@ ALLOWED: dict[str, set[str]] = {
 """Room (a module or a folder of src/solepath) -> the rooms that it may import."""
 
 FORBIDDEN = {"numpy", "bleak", "asyncio"}
-LIVE = NOUNS | {"wire", "link", "foot", "body", "recipes", "wearer", "session", "__init__"}
+LIVE = NOUNS | {"floorplan", "wire", "link", "foot", "body", "recipes", "wearer", "session", "__init__"}
 
 
 def modules() -> dict[str, Path]:

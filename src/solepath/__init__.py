@@ -4,7 +4,9 @@ from . import recipes
 from .body.position import Position
 from .calibration import Calibration, CalibrationError, read_calibration
 from .events import (
+    ActivityChanged,
     BatteryLevel,
+    Candidate,
     CellFault,
     CellsFailed,
     ClockReset,
@@ -12,6 +14,7 @@ from .events import (
     Disconnected,
     Event,
     FeetSwapped,
+    FlightClimbed,
     FootFlat,
     FootHeard,
     FootMoved,
@@ -21,11 +24,14 @@ from .events import (
     InsoleNeverUnloads,
     KeysChanged,
     LayoutKnown,
+    LiftRidden,
     Limitation,
     LinkTrouble,
     PacketRejected,
     PacketsDropped,
     PacketsLost,
+    Placed,
+    PlaceLost,
     Rejection,
     SampleGap,
     SampleRejected,
@@ -38,17 +44,35 @@ from .events import (
     StrideFused,
     ToeOff,
     TouchedDown,
+    TurnMade,
     WalkingModeChanged,
 )
 from .machine import SnapshotError
 from .recipes import Recipe
 from .session import Session
-from .types import Cell, Foot, Layout, Packet, Phase, Quat, Sample, Site, Support, Vec3, WalkingMode
+from .types import (
+    Activity,
+    Cell,
+    Foot,
+    Layout,
+    Packet,
+    Phase,
+    Quat,
+    Sample,
+    Site,
+    Support,
+    Turn,
+    Vec3,
+    WalkingMode,
+)
 
 __all__ = [
+    "Activity",
+    "ActivityChanged",
     "BatteryLevel",
     "Calibration",
     "CalibrationError",
+    "Candidate",
     "Cell",
     "CellFault",
     "CellsFailed",
@@ -57,6 +81,7 @@ __all__ = [
     "Disconnected",
     "Event",
     "FeetSwapped",
+    "FlightClimbed",
     "Foot",
     "FootFlat",
     "FootHeard",
@@ -68,6 +93,7 @@ __all__ = [
     "KeysChanged",
     "Layout",
     "LayoutKnown",
+    "LiftRidden",
     "Limitation",
     "LinkTrouble",
     "Packet",
@@ -75,6 +101,8 @@ __all__ = [
     "PacketsDropped",
     "PacketsLost",
     "Phase",
+    "PlaceLost",
+    "Placed",
     "Position",
     "Quat",
     "Recipe",
@@ -95,6 +123,8 @@ __all__ = [
     "Support",
     "ToeOff",
     "TouchedDown",
+    "Turn",
+    "TurnMade",
     "Vec3",
     "WalkingMode",
     "WalkingModeChanged",
