@@ -1,0 +1,127 @@
+"""Flights of stairs: stair strides of the feet that follow each other between level ones.
+
+For whoever judges strides one by one, whatever the method:
+
+    flights = Flights()
+    for each StepTaken of either foot:  events += flights.stepped(step, 1 upstairs, -1 downstairs, 0 on the level)
+    now and then, with the time:        events += flights.waited(t, known_at)
+
+A flight is over when as many level strides follow each other as feet are heard: a landing gives each foot at least one,
+while a stride that is misjudged in the middle of the stairs stands alone (with one foot it parts the flight). It is
+over as well with the first stride the other way, and when both feet stand at one height for `patience` s: at the top
+nobody need walk on, and who rests on the stairs with a foot on each tread is not there yet. What is lower than
+`least_height` is a kerb. Latency: that of the level strides, about a second, or `patience`.
+"""
+
+from __future__ import annotations
+
+from attrs import define, field
+
+from ..events import FlightClimbed, StepTaken
+from ..types import Foot
+
+
+@define
+class Flights:
+    """Counts flights; emits a final `FlightClimbed` for each as soon as it is over."""
+
+    least_height: float = 0.4
+    """m: less than three risers."""
+    patience: float = 3.0
+    """s."""
+    even: float = 0.08
+    """Feet whose heights differ by less stand on one level, m."""
+    heard_within: float = 4.0
+    """A foot that has not stepped for longer than this is not heard, s."""
+    rise: float = 0.08
+    """A level stride that rises more than this beside a flight's stair strides is the flight's first or last riser,
+    taken with a long stride, m."""
+    # state
+    way: int = field(default=0, init=False)
+    """1 up, -1 down, 0 when no flight is under way."""
+    t_start: float = field(default=0.0, init=False)
+    t_end: float = field(default=0.0, init=False)
+    strides: int = field(default=0, init=False)
+    level: int = field(default=0, init=False)
+    """Level strides since the last stair stride."""
+    climbed: dict[Foot, float] = field(factory=dict, init=False)
+    """By each foot in this flight, m."""
+    stood: dict[Foot, float] = field(factory=dict, init=False)
+    """Height of each foot above where both were last known to be on one level, m."""
+    before: dict[Foot, float] = field(factory=dict, init=False)
+    """What each foot's last stride rose, when that was a level one, m."""
+    stepped_at: dict[Foot, float] = field(factory=dict, init=False)
+
+    def interrupt(self) -> None:
+        """The clock begins anew: the flight under way is given up."""
+        self.way = 0
+        self.stood, self.before, self.stepped_at = {}, {}, {}
+
+    def stepped(self, step: StepTaken, way: int) -> list[FlightClimbed]:
+        """A step of either foot that goes upstairs (1), downstairs (-1) or neither (0)."""
+        foot, height = step.foot, step.height_change
+        events: list[FlightClimbed] = []
+        if way != 0 and self.way not in (0, way):
+            self._over(step.known_at, events)
+        if way != 0:
+            if self.way == 0:
+                self._begin(step, way)
+            self.t_end = max(self.t_end, step.t)
+            self.strides += 1
+            self.level = 0
+            first = self.before.pop(foot, 0.0)
+            self._climb(foot, height + (first if way * first > self.rise else 0.0))
+        elif self.way != 0:
+            self.level += 1
+            if self.way * height > self.rise and foot in self.climbed:
+                self._climb(foot, height)
+            else:
+                self.before[foot] = height
+            if self.level >= self._heard(foot, step.t):
+                self._over(step.known_at, events)
+                self.stood = {}
+        else:
+            self.before[foot] = height
+        self.stepped_at[foot] = step.t
+        return events
+
+    def waited(self, t: float, known_at: float) -> list[FlightClimbed]:
+        """It is `t` s, and no step has come since the last one told."""
+        events: list[FlightClimbed] = []
+        if self.way != 0 and t - max(self.stepped_at.values(), default=t) > self.patience:
+            heights = list(self.stood.values())
+            if max(heights) - min(heights) < self.even:
+                self._over(known_at, events)
+                self.stood = {}
+        return events
+
+    def _begin(self, step: StepTaken, way: int) -> None:
+        self.way = way
+        self.t_start, self.t_end = step.t_start, step.t
+        self.strides = self.level = 0
+        self.climbed = {}
+
+    def _climb(self, foot: Foot, height: float) -> None:
+        self.climbed[foot] = self.climbed.get(foot, 0.0) + height
+        self.stood[foot] = self.stood.get(foot, 0.0) + height
+
+    def _heard(self, foot: Foot, t: float) -> int:
+        """How many feet are."""
+        others = [at for other, at in self.stepped_at.items() if other is not foot]
+        return 1 + sum([abs(t - at) < self.heard_within for at in others])
+
+    def _over(self, known_at: float, events: list[FlightClimbed]) -> None:
+        height = sum(self.climbed.values()) / len(self.climbed)
+        if abs(height) >= self.least_height and self.strides > 1:
+            events.append(
+                FlightClimbed(
+                    t=self.t_end,
+                    known_at=max(known_at, self.t_end),
+                    t_start=min(self.t_start, self.t_end),
+                    up=self.way > 0,
+                    steps=self.strides,
+                    height=height,
+                )
+            )
+        self.way = 0
+        self.before = {}

@@ -1,0 +1,156 @@
+"""Flights of stairs are counted from strides that go up, down or neither."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath import machine
+from solepath.body.flights import Flights
+from solepath.events import FlightClimbed, StepFeatures, StepTaken
+from solepath.types import Foot
+
+RISER = 0.16
+FEET = (Foot.LEFT, Foot.RIGHT)
+
+
+def step(foot: Foot, t: float, height: float, ground: float = 0.6) -> StepTaken:
+    return StepTaken(
+        t=t,
+        known_at=t,
+        foot=foot,
+        number=1,
+        t_start=t - 1.0,
+        t_end=t,
+        displacement=(ground, 0.0, height),
+        position=(0.0, 0.0, 0.0),
+        stride_length=ground,
+        heading_change=0.0,
+        height_change=height,
+        covariance=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+        features=StepFeatures(0.1, 2.0, 1.0),
+    )
+
+
+def flights_of(risers: list[int], *, feet: tuple[Foot, ...] = FEET, last: bool = True) -> list[FlightClimbed]:
+    """Footfalls of alternating feet: `risers` is how far up each comes down, in risers. Each foot has stood at 0. A
+    foot that rises by one riser takes it with a long stride, which is judged level."""
+    flights = Flights()
+    told: list[FlightClimbed] = []
+    stood = dict.fromkeys(FEET, 0)
+    for k, riser in enumerate(risers):
+        foot = FEET[k % 2]
+        rise, stood[foot] = riser - stood[foot], riser
+        if foot in feet:
+            way = 0 if abs(rise) < 2 else (1 if rise > 0 else -1)
+            told += flights.stepped(step(foot, 0.6 * k, RISER * rise), way)
+    if last:
+        told += flights.waited(0.6 * len(risers) + 5.0, 0.6 * len(risers) + 5.0)
+    return told
+
+
+UP_10 = [0, 0, *range(1, 11), 10, 10, 10]
+
+
+def test_a_flight_of_ten_risers_is_one_flight_of_their_height() -> None:
+    (flight,) = flights_of(UP_10)
+    assert flight.up
+    assert flight.height == pytest.approx(1.6)
+    assert flight.steps == 9
+    assert flight.t_start == pytest.approx(0.6 * 3 - 1.0)
+    assert flight.t == pytest.approx(0.6 * 11)
+    assert flight.known_at == pytest.approx(0.6 * 13)
+
+
+def test_a_landing_parts_two_flights_and_one_foot_alone_sees_it_too() -> None:
+    landing = [*UP_10[:-1], *range(11, 21), 20, 20, 20]
+    assert [f.up for f in flights_of(landing)] == [True, True]
+    for foot in FEET:
+        alone = flights_of(landing, feet=(foot,))
+        assert [f.up for f in alone] == [True, True]
+        assert sum(f.height for f in alone) == pytest.approx(3.2)
+
+
+def test_down_is_told_from_up_also_without_a_landing_between() -> None:
+    told = flights_of([*UP_10[:-3], *range(9, -1, -1), 0])
+    assert [f.up for f in told] == [True, False]
+    assert told[1].height < 0.0
+    assert told[1].known_at == pytest.approx(0.6 * 23 + 5.0)  # both stand: nobody need walk on
+
+
+def test_a_kerb_is_no_flight() -> None:
+    assert flights_of([0, 0, 1, 1, 1, 1, 0, 0, 0]) == []
+
+
+def test_one_misjudged_stride_of_two_feet_does_not_part_a_flight() -> None:
+    flights = Flights()
+    told: list[FlightClimbed] = []
+    for k in range(12):
+        told += flights.stepped(step(FEET[k % 2], 0.6 * k, 2 * RISER), 0 if k == 5 else 1)
+    told += flights.waited(20.0, 20.0)
+    assert len(told) == 1
+    # the misjudged stride's rise is the flight's all the same
+    assert told[0].height == pytest.approx(6 * 2 * RISER)
+
+
+def test_the_long_stride_onto_the_first_tread_belongs_to_the_flight() -> None:
+    flights = Flights()
+    told = flights.stepped(step(Foot.LEFT, 1.0, RISER, 1.1), 0)
+    told += [event for k in range(4) for event in flights.stepped(step(Foot.LEFT, 2.0 + k, 2 * RISER), 1)]
+    told += flights.stepped(step(Foot.LEFT, 7.0, 0.0, 1.2), 0)
+    assert told[0].height == pytest.approx(9 * RISER)
+
+
+def test_who_rests_with_a_foot_on_each_tread_is_not_there_yet() -> None:
+    paused = [0, 0, *range(1, 7)]
+    flights = Flights()
+    told: list[FlightClimbed] = []
+    stood = dict.fromkeys(FEET, 0)
+    for k, riser in enumerate(paused):
+        foot = FEET[k % 2]
+        rise, stood[foot] = riser - stood[foot], riser
+        told += flights.stepped(step(foot, 0.6 * k, RISER * rise), int(rise > 0))
+    assert told + flights.waited(60.0, 60.0) == []
+    told += flights.stepped(step(Foot.LEFT, 60.0, RISER), 1)  # joins the other foot
+    assert told == []
+    (flight,) = flights.waited(64.0, 64.0)
+    assert flight.t == 60.0
+    assert flight.known_at == 64.0
+
+
+def test_a_clock_that_begins_anew_gives_up_the_flight() -> None:
+    flights = Flights()
+    for k in range(6):
+        flights.stepped(step(FEET[k % 2], 1000.0 + k, 2 * RISER), 1)
+    flights.interrupt()
+    assert flights.waited(2.0, 2.0) == []
+    assert flights.stepped(step(Foot.LEFT, 3.0, 0.0), 0) == []
+
+
+strides = st.lists(
+    st.tuples(
+        st.sampled_from(FEET),
+        st.floats(0.0, 20.0, allow_nan=False),
+        st.floats(-1e6, 1e6, allow_nan=False),
+        st.sampled_from((-1, 0, 1)),
+    ),
+    max_size=40,
+)
+
+
+@given(strides)
+def test_whatever_the_strides_flights_are_in_order_and_high(told: list[tuple[Foot, float, float, int]]) -> None:
+    flights, t = Flights(), 0.0
+    found: list[FlightClimbed] = []
+    for foot, dt, height, way in told:
+        t += dt
+        found += flights.stepped(step(foot, t, height), way)
+        found += flights.waited(t + 1.0, t + 1.0)
+        flights = machine.load(Flights, json.loads(json.dumps(machine.save(flights), allow_nan=False)))
+    for flight in found:
+        assert flight.final
+        assert flight.t_start <= flight.t <= flight.known_at
+        assert abs(flight.height) >= 0.4
