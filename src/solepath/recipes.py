@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from attrs import field, frozen
 
+from .body.activity import Activities
 from .body.compensation import TABLE_1
 from .body.fusion import DoubleFoot
 from .body.modes import Modes
@@ -22,6 +23,7 @@ from .foot.swing_dedrift import SwingDedrift
 from .foot.tracker import AnyCorrector, AnyCues, AnyDetector
 
 AnyBody = MeanOfFeet | DoubleFoot | Modes
+AnyActivity = Activities
 
 
 @frozen
@@ -30,7 +32,8 @@ class Recipe:
 
     `detector`: what says that a foot stands still, or how fast it rolls. `corrector`: what keeps the integration from
     drifting. `cues`: what sees heel-strike, foot-flat, heel-off and toe-off. `insole`: what makes a load of cells.
-    `body`: what puts both feet together. `needs_pressure`: without pressure cells it has nothing to say.
+    `body`: what puts both feet together. `activity`: what says what the wearer does. `needs_pressure`: without pressure
+    cells it has nothing to say.
     """
 
     name: str
@@ -39,6 +42,7 @@ class Recipe:
     cues: AnyCues = field(factory=GaitCues)
     insole: Insole = field(factory=Insole)
     body: AnyBody = field(factory=MeanOfFeet)
+    activity: AnyActivity = field(factory=Activities)
     needs_pressure: bool = False
 
 

@@ -27,7 +27,7 @@ from .link.driver import Driver
 from .link.known import Kinds, kinds
 from .machine import Json, SnapshotError, checksum, load, save
 from .recipes import DEFAULT, Recipe
-from .types import Foot, Packet, Phase, Sample, Site, Support
+from .types import Activity, Foot, Packet, Phase, Sample, Site, Support
 from .wearer import Wearer, in_order
 
 SNAPSHOT_VERSION = 1
@@ -218,6 +218,11 @@ class Session:
         """Where the wearer is, as the recipe's body has it; the mean of the feet, each in the world frame of its own
         first heading, in most. None before any sample."""
         return self._state.wearer.position
+
+    @property
+    def activity(self) -> Activity:
+        """What the wearer does, as last told; UNKNOWN before anything was."""
+        return self._state.wearer.activity.activity
 
     @property
     def support(self) -> Support | None:

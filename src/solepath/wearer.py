@@ -15,7 +15,7 @@ from .events import ClockReset, Event, LayoutKnown, Limitation, SampleRejected
 from .foot.refusal import rejected, with_sound_attitude, wrong_time
 from .foot.sole import Sole
 from .foot.tracker import FootTracker
-from .recipes import AnyBody, Recipe
+from .recipes import AnyActivity, AnyBody, Recipe
 from .types import Foot, Sample, Site
 
 _Key = TypeVar("_Key")
@@ -33,6 +33,7 @@ class Wearer:
     """The feet emit FootMoved."""
     # state
     body: AnyBody = field(init=False)
+    activity: AnyActivity = field(init=False)
     wear: Wear = field(factory=Wear, init=False)
     feet: dict[Foot, FootTracker] = field(factory=dict, init=False)
     unused: list[Site] = field(factory=list, init=False)
@@ -40,6 +41,7 @@ class Wearer:
 
     def __attrs_post_init__(self) -> None:
         self.body = _calibrated(deepcopy(self.recipe.body), self.calibration)
+        self.activity = _calibrated(deepcopy(self.recipe.activity), self.calibration)
 
     def feed(self, sample: Sample, scale_is_said: bool) -> list[Event]:
         """A sample of any site. `scale_is_said`: by its link, which knows the range, so the foot need not."""
@@ -53,14 +55,16 @@ class Wearer:
         if tracker.t is not None:  # else it could not be used: nothing is known of this foot yet
             self._keep(tracker)
             if not (events and isinstance(events[0], SampleRejected)):
+                did = self.activity.foot_moved(tracker, sample, events)
                 events += self.wear.heard(tracker, sample, events)
                 events += self.body.foot_moved(tracker, sample, events)
+                events += did
         return events
 
     def hear(self, site: Site, event: Event) -> None:
         """What a link says, where it matters here."""
         if isinstance(event, ClockReset):
-            self.body.interrupt(site)
+            self._interrupt_parts(site)
         foot = site.foot
         if foot is None:
             return
@@ -74,9 +78,13 @@ class Wearer:
 
     def interrupt(self, site: Site) -> None:
         """Another device is worn there from now on."""
-        self.body.interrupt(site)
+        self._interrupt_parts(site)
         if site.foot is not None and site.foot in self.feet:
             self.feet[site.foot].interrupt()
+
+    def _interrupt_parts(self, site: Site) -> None:
+        self.body.interrupt(site)
+        self.activity.interrupt(site)
 
     @property
     def position(self) -> Position | None:
