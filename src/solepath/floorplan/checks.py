@@ -1,0 +1,161 @@
+"""What a floor plan must be to be used at all, and what is worth saying of one that can be used."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from math import isfinite
+
+from .enclosure import Enclosure
+from .plan import Connector, FloorPlan, Level, Point
+from .rooms import Rooms
+
+FARTHEST = 1e7
+"""m; of any coordinate from the plan's origin: national grids have up to 1e7."""
+
+WIDEST = 5000.0
+NARROWEST = 1.0
+"""m; of a building. The longest are 4 km, and there is none of less than a step."""
+
+HIGHEST_STOREY = 50.0
+"""m; from one level to the next."""
+
+MOST_LEVELS = 1000
+MOST_WALLS = 200_000
+
+
+def unusable(plan: FloorPlan) -> str | None:
+    """Why a plan cannot be used, in one line: the first thing that is wrong; None when it can. The limits are those of
+    protocol/floorplan.md."""
+    return next(_faults(plan), None)
+
+
+def _faults(plan: FloorPlan) -> Iterator[str]:
+    if not plan.levels:
+        yield "the plan has no levels"
+    if len(plan.levels) > MOST_LEVELS or sum(len(level.walls) for level in plan.levels) > MOST_WALLS:
+        yield f"the plan has more than {MOST_LEVELS} levels or {MOST_WALLS} walls"
+    ids = set()
+    for level in plan.levels:
+        if level.id in ids:
+            yield f"two levels have the id {level.id!r}"
+        ids.add(level.id)
+    for level in plan.levels:
+        yield from _faults_of_level(level)
+    for one in plan.connectors:
+        yield from _faults_of_connector(one, plan)
+    yield from _faults_of_units(plan)
+    anchor = plan.anchor
+    if anchor is not None:
+        if not (isfinite(anchor.bearing) and abs(anchor.bearing) <= 10.0):
+            yield f"the anchor's bearing is {anchor.bearing:g} rad"
+        if not (abs(anchor.latitude) <= 89.0 and abs(anchor.longitude) <= 180.0):
+            yield f"the anchor is at latitude {anchor.latitude:g}, longitude {anchor.longitude:g}"
+
+
+def _faults_of_level(level: Level) -> Iterator[str]:
+    name = f"level {level.id!r}"
+    if not (isfinite(level.elevation) and abs(level.elevation) <= FARTHEST):
+        yield f"{name}: its elevation is {level.elevation:g}"
+    for what, points in _drawn(level):
+        for point in points:
+            if not _is_place(point):
+                yield f"{name}: {what} is at ({point[0]:g}, {point[1]:g})"
+    for i, wall in enumerate(level.walls):
+        if wall.start == wall.end:
+            yield f"{name}: wall {i} has no length, at ({wall.start[0]:g}, {wall.start[1]:g})"
+    for i, room in enumerate(level.rooms):
+        if len(room) < 3:
+            yield f"{name}: room {i} has {len(room)} corners"
+
+
+def _faults_of_connector(one: Connector, plan: FloorPlan) -> Iterator[str]:
+    name = f"{one.kind.value} {one.name!r}"
+    elevations = {level.id: level.elevation for level in plan.levels}
+    if not one.stops:
+        yield f"{name}: has no stops"
+    before = None
+    for stop in one.stops:
+        if stop.level not in elevations:
+            yield f"{name}: stops at level {stop.level!r}, which the plan does not have"
+            return
+        for point in (stop.place, *stop.outline):
+            if not _is_place(point):
+                yield f"{name}: its stop at level {stop.level!r} is at ({point[0]:g}, {point[1]:g})"
+        if before is not None and not elevations[stop.level] > before:
+            yield f"{name}: its stops are not from the lowest to the highest"
+        before = elevations[stop.level]
+    if one.flights is not None and not 1 <= one.flights <= 100:
+        yield f"{name}: has {one.flights} flights a storey"
+    if one.rise is not None and not 0.02 <= one.rise <= 0.6:
+        yield f"{name}: its steps rise {one.rise:g} m"
+
+
+def _faults_of_units(plan: FloorPlan) -> Iterator[str]:
+    points = [point for level in plan.levels for _, drawn in _drawn(level) for point in drawn]
+    points += [point for one in plan.connectors for stop in one.stops for point in (stop.place, *stop.outline)]
+    if any(not _is_place(point) for point in points) or not points:
+        return
+    wide = max(_extent(x for x, _ in points), _extent(y for _, y in points))
+    if wide > WIDEST:
+        yield f"the plan is {wide:.0f} wide; it must be in metres, is it in millimetres or another unit?"
+    if wide < NARROWEST and any(level.walls or level.rooms for level in plan.levels):
+        yield f"the plan is {wide:.2g} wide; it must be in metres, is it in degrees or another unit?"
+    for below, above in zip(plan.levels, plan.levels[1:], strict=False):
+        storey = above.elevation - below.elevation
+        if storey < 0.0:
+            yield f"level {above.id!r} comes after level {below.id!r} and lies below it"
+        if storey > HIGHEST_STOREY:
+            yield (f"level {above.id!r} lies {storey:.0f} above level {below.id!r}; elevations must be in metres, "
+                   f"are they in millimetres or another unit?")  # fmt: skip
+
+
+def _drawn(level: Level) -> Iterator[tuple[str, tuple[Point, ...]]]:
+    for i, wall in enumerate(level.walls):
+        yield f"wall {i}", (wall.start, wall.end)
+    for i, door in enumerate(level.doors):
+        yield f"door {i}", (door.start, door.end)
+    for i, room in enumerate(level.rooms):
+        yield f"room {i}", room
+
+
+def _is_place(point: Point) -> bool:
+    return abs(point[0]) <= FARTHEST and abs(point[1]) <= FARTHEST  # NaN is not
+
+
+def _extent(values: Iterable[float]) -> float:
+    known = list(values)
+    return max(known) - min(known)
+
+
+def warnings(plan: FloorPlan) -> tuple[str, ...]:
+    """What is worth saying of a plan that can be used, one line each: walls that do not close, no stairs or lifts, a
+    level that none of them leads to. It takes up to 0.1 s a level."""
+    return tuple(_remarks(plan)) if unusable(plan) is None else ()
+
+
+def _remarks(plan: FloorPlan) -> Iterator[str]:
+    for level in plan.levels:
+        yield from _remarks_of_walls(level)
+    if not plan.connectors:
+        yield "the plan has no stairs and no lifts: nothing on it shows a level or a place"
+    for one in plan.connectors:
+        if len(one.stops) == 1:
+            yield f"{one.kind.value} {one.name!r}: stops at level {one.stops[0].level!r} only"
+    if plan.connectors and len(plan.levels) > 1:
+        led_to = {stop.level for one in plan.connectors if len(one.stops) > 1 for stop in one.stops}
+        for level in plan.levels:
+            if level.id not in led_to:
+                yield f"level {level.id!r}: neither stairs nor a lift lead there"
+
+
+def _remarks_of_walls(level: Level) -> Iterator[str]:
+    if not level.walls:
+        yield f"level {level.id!r}: has no walls"
+        return
+    found = Enclosure(level)
+    way_in: Point | None = found.open_end
+    if level.rooms:
+        rooms = Rooms(level, ())
+        way_in = next((place for place in found.order if rooms.inside(*place)), None)
+    if way_in is not None:
+        yield f"level {level.id!r}: its walls do not close near ({way_in[0]:.1f}, {way_in[1]:.1f})"
