@@ -7,17 +7,20 @@ from collections import Counter
 from attrs import define, field
 
 from .events import (
+    ActivityChanged,
     CellsFailed,
     ClockReset,
     Connected,
     Event,
     FeetSwapped,
+    FlightClimbed,
     FootFlat,
     FootMoved,
     FootSilent,
     HeelOff,
     HeelStrike,
     InsoleNeverUnloads,
+    LiftRidden,
     Limitation,
     LinkTrouble,
     PacketRejected,
@@ -32,9 +35,11 @@ from .events import (
     StrideFused,
     ToeOff,
     TouchedDown,
+    TurnMade,
 )
 from .link.known import KINDS
-from .types import Foot, Packet, Phase, Sample, Site, Vec3, WalkingMode
+from .timeline import Timeline
+from .types import Foot, Packet, Phase, Sample, Site, Turn, Vec3, WalkingMode
 from .wire.error import WireError
 from .wire.fragment import is_fragment, parse_fragment
 
@@ -140,6 +145,13 @@ class Tally:
     """The last one: how far the wearer came by both feet."""
     modes: Counter[WalkingMode] = field(factory=Counter)
     """Touchdowns by the walking mode that they were in."""
+    timeline: Timeline = field(factory=Timeline)
+    """What the wearer did when."""
+    flights: Counter[bool] = field(factory=Counter)
+    """Flights of stairs: upwards (True) and downwards."""
+    rides: Counter[bool] = field(factory=Counter)
+    """Rides in a lift, as well."""
+    turns: Counter[Turn] = field(factory=Counter)
     worn: list[str] = field(factory=list)
     """What is wrong with how sensors are worn, or with their cells; each once."""
     silences: Counter[Foot] = field(factory=Counter)
@@ -222,6 +234,14 @@ class Tally:
                 self.fused = event
             case TouchedDown(mode=mode, final=True):
                 self.modes[mode] += 1
+            case ActivityChanged():
+                self.timeline.add(event)
+            case FlightClimbed(up=up, final=True):
+                self.flights[up] += 1
+            case LiftRidden(up=up, final=True):
+                self.rides[up] += 1
+            case TurnMade(turn=turn, final=True) if turn is not None:
+                self.turns[turn] += 1
             case CellsFailed(site=site, fault=fault, cells=cells):
                 self._wrong(f"{site.words}: {_cells(cells)} {fault.value}, left out")
             case InsoleNeverUnloads(site=site):

@@ -6,7 +6,7 @@ from statistics import median
 
 from ..recording import printable
 from ..tally import DATED, Tally
-from ..types import Foot, Site, WalkingMode
+from ..types import Foot, Site, Turn, WalkingMode
 from .table import milliseconds, number, table
 
 
@@ -32,6 +32,7 @@ def summary(tally: Tally, *, title: str, seconds: float) -> str:
         if one.degraded:
             lines.append(f"{foot.value}: {one.degraded} of {one.steps} steps degraded by missing or saturated samples")
     lines += _together(tally)
+    lines += did(tally)
     lines += worn(tally)
     lines += link_health(tally)
     lines += latency(tally)
@@ -52,6 +53,21 @@ def _together(tally: Tally) -> list[str]:
     if tally.modes:
         modes = ", ".join(f"{mode.value} {tally.modes[mode]}" for mode in WalkingMode if tally.modes[mode])
         lines.append(f"{tally.modes.total()} touchdowns: {modes}")
+    return lines
+
+
+def did(tally: Tally) -> list[str]:
+    """What the wearer did, a line for each kind; nothing where nothing was told."""
+    lines = []
+    if tally.last is not None and (lasted := tally.timeline.lasted(tally.last)):
+        lines.append("activities: " + ", ".join(f"{what.value} {number(t, 0)} s" for what, t in lasted.items()))
+    for counted, one in ((tally.flights, "flight"), (tally.rides, "lift ride")):
+        ways = [f"{counted[up]} {'up' if up else 'down'}" for up in (True, False) if counted[up]]
+        if ways:
+            lines.append(f"{one}s: {', '.join(ways)}")
+    if tally.turns:
+        turns = ", ".join(f"{turn.value} {tally.turns[turn]}" for turn in Turn if tally.turns[turn])
+        lines.append(f"turns: {turns}")
     return lines
 
 

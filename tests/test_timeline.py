@@ -1,0 +1,65 @@
+"""What the wearer did when, of the events that told it."""
+
+from __future__ import annotations
+
+from solepath import Activity, ActivityChanged, FlightClimbed, LiftRidden, Turn, TurnMade
+from solepath.tally import Tally
+from solepath.timeline import Timeline
+from solepath.view.summary import summary
+
+
+def told(t: float, activity: Activity, revises: float | None = None, final: bool = True) -> ActivityChanged:
+    return ActivityChanged(
+        t=t, known_at=t + 3.0, activity=activity, probability=None, revises=revises, final=final
+    )
+
+
+def timeline(*events: ActivityChanged) -> Timeline:
+    line = Timeline()
+    for event in events:
+        line.add(event)
+    return line
+
+
+def test_an_activity_lasts_until_the_next_one_begins():
+    line = timeline(told(1.0, Activity.STANDING), told(4.0, Activity.WALKING))
+    assert [line.at(t) for t in (0.5, 1.0, 3.9, 4.0, 100.0)] == [
+        Activity.UNKNOWN, Activity.STANDING, Activity.STANDING, Activity.WALKING, Activity.WALKING,
+    ]  # fmt: skip
+    assert line.spans(6.0) == [(1.0, 4.0, Activity.STANDING), (4.0, 6.0, Activity.WALKING)]
+
+
+def test_standing_that_turns_out_to_be_a_lift_ride_was_never_standing():
+    standing = told(4.0, Activity.STANDING, final=False)
+    line = timeline(told(1.0, Activity.WALKING), standing, told(5.0, Activity.ELEVATOR_UP, revises=4.0))
+    assert line.at(4.5) is Activity.WALKING and line.at(5.0) is Activity.ELEVATOR_UP
+    assert line.lasted(9.0) == {Activity.WALKING: 4.0, Activity.ELEVATOR_UP: 4.0}
+
+
+def test_an_event_dated_before_an_earlier_one_takes_its_place():
+    line = timeline(told(1.0, Activity.STANDING), told(4.0, Activity.WALKING), told(3.0, Activity.STAIRS_UP))
+    assert line.spans(5.0) == [(1.0, 3.0, Activity.STANDING), (3.0, 5.0, Activity.STAIRS_UP)]
+
+
+def test_time_before_the_first_activity_and_after_the_end_is_nobodys():
+    line = timeline(told(2.0, Activity.WALKING))
+    assert line.spans(1.0) == [] and line.lasted(2.0) == {}
+
+
+def test_the_summary_says_what_the_wearer_did():
+    tally = Tally()
+    tally.fed(0.0)
+    tally.fed(20.0)
+    tally.add(told(0.0, Activity.WALKING))
+    tally.add(told(12.0, Activity.ELEVATOR_DOWN))
+    tally.add(LiftRidden(t=18.0, known_at=19.0, t_start=12.0, up=False, height=-4.2))
+    tally.add(FlightClimbed(t=9.0, known_at=9.0, t_start=3.0, up=True, steps=10, height=1.6))
+    tally.add(TurnMade(t=5.0, known_at=5.0, t_start=4.0, angle=1.5, turn=Turn.LEFT))
+    tally.add(TurnMade(t=7.0, known_at=7.0, t_start=6.0, angle=0.2, turn=None))
+    lines = summary(tally, title="walk", seconds=0.0).splitlines()
+    assert lines[-4:] == [
+        "activities: WALKING 12 s, ELEVATOR_DOWN 8 s",
+        "flights: 1 up",
+        "lift rides: 1 down",
+        "turns: LEFT 1",
+    ]
