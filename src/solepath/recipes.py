@@ -10,6 +10,7 @@ from .body.fusion import DoubleFoot
 from .body.modes import Modes
 from .body.position import MeanOfFeet
 from .body.touchdown import Height, MaximumPressure, NetAcceleration
+from .body.walking_state import AnglePerMetre
 from .foot.bias_zupt import BiasZupt
 from .foot.contour_stance import ContourVelocity, GyroscopeMagnitude
 from .foot.cop_cues import CopCues
@@ -17,13 +18,15 @@ from .foot.cycle import Cycle
 from .foot.dedrift import LinearDedrift
 from .foot.eskf import ErrorStateFilter
 from .foot.gait_cues import GaitCues
+from .foot.gated_tilt import ShoeSensing
 from .foot.known_velocity import KnownVelocity
 from .foot.pressure import Insole
+from .foot.short_time_energy import AccelerationMagnitude, ShortTimeEnergy
 from .foot.swing_dedrift import SwingDedrift
 from .foot.tracker import AnyCorrector, AnyCues, AnyDetector
 
 AnyBody = MeanOfFeet | DoubleFoot | Modes
-AnyActivity = Activities
+AnyActivity = Activities | AnglePerMetre
 
 
 @frozen
@@ -92,6 +95,14 @@ TOUCHDOWN_PRESSURE = Recipe(
     "touchdown-pressure", Cycle(), ErrorStateFilter(), body=Modes(MaximumPressure()), needs_pressure=True
 )
 """Their method III: touchdowns by maximum pressure."""
+
+SHOE_SENSING = Recipe("shoe-sensing", ShortTimeEnergy(), ShoeSensing(), activity=AnglePerMetre())
+"""Li et al. 2016: short-time energy, tilt fed back in stance, height errors of level steps taken out."""
+
+SHOE_MAGNITUDE = Recipe(
+    "acceleration-magnitude", AccelerationMagnitude(), ShoeSensing(behind=0.0), activity=AnglePerMetre()
+)
+"""The same with stance where the acceleration is as large as gravity: what Li et al. compare with."""
 
 BY_NAME: dict[str, Recipe] = {
     recipe.name: recipe

@@ -25,6 +25,7 @@ from .eskf import ErrorStateFilter
 from .gait import Gait
 from .gait_cues import GaitCues
 from .gap import SHORTEST
+from .gated_tilt import ShoeSensing
 from .known_velocity import KnownVelocity
 from .limits import WITHOUT, Limits
 from .navigate import LONGEST_BRIDGE
@@ -32,6 +33,7 @@ from .pressure import Insole
 from .pressure_stance import MaximumPressure, TwoArea
 from .refusal import refusal, rejected
 from .rhythm import Rhythm
+from .short_time_energy import AccelerationMagnitude, ShortTimeEnergy
 from .sole import Sole
 from .stance import AngularRate, Graph, Load, MovingVariance, Shoe
 from .swing_dedrift import SwingDedrift
@@ -48,8 +50,10 @@ AnyDetector = (
     | ContourVelocity
     | GyroscopeMagnitude
     | KnownVelocity
+    | ShortTimeEnergy
+    | AccelerationMagnitude
 )
-AnyCorrector = ErrorStateFilter | LinearDedrift | SwingDedrift | BiasZupt
+AnyCorrector = ErrorStateFilter | LinearDedrift | SwingDedrift | BiasZupt | ShoeSensing
 AnyCues = GaitCues | CopCues
 
 STILL = 0.35
