@@ -1,0 +1,172 @@
+"""Many places at which the wearer may be, and what they come to together.
+
+Each is one reading of the track: where the wearer is now, how the track lies in the plan (turned and stretched), and
+how much it is believed. They are kept packed, since there are many of them and a snapshot must be small.
+"""
+
+from __future__ import annotations
+
+from math import atan2, hypot, sqrt
+from struct import Struct
+
+from ..events import Candidate
+from ..floorplan.plan import FloorPlan, Point
+
+
+Row = tuple[float, float, float, float, float, int, int, int]
+"""x, y: m, plan frame, less the `origin_of` the plan. a, b: a move (dx, dy) of the track is (a dx - b dy, b dx + a dy) of
+the plan: a turn and a stretch. Weight. Level, as an index into the plan's. Where it came from: 0 the start, else
+one more than the index of a connector. Where it may be changing level: 0 nowhere, else one more than the index into
+`stops_of`."""
+
+_ROW = Struct("<ffffeHHH")
+
+FAR = 1e5
+"""Nothing is so far from the origin of a plan, m."""
+SAME = 2.0
+"""Places within this of each other's mean are one candidate, m."""
+AGREED = 1.0
+"""All places together are one candidate when they differ by no more (rms), m."""
+CANDIDATES = 12
+"""No more are told; others count to the nearest."""
+FAINT = 0.01
+"""A candidate of less weight counts to the heaviest."""
+
+
+def packed(rows: list[Row]) -> bytes:
+    """The rows, the weights so that the largest is 1; those that are too far or too light to keep are left out."""
+    most = max([row[4] for row in rows], default=0.0)
+    if not most > 0.0:
+        return b""
+    k, pack = 1.0 / most, _ROW.pack
+    return b"".join(
+        [
+            pack(x, y, a, b, w * k, level, origin, held)
+            for x, y, a, b, w, level, origin, held in rows
+            if -FAR < x < FAR and -FAR < y < FAR and w * k > 1e-5
+        ]
+    )
+
+
+def unpacked(crowd: bytes) -> list[Row]:
+    """The rows again. A length that is none of ours gives none: a snapshot may have been damaged."""
+    return [] if len(crowd) % _ROW.size else list(_ROW.iter_unpack(crowd))
+
+
+def size(crowd: bytes) -> int:
+    """How many rows there are."""
+    return len(crowd) // _ROW.size
+
+
+def resampled(rows: list[Row], count: int, offset: float) -> list[Row]:
+    """`count` rows of equal weight, each as often as its weight says (systematic resampling; `offset` in 0 to 1)."""
+    total = sum([row[4] for row in rows])
+    if not total > 0.0:
+        return []
+    step = total / count
+    due, reached = offset * step, 0.0
+    drawn: list[Row] = []
+    for x, y, a, b, w, level, origin, held in rows:
+        reached += w
+        while due < reached and len(drawn) < count:
+            drawn.append((x, y, a, b, 1.0, level, origin, held))
+            due += step
+    return drawn
+
+
+def effective(rows: list[Row]) -> float:
+    """How many rows of equal weight would be as good."""
+    total = sum([row[4] for row in rows])
+    squares = sum([row[4] * row[4] for row in rows])
+    return total * total / squares if squares > 0.0 else 0.0
+
+
+def origin_of(plan: FloorPlan) -> Point:
+    """A round place near which the plan is: places are kept from there, for a plan may lie far from its zero."""
+    for level in plan.levels:
+        for wall in level.walls:
+            return (wall.start[0] // 1.0, wall.start[1] // 1.0)
+    return (0.0, 0.0)
+
+
+def believed(rows: list[Row], plan: FloorPlan, origin: Point, height: float) -> tuple[tuple[Candidate, ...], float]:
+    """The candidates, heaviest first, and the rms distance of all from the first one's place, m. `height`: m, by which
+    those who change level are above the level that they come from. At least one row."""
+    groups = _grouped(rows)
+    total = sum([group[0] for group in groups])
+    groups.sort(key=_weight, reverse=True)
+    kept = [group for group in groups if group[0] >= FAINT * total] or groups[:1]
+    rest = total - sum([group[0] for group in kept])
+    told = []
+    for group in kept:
+        weight, x, y, a, b, length, level, came, held = group
+        share = (weight + (rest if group is kept[0] else 0.0)) / total
+        floor = plan.levels[level].elevation + (height if held else 0.0)
+        position = (origin[0] + x / weight, origin[1] + y / weight, floor)
+        heading = atan2(b, a) if hypot(a, b) > 0.5 * length else None
+        name = plan.connectors[came - 1].name if came else "start"
+        told.append(Candidate(plan.levels[level].id, position, heading, share, name))
+    bx, by = kept[0][1] / kept[0][0], kept[0][2] / kept[0][0]
+    squares = sum([row[4] * ((row[0] - bx) ** 2 + (row[1] - by) ** 2) for row in rows])
+    return tuple(told), sqrt(squares / total)
+
+
+_Group = tuple[float, float, float, float, float, float, int, int, int]
+"""Sums over weight, weighted x, y, a, b and length of (a, b); level, where the first one came from, whether held."""
+
+
+def _weight(group: _Group) -> float:
+    return group[0]
+
+
+def _grouped(rows: list[Row]) -> list[_Group]:
+    """All as one where they agree, else by nearness."""
+    _, _, _, _, _, level, came, held = rows[0]
+    whole = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, level, came, held)
+    square, one = 0.0, True
+    sw = sx = sy = sa = sb = 0.0
+    for x, y, a, b, w, at, _, _ in rows:
+        if at != level:
+            one = False
+            break
+        sw += w
+        sx += w * x
+        sy += w * y
+        sa += w * a
+        sb += w * b
+        square += w * (x * x + y * y)
+    if one and square / sw - (sx * sx + sy * sy) / (sw * sw) < AGREED * AGREED:
+        # the length of (a, b) is near 1 for all
+        whole = (sw, sx, sy, sa, sb, sw, level, came, held)
+        return [whole]
+    groups: list[_Group] = []
+    for x, y, a, b, w, at, came, held in sorted(rows, key=_row_weight, reverse=True):
+        best, nearest = -1, SAME * SAME
+        full = len(groups) >= CANDIDATES
+        if full:
+            nearest = 4.0 * FAR * FAR
+        for k, (gw, gx, gy, _, _, _, level, _, _) in enumerate(groups):
+            if level == at or full:
+                away = (gx / gw - x) ** 2 + (gy / gw - y) ** 2 + (0.0 if level == at else FAR * FAR)
+                if away < nearest:
+                    best, nearest = k, away
+        long = w * sqrt(a * a + b * b)
+        if best < 0:
+            if full:
+                best = 0
+            else:
+                groups.append((w, w * x, w * y, w * a, w * b, long, at, came, held))
+                continue
+        gw, gx, gy, ga, gb, gl, level, origin, still = groups[best]
+        if level != at:  # there is no room for it: its weight counts, its place does not
+            more = (gw + w) / gw
+            groups[best] = (gw * more, gx * more, gy * more, ga * more, gb * more, gl * more, level, origin, still)
+        else:
+            groups[best] = (gw + w, gx + w * x, gy + w * y, ga + w * a, gb + w * b, gl + long, level, origin, still)
+    return groups
+
+
+def _row_weight(row: Row) -> float:
+    return row[4]
+
+

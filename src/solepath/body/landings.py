@@ -1,0 +1,78 @@
+"""Where a floor plan's stairs and lifts can be entered, and where one who enters there comes out."""
+
+from __future__ import annotations
+
+from math import exp, hypot
+
+from attrs import frozen
+
+from ..floorplan.plan import FloorPlan, Kind, Point
+
+REACH = 5.0
+"""Somebody who goes onto stairs or into a lift is within this of it as the track has it, m."""
+APART = 2.5
+"""Standard deviation of the distance, m."""
+OFF = 0.35
+"""Standard deviation of a told height, m, ..."""
+OFF_SHARE = 0.12
+"""... and per m."""
+UNLIKELY = 0.02
+"""Of the best one: less likely ways out are none."""
+
+
+@frozen
+class Landing:
+    """A stop with its connector and level."""
+
+    index: int
+    """One more than its place among all stops of the plan."""
+    connector: int
+    """Its connector's place in the plan."""
+    kind: Kind
+    level: int
+    """Its level's place in the plan."""
+    elevation: float
+    """m"""
+    place: Point
+    """m, plan frame."""
+
+
+def landings(plan: FloorPlan) -> list[Landing]:
+    """All of them, connector by connector, from the lowest up."""
+    levels = {level.id: k for k, level in enumerate(plan.levels)}
+    found: list[Landing] = []
+    for c, connector in enumerate(plan.connectors):
+        for stop in connector.stops:
+            k = levels.get(stop.level)
+            if k is not None:
+                elevation = plan.levels[k].elevation
+                found.append(Landing(len(found) + 1, c, connector.kind, k, elevation, stop.place))
+    return found
+
+
+def nearest(all_of_them: list[Landing], kind: Kind, level: int, x: float, y: float) -> tuple[Landing, float] | None:
+    """The nearest landing of a kind on a level, and how likely it is that somebody at (x, y) goes there; None where
+    none is within reach."""
+    best, distance = None, REACH
+    for landing in all_of_them:
+        if landing.kind is kind and landing.level == level:
+            away = hypot(landing.place[0] - x, landing.place[1] - y)
+            if away <= distance:
+                best, distance = landing, away
+    return None if best is None else (best, exp(-0.5 * (distance / APART) ** 2))
+
+
+def ways_out(
+    all_of_them: list[Landing], entered: Landing, up: bool, height: float | None
+) -> list[tuple[Landing, float]]:
+    """Where one who entered there and rode or climbed `height` m (None: any) comes out, with how likely each is."""
+    ways = []
+    for landing in all_of_them:
+        rise = landing.elevation - entered.elevation
+        if landing.connector == entered.connector and (rise > 0.0 if up else rise < 0.0):
+            off = 0.0 if height is None else (height - abs(rise)) / (OFF + OFF_SHARE * abs(rise))
+            ways.append((landing, exp(-0.5 * min(off * off, 1000.0))))
+    most = max([weight for _, weight in ways], default=0.0)
+    if most <= 0.0:
+        return [(landing, 1.0 / len(ways)) for landing, _ in ways]
+    return [(landing, weight / most) for landing, weight in ways if weight >= UNLIKELY * most]

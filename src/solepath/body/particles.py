@@ -1,0 +1,107 @@
+"""A particle filter on the floor plan.
+
+Every particle is a reading of the track that wanders: its heading, its stretch and each step err a little, by chance.
+One that would go through a wall tries again, erring more and counting less; when that fails, it is gone. Those that are
+left are the places where the wearer can be. Chance is a table of numbers and a count, so it is the same everywhere.
+"""
+
+from __future__ import annotations
+
+from math import hypot
+
+from attrs import define
+
+from ..floorplan.index import IndexedPlan
+from ..floorplan.plan import Point
+from .crowd import Row, origin_of, resampled
+from .landings import landings
+from .noise import NOISE, ROWS, following
+from .place import Placing
+
+STEP = 0.06
+"""A step errs by this share of its length, each way (half the width of an even distribution) ..."""
+SHAKE = 0.03
+"""... and by this, m."""
+TURN = 0.02
+"""The track turns by up to this in the plan with each step, rad."""
+STRETCH = 0.008
+"""Its stretch changes by up to this share ..."""
+PULL = 0.01
+"""... and is drawn back to 1 by this share."""
+TRIES = (3.0, 6.0)
+"""One that meets a wall errs by so many times as much ..."""
+AGAIN = 0.5
+"""... and counts so much less, each time."""
+SQUEEZE = 8.0
+"""When nobody is left, all try once more and err this much."""
+BESIDE = 4.0
+"""So near to stairs or a lift one may be on them already, m, and stays ..."""
+STAYS = 0.6
+"""... but counts less."""
+
+
+@define
+class Particles(Placing):
+    """The default for every recipe."""
+
+    def extended(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float) -> list[Row]:
+        """The rows a move further; without those that cannot go there."""
+        kept = self._wandered(plan, rows, move, rough, TRIES)
+        return kept or self._wandered(plan, rows, move, rough, (SQUEEZE, SQUEEZE, 1.5 * SQUEEZE, 2.0 * SQUEEZE))
+
+    def _wandered(
+        self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, tries: tuple[float, ...]
+    ) -> list[Row]:
+        dx, dy = move
+        x0, y0 = origin_of(plan.plan)
+        long = hypot(dx, dy)
+        way, turn, stretch = rough * (STEP * long + SHAKE), rough * TURN, rough * STRETCH
+        self.random = k = following(self.random)
+        k %= ROWS
+        crosses = plan.crosses
+        kept: list[Row] = []
+        lost: list[Row] = []
+        for row in rows:
+            x, y, a, b, w, level, origin, _ = row
+            k = k + 1 if k < ROWS - 1 else 0
+            ex, ey, eh, es = NOISE[k]
+            s = 1.0 + PULL * (1.0 - a * a - b * b) + stretch * es
+            h = turn * eh
+            a1, b1 = a * s - b * h, b * s + a * h
+            nx, ny = x + a1 * dx - b1 * dy + way * ex, y + b1 * dx + a1 * dy + way * ey
+            if crosses(level, x0 + x, y0 + y, x0 + nx, y0 + ny):
+                lost.append(row)
+            else:
+                kept.append((nx, ny, a1, b1, w, level, origin, 0))
+        if not lost:
+            return kept
+        stops = None
+        for row in lost:
+            x, y, a, b, w, level, origin, _ = row
+            for much in tries:
+                w *= AGAIN
+                k = (k + 367) % ROWS
+                ex, ey, eh, es = NOISE[k]
+                h, s = much * turn * eh, 1.0 + much * stretch * es
+                a1, b1 = a * s - b * h, b * s + a * h
+                nx, ny = x + a1 * dx - b1 * dy + much * way * ex, y + b1 * dx + a1 * dy + much * way * ey
+                if not crosses(level, x0 + x, y0 + y, x0 + nx, y0 + ny):
+                    kept.append((nx, ny, a1, b1, w, level, origin, 0))
+                    break
+            else:
+                stops = landings(plan.plan) if stops is None else stops
+                for stop in stops:
+                    sx, sy = stop.place
+                    if stop.level == level and hypot(sx - x0 - x, sy - y0 - y) < BESIDE:
+                        kept.append((x, y, a, b, row[4] * STAYS, level, origin, 0))
+                        break
+        return kept
+
+    def scattered(self, k: int, count: int) -> tuple[float, float, float, float]:
+        """For the k-th of `count` new rows, each from -1 to 1: x, y, heading, stretch."""
+        return NOISE[k % ROWS]
+
+    def thinned(self, rows: list[Row], wanted: int) -> list[Row]:
+        """So many rows, each as often as it is believed."""
+        self.random = following(self.random)
+        return resampled(rows, wanted, (self.random % 4093) / 4093.0)

@@ -1,0 +1,381 @@
+"""Where on a floor plan the wearer is: what a session asks of the part, and what both methods have in common.
+
+The track has a shape, but nobody knows how it lies in the plan. Stairs and lifts tell a place (a known start does,
+too); walls tell the rest: of all ways in which the track could lie there, those that lead through walls are wrong (Liu
+et al. 2015, section IV.E). Stairs and lifts lead to another level, and where they end is where the plan has it.
+
+The track itself is never bent. Latency: a place is told with the step that leads there, a level as reference.py says.
+"""
+
+from __future__ import annotations
+
+from math import cos, hypot, isfinite, pi, sin
+from typing import Protocol
+
+from attrs import define, field
+
+from ..events import Event, Placed, PlaceLost, StepTaken
+from ..floorplan.index import IndexedPlan
+from ..floorplan.plan import FloorPlan, FloorPlanError, Point, Start
+from ..types import Vec3
+from ..vector import ZERO
+from .crowd import Row, believed, effective, origin_of, packed, resampled, size, unpacked
+from .landings import landings, nearest, ways_out
+from .noise import NOISE, ROWS, following
+from .position import Position
+from .reference import Arrived, Held, References
+
+
+class PlacePart(Protocol):
+    """The track and what the wearer does in, the place on the plan out. A plain record, as every machine is."""
+
+    def set_out(self, start: Start) -> None:
+        """The wearer sets out there. To be told before the first `follow`."""
+
+    def follow(self, plan: IndexedPlan, events: list[Event], here: Position) -> list[Event]:
+        """`events`: what has just become known, of steps and of what the wearer does; `here`: where the track leads now,
+        world frame. Always with the same plan. Returns Placed or PlaceLost, or nothing."""
+
+    @property
+    def place(self) -> Placed | None:
+        """Where the wearer is on the plan; None while it is of no use."""
+
+
+FEW = 64
+"""So many readings of the track are kept once the place is known ..."""
+MORE = 40
+"""... so many more for every other candidate ..."""
+JUMP = 4.0
+"""A move of more than this between two steps is across a gap, m: which way it went is not known."""
+FARTHEST = 100.0
+"""A track that leaps by more is of no use, m."""
+OUTSIDE = 6
+"""After so many steps outside of everything that the plan has, the wearer has left it."""
+HEADING = 0.12
+"""A known heading may be off by this, rad (the first stride's direction is the track's x axis)."""
+AROUND = 0.5
+"""Where one steps off stairs or a lift, m around the landing."""
+TURNED = 0.07
+"""Stairs and rides turn the track by this, rad."""
+ELSEWHERE = 0.02
+"""With less belief than this near any landing, the wearer was not where the plan had him."""
+DOUBT = 0.5
+"""What a belief is worth then, against the landings."""
+
+
+@define
+class Placing:
+    """What both methods do alike: they start, change level, end and tell. How they extend the track is their own."""
+
+    most: int = 300
+    """More readings of the track than this are never kept."""
+    # state
+    start: Start | None = field(default=None, init=False)
+    begun: bool = field(default=False, init=False)
+    crowd: bytes = field(default=b"", init=False)
+    last: Vec3 = field(default=ZERO, init=False)
+    """Up to where the track has been followed, m."""
+    t: float | None = field(default=None, init=False)
+    references: References = field(factory=References, init=False)
+    random: int = field(default=1, init=False)
+    outside: int = field(default=0, init=False)
+    newest: Placed | None = field(default=None, init=False)
+
+    @property
+    def place(self) -> Placed | None:
+        """Where the wearer is on the plan; None while it is of no use."""
+        return self.newest
+
+    def set_out(self, start: Start) -> None:
+        """The wearer sets out there. To be told before the first `follow`."""
+        self.start = start
+
+    def follow(self, plan: IndexedPlan, events: list[Event], here: Position) -> list[Event]:
+        """One step, one activity, or what has come together. Never raises, whatever the track does."""
+        known_at = max([event.known_at for event in events], default=here.t)
+        told: list[Event] = []
+        if not self.begun:
+            self.begun = True
+            self._begin(plan, here, known_at, told)
+        if self.t is not None and here.t < self.t - 1.0:
+            self.references.forget()
+        self.t = here.t
+        steps = [event for event in events if isinstance(event, StepTaken)]
+        if steps:
+            self._move(plan, here, any([step.degraded for step in steps]), known_at, told)
+        if not all([isfinite(v) for v in here.position]):
+            return told
+        for reference in self.references.hear(plan.plan, events, here):
+            match reference:
+                case Held():
+                    self._hold(plan.plan, reference)
+                case Arrived():
+                    self._arrive(plan, reference, known_at, told)
+                case _:
+                    self.crowd = packed([(*row[:7], 0) for row in unpacked(self.crowd)])
+        if steps and self.crowd:
+            told.append(self._told(plan, here, known_at))
+        return told
+
+    # --- how a method differs ---
+
+    def extended(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float) -> list[Row]:
+        """The rows a move (m, track) further; without those that cannot go there. `rough`: how much worse than usual
+        the track is."""
+        raise NotImplementedError
+
+    def scattered(self, k: int, count: int) -> tuple[float, float, float, float]:
+        """For the k-th of `count` new rows, each from -1 to 1: x, y, heading, stretch."""
+        raise NotImplementedError
+
+    def thinned(self, rows: list[Row], wanted: int) -> list[Row]:
+        """About so many rows that stand for all."""
+        raise NotImplementedError
+
+    # --- the flow ---
+
+    def _begin(self, plan: IndexedPlan, here: Position, known_at: float, told: list[Event]) -> None:
+        start = self.start
+        if start is None:
+            what = "no start was given, so the place is not known before the first stairs or lift"
+            if not plan.plan.connectors:
+                what = "no start was given and the plan has neither stairs nor lifts: the place cannot be known"
+            told.append(PlaceLost(t=here.t, known_at=known_at, what=what))
+            self.last = here.position
+            return
+        why_not = nowhere(plan, start)
+        if why_not is not None:
+            told.append(PlaceLost(t=here.t, known_at=known_at, what=why_not))
+            self.last = here.position
+            return
+        level = plan.number(start.level)
+        count = self.most if start.heading is None else 2 * FEW
+        self.crowd = packed(self._fan(plan, level, start.place, start.spread, start.heading, count, 0, 1.0))
+
+    def _fan(
+        self,
+        plan: IndexedPlan,
+        level: int,
+        place: Point,
+        spread: float,
+        heading: float | None,
+        count: int,
+        origin: int,
+        weight: float,
+    ) -> list[Row]:
+        """`count` rows around a place, of all headings where none is known, and of `weight` in all."""
+        x0, y0 = origin_of(plan.plan)
+        near = min(max(spread, 0.0), 20.0) * 1.2
+        rows: list[Row] = []
+        for k in range(count):
+            ex, ey, eh, es = self.scattered(k, count)
+            turn = 2.0 * pi * (k + 0.5 * eh) / count if heading is None else heading + 2.0 * HEADING * eh
+            x, y = place[0] + near * ex, place[1] + near * ey
+            if plan.crosses(level, place[0], place[1], x, y):
+                x, y = place
+            stretch = 1.0 + 0.05 * es
+            row = (x - x0, y - y0, stretch * cos(turn), stretch * sin(turn), weight / count, level, origin, 0)
+            rows.append(row)
+        return rows
+
+    def _move(self, plan: IndexedPlan, here: Position, degraded: bool, known_at: float, told: list[Event]) -> None:
+        """The track since the last step, for all rows."""
+        x, y, _ = here.position
+        move = (x - self.last[0], y - self.last[1])
+        if not (abs(move[0]) < FARTHEST and abs(move[1]) < FARTHEST):
+            if isfinite(x) and isfinite(y):
+                self.last = here.position
+            self._lose(f"the track leaps by more than {FARTHEST:.0f} m", here, known_at, told)
+            return
+        self.last = here.position
+        rows = unpacked(self.crowd)
+        if not rows:
+            return
+        before = self.newest
+        rows = self._stepped(plan, rows, move, 3.0 if degraded else 1.0)
+        if not rows:
+            where = "" if before is None else f" near ({before.position[0]:.1f}, {before.position[1]:.1f})"
+            level = "" if before is None else f" on level {before.level}"
+            self._lose(f"the track goes where the plan has no way{where}{level}", here, known_at, told)
+            return
+        self.crowd = packed(rows)
+
+    def _stepped(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float) -> list[Row]:
+        dx, dy = move
+        changing = [row for row in rows if row[7]]
+        walking = [row for row in rows if not row[7]] if changing else rows
+        if hypot(dx, dy) > JUMP:
+            walking = self._jumped(plan, walking, move)
+        elif walking:
+            walking = self.extended(plan, walking, move, rough)
+        # on stairs one goes as the track says: the walls around them are those of one level or the other
+        carried = [
+            (x + a * dx - b * dy, y + b * dx + a * dy, a, b, w, level, origin, held)
+            for x, y, a, b, w, level, origin, held in changing
+        ]
+        return carried + walking
+
+    def _jumped(self, plan: IndexedPlan, rows: list[Row], move: Point) -> list[Row]:
+        """Across a gap: walls on the straight way say nothing, but the end must be somewhere."""
+        dx, dy = move
+        off = 0.3 * hypot(dx, dy)
+        x0, y0 = origin_of(plan.plan)
+        self.random = following(self.random)
+        kept: list[Row] = []
+        for k, (x, y, a, b, w, level, origin, held) in enumerate(rows):
+            for j in (0, 1):
+                ex, ey, _, _ = NOISE[(self.random + 2 * k + j) % ROWS]
+                nx, ny = x + a * dx - b * dy + off * ex, y + b * dx + a * dy + off * ey
+                if plan.inside(level, nx + x0, ny + y0):
+                    kept.append((nx, ny, a, b, w, level, origin, held))
+        return kept if len(kept) <= self.most else resampled(kept, self.most, 0.5)
+
+    def _lose(self, what: str, here: Position, known_at: float, told: list[Event]) -> None:
+        if self.crowd:
+            told.append(PlaceLost(t=here.t, known_at=max(known_at, here.t), what=what))
+        self.crowd, self.newest, self.outside = b"", None, 0
+
+    # --- levels ---
+
+    def _hold(self, plan: FloorPlan, held: Held) -> None:
+        """Who is near stairs or a lift may be changing level from now on."""
+        rows = unpacked(self.crowd)
+        if rows:
+            self.crowd = packed(self._near(plan, rows, held))
+
+    def _near(self, plan: FloorPlan, rows: list[Row], held: Held) -> list[Row]:
+        stops = landings(plan)
+        x0, y0 = origin_of(plan)
+        tx, ty, _ = self.references.at(held.t)
+        dx, dy = self.last[0] - tx, self.last[1] - ty
+        marked: list[Row] = []
+        for x, y, a, b, w, level, origin, _ in rows:
+            found = nearest(stops, held.kind, level, x0 + x - (a * dx - b * dy), y0 + y - (b * dx + a * dy))
+            if found is None:
+                marked.append((x, y, a, b, w, level, origin, 0))
+            else:
+                marked.append((x, y, a, b, w * found[1], level, origin, found[0].index))
+        return marked
+
+    def _arrive(self, plan: IndexedPlan, arrived: Arrived, known_at: float, told: list[Event]) -> None:
+        """The wearer is on another level: every reading that could be there goes on from the landing."""
+        stops = landings(plan.plan)
+        rows = unpacked(self.crowd)
+        if not any([landing.kind is arrived.kind for landing in stops]):
+            return  # the plan does not have them all
+        x0, y0 = origin_of(plan.plan)
+        if rows and not any([row[7] for row in rows]):
+            rows = self._near(plan.plan, rows, Held(arrived.kind, arrived.t_start))
+        total = sum([row[4] for row in rows])
+        there: list[Row] = []
+        self.random = following(self.random)
+        for k, (_, _, a, b, w, _, origin, held) in enumerate(rows):
+            if not held or stops[held - 1].kind is not arrived.kind:
+                continue
+            for way, share in ways_out(stops, stops[held - 1], arrived.up, arrived.height):
+                ex, ey, eh, es = NOISE[(self.random + k) % ROWS]
+                turn, stretch = TURNED * eh, 1.0 + 0.02 * es
+                x, y = way.place[0] + AROUND * ex, way.place[1] + AROUND * ey
+                if plan.crosses(way.level, way.place[0], way.place[1], x, y):
+                    x, y = way.place
+                a1, b1 = stretch * (a - b * turn), stretch * (b + a * turn)
+                there.append((x - x0, y - y0, a1, b1, w * share, way.level, origin or way.connector + 1, 0))
+        if sum([row[4] for row in there]) <= ELSEWHERE * total:
+            there = self._anew(plan, arrived)
+            weight = sum([row[4] for row in there])
+            if rows and weight > 0.0 and total > 0.0:
+                each = weight * DOUBT / (1.0 - DOUBT) / FEW
+                stayed = [(x, y, a, b, each, level, came, 0) for x, y, a, b, _, level, came, _ in resampled(rows, FEW, 0.5)]
+                there = self._caught_up(plan, there, arrived.t) + stayed
+                self.crowd = packed(self.thinned(there, self.most) if len(there) > self.most else there)
+                return
+        if len(there) > self.most:
+            there = self.thinned(there, self.most)
+        there = self._caught_up(plan, there, arrived.t)
+        if there:
+            self.outside = 0
+            self.crowd = packed(there)
+
+    def _anew(self, plan: IndexedPlan, arrived: Arrived) -> list[Row]:
+        """Every place at which one may have come out: all stairs or lifts, all levels, all headings."""
+        stops = landings(plan.plan)
+        weights: dict[int, float] = {}
+        for entered in stops:
+            if entered.kind is arrived.kind:
+                for way, share in ways_out(stops, entered, arrived.up, arrived.height):
+                    weights[way.index] = weights.get(way.index, 0.0) + share
+        total = sum(weights.values())
+        rows: list[Row] = []
+        for index in sorted(weights):
+            way = stops[index - 1]
+            count = max(self.most // len(weights), 12)
+            share = weights[index] / total
+            rows += self._fan(plan, way.level, way.place, AROUND, None, count, way.connector + 1, share)
+        return rows
+
+    def _caught_up(self, plan: IndexedPlan, rows: list[Row], t: float) -> list[Row]:
+        """Rows that stand where the wearer was at `t`, s, led on to where the track is now."""
+        way = [place for place in self.references.after(t)]
+        for (x, y, _), (x1, y1, _) in zip(way, way[1:], strict=False):
+            move = (x1 - x, y1 - y)
+            if rows and move != (0.0, 0.0) and abs(move[0]) < FARTHEST and abs(move[1]) < FARTHEST:
+                rows = self._stepped(plan, rows, move, 1.5)
+        return rows
+
+    # --- what is told ---
+
+    def _told(self, plan: IndexedPlan, here: Position, known_at: float) -> Event:
+        rows = unpacked(self.crowd)
+        origin = origin_of(plan.plan)
+        candidates, spread = believed(rows, plan.plan, origin, self._climbed(plan.plan, rows, here))
+        first = candidates[0]
+        if len(candidates) == 1 and not plan.inside(
+            plan.number(first.level), first.position[0], first.position[1]
+        ):
+            self.outside += 1
+            if self.outside >= OUTSIDE and self.references.passage is None:
+                self.crowd, self.newest, self.outside = b"", None, 0
+                x, y, _ = first.position
+                what = f"the track leaves the plan near ({x:.1f}, {y:.1f}) on level {first.level}"
+                return PlaceLost(t=here.t, known_at=max(known_at, here.t), what=what)
+        else:
+            self.outside = 0
+        wanted = min(self.most, FEW + MORE * (len(candidates) - 1) + int(8.0 * min(spread, 5.0)))
+        if size(self.crowd) > 1.25 * wanted or effective(rows) < 0.5 * min(wanted, size(self.crowd)):
+            self.crowd = packed(self.thinned(rows, wanted))
+        t = max(here.t, 0.0) if here.t != here.t else here.t
+        self.newest = Placed(
+            t=t,
+            known_at=max(known_at, t),
+            level=first.level,
+            position=first.position,
+            spread=spread,
+            candidates=candidates,
+        )
+        return self.newest
+
+    def _climbed(self, plan: FloorPlan, rows: list[Row], here: Position) -> float:
+        """How far above where they entered those are who change level, m: no further than the next landing."""
+        passage = self.references.passage
+        held = next((row[7] for row in rows if row[7]), 0)
+        if passage is None or not held:
+            return 0.0
+        stops = landings(plan)
+        ways = ways_out(stops, stops[held - 1], passage.up > 0, None)
+        most = min([abs(way.elevation - stops[held - 1].elevation) for way, _ in ways], default=0.0)
+        height = min(passage.height(here.position) or 0.0, most)
+        return height if passage.up > 0 else -height
+
+
+def nowhere(plan: IndexedPlan, start: Start) -> str | None:
+    """Why nobody can set out there, in a sentence; None when one can."""
+    try:
+        level = plan.number(start.level)
+    except FloorPlanError as error:
+        return f"start: {error}"
+    if not plan.inside(level, *start.place):
+        x, y = start.place
+        return f"start: ({x:g}, {y:g}) is nowhere on level {start.level}: no room or corridor of the plan is there"
+    if start.heading is not None and not isfinite(start.heading):
+        return "start: its heading is no number"
+    return None

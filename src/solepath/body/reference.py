@@ -1,0 +1,248 @@
+"""References to a floor plan: what the wearer does that can be done in few places only, on stairs and in lifts.
+
+Out of activities, rides, flights and the track come three things (Liu et al. 2015, section IV.E): somebody may be on
+stairs or in a lift (`Held`), was not after all (`Released`), or has come to another level (`Arrived`). Half a storey is
+a landing, and a window or two of stairs on level ground are a mistake: neither is an arrival.
+
+Latency: a lift's ride with the event that tells it, or two steps or 4 s after an activity which no such event follows; stairs with the
+activity that follows them, or up to `WAIT` s or `AWAY` m later when the height fits no storey.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from math import hypot
+
+from attrs import define, field, frozen
+
+from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StepTaken
+from ..floorplan.plan import FloorPlan, Kind
+from ..types import Activity, Foot, Vec3
+from .position import Position
+
+RISE = 0.165
+"""Of one step of a stair, m, where neither track nor plan tells a height."""
+WAIT = 8.0
+"""s"""
+AWAY = 6.0
+"""m"""
+FIT = 0.3
+"""A height fits a storey when it is off by no more than this share of the least storey."""
+LEAST = 0.35
+"""Less than this share of the least storey is no arrival."""
+RIDE_OVER = 4.0
+"""A ride that no event tells is over so long after the activity, s, or with the second step."""
+TRACK = 24
+"""Places of the track that are kept."""
+
+UPWARDS = {
+    Activity.STAIRS_UP: (Kind.STAIRS, True),
+    Activity.STAIRS_DOWN: (Kind.STAIRS, False),
+    Activity.ELEVATOR_UP: (Kind.LIFT, True),
+    Activity.ELEVATOR_DOWN: (Kind.LIFT, False),
+}
+"""What an activity is a reference to, and whether it leads up."""
+
+
+@frozen
+class Held:
+    """From `t` on, s, the wearer may be on stairs or in a lift."""
+
+    kind: Kind
+    t: float
+
+
+@frozen
+class Released:
+    """It was none."""
+
+
+@frozen
+class Arrived:
+    """At `t`, s, the wearer has left stairs or a lift on another level, having set out at `t_start`. `height`: m, None
+    when it cannot be told."""
+
+    kind: Kind
+    up: bool
+    height: float | None
+    t_start: float
+    t: float
+
+
+Reference = Held | Released | Arrived
+
+
+@define
+class Passage:
+    """Being on stairs or in a lift, as far as is known."""
+
+    kind: Kind
+    t: float
+    begin: Vec3
+    """Of the track, m."""
+    up: int = 0
+    """Strides (of stairs) or tellings (of lifts) that lead up, less those that lead down."""
+    left: int = 0
+    right: int = 0
+    """Strides of each foot."""
+    climbed: float = 0.0
+    """Sum of the heights of flights, m."""
+    t_left: float | None = None
+    end: Vec3 | None = None
+    since: int = 0
+    """Strides since."""
+
+    def height(self, here: Vec3) -> float | None:
+        """By the track where that says anything, else by flights or by counting steps, m, not negative."""
+        track = abs((here if self.end is None else self.end)[2] - self.begin[2])
+        if self.kind is Kind.LIFT:
+            return track if track > 1.0 else None
+        strides = self.left + self.right
+        # a stride of a foot is two steps of the stair; of both feet each one is told by its own stride
+        counted = RISE * strides * (1.0 if self.left and self.right else 2.0)
+        return track if track > 0.5 * counted and track > 0.3 else max(abs(self.climbed), counted)
+
+
+@define
+class References:
+    """Follows what the wearer does, with the newest places of the track."""
+
+    activity: Activity = field(default=Activity.UNKNOWN, init=False)
+    passage: Passage | None = field(default=None, init=False)
+    track: deque[tuple[float, float, float, float]] = field(factory=deque, init=False)
+    """t in s and the place in m."""
+    ridden: float | None = field(default=None, init=False)
+    """When the last ride that an event told was over, s."""
+
+    def forget(self) -> None:
+        """Times begin anew."""
+        self.passage = self.ridden = None
+        self.track.clear()
+
+    def at(self, t: float) -> Vec3:
+        """Where the track was, m: between the two nearest places, or the nearest one that is kept."""
+        after: tuple[float, float, float, float] | None = None
+        for place in reversed(self.track):
+            if place[0] <= t:
+                if after is None or after[0] <= place[0]:
+                    return place[1:]
+                k = (t - place[0]) / (after[0] - place[0])
+                (_, x, y, z), (_, x1, y1, z1) = place, after
+                return (x + k * (x1 - x), y + k * (y1 - y), z + k * (z1 - z))
+            after = place
+        return (0.0, 0.0, 0.0) if after is None else after[1:]
+
+    def after(self, t: float) -> list[Vec3]:
+        """The track from `t` on: the place then, and those that are kept of later."""
+        return [self.at(t), *(place[1:] for place in self.track if place[0] > t)]
+
+    def hear(self, plan: FloorPlan, events: list[Event], here: Position) -> list[Reference]:
+        """What `events` mean; the wearer is at `here` now."""
+        x, y, z = here.position
+        self.track.append((here.t, x, y, z))
+        if len(self.track) > TRACK:
+            self.track.popleft()
+        told: list[Reference] = []
+        for event in events:
+            if isinstance(event, StepTaken):
+                self._stepped(event.foot)
+            elif isinstance(event, ActivityChanged):
+                self._changed(event, told)
+            elif isinstance(event, FlightClimbed):
+                self._climbed(event, told)
+            elif isinstance(event, LiftRidden):
+                height = None if event.height is None else abs(event.height)
+                told.append(Arrived(Kind.LIFT, event.up, height, min(event.t_start, event.t), event.t))
+                self.ridden = event.t
+                if self.passage is not None and self.passage.kind is Kind.LIFT:
+                    self.passage = None
+        if self.passage is not None and self.passage.t_left is not None:
+            self._settle(self.passage, self.passage.t_left, plan, here, told)
+        return told
+
+    def _stepped(self, foot: Foot) -> None:
+        passage = self.passage
+        if passage is None:
+            return
+        reference = UPWARDS.get(self.activity)
+        if passage.t_left is not None or reference is None:
+            passage.since += 1
+        elif passage.kind is Kind.STAIRS:
+            passage.up += 1 if reference[1] else -1
+            if foot is Foot.LEFT:
+                passage.left += 1
+            else:
+                passage.right += 1
+
+    def _changed(self, event: ActivityChanged, told: list[Reference]) -> None:
+        self.activity = event.activity
+        reference, passage = UPWARDS.get(event.activity), self.passage
+        if reference is None:
+            if passage is not None and passage.t_left is None:
+                if event.t <= passage.t:
+                    self.passage = None
+                    told.append(Released())
+                else:
+                    passage.t_left, passage.end, passage.since = event.t, self.at(event.t), 0
+            return
+        kind, up = reference
+        if kind is Kind.LIFT and self.ridden is not None and event.t < self.ridden:
+            return
+        if passage is not None and passage.kind is kind:
+            passage.t_left = passage.end = None
+        else:
+            if passage is not None:
+                told.append(Released())
+            passage = self.passage = Passage(kind, event.t, self.at(event.t))
+            told.append(Held(kind, event.t))
+        if kind is Kind.LIFT:
+            passage.up += 1 if up else -1
+
+    def _climbed(self, event: FlightClimbed, told: list[Reference]) -> None:
+        """A flight belongs to the stairs that one is on or has just left; without them, it is one's being there."""
+        passage = self.passage
+        if passage is not None and passage.kind is not Kind.STAIRS:
+            return
+        if passage is None:
+            t = min(event.t_start, event.t)
+            self.passage = passage = Passage(Kind.STAIRS, t, self.at(t), t_left=event.t, end=self.at(event.t))
+            told.append(Held(Kind.STAIRS, t))
+            passage.up = 1 if event.up else -1
+        passage.climbed += event.height if abs(event.height) < 100.0 else 0.0
+        if passage.t_left is not None and event.t > passage.t_left:
+            passage.t_left, passage.end = event.t, self.at(event.t)
+
+    def _settle(self, passage: Passage, left: float, plan: FloorPlan, here: Position, told: list[Reference]) -> None:
+        """Stairs or a lift were left: for another level, for a landing, or they never were any."""
+        up, height = passage.up > 0, passage.height(here.position)
+        arrived = Arrived(passage.kind, up, height, passage.t, left)
+        waited = here.t - left
+        if passage.kind is Kind.LIFT:
+            if waited > RIDE_OVER or passage.since >= 2:
+                self.passage = None
+                told.append(arrived)
+            return
+        storeys = rises(plan, Kind.STAIRS)
+        if not storeys or height is None:
+            self.passage = None
+            told.append(Released())
+            return
+        least = storeys[0]
+        if min([abs(height - storey) for storey in storeys]) <= FIT * least:
+            self.passage = None
+            told.append(arrived)
+            return
+        end = passage.end or passage.begin
+        if waited > WAIT or hypot(here.position[0] - end[0], here.position[1] - end[1]) > AWAY:
+            self.passage = None
+            told.append(arrived if height >= LEAST * least else Released())
+
+
+def rises(plan: FloorPlan, kind: Kind) -> list[float]:
+    """Every difference of height, m, over which a connector of a kind leads, least first."""
+    found = set()
+    for connector in plan.connectors:
+        if connector.kind is kind:
+            floors = [plan.level(stop.level).elevation for stop in connector.stops]
+            found |= {round(abs(b - a), 3) for i, a in enumerate(floors) for b in floors[i + 1 :]}
+    return sorted(found - {0.0})
