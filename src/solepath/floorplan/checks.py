@@ -128,12 +128,14 @@ def _extent(values: Iterable[float]) -> float:
 
 
 def warnings(plan: FloorPlan) -> tuple[str, ...]:
-    """What is worth saying of a plan that can be used, one line each: walls that do not close, no stairs or lifts, a
-    level that none of them leads to. It takes up to 0.1 s a level."""
-    return tuple(_remarks(plan)) if unusable(plan) is None else ()
+    """What is worth saying of a plan that can be used, one line each: what its reader remarked, walls that do not
+    close, no stairs or lifts, a level that none of them leads to. It takes up to 0.1 s a level."""
+    return (*plan.remarks, *_remarks(plan)) if unusable(plan) is None else ()
 
 
 def _remarks(plan: FloorPlan) -> Iterator[str]:
+    if not plan.heights_known and len(plan.levels) > 1:
+        yield "the plan does not say how high its levels lie"
     for level in plan.levels:
         yield from _remarks_of_walls(level)
     if not plan.connectors:

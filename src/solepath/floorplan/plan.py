@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from enum import Enum
 
-from attrs import frozen
+from attrs import evolve, field, frozen
 
 from ..machine import checksum, save
 
@@ -95,18 +95,22 @@ class Anchor:
 @frozen
 class FloorPlan:
     """A building. `levels`: from the lowest to the highest. `connectors`: what joins them. `anchor`: None when nobody
-    knows where the building is, and nobody has to."""
+    knows where the building is, and nobody has to. `heights_known`: False where the file tells no elevations and the
+    reader has put one storey's usual height between the levels: then nothing may be corrected by them. `remarks`: what
+    a reader had to say of the file, one line each; plans are equal whatever they are."""
 
     name: str
     levels: tuple[Level, ...]
     connectors: tuple[Connector, ...] = ()
     anchor: Anchor | None = None
+    heights_known: bool = True
+    remarks: tuple[str, ...] = field(default=(), eq=False)
 
     @property
     def fingerprint(self) -> int:
         """The same for equal plans, on every machine; another, but for one chance in 2^32, for others. It is computed
         anew, in a time that grows with the plan."""
-        return checksum(save(self))
+        return checksum(save(evolve(self, remarks=())))
 
     def level(self, name: str) -> Level:
         """The level with this id. FloorPlanError when there is none."""

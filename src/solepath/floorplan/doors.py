@@ -1,0 +1,85 @@
+"""Doors are cut out of walls, and walls out of walls: what lies along a wall leaves a gap in it."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable
+from math import hypot
+
+from attrs import evolve
+
+from .plan import Level, Point, Wall
+
+BESIDE = 0.3
+"""m; a door whose both ends are this near to a wall's line is in that wall: doors are drawn on one face of a wall, or
+between two rooms whose outlines are a wall's thickness apart."""
+
+SHORTEST = 1e-3
+"""m; shorter gaps are not cut and shorter pieces of wall do not stay."""
+
+_ON = 1e-9
+"""m; nearer than this to a wall's line, a door's own end is the end of the wall."""
+
+Line = tuple[Point, Point]
+
+
+def with_doors_cut(level: Level) -> Level:
+    """The level with a gap in its walls wherever a door lies along them. Cut once more, it stays as it is."""
+    return evolve(level, walls=cut(level.walls, [(door.start, door.end) for door in level.doors], BESIDE))
+
+
+def cut(walls: Iterable[Wall], openings: Iterable[Line], beside: float) -> tuple[Wall, ...]:
+    """What is left of the walls where each opening that lies along one of them, with both ends within `beside` (m) of
+    its line and at less than 45 degrees to it, has been taken out."""
+    ordered = sorted(openings, key=_leftmost)
+    lefts = [_leftmost(line) for line in ordered]
+    widest = max((abs(b[0] - a[0]) for a, b in ordered), default=0.0)
+    kept: list[Wall] = []
+    for wall in walls:
+        left, right = min(wall.start[0], wall.end[0]) - beside, max(wall.start[0], wall.end[0]) + beside
+        first, last = bisect_left(lefts, left - widest), bisect_right(lefts, right)
+        kept += _pieces(wall, ordered[first:last], beside)
+    return tuple(kept)
+
+
+def _leftmost(line: Line) -> float:
+    return min(line[0][0], line[1][0])
+
+
+def _pieces(wall: Wall, openings: list[Line], beside: float) -> list[Wall]:
+    gaps = sorted(gap for gap in (_gap(wall, opening, beside) for opening in openings) if gap is not None)
+    if not gaps:
+        return [wall]
+    (ax, ay), (bx, by) = wall.start, wall.end
+    pieces = []
+    since, begin = 0.0, wall.start
+    for low, high, end, next_begin in gaps:
+        if low - since >= SHORTEST:
+            pieces.append(Wall(begin, end))
+        if high > since:
+            since, begin = high, next_begin
+    if hypot(bx - ax, by - ay) - since >= SHORTEST:
+        pieces.append(Wall(begin, wall.end))
+    return pieces
+
+
+def _gap(wall: Wall, opening: Line, beside: float) -> tuple[float, float, Point, Point] | None:
+    """From where to where along the wall an opening goes, m, and these two places; None when it does not."""
+    (ax, ay), (bx, by) = wall.start, wall.end
+    long = hypot(bx - ax, by - ay)
+    wide = hypot(opening[1][0] - opening[0][0], opening[1][1] - opening[0][1])
+    if long < SHORTEST or wide < SHORTEST:
+        return None
+    ux, uy = (bx - ax) / long, (by - ay) / long
+    ends = []
+    for x, y in opening:
+        off = ux * (y - ay) - uy * (x - ax)
+        if not abs(off) <= beside:
+            return None
+        along = ux * (x - ax) + uy * (y - ay)
+        place = (x, y) if abs(off) <= _ON else (ax + along * ux, ay + along * uy)
+        ends.append((along, place))
+    (low, begin), (high, end) = sorted(ends)
+    if high - low < 0.7 * wide or min(high, long) - max(low, 0.0) < SHORTEST:
+        return None
+    return max(low, 0.0), min(high, long), begin, end
