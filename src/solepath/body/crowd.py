@@ -27,9 +27,9 @@ SAME = 2.0
 """Places within this of each other's mean are one candidate, m."""
 AGREED = 1.0
 """All places together are one candidate when they differ by no more (rms), m."""
-CANDIDATES = 12
+CANDIDATES = 24
 """No more are told; others count to the nearest."""
-FAINT = 0.01
+FAINT = 0.003
 """A candidate of less weight counts to the heaviest."""
 
 
@@ -53,32 +53,28 @@ def unpacked(crowd: bytes) -> list[Row]:
     return [] if len(crowd) % _ROW.size else list(_ROW.iter_unpack(crowd))
 
 
-def size(crowd: bytes) -> int:
-    """How many rows there are."""
-    return len(crowd) // _ROW.size
-
-
 def resampled(rows: list[Row], count: int, offset: float) -> list[Row]:
-    """`count` rows of equal weight, each as often as its weight says (systematic resampling; `offset` in 0 to 1)."""
-    total = sum([row[4] for row in rows])
-    if not total > 0.0:
+    """`count` rows that stand for all, each drawn as often as the root of its weight says (systematic resampling;
+    `offset` in 0 to 1) and weighing as much, so that belief is as it was: what is little believed stays among them."""
+    roots = [sqrt(row[4]) for row in rows]
+    step = sum(roots) / count
+    if not step > 0.0:
         return []
-    step = total / count
     due, reached = offset * step, 0.0
     drawn: list[Row] = []
-    for x, y, a, b, w, level, origin, held in rows:
-        reached += w
+    for root, (x, y, a, b, _, level, origin, held) in zip(roots, rows, strict=True):
+        reached += root
         while due < reached and len(drawn) < count:
-            drawn.append((x, y, a, b, 1.0, level, origin, held))
+            drawn.append((x, y, a, b, root, level, origin, held))
             due += step
     return drawn
 
 
 def effective(rows: list[Row]) -> float:
-    """How many rows of equal weight would be as good."""
+    """How many rows of equal roots of weights would be as good."""
     total = sum([row[4] for row in rows])
-    squares = sum([row[4] * row[4] for row in rows])
-    return total * total / squares if squares > 0.0 else 0.0
+    roots = sum([sqrt(row[4]) for row in rows])
+    return roots * roots / total if total > 0.0 else 0.0
 
 
 def origin_of(plan: FloorPlan) -> Point:

@@ -28,12 +28,12 @@ STRETCH = 0.008
 """Its stretch changes by up to this share ..."""
 PULL = 0.01
 """... and is drawn back to 1 by this share."""
-TRIES = (3.0, 6.0)
-"""One that meets a wall errs by so many times as much ..."""
-AGAIN = 0.5
+BENDS = (0.07, 0.16)
+"""One that meets a wall turns by so much, rad, to either side ..."""
+AGAIN = 0.65
 """... and counts so much less, each time."""
-SQUEEZE = 8.0
-"""When nobody is left, all try once more and err this much."""
+SQUEEZE = (0.1, 0.25, 0.45)
+"""When nobody is left, all try once more and turn this much."""
 BESIDE = 4.0
 """So near to stairs or a lift one may be on them already, m, and stays ..."""
 STAYS = 0.6
@@ -46,11 +46,11 @@ class Particles(Placing):
 
     def extended(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float) -> list[Row]:
         """The rows a move further; without those that cannot go there."""
-        kept = self._wandered(plan, rows, move, rough, TRIES)
-        return kept or self._wandered(plan, rows, move, rough, (SQUEEZE, SQUEEZE, 1.5 * SQUEEZE, 2.0 * SQUEEZE))
+        kept = self._wandered(plan, rows, move, rough, BENDS)
+        return kept or self._wandered(plan, rows, move, 2.0 * rough, SQUEEZE)
 
     def _wandered(
-        self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, tries: tuple[float, ...]
+        self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, bends: tuple[float, ...]
     ) -> list[Row]:
         dx, dy = move
         x0, y0 = origin_of(plan.plan)
@@ -78,16 +78,22 @@ class Particles(Placing):
         stops = None
         for row in lost:
             x, y, a, b, w, level, origin, _ = row
-            for much in tries:
+            k = (k + 367) % ROWS
+            ex, ey, eh, es = NOISE[k]
+            side = 1.0 if eh > 0.0 else -1.0
+            for bend in bends:
                 w *= AGAIN
-                k = (k + 367) % ROWS
-                ex, ey, eh, es = NOISE[k]
-                h, s = much * turn * eh, 1.0 + much * stretch * es
-                a1, b1 = a * s - b * h, b * s + a * h
-                nx, ny = x + a1 * dx - b1 * dy + much * way * ex, y + b1 * dx + a1 * dy + much * way * ey
-                if not crosses(level, x0 + x, y0 + y, x0 + nx, y0 + ny):
-                    kept.append((nx, ny, a1, b1, w, level, origin, 0))
-                    break
+                # bent to one side, then to the other: the heading that was wrong stays corrected
+                for h in (side * bend, -side * bend):
+                    h, s = h + turn * es, 1.0 - 0.5 * h * h
+                    a1, b1 = a * s - b * h, b * s + a * h
+                    nx, ny = x + a1 * dx - b1 * dy + 2.0 * way * ex, y + b1 * dx + a1 * dy + 2.0 * way * ey
+                    if not crosses(level, x0 + x, y0 + y, x0 + nx, y0 + ny):
+                        break
+                else:
+                    continue
+                kept.append((nx, ny, a1, b1, w, level, origin, 0))
+                break
             else:
                 stops = landings(plan.plan) if stops is None else stops
                 for stop in stops:

@@ -19,7 +19,7 @@ from ..floorplan.index import IndexedPlan
 from ..floorplan.plan import FloorPlan, FloorPlanError, Point, Start
 from ..types import Vec3
 from ..vector import ZERO
-from .crowd import Row, believed, effective, origin_of, packed, resampled, size, unpacked
+from .crowd import Row, believed, effective, origin_of, packed, resampled, unpacked
 from .landings import landings, nearest, ways_out
 from .noise import NOISE, ROWS, following
 from .position import Position
@@ -341,7 +341,7 @@ class Placing:
         else:
             self.outside = 0
         wanted = min(self.most, FEW + MORE * (len(candidates) - 1) + int(8.0 * min(spread, 5.0)))
-        if size(self.crowd) > 1.25 * wanted or effective(rows) < 0.5 * min(wanted, size(self.crowd)):
+        if len(rows) > 1.25 * wanted or effective(rows) < 0.5 * wanted:
             self.crowd = packed(self.thinned(rows, wanted))
         t = max(here.t, 0.0) if here.t != here.t else here.t
         self.newest = Placed(
