@@ -16,7 +16,8 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ..types import Foot, Vec3, WalkingMode
-from .gait import Stride, plan
+from .gait import Stride
+from .planner import plan
 from .route import Route
 from .walker import Walker
 

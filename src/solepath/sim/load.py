@@ -5,6 +5,10 @@ middle of double support: each foot then shows the two humps and the trough of a
 1.1 body weights at 1.3 m/s; Perry, Gait Analysis, 1992), and the mean over a step is the weight. In double support the
 share goes from the trailing to the leading foot.
 
+Running, each foot bears half a sine wave from heel-strike to toe-off and none bears anything in between (Alexander
+1989, Physiol. Rev. 69); its mean over a step is the weight, so that its top is 2 to 3 body weights. In a lift
+everything is heavier or lighter by the car's acceleration. On stairs the load lands on the forefoot.
+
 Under the foot the load starts at the heel with heel-strike, reaches the forefoot with foot-flat, leaves the heel with
 heel-off and ends under the toes with toe-off.
 
@@ -20,12 +24,15 @@ from __future__ import annotations
 
 import numpy as np
 from attrs import frozen
+from numpy.typing import NDArray
 
 from ..types import Foot, Layout
 from ..vector import GRAVITY
 from .curves import Array
-from .gait import SETTLING, Plan, Wearer
+from .gait import SETTLING, Plan, Stride, Wearer
+from .lift import Ride
 from .motion import FootMotion
+from .styles import Manner, style_of
 
 BOUNCE = 0.17
 """Amplitude of the force's swing about the weight at 1.3 m/s; it grows with the square of the speed."""
@@ -61,9 +68,10 @@ class Loads:
 
     Shares pass from one foot to the other in hand-overs: `begin`, `end` (s) and the left foot's share `before` and
     `after` each. `beat` (s) are the middles of double support and `bounce` the amplitude up to the next one.
-    `stances` are heel-strike, foot-flat, heel-off and toe-off of each stance of a foot, (n, 4). `leans` (n, 2) go with
+    `runs` (beats, 2): for every beat the heel-strike that follows it when nobody stands at it, and the toe-off before
+    the next one when nobody stands at that; else 0. `stances` are heel-strike, foot-flat, heel-off and toe-off of each stance of a foot, (n, 4). `leans` (n, 2) go with
     them: how far the load is asked to move to the left under the foot, m, and when it begins to come back because
-    the walk is over, s.
+    the walk is over, s. `fronts` go with them, too: the share of the load that lands on the forefoot.
     """
 
     weight: float
@@ -73,8 +81,11 @@ class Loads:
     after: Array
     beat: Array
     bounce: Array
+    runs: Array
     stances: dict[Foot, Array]
     leans: dict[Foot, Array]
+    fronts: dict[Foot, Array]
+    rides: tuple[Ride, ...] = ()
 
     def total(self, foot: Foot, t: Array) -> Array:
         """Load under one foot, N."""
@@ -82,13 +93,36 @@ class Loads:
 
     def body(self, t: Array) -> Array:
         """Load under both feet together, N."""
+        load = self._borne(t)
+        for car in self.rides:
+            load *= 1.0 + car.at(t)[2][:, 2] / GRAVITY
+        return load
+
+    def _borne(self, t: Array) -> Array:
+        """The same on a floor that does not move."""
         if len(self.beat) < 2:
             return np.full_like(t, self.weight)
         k = np.clip(np.searchsorted(self.beat, t, side="right") - 1, 0, len(self.beat) - 2)
         phase = np.clip((t - self.beat[k]) / (self.beat[k + 1] - self.beat[k]), 0.0, 1.0)
         # 1 - cos starts and ends at zero slope where standing begins and ends; between steps the tops meet.
         swing = (self.bounce[k] + (self.bounce[k + 1] - self.bounce[k]) * phase) * np.cos(2.0 * np.pi * phase)
-        return np.asarray(self.weight * (1.0 + swing))
+        load = np.asarray(self.weight * (1.0 + swing))
+        if self.runs.any():
+            self._leap(load, k, t)
+        return load
+
+    def _leap(self, load: Array, k: NDArray[np.intp], t: Array) -> None:
+        """Where the body leaves the ground before a beat or after it, the load goes to nothing."""
+        strike, off = self.runs[k, 0], self.runs[k, 1]
+        both = (strike > 0.0) & (off > 0.0)
+        lasts = np.where(both, off - strike, 1.0)
+        step = self.beat[np.minimum(k + 1, len(self.beat) - 1)] - self.beat[k]
+        half = np.sin(np.pi * np.clip((t - strike) / lasts, 0.0, 1.0))
+        load[both] = (self.weight * 0.5 * np.pi * step / lasts * half)[both]
+        landing = (strike > 0.0) & ~both
+        load[landing] *= hand_over((t - strike)[landing] / CATCHING)
+        leaving = (off > 0.0) & ~both
+        load[leaving] *= hand_over((off - t)[leaving] / CATCHING)
 
     def cells(self, layout: Layout, width: float, motion: FootMotion, t: Array) -> Array:
         """Load on every cell of `layout`, (N, cells), N; a row's sum is the foot's total.
@@ -141,10 +175,14 @@ class Loads:
     def _zones(self, foot: Foot, t: Array) -> tuple[Array, Array, Array, Array]:
         """Shares of heel, midfoot, forefoot and toes in the foot's load; they add up to one."""
         stances = self.stances[foot]
-        row = stances[np.maximum(np.searchsorted(stances[:, 0], t, side="right") - 1, 0)]
+        rows = np.maximum(np.searchsorted(stances[:, 0], t, side="right") - 1, 0)
+        row = stances[rows]
         flat, lift, off = row[:, 1], row[:, 2], row[:, 3]
         ramp = np.minimum(lift - flat, SETTLING)
         rolled = 0.45 * hand_over((t - flat) / ramp) + 0.55 * hand_over((t - lift + ramp) / ramp)
+        if self.fronts[foot].any():
+            front = self.fronts[foot][rows]
+            rolled += (1.0 - rolled) * front * (1.0 - hand_over((t - flat) / ramp))
         middle = 0.5 * rolled * (1.0 - rolled)
         front = rolled - 0.5 * middle
         toes = front * (0.05 + 0.10 * rolled + 0.60 * hand_over((t - lift) / (off - lift)))
@@ -155,7 +193,7 @@ def loads(plan: Plan, wearer: Wearer, rng: np.random.Generator) -> Loads:
     """The loads that go with a plan. `rng`: for what varies between steps, where the wearer says that it does."""
     hand_overs, beats = _hand_overs(plan)
     table = np.array(hand_overs).reshape(-1, 4)
-    beat = np.array(beats).reshape(-1, 2)
+    beat = np.array(beats).reshape(-1, 4)
     return Loads(
         weight=wearer.mass * GRAVITY,
         begin=table[:, 0],
@@ -164,9 +202,24 @@ def loads(plan: Plan, wearer: Wearer, rng: np.random.Generator) -> Loads:
         after=table[:, 3],
         beat=beat[:, 0],
         bounce=np.minimum(BOUNCE * (beat[:, 1] / 1.3) ** 2, 0.35),
+        runs=beat[:, 2:],
         stances={foot: _stances(plan, foot) for foot in Foot},
         leans={foot: _leans(plan, foot, wearer, rng) for foot in Foot},
+        fronts={foot: np.array([0.0, *(_front(stride) for stride in plan.strides[foot])]) for foot in Foot},
+        rides=plan.rides,
     )
+
+
+def _front(stride: Stride) -> float:
+    """Share of the load that lands on the forefoot."""
+    return 0.0 if stride.manner is Manner.WALK else style_of(stride.manner, stride.speed).front
+
+
+def _like(stride: Stride) -> float:
+    """The walking speed at which the load swings as it does in a stride, m/s."""
+    if stride.manner is Manner.WALK or stride.manner is Manner.RUN:
+        return stride.speed
+    return 1.3 * float(np.sqrt(style_of(stride.manner, stride.speed).bounce / BOUNCE))
 
 
 def hand_over(s: Array) -> Array:
@@ -175,23 +228,29 @@ def hand_over(s: Array) -> Array:
     return np.asarray(0.5 * s + s * s * (1.5 - s))
 
 
-def _hand_overs(plan: Plan) -> tuple[list[tuple[float, float, float, float]], list[tuple[float, float]]]:
+def _hand_overs(plan: Plan) -> tuple[list[tuple[float, ...]], list[tuple[float, ...]]]:
+    """Rows for `begin`, `end`, `before`, `after`, and for `beat`, the speed that the bounce goes by, and `runs`."""
     strides = sorted((s.heel_strike, foot.value, s, foot) for foot in Foot for s in plan.strides[foot])
     steps = [(stride, foot) for _, _, stride, foot in strides]
-    hand_overs: list[tuple[float, float, float, float]] = []
-    beats: list[tuple[float, float]] = []
+    hand_overs: list[tuple[float, ...]] = []
+    beats: list[tuple[float, ...]] = []
     level = 0.5
     for began, ended in plan.bouts:
         bout = [(stride, foot) for stride, foot in steps if began <= stride.heel_strike <= ended]
         first, mover = bout[0]
         away = 0.0 if mover is Foot.LEFT else 1.0
         hand_overs.append((began, first.toe_off, level, away))
-        beats.append((began, 0.0))
+        beats.append((began, 0.0, 0.0, 0.0))
         level = away
         for (stride, foot), (following, _) in zip(bout, bout[1:], strict=False):
             onto = 1.0 if foot is Foot.LEFT else 0.0
-            hand_overs.append((stride.heel_strike, following.toe_off, level, onto))
-            beats.append((0.5 * (stride.heel_strike + following.toe_off), stride.speed))
+            strike, off = stride.heel_strike, following.toe_off
+            hand_overs.append((min(strike, off), max(strike, off), level, onto))
+            flown = off < strike
+            if flown:
+                # Nobody stands at this beat: the one before leaves the ground, and the next begins with a landing.
+                beats[-1] = (*beats[-1][:3], off)
+            beats.append((0.5 * (strike + off), _like(stride), strike if flown else 0.0, 0.0))
             level = onto
         last, _ = bout[-1]
         # The closing foot catches the weight as in a step, a little too much of it, and then half remains.
@@ -199,7 +258,7 @@ def _hand_overs(plan: Plan) -> tuple[list[tuple[float, float, float, float]], li
         most = 0.6 if level == 0.0 else 0.4
         hand_overs.append((last.heel_strike, caught, level, most))
         hand_overs.append((caught, settled, most, 0.5))
-        beats.append((last.heel_strike + 0.5 * SETTLING, 0.0))
+        beats.append((last.heel_strike + 0.5 * SETTLING, 0.0, 0.0, 0.0))
         level = 0.5
     return hand_overs, beats
 

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from ..types import Phase
 from ..vector import GRAVITY
 from .curves import Array
+from .lift import Ride
 from .shoe import Mounting
 
 Rows = NDArray[np.intp]
@@ -66,6 +67,8 @@ class FootMotion:
     carried: Array
     radius: Array
     phase: Array
+    rides: tuple[Ride, ...] = ()
+    """What the foot rides on; its own curves stand meanwhile, and are as much higher afterwards."""
 
     def phases(self, t: Array) -> list[Phase]:
         return [PHASES[int(k)] for k in self.phase[self._piece(t)]]
@@ -112,6 +115,11 @@ class FootMotion:
         position = centre + _apply(turn, arm)
         velocity = centre_v + _apply(turn, swing)
         acceleration = centre_a + _apply(turn, np.cross(rate_change, arm) + np.cross(rate, swing))
+
+        for car in self.rides:
+            aboard = np.flatnonzero((t >= car.begin) & (t < car.end))
+            for total, added in zip((position, velocity, acceleration), car.at(t[aboard]), strict=True):
+                total[aboard] += added
 
         # Specific force is acceleration less gravity, seen in the sensor's axes.
         lifted = acceleration + np.array([0.0, 0.0, GRAVITY])

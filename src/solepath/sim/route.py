@@ -5,13 +5,22 @@
 Moves that follow each other without a stand are walked through without a halt, except that turning on the spot begins
 and ends with the feet together. Every halt is reached with a closing half step. World frame: z up, x along the first
 heading, y left, origin between the feet at the start.
+
+Stairs and lifts change the floor; landings are ordinary walks and turns:
+
+    Route().stand(2).walk(5).stairs(11).turn(radians(180), 0.7).stairs(11).walk(5).lift(-3.5).jog(30).stop(2)
 """
 
 from __future__ import annotations
 
-from math import cos, inf, isfinite, sin
+from math import inf, isfinite
 
 from attrs import evolve, frozen
+
+from .lift import Lift
+from .path import Lifted, Path, Piece, Pivot, Pose
+from .stairs import DOWN, UP, Flight
+from .styles import SPEED_DOWN, SPEED_UP
 
 TIGHT_TURN = 0.8
 """m/s: nobody walks a bend of less than about a metre faster; used when a turn names no speed."""
@@ -31,6 +40,7 @@ class Walk:
     distance: float
     speed: float
     spacing: float | None = None
+    running: bool = False
 
 
 @frozen
@@ -43,7 +53,17 @@ class Turn:
     spacing: float | None = None
 
 
-Action = Stand | Walk | Turn
+@frozen
+class Stairs:
+    """A flight of `steps` risers, foot over foot: `rise` m each, negative down, `going` m apart; `speed` along them."""
+
+    steps: int
+    rise: float
+    going: float
+    speed: float
+
+
+Action = Stand | Walk | Turn | Stairs | Lift
 
 
 @frozen
@@ -71,6 +91,42 @@ class Route:
     def walk(self, distance: float, speed: float | None = None) -> Route:
         chosen = self.speed if speed is None else _positive("speed", speed)
         return evolve(self._then(Walk(_positive("distance", distance), chosen, self.spacing)), speed=chosen)
+
+    def jog(self, distance: float, speed: float = 2.6) -> Route:
+        """Run straight on; the runner walks the first and last steps from and to a halt. The speed is not kept."""
+        move = Walk(_positive("distance", distance), _positive("speed", speed), self.spacing, running=True)
+        return self._then(move)
+
+    def stairs(
+        self, steps: int, up: bool = True, rise: float = 0.16, going: float = 0.30, speed: float | None = None
+    ) -> Route:
+        """Walk a flight of `steps` risers, each foot on every other tread: `rise` and `going` of each in m, `speed`
+        along in m/s. The first edge is `stairs.UP` or `stairs.DOWN` m ahead of the ankles of who stands before it, and
+        the flight is `steps * going` m long. The speed is not kept."""
+        if steps < 1 or going < 0.25 or not 0.0 < rise <= 0.22:
+            raise ValueError(f"stairs: 1 step or more, going from 0.25 m, rise to 0.22 m, got {steps}, {going}, {rise}")
+        if self.actions and isinstance(self.actions[-1], Stairs):
+            raise ValueError("stairs: a landing lies between two flights, walk or turn on it")
+        chosen = (SPEED_UP if up else SPEED_DOWN) if speed is None else _positive("speed", speed)
+        return self._then(Stairs(steps, rise if up else -rise, going, chosen))
+
+    def lift(
+        self,
+        height: float,
+        speed: float = 1.0,
+        acceleration: float = 0.8,
+        jerk: float = 1.0,
+        doors: float = 2.5,
+        creep: float = 0.0,
+    ) -> Route:
+        """Stand in a lift that goes `height` m up, or down when negative; the rest as in `Lift`."""
+        if not isfinite(height) or abs(height) < 0.5:
+            raise ValueError(f"lift: it goes at least half a metre, got {height}")
+        for limit in (speed, acceleration, jerk, doors):
+            _positive("lift", limit)
+        if not 0.0 <= creep <= 0.3 * speed:
+            raise ValueError(f"lift: creep must be between 0 and 0.3 of the speed, got {creep}")
+        return self._then(Lift(height, speed, acceleration, jerk, doors, creep))
 
     def turn(self, angle: float, radius: float = 0.0, speed: float | None = None) -> Route:
         if not isfinite(angle) or not isfinite(radius) or radius < 0.0:
@@ -103,97 +159,11 @@ def _positive(name: str, value: float) -> float:
     return value
 
 
-# --- the path -------------------------------------------------------------------------------------------------------
-
-
-@frozen
-class Pose:
-    """A place on the path: x, y, z in m and the heading in rad (not wrapped)."""
-
-    x: float
-    y: float
-    z: float
-    heading: float
-
-    def ahead(self, distance: float, curvature: float) -> Pose:
-        """The pose `distance` m further along an arc of `curvature` 1/m (a straight line when it is 0)."""
-        turned = self.heading + distance * curvature
-        if abs(distance * curvature) < 1e-9:
-            return Pose(self.x + distance * cos(self.heading), self.y + distance * sin(self.heading), self.z, turned)
-        return Pose(
-            self.x + (sin(turned) - sin(self.heading)) / curvature,
-            self.y - (cos(turned) - cos(self.heading)) / curvature,
-            self.z,
-            turned,
-        )
-
-
-@frozen
-class Piece:
-    """A straight line or an arc from `start`, walked at `speed`; with marks `spacing` m apart, or None."""
-
-    start: Pose
-    length: float
-    curvature: float
-    speed: float
-    spacing: float | None = None
-
-
-@frozen
-class Path:
-    """What is walked from one halt to the next."""
-
-    pieces: tuple[Piece, ...]
-
-    @property
-    def length(self) -> float:
-        return sum(piece.length for piece in self.pieces)
-
-    @property
-    def end(self) -> Pose:
-        last = self.pieces[-1]
-        return last.start.ahead(last.length, last.curvature)
-
-    @property
-    def spacing(self) -> float | None:
-        """Of the marks to step on, m: what its first move says."""
-        return self.pieces[0].spacing
-
-    def at(self, s: float) -> tuple[Pose, float]:
-        """The pose after `s` m from the halt, and the speed asked for there."""
-        piece, rest = self._piece(s)
-        return piece.start.ahead(rest, piece.curvature), piece.speed
-
-    def curvature(self, s: float) -> float:
-        """1/m after `s` m from the halt; positive to the left."""
-        return self._piece(s)[0].curvature
-
-    def _piece(self, s: float) -> tuple[Piece, float]:
-        for piece in self.pieces[:-1]:
-            if s < piece.length:
-                return piece, s
-            s -= piece.length
-        return self.pieces[-1], s
-
-
-@frozen
-class Pivot:
-    """A turn on the spot, feet together before and after."""
-
-    start: Pose
-    angle: float
-    speed: float
-
-    @property
-    def end(self) -> Pose:
-        return Pose(self.start.x, self.start.y, self.start.z, self.start.heading + self.angle)
-
-
-Leg = Stand | Path | Pivot
+Leg = Stand | Path | Pivot | Lifted
 
 
 def legs(route: Route) -> list[Leg]:
-    """The route cut at its halts: stands, turns on the spot, and paths in between."""
+    """The route cut at its halts: stands, rides, turns on the spot, and paths in between."""
     found: list[Leg] = []
     pieces: list[Piece] = []
     pose = Pose(0.0, 0.0, 0.0, 0.0)
@@ -215,12 +185,22 @@ def legs(route: Route) -> list[Leg]:
                 found.append(pivot)
                 pose = pivot.end
                 continue
+            case Lift():
+                close()
+                ridden = Lifted(pose, action)
+                found.append(ridden)
+                pose = ridden.end
+                continue
             case Turn(angle=angle, radius=radius):
                 bend = (1.0 if angle > 0.0 else -1.0) / radius
                 piece = Piece(pose, abs(angle) * radius, bend, action.speed, action.spacing)
             case Walk(distance=distance):
-                piece = Piece(pose, distance, 0.0, action.speed, action.spacing)
+                piece = Piece(pose, distance, 0.0, action.speed, action.spacing, action.running)
+            case Stairs(steps=steps, rise=rise, going=going):
+                edge = pose.ahead(UP if rise > 0.0 else DOWN, 0.0)
+                flight = Flight(edge.x, edge.y, pose.z, pose.heading, steps, rise, going)
+                piece = Piece(pose, steps * going, 0.0, action.speed, None, flight=flight)
         pieces.append(piece)
-        pose = piece.start.ahead(piece.length, piece.curvature)
+        pose = piece.at(piece.length)
     close()
     return found

@@ -10,15 +10,19 @@ give way and stop it within IMPACT s, and from then on the heel rolls without sl
 
 from __future__ import annotations
 
-from math import cos, sin
+from math import cos, hypot, sin
 
 import numpy as np
+from attrs import evolve
 
 from ..types import Foot, Phase
 from .curves import BUMP, EVEN_OUT, Array, constant, evaluate, join, part
 from .gait import Plan, Stance, Stride
+from .lift import Ride
 from .motion import PHASES, FootMotion
 from .shoe import Rocker, Shoe
+from .stairs import Flight
+from .styles import Manner, style_of
 
 IMPACT = 0.014
 """How long the sole and the heel pad take to stop the heel, s."""
@@ -37,6 +41,10 @@ REVERSAL = 0.22
 """Share of the swing in which the pitch rate turns from that of push-off to that of swinging through."""
 SWING_UP = 1.1
 """Pitch rate after the reversal, relative to the mean rate from there to heel-strike."""
+KICK, KICKED = -1.75, 0.36
+"""A runner's heel is up by so many rad, after this share of the swing."""
+KICKING = 4.0
+"""Pitch acceleration there, in units of the way that is left per square of the time that is left."""
 _EVER = 1e6
 """s: how long a foot stands before the first and after the last stride."""
 
@@ -46,12 +54,12 @@ _Joint = tuple[Array, Array, Array]
 
 def foot_motions(plan: Plan, shoe: Shoe) -> dict[Foot, FootMotion]:
     """Both feet of a plan."""
-    return {foot: foot_motion(plan.starts[foot], plan.strides[foot], shoe) for foot in Foot}
+    return {foot: foot_motion(plan.starts[foot], plan.strides[foot], shoe, plan.rides) for foot in Foot}
 
 
-def foot_motion(start: Stance, strides: tuple[Stride, ...], shoe: Shoe) -> FootMotion:
-    """One foot that stands at `start`, makes the strides, and stands."""
-    pieces = _Pieces(shoe)
+def foot_motion(start: Stance, strides: tuple[Stride, ...], shoe: Shoe, rides: tuple[Ride, ...] = ()) -> FootMotion:
+    """One foot that stands at `start`, makes the strides, and stands; in between it may ride."""
+    pieces = _Pieces(shoe, rides)
     leaves = [*(stride.heel_off for stride in strides), _EVER]
     pieces.stand(start, -_EVER, leaves[0], 0.0)
     for stride, leave in zip(strides, leaves[1:], strict=True):
@@ -63,11 +71,17 @@ def foot_motion(start: Stance, strides: tuple[Stride, ...], shoe: Shoe) -> FootM
 
 
 class _Pieces:
-    def __init__(self, shoe: Shoe) -> None:
+    def __init__(self, shoe: Shoe, rides: tuple[Ride, ...]) -> None:
         self.shoe = shoe
+        self.rides = rides
         self.rows: list[tuple[float, float, list[Array], tuple[float, float], float, int]] = []
 
     def stand(self, at: Stance, begin: float, end: float, settle: float) -> None:
+        for car in self.rides:
+            if begin <= car.begin and car.end <= end:
+                # FootMotion adds the way of the car while it goes.
+                self._roll(Phase.STATIONARY, self.shoe.heel, at, begin, car.end, 0.0 * BUMP)
+                at, begin, settle = evolve(at, z=at.z + car.height), car.end, 0.0
         self._roll(Phase.STATIONARY, self.shoe.heel, at, begin, end, settle * BUMP)
 
     def push_off(self, stride: Stride) -> None:
@@ -80,8 +94,13 @@ class _Pieces:
         pitch = _landing(stride)
         cut = IMPACT / (end - begin)
         give = [_give(speed) for speed in _residual(stride)]
-        self._roll(Phase.LOADING, self.shoe.heel, stride.end, begin, begin + IMPACT, part(pitch, 0.0, cut), give)
-        self._roll(Phase.LOADING, self.shoe.heel, stride.end, begin + IMPACT, end, part(pitch, cut, 1.0))
+        arc = self._lands_on(stride)
+        self._roll(Phase.LOADING, arc, stride.end, begin, begin + IMPACT, part(pitch, 0.0, cut), give)
+        self._roll(Phase.LOADING, arc, stride.end, begin + IMPACT, end, part(pitch, cut, 1.0))
+
+    def _lands_on(self, stride: Stride) -> Rocker:
+        """The arc that touches the ground first."""
+        return self.shoe.forefoot if stride.strike_pitch < 0.0 else self.shoe.heel
 
     def swing(self, stride: Stride) -> None:
         shoe, duration = self.shoe, stride.heel_strike - stride.toe_off
@@ -89,19 +108,30 @@ class _Pieces:
         off = _ends(push, 1.0, stride.toe_off - stride.heel_off)
         strike = _ends(land, 0.0, stride.foot_flat - stride.heel_strike)
         p0, v0, a0 = self._ankle(shoe.forefoot, stride.start, off)
-        p1, v1, a1 = self._ankle(shoe.heel, stride.end, strike)
+        p1, v1, a1 = self._ankle(self._lands_on(stride), stride.end, strike)
         residual = np.array(_residual(stride))
         p1, v1 = p1 - 0.5 * IMPACT * residual, v1 + residual
         x, y, z = (join((p0[i], v0[i], a0[i]), (p1[i], v1[i], a1[i]), duration) for i in range(3))
         yaw = join((stride.start.yaw, 0.0, 0.0), (stride.end.yaw, 0.0, 0.0), duration) + stride.weave[1] * BUMP
         roll = stride.weave[0] * BUMP
         sideways = 0.5 * (stride.start.yaw + stride.end.yaw)
-        x += -sin(sideways) * stride.weave[2] * BUMP + CRUISE * (p1[0] - p0[0]) * EVEN_OUT
-        y += cos(sideways) * stride.weave[2] * BUMP + CRUISE * (p1[1] - p0[1]) * EVEN_OUT
-        pitches = _swing_pitch(off, strike, duration)
-        z += self._lift(stride, z, pitches, roll) * BUMP
+        cruise = CRUISE if stride.flight is None else 0.0
+        x += -sin(sideways) * stride.weave[2] * BUMP + cruise * (p1[0] - p0[0]) * EVEN_OUT
+        y += cos(sideways) * stride.weave[2] * BUMP + cruise * (p1[1] - p0[1]) * EVEN_OUT
+        swung = _kicked_pitch if stride.manner is Manner.RUN else _swing_pitch
+        pitches = swung(off, strike, duration)
+        if stride.flight is not None:
+            style = style_of(stride.manner, stride.speed)
+            way = p1 - p0
+            hold = style.hold * min(1.0, 2.0 * stride.flight.going / hypot(way[0], way[1]))
+            x += hold * way[0] * BUMP
+            y += hold * way[1] * BUMP
+            z += style.soon * 2.0 * abs(stride.flight.rise) * EVEN_OUT
+            z += self._over(stride, stride.flight, (x, y, z), pitches, yaw) * BUMP
+        else:
+            z += self._lift(stride, z, pitches, roll) * BUMP
         ankle = (shoe.ankle[0], shoe.ankle[2])
-        turn = stride.toe_off + REVERSAL * duration
+        turn = stride.toe_off + _reversal(stride) * duration
         for begin, end, pitch in ((stride.toe_off, turn, pitches[0]), (turn, stride.heel_strike, pitches[1])):
             low, high = ((t - stride.toe_off) / duration for t in (begin, end))
             curves = [part(curve, low, high) for curve in (x, y, z)]
@@ -112,14 +142,33 @@ class _Pieces:
         """The height of the bump with which the sole's lowest point just keeps the clearance (itself a bump)."""
         shoe, s = self.shoe, np.linspace(0.1, 0.9, 41)
         ground = stride.start.z + (stride.end.z - stride.start.z) * s
-        early, late = evaluate(pitches[0], s / REVERSAL), evaluate(pitches[1], (s - REVERSAL) / (1.0 - REVERSAL))
-        angle, bump = np.where(s < REVERSAL, early, late), evaluate(BUMP, s)
+        angle, bump = _pitch_at(pitches, s, _reversal(stride)), evaluate(BUMP, s)
         edge = 0.5 * shoe.width * np.abs(np.sin(evaluate(roll, s)))
         lift = -np.inf
         for arc in (shoe.heel, shoe.forefoot):
             centre = np.sin(angle) * (arc.x - shoe.ankle[0]) + np.cos(angle) * (arc.radius - shoe.ankle[2])
             low = evaluate(z, s) + centre - arc.radius - edge - ground
             lift = max(lift, float(np.max(stride.clearance - low / bump)))
+        return lift
+
+    def _over(
+        self, stride: Stride, flight: Flight, way: tuple[Array, Array, Array], pitches: tuple[Array, Array], yaw: Array
+    ) -> float:
+        """The same over the treads and edges of a flight.
+
+        The sole is the hull of its two arcs: discs whose centre and radius go evenly from one to the other.
+        """
+        shoe, s = self.shoe, np.linspace(0.04, 0.96, 93)
+        angle, bump = _pitch_at(pitches, s, _reversal(stride)), evaluate(BUMP, s)
+        x, y, z, turned = (evaluate(curve, s) for curve in (*way, yaw))
+        lift = 0.0
+        for part_of in np.linspace(0.0, 1.0, 7):
+            radius = shoe.heel.radius + (shoe.forefoot.radius - shoe.heel.radius) * part_of
+            dx = shoe.heel.x + (shoe.forefoot.x - shoe.heel.x) * part_of - shoe.ankle[0]
+            dz = radius - shoe.ankle[2]
+            ahead, up = np.cos(angle) * dx - np.sin(angle) * dz, np.sin(angle) * dx + np.cos(angle) * dz
+            least = flight.above(x + np.cos(turned) * ahead, y + np.sin(turned) * ahead, np.full(len(s), radius))
+            lift = max(lift, float(np.max(stride.clearance + (least - z - up) / bump)))
         return lift
 
     def _ankle(self, arc: Rocker, at: Stance, pitch: tuple[float, float, float]) -> _Joint:
@@ -171,6 +220,7 @@ class _Pieces:
             carried=np.array(carried),
             radius=np.array(radius),
             phase=np.array(phase, dtype=np.intp),
+            rides=self.rides,
         )
 
 
@@ -198,6 +248,25 @@ def _swing_pitch(
     return join(off, middle, a), join(middle, strike, b)
 
 
+def _kicked_pitch(
+    off: tuple[float, float, float], strike: tuple[float, float, float], duration: float
+) -> tuple[Array, Array]:
+    """Pitch in a runner's swing: the heel goes up to KICK, and then the foot swings through."""
+    a, b = KICKED * duration, (1.0 - KICKED) * duration
+    top = (KICK, 0.0, KICKING * (strike[0] - KICK) / b**2)
+    return join(off, top, a), join(top, strike, b)
+
+
+def _reversal(stride: Stride) -> float:
+    return KICKED if stride.manner is Manner.RUN else REVERSAL
+
+
+def _pitch_at(pitches: tuple[Array, Array], s: Array, turn: float) -> Array:
+    """Pitch at shares `s` of the swing; the first curve is that until `turn`."""
+    early, late = evaluate(pitches[0], s / turn), evaluate(pitches[1], (s - turn) / (1.0 - turn))
+    return np.where(s < turn, early, late)
+
+
 def _ends(curve: Array, s: float, duration: float) -> tuple[float, float, float]:
     """Value, velocity and acceleration of a curve at s, per second."""
     value, slope, bend = (float(evaluate(curve, s, order)) for order in range(3))
@@ -207,6 +276,9 @@ def _ends(curve: Array, s: float, duration: float) -> tuple[float, float, float]
 def _residual(stride: Stride) -> tuple[float, float, float]:
     """What the heel still moves by, beyond its roll, when it touches the ground, m/s in the world."""
     slide, sink = SLIDE * stride.speed, SINK * stride.speed
+    if stride.manner is not Manner.WALK:
+        style = style_of(stride.manner, stride.speed)
+        slide, sink = style.slide, style.sink
     return (slide * cos(stride.end.yaw), slide * sin(stride.end.yaw), -sink)
 
 

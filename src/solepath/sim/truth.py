@@ -12,8 +12,9 @@ from math import atan2, cos, hypot, sin
 import numpy as np
 from attrs import frozen
 
-from ..types import Foot, Phase, Vec3
+from ..types import Activity, Foot, Phase, Vec3
 from .curves import Array
+from .doing import TrueFlight, TrueRide, activities, elevation, flights, rides
 from .gait import Plan
 from .motion import FootMotion
 from .shoe import Mounting
@@ -74,11 +75,19 @@ class FootTruth:
 
 @frozen(eq=False)
 class Truth:
-    """The whole walk: `duration` in s, `path_length` of the route's centre line in m."""
+    """The whole walk: `duration` in s, `path_length` of the route's centre line in m.
+
+    `activities`: what the wearer does from when to when, s, without a gap. `flights` and `rides` are the stairs that
+    were walked and the lifts that were taken, in order.
+    """
 
     duration: float
     path_length: float
     feet: dict[Foot, FootTruth]
+    activities: tuple[tuple[float, float, Activity], ...]
+    flights: tuple[TrueFlight, ...]
+    rides: tuple[TrueRide, ...]
+    plan: Plan
 
     def pose(self, foot: Foot, t: Array | float) -> PoseAt:
         """Position (relative to the foot's first), velocity and attitude of a foot's sensor at any instants."""
@@ -86,6 +95,20 @@ class Truth:
 
     def steps(self, foot: Foot) -> tuple[TrueStep, ...]:
         return self.feet[foot].steps
+
+    def activity(self, t: float) -> Activity:
+        """What the wearer does at `t` s."""
+        return next((what for begin, end, what in self.activities if begin <= t < end), Activity.STANDING)
+
+    def elevation(self, t: Array | float) -> Array:
+        """How much higher than at t = 0 the wearer is at instants `t`, (N), m: the mean of the floors or treads that
+        both feet stand on, between which a foot in the air goes evenly."""
+        return elevation(self.plan, np.atleast_1d(np.asarray(t, dtype=np.float64)))
+
+
+def truth(plan: Plan, path_length: float, feet: dict[Foot, FootTruth]) -> Truth:
+    """The truth of a plan with both of its feet."""
+    return Truth(plan.duration, path_length, feet, activities(plan), flights(plan), rides(plan), plan)
 
 
 def foot_truth(foot: Foot, plan: Plan, motion: FootMotion, mounting: Mounting) -> FootTruth:

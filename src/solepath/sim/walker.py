@@ -8,16 +8,17 @@ import numpy as np
 
 from ..types import SITE_OF_FOOT, Foot, Layout, Sample, Vec3
 from .curves import Array
-from .gait import Wearer, plan
+from .gait import Wearer
 from .limbs import Body, body
 from .load import loads
 from .motion import Kinematics
 from .parts import Imu
+from .planner import plan
 from .route import Route
 from .sensors import errors, instants, low_pass, sample
 from .shoe import IN_SOLE, Mounting
 from .strides import foot_motions
-from .truth import Truth, foot_truth
+from .truth import Truth, foot_truth, truth
 
 
 class Walker:
@@ -46,7 +47,7 @@ class Walker:
         """The truth for sensors mounted like this; in the sole where nothing is said."""
         places = {foot: (mountings or {}).get(foot, IN_SOLE) for foot in Foot}
         feet = {foot: foot_truth(foot, self.plan, self.motions[foot], places[foot]) for foot in Foot}
-        return Truth(self.duration, self.route.length, feet)
+        return truth(self.plan, self.route.length, feet)
 
     def kinematics(self, foot: Foot, t: Array, mounting: Mounting = IN_SOLE) -> Kinematics:
         """Exact motion of a foot's sensor at any instants."""
