@@ -12,6 +12,8 @@ REACH = 5.0
 """Somebody who goes onto stairs or into a lift is within this of it as the track has it, m."""
 APART = 2.5
 """Standard deviation of the distance, m."""
+BESIDE = 4.0
+"""So near to stairs or a lift one may be on them, m."""
 OFF = 0.35
 """Standard deviation of a told height, m, ..."""
 OFF_SHARE = 0.12
@@ -76,3 +78,10 @@ def ways_out(
     if most <= 0.0:
         return [(landing, 1.0 / len(ways)) for landing, _ in ways]
     return [(landing, weight / most) for landing, weight in ways if weight >= UNLIKELY * most]
+
+
+def beside(all_of_them: list[Landing], level: int, x: float, y: float) -> bool:
+    """Whether somebody at (x, y), m, may be on stairs or in a lift already."""
+    return any(
+        [stop.level == level and hypot(stop.place[0] - x, stop.place[1] - y) < BESIDE for stop in all_of_them]
+    )

@@ -14,7 +14,7 @@ from attrs import define
 from ..floorplan.index import IndexedPlan
 from ..floorplan.plan import Point
 from .crowd import Row, origin_of, resampled
-from .landings import landings
+from .landings import Landing, beside, landings
 from .noise import NOISE, ROWS, following
 from .place import Placing
 
@@ -34,10 +34,8 @@ AGAIN = 0.65
 """... and counts so much less, each time."""
 SQUEEZE = (0.1, 0.25, 0.45)
 """When nobody is left, all try once more and turn this much."""
-BESIDE = 4.0
-"""So near to stairs or a lift one may be on them already, m, and stays ..."""
 STAYS = 0.6
-"""... but counts less."""
+"""One beside stairs or a lift may be on them already: it stays there, but counts less."""
 
 
 @define
@@ -75,7 +73,7 @@ class Particles(Placing):
                 kept.append((nx, ny, a1, b1, w, level, origin, 0))
         if not lost:
             return kept
-        stops = None
+        stops: list[Landing] | None = None
         for row in lost:
             x, y, a, b, w, level, origin, _ = row
             k = (k + 367) % ROWS
@@ -96,11 +94,8 @@ class Particles(Placing):
                 break
             else:
                 stops = landings(plan.plan) if stops is None else stops
-                for stop in stops:
-                    sx, sy = stop.place
-                    if stop.level == level and hypot(sx - x0 - x, sy - y0 - y) < BESIDE:
-                        kept.append((x, y, a, b, row[4] * STAYS, level, origin, 0))
-                        break
+                if beside(stops, level, x0 + x, y0 + y):
+                    kept.append((x, y, a, b, row[4] * STAYS, level, origin, 0))
         return kept
 
     def scattered(self, k: int, count: int) -> tuple[float, float, float, float]:

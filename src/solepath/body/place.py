@@ -33,8 +33,8 @@ class PlacePart(Protocol):
         """The wearer sets out there. To be told before the first `follow`."""
 
     def follow(self, plan: IndexedPlan, events: list[Event], here: Position) -> list[Event]:
-        """`events`: what has just become known, of steps and of what the wearer does; `here`: where the track leads now,
-        world frame. Always with the same plan. Returns Placed or PlaceLost, or nothing."""
+        """`events`: what has just become known, of steps and of what the wearer does; `here`: where the track leads
+        now, world frame. Always with the same plan. Returns Placed or PlaceLost, or nothing."""
 
     @property
     def place(self) -> Placed | None:
@@ -285,7 +285,8 @@ class Placing:
             weight = sum([row[4] for row in there])
             if rows and weight > 0.0 and total > 0.0:
                 each = weight * DOUBT / (1.0 - DOUBT) / FEW
-                stayed = [(x, y, a, b, each, level, came, 0) for x, y, a, b, _, level, came, _ in resampled(rows, FEW, 0.5)]
+                kept = resampled(rows, FEW, 0.5)
+                stayed = [(x, y, a, b, each, level, came, 0) for x, y, a, b, _, level, came, _ in kept]
                 there = self._caught_up(plan, there, arrived.t) + stayed
                 self.crowd = packed(self.thinned(there, self.most) if len(there) > self.most else there)
                 return

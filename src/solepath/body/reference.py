@@ -4,8 +4,8 @@ Out of activities, rides, flights and the track come three things (Liu et al. 20
 stairs or in a lift (`Held`), was not after all (`Released`), or has come to another level (`Arrived`). Half a storey is
 a landing, and a window or two of stairs on level ground are a mistake: neither is an arrival.
 
-Latency: a lift's ride with the event that tells it, or two steps or 4 s after an activity which no such event follows; stairs with the
-activity that follows them, or up to `WAIT` s or `AWAY` m later when the height fits no storey.
+Latency: a lift's ride with the event that tells it, or two steps or 4 s after an activity which no such event follows;
+stairs with the activity that follows them, or up to `WAIT` s or `AWAY` m later when the height fits no storey.
 """
 
 from __future__ import annotations
