@@ -6,9 +6,12 @@ from attrs import field, frozen
 
 from .body.activity import Activities
 from .body.compensation import TABLE_1
+from .body.footstep_activity import TwoSecondWindows
 from .body.fusion import DoubleFoot
 from .body.modes import Modes
+from .body.particles import Particles
 from .body.position import MeanOfFeet
+from .body.snake import SnakeGame
 from .body.touchdown import Height, MaximumPressure, NetAcceleration
 from .body.walking_state import AnglePerMetre
 from .foot.bias_zupt import BiasZupt
@@ -26,7 +29,8 @@ from .foot.swing_dedrift import SwingDedrift
 from .foot.tracker import AnyCorrector, AnyCues, AnyDetector
 
 AnyBody = MeanOfFeet | DoubleFoot | Modes
-AnyActivity = Activities | AnglePerMetre
+AnyActivity = Activities | AnglePerMetre | TwoSecondWindows
+AnyPlace = Particles | SnakeGame
 
 
 @frozen
@@ -35,8 +39,8 @@ class Recipe:
 
     `detector`: what says that a foot stands still, or how fast it rolls. `corrector`: what keeps the integration from
     drifting. `cues`: what sees heel-strike, foot-flat, heel-off and toe-off. `insole`: what makes a load of cells.
-    `body`: what puts both feet together. `activity`: what says what the wearer does. `needs_pressure`: without pressure
-    cells it has nothing to say.
+    `body`: what puts both feet together. `activity`: what says what the wearer does. `place`: what finds the wearer
+    on a floor plan. `needs_pressure`: without pressure cells it has nothing to say.
     """
 
     name: str
@@ -46,6 +50,7 @@ class Recipe:
     insole: Insole = field(factory=Insole)
     body: AnyBody = field(factory=MeanOfFeet)
     activity: AnyActivity = field(factory=Activities)
+    place: AnyPlace = field(factory=Particles)
     needs_pressure: bool = False
 
 
