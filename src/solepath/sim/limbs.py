@@ -29,10 +29,11 @@ from ..types import Foot, Site, Vec3
 from ..vector import GRAVITY
 from .curves import Array
 from .gait import Plan
-from .load import FOREFOOT, HEEL, MIDFOOT, TOES, Loads
+from .load import Loads
 from .motion import BLOCK, FootMotion, Kinematics, joined
 from .shoe import Mounting, Shoe
 from .turning import matrices, multiplied, quaternions, unit
+from .zones import FOREFOOT, HEEL, MIDFOOT, TOES
 
 STEP = 0.01
 """s between the instants at which the pelvis is worked out; cubic B-splines join them."""

@@ -33,6 +33,7 @@ from .gait import SETTLING, Plan, Stride, Wearer
 from .lift import Ride
 from .motion import FootMotion
 from .styles import Manner, style_of
+from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, pattern
 
 BOUNCE = 0.17
 """Amplitude of the force's swing about the weight at 1.3 m/s; it grows with the square of the speed."""
@@ -47,31 +48,16 @@ _BLOCK = 4096
 
 
 @frozen(eq=False)
-class Zone:
-    """A patch of the sole: centre (part of the sole's length; lateral, part of its width) and half-axes likewise."""
-
-    x: float
-    y: float
-    half_length: float
-    half_width: float
-
-
-HEEL = Zone(0.17, 0.0, 0.17, 0.34)
-MIDFOOT = Zone(0.47, 0.14, 0.15, 0.20)
-FOREFOOT = Zone(0.67, 0.00, 0.14, 0.48)
-TOES = Zone(0.86, -0.16, 0.11, 0.34)
-
-
-@frozen(eq=False)
 class Loads:
     """The vertical load under both feet over time.
 
     Shares pass from one foot to the other in hand-overs: `begin`, `end` (s) and the left foot's share `before` and
-    `after` each. `beat` (s) are the middles of double support and `bounce` the amplitude up to the next one.
-    `runs` (beats, 2): for every beat the heel-strike that follows it when nobody stands at it, and the toe-off before
-    the next one when nobody stands at that; else 0. `stances` are heel-strike, foot-flat, heel-off and toe-off of each stance of a foot, (n, 4). `leans` (n, 2) go with
-    them: how far the load is asked to move to the left under the foot, m, and when it begins to come back because
-    the walk is over, s. `fronts` go with them, too: the share of the load that lands on the forefoot.
+    `after` each. `beat` (s) are the middles of double support, and of flight, and `bounce` the amplitude up to the next
+    one. `runs` (beats, 2): for every beat the heel-strike that follows when nobody stands at it, and the toe-off before
+    the next one when nobody stands at that; else 0. `stances` are heel-strike, foot-flat, heel-off and toe-off of each
+    stance of a foot, (n, 4). `leans` (n, 2) go with them: how far the load is asked to move to the left under the foot,
+    m, and when it begins to come back because the walk is over, s. `fronts` (n), too: the share of the load that lands
+    on the forefoot.
     """
 
     weight: float
@@ -144,7 +130,7 @@ class Loads:
             busy = np.flatnonzero(share * total > 0.0)
             for begin in range(0, len(busy), _BLOCK):
                 some = busy[begin : begin + _BLOCK]
-                borne = _pattern(layout, width, zone, ahead[some], aside[some], lean[some])
+                borne = pattern(layout, width, zone, ahead[some], aside[some], lean[some])
                 found[some] += (share * total)[some, None] * borne
         return found
 
@@ -278,43 +264,3 @@ def _leans(plan: Plan, foot: Foot, wearer: Wearer, rng: np.random.Generator) -> 
         asked = -TAKEN * wearer.centre_height * stride.pace**2 * stride.curvature / GRAVITY
         rows.append((asked + wearer.load_variation * float(rng.standard_normal()), over))
     return np.array(rows)
-
-
-def _pattern(layout: Layout, width: float, zone: Zone, ahead: Array, aside: Array, lean: Array) -> Array:
-    """How a zone's load is spread over the cells at each instant, (N, cells); rows add up to one, or to what of the
-    zone lies over the cells when they are under the heel alone.
-
-    The pressure falls off with the square of the distance and is zero outside the ellipse. The faint rest only decides
-    when no cell at all lies in it. A `lean` (m, to the left) tilts it by exp(lean y / variance), which moves its centre
-    by the lean as long as that is small, and never over the edge.
-    """
-    lateral = 1.0 if layout.foot is Foot.LEFT else -1.0
-    x = np.array([cell.x for cell in layout.cells]) / layout.length
-    y = np.array([cell.y for cell in layout.cells]) * lateral / width
-    area = np.array([cell.area for cell in layout.cells])
-    dx = (x - zone.x - ahead[:, None]) / zone.half_length
-    dy = (y - zone.y - aside[:, None]) / zone.half_width
-    r2 = dx * dx + dy * dy
-    spread = area * np.where(r2 < 1.0, 1.0 - r2, 0.0)
-    if lean.any():
-        # Over the ellipse the mean of dy^2 is 1/6 under this pressure.
-        tilt = 6.0 * lateral / (zone.half_width * width) * lean
-        spread *= np.exp(tilt[:, None] * dy) / _tilted(tilt)[:, None]
-    if x.max() < 0.5:
-        # 1 - r^2 over the whole ellipse, in m^2.
-        whole = 0.5 * np.pi * zone.half_length * layout.length * zone.half_width * width
-        return np.asarray(spread / whole)
-    empty = ~spread.any(axis=1)
-    if empty.any():
-        spread[empty] = np.exp(-8.0 * (r2[empty] - r2[empty].min(axis=1, keepdims=True)))
-    return np.asarray(spread / spread.sum(axis=1, keepdims=True))
-
-
-def _tilted(tilt: Array) -> Array:
-    """The mean of exp(tilt y) over a unit disc under the weight 1 - r^2: 8 I2(tilt) / tilt^2, by its series."""
-    term = np.ones_like(tilt)
-    total = term.copy()
-    for k in range(1, 20):
-        term = term * (0.25 * tilt * tilt) / (k * (k + 2))
-        total += term
-    return total

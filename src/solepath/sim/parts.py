@@ -75,6 +75,26 @@ MPU9250 = Imu(
     ),
 )
 
+MPU6050 = Imu(
+    "MPU-6050",
+    # InvenSense PS-MPU-6000A rev. 3.4, section 6.2 (*): 400 ug/sqrt(Hz), zero-g +-50 mg (x, y) and +-80 mg (z) of which
+    # the smaller is used for all, +-35 mg over 70 K (0.5 mg/K), initial tolerance +-3 %, cross axis +-2 %, low pass up
+    # to 260 Hz.
+    Triad(density=400e-6 * _G, bias=25 * _MG, wander=0.5 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=260.0),
+    # Section 6.1 (*): 0.005 dps/sqrt(Hz), the 18 degrees/h/sqrt(Hz) that Sensors 2016, 16, 1809 names; initial ZRO
+    # +-20 dps, +-20 dps over 125 K (half of the extreme as sigma), scale +-3 %, cross axis +-2 %, linear acceleration
+    # sensitivity 0.1 dps/g, low pass up to 256 Hz.
+    Triad(
+        density=0.005 * _DPS,
+        bias=10.0 * _DPS,
+        wander=0.08 * WARMING * _DPS,
+        scale=0.015,
+        cross=0.010,
+        bandwidth=256.0,
+        g_effect=0.1 * _DPS / _G,
+    ),
+)
+
 KXTJ9_IMU3000 = Imu(
     "KXTJ9 and IMU-3000",
     # Kionix KXTJ9 (*): 8 bits a reading; zero-g offset +-125 mg at the most, 0.2 mg/K, cross axis 2 %, ODR 50 Hz at
