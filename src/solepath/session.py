@@ -19,7 +19,9 @@ from attrs import define, evolve, field
 
 from .body.position import Position
 from .calibration import Calibration, CalibrationError, unusable
-from .events import Event, PacketRejected, SampleRejected
+from .events import Event, PacketRejected, Placed, SampleRejected
+from .floorplan.index import IndexedPlan
+from .floorplan.plan import FloorPlan, Start
 from .foot.phase import SUPPORT
 from .foot.tracker import FootTracker
 from .link.decoder import Decoder
@@ -38,6 +40,8 @@ class _State:
     """All that a session remembers."""
 
     wearer: Wearer
+    plan: int | None = None
+    """Fingerprint of the floor plan; None without one."""
     now: float | None = None
     """The latest moment that anything is known of, s."""
     decoders: dict[Site, Decoder] = field(factory=dict)
@@ -49,7 +53,9 @@ class Session:
     also emit FootMoved, the live position at every sample. `devices`: the address of the device at a site
     (`Packet.device`, in upper or lower case); packets of other devices are rejected there. A site that is not named is
     bound to the first device that it hears. `profiles`: devices of the app's own (link/driver.py), beside those that
-    are known. CalibrationError, a ValueError, for a calibration of what cannot be (protocol/calibration.md).
+    are known. `floorplan`: of the building, made ready once (IndexedPlan) where many sessions share it; `start`: where
+    on it the wearer sets out, None when nobody knows. CalibrationError, a ValueError, for a calibration of what cannot
+    be (protocol/calibration.md), FloorPlanError, a ValueError, for such a floor plan (protocol/floorplan.md).
 
     `feed`, `advance` and `finish` return the events that became known, in the order in which they did. `feed` is
     total: any bytes give events, never an exception, unless a reader of the app's own is itself wrong. TypeError for
@@ -62,7 +68,7 @@ class Session:
     320 ms, since a heel comes off slowly and is dated back.
     """
 
-    __slots__ = ("_kinds", "_state")
+    __slots__ = ("_kinds", "_plan", "_state")
 
     def __init__(
         self,
@@ -72,6 +78,8 @@ class Session:
         poses: bool = False,
         devices: Mapping[Site, str] | None = None,
         profiles: Iterable[Driver] = (),
+        floorplan: FloorPlan | IndexedPlan | None = None,
+        start: Start | None = None,
     ) -> None:
         if not isinstance(recipe, Recipe):
             raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}")
@@ -82,7 +90,13 @@ class Session:
         why_not = unusable(known)
         if why_not is not None:
             raise CalibrationError(f"calibration: {why_not}")
-        self._state = _State(Wearer(deepcopy(recipe), deepcopy(known), poses))
+        self._plan = _indexed(floorplan)
+        wearer = Wearer(deepcopy(recipe), deepcopy(known), poses)
+        if start is not None:
+            if not isinstance(start, Start) or self._plan is None:
+                raise TypeError("start must be a Start, on a floor plan")
+            wearer.place.set_out(deepcopy(start))
+        self._state = _State(wearer, None if self._plan is None else self._plan.fingerprint)
         for site, device in ({} if devices is None else devices).items():
             self.bind(site, device)
 
@@ -196,7 +210,7 @@ class Session:
         linked = site in self._state.decoders
         for item in items:
             if isinstance(item, Sample):
-                events += wearer.feed(item, linked)
+                events += wearer.feed(item, linked, self._plan)
             else:
                 events.append(item)
                 wearer.hear(site, item)
@@ -218,6 +232,11 @@ class Session:
         """Where the wearer is, as the recipe's body has it; the mean of the feet, each in the world frame of its own
         first heading, in most. None before any sample."""
         return self._state.wearer.position
+
+    @property
+    def place(self) -> Placed | None:
+        """Where the wearer is on the floor plan, as last told; None without one, and while the place is not known."""
+        return self._state.wearer.place.place
 
     @property
     def activity(self) -> Activity:
@@ -248,9 +267,15 @@ class Session:
         return {"solepath": SNAPSHOT_VERSION, "check": checksum(state), "state": state}
 
     @classmethod
-    def restore(cls, saved: Any, *, profiles: Iterable[Driver] = ()) -> Session:
-        """A session that goes on where `saved` was taken. A snapshot holds no functions: `profiles` are to be given
-        again. SnapshotError when it is not a snapshot of this version, was damaged, or is of a device that is not
+    def restore(
+        cls,
+        saved: Any,
+        *,
+        profiles: Iterable[Driver] = (),
+        floorplan: FloorPlan | IndexedPlan | None = None,
+    ) -> Session:
+        """A session that goes on where `saved` was taken. A snapshot holds no functions and no floor plan: `profiles`
+        and `floorplan` are to be given again. SnapshotError for another floor plan than then, and when it is not a snapshot of this version, was damaged, or is of a device that is not
         among them, or is there with other counters, rates or ranges, or stands in the place of a device of ours then
         and not now. Whether its functions are the same cannot be seen: that is for the app to keep."""
         if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
@@ -260,6 +285,10 @@ class Session:
         session = cls.__new__(cls)
         session._kinds = kinds(profiles)
         session._state = load(_State, saved["state"])
+        session._plan = _indexed(floorplan)
+        if session._state.plan != (None if session._plan is None else session._plan.fingerprint):
+            with_one = "with the floor plan that it had" if session._state.plan is not None else "without a floor plan"
+            raise SnapshotError(f"a snapshot of a session is restored {with_one}")
         session._state.decoders = in_order(session._state.decoders, Site)
         wearer = session._state.wearer
         wearer.feet = in_order(wearer.feet, Foot)
@@ -274,6 +303,14 @@ class Session:
             if not kind.fits(decoder.link):
                 raise SnapshotError(f"a snapshot of a device {decoder.link.name!r} as another driver declared it")
         return session
+
+
+def _indexed(floorplan: FloorPlan | IndexedPlan | None) -> IndexedPlan | None:
+    if floorplan is None or isinstance(floorplan, IndexedPlan):
+        return floorplan
+    if not isinstance(floorplan, FloorPlan):
+        raise TypeError(f"floorplan must be a FloorPlan, not {type(floorplan).__name__}")
+    return IndexedPlan(floorplan)
 
 
 def _number(value: float) -> float:

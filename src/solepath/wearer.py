@@ -11,12 +11,26 @@ from attrs import define, field
 from .body.position import Position
 from .body.wear import Wear
 from .calibration import Calibration
-from .events import ClockReset, Event, LayoutKnown, Limitation, SampleRejected
+from .events import (
+    ActivityChanged,
+    ClockReset,
+    Event,
+    FlightClimbed,
+    LayoutKnown,
+    LiftRidden,
+    Limitation,
+    SampleRejected,
+    StepTaken,
+)
+from .floorplan.index import IndexedPlan
 from .foot.refusal import rejected, with_sound_attitude, wrong_time
 from .foot.sole import Sole
 from .foot.tracker import FootTracker
-from .recipes import AnyActivity, AnyBody, Recipe
+from .recipes import AnyActivity, AnyBody, AnyPlace, Recipe
 from .types import Foot, Sample, Site
+
+LEADS = (StepTaken, ActivityChanged, LiftRidden, FlightClimbed)
+"""What a place on a floor plan follows from."""
 
 _Key = TypeVar("_Key")
 _Held = TypeVar("_Held")
@@ -34,6 +48,7 @@ class Wearer:
     # state
     body: AnyBody = field(init=False)
     activity: AnyActivity = field(init=False)
+    place: AnyPlace = field(init=False)
     wear: Wear = field(factory=Wear, init=False)
     feet: dict[Foot, FootTracker] = field(factory=dict, init=False)
     unused: list[Site] = field(factory=list, init=False)
@@ -42,9 +57,11 @@ class Wearer:
     def __attrs_post_init__(self) -> None:
         self.body = _calibrated(deepcopy(self.recipe.body), self.calibration)
         self.activity = _calibrated(deepcopy(self.recipe.activity), self.calibration)
+        self.place = deepcopy(self.recipe.place)
 
-    def feed(self, sample: Sample, scale_is_said: bool) -> list[Event]:
-        """A sample of any site. `scale_is_said`: by its link, which knows the range, so the foot need not."""
+    def feed(self, sample: Sample, scale_is_said: bool, plan: IndexedPlan | None) -> list[Event]:
+        """A sample of any site. `scale_is_said`: by its link, which knows the range, so the foot need not. `plan`: the
+        floor plan, always the same."""
         sample = with_sound_attitude(sample)
         foot = sample.site.foot
         if foot is None:
@@ -59,6 +76,8 @@ class Wearer:
                 events += self.wear.heard(tracker, sample, events)
                 events += self.body.foot_moved(tracker, sample, events)
                 events += did
+                if plan is not None and events:
+                    self._follow(plan, events)
         return events
 
     def hear(self, site: Site, event: Event) -> None:
@@ -81,6 +100,13 @@ class Wearer:
         self._interrupt_parts(site)
         if site.foot is not None and site.foot in self.feet:
             self.feet[site.foot].interrupt()
+
+    def _follow(self, plan: IndexedPlan, events: list[Event]) -> None:
+        """Where on the plan `events` lead."""
+        if any([isinstance(event, LEADS) for event in events]):
+            here = self.position
+            if here is not None:
+                events += self.place.follow(plan, events, here)
 
     def _interrupt_parts(self, site: Site) -> None:
         self.body.interrupt(site)
