@@ -12,12 +12,10 @@ from struct import Struct
 from ..events import Candidate
 from ..floorplan.plan import FloorPlan, Point
 
-
 Row = tuple[float, float, float, float, float, int, int, int]
-"""x, y: m, plan frame, less the `origin_of` the plan. a, b: a move (dx, dy) of the track is (a dx - b dy, b dx + a dy) of
-the plan: a turn and a stretch. Weight. Level, as an index into the plan's. Where it came from: 0 the start, else
-one more than the index of a connector. Where it may be changing level: 0 nowhere, else one more than the index into
-`stops_of`."""
+"""x, y: m, plan frame, less the `origin_of` the plan. a, b: a move (dx, dy) of the track is (a dx - b dy, b dx + a dy)
+of the plan: a turn and a stretch. Weight. Level, as an index into the plan's. Where it came from: 0 the start, else one
+more than the index of a connector. Where it may be changing level: 0 nowhere, else Landing.index."""
 
 _ROW = Struct("<ffffeHHH")
 

@@ -1,8 +1,8 @@
 """Numbers that look random and are the same everywhere.
 
-Four numbers a row, from -1 to 1, evenly filled (the additive recurrence of Roberts 2018 in four dimensions: multiples of
-the powers of 1 / 1.16730..., the root of x^5 = x + 1, less their whole part). Whoever uses row after row from a place
-that `following` chooses gets all directions alike, and other ones each time.
+Four numbers a row, from -1 to 1, evenly filled (the additive recurrence of Roberts 2018 in four dimensions: multiples
+of the powers of 1 / 1.16730..., the root of x^5 = x + 1, less their whole part). Whoever uses row after row from a
+place that `following` chooses gets all directions alike, and other ones each time.
 """
 
 from __future__ import annotations
