@@ -122,5 +122,7 @@ BY_NAME: dict[str, Recipe] = {
         TOUCHDOWN_HEIGHT,
         TOUCHDOWN_ACCELERATION,
         TOUCHDOWN_PRESSURE,
+        SHOE_SENSING,
+        SHOE_MAGNITUDE,
     )
 }
