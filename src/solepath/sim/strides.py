@@ -41,7 +41,7 @@ REVERSAL = 0.22
 """Share of the swing in which the pitch rate turns from that of push-off to that of swinging through."""
 SWING_UP = 1.1
 """Pitch rate after the reversal, relative to the mean rate from there to heel-strike."""
-KICK, KICKED = -1.75, 0.36
+KICK, KICKED = -1.50, 0.34
 """A runner's heel is up by so many rad, after this share of the swing."""
 KICKING = 4.0
 """Pitch acceleration there, in units of the way that is left per square of the time that is left."""

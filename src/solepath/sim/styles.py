@@ -63,7 +63,7 @@ CLIMBING = Style(
     double=0.12,
     early=0.08,
     flat=0.08,
-    toe_off_pitch=0.60,
+    toe_off_pitch=0.66,
     strike_pitch=-0.08,
     slide=0.20,
     sink=0.45,
@@ -75,7 +75,7 @@ CLIMBING = Style(
 )
 DESCENDING = Style(
     double=0.10,
-    early=0.16,
+    early=0.08,
     flat=0.10,
     toe_off_pitch=0.70,
     strike_pitch=-0.33,
@@ -94,13 +94,13 @@ def style_of(manner: Manner, speed: float) -> Style:
         share = min(max(0.38 - 0.03 * (speed - 2.6), 0.25), 0.44)
         return Style(
             double=share - 0.5,
-            early=0.5 - 0.55 * share,
+            early=0.5 - 0.45 * share,
             flat=0.075,
-            toe_off_pitch=1.10,
+            toe_off_pitch=0.95,
             strike_pitch=0.24,
             slide=0.25 * speed,
             sink=0.33 * speed,
-            clearance=0.07,
+            clearance=0.15,
         )
     return CLIMBING if manner is Manner.UP else DESCENDING
 
