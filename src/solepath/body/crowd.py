@@ -21,9 +21,13 @@ _ROW = Struct("<ffffeHHH")
 
 FAR = 1e5
 """Nothing is so far from the origin of a plan, m."""
-SAME = 2.0
-"""Places within this of each other's mean are one candidate, m."""
-AGREED = 1.0
+SAME = 3.0
+"""Places within this of each other's mean are one candidate, m, when the track lies there in nearly the same way ..."""
+NEAR = 1.5
+"""... and within this when it does not."""
+ALIKE = 0.87
+"""Cosine of the angle between two ways in which the track lies."""
+AGREED = 1.5
 """All places together are one candidate when they differ by no more (rms), m."""
 CANDIDATES = 24
 """No more are told; others count to the nearest."""
@@ -138,13 +142,13 @@ def _grouped(rows: list[Row]) -> list[_Group]:
         best, nearest = -1, SAME * SAME
         full = len(groups) >= CANDIDATES
         if full:
-            nearest = 4.0 * FAR * FAR
-        for k, (gw, gx, gy, _, _, _, level, _, _) in enumerate(groups):
+            nearest = 5.0 * FAR * FAR
+        long = w * sqrt(a * a + b * b)
+        for k, (gw, gx, gy, ga, gb, gl, level, _, _) in enumerate(groups):
             if level == at or full:
                 away = (gx / gw - x) ** 2 + (gy / gw - y) ** 2 + (0.0 if level == at else FAR * FAR)
-                if away < nearest:
+                if away < nearest and (full or away < NEAR * NEAR or w * (ga * a + gb * b) > ALIKE * gl * long):
                     best, nearest = k, away
-        long = w * sqrt(a * a + b * b)
         if best < 0:
             if full:
                 best = 0
