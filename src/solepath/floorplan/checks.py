@@ -36,6 +36,8 @@ def _faults(plan: FloorPlan) -> Iterator[str]:
         yield f"the plan has more than {MOST_LEVELS} levels or {MOST_WALLS} walls"
     ids = set()
     for level in plan.levels:
+        if not level.id:
+            yield "a level has no id"
         if level.id in ids:
             yield f"two levels have the id {level.id!r}"
         ids.add(level.id)
@@ -81,6 +83,8 @@ def _faults_of_connector(one: Connector, plan: FloorPlan) -> Iterator[str]:
         for point in (stop.place, *stop.outline):
             if not _is_place(point):
                 yield f"{name}: its stop at level {stop.level!r} is at ({point[0]:g}, {point[1]:g})"
+        if len(stop.outline) in (1, 2):
+            yield f"{name}: its outline at level {stop.level!r} has {len(stop.outline)} corners"
         if before is not None and not elevations[stop.level] > before:
             yield f"{name}: its stops are not from the lowest to the highest"
         before = elevations[stop.level]

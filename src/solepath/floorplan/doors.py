@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from math import hypot
 
 from attrs import evolve
@@ -23,23 +23,35 @@ _ON = 1e-9
 Line = tuple[Point, Point]
 
 
+class Openings:
+    """Lines that leave gaps, found by where they lie. `owners`: whose each one is, where that matters."""
+
+    def __init__(self, lines: Sequence[Line], owners: Sequence[int] = ()) -> None:
+        order = sorted(range(len(lines)), key=lambda i: _leftmost(lines[i]))
+        self._lines = [(lines[i], owners[i] if owners else -1) for i in order]
+        self._lefts = [_leftmost(lines[i]) for i in order]
+        self._widest = max((abs(b[0] - a[0]) for a, b in lines), default=0.0)
+
+    def near(self, wall: Wall, beside: float, but: int | None) -> list[Line]:
+        """Those that may lie along a wall, but not those of one owner."""
+        left, right = min(wall.start[0], wall.end[0]) - beside, max(wall.start[0], wall.end[0]) + beside
+        low, high = min(wall.start[1], wall.end[1]) - beside, max(wall.start[1], wall.end[1]) + beside
+        first, last = bisect_left(self._lefts, left - self._widest), bisect_right(self._lefts, right)
+        return [
+            line for line, owner in self._lines[first:last]
+            if owner != but and not (max(line[0][1], line[1][1]) < low or min(line[0][1], line[1][1]) > high)
+        ]  # fmt: skip
+
+
 def with_doors_cut(level: Level) -> Level:
     """The level with a gap in its walls wherever a door lies along them. Cut once more, it stays as it is."""
-    return evolve(level, walls=cut(level.walls, [(door.start, door.end) for door in level.doors], BESIDE))
+    return evolve(level, walls=cut(level.walls, Openings([(door.start, door.end) for door in level.doors]), BESIDE))
 
 
-def cut(walls: Iterable[Wall], openings: Iterable[Line], beside: float) -> tuple[Wall, ...]:
+def cut(walls: Iterable[Wall], openings: Openings, beside: float, but: int | None = None) -> tuple[Wall, ...]:
     """What is left of the walls where each opening that lies along one of them, with both ends within `beside` (m) of
-    its line and at less than 45 degrees to it, has been taken out."""
-    ordered = sorted(openings, key=_leftmost)
-    lefts = [_leftmost(line) for line in ordered]
-    widest = max((abs(b[0] - a[0]) for a, b in ordered), default=0.0)
-    kept: list[Wall] = []
-    for wall in walls:
-        left, right = min(wall.start[0], wall.end[0]) - beside, max(wall.start[0], wall.end[0]) + beside
-        first, last = bisect_left(lefts, left - widest), bisect_right(lefts, right)
-        kept += _pieces(wall, ordered[first:last], beside)
-    return tuple(kept)
+    its line and at less than 45 degrees to it, has been taken out; the openings of the owner `but` leave no gaps."""
+    return tuple([piece for wall in walls for piece in _pieces(wall, openings.near(wall, beside, but), beside)])
 
 
 def _leftmost(line: Line) -> float:

@@ -74,6 +74,11 @@ def south_west(places: list[tuple[float, float]]) -> Anchor:
     if not places:
         raise FloorPlanError("nothing is drawn in it")
     latitude, longitude = min(p[0] for p in places), min(p[1] for p in places)
-    if not (-89.0 <= latitude and max(p[0] for p in places) <= 89.0 and abs(longitude) <= 180.0):
+    if not (latitude >= -89.0 and max(p[0] for p in places) <= 89.0 and abs(longitude) <= 180.0):
         raise FloorPlanError(f"latitude {latitude:g}, longitude {longitude:g} cannot be degrees: is it in metres?")
     return Anchor(round(latitude, 7), round(longitude, 7), 0.0)
+
+
+def to_mm(point: Point) -> Point:
+    """Degrees in a file are never good to a millimetre; and so the same place has the same numbers in every format."""
+    return round(point[0], 3) + 0.0, round(point[1], 3) + 0.0

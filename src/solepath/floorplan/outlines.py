@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from math import hypot, isfinite
+from math import hypot
 
 from .plan import Point
+from .segments import distance
 
 Ring = tuple[Point, ...]
+Edges = tuple[tuple[float, float, float, float], ...]
 
 CLOSED = 0.05
 """m; a ring that ends this near to where it began is closed."""
@@ -27,42 +29,46 @@ def ring(points: list[Point]) -> tuple[Ring, float]:
     return tuple(kept), open_by
 
 
-def area(outline: Ring) -> float:
-    """m^2; positive where the ring runs counter-clockwise."""
-    ox, oy = outline[0]
-    return 0.5 * sum(
-        (ax - ox) * (by - oy) - (bx - ox) * (ay - oy)
-        for (ax, ay), (bx, by) in zip(outline, (*outline[1:], outline[0]), strict=True)
-    )
+def not_closed(open_by: float) -> str:
+    """What to say of such a ring."""
+    return f"its outline does not close, it ends {open_by:.2f} m from where it begins"
 
 
-def holds(outline: Ring, place: Point) -> bool:
-    """Even and odd: how many edges a ray to +x meets."""
-    x, y = place
+def edges(outline: Ring) -> Edges:
+    """The straight lines (ax, ay, bx, by) that an outline is made of."""
+    return tuple((*a, *b) for a, b in zip(outline, (*outline[1:], *outline[:1]), strict=True))
+
+
+def holds(lines: Edges, x: float, y: float) -> bool:
+    """Whether a place is within these edges, even and odd: how many of them a ray to +x meets."""
     odd = False
-    for (ax, ay), (bx, by) in zip(outline, (*outline[1:], outline[0]), strict=True):
+    for ax, ay, bx, by in lines:
         if (ay > y) != (by > y) and x < ax + (y - ay) * (bx - ax) / (by - ay):
             odd = not odd
     return odd
 
 
+def area(outline: Ring) -> float:
+    """m^2; positive where the ring runs counter-clockwise."""
+    ox, oy = outline[0]
+    return 0.5 * sum((ax - ox) * (by - oy) - (bx - ox) * (ay - oy) for ax, ay, bx, by in edges(outline))
+
+
 def middle(outline: Ring) -> Point:
     """A place within the outline: its centre of area where that is inside, and else the middle of its widest stretch
     at that height."""
-    twice, (ox, oy) = 2.0 * area(outline), outline[0]
-    edges = list(zip(outline, (*outline[1:], outline[0]), strict=True))
+    lines, (ox, oy) = edges(outline), outline[0]
     x, y = sum(p[0] for p in outline) / len(outline), sum(p[1] for p in outline) / len(outline)
-    if abs(twice) > 1e-9:
+    size = area(outline)
+    if abs(size) > 1e-9:
         sx = sy = 0.0
-        for (ax, ay), (bx, by) in edges:
+        for ax, ay, bx, by in lines:
             weight = (ax - ox) * (by - oy) - (bx - ox) * (ay - oy)
             sx, sy = sx + (ax + bx - 2.0 * ox) * weight, sy + (ay + by - 2.0 * oy) * weight
-        centre = ox + sx / (3.0 * twice), oy + sy / (3.0 * twice)
-        if isfinite(centre[0]) and isfinite(centre[1]):
-            x, y = centre
-    if holds(outline, (x, y)):
+        x, y = ox + sx / (6.0 * size), oy + sy / (6.0 * size)
+    if holds(lines, x, y):
         return x, y
-    met = sorted(ax + (y - ay) * (bx - ax) / (by - ay) for (ax, ay), (bx, by) in edges if (ay > y) != (by > y))
+    met = sorted(ax + (y - ay) * (bx - ax) / (by - ay) for ax, ay, bx, by in lines if (ay > y) != (by > y))
     stretches = list(zip(met[::2], met[1::2], strict=False))
     if not stretches:
         return x, y
@@ -71,19 +77,28 @@ def middle(outline: Ring) -> Point:
 
 
 def tidy(outline: Ring) -> Ring:
-    """The same outline counter-clockwise and from its leftmost, lowest corner on, whoever drew it."""
+    """The same outline counter-clockwise and from its leftmost, lowest corner on, without corners that are none,
+    whoever drew it."""
     way = outline if area(outline) >= 0.0 else outline[::-1]
+    bent = [b for a, b, c in zip((way[-1], *way), way, (*way[1:], way[0]), strict=False) if not _straight(a, b, c)]
+    way = tuple(bent) if len(bent) >= 3 else way
     first = way.index(min(way))
     return way[first:] + way[:first]
+
+
+def _straight(a: Point, b: Point, c: Point) -> bool:
+    """Whether b is no corner: it lies between a and c, within a millimetre of the line."""
+    if not (a[0] - b[0]) * (c[0] - b[0]) + (a[1] - b[1]) * (c[1] - b[1]) < 0.0:
+        return False
+    return distance(*a, *c, *b) <= 1e-3
 
 
 def with_holes(outline: Ring, holes: list[Ring]) -> Ring:
     """One ring for an outline with holes: each hole is joined to it by a cut, walked there and back, which counts for
     nothing where edges are counted even and odd."""
     for hole in holes:
-        i, k = min(
-            ((i, k) for i in range(len(outline)) for k in range(len(hole))),
-            key=lambda pair: hypot(outline[pair[0]][0] - hole[pair[1]][0], outline[pair[0]][1] - hole[pair[1]][1]),
-        )
+        k = hole.index(min(hole))
+        away = [hypot(x - hole[k][0], y - hole[k][1]) for x, y in outline]
+        i = away.index(min(away))
         outline = (*outline[: i + 1], *hole[k:], *hole[: k + 1], *outline[i:])
     return outline

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import ceil, sqrt
 
+from .outlines import Edges, Ring, edges, holds
 from .plan import Level, Point
 from .segments import distance
 
@@ -13,9 +14,6 @@ DOORSTEP = 0.5
 CELL = 0.5
 MOST_CELLS = 30_000
 
-_Ring = tuple[tuple[float, float, float, float], ...]
-"""The edges (ax, ay, bx, by) of an outline."""
-
 
 class Rooms:
     """The rooms of a level in a grid. A cell that no outline passes is inside or outside as a whole; the others know
@@ -23,9 +21,9 @@ class Rooms:
 
     __slots__ = ("_bottom", "_cells", "_columns", "_doors", "_edged", "_left", "_per_m", "_rings", "_rows")
 
-    def __init__(self, level: Level, outlines: tuple[tuple[Point, ...], ...]) -> None:
+    def __init__(self, level: Level, outlines: tuple[Ring, ...]) -> None:
         """`outlines`: of stairwells and cabins on this level, beside its rooms."""
-        self._rings = [_edges(ring) for ring in (*level.rooms, *outlines) if len(ring) >= 3]
+        self._rings = [edges(ring) for ring in (*level.rooms, *outlines) if len(ring) >= 3]
         self._doors = [(*door.start, *door.end) for door in level.doors]
         lines = [line for ring in self._rings for line in ring] + self._doors
         xs = [x for ax, _, bx, _ in lines for x in (ax, bx)] or [0.0]
@@ -35,7 +33,7 @@ class Rooms:
         self._left, self._bottom, self._per_m = min(xs) - DOORSTEP, min(ys) - DOORSTEP, 1.0 / cell
         self._columns, self._rows = ceil(width / cell), ceil(depth / cell)
         self._cells = bytearray(self._columns * self._rows)
-        self._edged: dict[int, tuple[list[_Ring], list[tuple[float, float, float, float]]]] = {}
+        self._edged: dict[int, tuple[list[Edges], list[tuple[float, float, float, float]]]] = {}
         self._sow(cell)
 
     def _sow(self, cell: float) -> None:
@@ -46,7 +44,7 @@ class Rooms:
             for at in boxed:
                 if at in passed:
                     self._edged.setdefault(at, ([], []))[0].append(ring)
-                elif _holds(ring, *self._centre(at, cell)):
+                elif holds(ring, *self._centre(at, cell)):
                     self._cells[at] = 1
         for door in self._doors:
             for at in self._passed(door, half + DOORSTEP, cell):
@@ -57,7 +55,7 @@ class Rooms:
     def _centre(self, at: int, cell: float) -> Point:
         return self._left + (at % self._columns + 0.5) * cell, self._bottom + (at // self._columns + 0.5) * cell
 
-    def _boxed(self, lines: _Ring, more: float = 0.0) -> list[int]:
+    def _boxed(self, lines: Edges, more: float = 0.0) -> list[int]:
         xs = [x for ax, _, bx, _ in lines for x in (ax, bx)]
         ys = [y for _, ay, _, by in lines for y in (ay, by)]
         across = self._span(min(xs) - more - self._left, max(xs) + more - self._left, self._columns)
@@ -80,17 +78,4 @@ class Rooms:
         if edged is None:
             return bool(self._cells[at])
         rings, doors = edged
-        return any(_holds(ring, x, y) for ring in rings) or any(distance(*door, x, y) <= DOORSTEP for door in doors)
-
-
-def _edges(ring: tuple[Point, ...]) -> _Ring:
-    return tuple((*a, *b) for a, b in zip(ring, (*ring[1:], ring[0]), strict=True))
-
-
-def _holds(ring: _Ring, x: float, y: float) -> bool:
-    """Even and odd: how many edges a ray to +x meets."""
-    odd = False
-    for ax, ay, bx, by in ring:
-        if (ay > y) != (by > y) and x < ax + (y - ay) * (bx - ax) / (by - ay):
-            odd = not odd
-    return odd
+        return any(holds(ring, x, y) for ring in rings) or any(distance(*door, x, y) <= DOORSTEP for door in doors)
