@@ -15,7 +15,9 @@ from attrs import frozen
 
 from .. import recipes
 from ..types import Foot
+from .activity import CLIMBED, score_labelled, score_stairs
 from .alignment import at_times, path_length, track_error
+from .confusion import CLASSES
 from .gathered import FootRun
 from .insoles import in_dataset
 from .recorded import Arrays, Meta, scored, truth_of
@@ -27,25 +29,28 @@ from .timing import score_borders, score_force, score_pressed, score_swings, sco
 
 @frozen
 class DataSet:
-    """`folder`: its name below the data directory. `figures`: what its table shows, in order."""
+    """`folders`: their names below the data directory. `has_truth`: of a recording's name and entry. `figures`: what
+    its table shows, in order."""
 
     name: str
-    folder: str
+    folders: tuple[str, ...]
     title: str
-    has_truth: Callable[[Meta], bool]
+    has_truth: Callable[[str, Meta], bool]
     score: Callable[[Path, Meta, How], Scored]
     figures: tuple[str, ...]
     each: bool = True
     """Whether the table has a line for every recording."""
     pressed: bool = False
     """Whether the session gets pressure."""
+    folds: bool = False
+    """Whether what says the activity is taught on other wearers' recordings of this data set (learning.py)."""
 
     def suits(self, recipe: str) -> bool:
         """Whether the recipe has something to say of these data."""
         return self.pressed or not recipes.BY_NAME[recipe].needs_pressure
 
 
-def _always(meta: Meta) -> bool:
+def _always(name: str, meta: Meta) -> bool:
     return True
 
 
@@ -136,59 +141,66 @@ def score_counted(path: Path, meta: Meta, how: How) -> Scored:
 # --- all of them ----------------------------------------------------------------------------------------------------
 
 
-def _surveyed_strides(meta: Meta) -> bool:
+def _surveyed_strides(name: str, meta: Meta) -> bool:
     return bool(meta.get("every_stride_surveyed"))
 
 
-def _counted_strides(meta: Meta) -> bool:
-    return "n_true_strides" in meta and not _surveyed_strides(meta)
+def _counted_strides(name: str, meta: Meta) -> bool:
+    return "n_true_strides" in meta and not _surveyed_strides(name, meta)
 
 
-def _closed_loop(meta: Meta) -> bool:
+def _closed_loop(name: str, meta: Meta) -> bool:
     return bool(meta.get("closed_loop"))
 
 
-def _tracked(meta: Meta) -> bool:
+def _tracked(name: str, meta: Meta) -> bool:
     return bool(meta.get("optitrack"))
 
 
-def _borders_known(meta: Meta) -> bool:
+def _borders_known(name: str, meta: Meta) -> bool:
     return "gt_borders_left" in meta["keys"]
+
+
+def _climbed(name: str, meta: Meta) -> bool:
+    return name in CLIMBED
 
 
 TRACK = ("armse_2d", "rms_2d", "rms_3d", "path", "relative")
 STRIDES = ("strides_found", "strides_true", "strides_invented", "stride_error", "stride_error_median")
 HEEL_STRIKE = ("heel_strike_true", "heel_strike_found", "heel_strike_f1", "heel_strike_bias", "heel_strike_mad")
+ACTIVITIES = ("accuracy", "most_frequent", *(f"f1_{activity.value.lower()}" for activity in CLASSES))
+RIDES = ("rides_true", "rides_found", "rides_invented")
 TOE_OFF = ("toe_off_true", "toe_off_found", "toe_off_f1", "toe_off_bias", "toe_off_mad")
 
 DATASETS = (
-    DataSet("pyshoe_vicon", "pyshoe_vicon", "VICON tracks, one shoe", _always, score_vicon, TRACK + STRIDES[:4]),
+    DataSet("pyshoe_vicon", ("pyshoe_vicon",), "VICON tracks, one shoe", _always, score_vicon, TRACK + STRIDES[:4]),
     DataSet(
         "gumushane_surveyed",
-        "gumushane_gcp",
+        ("gumushane_gcp",),
         "every footprint surveyed, one shoe",
         _surveyed_strides,
         score_surveyed,
         ("position_mean", "position_max", "path", "relative", *STRIDES, "stride_error_track"),
     ),
     DataSet(
-        "gumushane_counted", "gumushane_gcp", "strides counted, one shoe", _counted_strides, score_counted, STRIDES[:3]
+        "gumushane_counted", ("gumushane_gcp",), "strides counted, one shoe", _counted_strides, score_counted,
+        STRIDES[:3],
     ),
     DataSet(
         "xio_closed_walks",
-        "xio_closed_walks",
+        ("xio_closed_walks",),
         "a closed loop, one shoe",
         _closed_loop,
         score_loop,
         ("end_error", "end_error_2d", "path", "relative"),
     ),
     DataSet(
-        "smart_insole_35", "smart_insole_35", "OptiTrack tracks, one insole", _tracked, score_optitrack, TRACK,
+        "smart_insole_35", ("smart_insole_35",), "OptiTrack tracks, one insole", _tracked, score_optitrack, TRACK,
         pressed=True,
     ),
     DataSet(
         "ipol_10m_uturn",
-        "ipol_10m_uturn",
+        ("ipol_10m_uturn",),
         "10 m and back, both feet, radio losses",
         _always,
         score_swings,
@@ -196,13 +208,15 @@ DATASETS = (
         each=False,
     ),
     DataSet(
-        "tripod_treadmill", "tripod_treadmill", "a treadmill, both feet", _always, score_treadmill,
+        "tripod_treadmill", ("tripod_treadmill",), "a treadmill, both feet", _always, score_treadmill,
         HEEL_STRIKE + TOE_OFF + STRIDES,
     ),
-    DataSet("gaitmap_examples", "gaitmap_examples", "4 x 10 m, both feet", _borders_known, score_borders, HEEL_STRIKE),
+    DataSet(
+        "gaitmap_examples", ("gaitmap_examples",), "4 x 10 m, both feet", _borders_known, score_borders, HEEL_STRIKE
+    ),
     DataSet(
         "marpino_heel_toe",
-        "marpino_heel_toe",
+        ("marpino_heel_toe",),
         "heel and toe switches, both feet, inertial samples only",
         _always,
         score_switches,
@@ -210,7 +224,7 @@ DATASETS = (
     ),
     DataSet(
         "marpino_pressed",
-        "marpino_heel_toe",
+        ("marpino_heel_toe",),
         "heel and toe switches as an insole of two cells, both feet",
         _always,
         score_pressed,
@@ -219,11 +233,29 @@ DATASETS = (
     ),
     DataSet(
         "gaitpdb_vgrf",
-        "gaitpdb_vgrf",
+        ("gaitpdb_vgrf",),
         "eight force sensors below each foot and nothing else",
         _always,
         score_force,
         HEEL_STRIKE + TOE_OFF,
         pressed=True,
+    ),
+    DataSet(
+        "hugadb",
+        ("hugadb",),
+        "activities, both feet, five folds by wearer",
+        _always,
+        score_labelled,
+        ACTIVITIES + RIDES,
+        each=False,
+        folds=True,
+    ),
+    DataSet(
+        "stairs",
+        ("gaitmap_examples", "xio_closed_walks"),
+        "stairs and level ways, and what of them is called stairs",
+        _climbed,
+        score_stairs,
+        ("stairs_called", "stairs_direction", "level_called"),
     ),
 )  # fmt: skip

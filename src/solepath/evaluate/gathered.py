@@ -1,11 +1,22 @@
-"""What a session said, kept by foot for the scores."""
+"""What a session said, kept for the scores: by foot, and what the wearer did."""
 
 from __future__ import annotations
 
 import numpy as np
 from attrs import define, field, frozen
 
-from ..events import Event, FootFlat, FootMoved, HeelOff, HeelStrike, StepTaken, ToeOff
+from ..events import (
+    ActivityChanged,
+    Event,
+    FootFlat,
+    FootMoved,
+    HeelOff,
+    HeelStrike,
+    LiftRidden,
+    StepTaken,
+    ToeOff,
+)
+from ..timeline import Timeline
 from ..types import Foot, Vec3
 from .alignment import Floats
 
@@ -40,6 +51,8 @@ class _FootGathered:
 class Gathering:
     """Takes events as they come; `foot` gives what came of one foot (nothing of a foot never heard of)."""
 
+    timeline: Timeline = field(factory=Timeline)
+    rides: list[LiftRidden] = field(factory=list)
     _feet: dict[Foot, _FootGathered] = field(factory=dict)
 
     def add(self, event: Event) -> None:
@@ -54,6 +67,10 @@ class Gathering:
                 self._of(foot).times.setdefault(type(event), []).append(event.t)
             case HeelOff(foot=foot, final=True) | ToeOff(foot=foot, final=True):
                 self._of(foot).times.setdefault(type(event), []).append(event.t)
+            case ActivityChanged():
+                self.timeline.add(event)
+            case LiftRidden(final=True):
+                self.rides.append(event)
             case _:
                 pass
 

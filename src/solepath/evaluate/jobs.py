@@ -8,12 +8,14 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 from attrs import frozen
 
 from ..calibration import Calibration
 from ..recording import RecordingError
 from .datasets import DATASETS, DataSet
+from .learning import Lesson, kind_of, part_for, taught
 from .recorded import Meta
 from .report import Result
 from .run import How
@@ -43,7 +45,7 @@ def find(folder: Path, only: Sequence[str] = ()) -> list[DataSet]:
     for name in only:
         if name not in known:
             raise RecordingError(folder, f"{name} is not one of the data sets {', '.join(known)}")
-    present = [d for d in DATASETS if (folder / d.folder / "dataset.json").is_file() and (not only or d.name in only)]
+    present = [d for d in DATASETS if _abouts(folder, d) and (not only or d.name in only)]
     missing = set(only) - {data_set.name for data_set in present}
     if missing or not present:
         what = ", ".join(sorted(missing)) or "any of the data sets " + ", ".join(known)
@@ -51,19 +53,33 @@ def find(folder: Path, only: Sequence[str] = ()) -> list[DataSet]:
     return present
 
 
-def jobs(folder: Path, data_set: DataSet, how: How) -> list[Job]:
-    """The recordings of a data set that have a truth."""
-    about = folder / data_set.folder / "dataset.json"
-    try:
-        recordings: dict[str, Meta] = json.loads(about.read_text(encoding="utf-8"))["recordings"]
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise RecordingError(about, "does not say which recordings there are") from error
-    paths = {name: folder / data_set.folder / f"{name}.npz" for name in sorted(recordings)}
-    return [
-        Job(data_set, how, path, recordings[name])
-        for name, path in paths.items()
-        if path.is_file() and data_set.has_truth(recordings[name])
-    ]
+def _abouts(folder: Path, data_set: DataSet) -> list[Path]:
+    """The dataset.json of each of its folders that is there."""
+    abouts = [folder / name / "dataset.json" for name in data_set.folders]
+    return [about for about in abouts if about.is_file()]
+
+
+def recordings(folder: Path, data_set: DataSet) -> list[tuple[Path, Meta]]:
+    """The recordings of a data set that have a truth, and their entries."""
+    found: list[tuple[Path, Meta]] = []
+    for about in _abouts(folder, data_set):
+        try:
+            told: dict[str, Meta] = json.loads(about.read_text(encoding="utf-8"))["recordings"]
+            found += [
+                (about.with_name(f"{name}.npz"), told[name])
+                for name in sorted(told)
+                if data_set.has_truth(name, told[name])
+            ]
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise RecordingError(about, "does not say which recordings there are") from error
+    return [(path, meta) for path, meta in found if path.is_file()]
+
+
+def lessons(folder: Path, data_sets: Sequence[DataSet], recipes: Sequence[str]) -> list[Lesson]:
+    """What the recipes' parts have to learn before those data sets can be scored."""
+    kinds = dict.fromkeys(kind for recipe in recipes if (kind := kind_of(recipe)) is not None)
+    taught_on = [one for data_set in data_sets if data_set.folds for one in recordings(folder, data_set)]
+    return [Lesson(kind, path, meta) for kind in kinds for path, meta in taught_on]
 
 
 def evaluate(
@@ -78,21 +94,36 @@ def evaluate(
     """The result of each recipe on each data set of `folder`, as they are done; `calibration` is used for every
     recording, and `progress` gets (done, all)."""
     known = Calibration() if calibration is None else calibration
-    plan = [(d, r, jobs(folder, d, How(r, known))) for r in recipes for d in find(folder, only) if d.suits(r)]
-    everything = [job for _, _, part in plan for job in part]
+    data_sets = find(folder, only)
+    plan = [(d, recipe, recordings(folder, d)) for recipe in recipes for d in data_sets if d.suits(recipe)]
+    to_learn = lessons(folder, data_sets, recipes)
+    count = len(to_learn) + sum(len(part) for _, _, part in plan)
+    done = 0
+
+    def step() -> None:
+        nonlocal done
+        done += 1
+        if progress is not None:
+            progress(done, count)
+
     with ExitStack() as stack:
-        if processes > 1:
-            outcomes = stack.enter_context(ProcessPoolExecutor(processes)).map(Job.run, everything)
-        else:
-            outcomes = map(Job.run, everything)
-        done = 0
+        pool = stack.enter_context(ProcessPoolExecutor(processes)) if processes > 1 else None
+        learnt: list[Any] = []
+        for features in (map if pool is None else pool.map)(Lesson.features, to_learn):
+            learnt.append(features)
+            step()
+        parts = taught(to_learn, learnt)
+        everything = [
+            Job(d, How(recipe, known, part_for(recipe, meta, parts) if d.folds else None), path, meta)
+            for d, recipe, part in plan
+            for path, meta in part
+        ]
+        outcomes = map(Job.run, everything) if pool is None else pool.map(Job.run, everything)
         for data_set, recipe, part in plan:
             scores: list[Scored] = []
             failures: list[str] = []
             for outcome in islice(outcomes, len(part)):
-                done += 1
-                if progress is not None:
-                    progress(done, len(everything))
+                step()
                 if isinstance(outcome, Scored):
                     scores.append(outcome)
                 else:

@@ -13,36 +13,56 @@ from attrs import frozen
 
 from .. import recipes
 from ..calibration import Calibration, merged
-from ..events import Event
+from ..events import Event, LiftRidden
+from ..recipes import AnyActivity
 from ..samples import load_samples
 from ..session import Session
+from ..timeline import Timeline
 from ..types import Foot
 from .gathered import FootRun, Gathering
 
 
 @frozen
 class How:
-    """How a recording is computed: the recipe's name, and what is known beforehand."""
+    """How a recording is computed: the recipe's name, and what is known beforehand.
+
+    `activity`: in the place of the recipe's own part, the same part taught on other recordings.
+    """
 
     recipe: str
     calibration: Calibration = Calibration()
+    activity: AnyActivity | None = None
 
 
 @frozen(eq=False)
 class Run:
     feet: dict[Foot, FootRun]
+    timeline: Timeline
+    """What the wearer did."""
+    rides: tuple[LiftRidden, ...]
     samples: int
     seconds: float
     """Wall time that the session took."""
 
 
-def run(path: Path, how: How, *, without_pressure: bool = False, calibration: Calibration | None = None) -> Run:
+def run(
+    path: Path,
+    how: How,
+    *,
+    without_pressure: bool = False,
+    calibration: Calibration | None = None,
+    poses: bool = True,
+) -> Run:
     """The recording at `path` through a session, sample by sample.
 
     `without_pressure`: leave the pressure out, because the truth was made of it. `calibration`: where the cells are.
+    `poses`: the live position at every sample is asked for.
     """
     known = how.calibration if calibration is None else merged(how.calibration, calibration)
-    session = Session(recipes.BY_NAME[how.recipe], calibration=known, poses=True)
+    recipe = recipes.BY_NAME[how.recipe]
+    if how.activity is not None:
+        recipe = attrs.evolve(recipe, activity=how.activity)
+    session = Session(recipe, calibration=known, poses=poses)
     recording = load_samples(path)
     samples = list(recording)
     if without_pressure:
@@ -58,4 +78,4 @@ def run(path: Path, how: How, *, without_pressure: bool = False, calibration: Ca
         for event in events:
             gathering.add(event)
     feet = {table.foot: gathering.foot(table.foot) for table in recording.tables}
-    return Run(feet=feet, samples=len(samples), seconds=seconds)
+    return Run(feet, gathering.timeline, tuple(gathering.rides), samples=len(samples), seconds=seconds)

@@ -9,6 +9,7 @@ from operator import add
 import numpy as np
 from attrs import field, frozen
 
+from .confusion import ActivityScore
 from .matching import Matching
 from .strides import StrideScore
 
@@ -17,13 +18,14 @@ Figures = dict[str, float | None]
 
 @frozen
 class Scored:
-    """The scores of one recording. `figures` are averaged over recordings; events and strides are pooled."""
+    """The scores of one recording. `figures` are averaged over recordings, all else is pooled."""
 
     recording: str
     figures: Figures = field(factory=dict)
     events: dict[str, Matching] = field(factory=dict)
     """By kind: heel_strike, toe_off."""
     strides: StrideScore | None = None
+    activity: ActivityScore | None = None
     groups: tuple[str, ...] = ("all",)
     """The averages that this recording belongs to."""
     samples: int = 0
@@ -31,10 +33,12 @@ class Scored:
 
     def flat(self) -> Figures:
         """Every figure of this recording by its name in tables and JSON."""
-        return self.figures | pooled_figures(self.events, self.strides)
+        return self.figures | pooled_figures(self.events, self.strides, self.activity)
 
 
-def pooled_figures(events: dict[str, Matching], strides: StrideScore | None) -> Figures:
+def pooled_figures(
+    events: dict[str, Matching], strides: StrideScore | None, activity: ActivityScore | None
+) -> Figures:
     flat: Figures = {}
     for kind, matching in events.items():
         flat |= {
@@ -53,6 +57,8 @@ def pooled_figures(events: dict[str, Matching], strides: StrideScore | None) -> 
             "stride_error_median": strides.median_error,
             "stride_error_track": strides.mean_track_error,
         }
+    if activity is not None:
+        flat |= activity.figures
     return flat
 
 
@@ -65,7 +71,9 @@ class Summary:
     mean: Figures
     median: Figures
     together: Figures
-    """Figures of the pooled events and strides."""
+    """Figures of the pooled events, strides and activities."""
+    confusion: dict[str, dict[str, int]] | None = None
+    """{true activity: {told activity: samples}}, where activities were scored."""
 
 
 def summarise(scores: Sequence[Scored], group: str) -> Summary:
@@ -75,10 +83,13 @@ def summarise(scores: Sequence[Scored], group: str) -> Summary:
     kinds = list(dict.fromkeys(kind for score in members for kind in score.events))
     events = {kind: reduce(add, [s.events[kind] for s in members if kind in s.events]) for kind in kinds}
     strides = [score.strides for score in members if score.strides is not None]
+    activities = [score.activity for score in members if score.activity is not None]
+    activity = reduce(add, activities) if activities else None
     return Summary(
         group=group,
         count=len(members),
         mean={key: float(np.mean(v)) for key, v in values.items() if v},
         median={key: float(np.median(v)) for key, v in values.items() if v},
-        together=pooled_figures(events, reduce(add, strides) if strides else None),
+        together=pooled_figures(events, reduce(add, strides) if strides else None, activity),
+        confusion=None if activity is None else activity.table,
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ..evaluate.confusion import CLASSES
 from ..evaluate.report import Result
 from ..evaluate.score import Figures, Summary
 from .table import milliseconds, number, percent
@@ -17,6 +18,12 @@ PLACES = {
     "end_error_2d": "from end to start, horizontal",
 }
 """Figures that are averaged over recordings, m."""
+STAIRS = {
+    "stairs_called": "time on stairs that was called stairs",
+    "stairs_direction": "the same in the right direction",
+    "level_called": "time on the level that was called stairs",
+}
+"""Shares that are averaged over recordings."""
 EVENTS = {"heel_strike": "heel-strike", "toe_off": "toe-off"}
 
 
@@ -30,13 +37,14 @@ def accuracy_table(results: Sequence[Result]) -> str:
                 continue
             count = f"{summary.count} recording{'s' * (summary.count > 1)}"
             data = f"{result.data_set.title}: `{result.data_set.name}`, {count}"
-            for what, figure in [*_places(summary), *_strides(summary.together), *_events(summary.together)]:
+            figures = [*_places(summary), *_strides(summary.together), *_events(summary.together), *_did(summary)]
+            for what, figure in figures:
                 rows.setdefault((data, what), {})[result.recipe] = figure
     heads = ["came to"] if len(recipes) == 1 else [f"`{recipe}`" for recipe in recipes]
     lines = [_line("data", "measured", *heads), "|" + "---|" * (2 + len(heads))]
     before = ""
-    for (data, what), figures in rows.items():
-        lines.append(_line("" if data == before else data, what, *(figures.get(recipe, "-") for recipe in recipes)))
+    for (data, what), told in rows.items():
+        lines.append(_line("" if data == before else data, what, *(told.get(recipe, "-") for recipe in recipes)))
         before = data
     return "\n".join(lines)
 
@@ -72,4 +80,19 @@ def _events(pooled: Figures) -> list[tuple[str, str]]:
             bias, mad = (milliseconds(pooled[f"{kind}_{part}"]) for part in ("bias", "mad"))
             figures = f"F1 {number(pooled[f'{kind}_f1'], 3)}, median offset {bias} ms, MAD {mad} ms"
             told.append((f"{number(true, 0)} {what}s", figures))
+    return told
+
+
+def _did(summary: Summary) -> list[tuple[str, str]]:
+    """Activities."""
+    pooled, told = summary.together, []
+    if (accuracy := pooled.get("accuracy")) is not None:
+        told.append(("labelled time told right", f"{percent(accuracy)} %"))
+        told.append(("the same by always telling the most frequent activity", f"{percent(pooled['most_frequent'])} %"))
+        f1 = {activity: pooled[f"f1_{activity.value.lower()}"] for activity in CLASSES}
+        told += [(f"F1 of {activity.value}", number(value, 3)) for activity, value in f1.items() if value is not None]
+    if rides := pooled.get("rides_true"):
+        found, invented = (number(pooled[f"rides_{what}"], 0) for what in ("found", "invented"))
+        told.append(("lift rides, with their direction", f"{found} of {number(rides, 0)} found, {invented} invented"))
+    told += [(what, f"{percent(summary.mean[key])} %") for key, what in STAIRS.items() if key in summary.mean]
     return told

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from ..evaluate.confusion import CLASSES
 from ..evaluate.report import Result
-from ..evaluate.score import Figures
+from ..evaluate.score import Figures, Summary
+from ..types import Activity
 from .table import milliseconds, number, percent, table
 
 
@@ -23,6 +25,11 @@ def _count(value: float | None) -> str:
 
 def _share(value: float | None) -> str:
     return number(value, 3)
+
+
+def _short(activity: Activity) -> str:
+    """As in `stairs up`, `lift down`."""
+    return activity.value.lower().replace("_", " ").replace("elevator", "lift")
 
 
 COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
@@ -51,6 +58,15 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "toe_off_f1": ("F1", _share),
     "toe_off_bias": ("bias ms", milliseconds),
     "toe_off_mad": ("MAD ms", milliseconds),
+    "accuracy": ("right %", percent),
+    "most_frequent": ("most freq %", percent),
+    **{f"f1_{activity.value.lower()}": (f"F1 {_short(activity)}", _share) for activity in CLASSES},
+    "rides_true": ("rides", _count),
+    "rides_found": ("found", _count),
+    "rides_invented": ("invented", _count),
+    "stairs_called": ("on stairs: called so %", percent),
+    "stairs_direction": ("direction right %", percent),
+    "level_called": ("on the level: called stairs %", percent),
 }
 """Every figure by its name in JSON: how its column is headed, and how it is written."""
 
@@ -73,7 +89,22 @@ def score_table(result: Result) -> str:
     seconds, samples = sum(s.seconds for s in result.scores), sum(s.samples for s in result.scores)
     speed = f"{samples} samples, {1e6 * seconds / samples:.1f} us each" if samples else "no samples"
     title = f"{data_set.name}: {data_set.title} ({result.recipe}; {speed})"
-    return "\n".join([title, table(header, rows), *(f"failed: {sentence}" for sentence in result.failures)])
+    lines = [title, table(header, rows)]
+    lines += [_confusion(summary) for summary in result.summaries if summary.group == "all" and summary.confusion]
+    return "\n".join([*lines, *(f"failed: {sentence}" for sentence in result.failures)])
+
+
+def _confusion(summary: Summary) -> str:
+    """What was told of the labelled samples of each activity, %."""
+    counts = summary.confusion or {}
+    told = [activity for activity in Activity if any(activity.value in row for row in counts.values())]
+    rows = []
+    for activity in CLASSES:
+        if (row := counts.get(activity.value)) is not None:
+            every = sum(row.values())
+            shares = [percent(row.get(other.value, 0) / every) for other in told]
+            rows.append([_short(activity), *shares, number(float(every), 0)])
+    return table(["% of what was, told as", *map(_short, told), "samples"], rows)
 
 
 def _row(name: str, figures: Figures, keys: Sequence[str]) -> list[str]:
