@@ -1,4 +1,4 @@
-"""What `track` writes: events.jsonl, track.csv and steps.csv.
+"""What `track` writes: events.jsonl, track.csv and steps.csv, with a floor plan also places.csv.
 
 Times are the recording's own, written so that reading gives the same float again; places in m to the micrometre.
 """
@@ -17,14 +17,15 @@ from typing import Any, TextIO
 import attrs
 from attrs import define, field
 
-from .events import Event, FootMoved, StepTaken
+from .events import Event, FootMoved, Placed, StepTaken
 from .types import Site
 
-EVENTS, TRACK, STEPS = "events.jsonl", "track.csv", "steps.csv"
+EVENTS, TRACK, STEPS, PLACES, PLAN = "events.jsonl", "track.csv", "steps.csv", "places.csv", "plan.svg"
 TRACK_COLUMNS = ("t", "foot", "x", "y", "z", "phase")
 STEP_COLUMNS = (
     "foot", "t_start", "t_end", "x", "y", "z", "stride_length", "heading_change", "height_change", "degraded",
 )  # fmt: skip
+PLACE_COLUMNS = ("t", "level", "x", "y", "z", "spread", "heading", "candidates", "weight")
 FIRST_KEYS = ("t", "known_at", "final", "foot")
 
 
@@ -60,19 +61,30 @@ def event_record(event: Event) -> dict[str, Any]:
     return {"event": type(event).__name__, **first, **fields}
 
 
+def _place_row(event: Placed) -> list[str]:
+    first = event.candidates[0]
+    numbers = [f"{v:.3f}" for v in (*event.position, event.spread)]
+    heading = "" if first.heading is None else f"{first.heading:.4f}"
+    return [repr(event.t), event.level, *numbers, heading, str(len(event.candidates)), f"{first.weight:.4f}"]
+
+
 @define
 class TrackFiles:
-    """The three files in `directory`, which is made when there is none. Files of an earlier run are replaced.
+    """The files in `directory`, which is made when there is none. Files of an earlier run are replaced.
 
-    A FootMoved is a row of track.csv, a final StepTaken one of steps.csv, and every event but FootMoved a line of
-    events.jsonl. OSError, naming the directory, when they cannot be made or written (the disk is full).
+    A FootMoved is a row of track.csv, a final StepTaken one of steps.csv, a Placed one of places.csv (its heaviest
+    candidate's, and how many there are), and every event but FootMoved a line of events.jsonl. `places`: of a session
+    with a floor plan; without one there is no places.csv. OSError, naming the directory, when they cannot be made or
+    written (the disk is full).
     """
 
     directory: Path
+    places: bool = False
     _stack: ExitStack = field(factory=ExitStack, init=False)
     _events: TextIO = field(init=False)
     _track: TextIO = field(init=False)
     _steps: Any = field(init=False)
+    _places: Any = field(default=None, init=False)
 
     def __attrs_post_init__(self) -> None:
         self.directory.mkdir(parents=True, exist_ok=True)
@@ -80,6 +92,9 @@ class TrackFiles:
         self._track.write(",".join(TRACK_COLUMNS) + "\n")
         self._steps = csv.writer(steps, lineterminator="\n")
         self._steps.writerow(STEP_COLUMNS)
+        if self.places:
+            self._places = csv.writer(self._open(PLACES), lineterminator="\n")
+            self._places.writerow(PLACE_COLUMNS)
 
     def _open(self, name: str) -> TextIO:
         return self._stack.enter_context((self.directory / name).open("w", encoding="utf-8", newline=""))
@@ -104,6 +119,8 @@ class TrackFiles:
             lengths = (x, y, z, event.stride_length, event.heading_change, event.height_change)
             row = [event.foot.value, repr(event.t_start), repr(event.t_end), *(f"{v:.6f}" for v in lengths)]
             self._steps.writerow([*row, int(event.degraded)])
+        elif isinstance(event, Placed) and self._places is not None:
+            self._places.writerow(_place_row(event))
 
     def close(self) -> None:
         try:
