@@ -1,16 +1,55 @@
-"""What the wearer does: the part that says so, and what a session asks of it."""
+"""What the wearer does: standing, walking, running, stairs and lifts, for any recipe.
+
+Each foot is looked at in blocks of half a second (features.py) and says of every block how likely each way of moving is
+(motion.py). The feet's votes, what a lift adds to the force on a standing foot (ride.py) and the slope of the air
+pressure, where there is a barometer (air.py), are the evidence of a chain of twelve states that is followed by
+Viterbi's algorithm (hypotheses.py).
+
+When what is known: a block is judged when two more have come, 1 to 1.5 s after it. The likeliest course is told at
+once, not final; what all courses that are still likely agree on is told again as final, mostly seconds later. Standing
+that may still turn out to be a ride whose beginning nobody felt stays open for up to a minute, a ride's end for 12 s.
+"""
 
 from __future__ import annotations
 
-from math import sqrt
+from collections import deque
+from collections.abc import Sequence
+from math import floor
 from typing import Protocol
 
-from attrs import define, field
+from attrs import define, evolve, field
 
-from ..events import ActivityChanged, Event, StepTaken
+from ..events import ActivityChanged, Event, LiftRidden, StepTaken
 from ..foot.tracker import FootTracker
-from ..types import Activity, Sample, Site
+from ..types import Activity, Foot, Sample, Site
 from ..vector import TIE
+from .air import NOTHING, Air
+from .features import BLOCK, REACH, FootWindow
+from .flights import Flights
+from .hypotheses import Evidence, Hypotheses, Segment
+from .motion import MotionModel, shipped
+from .ride import SWAY, Felt
+
+SHARE = 0.6
+"""Neighbouring windows are of the same samples, so each vote counts so much."""
+STRANGE = 3.0
+"""Something that nobody has learnt is as likely as this (minus natural logarithm) for a foot that moves as usual,"""
+USUAL = 6.0
+"""up to this strangeness (motion.py), and ever more likely above."""
+SILENT = 3
+"""Blocks after which a foot is not waited for."""
+PATIENT = 60
+"""Blocks of silence that are gone through one by one."""
+MOVES = 1.0
+"""Variance of |acc| of a foot that does not stand, (m/s^2)^2."""
+MOST = 40.0
+"""A mean force beyond is none of a standing foot, m/s^2."""
+WOBBLE = 1.0
+"""What is not final is not told again because it began this little earlier or later, s."""
+WAITING = 16
+"""Steps that may wait for their activity."""
+AFOOT = {Activity.STAIRS_UP: 1, Activity.STAIRS_DOWN: -1}
+RIDDEN = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
 
 
 class ActivityPart(Protocol):
@@ -32,55 +71,217 @@ class ActivityPart(Protocol):
 
 @define
 class Activities:
-    """Standing, walking and stairs, a window at a time."""
+    """`model`: what was learnt of moving feet; None: what comes with this release."""
 
-    window: float = 2.0
-    """s."""
-    still: float = 0.6
-    """Standard deviation of |acc| over a window of standing, m/s^2."""
+    model: MotionModel | None = None
     # state
     activity: Activity = field(default=Activity.UNKNOWN, init=False)
-    start: float | None = field(default=None, init=False)
-    count: int = field(default=0, init=False)
-    total: float = field(default=0.0, init=False)
-    squares: float = field(default=0.0, init=False)
-    risen: float = field(default=0.0, init=False)
-    gone: float = field(default=0.0, init=False)
+    """The newest that was told, final or not."""
+    origin: float | None = field(default=None, init=False)
+    """When block 0 began, s."""
+    next: int = field(default=0, init=False)
+    """The block that is judged next."""
+    left: FootWindow = field(factory=FootWindow, init=False)
+    right: FootWindow = field(factory=FootWindow, init=False)
+    air: Air = field(factory=Air, init=False)
+    courses: Hypotheses = field(factory=Hypotheses, init=False)
+    told: list[Segment] = field(factory=list, init=False)
+    """What was told and is not final, in the order of time."""
+    flights: Flights = field(factory=Flights, init=False)
+    steps: deque[StepTaken] = field(factory=deque, init=False)
+    """Steps whose activity is not known yet."""
 
     def interrupt(self, site: Site) -> None:
-        """The clock of the samples of a site begins anew."""
-        self.start = None
+        """The clock of the samples of a site begins anew: what is under way there is forgotten."""
+        if site.foot is None:
+            return
+        (self.left if site.foot is Foot.LEFT else self.right).anew()
+        self.flights.interrupt()
+        self.steps.clear()
+        if self.left.index is None and self.right.index is None:
+            self._anew()
 
     def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
         """A foot has used `sample`, and `events` are what came of it."""
-        for event in events:
-            if isinstance(event, StepTaken):
-                self.risen += event.height_change
-                self.gone += event.stride_length
-        if sample.acc is None:
+        acc, t = sample.acc, sample.t
+        side = self.left if foot.foot is Foot.LEFT else self.right
+        if self.origin is None:
+            if acc is None:
+                return []
+            self.origin = t
+        index = floor((t - self.origin + TIE) / BLOCK)
+        told: list[Event] = []
+        if sample.air_pressure is not None and side.index is not None:
+            self.air.add(foot.foot, index, sample.air_pressure)
+        if acc is not None:
+            if side.index is None or index > side.index:
+                side.close()
+                side.begin(index, foot)
+                told = self._judge(sample)
+            side.add(acc, sample.gyro)
+            if sample.gyro is not None and foot.levelled:
+                corrector = foot.corrector
+                side.track(corrector.position[2], corrector.velocity)
+        if events:
+            side.heard(events, foot.corrector.position[2])
+            for event in events:
+                if isinstance(event, StepTaken):
+                    self.steps.append(event)
+                    if len(self.steps) > WAITING:
+                        self.steps.popleft()
+        return told
+
+    def finish(self, known_at: float) -> list[Event]:
+        """Nothing more comes: what was told so far is final, and so is what is said of the last second."""
+        told: list[Event] = []
+        sides = [side for side in (self.left, self.right) if side.index is not None]
+        last = max([side.index for side in sides if side.index is not None], default=-1)
+        for side in sides:
+            side.close()
+        while self.next <= last and last - self.next < PATIENT:
+            self._judge_block(self.next)
+            self.next += 1
+        self._tell(known_at, told, True)
+        return told
+
+    # --- blocks ---
+
+    def _judge(self, sample: Sample) -> list[Event]:
+        """Judge the blocks that are complete in all feet that are heard."""
+        heard = [side.index for side in (self.left, self.right) if side.index is not None]
+        newest = max(heard)
+        complete = min([index for index in heard if newest - index < SILENT]) - 1 - REACH
+        if complete < self.next:
             return []
-        t = sample.t
-        if self.start is None or t < self.start:
-            self.start, self.count, self.total, self.squares, self.risen, self.gone = t, 0, 0.0, 0.0, 0.0, 0.0
-        x, y, z = sample.acc
-        energy = x * x + y * y + z * z
-        self.count += 1
-        self.total += sqrt(energy)
-        self.squares += energy
-        if t - self.start < self.window - TIE or self.count < 4:
-            return []
-        mean = self.total / self.count
-        quiet = self.squares / self.count - mean * mean < self.still * self.still
-        slope = self.risen / max(self.gone, 0.1)
-        told = Activity.WALKING
-        if quiet:
-            told = Activity.STANDING
-        elif abs(slope) > 0.25:
-            told = Activity.STAIRS_UP if slope > 0.0 else Activity.STAIRS_DOWN
-        began, self.start = self.start, None
-        self.risen = self.gone = 0.0
-        if told is self.activity:
-            return []
-        self.activity = told
-        known_at = t if sample.known_at is None else max(t, sample.known_at)
-        return [ActivityChanged(t=began, known_at=known_at, activity=told, probability=None)]
+        known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
+        told: list[Event] = []
+        quiet = 0
+        while self.next <= complete:
+            quiet = 0 if self._judge_block(self.next) else quiet + 1
+            self.next += 1
+            if quiet > PATIENT:
+                self.next = max(self.next, complete - REACH)
+        self._tell(known_at, told)
+        self._count_flights(sample.t, known_at, told)
+        return told
+
+    def _judge_block(self, index: int) -> bool:
+        """Whether anything was heard in it."""
+        t = self._time(index)
+        model = shipped() if self.model is None else self.model
+        motions = [0.0] * 5
+        unknown = 0.0
+        felt: list[Felt | None] = []
+        heard = False
+        for side in (self.left, self.right):
+            features = side.features(index, t + 0.5 * BLOCK)
+            block = side.block(index)
+            if features is None or block is None:
+                felt.append(None)
+                continue
+            heard = True
+            for i, likely in enumerate(model.log_probabilities(features)):
+                motions[i] += SHARE * max(likely, -12.0)
+            unknown += SHARE * min(0.5 * (model.strangeness(features) - USUAL) - STRANGE, 0.0)
+            if block.force < MOST:
+                variance = SWAY * SWAY + 0.15 * min(block.variance, 1e4) + side.grain * side.grain / 12.0
+                felt.append(Felt(block.force, variance, block.variance > MOVES))
+            else:
+                felt.append(None)
+        if not heard:
+            motions = [-1.0] * 5
+        air = self.air
+        climbs = air.climbs(index, BLOCK) if air.blocks else NOTHING
+        self.courses.update(
+            Evidence(
+                t=t,
+                motions=(*motions, unknown),
+                felt=tuple(felt),
+                climbs=climbs,
+                before=air.height(index - 3, index - 1),
+                after=air.height(index, index + REACH),
+            )
+        )
+        return heard
+
+    def _time(self, index: int) -> float:
+        return (0.0 if self.origin is None else self.origin) + index * BLOCK
+
+    def _anew(self) -> None:
+        self.origin = None
+        self.next = 0
+        self.air = Air()
+        self.courses = Hypotheses()
+        self.told = []
+
+    # --- telling ---
+
+    def _tell(self, known_at: float, events: list[Event], at_last: bool = False) -> None:
+        """What is new of the likeliest course; `at_last`: all of it is settled."""
+        courses = self.courses
+        for begun, before in courses.settle(self._time(self.next) + (1e6 if at_last else 0.0)):
+            if before is not None and before.activity in RIDDEN:
+                events.append(
+                    LiftRidden(
+                        t=begun.t, known_at=known_at, t_start=before.t, up=RIDDEN[before.activity], height=before.height
+                    )
+                )
+            revised = self.told[0].t if self.told else None
+            self.told = []
+            events.append(self._changed(begun, known_at, True, revised))
+        best = courses.best
+        if best is None:
+            return
+        open_ = best.path if courses.settled is None else best.path[1:]
+        same = 0
+        for old, new in zip(self.told, open_, strict=False):
+            if old.activity is not new.activity or abs(old.t - new.t) > WOBBLE:
+                break
+            same += 1
+        dropped = self.told[same:]
+        fresh = list(open_[same:])
+        if dropped and not fresh:
+            # nothing takes its place but what went before it
+            last = Segment(dropped[0].t, self._before(same))
+            fresh = [last]
+            events.append(self._changed(last, known_at, False, dropped[0].t))
+            self.told = self.told[:same]
+            return
+        for i, segment in enumerate(fresh):
+            revised = dropped[0].t if dropped and i == 0 else None
+            events.append(self._changed(segment, known_at, False, revised))
+        self.told = [*self.told[:same], *fresh]
+
+    def _before(self, same: int) -> Activity:
+        if same:
+            return self.told[same - 1].activity
+        return Activity.UNKNOWN if self.courses.settled is None else self.courses.settled
+
+    def _changed(self, segment: Segment, known_at: float, final: bool, revises: float | None) -> ActivityChanged:
+        self.activity = segment.activity
+        return ActivityChanged(
+            t=segment.t,
+            known_at=max(known_at, segment.t),
+            final=final,
+            activity=segment.activity,
+            probability=self.courses.probability(segment),
+            revises=revises,
+        )
+
+    # --- flights ---
+
+    def _count_flights(self, t: float, known_at: float, events: list[Event]) -> None:
+        """The steps up to the block that was judged last, each with what the wearer did in its middle."""
+        until = self._time(self.next)
+        best = self.courses.best
+        path: Sequence[Segment] = () if best is None else best.path
+        while self.steps and 0.5 * (self.steps[0].t_start + self.steps[0].t_end) < until:
+            step = self.steps.popleft()
+            middle = 0.5 * (max(step.t_start, step.t_end - 1.6) + step.t_end)
+            doing = Activity.UNKNOWN
+            for segment in path:
+                if segment.t <= middle:
+                    doing = segment.activity
+            known = evolve(step, known_at=max(known_at, step.known_at))
+            events += self.flights.stepped(known, AFOOT.get(doing, 0))
+        events += self.flights.waited(t, known_at)

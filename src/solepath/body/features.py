@@ -1,0 +1,300 @@
+"""What one foot's samples look like, half a second at a time: what activities are told from.
+
+Only lengths of vectors count, so nothing depends on how the sensor is mounted, and shares of samples rather than their
+number, so little depends on the rate. Accelerometers clip at anything from 2 g: |acc| beyond that says the same.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from math import log, sqrt
+
+from attrs import define, field
+
+from ..events import Event, FootFlat, HeelStrike, StepTaken
+from ..foot.tracker import FootTracker
+from ..types import Vec3
+from ..vector import ZERO
+
+BLOCK = 0.5
+"""s."""
+REACH = 2
+"""Blocks before and after the one that is told; five of them are a window of 2.5 s."""
+KEPT = 2 * REACH + 2
+"""Blocks that are kept: the other foot may be one behind."""
+BINS = 10
+"""Of |acc|, 2 m/s^2 each, and of |gyro|, 1 rad/s each; the last one is open."""
+STEPS = 3
+"""Steps that are kept: as many as a window holds of a runner."""
+LONGEST = 1.6
+"""A step that lasted longer began with standing, s."""
+
+GYRO = 4 + BINS
+"""Index of the first feature that needs a gyroscope."""
+TRACK = GYRO + 5 + BINS
+"""Index of the first feature that needs a track."""
+STEP = TRACK + 6
+"""Index of the first feature of a step."""
+COUNT = STEP + 11
+
+
+@define
+class Block:
+    """Means and shares over the samples of one block."""
+
+    index: int
+    count: int
+    acc: Vec3
+    """Mean, m/s^2, sensor frame."""
+    force: float
+    """Mean |acc|, m/s^2."""
+    variance: float
+    """Of |acc|, (m/s^2)^2."""
+    acc_bins: list[int]
+    rates: int
+    """Samples with a gyroscope."""
+    rate: float
+    """Mean square of |gyro|, (rad/s)^2."""
+    gyro_bins: list[int]
+    tracked: bool
+    climb: float
+    """Largest velocity upwards, m/s,"""
+    sink: float
+    """downwards, negative,"""
+    speed: float
+    """and in all."""
+
+
+@define
+class Stepped:
+    """What counts of a step: times in s, lengths in m, m/s, rad."""
+
+    start: float
+    end: float
+    length: float
+    rise: float
+    clearance: float
+    speed: float
+    pitch: float
+    top: float
+    """Highest above where it began,"""
+    bottom: float
+    """lowest,"""
+    strike: float
+    """and at heel-strike."""
+
+
+@define
+class FootWindow:
+    """The newest blocks of one foot. `add` every sample; `close` when a block is over; `features` of a block."""
+
+    # state
+    index: int | None = None
+    """Of the block under way."""
+    count: int = 0
+    sums: Vec3 = ZERO
+    force: float = 0.0
+    squares: float = 0.0
+    acc_bins: list[int] = field(factory=lambda: [0] * BINS)
+    rates: int = 0
+    rate_squares: float = 0.0
+    gyro_bins: list[int] = field(factory=lambda: [0] * BINS)
+    bias: Vec3 = ZERO
+    """Of the gyroscope, rad/s, as the foot had it when the block began."""
+    grain: float = 0.0
+    """What a count of its accelerometer is worth, m/s^2; 0 when nobody knows."""
+    tracked: bool = False
+    climb: float = 0.0
+    sink: float = 0.0
+    speed: float = 0.0
+    flat: float = 0.0
+    """Height at the last foot-flat, navigation frame, m."""
+    top: float = 0.0
+    bottom: float = 0.0
+    struck: float | None = None
+    blocks: deque[Block] = field(factory=deque)
+    """The newest, at most `KEPT`, oldest first."""
+    steps: deque[Stepped] = field(factory=deque)
+
+    def begin(self, index: int, foot: FootTracker) -> None:
+        """A block begins."""
+        self.index = index
+        self.count = self.rates = 0
+        self.sums = ZERO
+        self.force = self.squares = self.rate_squares = 0.0
+        self.acc_bins = [0] * BINS
+        self.gyro_bins = [0] * BINS
+        self.bias = foot.rest.bias
+        self.grain = foot.rest.grain if foot.rest.count else 0.0
+        self.tracked = False
+        self.climb = self.sink = self.speed = 0.0
+
+    def add(self, acc: Vec3, gyro: Vec3 | None) -> None:
+        """A sample of the block under way."""
+        x, y, z = acc
+        square = x * x + y * y + z * z
+        length = sqrt(square)
+        sx, sy, sz = self.sums
+        self.sums = (sx + x, sy + y, sz + z)
+        self.count += 1
+        self.force += length
+        self.squares += square
+        self.acc_bins[int(length * 0.5) if length < 2.0 * BINS else BINS - 1] += 1
+        if gyro is not None:
+            x, y, z = gyro
+            bx, by, bz = self.bias
+            x -= bx
+            y -= by
+            z -= bz
+            square = x * x + y * y + z * z
+            self.rates += 1
+            self.rate_squares += square
+            self.gyro_bins[int(sqrt(square)) if square < BINS * BINS else BINS - 1] += 1
+
+    def track(self, height: float, velocity: Vec3) -> None:
+        """Where the foot is after the sample: m above anything, and m/s, z up."""
+        self.tracked = True
+        vx, vy, vz = velocity
+        if vz > self.climb:
+            self.climb = vz
+        elif vz < self.sink:
+            self.sink = vz
+        speed = vx * vx + vy * vy
+        if speed > self.speed:
+            self.speed = speed
+        if height > self.top:
+            self.top = height
+        elif height < self.bottom:
+            self.bottom = height
+
+    def heard(self, events: list[Event], height: float) -> None:
+        """What came of the sample, and how high the foot is, m."""
+        for event in events:
+            if isinstance(event, StepTaken):
+                self._stepped(event)
+            elif isinstance(event, HeelStrike):
+                self.struck = height
+        for event in events:
+            if isinstance(event, FootFlat):
+                self.flat = self.top = self.bottom = height
+                self.struck = None
+
+    def close(self) -> None:
+        """The block under way is over."""
+        if self.index is None or not self.count:
+            return
+        n = self.count
+        (x, y, z), mean = self.sums, self.force / n
+        self.blocks.append(
+            Block(
+                self.index,
+                n,
+                (x / n, y / n, z / n),
+                mean,
+                max(0.0, self.squares / n - mean * mean),
+                self.acc_bins,
+                self.rates,
+                self.rate_squares / self.rates if self.rates else 0.0,
+                self.gyro_bins,
+                self.tracked,
+                self.climb,
+                self.sink,
+                sqrt(self.speed),
+            )
+        )
+        if len(self.blocks) > KEPT:
+            self.blocks.popleft()
+
+    def _stepped(self, step: StepTaken) -> None:
+        seen = step.features
+        self.steps.append(
+            Stepped(
+                step.t_start, step.t_end, step.stride_length, step.height_change, seen.clearance, seen.peak_speed,
+                seen.swing_pitch, self.top - self.flat, self.bottom - self.flat,
+                (self.struck if self.struck is not None else self.flat) - self.flat,
+            )
+        )  # fmt: skip
+        if len(self.steps) > STEPS:
+            self.steps.popleft()
+
+    def anew(self) -> None:
+        """Times begin anew."""
+        self.index = None
+        self.count = 0
+        self.blocks.clear()
+        self.steps.clear()
+
+    def block(self, index: int) -> Block | None:
+        """The block of that number; None when nothing was heard in it."""
+        for block in self.blocks:
+            if block.index == index:
+                return block
+        return None
+
+    def features(self, index: int, t: float) -> list[float] | None:
+        """Of the block of that number, whose middle is at `t` s, with `REACH` blocks before and after it; None when
+        nothing was heard in it. `COUNT` numbers of the order of 1; what is not known is 0."""
+        here = self.block(index)
+        if here is None:
+            return None
+        near = [block for block in self.blocks if abs(block.index - index) <= REACH]
+        told = [0.0] * COUNT
+        whole = sum([block.count for block in near])
+        told[0] = _logarithm(here.variance)
+        told[1] = _logarithm(min([block.variance for block in near]))
+        told[2] = _logarithm(max([block.variance for block in near]))
+        mean = sum([block.force * block.count for block in near]) / whole
+        squares = sum([(block.variance + block.force * block.force) * block.count for block in near]) / whole
+        told[3] = _logarithm(max(0.0, squares - mean * mean))
+        for block in near:
+            for i, n in enumerate(block.acc_bins):
+                told[4 + i] += n / whole
+        turned = [block for block in near if block.rates]
+        if turned:
+            rates = sum([block.rates for block in turned])
+            told[GYRO] = 1.0
+            told[GYRO + 1] = _logarithm(here.rate if here.rates else turned[0].rate)
+            told[GYRO + 2] = _logarithm(min([block.rate for block in turned]))
+            told[GYRO + 3] = _logarithm(max([block.rate for block in turned]))
+            told[GYRO + 4] = _logarithm(sum([block.rate * block.rates for block in turned]) / rates)
+            for block in turned:
+                for i, n in enumerate(block.gyro_bins):
+                    told[GYRO + 5 + i] += n / rates
+        tracked = [block for block in near if block.tracked]
+        if tracked:
+            told[TRACK] = 1.0
+            told[TRACK + 1] = min(max([block.climb for block in tracked]), 3.0)
+            told[TRACK + 2] = max(min([block.sink for block in tracked]), -3.0)
+            told[TRACK + 3] = 0.5 * min(max([block.speed for block in tracked]), 6.0)
+            told[TRACK + 4] = min(here.climb, 3.0)
+            told[TRACK + 5] = max(here.sink, -3.0)
+        step = self._step(t)
+        if step is not None:
+            lasted = step.end - step.start
+            told[STEP] = 1.0
+            told[STEP + 1] = min(lasted, 2.0)
+            told[STEP + 2] = min(step.length, 2.0)
+            told[STEP + 3] = 2.0 * min(max(step.rise, -0.6), 0.6)
+            told[STEP + 4] = 2.0 * min(max(step.clearance, 0.0), 0.5)
+            told[STEP + 5] = 0.5 * min(step.speed, 6.0)
+            told[STEP + 6] = min(step.pitch, 3.0)
+            told[STEP + 7] = min(max(step.rise / max(step.length, 0.2), -1.0), 1.0)
+            told[STEP + 8] = 2.0 * min(max(step.top, -0.6), 0.6)
+            told[STEP + 9] = 2.0 * min(max(step.bottom, -0.6), 0.6)
+            told[STEP + 10] = 2.0 * min(max(step.strike, -0.6), 0.6)
+        return told
+
+    def _step(self, t: float) -> Stepped | None:
+        """The step that was under way at `t` s, or was a quarter of a second off."""
+        best, nearest = None, 0.5 * BLOCK
+        for step in self.steps:
+            start = max(step.start, step.end - LONGEST)
+            away = max(start - t, t - step.end, 0.0)
+            if away <= nearest:
+                best, nearest = step, away
+        return best
+
+
+def _logarithm(variance: float) -> float:
+    """Of a variance: about -1 at rest and 1 in a run."""
+    return 0.25 * log(min(max(variance, 1e-4), 1e4))
