@@ -1,0 +1,308 @@
+"""Walks through BUILDING, with the truth of where the wearer is on its plan.
+
+    way = wandering(seed=7)
+    walker = Walker(way.route, seed=7)
+    session = Session(recipe, floorplan=BUILDING, start=way.start)
+    way.places(walker, t)
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from itertools import pairwise
+from math import atan2, cos, hypot, pi, sin, tan
+
+import numpy as np
+from attrs import define, frozen
+
+from ..floorplan.plan import Point, Start
+from ..types import Foot
+from .building import (
+    APPROACH,
+    BUILDING,
+    CABINS,
+    COLUMNS,
+    GOING,
+    GROUND,
+    LANE,
+    NORTH,
+    RISE,
+    ROWS,
+    STEPS,
+    STOREY,
+    UPPER,
+    WELLS,
+    Cabin,
+    Well,
+    in_well,
+)
+from .curves import Array
+from .route import TIGHT_TURN, Route
+from .shoe import Mounting
+from .stairs import DOWN, UP
+from .walker import Walker
+
+STILL = 2.0
+"""s of standing at the beginning and at the end."""
+SPEED = 1.3
+"""m/s."""
+CORNER = 0.9
+"""m: radius at which corners of corridors are walked."""
+TURNING = 5.6
+"""m inside the door of a stairwell where the turn on its landing begins."""
+ASTRAY = 0.3
+"""m: how far off the middle of the corridors a wanderer walks, at the most."""
+FEWEST, MOST = 3, 7
+"""Corners of a wandering before it turns to the way out."""
+RUN_UP = 4.0
+"""m walked along the corridor before and after stairs on the floor that is not wandered on."""
+OTHER = {GROUND: UPPER, UPPER: GROUND}
+_ELEVATION = {level.id: level.elevation for level in BUILDING.levels}
+
+Exit = Cabin | Well
+
+
+@frozen
+class Way:
+    """A route through the building: where and how it sets out, and by which lift or stairs it comes to the floor
+    `level` and leaves it; "" where it stays there."""
+
+    route: Route
+    start: Start
+    level: str
+    came: str = ""
+    left: str = ""
+
+    def places(self, walker: Walker, t: Array | float) -> list[tuple[str, float, float]]:
+        """Level, x and y (m, plan frame) of the middle between both ankles at instants `t`, s. In a lift and on stairs
+        it is the level that is nearer."""
+        when = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        x, y = self.track(walker, when).T
+        high = _ELEVATION[self.start.level] + walker.truth().elevation(when)
+        levels = [min(_ELEVATION, key=lambda name: abs(_ELEVATION[name] - z)) for z in high.tolist()]
+        return list(zip(levels, x.tolist(), y.tolist(), strict=True))
+
+    def track(self, walker: Walker, t: Array) -> Array:
+        """x and y of the same, (N, 2)."""
+        ankle = Mounting((walker.wearer.shoe.ankle[0], 0.0, 0.0))
+        middle = 0.5 * sum(walker.kinematics(foot, t, ankle).position[:, :2] for foot in Foot)
+        heading = self.start.heading or 0.0
+        c, s = cos(heading), sin(heading)
+        return np.asarray(middle @ np.array([[c, s], [-s, c]]) + np.array(self.start.place))
+
+
+def case_study() -> Way:
+    """As in section V-F of Liu et al. 2015: down by the lift at the bottom left, along corridors, and away by another
+    lift. The paper gives no measures; this one turns five times on the floor."""
+    a, b = CABINS[:2]
+    course = _course(UPPER, a.middle, a.out)
+    course.stand()
+    course.ride()
+    west, middle, east = COLUMNS
+    south, centre, _ = ROWS
+    bends = ((west, a.middle[1]), (west, south), (middle, south), (middle, centre), (east, centre), (east, b.middle[1]))
+    course.along([*bends, b.middle])
+    course.face(b.out)
+    course.ride()
+    return course.done(GROUND, a.name, b.name)
+
+
+def corridor() -> Way:
+    """63 m straight on from door to door, as the long corridor of section V-D."""
+    course = _course(GROUND, (COLUMNS[0], 0.0), 0.5 * pi)
+    course.stand()
+    course.along([(COLUMNS[0], NORTH)])
+    return course.done(GROUND)
+
+
+def wandering(seed: int) -> Way:
+    """Comes to a floor by a lift or stairs, walks along corridors, leaves by another lift or stairs; `seed` draws it."""
+    rng = np.random.default_rng([seed, 5])
+    level = (GROUND, UPPER)[int(rng.integers(2))]
+    exits: list[Exit] = [*CABINS, *WELLS]
+    one, other = (exits[int(k)] for k in rng.choice(len(exits), 2, replace=False))
+    off = rng.uniform(-ASTRAY, ASTRAY, 2)
+    dx, dy = float(off[0]), float(off[1])
+    course = _arriving(one, level, dx, dy)
+    begin, end = _beside(one, level, dx, dy), _beside(other, level, dx, dy)
+    course.along([*_strolled(_network(dx, dy, begin, end), begin, end, rng), _inside(other, level)])
+    _leaving(course, other, level, dx, dy)
+    return course.done(level, one.name, other.name)
+
+
+# --- corridors --------------------------------------------------------------------------------------------------------
+
+
+def _lane(well: Well, level: str) -> float:
+    """To the left of a stairwell's middle: the lane that ends, and begins, on this level."""
+    return -LANE if level == GROUND else LANE
+
+
+def _inside(one: Exit, level: str) -> Point:
+    """Where one stands in a cabin, or before the first edge of the stairs."""
+    if isinstance(one, Cabin):
+        return one.middle
+    return in_well(one, APPROACH - (UP if level == GROUND else DOWN), _lane(one, level))
+
+
+def _beside(one: Exit, level: str, dx: float, dy: float) -> Point:
+    """Where one turns into a cabin or a stairwell, on the line along which its corridor is walked."""
+    x, y = _inside(one, level)
+    heading = one.out if isinstance(one, Cabin) else one.inward
+    if abs(cos(heading)) > 0.5:
+        return (min(COLUMNS, key=lambda column: abs(column - x)) + dx, y)
+    return (x, min(ROWS, key=lambda row: abs(row - y)) + dy)
+
+
+def _network(dx: float, dy: float, *turnings: Point) -> dict[Point, list[Point]]:
+    """Crossings and turnings, and which are next to each other along a corridor."""
+    columns, rows = [x + dx for x in COLUMNS], [y + dy for y in ROWS]
+    places = {*turnings, *((x, y) for x in columns for y in rows)}
+    nodes: dict[Point, list[Point]] = {place: [] for place in sorted(places)}
+    lines = [sorted(place for place in places if place[0] == x) for x in columns]
+    lines += [sorted(place for place in places if place[1] == y) for y in rows]
+    for line in lines:
+        for one, other in pairwise(line):
+            nodes[one].append(other)
+            nodes[other].append(one)
+    return nodes
+
+
+def _strolled(nodes: dict[Point, list[Point]], begin: Point, end: Point, rng: np.random.Generator) -> list[Point]:
+    """From turning to turning without going back: at random for some corners, and then by the fewest places."""
+    path = [begin, nodes[begin][int(rng.integers(len(nodes[begin])))]]
+    corners = int(rng.integers(FEWEST, MOST + 1))
+    while corners > 0 or path[-1] == end:
+        onward = _onward(nodes, path)
+        path.append(onward[int(rng.integers(len(onward)))])
+        corners -= len(path) > 2 and not _straight(*path[-3:])
+    ways = deque([path[-2:]])
+    known = {(path[-2], path[-1])}
+    while ways[0][-1] != end:
+        way = ways.popleft()
+        for place in _onward(nodes, way):
+            if (way[-1], place) not in known:
+                known.add((way[-1], place))
+                ways.append([*way, place])
+    return [*path[:-2], *ways[0]]
+
+
+def _onward(nodes: dict[Point, list[Point]], path: list[Point]) -> list[Point]:
+    """Where to go next: not back, but from a corridor's end."""
+    return [place for place in nodes[path[-1]] if place != path[-2]] or [path[-2]]
+
+
+def _straight(a: Point, b: Point, c: Point) -> bool:
+    return a[0] == b[0] == c[0] or a[1] == b[1] == c[1]
+
+
+# --- stairs and lifts -------------------------------------------------------------------------------------------------
+
+
+def _arriving(one: Exit, level: str, dx: float, dy: float) -> _Course:
+    """From the other floor to this one; the course then is where one comes out."""
+    if isinstance(one, Cabin):
+        course = _course(OTHER[level], one.middle, one.out)
+        course.stand()
+        course.ride()
+        return course
+    inside, turning = _inside(one, OTHER[level]), _beside(one, OTHER[level], dx, dy)
+    if one.inward == pi:
+        course = _course(OTHER[level], (turning[0], turning[1] - RUN_UP), 0.5 * pi)
+    else:
+        course = _course(OTHER[level], (turning[0] - RUN_UP, turning[1]), 0.0)
+    course.stand()
+    course.along([turning, inside])
+    course.climb(up=level == UPPER)
+    return course
+
+
+def _leaving(course: _Course, other: Exit, level: str, dx: float, dy: float) -> None:
+    """From inside a cabin or before the first edge to the other floor."""
+    if isinstance(other, Cabin):
+        course.face(other.out)
+        course.ride()
+        return
+    course.climb(up=level == GROUND)
+    x, y = _beside(other, OTHER[level], dx, dy)
+    course.along([(x, y), (x, y - RUN_UP) if other.inward == pi else (x - RUN_UP, y)])
+
+
+def _course(level: str, at: Point, heading: float) -> _Course:
+    return _Course(level, at, heading, Start(level, at, heading))
+
+
+@define
+class _Course:
+    """A route under way: the level, the place and the heading where it has come to."""
+
+    level: str
+    at: Point
+    heading: float
+    start: Start
+    route: Route = Route(speed=SPEED)
+
+    def stand(self) -> None:
+        self.route = self.route.stand(STILL)
+
+    def ride(self) -> None:
+        """To the other floor."""
+        self.route = self.route.lift(STOREY if self.level == GROUND else -STOREY)
+        self.level = OTHER[self.level]
+
+    def face(self, heading: float) -> None:
+        """Turn on the spot."""
+        self.route = self.route.turn(_wrapped(heading - self.heading))
+        self.heading = heading
+
+    def ahead(self, distance: float) -> None:
+        self.route = self.route.walk(distance, SPEED)
+        x, y = self.at
+        self.at = (x + distance * cos(self.heading), y + distance * sin(self.heading))
+
+    def bend(self, angle: float, radius: float) -> None:
+        self.route = self.route.turn(angle, radius, min(SPEED, TIGHT_TURN if radius < 1.0 else SPEED))
+        chord, way = 2.0 * radius * abs(sin(0.5 * angle)), self.heading + 0.5 * angle
+        self.at = (self.at[0] + chord * cos(way), self.at[1] + chord * sin(way))
+        self.heading += angle
+
+    def along(self, points: list[Point]) -> None:
+        """From place to place, the corners between them rounded; the first one lies straight ahead."""
+        for k, (x, y) in enumerate(points):
+            away = hypot(x - self.at[0], y - self.at[1])
+            if k + 1 == len(points):
+                self.ahead(away)
+                return
+            onward = atan2(points[k + 1][1] - y, points[k + 1][0] - x)
+            angle = _wrapped(onward - self.heading)
+            if abs(angle) > pi - 0.1:
+                self.ahead(away)
+                self.face(onward)
+            elif abs(angle) > 1e-9:
+                self.ahead(away - CORNER * tan(0.5 * abs(angle)))
+                self.bend(angle, CORNER)
+            elif away > 0.0:
+                self.ahead(away)
+
+    def climb(self, up: bool) -> None:
+        """Two flights and the landing between them, turned in to the left upwards and to the right downwards."""
+        edge, far = (UP if up else DOWN), APPROACH + (STEPS - 1) * GOING
+        self.flight(up)
+        self.ahead(TURNING - (APPROACH - edge + STEPS * GOING))
+        self.bend(pi if up else -pi, LANE)
+        self.ahead(TURNING - (far + edge))
+        self.flight(up)
+        self.level = OTHER[self.level]
+
+    def flight(self, up: bool) -> None:
+        self.route = self.route.stairs(STEPS, up, RISE, GOING)
+        x, y = self.at
+        self.at = (x + STEPS * GOING * cos(self.heading), y + STEPS * GOING * sin(self.heading))
+
+    def done(self, level: str, came: str = "", left: str = "") -> Way:
+        self.stand()
+        return Way(self.route, self.start, level, came, left)
+
+
+def _wrapped(angle: float) -> float:
+    return atan2(sin(angle), cos(angle))
