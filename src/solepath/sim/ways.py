@@ -116,7 +116,7 @@ def corridor() -> Way:
 
 
 def wandering(seed: int) -> Way:
-    """Comes to a floor by a lift or stairs, walks along corridors, leaves by another lift or stairs; `seed` draws it."""
+    """Comes to a floor by a lift or stairs, walks along corridors and leaves by another; drawn from `seed`."""
     rng = np.random.default_rng([seed, 5])
     level = (GROUND, UPPER)[int(rng.integers(2))]
     exits: list[Exit] = [*CABINS, *WELLS]
