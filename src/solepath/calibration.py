@@ -96,7 +96,8 @@ class Calibration:
     `drift`: slope of a foot's position, m/s (x, y), in the world of the device where it tells its attitude, and else in
     the navigation frame, whose heading is that of the sensor at the start: then it holds for walks that start as the
     calibration did. `weight`: of the wearer, N.
-    `modes`: compensation of a touchdown by foot and walking mode, (forward, left), m.
+    `modes`: compensation of a touchdown by foot and walking mode, (forward, left), m. `toe_out`: from a foot's way to
+    where it points, outwards positive, rad (Liu et al. 2016, equation (1)).
     """
 
     insoles: dict[Foot, InsoleCalibration] = field(factory=dict)
@@ -105,6 +106,7 @@ class Calibration:
     limbs: Limbs | None = None
     weight: float | None = None
     modes: dict[Foot, dict[WalkingMode, tuple[float, float]]] | None = None
+    toe_out: dict[Foot, float] = field(factory=dict)
 
     def insole(self, foot: Foot) -> InsoleCalibration:
         """Of this foot's insole; an empty one where none is known."""
@@ -121,10 +123,12 @@ def merged(known: Calibration, newer: Calibration) -> Calibration:
             before = evolve(before, noise=())  # it was measured in another unit
         insoles[foot] = _over(before, insole)
     drift = {**known.drift, **newer.drift}
+    toe_out = {**known.toe_out, **newer.toe_out}
     return evolve(
         _over(known, newer),
         insoles={foot: insoles[foot] for foot in Foot if foot in insoles},
         drift={foot: drift[foot] for foot in Foot if foot in drift},
+        toe_out={foot: toe_out[foot] for foot in Foot if foot in toe_out},
     )
 
 
@@ -160,8 +164,11 @@ def read_calibration(path: Path | str) -> Calibration:
         raise CalibrationError(f"{path}: is not a calibration")
     if told.get("version") != VERSION:
         raise CalibrationError(f"{path}: is of version {told.get('version')!r}; this release reads {VERSION}")
+    what = told.get("calibration")
+    if isinstance(what, dict):
+        what.setdefault("toe_out", {})  # files from before there was one are good
     try:
-        found = load(Calibration, told.get("calibration"))
+        found = load(Calibration, what)
     except SnapshotError as error:
         what = str(error).removeprefix("not a snapshot of Calibration: ")
         raise CalibrationError(f"{path}: is not a calibration ({what})") from None
@@ -214,6 +221,8 @@ def _limits(calibration: Calibration) -> Iterator[_Limit]:
             yield from ((f"shoe.{key}", coefficient, -100.0, 100.0, "") for coefficient in polynomial)
     for foot, slope in calibration.drift.items():
         yield from ((f"drift.{foot.value}", speed, -1.0, 1.0, " m/s") for speed in slope)
+    for foot, angle in calibration.toe_out.items():
+        yield f"toe_out.{foot.value}", angle, -1.0, 1.0, " rad"
     if calibration.limbs is not None:
         for one in fields(Limbs):
             yield f"limbs.{one.name}", getattr(calibration.limbs, one.name), 0.001, 1.5, " m"

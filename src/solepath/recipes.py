@@ -7,6 +7,7 @@ from attrs import field, frozen
 from .body.activity import Activities
 from .body.compensation import TABLE_1
 from .body.footstep_activity import TwoSecondWindows
+from .body.footsteps import Footsteps
 from .body.fusion import DoubleFoot
 from .body.modes import Modes
 from .body.particles import Particles
@@ -17,6 +18,7 @@ from .body.walking_state import AnglePerMetre
 from .foot.bias_zupt import BiasZupt
 from .foot.contour_stance import ContourVelocity, GyroscopeMagnitude
 from .foot.cop_cues import CopCues
+from .foot.critical_cues import CriticalCues
 from .foot.cycle import Cycle
 from .foot.dedrift import LinearDedrift
 from .foot.eskf import ErrorStateFilter
@@ -24,11 +26,13 @@ from .foot.gait_cues import GaitCues
 from .foot.gated_tilt import ShoeSensing
 from .foot.known_velocity import KnownVelocity
 from .foot.pressure import Insole
+from .foot.projection import Projection
 from .foot.short_time_energy import AccelerationMagnitude, ShortTimeEnergy
+from .foot.static_zones import StaticZones
 from .foot.swing_dedrift import SwingDedrift
 from .foot.tracker import AnyCorrector, AnyCues, AnyDetector
 
-AnyBody = MeanOfFeet | DoubleFoot | Modes
+AnyBody = MeanOfFeet | DoubleFoot | Modes | Footsteps
 AnyActivity = Activities | AnglePerMetre | TwoSecondWindows
 AnyPlace = Particles | SnakeGame
 
@@ -109,6 +113,17 @@ SHOE_MAGNITUDE = Recipe(
 )
 """The same with stance where the acceleration is as large as gravity: what Li et al. compare with."""
 
+FOOTSTEP_TRACKER = Recipe(
+    "footstep-tracker",
+    StaticZones(),
+    Projection(),
+    CriticalCues(),
+    body=Footsteps(),
+    activity=TwoSecondWindows(),
+    place=SnakeGame(),
+)
+"""Liu et al. 2016: steps between static zones, projected onto the ground; turns; candidate traces on a floor plan."""
+
 BY_NAME: dict[str, Recipe] = {
     recipe.name: recipe
     for recipe in (
@@ -122,6 +137,7 @@ BY_NAME: dict[str, Recipe] = {
         TOUCHDOWN_HEIGHT,
         TOUCHDOWN_ACCELERATION,
         TOUCHDOWN_PRESSURE,
+        FOOTSTEP_TRACKER,
         SHOE_SENSING,
         SHOE_MAGNITUDE,
     )

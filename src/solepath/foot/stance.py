@@ -22,6 +22,7 @@ from attrs import define, field, frozen
 
 from ..types import Phase, Quat, Vec3
 from ..vector import GRAVITY, IDENTITY, ZERO
+from .segment import Segment
 
 
 @frozen
@@ -52,6 +53,8 @@ class Stance(NamedTuple):
     """The detector's own statistic; its unit is the detector's."""
     hint: Phase | None
     """STATIONARY where the detector is certain, SWING where it is certain of the opposite, otherwise None."""
+    segment: Segment | None = None
+    """The step that ends with this sample, from a detector that cuts the samples into steps."""
 
 
 class Detector(Protocol):

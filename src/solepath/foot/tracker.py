@@ -17,6 +17,7 @@ from .attitude import Levelling, Rest, suspected
 from .bias_zupt import BiasZupt
 from .contour_stance import ContourVelocity, GyroscopeMagnitude
 from .cop_cues import CopCues
+from .critical_cues import CriticalCues
 from .crossing import cross
 from .cues import Seen
 from .cycle import Cycle
@@ -31,11 +32,13 @@ from .limits import WITHOUT, Limits
 from .navigate import LONGEST_BRIDGE
 from .pressure import Insole
 from .pressure_stance import MaximumPressure, TwoArea
+from .projection import Projection
 from .refusal import refusal, rejected
 from .rhythm import Rhythm
 from .short_time_energy import AccelerationMagnitude, ShortTimeEnergy
 from .sole import Sole
 from .stance import AngularRate, Graph, Load, MovingVariance, Shoe
+from .static_zones import StaticZones
 from .swing_dedrift import SwingDedrift
 from .world import Covariance3
 
@@ -50,11 +53,12 @@ AnyDetector = (
     | ContourVelocity
     | GyroscopeMagnitude
     | KnownVelocity
+    | StaticZones
     | ShortTimeEnergy
     | AccelerationMagnitude
 )
-AnyCorrector = ErrorStateFilter | LinearDedrift | SwingDedrift | BiasZupt | ShoeSensing
-AnyCues = GaitCues | CopCues
+AnyCorrector = ErrorStateFilter | LinearDedrift | SwingDedrift | BiasZupt | ShoeSensing | Projection
+AnyCues = GaitCues | CopCues | CriticalCues
 
 STILL = 0.35
 """A foot that is faster than this after the correction is not flat, however much noise the evidence has, m/s."""
@@ -245,6 +249,9 @@ class FootTracker:
     ) -> None:
         if self.rest.update(t, acc, gyro):
             self._check_scale(t, known_at, events)
+            scaled = getattr(self.detector, "scaled", None)
+            if scaled is not None:
+                scaled(self.rest.scale)
         acc, gyro = self._calibrated(acc, gyro)
         corrector, gait = self.corrector, self.gait
         if self.levelled:

@@ -1,0 +1,108 @@
+"""Turns of the body from the steps of its feet (Liu et al. 2016, footstep-tracker, section IV.D).
+
+Turning steps are told from steps straight on (foot/turning_steps.py). "For a n-step turning process, we then sum the
+alpha_i up to get the turning degree alpha for one foot. Then we use the mean of the two feet as the turning degree."
+By theorem 1 the feet may point anywhere, as long as they keep doing so. Works on the steps of any recipe.
+"""
+
+from __future__ import annotations
+
+from attrs import define, field, frozen
+
+from ..events import StepTaken
+from ..foot.turning_steps import TurningSteps
+from ..types import Foot
+
+ALONE = 1.5
+"""A foot that has not stepped for so long before a turn's end has no part in the turn, s."""
+STANDS = 1.2
+"""Who turns and then stands has turned, when no foot has come down for so long, s."""
+
+
+@frozen
+class Turned:
+    """A turning process that is over. `left`, `right`: sum of each foot's turns, rad; None of a foot not heard."""
+
+    t_start: float
+    t_end: float
+    left: float | None
+    right: float | None
+
+    @property
+    def angle(self) -> float:
+        """Mean of the feet that were heard, rad, counter-clockwise positive."""
+        known = [one for one in (self.left, self.right) if one is not None]
+        return sum(known) / len(known)
+
+
+@define
+class FootTurn:
+    """What one foot turned so far in the turning process under way."""
+
+    turning: TurningSteps = field(factory=TurningSteps)
+    stepped: float | None = None
+    """When its last step ended, s."""
+    angle: float = 0.0
+    """rad."""
+    straight: int = 0
+    """Steps straight on since its last turning step."""
+
+
+@define
+class Direction:
+    """Steps in, whole turns out. Latency: a turn is known when both feet have gone straight on by one step (one step of
+    each, two where only one is heard), or have stood for `STANDS`."""
+
+    # state
+    left: FootTurn = field(factory=FootTurn, init=False)
+    right: FootTurn = field(factory=FootTurn, init=False)
+    began: float | None = field(default=None, init=False)
+    """When the first turning step of the process did, s; None while the wearer goes straight on."""
+    ended: float = field(default=0.0, init=False)
+    """When the last one did, s."""
+
+    def step(self, taken: StepTaken) -> Turned | None:
+        """One step of either foot, in the order in which they became known; the turn that is over by it."""
+        foot, other = (self.left, self.right) if taken.foot is Foot.LEFT else (self.right, self.left)
+        angle = foot.turning.turn(taken.heading_change)
+        foot.stepped = taken.t_end
+        if angle != 0.0:
+            over = None
+            if self.began is not None and taken.t_start - self.ended > STANDS:
+                over = self._over()
+            if self.began is None:
+                self.began = self.ended = taken.t_start
+                foot.angle = other.angle = 0.0
+            foot.angle += angle
+            foot.straight = other.straight = 0
+            self.ended = max(self.ended, taken.t_end)
+            return over
+        foot.straight += 1
+        if self.began is None:
+            return None
+        alone = other.stepped is None or taken.t_end - other.stepped > ALONE
+        return self._over() if (foot.straight > 1 if alone else other.straight > 0) or foot.straight > 2 else None
+
+    def stood(self, t: float) -> Turned | None:
+        """It is `t` s; the turn that is over because nobody has stepped since."""
+        if self.began is None or t - self.ended <= STANDS:
+            return None
+        newest = max(-1e12 if foot.stepped is None else foot.stepped for foot in (self.left, self.right))
+        return self._over() if t - newest > STANDS else None
+
+    def interrupt(self, foot: Foot) -> None:
+        """The clock of a foot begins anew: a turn under way has no length, and is forgotten."""
+        self.began = None
+        (self.left if foot is Foot.LEFT else self.right).stepped = None
+
+    def _over(self) -> Turned:
+        began = self.ended if self.began is None else self.began
+        found = Turned(began, self.ended, self._part(self.left, began), self._part(self.right, began))
+        self.began = None
+        self.left.angle = self.right.angle = 0.0
+        self.left.straight = self.right.straight = 0
+        return found
+
+    @staticmethod
+    def _part(foot: FootTurn, began: float) -> float | None:
+        return None if foot.stepped is None or foot.stepped < began else foot.angle

@@ -1,0 +1,88 @@
+"""Left, right and about turns, told apart by a linear classifier on what both feet turned (Liu et al. 2016,
+footstep-tracker, section V.E: "we use the degree of both foot as features of the turn, and use SVM").
+
+An about turn to the left and one to the right lie on both sides of everything else, which no line through the plane of
+two angles parts; with their magnitudes beside them one does. Features of a turn, in half turns (rad / pi):
+left, right, |left|, |right|, 1. The class is that of the largest of three linear functions of them. The weights come
+from `python -m solepath.train.turns`, which says what they were trained on; of a foot that was not heard the other's
+angle is taken.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+from attrs import define, field
+
+from ..events import Event, StepTaken, TurnMade
+from ..foot.tracker import FootTracker
+from ..types import Sample, Site, Turn
+from .direction import Direction, Turned
+
+SLIGHT = 0.61
+"""A turn by less than this is a bend and none of the three: half-way between 0 and the 70 degrees that the slightest
+turns to the side come to, rad."""
+
+WEIGHTS: dict[Turn, tuple[float, float, float, float, float]] = {
+    Turn.LEFT: (1.0, 1.0, -1.0, -1.0, 1.0),
+    Turn.RIGHT: (-1.0, -1.0, -1.0, -1.0, 1.0),
+    Turn.ABOUT: (0.0, 0.0, 1.0, 1.0, -0.5),
+}
+
+
+def features(left: float, right: float) -> tuple[float, float, float, float, float]:
+    """Of what the feet turned, rad."""
+    x, y = left / pi, right / pi
+    return (x, y, abs(x), abs(y), 1.0)
+
+
+def classified(left: float | None, right: float | None) -> Turn | None:
+    """The class of a turn by what each foot turned, rad; None of a slight one."""
+    one = right if left is None else left
+    other = left if right is None else right
+    if one is None or other is None or abs(one + other) < 2.0 * SLIGHT:
+        return None
+    known = features(one, other)
+    scores = {turn: sum(w * x for w, x in zip(weights, known, strict=True)) for turn, weights in WEIGHTS.items()}
+    return max(scores, key=lambda turn: scores[turn])
+
+
+@define
+class Turns:
+    """What the wearer's steps turned. Latency: as `Direction` has it."""
+
+    # state
+    direction: Direction = field(factory=Direction, init=False)
+
+    def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[TurnMade]:
+        """The turns that are over: `events` are what came of `sample`."""
+        found: list[Turned] = []
+        known_at = sample.t
+        for event in events:
+            if isinstance(event, StepTaken):
+                known_at = event.known_at
+                turned = self.direction.step(event)
+                if turned is not None:
+                    found.append(turned)
+        if not found and self.direction.began is not None:
+            turned = self.direction.stood(sample.t)
+            if turned is not None:
+                known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
+                found.append(turned)
+        return [made(turned, known_at) for turned in found if abs(turned.angle) > 0.5 * SLIGHT]
+
+    def interrupt(self, site: Site) -> None:
+        """The clock of a site's samples begins anew."""
+        if site.foot is not None:
+            self.direction.interrupt(site.foot)
+
+
+def made(turned: Turned, known_at: float) -> TurnMade:
+    """The event of a turn that was known at `known_at`, s."""
+    return TurnMade(
+        t=turned.t_end,
+        known_at=max(known_at, turned.t_end),
+        t_start=turned.t_start,
+        angle=turned.angle,
+        turn=classified(turned.left, turned.right),
+    )

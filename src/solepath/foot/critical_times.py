@@ -1,0 +1,121 @@
+"""The critical times of one step: algorithm 1 of Liu et al. 2016 (footstep-tracker, section IV.C and figure 8).
+
+Axes as in the paper's figure 3: x to the wearer's right, y forward, z up. g is the angular rate, right handed: g_x is
+negative while the heel rises and positive while the toe does, g_z is positive for a turn to the left. a_x and a_y are
+specific force; a_z is minus the specific force, for the paper's accelerometer shows -9.8 m/s^2 at rest. With these
+signs its equation (2) takes gravity out exactly: a foot at rest that is tilted by theta shows a_y = g sin(theta) and
+a_z = -g cos(theta), so that a_y cos(theta) + a_z sin(theta) = 0. No other choice does.
+
+- Uplift: g_x turns negative. Liftoff: a_y goes from negative to positive. Landing: a_y goes from positive to negative.
+  Rest: both are zero again.
+- Algorithm 1 looks for the first two from the beginning of the segment inwards, for the others from its end.
+- Equality with zero has a dead band, `FLAT_RATE` and `FLAT_FORCE`. A sign counts outside of it; a crossing is where
+  the straight line between two samples meets zero, or the edge of the band for the uplift, which begins slowly.
+- a_y also crosses zero in mid-swing, where the foot begins to slow down, and by chance as the heel rises; on recorded
+  feet it crosses several times as the shoe bounces. Figure 8 says which crossing is meant: phase 3 begins when the toe
+  begins to rise (g_x from negative to positive), and in phase 4 "the instep [moves] downward" (g_x negative again). So
+  liftoff is the first crossing between the extremes of g_x on both sides of the first turn, landing the last one after
+  the toe's fastest rise that lies where g_x is no more than `FLAT_RATE`. Where a_y does not cross there (the heel
+  strikes at 20 Hz between two samples, a sensor on the instep is slower than its shoe), it is where g_x itself crosses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from attrs import frozen
+
+Row = tuple[float, float, float, float, float, float, float]
+"""t (s), a_x, a_y, a_z (m/s^2), g_x, g_y, g_z (rad/s): axes as above."""
+
+FLAT_RATE = 0.2
+"""g_x within this is zero, rad/s."""
+FLAT_FORCE = 0.5
+"""a_y within this is zero: the paper's static zone, m/s^2."""
+LEAST_SWING = 0.12
+"""A toe that rises by less than this angle has not swung, rad."""
+
+
+@frozen
+class CriticalTimes:
+    """In s, in this order. At liftoff the foot begins to move forward, at landing it touches the ground."""
+
+    uplift: float
+    liftoff: float
+    landing: float
+    rest: float
+
+
+def critical_times(rows: Sequence[Row]) -> CriticalTimes | None:
+    """Those of a segment between two static zones, with a little of both; None where no toe has risen in it."""
+    swing = _swing(rows)
+    if swing is None:
+        return None
+    begin, end = swing
+    lowest = min(range(begin), key=lambda i: rows[i][4], default=0)
+    highest = max(range(begin, end), key=lambda i: rows[i][4])
+    uplift = _uplift(rows, lowest)
+    liftoff = _liftoff(rows, lowest, begin, highest)
+    landing = _landing(rows, highest, end)
+    rest = _rest(rows, landing)
+    liftoff = max(uplift, liftoff)
+    landing = max(liftoff, landing)
+    return CriticalTimes(uplift, liftoff, landing, max(landing, rest))
+
+
+def _swing(rows: Sequence[Row]) -> tuple[int, int] | None:
+    """[begin, end) of the span of positive g_x in which the toe rises furthest; a dip of one row does not end it."""
+    best, found = LEAST_SWING, None
+    begin, angle = None, 0.0
+    for i in range(1, len(rows)):
+        rate = rows[i][4]
+        if rate > 0.0:
+            if begin is None:
+                begin, angle = i, 0.0
+            angle += rate * (rows[i][0] - rows[i - 1][0])
+            if angle > best:
+                best, found = angle, (begin, i + 1)
+        elif rate < -FLAT_RATE:
+            begin = None
+    return found
+
+
+def _uplift(rows: Sequence[Row], lowest: int) -> float:
+    """From the fastest rise of the heel back to where it began: g_x(t - 1) = 0, g_x(t) < 0."""
+    i = lowest
+    while i > 0 and rows[i - 1][4] < -FLAT_RATE:
+        i -= 1
+    return _crossing(rows, i, 4, -FLAT_RATE) if i > 0 else rows[0][0]
+
+
+def _liftoff(rows: Sequence[Row], lowest: int, begin: int, highest: int) -> float:
+    """a_y(t) < 0, a_y(t + 1) > 0."""
+    for i in range(lowest + 1, highest + 1):
+        if rows[i - 1][2] < 0.0 < rows[i][2]:
+            return _crossing(rows, i, 2, 0.0)
+    return _crossing(rows, begin, 4, 0.0)
+
+
+def _landing(rows: Sequence[Row], highest: int, end: int) -> float:
+    """a_y(t - 1) > 0, a_y(t) < 0, looked for from the end."""
+    for i in range(len(rows) - 1, highest, -1):
+        if rows[i - 1][2] > FLAT_FORCE and rows[i][2] < 0.0 and rows[i][4] <= FLAT_RATE:
+            return _crossing(rows, i, 2, 0.0)
+    return _crossing(rows, end, 4, 0.0) if end < len(rows) else rows[-1][0]
+
+
+def _rest(rows: Sequence[Row], landing: float) -> float:
+    """g_x(t) and a_y(t) are zero: from the end back to the first of those that are so up to it."""
+    i = len(rows) - 1
+    while i > 0 and rows[i - 1][0] > landing and abs(rows[i - 1][4]) <= FLAT_RATE and abs(rows[i - 1][2]) <= FLAT_FORCE:
+        i -= 1
+    return rows[i][0]
+
+
+def _crossing(rows: Sequence[Row], i: int, column: int, level: float) -> float:
+    """When the straight line from row i - 1 to row i met the level, s; the later one's time where it does not."""
+    before, now = rows[i - 1][column], rows[i][column]
+    if (before - level) * (now - level) >= 0.0:
+        return rows[i][0]
+    share = (level - before) / (now - before)
+    return rows[i - 1][0] + share * (rows[i][0] - rows[i - 1][0])
