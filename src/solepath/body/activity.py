@@ -184,7 +184,7 @@ class Activities:
                 motions[i] += SHARE * max(likely, -12.0)
             unknown += SHARE * min(0.5 * (model.strangeness(features) - USUAL) - STRANGE, 0.0)
             if block.force < MOST:
-                variance = SWAY * SWAY + 0.15 * min(block.variance, 1e4) + side.grain * side.grain / 12.0
+                variance = SWAY * SWAY + 0.05 * min(block.variance, 1e4) + side.grain * side.grain / 12.0
                 felt.append(Felt(block.force, variance, block.variance > MOVES))
             else:
                 felt.append(None)

@@ -241,11 +241,10 @@ def _likeliest(held: Sequence[Token | None], state: int, before: tuple[tuple[int
 def _gone_on(token: Token, state: int, seen: Evidence) -> Token:
     """The token after half a second in the state."""
     ride, path, activity = token.ride, token.path, ACTIVITIES[state]
+    begins = 0.0
     if not path or path[-1].activity is not activity:
         if state in RIDES:
-            ride = ride.over()
-            ride.whole = state in PULSES and bool(path)
-            ride.air = seen.before
+            ride, begins = ride.begun(state in PULSES and bool(path), seen.before)
         elif token.state in RIDES and path:
             last = path[-1]
             path = (*path[:-1], Segment(last.t, last.activity, ride.risen(seen.after)))
@@ -262,5 +261,7 @@ def _gone_on(token: Token, state: int, seen: Evidence) -> Token:
         ride, likely = ride.rest(seen.felt)
     else:
         ride, likely = ride.walk(seen.felt)
-    score = token.score + seen.motions[STAND if state in RIDES else state] + likely + seen.climbs[state]
+    if state not in RIDES:
+        ride = ride.waited(BLOCK)
+    score = token.score + begins + seen.motions[STAND if state in RIDES else state] + likely + seen.climbs[state]
     return Token(state, score, path, ride)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from math import exp, log, pi, sqrt
 
-from attrs import define, frozen
+from attrs import define, evolve, frozen
 
 from ..vector import GRAVITY
 
@@ -32,7 +32,17 @@ WANDER = 1e-5
 SWAY = 0.03
 """Deviation of the mean over half a second of somebody who stands, m/s^2."""
 OUTLIER = 0.03
-"""Share of blocks at rest that are anything between -2 and 2 m/s^2: weight is shifted, a heel is lifted."""
+"""Share of blocks at rest that deviate by 1 m/s^2: weight is shifted, a heel is lifted."""
+FEET = 0.2
+"""Share of blocks of feet that move by themselves that deviate by"""
+WIDE = 8.0
+"""so much, m/s^2; the others by 1."""
+DWELLS = 5.0
+"""A lift opens and closes its doors before it sets off again: that takes longer, s,"""
+HASTE = 6.0
+"""or is so much less likely (natural logarithm)."""
+LEAST = 1e-6
+"""No density is less, s^2/m."""
 SLOWEST = 0.4
 """No lift is slower, m/s."""
 
@@ -72,6 +82,8 @@ class Ride:
     """The first pulse was felt."""
     air: float | None = None
     """How high it was when it set off, m above anything, by the air pressure."""
+    stood: float = 1e3
+    """Since the last ride ended, s."""
 
     def rest(self, felt: tuple[Felt | None, ...]) -> tuple[Ride, float]:
         """Half a second without acceleration: the ride after it, and the logarithm of how likely what was felt is."""
@@ -80,8 +92,9 @@ class Ride:
             return self, 0.0
         acceleration, variance = seen
         regular = (1.0 - OUTLIER) * _density(acceleration, variance)
-        likely = regular + OUTLIER * 0.25
-        return self._learnt(felt, 0.0, 0.0 if regular > 0.25 * OUTLIER else 1e9), log(likely)
+        odd = OUTLIER * _density(acceleration, variance + 1.0)
+        rested = self._learnt(felt, 0.0, 0.0 if regular > odd else 1e9)
+        return rested, log(regular + odd + LEAST)
 
     def pulse(
         self, felt: tuple[Felt | None, ...], usual: float, varies: float, block: float
@@ -92,7 +105,7 @@ class Ride:
             return self._moved(usual, block, self.levels), 0.0
         acceleration, variance = seen
         off = acceleration - usual
-        likely = log(_density(off, variance + varies * varies) + 1e-6)
+        likely = log(_density(off, variance + varies * varies) + LEAST)
         share = varies * varies / (varies * varies + variance)
         taken = usual + share * off
         learnt = self._learnt(felt, taken, share * variance)
@@ -109,12 +122,24 @@ class Ride:
                 for level, one in zip(self.levels, felt, strict=True)
             ]
         )
-        likely = 0.0 if seen is None else log(_density(seen[0], seen[1] + 1.0) + 1e-6)
-        return Ride(levels), likely
+        walked = Ride(levels, stood=self.stood)
+        if seen is None:
+            return walked, 0.0
+        near, far = _density(seen[0], seen[1] + 1.0), _density(seen[0], seen[1] + WIDE * WIDE)
+        return walked, log((1.0 - FEET) * near + FEET * far + LEAST)
+
+    def begun(self, whole: bool, air: float | None) -> tuple[Ride, float]:
+        """A ride begins, `whole` when with its first pulse, at the height `air` in m; the logarithm of how likely it is
+        that it does so now."""
+        return Ride(self.levels, whole=whole, air=air), -HASTE if self.stood < DWELLS else 0.0
 
     def over(self) -> Ride:
         """The same levels, no ride."""
-        return Ride(self.levels)
+        return Ride(self.levels, stood=0.0)
+
+    def waited(self, block: float) -> Ride:
+        """`block` s more without a ride."""
+        return evolve(self, stood=self.stood + block) if self.stood < DWELLS else self
 
     def cruise(self, block: float) -> Ride:
         """`block` s more at the same speed."""
@@ -168,18 +193,17 @@ class Ride:
             gain = variance / (variance + one.variance + uncertain)
             off = one.force - acceleration - level.value
             levels.append(Level(level.value + gain * off, (1.0 - gain) * variance))
-        return Ride(tuple(levels), self.velocity, self.fastest, self.height, self.lasted, self.whole, self.air)
+        return evolve(self, levels=tuple(levels))
 
     def _moved(self, acceleration: float, block: float, levels: tuple[Level, ...]) -> Ride:
         velocity = self.velocity + acceleration * block
-        return Ride(
-            levels,
-            velocity,
-            max(self.fastest, abs(velocity)),
-            self.height + 0.5 * (self.velocity + velocity) * block,
-            self.lasted + block,
-            self.whole,
-            self.air,
+        return evolve(
+            self,
+            levels=levels,
+            velocity=velocity,
+            fastest=max(self.fastest, abs(velocity)),
+            height=self.height + 0.5 * (self.velocity + velocity) * block,
+            lasted=self.lasted + block,
         )
 
 
