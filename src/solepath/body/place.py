@@ -57,6 +57,8 @@ AROUND = 0.5
 """Where one steps off stairs or a lift, m around the landing."""
 TURNED = 0.07
 """Stairs and rides turn the track by this, rad."""
+ON_STAIRS = 2.0
+"""Who does what one does on stairs, beside stairs, is so many times as likely to be on them as to go on along them."""
 ELSEWHERE = 0.02
 """With less belief than this near any landing, the wearer was not where the plan had him."""
 DOUBT = 0.5
@@ -112,7 +114,7 @@ class Placing:
                 case Arrived():
                     self._arrive(plan, reference, known_at, told)
                 case _:
-                    self.crowd = packed([(*row[:7], 0) for row in unpacked(self.crowd)])
+                    self._release()
         if steps and self.crowd:
             told.append(self._told(plan, here, known_at))
         return told
@@ -238,12 +240,19 @@ class Placing:
     # --- levels ---
 
     def _hold(self, plan: FloorPlan, held: Held) -> None:
-        """Who is near stairs or a lift may be changing level from now on."""
+        """Who is near stairs or a lift may be changing level from now on, or may not: both are followed."""
         rows = unpacked(self.crowd)
         if rows:
-            self.crowd = packed(self._near(plan, rows, held))
+            self.crowd = packed(rows + self._near(plan, rows, held))
+
+    def _release(self) -> None:
+        """Nobody was changing level."""
+        rows = unpacked(self.crowd)
+        walking = [row for row in rows if not row[7]]
+        self.crowd = packed(walking or [(x, y, a, b, w, level, came, 0) for x, y, a, b, w, level, came, _ in rows])
 
     def _near(self, plan: FloorPlan, rows: list[Row], held: Held) -> list[Row]:
+        """Of those who are near, another each that changes level."""
         stops = landings(plan)
         x0, y0 = origin_of(plan)
         tx, ty, _ = self.references.at(held.t)
@@ -251,10 +260,8 @@ class Placing:
         marked: list[Row] = []
         for x, y, a, b, w, level, origin, _ in rows:
             found = nearest(stops, held.kind, level, x0 + x - (a * dx - b * dy), y0 + y - (b * dx + a * dy))
-            if found is None:
-                marked.append((x, y, a, b, w, level, origin, 0))
-            else:
-                marked.append((x, y, a, b, w * found[1], level, origin, found[0].index))
+            if found is not None:
+                marked.append((x, y, a, b, ON_STAIRS * w * found[1], level, origin, found[0].index))
         return marked
 
     def _arrive(self, plan: IndexedPlan, arrived: Arrived, known_at: float, told: list[Event]) -> None:
@@ -264,15 +271,15 @@ class Placing:
         if not any([landing.kind is arrived.kind for landing in stops]):
             return  # the plan does not have them all
         x0, y0 = origin_of(plan.plan)
-        if rows and not any([row[7] for row in rows]):
-            rows = self._near(plan.plan, rows, Held(arrived.kind, arrived.t_start))
+        held = [row for row in rows if row[7]]
+        rows = [row for row in rows if not row[7]] or rows
+        if rows and not held:
+            held = self._near(plan.plan, rows, Held(arrived.kind, arrived.t_start))
         total = sum([row[4] for row in rows])
         there: list[Row] = []
         self.random = following(self.random)
-        for k, (_, _, a, b, w, _, origin, held) in enumerate(rows):
-            if not held or stops[held - 1].kind is not arrived.kind:
-                continue
-            for way, share in ways_out(stops, stops[held - 1], arrived.up, arrived.height):
+        for k, (_, _, a, b, w, _, origin, stop) in enumerate(held):
+            for way, share in ways_out(stops, stops[stop - 1], arrived.up, arrived.height):
                 ex, ey, eh, es = NOISE[(self.random + k) % ROWS]
                 turn, stretch = TURNED * eh, 1.0 + 0.02 * es
                 x, y = way.place[0] + AROUND * ex, way.place[1] + AROUND * ey
