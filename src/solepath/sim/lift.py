@@ -10,7 +10,7 @@ ISO 18738-1 find in lifts in order. Where its frequencies lie between 2 and 12 H
 
 from __future__ import annotations
 
-from math import cbrt, sqrt
+from math import sqrt
 
 import numpy as np
 from attrs import frozen
@@ -26,6 +26,8 @@ GENTLE = 0.5
 """s in which the shaking comes and goes."""
 CREEPING = 1.0
 """s for which a car creeps, if it does."""
+HALVINGS = 60
+"""Of the interval in which the top speed of a short ride is sought."""
 
 _Ramp = tuple[float, float]
 """How long (s) a jerk (m/s^3) lasts."""
@@ -114,35 +116,31 @@ def ride(lift: Lift, begin: float, rng: np.random.Generator) -> Ride:
 
 def _ramps(lift: Lift) -> list[_Ramp]:
     """The jerks of the whole ride upwards, in order."""
-    way, most, jerk = abs(lift.height), lift.acceleration, lift.jerk
-    creep = min(lift.creep, 0.3 * lift.speed, 0.1 * way)
-    top = _top(way - creep * CREEPING, creep, lift)
-    start, slow, stop = _change(top, most, jerk), _change(top - creep, most, jerk), _change(creep, most, jerk)
-    covered = 0.5 * top * _lasts(start) + 0.5 * (top + creep) * _lasts(slow) + creep * CREEPING
-    covered += 0.5 * creep * _lasts(stop)
-    found = [*start, (max(way - covered, 0.0) / top, 0.0), *((d, -j) for d, j in slow)]
-    if creep > 0.0:
-        found += [(CREEPING, 0.0), *((d, -j) for d, j in stop)]
+    way = abs(lift.height)
+    creep = min(lift.creep, 0.1 * way)
+    top = lift.speed
+    if _covered(top, creep, lift) > way:
+        low = creep
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + top)
+            low, top = (low, middle) if _covered(middle, creep, lift) > way else (middle, top)
+        top = low
+    slow, stop = _change(top - creep, lift), _change(creep, lift)
+    found = [*_change(top, lift), ((way - _covered(top, creep, lift)) / top, 0.0), *((d, -j) for d, j in slow)]
+    found += [(CREEPING if creep > 0.0 else 0.0, 0.0), *((d, -j) for d, j in stop)]
     return [ramp for ramp in found if ramp[0] > 0.0]
 
 
-def _top(way: float, creep: float, lift: Lift) -> float:
-    """The speed that the car reaches on `way` m, m/s."""
-    most, jerk = lift.acceleration, lift.jerk
-    # Both ramps together take v (v / a + a / j) m with a hold of the full acceleration, 2 v sqrt(v / j) m without.
-    ratio = most / jerk
-    held = 0.5 * most * (sqrt(ratio * ratio + 4.0 * way / most) - ratio)
-    reached = held if held >= most * ratio else cbrt(0.25 * way * way * jerk)
-    return max(min(lift.speed, reached * (1.0 - 0.5 * creep / lift.speed)), 2.0 * creep)
+def _covered(top: float, creep: float, lift: Lift) -> float:
+    """m of the way that a ride up to `top` m/s takes at least."""
+    lasts = [sum(duration for duration, _ in _change(by, lift)) for by in (top, top - creep, creep)]
+    # A change of speed is as long before its middle as after it: its mean speed is that of its ends.
+    return 0.5 * (top * lasts[0] + (top + creep) * lasts[1] + creep * lasts[2]) + creep * CREEPING
 
 
-def _change(by: float, most: float, jerk: float) -> list[_Ramp]:
+def _change(by: float, lift: Lift) -> list[_Ramp]:
     """The jerks that change the speed by `by` m/s."""
     if by <= 0.0:
         return []
-    top = min(most, sqrt(by * jerk))
-    return [(top / jerk, jerk), (by / top - top / jerk, 0.0), (top / jerk, -jerk)]
-
-
-def _lasts(ramps: list[_Ramp]) -> float:
-    return sum(duration for duration, _ in ramps)
+    top = min(lift.acceleration, sqrt(by * lift.jerk))
+    return [(top / lift.jerk, lift.jerk), (by / top - top / lift.jerk, 0.0), (top / lift.jerk, -lift.jerk)]

@@ -19,7 +19,7 @@ from attrs import evolve, frozen
 
 from .lift import Lift
 from .path import Lifted, Path, Piece, Pivot, Pose
-from .stairs import DOWN, UP, Flight
+from .stairs import Flight, ahead
 from .styles import SPEED_DOWN, SPEED_UP
 
 TIGHT_TURN = 0.8
@@ -101,8 +101,8 @@ class Route:
         self, steps: int, up: bool = True, rise: float = 0.16, going: float = 0.30, speed: float | None = None
     ) -> Route:
         """Walk a flight of `steps` risers, each foot on every other tread: `rise` and `going` of each in m, `speed`
-        along in m/s. The first edge is `stairs.UP` or `stairs.DOWN` m ahead of the ankles of who stands before it, and
-        the flight is `steps * going` m long. The speed is not kept."""
+        along in m/s. The first edge is `stairs.ahead` m ahead of the ankles of who stands before it, and the flight is
+        `steps * going` m long. The speed is not kept."""
         if steps < 1 or going < 0.25 or not 0.0 < rise <= 0.22:
             raise ValueError(f"stairs: 1 step or more, going from 0.25 m, rise to 0.22 m, got {steps}, {going}, {rise}")
         if self.actions and isinstance(self.actions[-1], Stairs):
@@ -197,7 +197,7 @@ def legs(route: Route) -> list[Leg]:
             case Walk(distance=distance):
                 piece = Piece(pose, distance, 0.0, action.speed, action.spacing, action.running)
             case Stairs(steps=steps, rise=rise, going=going):
-                edge = pose.ahead(UP if rise > 0.0 else DOWN, 0.0)
+                edge = pose.ahead(ahead(rise > 0.0, going), 0.0)
                 flight = Flight(edge.x, edge.y, pose.z, pose.heading, steps, rise, going)
                 piece = Piece(pose, steps * going, 0.0, action.speed, None, flight=flight)
         pieces.append(piece)

@@ -11,8 +11,15 @@ from .curves import Array
 
 UP, DOWN = 0.25, 0.17
 """m from the ankle of who stands before a flight, and on every tread, to the next edge ahead. Upwards the heel is over
-the edge behind by 4 cm on treads of 0.30 m, and the forefoot rocker ends 9 cm before the next riser;
-downwards the ball of the foot is 6 cm behind the edge and the toes are over it."""
+the edge behind by 4 cm on treads of 0.30 m, and the forefoot rocker ends 9 cm before the next riser; downwards the ball
+of the foot is 6 cm behind the edge and the toes are over it."""
+HEEL = 0.13
+"""m from the ankle back to the riser behind it on the way down, at least; on shorter treads the toes are out more."""
+
+
+def ahead(up: bool, going: float) -> float:
+    """m from the ankle to the next edge on treads of this depth."""
+    return UP if up else min(DOWN, going - HEEL)
 
 
 @frozen

@@ -39,7 +39,7 @@ from .building import (
 from .curves import Array
 from .route import TIGHT_TURN, Route
 from .shoe import Mounting
-from .stairs import DOWN, UP
+from .stairs import ahead
 from .walker import Walker
 
 STILL = 2.0
@@ -142,7 +142,7 @@ def _inside(one: Exit, level: str) -> Point:
     """Where one stands in a cabin, or before the first edge of the stairs."""
     if isinstance(one, Cabin):
         return one.middle
-    return in_well(one, APPROACH - (UP if level == GROUND else DOWN), _lane(one, level))
+    return in_well(one, APPROACH - ahead(level == GROUND, GOING), _lane(one, level))
 
 
 def _beside(one: Exit, level: str, dx: float, dy: float) -> Point:
@@ -286,7 +286,7 @@ class _Course:
 
     def climb(self, up: bool) -> None:
         """Two flights and the landing between them, turned in to the left upwards and to the right downwards."""
-        edge, far = (UP if up else DOWN), APPROACH + (STEPS - 1) * GOING
+        edge, far = ahead(up, GOING), APPROACH + (STEPS - 1) * GOING
         self.flight(up)
         self.ahead(TURNING - (APPROACH - edge + STEPS * GOING))
         self.bend(pi if up else -pi, LANE)
