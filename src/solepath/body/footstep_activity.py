@@ -9,15 +9,16 @@ we wait for an EHG, and we say the user is under ED."
 What the paper leaves open, and what is taken here:
 
 - What the hidden Markov model observes. Features of the window (window_model.FEATURES: log variance and skewness of
-  a_z, the mean force, the log energy across a_z) under one mixture of Gaussians a state, as Mannini and Sabatini 2010
-  (Sensors 10, 1154) classify activities by a continuous-emission model of window features. Windows that slide by a
-  quarter see each instant four times, so a window's log-likelihood counts a quarter.
+  a_z, the mean force, the log energies across a_z and of the turning; section V.C has "accelerometer and gyroscope
+  data") under a mixture of Gaussians for each state, as Mannini and Sabatini 2010 (Sensors 10, 1154) classify
+  activities by a continuous-emission model of window features. Windows that slide by a quarter see each instant four
+  times, so a window's log-likelihood counts a quarter.
 - The mean of standing. A threshold on the mean itself needs sensors without offset, but offsets are as large as a
   lift's pulse. So the mean counts against that of the foot's own standing (`Standing`).
 - In fig. 4 a_z is about -9.8 at rest, so its "smaller" in hypergravity is larger downwards. Here specific force counts
   upwards: hypergravity is above.
 - Waiting for the other pulse ends when the wearer walks off, and after `LONGEST_RIDE`; then there was no ride.
-- Two feet. Both are asked about the same window: the mean of their log variances and of their means counts, and their
+- Two feet. Both are asked about the same window: the mean of their variances and of their means counts, and their
   log-likelihoods add up.
 - Running is none of the paper's activities. It comes out as WALKING.
 
@@ -32,15 +33,13 @@ set off is told as not final until its second pulse.
 
 from __future__ import annotations
 
-from math import log
-
 from attrs import define, field
 
 from ..events import ActivityChanged, Event, LiftRidden
 from ..foot.tracker import FootTracker
 from ..types import Activity, Foot, Sample, Site
 from .hmm import forward, spread, weighed
-from .window_model import LEAST_VARIANCE, WindowModel, shipped
+from .window_model import WindowModel, shipped
 from .windows import BLOCKS, HOP, WINDOW, FootWindows, Window
 
 MOVING = (Activity.WALKING, Activity.STAIRS_UP, Activity.STAIRS_DOWN)
@@ -142,7 +141,7 @@ class TwoSecondWindows:
             self.feet = {**self.feet, foot.foot: windows}
             self.feet = {one: self.feet[one] for one in Foot if one in self.feet}
             self.standing.setdefault(foot.foot, Standing())
-        if not windows.update(t - self.origin, acc):
+        if not windows.update(t - self.origin, acc, sample.gyro):
             return []
         return self._full(t if sample.known_at is None else max(t, sample.known_at))
 
@@ -171,8 +170,7 @@ class TwoSecondWindows:
             self._lost(known_at, told)
         self.decided = index
         model = shipped() if self.model is None else self.model
-        level = sum([log(w.variance + LEAST_VARIANCE) for w in seen.values()]) / len(seen)
-        if level > log(model.moving):
+        if sum([w.variance for w in seen.values()]) > model.moving * len(seen):
             self.moved += 1
             for foot in seen:
                 self.standing[foot].moved()

@@ -17,22 +17,24 @@ from attrs import frozen
 from .hmm import Matrix
 from .windows import Window
 
-FEATURES = ("log variance", "skewness", "mean", "log across")
-"""What the hidden Markov model sees of a window, in this order (`seen`)."""
+FEATURES = ("log variance", "skewness", "mean", "log across", "log turning")
+"""What the hidden Markov model sees of a window, in this order (`seen`); the last one only where there is a
+gyroscope."""
 LEAST_VARIANCE = 1e-6
-"""m^2/s^4; no accelerometer is more quiet."""
+"""m^2/s^4, and rad^2/s^2; no sensor is more quiet."""
 STEEPEST = 4.0
 """Magnitude of the skewness that counts at the most: one bump of the foot must not speak for a window."""
 
 
-def seen(window: Window) -> tuple[float, float, float, float]:
-    """The window's features, as `FEATURES` names them; logarithms of m^2/s^4."""
-    return (
+def seen(window: Window) -> tuple[float, ...]:
+    """The window's features, as `FEATURES` names them; logarithms of m^2/s^4 and rad^2/s^2."""
+    known = (
         log(window.variance + LEAST_VARIANCE),
         max(-STEEPEST, min(STEEPEST, window.skewness)),
         window.mean,
         log(window.across + LEAST_VARIANCE),
     )
+    return known if window.turning is None else (*known, log(window.turning + LEAST_VARIANCE))
 
 
 @frozen
@@ -45,10 +47,11 @@ class Gaussian:
     factor: tuple[tuple[float, ...], ...]
 
     def log_density(self, x: tuple[float, ...]) -> float:
-        """Of the features `x`, times the weight, but for a constant of all Gaussians."""
+        """Of the features `x`, times the weight, but for a constant of all Gaussians. Where `x` lacks the last ones it
+        is that of the others: the triangle's first rows are theirs."""
         told = log(self.weight)
         solved: list[float] = []
-        for value, mean, row in zip(x, self.mean, self.factor, strict=True):
+        for value, mean, row in zip(x, self.mean, self.factor, strict=False):
             left = value - mean
             for known, entry in zip(solved, row, strict=False):
                 left -= known * entry

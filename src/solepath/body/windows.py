@@ -45,6 +45,8 @@ class Window:
     """Of a_z: above 0 when its peaks are higher than its troughs are deep."""
     across: float
     """Mean square of the specific force across a_z, m^2/s^4."""
+    turning: float | None
+    """Mean square of the angular rate, rad^2/s^2; None without a gyroscope."""
 
 
 @define
@@ -63,6 +65,9 @@ class Block:
     cube: float = 0.0
     energy: float = 0.0
     """Of the whole vector."""
+    turning: float = 0.0
+    turns: int = 0
+    """Angular rates among the samples."""
 
 
 @define
@@ -79,9 +84,9 @@ class FootWindows:
     ready: deque[Window] = field(factory=deque)
     """Windows that nobody has taken yet."""
 
-    def update(self, since: float, acc: Vec3) -> bool:
-        """Specific force in m/s^2, sensor frame, `since` s after the beginning of all windows. True when the sample is
-        the first of another half-second, so a window may have been added to `ready`."""
+    def update(self, since: float, acc: Vec3, gyro: Vec3 | None = None) -> bool:
+        """Specific force in m/s^2 and angular rate in rad/s, sensor frame, `since` s after the beginning of all
+        windows. True when the sample is the first of another half-second, so `ready` may have another window."""
         index = int((since + TIE) // HOP)
         fresh = index != self.newest
         if fresh:
@@ -99,6 +104,10 @@ class FootWindows:
         block.square += square
         block.cube += square * along
         block.energy += x * x + y * y + z * z
+        if gyro is not None:
+            x, y, z = gyro
+            block.turning += x * x + y * y + z * z
+            block.turns += 1
         return fresh
 
     def _turn(self, index: int) -> None:
@@ -141,6 +150,7 @@ def measured(blocks: deque[Block]) -> Window | None:
     m1, m2, m3, energy = (
         share * sum([getattr(block, what) for block in blocks]) for what in ("along", "square", "cube", "energy")
     )
+    turns = sum([block.turns for block in blocks])
     variance = max(0.0, m2 - m1 * m1)
     third = m3 - 3.0 * m1 * m2 + 2.0 * m1 * m1 * m1
     return Window(
@@ -148,5 +158,6 @@ def measured(blocks: deque[Block]) -> Window | None:
         mean=sqrt(x * x + y * y + z * z),
         variance=variance,
         skewness=third / (variance * sqrt(variance)) if variance > 1e-9 else 0.0,
+        turning=sum([block.turning for block in blocks]) / turns if turns >= FEWEST else None,
         across=max(0.0, energy - (m2 + 2.0 * GRAVITY * m1 + GRAVITY * GRAVITY)),
     )

@@ -29,6 +29,7 @@ from ..body.window_model import LEAST_VARIANCE, Gaussian, WindowModel, seen
 from ..body.windows import HOP, WINDOW, FootWindows, Window
 from ..samples import load_samples
 from ..types import Activity, Foot, Sample
+from . import emulated
 from .hugadb import labels, recordings
 
 MOVING = (Activity.WALKING, Activity.STAIRS_UP, Activity.STAIRS_DOWN)
@@ -41,6 +42,8 @@ BESIDE = 4
 """Windows before and after a ride that may hold its pulses too: labels pressed by hand are about a second off."""
 EDGE = 0.5
 """s that labels pressed by hand are not believed at their ends."""
+WALKS = 12
+"""Emulated ones."""
 QUIET = 10.0
 """Variance of a_z, m^2/s^4, above which nobody stands still: only for what the other threshold is learnt from."""
 
@@ -74,7 +77,7 @@ def features(source: str, samples: Iterable[Sample], t: NDArray[Any], activities
         if sample.acc is None or sample.site.foot is None:
             continue
         origin = sample.t if origin is None else origin
-        feet.setdefault(sample.site.foot, FootWindows()).update(sample.t - origin, sample.acc)
+        feet.setdefault(sample.site.foot, FootWindows()).update(sample.t - origin, sample.acc, sample.gyro)
     for foot in Foot:
         for window in feet[foot].ready if foot in feet else ():
             found.setdefault(window.index, []).append(window)
@@ -131,8 +134,8 @@ def threshold(below: Sequence[float], above: Sequence[float]) -> float:
 
 
 def _level(told: Told) -> float:
-    """Mean log variance of the feet."""
-    return float(np.mean([np.log(window.variance + LEAST_VARIANCE) for window in told.feet]))
+    """Logarithm of the mean variance of the feet."""
+    return float(np.log(np.mean([window.variance for window in told.feet]) + LEAST_VARIANCE))
 
 
 def _pulses(taught: Sequence[Taught]) -> tuple[list[float], list[float]]:
@@ -163,10 +166,11 @@ def _mixtures(taught: Sequence[Taught]) -> dict[Activity, tuple[Gaussian, ...]]:
     for one in taught:
         for told in one.windows:
             if told.activity in MOVING or told.activity is Activity.RUNNING:
-                groups.setdefault((told.activity, one.source), []).extend(map(seen, told.feet))
+                whole = [x for x in map(seen, told.feet) if len(x) == len(window_model.FEATURES)]
+                groups.setdefault((told.activity, one.source), []).extend(whole)
     fit = {key: np.array(rows) for key, rows in groups.items() if len(rows) > 2 * len(window_model.FEATURES)}
-    every = sum(map(len, fit.values()))
-    common = sum((np.cov(rows.T) * len(rows) for rows in fit.values()), np.zeros((4, 4))) / max(every, 1)
+    every, size = sum(map(len, fit.values())), len(window_model.FEATURES)
+    common = sum((np.cov(rows.T) * len(rows) for rows in fit.values()), np.zeros((size, size))) / max(every, 1)
     mixtures: dict[Activity, tuple[Gaussian, ...]] = {}
     for state in MOVING:
         own = [key for key in fit if key[0] is state or state is Activity.WALKING and key[0] is Activity.RUNNING]
@@ -197,10 +201,20 @@ def _rounded(value: float) -> float:
     return float(f"{value:.5g}")
 
 
+def of_emulated(seed: int) -> Taught:
+    """The windows of an emulated walk with some jogging."""
+    walker = emulated.walker(seed, jogging=True)
+    truth = walker.truth()
+    t = np.arange(0.0, walker.duration, 1.0 / emulated.RATE)
+    return features("emulated", emulated.samples(walker), t, [truth.activity(float(at)) for at in t])
+
+
 def main(folder: Path) -> None:
     """Write the model of all there is beside the part that reads it."""
     taught = [of_recording(one.path) for one in recordings(folder)]
-    model = train(taught, "hugadb, all wearers")
+    first, last = emulated.FIRST_TO_LEARN_FROM, emulated.FIRST_TO_LEARN_FROM + WALKS - 1
+    taught += [of_emulated(seed) for seed in range(first, last + 1)]
+    model = train(taught, f"hugadb, all wearers, and emulated walks at 20 Hz, seeds {first} to {last}")
     file = Path(window_model.__file__).with_name("footstep_activity.json")
     file.write_text(json.dumps(attrs.asdict(model), indent=1) + "\n", encoding="utf-8")
 

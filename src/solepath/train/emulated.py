@@ -1,0 +1,97 @@
+"""Emulated wearers who stand, walk, climb stairs and take lifts, each another one, at 20 Hz with sensors in the soles.
+
+As in Liu et al. 2015, section V.C, whose wearers "ascend/descend the stairs, walk and take elevator". Seeds from
+`FIRST_TO_LEARN_FROM` are for training; what is scored has a smaller one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import pi
+
+import numpy as np
+
+from ..sim.gait import Wearer
+from ..sim.parts import MPU6050
+from ..sim.route import Route
+from ..sim.shoe import IN_SOLE
+from ..sim.walker import Walker
+from ..sim.wearers import wearer
+from ..types import Foot, Sample
+
+RATE = 20.0
+"""Hz (section IV: "we sample the accelerometer and gyroscope with 20 Hz")."""
+FIRST_TO_LEARN_FROM = 101
+
+_Part = Callable[[Route, np.random.Generator], Route]
+
+
+def of_seed(seed: int, *, jogging: bool = False) -> tuple[Route, Wearer]:
+    """A route of four or five minutes through a house and who walks it. `jogging`: some of it at a run."""
+    rng = np.random.default_rng([seed, 5])
+    stature = float(rng.uniform(1.55, 1.92))
+    who = wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature)
+    route = Route(speed=float(rng.uniform(0.9, 1.5))).stand(_uniform(rng, 3.0, 8.0))
+    twice = [_stairs(True), _stairs(False), _lift(True), _lift(False)]
+    parts = [*twice, *twice, _along, _along, _along, *[_jog] * jogging]
+    for k in rng.permutation(len(parts)):
+        route = parts[k](route, rng)
+        if rng.uniform() < 0.6:
+            route = route.stand(_uniform(rng, 3.0, 10.0))
+    return route.stand(4.0), who
+
+
+def walker(seed: int, *, jogging: bool = False) -> Walker:
+    """The walk of `of_seed`."""
+    route, who = of_seed(seed, jogging=jogging)
+    return Walker(route, who, seed)
+
+
+def samples(walker: Walker) -> list[Sample]:
+    """Of both feet in the order of time, as two MPU-6050 in the soles measure."""
+    found = [one for foot in Foot for one in walker.samples(foot, RATE, MPU6050, mounting=IN_SOLE)]
+    return sorted(found, key=lambda sample: sample.t)
+
+
+def _uniform(rng: np.random.Generator, low: float, high: float) -> float:
+    return float(rng.uniform(low, high))
+
+
+def _along(route: Route, rng: np.random.Generator) -> Route:
+    """A corridor round a corner."""
+    corner = pi / 2.0 if rng.uniform() < 0.5 else -pi / 2.0
+    return route.walk(_uniform(rng, 8.0, 20.0)).turn(corner, _uniform(rng, 0.0, 1.5)).walk(_uniform(rng, 6.0, 15.0))
+
+
+def _jog(route: Route, rng: np.random.Generator) -> Route:
+    return route.stand(2.0).jog(_uniform(rng, 25.0, 40.0), _uniform(rng, 2.3, 3.2)).stand(2.0)
+
+
+def _stairs(up: bool) -> _Part:
+    def part(route: Route, rng: np.random.Generator) -> Route:
+        """Two flights and the landing between them, from corridor to corridor."""
+        rise, going = _uniform(rng, 0.14, 0.18), _uniform(rng, 0.27, 0.32)
+        for flight in range(2):
+            route = route.walk(_uniform(rng, 2.0, 4.0) if flight == 0 else 1.2)
+            route = route.stairs(int(rng.integers(9, 14)), up, rise, going).walk(1.2)
+            if flight == 0:
+                route = route.turn(pi, 0.6)
+        return route.walk(_uniform(rng, 3.0, 6.0))
+
+    return part
+
+
+def _lift(up: bool) -> _Part:
+    def part(route: Route, rng: np.random.Generator) -> Route:
+        """In, turn round, up or down one to four storeys, and out."""
+        height = 3.4 * float(rng.integers(1, 5))
+        into = route.walk(_uniform(rng, 3.0, 6.0)).turn(pi)
+        ridden = into.lift(
+            height if up else -height,
+            speed=_uniform(rng, 0.9, 1.8),
+            acceleration=_uniform(rng, 0.6, 1.1),
+            doors=_uniform(rng, 2.0, 4.0),
+        )
+        return ridden.walk(_uniform(rng, 3.0, 6.0))
+
+    return part
