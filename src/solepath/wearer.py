@@ -9,6 +9,7 @@ from typing import TypeVar
 from attrs import define, field
 
 from .body.position import Position
+from .body.turns import Turns
 from .body.wear import Wear
 from .calibration import Calibration
 from .events import (
@@ -49,6 +50,7 @@ class Wearer:
     body: AnyBody = field(init=False)
     activity: AnyActivity = field(init=False)
     place: AnyPlace = field(init=False)
+    turns: Turns = field(factory=Turns, init=False)
     wear: Wear = field(factory=Wear, init=False)
     feet: dict[Foot, FootTracker] = field(factory=dict, init=False)
     unused: list[Site] = field(factory=list, init=False)
@@ -72,7 +74,8 @@ class Wearer:
         if tracker.t is not None:  # else it could not be used: nothing is known of this foot yet
             self._keep(tracker)
             if not (events and isinstance(events[0], SampleRejected)):
-                did = self.activity.foot_moved(tracker, sample, events)
+                did: list[Event] = self.activity.foot_moved(tracker, sample, events)
+                did += self.turns.foot_moved(tracker, sample, events)
                 events += self.wear.heard(tracker, sample, events)
                 events += self.body.foot_moved(tracker, sample, events)
                 events += did
@@ -111,6 +114,7 @@ class Wearer:
     def _interrupt_parts(self, site: Site) -> None:
         self.body.interrupt(site)
         self.activity.interrupt(site)
+        self.turns.interrupt(site)
 
     @property
     def position(self) -> Position | None:
