@@ -14,9 +14,10 @@ a_z = -g cos(theta), so that a_y cos(theta) + a_z sin(theta) = 0. No other choic
 - a_y also crosses zero in mid-swing, where the foot begins to slow down, and by chance as the heel rises; on recorded
   feet it crosses several times as the shoe bounces. Figure 8 says which crossing is meant: phase 3 begins when the toe
   begins to rise (g_x from negative to positive), and in phase 4 "the instep [moves] downward" (g_x negative again). So
-  liftoff is the first crossing between the extremes of g_x on both sides of the first turn, landing the last one after
-  the toe's fastest rise that lies where g_x is no more than `FLAT_RATE`. Where a_y does not cross there (the heel
-  strikes at 20 Hz between two samples, a sensor on the instep is slower than its shoe), it is where g_x itself crosses.
+  liftoff is the first crossing between the heel's fastest rise and the toe's, landing the last one in or after the last
+  rise of the toe that lies where g_x is no more than `FLAT_RATE` and not later than `STRIKING` after that (the
+  shoe goes on shaking). Where a_y does not cross there (the heel strikes at 20 Hz between two samples, a sensor on the
+  instep is slower than its shoe), it is where g_x itself crosses.
 """
 
 from __future__ import annotations
@@ -32,6 +33,8 @@ FLAT_RATE = 0.2
 """g_x within this is zero, rad/s."""
 FLAT_FORCE = 0.5
 """a_y within this is zero: the paper's static zone, m/s^2."""
+STRIKING = 0.06
+"""From the moment at which the toe rises no more, s."""
 LEAST_SWING = 0.12
 """A toe that rises by less than this angle has not swung, rad."""
 
@@ -48,35 +51,39 @@ class CriticalTimes:
 
 def critical_times(rows: Sequence[Row]) -> CriticalTimes | None:
     """Those of a segment between two static zones, with a little of both; None where no toe has risen in it."""
-    swing = _swing(rows)
-    if swing is None:
+    rises = _rises(rows)
+    if not rises:
         return None
-    begin, end = swing
+    (begin, first_end), (last_begin, end) = rises[0], rises[-1]
     lowest = min(range(begin), key=lambda i: rows[i][4], default=0)
-    highest = max(range(begin, end), key=lambda i: rows[i][4])
+    highest = max(range(begin, first_end), key=lambda i: rows[i][4])
     uplift = _uplift(rows, lowest)
     liftoff = _liftoff(rows, lowest, begin, highest)
-    landing = _landing(rows, highest, end)
+    landing = _landing(rows, last_begin, end)
     rest = _rest(rows, landing)
     liftoff = max(uplift, liftoff)
     landing = max(liftoff, landing)
     return CriticalTimes(uplift, liftoff, landing, max(landing, rest))
 
 
-def _swing(rows: Sequence[Row]) -> tuple[int, int] | None:
-    """[begin, end) of the span of positive g_x in which the toe rises furthest; a dip of one row does not end it."""
-    best, found = LEAST_SWING, None
-    begin, angle = None, 0.0
+def _rises(rows: Sequence[Row]) -> list[tuple[int, int]]:
+    """[begin, end) of each span of positive g_x in which the toe rises by `LEAST_SWING`; a dip that does not reach
+    the edge of the dead band ends none."""
+    found: list[tuple[int, int]] = []
+    begin, last, angle = None, 0, 0.0
     for i in range(1, len(rows)):
         rate = rows[i][4]
         if rate > 0.0:
             if begin is None:
                 begin, angle = i, 0.0
             angle += rate * (rows[i][0] - rows[i - 1][0])
-            if angle > best:
-                best, found = angle, (begin, i + 1)
-        elif rate < -FLAT_RATE:
+            last = i + 1
+        elif rate < -FLAT_RATE and begin is not None:
+            if angle > LEAST_SWING:
+                found.append((begin, last))
             begin = None
+    if begin is not None and angle > LEAST_SWING:
+        found.append((begin, last))
     return found
 
 
@@ -96,12 +103,13 @@ def _liftoff(rows: Sequence[Row], lowest: int, begin: int, highest: int) -> floa
     return _crossing(rows, begin, 4, 0.0)
 
 
-def _landing(rows: Sequence[Row], highest: int, end: int) -> float:
-    """a_y(t - 1) > 0, a_y(t) < 0, looked for from the end."""
-    for i in range(len(rows) - 1, highest, -1):
-        if rows[i - 1][2] > FLAT_FORCE and rows[i][2] < 0.0 and rows[i][4] <= FLAT_RATE:
+def _landing(rows: Sequence[Row], begin: int, end: int) -> float:
+    """a_y(t - 1) > 0, a_y(t) < 0, looked for from the end, but not after `STRIKING`."""
+    down = _crossing(rows, end, 4, 0.0) if end < len(rows) else rows[-1][0]
+    for i in range(len(rows) - 1, begin, -1):
+        if rows[i][0] <= down + STRIKING and rows[i - 1][2] > 0.0 > rows[i][2] and rows[i][4] <= FLAT_RATE:
             return _crossing(rows, i, 2, 0.0)
-    return _crossing(rows, end, 4, 0.0) if end < len(rows) else rows[-1][0]
+    return down
 
 
 def _rest(rows: Sequence[Row], landing: float) -> float:

@@ -14,6 +14,8 @@ does not settle, or where it finds nothing:
 - Figure 7 has a static zone in every step, and many a foot does not lie still for six samples: at a speed above some
   1.3 m/s it is flat for less, and on a hard floor or in a soft shoe it rolls on all the time. So a zone is also found
   where samples lie within `loosely` for `brief` while the foot hardly turns (`calm`, which the paper does not ask).
+- Fast walkers' feet do not even do that. When no zone has come for `OVERDUE` less is asked for (`HURRIED`), until the
+  foot lies still for a whole `length` again. The first such stride is lost, with the next one in its segment.
 """
 
 from __future__ import annotations
@@ -34,12 +36,16 @@ COARSEST_COUNT = 0.7
 """Of an accelerometer, m/s^2: 8 bits for +-8 g are 0.61."""
 COARSE_COUNT = 0.1
 """An accelerometer of larger counts than this reads other than 1 g at rest for its offset, not for its scale, m/s^2."""
+OVERDUE = 1.3
+"""No walker's stride is longer than this from rest to rest, but slow ones whose feet rest well, s."""
+HURRIED = 0.4
+"""So much of `brief` has to do then; of `loosely` it may be as much more."""
 LIKE_GRAVITY = 2.0
 """What a zone's mean may differ from 1 g by, m/s^2: offset and scale of cheap parts, a lift that starts."""
 UNEVEN = 1e-3
 """The times of a fitted clock differ by less than this from even ones, s."""
-COARSEST = 4.0
-"""Rows 60 ms apart are as coarse as the paper's own samples; of a longer segment the oldest rows are given up."""
+LONGEST = 4.0
+"""Of a segment, s: the oldest rows of a longer one are given up."""
 
 
 @define
@@ -91,7 +97,7 @@ class StaticZones:
     """Of the rows that are kept, s; 100 Hz give means of two samples, 20 Hz the samples themselves."""
     smooth: float = 0.045
     most: int = 72
-    """Rows that are kept; twice as coarse when there are more."""
+    """Rows that are kept; when there are more, the older half of them becomes twice as coarse."""
     before: float = 0.25
     """So much of the zone before it belongs to a segment, s."""
     # state
@@ -108,8 +114,6 @@ class StaticZones:
     begun: float = field(default=0.0, init=False)
     rows: list[Row] = field(factory=list, init=False)
     """Since the last zone, in the sensor frame."""
-    coarse: float = field(default=1.0, init=False)
-    """How many times `spacing` apart the rows now are."""
     longest_gap: float = field(default=0.0, init=False)
     """Between two samples since the last zone, s."""
     strict: Run = field(factory=Run, init=False)
@@ -118,6 +122,11 @@ class StaticZones:
     """What acc was multiplied by so that it reads 1 g at rest."""
     calm_since: float | None = field(default=None, init=False)
     static: bool = field(default=False, init=False)
+    stood: float | None = field(default=None, init=False)
+    """When the zone began that is, or was last, s."""
+    left: float | None = field(default=None, init=False)
+    """When it ended, s; None in a zone."""
+    hurried: bool = field(default=False, init=False)
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
@@ -128,15 +137,20 @@ class StaticZones:
             self.longest_gap = gap
         if gap > ABSENT:
             self.calm_since = self.strict.since = self.loose.since = None
-            self.static, self.count = False, 0
+            self.count = 0
+            if self.static:
+                self._leave(t)
+            self.stood = self.left = None
         self._count(acc)
         segment = None
         if self._row(t, gap, acc, gyro):
             self._judge(self.rows[-1])
             if self.loose.count == 1:
-                self.static = False
+                if self.static:
+                    self._leave(t)
             elif not self.static and self._lies():
                 self.static = True
+                self.stood, self.left = t, None
                 segment = self._segment()
             if self.static:
                 self._forget(t)
@@ -169,7 +183,7 @@ class StaticZones:
             (s, ax, ay, az, gx, gy, gz), (x, y, z), (u, v, w) = self.sums, acc, gyro
             self.sums = (s + t - self.begun, ax + x, ay + y, az + z, gx + u, gy + v, gz + w)
         self.count += 1
-        if t - self.begun + gap < self.coarse * self.spacing:
+        if t - self.begun + gap < self.spacing:
             return False
         k = 1.0 / self.count
         s, ax, ay, az, gx, gy, gz = self.sums
@@ -192,7 +206,8 @@ class StaticZones:
         ax, ay, az = k * ax, k * ay, k * az
         flicker = 0.5 * self.grain
         self.strict.add(t, (ax, ay, az), self.within + flicker)
-        self.loose.add(t, (ax, ay, az), self.loosely + flicker)
+        loosely = (2.0 - HURRIED) * self.loosely if self.hurried else self.loosely
+        self.loose.add(t, (ax, ay, az), loosely + flicker)
         if max(abs(gx), abs(gy), abs(gz)) > self.calm:
             self.calm_since = None
         elif self.calm_since is None:
@@ -205,21 +220,31 @@ class StaticZones:
             return True
         if self.calm_since is None:
             return False
-        return min(self.loose.lasted(t), t - self.calm_since) >= self.brief - UNEVEN
+        if self.left is not None and t - self.left > OVERDUE:
+            self.hurried = True
+        brief = HURRIED * self.brief if self.hurried else self.brief
+        return min(self.loose.lasted(t), t - self.calm_since) >= brief - UNEVEN
+
+    def _leave(self, t: float) -> None:
+        """A zone has ended."""
+        self.static = False
+        self.left = t
+        if self.stood is not None and t - self.stood > self.length:
+            self.hurried = False
 
     def _forget(self, t: float) -> None:
         """In a zone no more is kept than what the next segment begins with."""
         rows = self.rows
         while t - rows[0][0] > self.before and len(rows) > 1:
             del rows[0]
-        self.coarse, self.longest_gap = 1.0, 0.0
+        self.longest_gap = 0.0
 
     def _thin(self) -> None:
-        if self.coarse < COARSEST:
-            self.coarse *= 2.0
-            self.rows = [_mean(a, b) for a, b in zip(self.rows[::2], self.rows[1::2], strict=False)]
+        old, new = self.rows[: self.most // 2], self.rows[self.most // 2 :]
+        if new[-1][0] - old[0][0] > LONGEST:
+            self.rows = old[self.most // 4 :] + new
         else:
-            del self.rows[: self.most // 4]
+            self.rows = [_mean(a, b) for a, b in zip(old[::2], old[1::2], strict=False)] + new
 
     def _segment(self) -> Segment | None:
         """A zone begins: what lies before it."""
