@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from math import isfinite
 
+from attrs import evolve
+
 from .enclosure import Enclosure
 from .plan import Connector, FloorPlan, Level, Point
 from .rooms import Rooms
@@ -43,9 +45,9 @@ def _faults(plan: FloorPlan) -> Iterator[str]:
         ids.add(level.id)
     for level in plan.levels:
         yield from _faults_of_level(level)
+    yield from _faults_of_units(plan)
     for one in plan.connectors:
         yield from _faults_of_connector(one, plan)
-    yield from _faults_of_units(plan)
     anchor = plan.anchor
     if anchor is not None:
         if not (isfinite(anchor.bearing) and abs(anchor.bearing) <= 10.0):
@@ -161,7 +163,7 @@ def _remarks_of_walls(level: Level) -> Iterator[str]:
     found = Enclosure(level)
     way_in: Point | None = found.open_end
     if level.rooms:
-        rooms = Rooms(level, ())
+        rooms = Rooms(evolve(level, doors=()), ())  # a doorstep is no room
         way_in = next((place for place in found.order if rooms.inside(*place)), None)
     if way_in is not None:
         yield f"level {level.id!r}: its walls do not close near ({way_in[0]:.1f}, {way_in[1]:.1f})"

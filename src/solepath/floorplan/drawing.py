@@ -114,7 +114,7 @@ class Drawing:
         doors: list[Line] = [(start, end) for at, start, end, _ in self.doors if at == level]
         here = [(one.rings, one.border) for one in self.spaces if one.level == level]
         here += [(one.rings, _border_of(one, doors)) for one in self.parts if one.level == level and one.rings]
-        walls = {_wall(start, end) for at, start, end in self.lines if at == level}
+        walls = {_wall(start, end) for at, start, end in self.lines if at == level and start != end}
         for rings, border in here:
             if border in (Border.WALL, Border.SOLID):
                 walls.update(_lines(rings))
@@ -161,7 +161,7 @@ def _on_line(wall: Wall) -> tuple[float, float, Point, Point]:
 
 
 def _lines(rings: tuple[Ring, ...]) -> set[Wall]:
-    return {_wall((ax, ay), (bx, by)) for ring in rings for ax, ay, bx, by in edges(ring)}
+    return {_wall((ax, ay), (bx, by)) for ring in rings for ax, ay, bx, by in edges(ring) if (ax, ay) != (bx, by)}
 
 
 def _border_of(part: Part, doors: list[Line]) -> Border:

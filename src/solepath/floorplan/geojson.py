@@ -175,7 +175,7 @@ class _Reader:
         key = (one.kind, one.text("connector", one.text("name", "")))
         others = self._stops.setdefault(key, [])
         if any(other.level == level for _, other in others):
-            one.wrong(f"{one.kind} {key[1]!r} stop twice at level {level!r}")
+            one.wrong(f"is a second stop of {one.kind} {key[1]!r} at level {level!r}")
         others.append((one, stop))
 
     def _connector(self, stops: list[tuple[Feature, Stop]], heights: dict[str, float]) -> Connector:

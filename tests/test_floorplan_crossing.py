@@ -1,0 +1,205 @@
+"""Whether a straight move crosses a wall: exactly, for every move and every wall."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from itertools import pairwise
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath.floorplan.crossing import Walls
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import Connector, Door, FloorPlan, FloorPlanError, Kind, Level, Stop, Wall
+from solepath.floorplan.segments import side, touch
+
+Line = tuple[tuple[float, float], tuple[float, float]]
+
+
+def exactly_touch(a: Line, b: Line) -> bool:
+    """With fractions, as it is defined: p + s u = q + t v with s and t from 0 to 1, or on one line and overlapping."""
+    (px, py), (ex, ey) = [(Fraction(x), Fraction(y)) for x, y in a]
+    (qx, qy), (fx, fy) = [(Fraction(x), Fraction(y)) for x, y in b]
+    ux, uy, vx, vy = ex - px, ey - py, fx - qx, fy - qy
+    cross = ux * vy - uy * vx
+    wx, wy = qx - px, qy - py
+    if cross != 0:
+        return 0 <= (wx * vy - wy * vx) / cross <= 1 and 0 <= (wx * uy - wy * ux) / cross <= 1
+    if wx * uy - wy * ux != 0 or wx * vy - wy * vx != 0:
+        return False
+    return (max(min(px, ex), min(qx, fx)) <= min(max(px, ex), max(qx, fx))
+            and max(min(py, ey), min(qy, fy)) <= min(max(py, ey), max(qy, fy)))  # fmt: skip
+
+
+grid_places = st.tuples(st.integers(-12, 12), st.integers(-12, 12)).map(lambda p: (p[0] * 0.25, p[1] * 0.25))
+places = st.tuples(st.floats(-8.0, 8.0), st.floats(-8.0, 8.0)) | grid_places
+lines = st.tuples(places, places)
+walls_of = st.lists(lines.filter(lambda line: line[0] != line[1]), min_size=1, max_size=12)
+any_float = st.floats(allow_nan=True, allow_infinity=True)
+
+
+@given(lines, lines)
+def test_lines_touch_when_fractions_say_so(a: Line, b: Line) -> None:
+    assert touch(*a[0], *a[1], *b[0], *b[1]) == exactly_touch(a, b)
+
+
+@given(st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 6))
+def test_a_side_is_exact_for_all_finite_floats(p: tuple[float, ...]) -> None:
+    ax, ay, bx, by, cx, cy = map(Fraction, p)
+    turn = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+    assert side(*p) == (turn > 0) - (turn < 0)
+
+
+@settings(deadline=None)
+@given(walls_of, st.lists(lines, min_size=1, max_size=8))
+def test_a_move_crosses_when_it_touches_any_wall_exactly(walls: list[Line], moves: list[Line]) -> None:
+    grid = Walls(walls)
+    for start, end in moves:
+        assert grid.crosses(*start, *end) == any(exactly_touch((start, end), wall) for wall in walls)
+
+
+@given(walls_of, places, st.floats(0.0, 1.5), st.floats(0.0, 6.3))
+def test_a_step_crosses_when_it_touches_any_wall_exactly(
+    walls: list[Line], start: tuple[float, float], length: float, heading: float
+) -> None:
+    end = (start[0] + length * math.cos(heading), start[1] + length * math.sin(heading))
+    assert Walls(walls).crosses(*start, *end) == any(exactly_touch((start, end), wall) for wall in walls)
+
+
+@given(st.integers(0, 10_000_000), st.floats(-3.0, 3.0), st.floats(-3.0, 3.0), st.floats(-3.0, 3.0),
+       st.floats(-3.0, 3.0))  # fmt: skip
+def test_walls_far_from_the_origin_are_as_solid(offset: int, x0: float, y0: float, x1: float, y1: float) -> None:
+    walls = [((offset - 1.0, offset + 0.5), (offset + 2.0, offset + 0.75))]
+    move = (offset + x0, offset + y0, offset + x1, offset + y1)
+    assert Walls(walls).crosses(*move) == exactly_touch((move[:2], move[2:]), walls[0])
+
+
+@given(st.tuples(any_float, any_float, any_float, any_float))
+def test_any_floats_get_an_answer_and_no_place_is_behind_a_wall(move: tuple[float, float, float, float]) -> None:
+    walls = [((0.0, 0.0), (5.0, 0.0)), ((5.0, 0.0), (5.0, 5.0))]
+    found = Walls(walls).crosses(*move)
+    if all(map(math.isfinite, move)):
+        assert found == any(exactly_touch((move[:2], move[2:]), wall) for wall in walls)
+    else:
+        assert found
+
+
+def test_nobody_slips_through_a_corner_where_walls_meet() -> None:
+    corner = (0.1 + 0.2, 1.0 / 3.0)
+    walls = Walls([((0.0, 1.0 / 3.0), corner), (corner, (0.1 + 0.2, 0.0))])
+    for k in range(1, 1000):
+        heading = k * 0.5 * math.pi / 1000
+        dx, dy = 0.2 * math.cos(heading), 0.2 * math.sin(heading)
+        assert walls.crosses(corner[0] - dx, corner[1] - dy, corner[0] + dx, corner[1] + dy)
+
+
+def test_nobody_leaves_a_round_room_of_a_thousand_walls() -> None:
+    ring = [(10.0 * math.cos(k * math.tau / 1000), 10.0 * math.sin(k * math.tau / 1000)) for k in range(1000)]
+    walls = Walls(list(pairwise([*ring, ring[0]])))
+    for k in range(3000):
+        heading = k * math.tau / 3000
+        for length in (0.7, 3.0, 40.0):
+            x, y = 9.9 * math.cos(heading), 9.9 * math.sin(heading)
+            assert walls.crosses(x, y, x + length * math.cos(heading), y + length * math.sin(heading))
+        assert not walls.crosses(0.0, 0.0, 9.8 * math.cos(heading), 9.8 * math.sin(heading))
+
+
+def test_a_level_without_walls_stops_nobody() -> None:
+    assert not Walls([]).crosses(0.0, 0.0, 1.0, 1.0)
+    assert not Walls([]).crosses(-1e6, 0.0, 1e6, 1.0)
+
+
+# --- the whole plan ---------------------------------------------------------------------------------------------------
+
+
+def level(own: str, elevation: float, **more: object) -> Level:
+    walls = (Wall((0.0, 0.0), (4.0, 0.0)), Wall((5.0, 0.0), (10.0, 0.0)), Wall((10.0, 0.0), (10.0, 6.0)),
+             Wall((10.0, 6.0), (0.0, 6.0)), Wall((0.0, 6.0), (0.0, 0.0)))  # fmt: skip
+    return Level(own, own, round(elevation / 3.0), elevation, walls, (Door((4.0, 0.0), (5.0, 0.0)),), **more)  # type: ignore[arg-type]
+
+
+LIFT = Connector(Kind.LIFT, "lift", (Stop("0", (9.0, 5.0)), Stop("1", (9.0, 5.0))))
+STAIRS = Connector(Kind.STAIRS, "stairs", (Stop("0", (1.0, 5.0)), Stop("1", (2.0, 5.0))))
+HOUSE = FloorPlan("house", (level("0", 0.0), level("1", 3.0)), (LIFT, STAIRS))
+
+
+def test_one_walks_through_a_door_and_not_beside_it() -> None:
+    plan = IndexedPlan(HOUSE)
+    assert not plan.crosses(0, 4.5, -0.5, 4.5, 0.5)
+    assert plan.crosses(0, 3.5, -0.5, 3.5, 0.5)
+    assert plan.crosses(0, 4.0, -0.5, 4.0, 0.5)  # the door's post
+
+
+def test_without_rooms_one_is_inside_what_the_walls_and_doors_enclose() -> None:
+    plan = IndexedPlan(HOUSE)
+    for x, y in ((0.01, 0.01), (5.0, 3.0), (9.99, 5.99), (4.5, 0.01)):
+        assert plan.inside(0, x, y)
+    for x, y in ((-0.01, 3.0), (4.5, -0.01), (10.01, 3.0), (50.0, 3.0), (5.0, 6.01)):
+        assert not plan.inside(0, x, y)
+
+
+def test_where_walls_do_not_close_one_is_inside_the_hull_of_them_all() -> None:
+    open_walls = FloorPlan("open", (Level("0", "", 0, 0.0, HOUSE.levels[0].walls[1:]),))
+    plan = IndexedPlan(open_walls)
+    assert plan.inside(0, 5.0, 3.0)
+    assert plan.inside(0, 2.0, 0.5)
+    assert not plan.inside(0, -0.1, 3.0)
+
+
+def test_with_rooms_one_is_inside_them_and_on_doorsteps_and_in_stairwells() -> None:
+    shaft = ((11.0, 2.0), (12.0, 2.0), (12.0, 3.0), (11.0, 3.0))
+    lift = Connector(Kind.LIFT, "lift", (Stop("0", (11.5, 2.5), shaft),))
+    room = ((0.0, 0.0), (10.0, 0.0), (10.0, 6.0), (6.0, 6.0), (6.0, 3.0), (0.0, 3.0))
+    plan = IndexedPlan(FloorPlan("rooms", (level("0", 0.0, rooms=(room,)),), (lift,)))
+    for x, y in ((1.0, 1.0), (9.0, 5.0), (5.99, 2.99), (4.5, -0.4), (11.5, 2.5)):
+        assert plan.inside(0, x, y), (x, y)
+    for x, y in ((1.0, 5.0), (5.9, 3.1), (4.5, -0.6), (10.5, 2.5), (12.1, 2.5)):
+        assert not plan.inside(0, x, y), (x, y)
+
+
+@given(st.lists(places, min_size=3, max_size=9, unique=True), st.lists(places, min_size=1, max_size=10))
+def test_the_grid_of_rooms_says_what_counting_the_edges_says(
+    ring: list[tuple[float, float]], asked: list[tuple[float, float]]
+) -> None:
+    plan = IndexedPlan(FloorPlan("one", (Level("0", "", 0, 0.0, (Wall((-9.0, -9.0), (9.0, 9.0)),), (),
+                                               (tuple(ring),)),)))  # fmt: skip
+    for x, y in asked:
+        odd = False
+        for (ax, ay), (bx, by) in pairwise([*ring, ring[0]]):
+            if (ay > y) != (by > y) and x < ax + (y - ay) * (bx - ax) / (by - ay):
+                odd = not odd
+        assert plan.inside(0, x, y) == odd
+
+
+@given(any_float, any_float)
+def test_any_floats_are_inside_or_not(x: float, y: float) -> None:
+    room = ((0.0, 0.0), (9.0, 0.0), (9.0, 5.0))
+    for plan in (IndexedPlan(HOUSE), IndexedPlan(FloorPlan("rooms", (level("0", 0.0, rooms=(room,)),)))):
+        if plan.inside(0, x, y):
+            assert -1.0 <= x <= 11.0
+            assert -1.0 <= y <= 7.0
+
+
+def test_the_nearest_stop_of_a_kind_is_found() -> None:
+    plan = IndexedPlan(HOUSE)
+    found = plan.nearest(1, 9.0, 4.0)
+    assert found == (LIFT, LIFT.stops[1], 1.0)
+    found = plan.nearest(1, 9.0, 5.0, Kind.STAIRS)
+    assert found == (STAIRS, STAIRS.stops[1], 7.0)
+    assert plan.stops(0) == ((LIFT, LIFT.stops[0]), (STAIRS, STAIRS.stops[0]))
+    assert plan.stops(0, Kind.LIFT) == ((LIFT, LIFT.stops[0]),)
+    assert IndexedPlan(FloorPlan("none", (level("0", 0.0),))).nearest(0, 1.0, 1.0) is None
+
+
+def test_levels_go_by_their_ids() -> None:
+    plan = IndexedPlan(HOUSE)
+    assert [plan.number("0"), plan.number("1")] == [0, 1]
+    with pytest.raises(FloorPlanError, match="^the plan has no level 'attic', only 0, 1$"):
+        plan.number("attic")
+
+
+def test_a_plan_that_cannot_be_used_is_not_indexed() -> None:
+    with pytest.raises(FloorPlanError, match="^the plan has no levels$"):
+        IndexedPlan(FloorPlan("", ()))

@@ -1,0 +1,183 @@
+"""What a floor plan must be, what is said of one, and how doors are cut out of walls."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from floorplans import FILES, doors, plans, walls
+from solepath.floorplan.checks import unusable, warnings
+from solepath.floorplan.doors import with_doors_cut
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import Anchor, Connector, Door, FloorPlan, FloorPlanError, Kind, Level, Point, Stop, Wall
+from solepath.floorplan.reading import read_floorplan
+
+HOUSE = read_floorplan(FILES / "house.geojson")
+GROUND = HOUSE.levels[0]
+
+
+def with_level(**changes: object) -> FloorPlan:
+    return evolve(HOUSE, levels=(evolve(GROUND, **changes), *HOUSE.levels[1:]))  # type: ignore[arg-type]
+
+
+def stairs(*stops: Stop, **more: object) -> FloorPlan:
+    return evolve(HOUSE, connectors=(Connector(Kind.STAIRS, "A", stops, **more),))  # type: ignore[arg-type]
+
+
+def box(x0: float, y0: float, x1: float, y1: float) -> tuple[Wall, ...]:
+    a, b, c, d = (x0, y0), (x1, y0), (x1, y1), (x0, y1)
+    return Wall(a, b), Wall(b, c), Wall(c, d), Wall(d, a)
+
+
+@given(plans())
+def test_equal_plans_have_one_fingerprint_and_remarks_are_no_part_of_them(plan: FloorPlan) -> None:
+    again = evolve(plan, remarks=("drawn by hand",))
+    assert again == plan
+    assert again.fingerprint == plan.fingerprint
+
+
+def test_a_wall_moved_by_a_micrometre_changes_the_fingerprint() -> None:
+    first = GROUND.walls[0]
+    moved = evolve(first, end=(first.end[0], first.end[1] + 1e-6))
+    assert with_level(walls=(moved, *GROUND.walls[1:])).fingerprint != HOUSE.fingerprint
+
+
+def test_a_level_is_found_by_its_id_and_an_unknown_one_is_named() -> None:
+    assert HOUSE.level("1") is HOUSE.levels[1]
+    with pytest.raises(FloorPlanError, match="^the plan has no level '2', only 0, 1$"):
+        HOUSE.level("2")
+
+
+UNUSABLE = [
+    (evolve(HOUSE, levels=()), "the plan has no levels"),
+    (evolve(HOUSE, levels=(GROUND, GROUND)), "two levels have the id '0'"),
+    (with_level(id=""), "a level has no id"),
+    (with_level(elevation=math.nan), "level '0': its elevation is nan"),
+    (with_level(elevation=4.0), "level '1' comes after level '0' and lies below it"),
+    (with_level(elevation=-3000.0), "level '1' lies 3003 above level '0'; elevations must be in metres, are they in "
+                                    "millimetres or another unit?"),
+    (with_level(walls=(Wall((1.0, 2.0), (1.0, 2.0)),)), "level '0': wall 0 has no length, at (1, 2)"),
+    (with_level(walls=(Wall((1.0, 2.0), (math.nan, 2.0)),)), "level '0': wall 0 is at (nan, 2)"),
+    (with_level(doors=(Door((1.0, 2.0), (1.0, 2e7)),)), "level '0': door 0 is at (1, 2e+07)"),
+    (with_level(rooms=(((0.0, 0.0), (math.inf, 0.0), (0.0, 1.0)),)), "level '0': room 0 is at (inf, 0)"),
+    (with_level(rooms=(((0.0, 0.0), (1.0, 0.0)),)), "level '0': room 0 has 2 corners"),
+    (with_level(walls=(Wall((0.0, 0.0), (56000.0, 0.0)),)),
+     "the plan is 56000 wide; it must be in metres, is it in millimetres or another unit?"),
+    (FloorPlan("", (Level("0", "", 0, 0.0, (Wall((11.57, 48.15), (11.5706, 48.1503)),)),)),
+     "the plan is 0.0006 wide; it must be in metres, is it in degrees or another unit?"),
+    (stairs(), "stairs 'A': has no stops"),
+    (stairs(Stop("2", (1.0, 1.0))), "stairs 'A': stops at level '2', which the plan does not have"),
+    (stairs(Stop("1", (1.0, 1.0)), Stop("0", (1.0, 1.0))),
+     "stairs 'A': its stops are not from the lowest to the highest"),
+    (stairs(Stop("0", (1.0, 1.0)), Stop("0", (2.0, 1.0))),
+     "stairs 'A': its stops are not from the lowest to the highest"),
+    (stairs(Stop("0", (math.nan, 1.0))), "stairs 'A': its stop at level '0' is at (nan, 1)"),
+    (stairs(Stop("0", (1.0, 1.0), ((0.0, 0.0), (1.0, 1.0)))), "stairs 'A': its outline at level '0' has 2 corners"),
+    (stairs(Stop("0", (1.0, 1.0)), flights=0), "stairs 'A': has 0 flights a storey"),
+    (stairs(Stop("0", (1.0, 1.0)), rise=17.0), "stairs 'A': its steps rise 17 m"),
+    (evolve(HOUSE, anchor=Anchor(91.0, 0.0)), "the anchor is at latitude 91, longitude 0"),
+    (evolve(HOUSE, anchor=Anchor(0.0, 0.0, math.nan)), "the anchor's bearing is nan rad"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("plan", "says"), UNUSABLE, ids=[says[:40] for _, says in UNUSABLE])
+def test_a_plan_that_cannot_be_used_says_why_in_one_line(plan: FloorPlan, says: str) -> None:
+    assert unusable(plan) == says
+    assert warnings(plan) == ()
+    with pytest.raises(FloorPlanError):
+        IndexedPlan(plan)
+
+
+@settings(max_examples=12, deadline=None)
+@given(plans())
+def test_plans_within_the_limits_can_be_used_and_remarked_upon(plan: FloorPlan) -> None:
+    assert unusable(plan) is None
+    assert all(line and "\n" not in line for line in warnings(plan))
+
+
+def test_a_closed_house_with_stairs_gives_nothing_to_say() -> None:
+    assert warnings(evolve(HOUSE, heights_known=True)) == ()
+
+
+def test_assumed_heights_are_said() -> None:
+    assert warnings(HOUSE) == ("the plan does not say how high its levels lie",)
+
+
+def test_a_gap_in_the_outer_wall_is_said_and_a_door_in_it_is_none() -> None:
+    gap = (Wall((0.0, 0.0), (10.0, 0.0)), Wall((11.0, 0.0), (20.0, 0.0)), *box(0.0, 0.0, 20.0, 10.0)[1:])
+    known = evolve(HOUSE, heights_known=True)
+    for rooms in ((), (((0.0, 0.0), (20.0, 0.0), (20.0, 10.0), (0.0, 10.0)),)):
+        open_level = Level("0", "", 0, 0.0, gap, (), rooms)
+        found = warnings(evolve(known, levels=(open_level, *HOUSE.levels[1:])))
+        assert len(found) == 1
+        assert found[0].startswith("level '0': its walls do not close near (1")
+        with_door = evolve(open_level, doors=(Door((10.0, 0.0), (11.0, 0.0)),))
+        assert warnings(evolve(known, levels=(with_door, *HOUSE.levels[1:]))) == ()
+
+
+def test_free_standing_walls_indoors_are_no_open_walls() -> None:
+    level = Level("0", "", 0, 0.0, (*box(0.0, 0.0, 20.0, 10.0), Wall((5.0, 3.0), (15.0, 3.0))))
+    no_stairs = "the plan has no stairs and no lifts: nothing on it shows a level or a place"
+    assert warnings(FloorPlan("", (level,))) == (no_stairs,)
+
+
+def test_connectors_that_lead_nowhere_and_levels_that_nothing_leads_to_are_said() -> None:
+    plan = evolve(HOUSE, heights_known=True, connectors=(Connector(Kind.LIFT, "L", (Stop("1", (14.0, 7.0)),)),))
+    assert warnings(plan) == ("lift 'L': stops at level '1' only", "level '0': neither stairs nor a lift lead there",
+                              "level '1': neither stairs nor a lift lead there")  # fmt: skip
+
+
+def test_a_level_without_walls_is_said() -> None:
+    assert "level '0': has no walls" in warnings(with_level(walls=()))
+
+
+# --- doors ------------------------------------------------------------------------------------------------------------
+
+
+def cut(drawn: tuple[Wall, ...], *through: Door) -> tuple[Wall, ...]:
+    return with_doors_cut(Level("0", "", 0, 0.0, drawn, through)).walls
+
+
+LONG = (Wall((0.0, 0.0), (10.0, 0.0)),)
+
+
+def test_a_door_leaves_a_gap_of_its_width() -> None:
+    assert cut(LONG, Door((4.0, 0.0), (5.0, 0.0))) == (Wall((0.0, 0.0), (4.0, 0.0)), Wall((5.0, 0.0), (10.0, 0.0)))
+    assert cut(LONG, Door((5.0, 0.1), (4.0, -0.1))) == (Wall((0.0, 0.0), (4.0, 0.0)), Wall((5.0, 0.0), (10.0, 0.0)))
+
+
+def test_doors_side_by_side_and_at_the_end_leave_what_is_between_them() -> None:
+    found = cut(LONG, Door((9.0, 0.0), (11.0, 0.0)), Door((2.0, 0.0), (3.0, 0.0)), Door((2.5, 0.0), (4.0, 0.0)))
+    assert found == (Wall((0.0, 0.0), (2.0, 0.0)), Wall((4.0, 0.0), (9.0, 0.0)))
+    assert cut(LONG, Door((-1.0, 0.0), (11.0, 0.0))) == ()
+
+
+def test_a_door_cuts_both_faces_of_a_wall_and_no_wall_across_it() -> None:
+    faces = (Wall((0.0, 0.0), (10.0, 0.0)), Wall((0.0, 0.2), (10.0, 0.2)), Wall((4.0, 0.2), (4.0, 5.0)),
+             Wall((0.0, 1.0), (10.0, 1.0)))  # fmt: skip
+    found = cut(faces, Door((4.0, 0.0), (5.0, 0.0)))
+    assert found == (Wall((0.0, 0.0), (4.0, 0.0)), Wall((5.0, 0.0), (10.0, 0.0)), Wall((0.0, 0.2), (4.0, 0.2)),
+                     Wall((5.0, 0.2), (10.0, 0.2)), *faces[2:])  # fmt: skip
+
+
+@given(st.lists(walls, max_size=6).map(tuple), st.lists(doors, max_size=4))
+def test_cut_once_more_the_walls_stay_as_they_are(drawn: tuple[Wall, ...], through: list[Door]) -> None:
+    once = cut(drawn, *through)
+    assert cut(once, *through) == once
+
+
+@given(st.floats(0.0, math.tau), st.floats(0.5, 8.0), st.floats(0.6, 1.5))
+def test_one_walks_through_the_middle_of_a_door_in_a_wall_of_any_direction(turn: float, at: float, wide: float) -> None:
+    def along(x: float, y: float) -> Point:
+        return x * math.cos(turn) - y * math.sin(turn), x * math.sin(turn) + y * math.cos(turn)
+
+    door = Door(along(at, 0.0), along(at + wide, 0.0))
+    plan = IndexedPlan(FloorPlan("", (with_doors_cut(Level("0", "", 0, 0.0, (Wall(along(0.0, 0.0), along(10.0, 0.0)),),
+                                                           (door,))),)))  # fmt: skip
+    for x, free in ((at + 0.5 * wide, True), (at + 0.01, True), (at - 0.01, False), (at + wide - 0.01, True),
+                    (at + wide + 0.01, at + wide > 10.0 - 0.01)):  # fmt: skip
+        assert plan.crosses(0, *along(x, -0.4), *along(x, 0.4)) != free
