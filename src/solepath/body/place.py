@@ -30,7 +30,7 @@ class PlacePart(Protocol):
     """The track and what the wearer does in, the place on the plan out. A plain record, as every machine is."""
 
     def set_out(self, start: Start) -> None:
-        """The wearer sets out there. To be told before the first `follow`."""
+        """The wearer sets out there. To be told before the first `follow`. ValueError for what is no number."""
 
     def follow(self, plan: IndexedPlan, events: list[Event], here: Position) -> list[Event]:
         """`events`: what has just become known, of steps and of what the wearer does; `here`: where the track leads
@@ -51,6 +51,8 @@ FARTHEST = 100.0
 """A track that leaps by more is of no use, m."""
 OUTSIDE = 6
 """After so many steps outside of everything that the plan has, the wearer has left it."""
+STUCK = 5.0
+"""When nobody could go on for so much of the track, m, there is no way."""
 HEADING = 0.12
 """A known heading may be off by this, rad (the first stride's direction is the track's x axis)."""
 AROUND = 0.5
@@ -81,6 +83,9 @@ class Placing:
     references: References = field(factory=References, init=False)
     random: int = field(default=1, init=False)
     outside: int = field(default=0, init=False)
+    """Steps since the wearer was last within the plan."""
+    stuck: float = field(default=0.0, init=False)
+    """Track, m, since anybody could go on."""
     newest: Placed | None = field(default=None, init=False)
 
     @property
@@ -89,13 +94,18 @@ class Placing:
         return self.newest
 
     def set_out(self, start: Start) -> None:
-        """The wearer sets out there. To be told before the first `follow`."""
+        """The wearer sets out there. To be told before the first `follow`. ValueError for what is no number."""
+        numbers = (*start.place, start.spread, 0.0 if start.heading is None else start.heading)
+        if not all([isfinite(number) for number in numbers]):
+            raise ValueError(f"a start's place, heading and spread are numbers, not {numbers}")
         self.start = start
 
     def follow(self, plan: IndexedPlan, events: list[Event], here: Position) -> list[Event]:
         """One step, one activity, or what has come together. Never raises, whatever the track does."""
-        known_at = max([event.known_at for event in events], default=here.t)
         told: list[Event] = []
+        if not all([isfinite(v) for v in (here.t, *here.position)]):
+            return told
+        known_at = max([here.t, *[event.known_at for event in events]])
         if not self.begun:
             self.begun = True
             self._begin(plan, here, known_at, told)
@@ -105,8 +115,6 @@ class Placing:
         steps = [event for event in events if isinstance(event, StepTaken)]
         if steps:
             self._move(plan, here, any([step.degraded for step in steps]), known_at, told)
-        if not all([isfinite(v) for v in here.position]):
-            return told
         for reference in self.references.hear(plan.plan, events, here):
             match reference:
                 case Held():
@@ -185,8 +193,7 @@ class Placing:
         x, y, _ = here.position
         move = (x - self.last[0], y - self.last[1])
         if not (abs(move[0]) < FARTHEST and abs(move[1]) < FARTHEST):
-            if isfinite(x) and isfinite(y):
-                self.last = here.position
+            self.last = here.position
             self._lose(f"the track leaps by more than {FARTHEST:.0f} m", here, known_at, told)
             return
         self.last = here.position
@@ -194,8 +201,11 @@ class Placing:
         if not rows:
             return
         before = self.newest
+        places = {row[:2] for row in rows}
         rows = self._stepped(plan, rows, move, 3.0 if degraded else 1.0)
-        if not rows:
+        stays = all(row[:2] in places for row in rows)
+        self.stuck = self.stuck + hypot(*move) if stays else 0.0
+        if not rows or self.stuck > STUCK:
             where = "" if before is None else f" near ({before.position[0]:.1f}, {before.position[1]:.1f})"
             level = "" if before is None else f" on level {before.level}"
             self._lose(f"the track goes where the plan has no way{where}{level}", here, known_at, told)
@@ -234,8 +244,11 @@ class Placing:
 
     def _lose(self, what: str, here: Position, known_at: float, told: list[Event]) -> None:
         if self.crowd:
-            told.append(PlaceLost(t=here.t, known_at=max(known_at, here.t), what=what))
-        self.crowd, self.newest, self.outside = b"", None, 0
+            told.append(PlaceLost(t=here.t, known_at=known_at, what=what))
+        self._forget()
+
+    def _forget(self) -> None:
+        self.crowd, self.newest, self.outside, self.stuck = b"", None, 0, 0.0
 
     # --- levels ---
 
@@ -342,19 +355,18 @@ class Placing:
         ):
             self.outside += 1
             if self.outside >= OUTSIDE and self.references.passage is None:
-                self.crowd, self.newest, self.outside = b"", None, 0
+                self._forget()
                 x, y, _ = first.position
                 what = f"the track leaves the plan near ({x:.1f}, {y:.1f}) on level {first.level}"
-                return PlaceLost(t=here.t, known_at=max(known_at, here.t), what=what)
+                return PlaceLost(t=here.t, known_at=known_at, what=what)
         else:
             self.outside = 0
         wanted = min(self.most, FEW + MORE * (len(candidates) - 1) + int(8.0 * min(spread, 5.0)))
         if len(rows) > 1.25 * wanted or effective(rows) < 0.5 * wanted:
             self.crowd = packed(self.thinned(rows, wanted))
-        t = max(here.t, 0.0) if here.t != here.t else here.t
         self.newest = Placed(
-            t=t,
-            known_at=max(known_at, t),
+            t=here.t,
+            known_at=known_at,
             level=first.level,
             position=first.position,
             spread=spread,
@@ -384,6 +396,4 @@ def nowhere(plan: IndexedPlan, start: Start) -> str | None:
     if not plan.inside(level, *start.place):
         x, y = start.place
         return f"start: ({x:g}, {y:g}) is nowhere on level {start.level}: no room or corridor of the plan is there"
-    if start.heading is not None and not isfinite(start.heading):
-        return "start: its heading is no number"
     return None

@@ -11,7 +11,7 @@ stairs with the activity that follows them, or up to `WAIT` s or `AWAY` m later 
 from __future__ import annotations
 
 from collections import deque
-from math import hypot
+from math import hypot, isfinite
 
 from attrs import define, field, frozen
 
@@ -151,7 +151,7 @@ class References:
             elif isinstance(event, FlightClimbed):
                 self._climbed(event, told)
             elif isinstance(event, LiftRidden):
-                height = None if event.height is None else abs(event.height)
+                height = None if event.height is None or not isfinite(event.height) else abs(event.height)
                 told.append(Arrived(Kind.LIFT, event.up, height, min(event.t_start, event.t), event.t))
                 self.ridden = event.t
                 if self.passage is not None and self.passage.kind is Kind.LIFT:
