@@ -14,6 +14,7 @@ import json
 import re
 import types
 import typing
+from base64 import b64decode, b64encode
 from binascii import crc32
 from collections import deque
 from collections.abc import Callable
@@ -77,7 +78,7 @@ def _make_codec(annotation: Any) -> tuple[_Saver, _Loader]:
     if annotation is None or annotation is type(None):
         return _exactly(type(None)), _exactly(type(None))
     if annotation is bytes:
-        return bytes.hex, bytes.fromhex
+        return (lambda v: b64encode(v).decode()), (lambda text: b64decode(text, validate=True))
     if isinstance(annotation, type) and issubclass(annotation, Enum):
         return (lambda member: member.value), annotation
     if isinstance(annotation, type) and attrs.has(annotation):
