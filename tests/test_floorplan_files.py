@@ -21,6 +21,7 @@ from solepath.floorplan.geojson import text_of, write_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, FloorPlan, FloorPlanError, Kind
 from solepath.floorplan.reading import plan_of_bytes, read_floorplan
+from solepath.sim.building import BUILDING
 
 HOUSE = read_floorplan(FILES / "house.geojson")
 INVALID = json.loads((FILES / "invalid.json").read_text(encoding="utf-8"))
@@ -279,3 +280,9 @@ def test_the_house_with_anything_changed_is_a_plan_or_refused(data: st.DataObjec
 
 def test_remarks_are_no_part_of_a_file() -> None:
     assert text_of(evolve(HOUSE, remarks=("x",))) == text_of(HOUSE)
+
+
+def test_the_building_of_the_examples_is_the_emulators() -> None:
+    assert read_floorplan(FILES.parent.parent / "examples" / "building.geojson") == BUILDING
+    assert BUILDING.heights_known
+    assert warnings(BUILDING) == ()

@@ -1,0 +1,139 @@
+"""How long questions to a floor plan take: `python tests/bench/floorplan.py`. Prints a table; asserts nothing.
+
+Medians of five runs in one process on one core, the garbage collector off while the clock runs. The last column is the
+same as a part of what it costs to try all walls of the level, one after the other, with the plain formula.
+"""
+
+from __future__ import annotations
+
+import gc
+import os
+import platform
+from collections.abc import Callable
+from math import cos, sin, tau
+from random import Random
+from statistics import median
+from time import perf_counter
+
+from solepath.floorplan.checks import warnings
+from solepath.floorplan.doors import with_doors_cut
+from solepath.floorplan.geojson import text_of
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import Door, FloorPlan, Level, Wall
+from solepath.floorplan.reading import plan_of_bytes
+from solepath.sim.building import BUILDING
+
+RUNS = 5
+STEP = 0.7
+"""m."""
+PARTICLES = 1000
+
+Move = tuple[float, float, float, float]
+
+
+def seconds(work: Callable[[], object]) -> float:
+    """The median time of RUNS runs."""
+    found = []
+    for _ in range(RUNS):
+        gc.collect()
+        gc.disable()
+        began = perf_counter()
+        work()
+        found.append(perf_counter() - began)
+        gc.enable()
+    return median(found)
+
+
+def office(walls: int) -> FloorPlan:
+    """Rooms of 3.5 m by 4.4 m, a door to the east and one to the north of each, until there are so many walls; 500 of
+    them are 56 m by 44 m."""
+    columns = round((walls / 4.0 * 63.0 / 56.0) ** 0.5)
+    drawn: list[Wall] = []
+    doors: list[Door] = []
+    rooms = []
+    row = 0
+    while len(drawn) + len(doors) < walls:
+        for column in range(columns):
+            x, y = 3.5 * column, 4.4 * row
+            drawn += [Wall((x, y), (x + 3.5, y)), Wall((x, y), (x, y + 4.4))]
+            doors += [Door((x, y + 1.0), (x, y + 1.9)), Door((x + 1.0, y), (x + 1.9, y))]
+            rooms.append(((x, y), (x + 3.5, y), (x + 3.5, y + 4.4), (x, y + 4.4)))
+        row += 1
+    wide, deep = 3.5 * columns, 4.4 * row
+    drawn += [Wall((0.0, deep), (wide, deep)), Wall((wide, 0.0), (wide, deep))]
+    level = with_doors_cut(Level("0", "", 0, 0.0, tuple(drawn), tuple(doors), tuple(rooms)))
+    return FloorPlan("office", (level,))
+
+
+def moves(plan: FloorPlan, count: int, length: float, random: Random) -> list[Move]:
+    """Moves in all directions from anywhere within the walls."""
+    xs = [wall.end[0] for wall in plan.levels[0].walls]
+    ys = [wall.end[1] for wall in plan.levels[0].walls]
+    found = []
+    for _ in range(count):
+        x, y, heading = random.uniform(0.0, max(xs)), random.uniform(0.0, max(ys)), random.uniform(0.0, tau)
+        found.append((x, y, x + length * cos(heading), y + length * sin(heading)))
+    return found
+
+
+def all_walls(plan: FloorPlan) -> Callable[[float, float, float, float], bool]:
+    """The test as it is usually written, wall by wall."""
+    lines = [(*wall.start, *wall.end) for wall in plan.levels[0].walls]
+
+    def crosses(x0: float, y0: float, x1: float, y1: float) -> bool:
+        dx, dy = x1 - x0, y1 - y0
+        for ax, ay, bx, by in lines:
+            ex, ey = bx - ax, by - ay
+            turn = dx * ey - dy * ex
+            if turn != 0.0:
+                s = ((ax - x0) * ey - (ay - y0) * ex) / turn
+                t = ((ax - x0) * dy - (ay - y0) * dx) / turn
+                if 0.0 <= s <= 1.0 and 0.0 <= t <= 1.0:
+                    return True
+        return False
+
+    return crosses
+
+
+def main() -> None:
+    random = Random(1)
+    rows: list[tuple[str, float, str, str]] = []
+    for walls in (500, 10_000):
+        plan = office(walls)
+        index = IndexedPlan(plan)
+        steps, strides = moves(plan, PARTICLES, STEP, random), moves(plan, PARTICLES, 4.0, random)
+        slow, few = all_walls(plan), steps[: 50_000 // walls]
+        naive = seconds(lambda f=slow, some=few: [f(*move) for move in some]) / len(few)  # type: ignore[misc]
+        name, n = f"{len(plan.levels[0].walls)} walls: ", PARTICLES
+
+        def add(what: str, took: float, naive: float = naive, name: str = name) -> None:
+            rows.append((name + what, took * 1e6, "us", f"{took / naive:.3f}"))
+
+        add("every wall, plain formula", naive)
+        add("a step of 0.7 m", seconds(lambda i=index, s=steps: [i.crosses(0, *move) for move in s]) / n)  # type: ignore[misc]
+        free = [move for move in steps if not index.crosses(0, *move)]
+        add("a step that is free", seconds(lambda i=index, s=free: [i.crosses(0, *move) for move in s]) / len(free))  # type: ignore[misc]
+        add("a move of 4 m", seconds(lambda i=index, s=strides: [i.crosses(0, *move) for move in s]) / n)  # type: ignore[misc]
+        index.inside(0, 1.0, 1.0)
+        add("inside", seconds(lambda i=index, s=steps: [i.inside(0, *move[:2]) for move in s]) / n)  # type: ignore[misc]
+        rows.append((name + "made ready", seconds(lambda p=plan: IndexedPlan(p)) * 1e3, "ms", ""))  # type: ignore[misc]
+
+    plan = office(500)
+    index, crowd = IndexedPlan(plan), moves(plan, PARTICLES, STEP, random)
+    one_step = seconds(lambda: [index.crosses(0, x0, y0, x1, y1) for x0, y0, x1, y1 in crowd])
+    rows.append((f"{PARTICLES} particles, {len(plan.levels[0].walls)} walls, one step", one_step * 1e3, "ms", ""))
+    text = text_of(BUILDING).encode()
+    rows.append(("two floors of 56 m by 63 m: read", seconds(lambda: plan_of_bytes(text)) * 1e3, "ms", ""))
+    rows.append(("two floors of 56 m by 63 m: made ready", seconds(lambda: IndexedPlan(BUILDING)) * 1e3, "ms", ""))
+    rows.append(("two floors of 56 m by 63 m: warnings", seconds(lambda: warnings(BUILDING)) * 1e3, "ms", ""))
+
+    print(f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores, one used; "
+          f"medians of {RUNS}")  # fmt: skip
+    width = max(len(what) for what, *_ in rows)
+    print(f"{'':{width}}  {'time':>9}     {'of every wall':>13}")
+    for what, value, unit, ratio in rows:
+        print(f"{what:{width}}  {value:9.2f} {unit} {ratio:>14}")
+
+
+if __name__ == "__main__":
+    main()
