@@ -1,0 +1,145 @@
+"""Jogging: nobody stands between the steps, feet land harder, go faster and rise higher than in walking."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath.sim.gait import Stride
+from solepath.sim.route import Route
+from solepath.sim.shoe import IN_SOLE, ON_INSTEP, Mounting
+from solepath.sim.styles import Manner
+from solepath.sim.walker import Walker
+from solepath.types import Activity, Foot
+
+
+@pytest.fixture(scope="module")
+def jogger() -> Walker:
+    return Walker(Route().stand(1.0).walk(5.0).jog(30.0).walk(5.0).stop(1.0), seed=6)
+
+
+def run(walker: Walker, foot: Foot) -> list[Stride]:
+    """Strides at full speed."""
+    return [s for s in walker.plan.strides[foot] if s.manner is Manner.RUN and s.speed > 2.59]
+
+
+def test_there_is_a_flight_between_the_steps_of_a_jogger(jogger: Walker) -> None:
+    steps = sorted((s.heel_strike, s, foot) for foot in Foot for s in jogger.plan.strides[foot])
+    flights = [
+        one.heel_strike - two.toe_off
+        for (_, one, _), (_, two, _) in pairwise(steps)
+        if one.manner is Manner.RUN and one.speed > 2.59
+    ]
+    assert len(flights) > 20
+    assert min(flights) > 0.03 and max(flights) < 0.16
+    for (_, one, foot), (_, _, other) in pairwise(steps):
+        assert foot is not other, one
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_a_jogger_stands_on_a_foot_for_under_two_fifths_of_the_stride(jogger: Walker, foot: Foot) -> None:
+    """1.60 m a stride and more, some 160 steps a minute, stance 35 to 40 %."""
+    strides = run(jogger, foot)
+    for one, two in pairwise(strides):
+        if two.number == one.number + 1:
+            lasts = two.heel_strike - one.heel_strike
+            assert 0.33 < (two.toe_off - one.heel_strike) / lasts < 0.43
+            assert 140.0 < 120.0 / lasts < 180.0
+            assert 1.5 < np.hypot(two.end.x - two.start.x, two.end.y - two.start.y) < 2.3
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_a_jogger_lands_harder_and_turns_the_foot_further_than_a_walker(jogger: Walker, foot: Foot) -> None:
+    walked = Walker(Route().stand(1.0).walk(20.0).stop(1.0), seed=6)
+    figures = []
+    for walker, strides in ((jogger, run(jogger, foot)), (walked, list(walked.plan.strides[foot][2:-2]))):
+        top, hard, turned, high = [], [], [], []
+        for s in strides:
+            t = np.linspace(s.toe_off, s.foot_flat, 500)
+            found = walker.kinematics(foot, t, ON_INSTEP)
+            hard.append(np.linalg.norm(found.force, axis=1).max())
+            top.append(np.linalg.norm(found.velocity, axis=1).max())
+            turned.append(-walker.motions[foot].pitch(t).min())
+            high.append(found.position[:, 2].max())
+        figures.append([float(np.median(values)) for values in (hard, top, turned, high)])
+    (hard, fast, turned, high), (softer, slower, less, lower) = figures
+    assert hard > 1.5 * softer and 70.0 < hard < 160.0
+    assert 5.0 < fast < 8.0 and fast > 1.2 * slower
+    assert turned > less + 0.2 and high > lower + 0.05
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_position_and_velocity_of_a_jogger_never_jump(jogger: Walker, foot: Foot) -> None:
+    t = np.arange(0.0, jogger.duration, 1e-4)
+    found = jogger.kinematics(foot, t, ON_INSTEP)
+    assert np.linalg.norm(np.diff(found.position, axis=0), axis=1).max() < 10.0 * 1e-4
+    assert np.linalg.norm(np.diff(found.velocity, axis=0), axis=1).max() < 250.0 * 1e-4
+    assert np.linalg.norm(np.diff(found.acceleration, axis=0), axis=1).max() < 6.0
+
+
+def test_a_joggers_sole_does_not_go_into_the_ground(jogger: Walker) -> None:
+    shoe = jogger.wearer.shoe
+    t = np.arange(0.0, jogger.duration, 2e-3)
+    for foot in Foot:
+        for arc in (shoe.heel, shoe.forefoot):
+            low = jogger.motions[foot].at(t, Mounting((arc.x, 0.0, arc.radius))).position[:, 2] - arc.radius
+            assert low.min() > -2e-4
+
+
+def test_each_foot_of_a_jogger_bears_twice_the_weight_and_in_flight_none_does(jogger: Walker) -> None:
+    strides = sorted((s.heel_strike, s, foot) for foot in Foot for s in run(jogger, foot))
+    for (_, one, foot), (_, two, _) in pairwise(strides[2:-2]):
+        flown = np.linspace(two.toe_off + 1e-3, one.heel_strike - 1e-3, 20)
+        assert max(abs(jogger.loads.total(side, flown)).max() for side in Foot) < 1e-6
+        stood = np.linspace(one.heel_strike, one.heel_strike + 0.25, 100)
+        assert 1.7 < jogger.loads.total(foot, stood).max() / jogger.loads.weight < 2.9
+
+
+def test_running_feet_bear_the_weight_on_average(jogger: Walker) -> None:
+    begin, end = next((b, e) for b, e, what in jogger.truth().activities if what is Activity.RUNNING)
+    t = np.linspace(begin + 1.0, end - 1.0, 20000)
+    total = sum(jogger.loads.total(foot, t) for foot in Foot)
+    assert np.mean(total) / jogger.loads.weight == pytest.approx(1.0, abs=0.05)
+
+
+def test_a_jogger_walks_runs_and_walks_without_a_halt(jogger: Walker) -> None:
+    told = [what for _, _, what in jogger.truth().activities]
+    walking, running, standing = Activity.WALKING, Activity.RUNNING, Activity.STANDING
+    assert told == [standing, walking, running, walking, standing]
+    assert jogger.truth().pose(Foot.LEFT, jogger.duration).position[0, 0] == pytest.approx(40.0, abs=0.06)
+
+
+def test_the_body_of_a_jogger_holds_together(jogger: Walker) -> None:
+    t = np.arange(0.5, jogger.duration, 0.02)
+    limbs = jogger.wearer.limbs
+    for foot in Foot:
+        leg = jogger.body.leg(foot, t)
+        assert np.linalg.norm(leg.hip - leg.knee, axis=1) == pytest.approx(limbs.thigh)
+        assert np.linalg.norm(leg.hip - leg.ankle, axis=1).max() <= limbs.thigh + limbs.shank + 1e-9
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.floats(0.5, 20.0), st.floats(1.5, 4.5), st.booleans(), st.integers(0, 2**16))
+def test_whatever_is_run_the_events_of_a_foot_keep_their_order_and_it_ends_there(
+    distance: float, speed: float, on: bool, seed: int
+) -> None:
+    route = Route().stand(1.0).jog(distance, speed)
+    walker = Walker((route.walk(2.0) if on else route).stop(1.0), seed=seed)
+    for foot in Foot:
+        before = 0.0
+        for stride in walker.plan.strides[foot]:
+            assert before < stride.heel_off < stride.toe_off < stride.heel_strike < stride.foot_flat < walker.duration
+            before = stride.foot_flat
+    load = walker.loads.body(np.arange(0.0, walker.duration, 0.01)) / walker.loads.weight
+    assert load.min() >= -1e-9 and load.max() < 3.6
+    assert walker.kinematics(Foot.LEFT, np.array([walker.duration]), IN_SOLE).position[0, 0] == pytest.approx(
+        distance + 2.0 * on + 0.04, abs=0.06
+    )
+
+
+def test_the_same_seed_runs_the_same_way() -> None:
+    route = Route().stand(1.0).jog(10.0).stop(1.0)
+    one, two, other = (Walker(route, seed=seed).truth().steps(Foot.LEFT) for seed in (3, 3, 4))
+    assert one == two != other

@@ -1,0 +1,222 @@
+"""Stairs foot over foot: the feet stand on treads, clear the edges, and climb exactly what the flight does."""
+
+from itertools import pairwise
+from math import radians
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath.link.decoder import Decoder
+from solepath.sim.gait import Stride, Wearer
+from solepath.sim.route import Route
+from solepath.sim.sensortags import CC2541, CC2650
+from solepath.sim.shoe import IN_SOLE, ON_INSTEP, Mounting
+from solepath.sim.stairs import Flight
+from solepath.sim.styles import Manner
+from solepath.sim.walk import emulate
+from solepath.sim.walker import Walker
+from solepath.sim.wearers import SUBJECTS
+from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample, Site
+from solepath.vector import GRAVITY
+
+
+@pytest.fixture(scope="module")
+def storey() -> Walker:
+    """Up two flights with a landing, and down them again."""
+    route = Route().stand(1.0).walk(3.0).stairs(10).walk(0.4).turn(radians(180), 0.7).stairs(10).walk(3.0).stop(1.0)
+    route = route.stairs(10, up=False).walk(0.4).turn(radians(-180), 0.7).stairs(10, up=False).walk(3.0).stop(1.0)
+    return Walker(route, seed=4)
+
+
+def climbing(walker: Walker, foot: Foot) -> list[Stride]:
+    return [stride for stride in walker.plan.strides[foot] if stride.flight is not None]
+
+
+def room_below(walker: Walker, foot: Foot, flight: Flight, t: np.ndarray) -> np.ndarray:
+    """m from the sole to the nearest tread or edge below it: the sole is the hull of its two arcs."""
+    shoe, motion = walker.wearer.shoe, walker.motions[foot]
+    room = np.full(len(t), np.inf)
+    for share in np.linspace(0.0, 1.0, 9):
+        radius = shoe.heel.radius + (shoe.forefoot.radius - shoe.heel.radius) * share
+        x = shoe.heel.x + (shoe.forefoot.x - shoe.heel.x) * share
+        centre = motion.at(t, Mounting((x, 0.0, radius))).position
+        room = np.minimum(room, centre[:, 2] - flight.above(centre[:, 0], centre[:, 1], np.full(len(t), radius)))
+    return room
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_both_feet_go_up_exactly_as_high_as_the_flights_and_come_down_again(storey: Walker, foot: Foot) -> None:
+    truth = storey.truth()
+    assert [flight.up for flight in truth.flights] == [True, True, False, False]
+    climbed = [step.displacement[2] for step in truth.steps(foot)]
+    assert sum(rise for rise in climbed if rise > 0.0) == pytest.approx(20 * 0.16, abs=1e-9)
+    assert sum(climbed) == pytest.approx(0.0, abs=1e-9)
+    assert truth.pose(foot, storey.duration).position[0, 2] == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_a_foot_skips_every_other_tread(storey: Walker, foot: Foot) -> None:
+    """The width of a step is 0.3 m and the height 0.16 m: each foot goes 0.60 m and 0.32 m (Sensors 2016, 16, 1809)."""
+    inside = [stride for stride in climbing(storey, foot) if abs(stride.end.z - stride.start.z) > 0.2]
+    assert len(inside) >= 16
+    for stride in inside:
+        assert abs(stride.end.z - stride.start.z) == pytest.approx(0.32)
+        assert np.hypot(stride.end.x - stride.start.x, stride.end.y - stride.start.y) == pytest.approx(0.60, abs=0.09)
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_a_foot_never_goes_into_a_tread_nor_through_an_edge(storey: Walker, foot: Foot) -> None:
+    for stride in climbing(storey, foot):
+        assert stride.flight is not None
+        t = np.linspace(stride.heel_off + 1e-6, stride.foot_flat - 1e-6, 300)
+        room = room_below(storey, foot, stride.flight, t)
+        assert room.min() > -1e-3
+        swing = stride.heel_strike - stride.toe_off
+        middle = (t > stride.toe_off + 0.4 * swing) & (t < stride.toe_off + 0.7 * swing)
+        assert 0.005 < room[middle].min() < (0.10 if abs(stride.end.z - stride.start.z) > 0.2 else 0.25)
+
+
+flights = st.tuples(
+    st.integers(1, 6), st.booleans(), st.floats(0.12, 0.2), st.floats(0.25, 0.36), st.floats(0.4, 0.7)
+)
+
+
+@settings(max_examples=25, deadline=None)
+@given(flights, st.sampled_from([Wearer(), *SUBJECTS]), st.integers(0, 2**16))
+def test_whoever_walks_whatever_flight_keeps_clear_of_its_edges_and_ends_level(
+    flight: tuple[int, bool, float, float, float], wearer: Wearer, seed: int
+) -> None:
+    steps, up, rise, going, speed = flight
+    route = Route().stand(1.0).walk(2.0).stairs(steps, up, rise, going, speed).walk(2.0).stop(1.0)
+    walker = Walker(route, wearer, seed)
+    height = steps * rise if up else -steps * rise
+    for foot in Foot:
+        before = 0.0
+        for stride in walker.plan.strides[foot]:
+            assert before < stride.heel_off < stride.toe_off < stride.heel_strike < stride.foot_flat < walker.duration
+            before = stride.foot_flat
+            if stride.flight is not None:
+                t = np.linspace(stride.heel_off + 1e-6, stride.foot_flat - 1e-6, 80)
+                assert room_below(walker, foot, stride.flight, t).min() > -4e-3
+        assert walker.truth().pose(foot, walker.duration).position[0, 2] == pytest.approx(height, abs=1e-9)
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_position_and_velocity_never_jump_on_stairs(storey: Walker, foot: Foot) -> None:
+    t = np.arange(0.0, storey.duration, 1e-4)
+    found = storey.kinematics(foot, t, ON_INSTEP)
+    assert np.linalg.norm(np.diff(found.position, axis=0), axis=1).max() < 6.0 * 1e-4
+    assert np.linalg.norm(np.diff(found.velocity, axis=0), axis=1).max() < 120.0 * 1e-4
+    assert np.linalg.norm(np.diff(found.acceleration, axis=0), axis=1).max() < 3.0
+
+
+def test_a_foot_in_stationary_is_still_at_the_height_of_its_tread(storey: Walker) -> None:
+    for foot in Foot:
+        for stride in climbing(storey, foot):
+            assert stride.flight is not None
+            t = np.array([stride.foot_flat + 0.01])
+            found = storey.kinematics(foot, t, IN_SOLE)
+            tread = stride.flight.ground(np.array([stride.end.x]), np.array([stride.end.y]))
+            assert found.position[0, 2] - IN_SOLE.position[2] == pytest.approx(float(tread[0]), abs=2e-4)
+            assert np.linalg.norm(found.velocity) < 1e-2
+
+
+def test_the_forefoot_lands_first_and_the_toes_point_down_on_the_way_down(storey: Walker) -> None:
+    for foot in Foot:
+        for stride in climbing(storey, foot):
+            touching = float(storey.motions[foot].pitch(np.array([stride.heel_strike + 1e-6]))[0])
+            assert (-0.12 if stride.manner is Manner.UP else -0.45) < touching < (
+                -0.04 if stride.manner is Manner.UP else -0.2
+            )
+
+
+def test_a_foot_on_stairs_turns_and_lands_as_recorded_ones_do(storey: Walker) -> None:
+    """HuGaDB's insteps: heel-up at 5 rad/s (up) and 9 (down), toe-up at 4 and 6, by some 40 degrees in all."""
+    for foot in Foot:
+        for stride in climbing(storey, foot)[1:-1]:
+            t = np.linspace(stride.heel_off, stride.heel_strike, 400)
+            rate = storey.kinematics(foot, t, ON_INSTEP).rate[:, 1]
+            up = stride.manner is Manner.UP
+            assert (4.0 if up else 5.5) < rate.max() < (8.0 if up else 11.0)
+            assert 2.0 < -rate.min() < 8.0
+            assert 0.5 < -storey.motions[foot].pitch(t).min() < 1.2
+
+
+def test_stairs_are_walked_at_half_a_metre_a_second(storey: Walker) -> None:
+    for flight in storey.truth().flights:
+        assert 0.4 < flight.steps * 0.3 / (flight.t_end - flight.t_start) < 0.65
+
+
+def test_what_the_feet_bear_on_stairs_is_the_weight_on_average(storey: Walker) -> None:
+    for flight in storey.truth().flights:
+        t = np.linspace(flight.t_start, flight.t_end, 2000)
+        total = sum(storey.loads.total(foot, t) for foot in Foot)
+        assert np.mean(total) == pytest.approx(storey.wearer.mass * GRAVITY, rel=0.03)
+        assert 1.05 < np.max(total) / storey.loads.weight < 1.6
+
+
+def test_the_load_of_a_descending_foot_begins_under_the_forefoot(storey: Walker) -> None:
+    stride = next(s for s in climbing(storey, Foot.LEFT) if s.manner is Manner.DOWN and s.number > 20)
+    heel, _, front, toes = storey.loads.shares(Foot.LEFT, np.array([stride.heel_strike + 0.01]))
+    assert front[0] + toes[0] > 0.6 > heel[0] + 0.3
+
+
+def test_the_body_stays_above_the_feet_on_stairs(storey: Walker) -> None:
+    t = np.arange(0.5, storey.duration, 0.02)
+    above = storey.body.pelvis(t)[0][:, 2] - storey.truth().elevation(t)
+    assert above.min() > 0.7 and above.max() < 1.0
+    for foot in Foot:
+        leg = storey.body.leg(foot, t)
+        reach = np.linalg.norm(leg.hip - leg.ankle, axis=1)
+        assert reach.max() <= storey.wearer.limbs.thigh + storey.wearer.limbs.shank + 1e-9
+
+
+def test_stairs_are_told_as_such_from_the_first_foot_up_to_both_feet_above(storey: Walker) -> None:
+    truth = storey.truth()
+    told = [what for _, _, what in truth.activities]
+    up, down = Activity.STAIRS_UP, Activity.STAIRS_DOWN
+    assert [what for what in told if what in (up, down)] == [up, up, down, down]
+    for flight in truth.flights:
+        before, after = truth.elevation(np.array([flight.t_start, flight.t_end]))
+        assert after - before == pytest.approx(flight.height, abs=1e-9)
+        assert truth.activity(flight.t_start + 0.1) is (up if flight.up else down)
+
+
+def test_activities_follow_each_other_without_a_gap(storey: Walker) -> None:
+    found = storey.truth().activities
+    assert found[0][0] == 0.0 and found[-1][1] == storey.duration
+    for (_, end, one), (begin, _, other) in pairwise(found):
+        assert end == begin and one is not other
+
+
+@pytest.mark.parametrize("device", [CC2650(), CC2541(rate=20.0)])
+def test_the_barometer_of_a_tag_follows_the_stairs(device: CC2650 | CC2541) -> None:
+    """12 Pa a metre: 4.8 m of stairs are 57 Pa, beyond a barometer's noise and its wander."""
+    route = Route().stand(4.0).walk(2.0).stairs(15).walk(1.5).stairs(15).walk(2.0).stop(4.0)
+    walk = emulate(route, devices={SITE_OF_FOOT[foot]: device for foot in Foot}, seed=6)
+    for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT):
+        decoder = Decoder(site)
+        decoded = [one for packet in walk.packets if packet.site is site for one in decoder.feed(packet)]
+        air = [(one.t, one.air_pressure) for one in decoded if isinstance(one, Sample) and one.air_pressure is not None]
+        low = np.mean([pascal for t, pascal in air if t < 3.5])
+        high = np.mean([pascal for t, pascal in air if t > walk.truth.duration - 3.5])
+        assert low - high == pytest.approx(57.0, abs=15.0)
+
+
+def test_the_same_seed_climbs_the_same_way() -> None:
+    route = Route().stand(1.0).stairs(4).walk(1.0).stop(1.0)
+    one, two, other = (Walker(route, seed=seed).truth().steps(Foot.LEFT) for seed in (3, 3, 4))
+    assert one == two != other
+
+
+@pytest.mark.parametrize(("steps", "rise", "going"), [(0, 0.16, 0.3), (4, 0.0, 0.3), (4, 0.4, 0.3), (4, 0.16, 0.2)])
+def test_stairs_nobody_could_walk_are_refused(steps: int, rise: float, going: float) -> None:
+    with pytest.raises(ValueError, match="stairs"):
+        Route().stairs(steps, rise=rise, going=going)
+
+
+def test_two_flights_without_a_landing_are_refused() -> None:
+    with pytest.raises(ValueError, match="landing"):
+        Route().stairs(4).stairs(4)
