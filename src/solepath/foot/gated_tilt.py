@@ -10,7 +10,7 @@ from math import hypot, sqrt
 from attrs import define, field
 
 from ..types import Phase, Quat, Vec3
-from ..vector import GRAVITY, TIE, ZERO, rotate
+from ..vector import GRAVITY, TIE, ZERO, rotate, tipped
 from .dedrift import LinearDedrift
 from .posture import gravity_error, posture, turned
 from .stance import Stance
@@ -60,19 +60,24 @@ class ShoeSensing(LinearDedrift):
 
     kp: float = 1.0
     """1/s; the paper has no figure."""
+    heed: float = 0.2
+    """How much of the tilt that would explain the velocity left at the end of a motion is believed: joggers stand too
+    shortly for the feedback. Not in the paper; 0 leaves it out."""
     eliminate: bool = True
-    highest: float = 0.1
+    highest: float = 0.12
     """m."""
     behind: float = 0.075
     """By how much the detector is late, s: half of the window of `ShortTimeEnergy`, since "n is the position of the
     centre of the sliding window". A stance that has ended did so that long ago, and the motion since then counts."""
     doubtful: float = 0.035
     """m/s; of a foot that has moved for `late` s without a stance, s, twice as much:"""
-    late: float = 1.0
+    late: float = 0.9
     slow: float = 0.5
     """How fast a standing foot may seem, m/s, and how much more with each second since it last stood, m/s^2: a tilt
     that is off by 6 degrees makes as much."""
     drifting: float = 1.0
+    strict: float = 0.5
+    """The share of that which doubtful evidence is believed up to."""
     # state
     lean: float = field(default=0.0, init=False)
     """Height gained by level steps for each metre of theirs, m; zero without `eliminate`."""
@@ -198,6 +203,8 @@ class ShoeSensing(LinearDedrift):
         elif swing < BROKEN and not sure:
             return False
         limit = self.slow + self.drifting * swing
+        if not sure:
+            limit *= self.strict
         if swing > self.late:
             limit += LOST * (swing - self.late) ** 2
         elif sigma > self.doubtful:
@@ -211,6 +218,9 @@ class ShoeSensing(LinearDedrift):
         rx, ry, rz = stance.v_ref
         (x, y, z), (vx, vy, vz) = self.raw
         half = 0.5 * self.raw_swing
+        if self.best == 0.0:
+            k = 0.5 * self.heed / (GRAVITY * max(self.raw_swing, BROKEN))
+            self.attitude = tipped(self.attitude, k * (vy - ry), -k * (vx - rx))
         x, y, z = x + (rx - vx) * half, y + (ry - vy) * half, z + (rz - vz) * half
         if self.eliminate:
             z = self._height(x, y, z)
