@@ -55,19 +55,22 @@ def test_a_jogger_lands_harder_and_turns_the_foot_further_than_a_walker(jogger: 
     walked = Walker(Route().stand(1.0).walk(20.0).stop(1.0), seed=6)
     figures = []
     for walker, strides in ((jogger, run(jogger, foot)), (walked, list(walked.plan.strides[foot][2:-2]))):
-        top, hard, turned, high = [], [], [], []
+        top: list[float] = []
+        hard: list[float] = []
+        turned: list[float] = []
+        high: list[float] = []
         for s in strides:
             t = np.linspace(s.toe_off, s.foot_flat, 500)
             found = walker.kinematics(foot, t, ON_INSTEP)
-            hard.append(np.linalg.norm(found.force, axis=1).max())
-            top.append(np.linalg.norm(found.velocity, axis=1).max())
-            turned.append(-walker.motions[foot].pitch(t).min())
-            high.append(found.position[:, 2].max())
+            hard.append(float(np.linalg.norm(found.force, axis=1).max()))
+            top.append(float(np.linalg.norm(found.velocity, axis=1).max()))
+            turned.append(-float(walker.motions[foot].pitch(t).min()))
+            high.append(float(found.position[:, 2].max()))
         figures.append([float(np.median(values)) for values in (hard, top, turned, high)])
-    (hard, fast, turned, high), (softer, slower, less, lower) = figures
-    assert hard > 1.5 * softer and 70.0 < hard < 160.0
+    (impact, fast, far, up), (softer, slower, less, lower) = figures
+    assert impact > 1.5 * softer and 70.0 < impact < 160.0
     assert 5.0 < fast < 8.0 and fast > 1.2 * slower
-    assert turned > less + 0.2 and high > lower + 0.05
+    assert far > less + 0.2 and up > lower + 0.05
 
 
 @pytest.mark.parametrize("foot", list(Foot))

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from collections import deque
 from itertools import pairwise
-from math import atan2, cos, hypot, pi, sin, tan
+from math import cos, pi, sin
 
 import numpy as np
-from attrs import define, frozen
+from attrs import frozen
 
 from ..floorplan.plan import Point, Start
 from ..types import Foot
@@ -26,37 +26,26 @@ from .building import (
     GROUND,
     LANE,
     NORTH,
-    RISE,
     ROWS,
-    STEPS,
-    STOREY,
     UPPER,
     WELLS,
     Cabin,
     Well,
     in_well,
 )
+from .course import OTHER, Course, course_from
 from .curves import Array
-from .route import TIGHT_TURN, Route
+from .route import Route
 from .shoe import Mounting
 from .stairs import ahead
 from .walker import Walker
 
-STILL = 2.0
-"""s of standing at the beginning and at the end."""
-SPEED = 1.3
-"""m/s."""
-CORNER = 0.9
-"""m: radius at which corners of corridors are walked."""
-TURNING = 5.6
-"""m inside the door of a stairwell where the turn on its landing begins."""
 ASTRAY = 0.3
 """m: how far off the middle of the corridors a wanderer walks, at the most."""
 FEWEST, MOST = 3, 7
 """Corners of a wandering before it turns to the way out."""
 RUN_UP = 4.0
 """m walked along the corridor before and after stairs on the floor that is not wandered on."""
-OTHER = {GROUND: UPPER, UPPER: GROUND}
 _ELEVATION = {level.id: level.elevation for level in BUILDING.levels}
 
 Exit = Cabin | Well
@@ -95,7 +84,7 @@ def case_study() -> Way:
     """As in section V-F of Liu et al. 2015: down by the lift at the bottom left, along corridors, and away by another
     lift. The paper gives no measures; this one turns five times on the floor."""
     a, b = CABINS[:2]
-    course = _course(UPPER, a.middle, a.out)
+    course = course_from(UPPER, a.middle, a.out)
     course.stand()
     course.ride()
     west, middle, east = COLUMNS
@@ -104,15 +93,17 @@ def case_study() -> Way:
     course.along([*bends, b.middle])
     course.face(b.out)
     course.ride()
-    return course.done(GROUND, a.name, b.name)
+    course.stand()
+    return Way(course.route, course.start, GROUND, a.name, b.name)
 
 
 def corridor() -> Way:
     """63 m straight on from door to door, as the long corridor of section V-D."""
-    course = _course(GROUND, (COLUMNS[0], 0.0), 0.5 * pi)
+    course = course_from(GROUND, (COLUMNS[0], 0.0), 0.5 * pi)
     course.stand()
     course.along([(COLUMNS[0], NORTH)])
-    return course.done(GROUND)
+    course.stand()
+    return Way(course.route, course.start, GROUND)
 
 
 def wandering(seed: int) -> Way:
@@ -127,7 +118,8 @@ def wandering(seed: int) -> Way:
     begin, end = _beside(one, level, dx, dy), _beside(other, level, dx, dy)
     course.along([*_strolled(_network(dx, dy, begin, end), begin, end, rng), _inside(other, level)])
     _leaving(course, other, level, dx, dy)
-    return course.done(level, one.name, other.name)
+    course.stand()
+    return Way(course.route, course.start, level, one.name, other.name)
 
 
 # --- corridors --------------------------------------------------------------------------------------------------------
@@ -199,25 +191,25 @@ def _straight(a: Point, b: Point, c: Point) -> bool:
 # --- stairs and lifts -------------------------------------------------------------------------------------------------
 
 
-def _arriving(one: Exit, level: str, dx: float, dy: float) -> _Course:
+def _arriving(one: Exit, level: str, dx: float, dy: float) -> Course:
     """From the other floor to this one; the course then is where one comes out."""
     if isinstance(one, Cabin):
-        course = _course(OTHER[level], one.middle, one.out)
+        course = course_from(OTHER[level], one.middle, one.out)
         course.stand()
         course.ride()
         return course
     inside, turning = _inside(one, OTHER[level]), _beside(one, OTHER[level], dx, dy)
     if one.inward == pi:
-        course = _course(OTHER[level], (turning[0], turning[1] - RUN_UP), 0.5 * pi)
+        course = course_from(OTHER[level], (turning[0], turning[1] - RUN_UP), 0.5 * pi)
     else:
-        course = _course(OTHER[level], (turning[0] - RUN_UP, turning[1]), 0.0)
+        course = course_from(OTHER[level], (turning[0] - RUN_UP, turning[1]), 0.0)
     course.stand()
     course.along([turning, inside])
     course.climb(up=level == UPPER)
     return course
 
 
-def _leaving(course: _Course, other: Exit, level: str, dx: float, dy: float) -> None:
+def _leaving(course: Course, other: Exit, level: str, dx: float, dy: float) -> None:
     """From inside a cabin or before the first edge to the other floor."""
     if isinstance(other, Cabin):
         course.face(other.out)
@@ -226,83 +218,3 @@ def _leaving(course: _Course, other: Exit, level: str, dx: float, dy: float) -> 
     course.climb(up=level == GROUND)
     x, y = _beside(other, OTHER[level], dx, dy)
     course.along([(x, y), (x, y - RUN_UP) if other.inward == pi else (x - RUN_UP, y)])
-
-
-def _course(level: str, at: Point, heading: float) -> _Course:
-    return _Course(level, at, heading, Start(level, at, heading))
-
-
-@define
-class _Course:
-    """A route under way: the level, the place and the heading where it has come to."""
-
-    level: str
-    at: Point
-    heading: float
-    start: Start
-    route: Route = Route(speed=SPEED)
-
-    def stand(self) -> None:
-        self.route = self.route.stand(STILL)
-
-    def ride(self) -> None:
-        """To the other floor."""
-        self.route = self.route.lift(STOREY if self.level == GROUND else -STOREY)
-        self.level = OTHER[self.level]
-
-    def face(self, heading: float) -> None:
-        """Turn on the spot."""
-        self.route = self.route.turn(_wrapped(heading - self.heading))
-        self.heading = heading
-
-    def ahead(self, distance: float) -> None:
-        self.route = self.route.walk(distance, SPEED)
-        x, y = self.at
-        self.at = (x + distance * cos(self.heading), y + distance * sin(self.heading))
-
-    def bend(self, angle: float, radius: float) -> None:
-        self.route = self.route.turn(angle, radius, min(SPEED, TIGHT_TURN if radius < 1.0 else SPEED))
-        chord, way = 2.0 * radius * abs(sin(0.5 * angle)), self.heading + 0.5 * angle
-        self.at = (self.at[0] + chord * cos(way), self.at[1] + chord * sin(way))
-        self.heading += angle
-
-    def along(self, points: list[Point]) -> None:
-        """From place to place, the corners between them rounded; the first one lies straight ahead."""
-        for k, (x, y) in enumerate(points):
-            away = hypot(x - self.at[0], y - self.at[1])
-            if k + 1 == len(points):
-                self.ahead(away)
-                return
-            onward = atan2(points[k + 1][1] - y, points[k + 1][0] - x)
-            angle = _wrapped(onward - self.heading)
-            if abs(angle) > pi - 0.1:
-                self.ahead(away)
-                self.face(onward)
-            elif abs(angle) > 1e-9:
-                self.ahead(away - CORNER * tan(0.5 * abs(angle)))
-                self.bend(angle, CORNER)
-            elif away > 0.0:
-                self.ahead(away)
-
-    def climb(self, up: bool) -> None:
-        """Two flights and the landing between them, turned in to the left upwards and to the right downwards."""
-        edge, far = ahead(up, GOING), APPROACH + (STEPS - 1) * GOING
-        self.flight(up)
-        self.ahead(TURNING - (APPROACH - edge + STEPS * GOING))
-        self.bend(pi if up else -pi, LANE)
-        self.ahead(TURNING - (far + edge))
-        self.flight(up)
-        self.level = OTHER[self.level]
-
-    def flight(self, up: bool) -> None:
-        self.route = self.route.stairs(STEPS, up, RISE, GOING)
-        x, y = self.at
-        self.at = (x + STEPS * GOING * cos(self.heading), y + STEPS * GOING * sin(self.heading))
-
-    def done(self, level: str, came: str = "", left: str = "") -> Way:
-        self.stand()
-        return Way(self.route, self.start, level, came, left)
-
-
-def _wrapped(angle: float) -> float:
-    return atan2(sin(angle), cos(angle))
