@@ -97,7 +97,7 @@ class Calibration:
     the navigation frame, whose heading is that of the sensor at the start: then it holds for walks that start as the
     calibration did. `weight`: of the wearer, N.
     `modes`: compensation of a touchdown by foot and walking mode, (forward, left), m. `toe_out`: from a foot's way to
-    where it points, outwards positive, rad (Liu et al. 2016, equation (1)).
+    where it points, outwards positive, rad (Liu et al. 2015, equation (1)).
     """
 
     insoles: dict[Foot, InsoleCalibration] = field(factory=dict)

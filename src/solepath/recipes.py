@@ -122,7 +122,7 @@ FOOTSTEP_TRACKER = Recipe(
     activity=TwoSecondWindows(),
     place=SnakeGame(),
 )
-"""Liu et al. 2016: steps between static zones, projected onto the ground; turns; candidate traces on a floor plan."""
+"""Liu et al. 2015: steps between static zones, projected onto the ground; turns; candidate traces on a floor plan."""
 
 BY_NAME: dict[str, Recipe] = {
     recipe.name: recipe

@@ -1,4 +1,4 @@
-"""Left, right and about turns, told apart by a linear classifier on what both feet turned (Liu et al. 2016,
+"""Left, right and about turns, told apart by a linear classifier on what both feet turned (Liu et al. 2015,
 footstep-tracker, section V.E: "we use the degree of both foot as features of the turn, and use SVM").
 
 An about turn to the left and one to the right lie on both sides of everything else, which no line through the plane of
@@ -24,9 +24,9 @@ SLIGHT = 0.61
 turns to the side come to, rad."""
 
 WEIGHTS: dict[Turn, tuple[float, float, float, float, float]] = {
-    Turn.LEFT: (1.0, 1.0, -1.0, -1.0, 1.0),
-    Turn.RIGHT: (-1.0, -1.0, -1.0, -1.0, 1.0),
-    Turn.ABOUT: (0.0, 0.0, 1.0, 1.0, -0.5),
+    Turn.LEFT: (2.86, 0.61, -3.85, -5.25, 3.9),
+    Turn.RIGHT: (-0.61, -2.86, -5.25, -3.85, 3.9),
+    Turn.ABOUT: (-1.21, 1.21, 3.88, 3.88, -4.98),
 }
 
 

@@ -1,4 +1,4 @@
-"""Step segmentation by static zones (Liu et al. 2016, footstep-tracker, section IV.B and figure 7).
+"""Step segmentation by static zones (Liu et al. 2015, footstep-tracker, section IV.B and figure 7).
 
 A static zone is six consecutive samples at 20 Hz that lie within 0.5 m/s^2 of rest on all axes. Between two of them
 lies one step, whose critical times (critical_times.py) are found as soon as the second is. What the letter of this
@@ -235,7 +235,10 @@ class StaticZones:
     def _forget(self, t: float) -> None:
         """In a zone no more is kept than what the next segment begins with."""
         rows = self.rows
-        while t - rows[0][0] > self.before and len(rows) > 1:
+        oldest = t - self.before
+        if self.loose.since is not None and self.loose.since > oldest:
+            oldest = self.loose.since  # what lies before it was the last segment's
+        while rows[0][0] < oldest and len(rows) > 1:
             del rows[0]
         self.longest_gap = 0.0
 
