@@ -134,7 +134,7 @@ def _shaped(feature: Feature, geometry: object, corners: _Corners) -> Feature:
         lines = tuple(tuple(_line(line, feature, corners) for line in _list(one, feature))
                       for one in _list(told, feature))  # fmt: skip
     else:
-        feature.wrong(f"its geometry is a {kind[:30]}")
+        feature.wrong(f"its geometry is a {kind[:30]!r}")
     return Feature(feature.id, feature.name, feature.kind, feature.properties, kind, points, lines)
 
 
