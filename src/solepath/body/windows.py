@@ -13,7 +13,7 @@ velocity, and what remains of the specific force is gravity. It needs no gyrosco
 from __future__ import annotations
 
 from collections import deque
-from math import sqrt
+from math import radians, sqrt
 
 from attrs import define, field, frozen
 
@@ -27,6 +27,9 @@ WINDOW = BLOCKS * HOP
 """s."""
 FEWEST = 8
 """Samples that a window has at the least; at 10 Hz it has twenty."""
+FASTEST = radians(250.0) ** 2
+"""What turns faster counts as this, rad^2/s^2: the paper's SensorTag measures no more, and other sensors must tell the
+same of the same gait."""
 WEIGHTLESS = 1.0
 """Gravity has no direction in a window whose mean specific force is less, m/s^2."""
 
@@ -106,7 +109,7 @@ class FootWindows:
         block.energy += x * x + y * y + z * z
         if gyro is not None:
             x, y, z = gyro
-            block.turning += x * x + y * y + z * z
+            block.turning += min(FASTEST, x * x + y * y + z * z)
             block.turns += 1
         return fresh
 

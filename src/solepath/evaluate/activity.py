@@ -66,15 +66,15 @@ def rides(true: Sequence[Span], found: Sequence[LiftRidden]) -> ActivityScore:
     return ActivityScore(rides_true=len(labelled), rides_found=n_found, rides_invented=len(left))
 
 
-def windows_right(true: Sequence[Span], timeline: Timeline, length: float = 2.0) -> tuple[int, int]:
-    """(right, all) of the windows of `length` s that lie within one activity, side by side from its beginning. What
-    was told of the middle of a window is its label (Liu et al. 2015 score windows of one activity)."""
-    right = everything = 0
-    for begin, end, activity in true:
-        for k in range(int((end - begin + 1e-9) // length)):
-            everything += 1
-            right += timeline.at(begin + (k + 0.5) * length) is activity
-    return right, everything
+def windows(true: Sequence[Span], timeline: Timeline, length: float = 2.0) -> ActivityScore:
+    """The same of the windows of `length` s that lie within one activity, side by side from its beginning: what was
+    told of a window's middle is its label. Liu et al. 2015 score windows of one activity (section V.C)."""
+    middles = [
+        (begin + (k + 0.5) * length, activity)
+        for begin, end, activity in true
+        for k in range(int((end - begin + 1e-9) // length))
+    ]
+    return compared([at for at, _ in middles], [activity for _, activity in middles], timeline)
 
 
 # --- hugadb -----------------------------------------------------------------------------------------------------------

@@ -10,14 +10,18 @@ from collections.abc import Callable
 from math import pi
 
 import numpy as np
+from attrs import evolve
 
+from ..link.decoder import Decoder
 from ..sim.gait import Wearer
 from ..sim.parts import MPU6050
 from ..sim.route import Route
+from ..sim.sensortags import CC2650
 from ..sim.shoe import IN_SOLE
+from ..sim.walk import EmulatedWalk, emulate
 from ..sim.walker import Walker
 from ..sim.wearers import wearer
-from ..types import Foot, Sample
+from ..types import SITE_OF_FOOT, Foot, Sample
 
 RATE = 20.0
 """Hz (section IV: "we sample the accelerometer and gyroscope with 20 Hz")."""
@@ -42,15 +46,27 @@ def of_seed(seed: int, *, jogging: bool = False) -> tuple[Route, Wearer]:
 
 
 def walker(seed: int, *, jogging: bool = False) -> Walker:
-    """The walk of `of_seed`."""
+    """Who walks the route of `of_seed`, with any sensors or none."""
     route, who = of_seed(seed, jogging=jogging)
     return Walker(route, who, seed)
 
 
-def samples(walker: Walker) -> list[Sample]:
-    """Of both feet in the order of time, as two MPU-6050 in the soles measure."""
-    found = [one for foot in Foot for one in walker.samples(foot, RATE, MPU6050, mounting=IN_SOLE)]
-    return sorted(found, key=lambda sample: sample.t)
+def walk(seed: int, *, jogging: bool = False) -> EmulatedWalk:
+    """The same with two CC2650 in the soles whose inertial sensor is as noisy as an MPU-6050."""
+    route, who = of_seed(seed, jogging=jogging)
+    tag = CC2650(rate=RATE, part=MPU6050, mounting=IN_SOLE)
+    return emulate(route, wearer=who, devices={SITE_OF_FOOT[foot]: evolve(tag) for foot in Foot}, seed=seed)
+
+
+def samples(walked: EmulatedWalk) -> list[Sample]:
+    """What a receiver makes of its packets, in the order of arrival."""
+    decoders = {site: Decoder(site) for site in SITE_OF_FOOT.values()}
+    return [
+        item
+        for packet in walked.packets
+        for item in decoders[packet.site].feed(packet)
+        if isinstance(item, Sample)
+    ]
 
 
 def _uniform(rng: np.random.Generator, low: float, high: float) -> float:

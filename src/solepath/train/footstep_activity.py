@@ -203,10 +203,10 @@ def _rounded(value: float) -> float:
 
 def of_emulated(seed: int) -> Taught:
     """The windows of an emulated walk with some jogging."""
-    walker = emulated.walker(seed, jogging=True)
-    truth = walker.truth()
-    t = np.arange(0.0, walker.duration, 1.0 / emulated.RATE)
-    return features("emulated", emulated.samples(walker), t, [truth.activity(float(at)) for at in t])
+    walked = emulated.walk(seed, jogging=True)
+    truth = walked.truth
+    t = np.arange(0.0, truth.duration, 1.0 / emulated.RATE)
+    return features("emulated", emulated.samples(walked), t, [truth.activity(float(at)) for at in t])
 
 
 def main(folder: Path) -> None:
