@@ -213,6 +213,8 @@ class _Planner:
         roll, yaw, outward = (float(value) for value in self.rng.standard_normal(3))
         side = 1.0 if foot is Foot.LEFT else -1.0
         weave = (side * (0.16 + 0.03 * roll), -side * (0.10 + 0.02 * yaw), side * (0.012 + 0.004 * outward))
+        if style is not None:
+            weave = (style.weave * weave[0], style.weave * weave[1], weave[2])
         leave = wearer.toe_off_pitch * max(reach, 0.08) ** 0.55 if style is None else style.toe_off_pitch
         strike = wearer.strike_pitch * max(reach, 0.05) ** 0.9 if style is None else style.strike_pitch
         before.append(

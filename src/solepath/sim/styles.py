@@ -41,7 +41,8 @@ class Style:
     `early`: from heel-off to that heel-strike. `flat`: from heel-strike to foot-flat. `slide`, `sink`: how fast the
     shoe still goes ahead and down when it touches the ground. `clearance`: of the sole in swing, m. `hold`: how the
     swing lags behind a quintic in the middle, as a share of its way. `soon`: how much it rises, or sinks, early.
-    `front`: share of the load that lands on the forefoot.
+    `weave`: how much the foot
+    rolls and turns in swing, relative to walking. `front`: share of the load that lands on the forefoot.
     `bounce`: amplitude of the load's swing about the weight.
     """
 
@@ -55,6 +56,7 @@ class Style:
     clearance: float
     hold: float = 0.0
     soon: float = 0.0
+    weave: float = 1.0
     front: float = 0.0
     bounce: float = 0.0
 
@@ -94,13 +96,14 @@ def style_of(manner: Manner, speed: float) -> Style:
         share = min(max(0.38 - 0.03 * (speed - 2.6), 0.25), 0.44)
         return Style(
             double=share - 0.5,
-            early=0.5 - 0.45 * share,
-            flat=0.075,
+            early=0.5 - 0.40 * share,
+            flat=0.09,
             toe_off_pitch=0.95,
             strike_pitch=0.24,
             slide=0.25 * speed,
             sink=0.33 * speed,
             clearance=0.15,
+            weave=2.0,
         )
     return CLIMBING if manner is Manner.UP else DESCENDING
 
