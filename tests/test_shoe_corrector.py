@@ -1,0 +1,208 @@
+"""The corrector of shoe sensing: linear removal of what velocity and height gathered (Sensors 16, 1809, 2016, sections
+3.2 to 3.4), and what ours adds for joggers and landings."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from math import inf, sin
+
+import pytest
+from attrs import evolve
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath import machine
+from solepath.foot.gated_tilt import ShoeSensing
+from solepath.foot.stance import Stance
+from solepath.types import Phase, Vec3
+from solepath.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
+
+STILL = Stance(ZERO, 0.01, 0.0, Phase.STATIONARY)
+MOVES = Stance(ZERO, inf, 9.0, None)
+DOUBTFUL = Stance(ZERO, 0.03, 9.0, None)
+DT = 0.01
+
+
+def begun(**changes: float | bool) -> ShoeSensing:
+    """A foot that has stood for a while, with a corrector that does as the paper says and no more."""
+    plain: dict[str, float | bool] = {"behind": 0.0, "heed": 0.0}
+    one = evolve(ShoeSensing(), **{**plain, **changes})
+    one.start(IDENTITY, 0.02)
+    go(one, [ZERO] * 20, STILL)
+    return one
+
+
+def go(one: ShoeSensing, accelerations: Sequence[Vec3], stance: Stance, t: float = 0.0) -> bool:
+    """Samples of these accelerations without gravity, m/s^2, all with this evidence."""
+    said = False
+    for k, (x, y, z) in enumerate(accelerations):
+        one.predict(DT, (x, y, z + GRAVITY), ZERO)
+        said = one.correct(t + k * DT, stance)
+    return said
+
+
+def stride(one: ShoeSensing, length: float, height: float, drift: Vec3 = ZERO, seconds: float = 0.8) -> None:
+    """There and to a halt: a sine of acceleration that carries the foot so far, and a bias `drift` on top."""
+    n = round(seconds / DT)
+    # the second integral over T of a sin(2 pi t / T) is a T^2 / 2 pi
+    a, u = (2.0 * 3.141592653589793 * way / (n * DT) ** 2 for way in (length, height))
+    wave = [sin(2.0 * 3.141592653589793 * (k + 0.5) / n) for k in range(n)]
+    dx, dy, dz = drift
+    go(one, [(a * w + dx, dy, u * w + dz) for w in wave], MOVES)
+    go(one, [ZERO] * 20, STILL)
+
+
+def test_a_constant_error_of_the_acceleration_leaves_the_foot_where_it_stood() -> None:
+    # e~ = b: V = b t - e~ t = 0, so S = 0; without the removal 0.3 m/s^2 over 0.8 s makes 0.096 m
+    one = begun(eliminate=False)
+    go(one, [(0.3, -0.2, 0.1)] * 80, MOVES)
+    assert one.velocity[0] == pytest.approx(0.24, rel=0.01)
+    assert one.position[0] == pytest.approx(0.096, rel=0.02)
+    assert go(one, [(0.3, -0.2, 0.1)], STILL)
+    assert one.velocity == ZERO
+    assert one.position == pytest.approx((0.0, 0.0, 0.0), abs=1e-3)
+
+
+def test_a_stride_with_a_linear_drift_of_velocity_is_as_long_as_it_was() -> None:
+    one = begun(eliminate=False)
+    stride(one, 1.2, 0.32, (0.3, 0.2, -0.2))
+    assert one.position == pytest.approx((1.2, 0.0, 0.32), abs=5e-3)
+
+
+def test_the_height_of_a_level_step_is_taken_out_and_that_of_a_stair_is_kept() -> None:
+    one = begun()
+    stride(one, 1.2, 0.05)
+    assert one.position[2] == 0.0
+    assert one.position[0] == pytest.approx(1.2, abs=5e-3)
+    up, down = begun(), begun()
+    stride(up, 0.6, 0.32)
+    stride(down, 0.6, -0.32)
+    assert up.position[2] == pytest.approx(0.32, abs=5e-3)
+    assert down.position[2] == pytest.approx(-0.32, abs=5e-3)
+
+
+def test_without_elimination_heights_add_up() -> None:
+    one = begun(eliminate=False)
+    for _ in range(3):
+        stride(one, 1.2, 0.05)
+    assert one.position[2] == pytest.approx(0.15, abs=5e-3)
+
+
+def test_the_first_riser_of_a_long_stride_is_kept() -> None:
+    one = begun()
+    stride(one, 1.1, 0.16)
+    assert one.position[2] == pytest.approx(0.16, abs=5e-3)
+
+
+def test_what_level_steps_have_in_common_is_taken_off_the_stairs_that_follow() -> None:
+    one = begun()
+    for _ in range(10):
+        stride(one, 1.2, 0.06)
+    assert one.position[2] == 0.0
+    assert one.lean == pytest.approx(0.05, rel=0.05)
+    stride(one, 0.6, 0.32 + 0.05 * 0.6)
+    assert one.position[2] == pytest.approx(0.32, abs=0.01)
+
+
+def test_tilt_is_fed_back_in_stance_and_not_in_swing() -> None:
+    tilted = from_rotation_vector((0.0, 0.1, 0.0))
+    # the foot is level, the attitude says that it is pitched by 0.1 rad
+    for stance, expected in ((STILL, 0.1 * 0.3679), (MOVES, 0.1)):
+        one = begun(kp=1.0)
+        one.still = stance is STILL
+        one.attitude = tilted
+        go(one, [ZERO] * 100, stance)
+        assert 2.0 * one.attitude[2] == pytest.approx(expected, rel=0.03)  # exp(-Kp t) after 1 s
+
+
+def test_the_velocity_left_at_the_end_of_a_motion_turns_the_tilt_that_would_explain_it() -> None:
+    # pitched by 0.05 rad too little: gravity leaks 0.05 g forwards
+    one = begun(heed=0.5)
+    one.attitude = from_rotation_vector((0.0, 0.05, 0.0))
+    one.force = None
+    for k in range(60):
+        one.predict(DT, (0.0, 0.0, GRAVITY), ZERO)
+        one.correct(k * DT, MOVES if k < 59 else STILL)
+    assert 2.0 * one.attitude[2] == pytest.approx(0.025, rel=0.05)
+
+
+# --- what is doubtful -------------------------------------------------------------------------------------------------
+
+
+def test_in_mid_swing_a_moment_without_acceleration_is_no_stance() -> None:
+    one = begun()
+    go(one, [(8.0, 0.0, 0.0)] * 40, MOVES)  # 3.2 m/s
+    assert not go(one, [ZERO], STILL)
+    assert one.velocity[0] == pytest.approx(3.2, rel=0.02)
+
+
+def test_a_jogger_stands_with_doubtful_evidence_but_not_right_after_a_stance() -> None:
+    one = begun()
+    go(one, [ZERO] * 20, MOVES)
+    assert not go(one, [ZERO], DOUBTFUL)
+    go(one, [ZERO] * 20, MOVES)
+    assert go(one, [ZERO], DOUBTFUL)
+
+
+def test_a_doubtful_landing_is_put_right_by_the_certain_one_that_follows() -> None:
+    sure, hasty = begun(), begun()
+    n = 80
+    wave = [9.0 * sin(2.0 * 3.141592653589793 * (k + 0.5) / n) for k in range(n)]
+    swing: list[Vec3] = [(w, 0.0, 0.0) for w in wave]
+    go(sure, swing, MOVES)
+    go(sure, [ZERO] * 10, STILL)
+    go(hasty, swing[:-5], MOVES)
+    assert go(hasty, swing[-5:-4], DOUBTFUL)
+    assert abs(hasty.position[0] - sure.position[0]) > 0.02
+    go(hasty, swing[-4:], DOUBTFUL)
+    go(hasty, [ZERO] * 10, STILL)
+    assert hasty.position == pytest.approx(sure.position, abs=2e-3)
+
+
+def test_however_fast_a_spoilt_integration_runs_the_foot_stands_again() -> None:
+    one = begun()
+    go(one, [(9.0, 0.0, 3.0)] * 300, MOVES)
+    assert go(one, [ZERO], STILL)
+    assert one.velocity == ZERO
+
+
+def test_the_motion_that_the_detector_saw_late_is_not_lost() -> None:
+    quick, late = begun(eliminate=False), begun(eliminate=False, behind=0.075)
+    for one in (quick, late):
+        go(one, [(2.0, 0.0, 0.0)] * 7, STILL)
+        go(one, [(2.0, 0.0, 0.0)], MOVES)
+    assert quick.velocity[0] == pytest.approx(0.02, rel=0.1)
+    assert late.velocity[0] == pytest.approx(0.16, rel=0.1)
+
+
+def test_a_gap_forgets_the_motion_and_where_the_foot_stood_is_mended() -> None:
+    one = begun()
+    go(one, [(5.0, 0.0, 0.0)] * 30, MOVES)
+    assert one.bridge(3.0) == 0.0
+    assert one.velocity == ZERO
+    one.mend(0.0, (2.0, 0.0, 0.5))
+    stride(one, 1.0, 0.02)
+    assert one.position == pytest.approx((3.0, 0.0, 0.5), abs=0.01)
+
+
+numbers = st.floats(-500.0, 500.0)
+evidence = st.sampled_from((STILL, MOVES, DOUBTFUL, Stance(ZERO, 0.06, 1.0, None), Stance(ZERO, inf, 1.0, Phase.SWING)))
+
+
+@given(
+    st.lists(
+        st.tuples(st.floats(0.0, 0.25), st.tuples(numbers, numbers, numbers), st.floats(-100.0, 100.0), evidence),
+        max_size=50,
+    )
+)
+def test_whatever_is_measured_the_state_is_finite_and_saved(
+    samples: list[tuple[float, Vec3, float, Stance]],
+) -> None:
+    one, t = ShoeSensing(), 0.0
+    one.start(IDENTITY, 0.02)
+    for dt, acc, rate, stance in samples:
+        t += dt
+        one.predict(dt, acc, (rate, -rate, 0.5 * rate))
+        one.correct(t, stance)
+        one = machine.load(ShoeSensing, json.loads(json.dumps(machine.save(one), allow_nan=False)))

@@ -1,0 +1,111 @@
+"""Posture by the vector product of gravity, Runge and Kutta's quaternion: Sensors 16, 1809, 2016, section 3.2."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin, sqrt
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath.foot.posture import GAIN, POINT, POINTS, gravity_error, posture, turned
+from solepath.types import Quat, Vec3
+from solepath.vector import GRAVITY, IDENTITY, from_rotation_vector, multiply, normalise, rotate
+
+PITCHED = 0.4
+"""rad about y."""
+
+
+def up_of(q: Quat) -> Vec3:
+    """What an accelerometer of this attitude measures at rest."""
+    return rotate((q[0], -q[1], -q[2], -q[3]), (0.0, 0.0, GRAVITY))
+
+
+def test_the_vector_product_is_the_axis_and_the_sine_of_the_error() -> None:
+    # the sensor is pitched, Q does not know it: gb = z, g'R = (-sin, 0, cos), gb x g'R = (0, -sin, 0)
+    force = up_of(from_rotation_vector((0.0, PITCHED, 0.0)))
+    assert gravity_error(IDENTITY, force) == pytest.approx((0.0, -sin(PITCHED), 0.0))
+    assert gravity_error(IDENTITY, (0.0, 0.0, 0.0)) == (0.0, 0.0, 0.0)
+
+
+def test_feedback_with_the_papers_sign_turns_towards_gravity() -> None:
+    force = up_of(from_rotation_vector((0.0, PITCHED, 0.0)))
+    ex, ey, ez = gravity_error(IDENTITY, force)
+    rate = (-ex, -ey, -ez)  # gyro' = gyro - Kp e, of a gyroscope that reads nothing, Kp = 1
+    after = gravity_error(turned(IDENTITY, rate, rate, 0.1), force)
+    assert abs(after[1]) < abs(ey)
+
+
+def test_posture_converges_within_the_four_seconds_of_figure_7() -> None:
+    assert pytest.approx(4.0) == POINTS * POINT
+    force = up_of(from_rotation_vector((0.3, PITCHED, 0.0)))
+    ex, ey, ez = gravity_error(posture(force), force)
+    assert sqrt(ex * ex + ey * ey + ez * ez) < 1e-3
+
+
+def test_the_error_falls_as_its_half_tangent_does() -> None:
+    # a' = -Kp sin a has tan(a / 2) = tan(a0 / 2) exp(-Kp t)
+    q, force = IDENTITY, up_of(from_rotation_vector((1.0, 0.0, 0.0)))
+    for _ in range(100):
+        ex, ey, ez = gravity_error(q, force)
+        rate = (-GAIN * ex, -GAIN * ey, -GAIN * ez)
+        q = turned(q, rate, rate, POINT)
+    left = gravity_error(q, force)[0]
+    assert abs(left) == pytest.approx(0.1472, rel=0.02)  # 2 atan(tan(0.5) exp(-2)) = 0.1477 rad, its sine 0.1472
+
+
+directions = st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.floats(-1.0, 1.0)).filter(
+    lambda v: sum(x * x for x in v) > 1e-3
+)
+
+
+@given(directions)
+def test_however_the_sensor_is_mounted_its_posture_has_gravity_upwards(force: Vec3) -> None:
+    x, y, z = rotate(posture(force), force)
+    assert z > 0.0
+    assert sqrt(x * x + y * y) < 5e-3 * z
+
+
+def test_a_sensor_upside_down_is_levelled_too() -> None:
+    assert rotate(posture((0.0, 0.0, -GRAVITY)), (0.0, 0.0, -GRAVITY))[2] == pytest.approx(GRAVITY)
+
+
+# --- Runge and Kutta --------------------------------------------------------------------------------------------------
+
+
+def test_one_step_of_a_constant_rate_has_four_terms_of_the_series() -> None:
+    # half of 0.2 rad: k1 + 2 k2 + 2 k3 + k4 makes 1 - a^2/2 + a^4/24 and a - a^3/6
+    a = 0.1
+    expected = normalise((1.0 - a**2 / 2 + a**4 / 24, 0.0, 0.0, a - a**3 / 6))
+    assert turned(IDENTITY, (0.0, 0.0, 2.0), (0.0, 0.0, 2.0), 0.1) == pytest.approx(expected, abs=1e-15)
+
+
+def test_the_printed_weights_would_turn_a_sixth_too_far() -> None:
+    q = turned(IDENTITY, (0.0, 0.0, 0.01), (0.0, 0.0, 0.01), 0.01)
+    assert 2.0 * q[3] == pytest.approx(1e-4, rel=1e-6)
+
+
+def test_a_rate_that_grows_counts_with_its_mean() -> None:
+    q = turned(IDENTITY, (0.0, 0.0, 0.0), (0.0, 2.0, 0.0), 0.1)
+    assert q == pytest.approx((cos(0.05), 0.0, sin(0.05), 0.0), abs=1e-6)
+
+
+def test_a_hundred_small_turns_are_a_large_one() -> None:
+    q: Quat = IDENTITY
+    for _ in range(100):
+        q = turned(q, (pi, 0.0, 0.0), (pi, 0.0, 0.0), 0.01)
+    assert abs(q[1]) == pytest.approx(1.0, abs=1e-7)
+
+
+@given(
+    st.tuples(*[st.floats(-100.0, 100.0)] * 3), st.tuples(*[st.floats(-100.0, 100.0)] * 3), st.floats(0.0, 0.25)
+)
+def test_whatever_the_rate_the_quaternion_keeps_its_length(before: Vec3, after: Vec3, h: float) -> None:
+    q = turned((0.5, 0.5, -0.5, 0.5), before, after, h)
+    assert sum(x * x for x in q) == pytest.approx(1.0)
+
+
+def test_slow_samples_of_a_fast_turn_are_turned_exactly() -> None:
+    start = normalise((0.9, 0.1, 0.3, -0.2))
+    expected = multiply(start, from_rotation_vector((0.0, 2.0, 0.0)))
+    assert turned(start, (0.0, 20.0, 0.0), (0.0, 20.0, 0.0), 0.1) == pytest.approx(expected)

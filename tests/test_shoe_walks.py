@@ -1,0 +1,163 @@
+"""Shoe sensing on emulated walks with an MPU-6050 on each instep: steps, heights, states and flights."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from math import radians
+from pathlib import Path
+
+import pytest
+
+from solepath.body.walking_state import AnglePerMetre
+from solepath.events import ActivityChanged, Event, FlightClimbed, StepTaken
+from solepath.foot.gated_tilt import ShoeSensing
+from solepath.foot.short_time_energy import ShortTimeEnergy
+from solepath.foot.tracker import FootTracker
+from solepath.machine import load, save
+from solepath.recipes import SHOE_MAGNITUDE, SHOE_SENSING
+from solepath.samples import load_samples
+from solepath.session import Session
+from solepath.sim.parts import MPU6050
+from solepath.sim.route import Route
+from solepath.sim.shoe import ON_INSTEP
+from solepath.sim.truth import Truth
+from solepath.sim.walker import Walker
+from solepath.types import Activity, Foot, Sample
+
+LEVEL = Route().stand(3.0).walk(30.0, 1.3).stop(2.0)
+JOG = Route().stand(3.0).jog(40.0, 2.6).stop(2.0)
+STAIRS = Route().stand(3.0).walk(5.0, 1.2).stairs(10).turn(radians(180), 0.7).stairs(10).walk(4.0).stop(2.0)
+DOWN = Route().stand(3.0).walk(5.0, 1.2).stairs(9, up=False).walk(1.3).stairs(9, up=False).walk(4.0).stop(2.0)
+
+
+@cache
+def worn(route: Route, seed: int, rate: float = 100.0) -> tuple[tuple[Sample, ...], Truth]:
+    walker = Walker(route, seed=seed)
+    samples = [one for foot in Foot for one in walker.samples(foot, rate, MPU6050, mounting=ON_INSTEP)]
+    return tuple(sorted(samples, key=_time)), walker.truth(dict.fromkeys(Foot, ON_INSTEP))
+
+
+def _time(sample: Sample) -> float:
+    return sample.t
+
+
+@cache
+def heard(route: Route, seed: int, rate: float = 100.0, energy: bool = True) -> tuple[Event, ...]:
+    session = Session(SHOE_SENSING if energy else SHOE_MAGNITUDE)
+    return tuple(session.feed(worn(route, seed, rate)[0]) + session.finish())
+
+
+def steps(events: tuple[Event, ...], foot: Foot) -> list[StepTaken]:
+    return [event for event in events if isinstance(event, StepTaken) and event.foot is foot]
+
+
+@pytest.mark.parametrize(
+    ("route", "rate"), [(LEVEL, 100.0), (LEVEL, 40.0), (JOG, 100.0)], ids=["walk", "walk at 40 Hz", "jog"]
+)
+def test_every_level_step_is_found_and_ends_as_high_as_it_began(route: Route, rate: float) -> None:
+    for seed in (1, 2):
+        for foot in Foot:
+            found, true = steps(heard(route, seed, rate), foot), worn(route, seed, rate)[1].steps(foot)
+            assert len(found) == len(true)
+            assert all(abs(step.t - other.t_end) < 0.15 for step, other in zip(found, true, strict=True))
+            assert abs(found[-1].position[2]) <= 0.1
+            assert sum(step.stride_length for step in found) == pytest.approx(sum(s.length for s in true), rel=0.06)
+
+
+def test_the_magnitude_alone_gets_the_way_wrong_where_the_energy_does_not() -> None:
+    energy, magnitude = (
+        sum(step.stride_length for step in steps(heard(LEVEL, 1, energy=one), Foot.LEFT)) for one in (True, False)
+    )
+    assert abs(energy - 30.0) < 0.06 * 30.0
+    assert abs(magnitude - 30.0) > 0.2 * 30.0
+
+
+@pytest.mark.parametrize(("route", "up"), [(STAIRS, True), (DOWN, False)], ids=["up", "down"])
+def test_flights_on_both_sides_of_a_landing_are_two(route: Route, up: bool) -> None:
+    for seed in (1, 2):
+        found = [event for event in heard(route, seed) if isinstance(event, FlightClimbed)]
+        true = worn(route, seed)[1].flights
+        assert [flight.up for flight in found] == [up, up]
+        for flight, other in zip(found, true, strict=True):
+            assert flight.height == pytest.approx(other.height, abs=0.35)
+            assert other.t_start - 1.5 < flight.t_start < flight.t < other.t_end + 1.5
+
+
+@pytest.mark.parametrize(
+    ("route", "stairs"), [(STAIRS, Activity.STAIRS_UP), (DOWN, Activity.STAIRS_DOWN)], ids=["up", "down"]
+)
+def test_states_are_those_of_the_steps(route: Route, stairs: Activity) -> None:
+    told = [event for event in heard(route, 1) if isinstance(event, ActivityChanged)]
+    assert [event.t for event in told] == sorted(event.t for event in told)
+    assert all(event.final and event.probability is None and event.known_at >= event.t for event in told)
+    kinds = [event.activity for event in told]
+    assert kinds[0] is Activity.STANDING and kinds[1] is Activity.WALKING and kinds[-1] is Activity.STANDING
+    assert set(kinds) == {Activity.STANDING, Activity.WALKING, stairs}
+    truth = worn(route, 1)[1]
+    begun = [begin for begin, _, what in truth.activities if what is stairs]
+    assert any(abs(event.t - begun[0]) < 1.5 for event in told if event.activity is stairs)
+
+
+def test_who_jogs_is_told_to_walk_since_the_paper_takes_both_for_one() -> None:
+    kinds = {event.activity for event in heard(JOG, 1) if isinstance(event, ActivityChanged)}
+    assert kinds == {Activity.STANDING, Activity.WALKING}
+
+
+def test_a_foot_that_only_fidgets_is_in_the_end_unknown() -> None:
+    part, foot = AnglePerMetre(), FootTracker(Foot.LEFT, ShortTimeEnergy(), ShoeSensing())
+    samples = [one for one in worn(LEVEL, 1)[0] if one.site.foot is Foot.LEFT]
+    told: list[Event] = []
+    for sample in samples[:1200]:
+        events = foot.feed(sample)
+        # the steps are kept from it, as if the foot had come down where it stood
+        told += part.foot_moved(foot, sample, [event for event in events if not isinstance(event, StepTaken)])
+    kinds = [event.activity for event in told if isinstance(event, ActivityChanged)]
+    assert kinds == [Activity.STANDING, Activity.UNKNOWN]
+
+
+def test_one_foot_is_enough() -> None:
+    session, told = Session(SHOE_SENSING), []
+    for sample in worn(STAIRS, 1)[0]:
+        if sample.site.foot is Foot.RIGHT:
+            told += session.feed(sample)
+    told += session.finish()
+    assert [event.up for event in told if isinstance(event, FlightClimbed)] == [True, True]
+
+
+def test_a_saved_session_goes_on_in_the_middle_of_the_stairs() -> None:
+    samples = worn(STAIRS, 1)[0]
+    half = len(samples) // 2
+    session = Session(SHOE_SENSING)
+    told = session.feed(samples[:half])
+    saved = json.loads(json.dumps(session.snapshot(), allow_nan=False))
+    restored = Session.restore(saved)
+    told += restored.feed(samples[half:]) + restored.finish()
+    assert tuple(told) == heard(STAIRS, 1)
+
+
+def test_a_clock_that_begins_anew_is_told_on_the_new_one() -> None:
+    part = AnglePerMetre()
+    part.since, part.moved_at, part.stepped_at = 1000.0, 1000.0, 1000.0
+    part.interrupt(worn(LEVEL, 1)[0][0].site)
+    foot, told = FootTracker(Foot.LEFT, ShortTimeEnergy(), ShoeSensing()), []
+    for sample in worn(LEVEL, 1)[0][:800]:
+        if sample.site.foot is Foot.LEFT:
+            told += part.foot_moved(foot, sample, foot.feed(sample))
+    assert told[0].activity is Activity.STANDING and told[0].t < 3.0
+    assert load(AnglePerMetre, save(part)) == part
+
+
+# --- recorded stairs --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("path", ["xio_closed_walks/spiralStairs", "gaitmap_examples/stair_up"])
+def test_recorded_stairs_are_two_flights_upwards_with_a_landing_between(path: str, data_dir: Path) -> None:
+    file = data_dir / f"{path}.npz"
+    if not file.exists():
+        pytest.skip(f"no {path} among the recorded data")
+    session = Session(SHOE_SENSING)
+    told = [event for sample in load_samples(file) for event in session.feed(sample)] + session.finish()
+    flights = [event.up for event in told if isinstance(event, FlightClimbed)]
+    assert flights == [True, True]
+    assert Activity.STAIRS_UP in {event.activity for event in told if isinstance(event, ActivityChanged)}
