@@ -47,6 +47,8 @@ from .events import (
     TurnMade,
     WalkingModeChanged,
 )
+from .floorplan.index import IndexedPlan
+from .floorplan.plan import FloorPlan, FloorPlanError, Start
 from .machine import SnapshotError
 from .recipes import Recipe
 from .session import Session
@@ -82,6 +84,8 @@ __all__ = [
     "Event",
     "FeetSwapped",
     "FlightClimbed",
+    "FloorPlan",
+    "FloorPlanError",
     "Foot",
     "FootFlat",
     "FootHeard",
@@ -89,6 +93,7 @@ __all__ = [
     "FootSilent",
     "HeelOff",
     "HeelStrike",
+    "IndexedPlan",
     "InsoleNeverUnloads",
     "KeysChanged",
     "Layout",
@@ -114,6 +119,7 @@ __all__ = [
     "Session",
     "Site",
     "SnapshotError",
+    "Start",
     "StepFeatures",
     "StepTaken",
     "StreamRestarted",
