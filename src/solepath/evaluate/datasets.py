@@ -204,7 +204,7 @@ DATASETS = (
         "10 m and back, both feet, radio losses",
         _always,
         score_swings,
-        HEEL_STRIKE + TOE_OFF,
+        HEEL_STRIKE + TOE_OFF + ("uturn_found", "uturn_angle", "uturn_invented"),
         each=False,
     ),
     DataSet(

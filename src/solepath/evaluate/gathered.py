@@ -15,6 +15,7 @@ from ..events import (
     LiftRidden,
     StepTaken,
     ToeOff,
+    TurnMade,
 )
 from ..timeline import Timeline
 from ..types import Foot, Vec3
@@ -53,6 +54,7 @@ class Gathering:
 
     timeline: Timeline = field(factory=Timeline)
     rides: list[LiftRidden] = field(factory=list)
+    turns: list[TurnMade] = field(factory=list)
     _feet: dict[Foot, _FootGathered] = field(factory=dict)
 
     def add(self, event: Event) -> None:
@@ -71,6 +73,8 @@ class Gathering:
                 self.timeline.add(event)
             case LiftRidden(final=True):
                 self.rides.append(event)
+            case TurnMade(final=True):
+                self.turns.append(event)
             case _:
                 pass
 

@@ -13,7 +13,7 @@ from attrs import frozen
 
 from .. import recipes
 from ..calibration import Calibration, merged
-from ..events import Event, LiftRidden
+from ..events import Event, LiftRidden, TurnMade
 from ..recipes import AnyActivity
 from ..samples import load_samples
 from ..session import Session
@@ -40,6 +40,7 @@ class Run:
     timeline: Timeline
     """What the wearer did."""
     rides: tuple[LiftRidden, ...]
+    turns: tuple[TurnMade, ...]
     samples: int
     seconds: float
     """Wall time that the session took."""
@@ -78,4 +79,5 @@ def run(
         for event in events:
             gathering.add(event)
     feet = {table.foot: gathering.foot(table.foot) for table in recording.tables}
-    return Run(feet, gathering.timeline, tuple(gathering.rides), samples=len(samples), seconds=seconds)
+    rides, turns = tuple(gathering.rides), tuple(gathering.turns)
+    return Run(feet, gathering.timeline, rides, turns, samples=len(samples), seconds=seconds)

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from math import pi
 from pathlib import Path
 
-from ..types import Foot
+from ..types import Foot, Turn
 from .contacts import force_contacts, merged, switch_contacts
 from .insoles import force_sensors, switches
 from .matching import TOLERANCE, Matching, match
 from .recorded import Meta, scored, truth_of
 from .run import How, Run, run
-from .score import Scored
+from .score import Figures, Scored
 from .strides import StrideScore, stride_score
 
 
@@ -22,7 +23,24 @@ def score_swings(path: Path, meta: Meta, how: How) -> Scored:
         swings = truth[f"gt_{foot.value}"]
         toe_off += match(swings[:, 0].tolist(), ran.toe_offs)
         heel_strike += match(swings[:, 1].tolist(), ran.heel_strikes)
-    return scored(path, went, events={"heel_strike": heel_strike, "toe_off": toe_off})
+    figures = _about_turn([float(at) for at in truth["gt_uturn"]], went)
+    return scored(path, went, figures=figures, events={"heel_strike": heel_strike, "toe_off": toe_off})
+
+
+def _about_turn(span: list[float], went: Run) -> Figures:
+    """The wearer turned about once, in the `span` that is labelled, s. Found: an about turn was told that shares some
+    of it. Its angle is that of the largest turn that does, by how much it differs from half a turn (from 0 where none
+    was told). Invented: about turns elsewhere."""
+    began, ended = span
+    there = [turn for turn in went.turns if turn.t >= began and turn.t_start <= ended]
+    about = sum(turn.turn is Turn.ABOUT for turn in went.turns)
+    found = any(turn.turn is Turn.ABOUT for turn in there)
+    angle = max([abs(turn.angle) for turn in there], default=0.0)
+    return {
+        "uturn_found": float(found),
+        "uturn_angle": abs(pi - angle),
+        "uturn_invented": float(about - sum(turn.turn is Turn.ABOUT for turn in there)),
+    }
 
 
 def score_borders(path: Path, meta: Meta, how: How) -> Scored:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from math import degrees
 
 from ..evaluate.confusion import CLASSES
 from ..evaluate.report import Result
@@ -25,6 +26,10 @@ def _count(value: float | None) -> str:
 
 def _share(value: float | None) -> str:
     return number(value, 3)
+
+
+def _degrees(value: float | None) -> str:
+    return number(None if value is None else degrees(value), 1)
 
 
 def _short(activity: Activity) -> str:
@@ -58,6 +63,9 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "toe_off_f1": ("F1", _share),
     "toe_off_bias": ("bias ms", milliseconds),
     "toe_off_mad": ("MAD ms", milliseconds),
+    "uturn_found": ("U-turn found %", percent),
+    "uturn_angle": ("off by degrees", _degrees),
+    "uturn_invented": ("invented", _share),
     "accuracy": ("right %", percent),
     "most_frequent": ("most freq %", percent),
     **{f"f1_{activity.value.lower()}": (f"F1 {_short(activity)}", _share) for activity in CLASSES},
