@@ -103,6 +103,13 @@ def feature(kind: str, geometry: str, coordinates: Any, **properties: Any) -> di
 SQUARE = [[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]]
 
 
+def test_the_example_of_the_document_is_a_plan() -> None:
+    text = (FILES.parent / "floorplan.md").read_text(encoding="utf-8").split("```json")[1].split("```")[0]
+    plan = plan_of_bytes(text.strip().encode())
+    assert not IndexedPlan(plan).crosses(0, 3.5, -0.5, 3.5, 0.5)
+    assert warnings(plan) == ("lift 'A': stops at level '0' only",)
+
+
 def test_doors_of_a_file_are_cut_out_of_its_walls() -> None:
     plan = plan_of_bytes(geojson(feature("wall", "Polygon", [SQUARE]), feature("door", "LineString", [[4, 0], [5, 0]])))
     assert not IndexedPlan(plan).crosses(0, 4.5, -1.0, 4.5, 1.0)

@@ -119,6 +119,16 @@ def test_a_gap_in_the_outer_wall_is_said_and_a_door_in_it_is_none() -> None:
         assert warnings(evolve(known, levels=(with_door, *HOUSE.levels[1:]))) == ()
 
 
+def test_a_door_drawn_on_the_other_face_of_a_wall_is_no_gap() -> None:
+    for off in (0.05, 0.13, 0.2, 0.29):
+        outer, inner = box(0.0, 0.0, 20.0, 10.0), box(off, off, 20.0 - off, 10.0 - off)
+        for drawn in (outer, (*outer, *inner)):
+            level = with_doors_cut(Level("0", "", 0, 0.0, drawn, (Door((10.0, off), (11.5, off)),)))
+            assert len(level.walls) > len(drawn)
+            assert not [line for line in warnings(FloorPlan("", (level,))) if "close" in line]
+            assert IndexedPlan(FloorPlan("", (level,))).inside(0, 5.0, 5.0)
+
+
 def test_free_standing_walls_indoors_are_no_open_walls() -> None:
     level = Level("0", "", 0, 0.0, (*box(0.0, 0.0, 20.0, 10.0), Wall((5.0, 3.0), (15.0, 3.0))))
     no_stairs = "the plan has no stairs and no lifts: nothing on it shows a level or a place"

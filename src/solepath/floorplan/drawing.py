@@ -47,8 +47,7 @@ class Space:
 @define
 class Part:
     """Stairs or a lift on one level. Parts of one `group` are the same stairs or lift wherever they lie; others are
-    where they overlap on neighbouring levels. `place`: where one steps on, None for the middle. `order`: of the
-    drawing, to tell parts apart that are alike."""
+    where they overlap on neighbouring levels. `place`: where one steps on, None for the middle."""
 
     kind: Kind
     name: str

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from math import ceil, sqrt
+from math import ceil, hypot, sqrt
 
 from .crossing import Walls
+from .doors import BESIDE
 from .plan import Level, Point
 from .segments import side
 
@@ -13,6 +14,9 @@ LATTICE = 0.5
 from 0.7 m on. More where there would be more than MOST_PLACES."""
 
 MOST_PLACES = 30_000
+
+_POST = BESIDE + 0.05
+"""m; a wall's end this near to a door's is the door's post."""
 
 OPEN_END = 0.05
 """m; a wall's end farther than this from all other walls and doors is an open end."""
@@ -27,6 +31,7 @@ class Enclosure:
     def __init__(self, level: Level) -> None:
         lines = [(wall.start, wall.end) for wall in level.walls]
         lines += [(door.start, door.end) for door in level.doors if door.start != door.end]
+        lines += _posts(level)
         self._solid = Walls(lines)
         xs = [x for line in lines for x, _ in line] or [0.0]
         ys = [y for line in lines for _, y in line] or [0.0]
@@ -95,6 +100,20 @@ class Enclosure:
             if 0 <= k < self._columns and 0 <= m < self._rows and not self._solid.crosses(x, y, *self._place(k, m)):
                 return not self._outside[m * self._columns + k]
         return True
+
+
+def _posts(level: Level) -> list[tuple[Point, Point]]:
+    """From the ends of each door to the ends of walls around them: a door may be drawn beside the gap that it is."""
+    ends: dict[tuple[int, int], list[Point]] = {}
+    for wall in level.walls:
+        for x, y in (wall.start, wall.end):
+            ends.setdefault((round(x / _POST), round(y / _POST)), []).append((x, y))
+    found = set()
+    for x, y in (end for door in level.doors for end in (door.start, door.end)):
+        i, j = round(x / _POST), round(y / _POST)
+        around = [end for k in (i - 1, i, i + 1) for m in (j - 1, j, j + 1) for end in ends.get((k, m), ())]
+        found |= {((x, y), end) for end in around if 0.0 < hypot(end[0] - x, end[1] - y) <= _POST}
+    return sorted(found)
 
 
 def _hull(points: list[Point]) -> list[Point]:
