@@ -22,6 +22,7 @@ from ..vector import ZERO
 from .crowd import Row, believed, effective, origin_of, packed, resampled, unpacked
 from .landings import landings, nearest, ways_out
 from .noise import NOISE, ROWS, following
+from .pace import Pace
 from .position import Position
 from .reference import Arrived, Held, References
 
@@ -81,6 +82,7 @@ class Placing:
     """Up to where the track has been followed, m."""
     t: float | None = field(default=None, init=False)
     references: References = field(factory=References, init=False)
+    pace: Pace = field(factory=Pace, init=False)
     random: int = field(default=1, init=False)
     outside: int = field(default=0, init=False)
     """Steps since the wearer was last within the plan."""
@@ -113,6 +115,8 @@ class Placing:
             self.references.forget()
         self.t = here.t
         steps = [event for event in events if isinstance(event, StepTaken)]
+        for step in steps:
+            self.pace.stepped(step, here.position)
         if steps:
             self._move(plan, here, any([step.degraded for step in steps]), known_at, told)
         for reference in self.references.hear(plan.plan, events, here):
@@ -200,6 +204,7 @@ class Placing:
         rows = unpacked(self.crowd)
         if not rows:
             return
+        move = (move[0] * self.pace.factor, move[1] * self.pace.factor)
         before = self.newest
         places = {row[:2] for row in rows}
         rows = self._stepped(plan, rows, move, 3.0 if degraded else 1.0)
@@ -269,7 +274,7 @@ class Placing:
         stops = landings(plan)
         x0, y0 = origin_of(plan)
         tx, ty, _ = self.references.at(held.t)
-        dx, dy = self.last[0] - tx, self.last[1] - ty
+        dx, dy = (self.last[0] - tx) * self.pace.factor, (self.last[1] - ty) * self.pace.factor
         marked: list[Row] = []
         for x, y, a, b, w, level, origin, _ in rows:
             found = nearest(stops, held.kind, level, x0 + x - (a * dx - b * dy), y0 + y - (b * dx + a * dy))
@@ -338,7 +343,7 @@ class Placing:
         """Rows that stand where the wearer was at `t`, s, led on to where the track is now."""
         way = [place for place in self.references.after(t)]
         for (x, y, _), (x1, y1, _) in zip(way, way[1:], strict=False):
-            move = (x1 - x, y1 - y)
+            move = ((x1 - x) * self.pace.factor, (y1 - y) * self.pace.factor)
             if rows and move != (0.0, 0.0) and abs(move[0]) < FARTHEST and abs(move[1]) < FARTHEST:
                 rows = self._stepped(plan, rows, move, 1.5)
         return rows

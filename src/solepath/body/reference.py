@@ -28,8 +28,10 @@ AWAY = 6.0
 """m"""
 FIT = 0.3
 """A height fits a storey when it is off by no more than this share of the least storey."""
-LEAST = 0.35
-"""Less than this share of the least storey is no arrival."""
+LEAST, MOST = 0.6, 1.5
+"""Less than this share of the least storey is no arrival, nor more than this one of the highest way up."""
+STEEP, LANDING = 2.5, 4.0
+"""Stairs lead no further away than so many times their height, and so many m of landings."""
 RIDE_OVER = 4.0
 """A ride that no event tells is over so long after the activity, s, or with the second step."""
 TRACK = 24
@@ -103,6 +105,15 @@ class Passage:
         return track if track > 0.5 * counted and track > 0.3 else max(abs(self.climbed), counted)
 
 
+    def leads_away(self, here: Vec3) -> bool:
+        """Further than stairs of that height do."""
+        if self.kind is Kind.LIFT:
+            return False
+        end = here if self.end is None else self.end
+        away = hypot(end[0] - self.begin[0], end[1] - self.begin[1])
+        return away > STEEP * (self.height(end) or 0.0) + LANDING
+
+
 @define
 class References:
     """Follows what the wearer does, with the newest places of the track."""
@@ -156,8 +167,12 @@ class References:
                 self.ridden = event.t
                 if self.passage is not None and self.passage.kind is Kind.LIFT:
                     self.passage = None
-        if self.passage is not None and self.passage.t_left is not None:
-            self._settle(self.passage, self.passage.t_left, plan, here, told)
+        if self.passage is not None:
+            if self.passage.t_left is not None:
+                self._settle(self.passage, self.passage.t_left, plan, here, told)
+            elif self.passage.leads_away(here.position):
+                self.passage = None
+                told.append(Released())
         return told
 
     def _stepped(self, foot: Foot) -> None:
@@ -227,15 +242,12 @@ class References:
             self.passage = None
             told.append(Released())
             return
-        least = storeys[0]
-        if min([abs(height - storey) for storey in storeys]) <= FIT * least:
+        least, end = storeys[0], passage.end or passage.begin
+        real = LEAST * least <= height <= MOST * storeys[-1] and not passage.leads_away(end)
+        fits = min([abs(height - storey) for storey in storeys]) <= FIT * least
+        if waited > WAIT or hypot(here.position[0] - end[0], here.position[1] - end[1]) > AWAY or (real and fits):
             self.passage = None
-            told.append(arrived)
-            return
-        end = passage.end or passage.begin
-        if waited > WAIT or hypot(here.position[0] - end[0], here.position[1] - end[1]) > AWAY:
-            self.passage = None
-            told.append(arrived if height >= LEAST * least else Released())
+            told.append(arrived if real else Released())
 
 
 def rises(plan: FloorPlan, kind: Kind) -> list[float]:
