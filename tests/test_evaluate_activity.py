@@ -1,0 +1,240 @@
+"""Scores of activities on labels and events that were worked out by hand; folds; what learns from whom."""
+
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath.evaluate import learning
+from solepath.evaluate.activity import CLIMBED, compared, rides, spans, stairs_figures, windows
+from solepath.evaluate.confusion import CLASSES, ActivityScore
+from solepath.evaluate.datasets import DATASETS
+from solepath.evaluate.jobs import evaluate, lessons
+from solepath.evaluate.learning import Learner, Lesson, part_for, taught
+from solepath.evaluate.score import Scored, summarise
+from solepath.events import ActivityChanged, LiftRidden
+from solepath.timeline import Timeline
+from solepath.train import footstep_activity
+from solepath.train.folds import FOLDS, fold_of
+from solepath.train.hugadb import LABELS, labels, recordings
+from solepath.types import Activity
+
+STANDING, WALKING, RUNNING = Activity.STANDING, Activity.WALKING, Activity.RUNNING
+STAIRS_UP, UP, DOWN = Activity.STAIRS_UP, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN
+
+
+def timeline(*told):
+    """(t, activity) or (t, activity, what it revises)."""
+    found = Timeline()
+    for t, activity, *revises in told:
+        found.add(
+            ActivityChanged(
+                t=t, known_at=t + 9.0, final=False, activity=activity, probability=None, revises=[*revises, None][0]
+            )
+        )
+    return found
+
+
+def ridden(begin, end, up):
+    return LiftRidden(t=end, known_at=end, t_start=begin, up=up, height=None)
+
+
+# --- labelled samples -------------------------------------------------------------------------------------------------
+
+TIMES = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]
+TRUE = [STANDING, STANDING, STANDING, WALKING, WALKING, None, WALKING, RUNNING]
+
+
+def test_labelled_samples_are_judged_by_what_was_told_of_their_time():
+    # told: nothing before 1.0, standing to 2.5, then walking
+    score = compared(TIMES, TRUE, timeline((1.0, STANDING), (2.5, WALKING)))
+    assert score.samples == {
+        (STANDING, Activity.UNKNOWN): 1, (STANDING, STANDING): 2, (WALKING, WALKING): 3, (RUNNING, WALKING): 1,
+    }  # fmt: skip
+    assert score.accuracy == pytest.approx(5 / 7)
+    assert score.most_frequent == pytest.approx(3 / 7)
+    # standing: 2 right, 3 true, 2 told; walking: 3 right, 3 true, 4 told; running: none right, 1 true
+    assert score.f1(STANDING) == pytest.approx(2 * 2 / (3 + 2))
+    assert score.f1(WALKING) == pytest.approx(2 * 3 / (3 + 4))
+    assert score.f1(RUNNING) == 0.0
+    assert score.f1(UP) is None
+    assert score.table == {
+        "STANDING": {"STANDING": 2, "WALKING": 0, "UNKNOWN": 1},
+        "WALKING": {"STANDING": 0, "WALKING": 3, "UNKNOWN": 0},
+        "RUNNING": {"STANDING": 0, "WALKING": 1, "UNKNOWN": 0},
+    }
+
+
+def test_what_was_replaced_does_not_count():
+    score = compared([1.0, 3.0, 5.0], [STANDING] * 3, timeline((0.0, STANDING), (2.0, UP), (2.0, STANDING, 2.0)))
+    assert score.accuracy == 1.0
+
+
+def test_nothing_labelled_is_no_score():
+    assert compared([1.0], [None], timeline((0.0, STANDING))).accuracy is None
+    assert ActivityScore().most_frequent is None
+
+
+counts = st.dictionaries(st.tuples(st.sampled_from(CLASSES), st.sampled_from(list(Activity))), st.integers(1, 50))
+
+
+@given(a=counts, b=counts)
+def test_scores_of_two_recordings_count_together(a, b):
+    both = ActivityScore(a, 1, 1, 0) + ActivityScore(b, 2, 1, 3)
+    assert sum(both.samples.values()) == sum(a.values()) + sum(b.values())
+    assert (both.rides_true, both.rides_found, both.rides_invented) == (3, 2, 3)
+    for activity in CLASSES:
+        assert both.f1(activity) is None or 0.0 <= both.f1(activity) <= 1.0
+    assert both.accuracy is None or 0.0 <= both.accuracy <= 1.0
+
+
+def test_labels_become_spans_and_a_sample_without_a_label_ends_one():
+    t = [k / 4 for k in range(8)]
+    assert spans(t, [STANDING, STANDING, UP, UP, None, UP, UP, UP]) == [
+        (0.0, 0.25, STANDING), (0.5, 0.75, UP), (1.25, 1.75, UP)
+    ]  # fmt: skip
+
+
+# --- lifts ------------------------------------------------------------------------------------------------------------
+
+
+def test_a_ride_is_found_by_one_in_its_direction_at_its_time():
+    true = [(0.0, 5.0, STANDING), (5.0, 15.0, UP), (15.0, 20.0, STANDING), (20.0, 30.0, DOWN), (40.0, 50.0, UP)]
+    # the first fits, the second goes the wrong way, the third comes too late by more than half of its own length
+    score = rides(true, [ridden(7.0, 14.0, True), ridden(20.0, 30.0, True), ridden(47.0, 55.0, True)])
+    assert (score.rides_true, score.rides_found, score.rides_invented) == (3, 1, 2)
+
+
+def test_two_rides_told_of_one_are_one_found_and_one_invented():
+    score = rides([(5.0, 15.0, UP)], [ridden(5.0, 9.0, True), ridden(10.0, 15.0, True)])
+    assert (score.rides_true, score.rides_found, score.rides_invented) == (1, 1, 1)
+
+
+def test_a_short_ride_within_a_long_label_is_that_ride():
+    # labels begin at the door, rides when the car moves
+    assert rides([(0.0, 30.0, DOWN)], [ridden(12.0, 20.0, False)]).rides_found == 1
+
+
+# --- windows ----------------------------------------------------------------------------------------------------------
+
+
+def test_windows_of_two_seconds_lie_within_one_activity():
+    # 0-5 s: windows 0-2, 2-4; 5-9.9 s: 5-7, 7-9; their middles are 1, 3, 6 and 8 s
+    score = windows([(0.0, 5.0, STANDING), (5.0, 9.9, WALKING)], timeline((0.0, STANDING), (6.5, WALKING)))
+    assert score.samples == {(STANDING, STANDING): 2, (WALKING, STANDING): 1, (WALKING, WALKING): 1}
+
+
+# --- stairs -----------------------------------------------------------------------------------------------------------
+
+
+def test_shares_of_stairs_and_of_level_ways_by_hand():
+    score = ActivityScore(
+        {
+            (STAIRS_UP, STAIRS_UP): 6, (STAIRS_UP, Activity.STAIRS_DOWN): 2, (STAIRS_UP, WALKING): 2,
+            (WALKING, WALKING): 9, (WALKING, STAIRS_UP): 1,
+        }
+    )  # fmt: skip
+    assert stairs_figures(score) == {"stairs_called": 0.8, "stairs_direction": 0.6, "level_called": 0.1}
+
+
+def test_a_recording_without_stairs_has_no_share_of_them():
+    assert stairs_figures(ActivityScore({(WALKING, WALKING): 3}))["stairs_called"] is None
+
+
+def test_the_spans_of_stairs_are_in_order():
+    for parts in CLIMBED.values():
+        assert all(a < b for a, b, _ in parts)
+        assert all(b <= c for (_, b, _), (c, _, _) in pairwise(parts))
+
+
+# --- over recordings --------------------------------------------------------------------------------------------------
+
+
+def test_activities_are_pooled_over_recordings():
+    scores = [
+        Scored("a", activity=ActivityScore({(STANDING, STANDING): 1}, 1, 1, 0)),
+        Scored("b", activity=ActivityScore({(WALKING, STANDING): 3}, 1, 0, 2)),
+    ]
+    summary = summarise(scores, "all")
+    assert summary.together["accuracy"] == 0.25 and summary.together["most_frequent"] == 0.75
+    assert (summary.together["rides_found"], summary.together["rides_invented"]) == (1, 2)
+    assert summary.confusion == {"STANDING": {"STANDING": 1}, "WALKING": {"STANDING": 3}}
+    assert summarise([Scored("c", {"rms": 1.0})], "all").confusion is None
+
+
+# --- folds ------------------------------------------------------------------------------------------------------------
+
+
+def test_every_wearer_is_in_one_fold():
+    wearers = [wearer for fold in FOLDS for wearer in fold]
+    assert len(FOLDS) == 5 and len(wearers) == len(set(wearers))
+    assert all(fold_of(wearer) == number for number, fold in enumerate(FOLDS) for wearer in fold)
+    with pytest.raises(ValueError, match="wearer 99"):
+        fold_of(99)
+
+
+def test_sitting_is_standing_and_what_lies_between_activities_has_no_label():
+    assert LABELS[5] is LABELS[8] is STANDING
+    assert not LABELS.keys() & {6, 7, 9, 12}
+
+
+def test_what_is_scored_on_a_wearer_was_taught_without_that_wearer(monkeypatch):
+    class Pupil:
+        """Knows the wearers that it was taught on."""
+
+    monkeypatch.setitem(learning.LEARNERS, Pupil, Learner(lambda path: path.name, tuple))
+    wearers = sorted(wearer for fold in FOLDS for wearer in fold)
+    school = [Lesson(Pupil, Path(f"{wearer}"), {"subject": wearer}) for wearer in wearers]
+    parts = taught(school, [lesson.features() for lesson in school])
+    for number, fold in enumerate(FOLDS):
+        assert parts[Pupil, number] == tuple([str(wearer) for wearer in wearers if wearer not in fold])
+
+
+def test_a_recipe_whose_part_learns_nothing_keeps_its_own():
+    assert part_for("shoe-sensing", {"subject": 1}, {}) is None
+
+
+# --- recorded ---------------------------------------------------------------------------------------------------------
+
+
+def test_every_wearer_of_the_recordings_has_a_fold(data_dir):
+    found = recordings(data_dir / "hugadb")
+    assert len(found) == 115
+    assert {fold_of(one.subject) for one in found} == set(range(len(FOLDS)))
+    t, true = labels(found[0].path)
+    assert len(t) == len(true)
+
+
+def test_stairs_are_in_two_folders(data_dir):
+    (stairs,) = evaluate(data_dir, ["footstep-tracker"], only=["stairs"])
+    assert {scored.recording for scored in stairs.scores} == set(CLIMBED)
+    (summary,) = stairs.summaries
+    assert (summary.mean["stairs_called"] or 0.0) > 0.5 and (summary.mean["level_called"] or 0.0) < 0.1
+
+
+def test_only_data_sets_in_folds_have_to_be_learnt(data_dir):
+    folded = [data_set for data_set in DATASETS if data_set.folds]
+    assert [data_set.name for data_set in folded] == ["hugadb"]
+    assert len(lessons(data_dir, folded, ["footstep-tracker"])) == 115
+    assert not lessons(data_dir, folded, ["shoe-sensing"])
+    assert not lessons(data_dir, [d for d in DATASETS if not d.folds], ["footstep-tracker"])
+
+
+def test_windows_of_a_recording_carry_the_activity_of_their_middle(data_dir):
+    (one,) = (found for found in recordings(data_dir / "hugadb") if found.path.stem == "various_06_17")
+    told = footstep_activity.of_recording(one.path).windows
+    assert {window.middle for window in told} == {STANDING, UP, DOWN}
+    assert all(window.activity in (None, window.middle) for window in told)
+    assert all(a.index < b.index for a, b in pairwise(told))
+
+
+@pytest.mark.soak
+def test_the_papers_classifier_in_five_folds(data_dir):
+    (result,) = evaluate(data_dir, ["footstep-tracker"], only=["hugadb"], processes=2)
+    (every,) = [summary for summary in result.summaries if summary.group == "all"]
+    assert every.count == 115 and not result.failures
+    assert (every.together["accuracy"] or 0.0) > 0.74
+    assert every.together["f1_running"] == 0.0
+    assert (every.together["rides_found"] or 0.0) >= 0.8 * (every.together["rides_true"] or 0.0)

@@ -1,0 +1,392 @@
+"""Two-second windows: what is in one, the tree, the order of a lift's pulses, the hidden Markov model; by hand."""
+
+import json
+from math import log, pi, sin
+
+import attrs
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath.body.footstep_activity import LONGEST_RIDE, MOVING, TwoSecondWindows
+from solepath.body.window_model import FEATURES, Gaussian, WindowModel, seen, shipped
+from solepath.body.windows import BLOCKS, FootWindows, Window
+from solepath.evaluate.emulated_activity import score
+from solepath.events import ActivityChanged, LiftRidden
+from solepath.foot.cycle import Cycle
+from solepath.foot.eskf import ErrorStateFilter
+from solepath.foot.tracker import FootTracker
+from solepath.machine import load, save
+from solepath.recipes import FOOTSTEP_TRACKER
+from solepath.timeline import Timeline
+from solepath.train import emulated
+from solepath.train.footstep_activity import Taught, Told, threshold, train
+from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample
+from solepath.vector import GRAVITY
+
+RATE = 20.0
+FEET = {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in Foot}
+STILL, UP, DOWN = Activity.STANDING, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN
+
+# --- one window -------------------------------------------------------------------------------------------------------
+
+
+def windows(accs, gyros=None, rate=RATE):
+    """Of one foot."""
+    foot = FootWindows()
+    for k, acc in enumerate(accs):
+        foot.update(k / rate, acc, None if gyros is None else gyros[k])
+    return list(foot.ready)
+
+
+def upright(*a_z):
+    return [(0.0, 0.0, GRAVITY + value) for value in a_z]
+
+
+def test_a_window_holds_two_seconds_and_slides_by_half_of_one():
+    # the first half-second has no axis yet; windows begin at 0.5, 1.0, 1.5 s and the last one ends at 4.0 s
+    found = windows(upright(*[0.0] * 81))
+    assert [window.index for window in found] == [4, 5, 6, 7]
+
+
+def test_variance_and_mean_of_a_window_by_hand():
+    (first, *_) = windows(upright(*[0.5, -0.5] * 40))
+    assert first.mean == pytest.approx(GRAVITY)
+    assert first.variance == pytest.approx(0.25)
+    assert first.skewness == pytest.approx(0.0, abs=1e-9)
+    assert first.across == pytest.approx(0.0, abs=1e-9)
+
+
+def test_skewness_of_one_peak_in_four_samples_by_hand():
+    # 3, -1, -1, -1: mean 0, variance (9 + 3) / 4 = 3, third moment (27 - 3) / 4 = 6
+    (first, *_) = windows(upright(*[3.0, -1.0, -1.0, -1.0] * 30), rate=40.0)
+    assert first.variance == pytest.approx(3.0)
+    assert first.skewness == pytest.approx(6.0 / 3.0**1.5)
+
+
+def test_what_swings_across_the_axis_is_no_part_of_its_variance():
+    (first, *_) = windows([(2.0 * (-1.0) ** k, 0.0, GRAVITY) for k in range(80)])
+    assert first.variance == pytest.approx(0.0, abs=1e-9)
+    assert first.across == pytest.approx(4.0)
+
+
+def test_the_gyroscope_counts_by_its_mean_square_and_is_not_missed_where_there_is_none():
+    still = upright(*[0.0] * 80)
+    assert windows(still, [(0.0, 2.0, 1.0)] * 80)[0].turning == pytest.approx(5.0)
+    assert windows(still)[0].turning is None
+    assert windows(still, [(0.0, 9.0, 9.0)] * 80)[0].turning == pytest.approx((250.0 * pi / 180.0) ** 2)
+
+
+turns = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: sum(x * x for x in q) > 0.01)
+
+
+@given(quat=turns)
+def test_however_a_sensor_is_mounted_its_windows_are_the_same(quat):
+    w, x, y, z = np.array(quat) / np.linalg.norm(quat)
+    turn = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+    k = np.arange(100)
+    accs = np.column_stack([2.0 * np.sin(k), np.cos(1.7 * k), GRAVITY + 3.0 * np.sin(0.8 * k)])
+    for a, b in zip(windows(accs.tolist()), windows((accs @ turn.T).tolist()), strict=True):
+        assert attrs.astuple(a)[:5] == pytest.approx(attrs.astuple(b)[:5], rel=1e-6, abs=1e-6)
+
+
+def test_no_window_goes_over_a_gap():
+    foot = FootWindows()
+    for t in [*np.arange(0.0, 2.0, 0.05), *np.arange(2.6, 6.0, 0.05)]:
+        foot.update(float(t), (0.0, 0.0, GRAVITY))
+    # nothing is heard from 2.0 to 2.5 s; the window from 2.5 s on ends with half-second number 8
+    assert [window.index for window in foot.ready] == [8, 9, 10]
+
+
+# --- standing and lifts -----------------------------------------------------------------------------------------------
+
+PULSE = 0.8
+"""m/s^2."""
+
+
+def samples(acc, seconds, feet=tuple(Foot), rate=RATE, begin=0.0):
+    """`acc`: of the time in s, m/s^2 along the axis beyond gravity."""
+    found = []
+    for k in range(round(seconds * rate)):
+        t = begin + k / rate
+        found += [Sample(t=t, site=SITE_OF_FOOT[foot], acc=(0.0, 0.0, GRAVITY + acc(t - begin))) for foot in feet]
+    return found
+
+
+def told(items, part=None):
+    part = TwoSecondWindows() if part is None else part
+    return [event for item in items for event in part.foot_moved(FEET[item.site.foot], item, [])]
+
+
+def timeline(events):
+    found = Timeline()
+    for event in events:
+        if isinstance(event, ActivityChanged):
+            found.add(event)
+    return found
+
+
+def ride(t, begin, end, up=1.0):
+    """A lift that sets off at `begin` and stands again at `end`, each for 1.25 s of pulse."""
+    if begin <= t < begin + 1.25:
+        return up * PULSE
+    return -up * PULSE if end - 1.25 <= t < end else 0.0
+
+
+def stride(t):
+    """Two bumps a second, as of a foot that walks."""
+    return 8.0 * sin(4.0 * pi * t)
+
+
+@pytest.mark.parametrize(("up", "activity"), [(1.0, UP), (-1.0, DOWN)])
+def test_hypergravity_then_weightlessness_is_a_lift_up_and_the_other_order_one_down(up, activity):
+    events = told(samples(lambda t: ride(t, 6.0, 16.0, up), 24.0))
+    (arrived,) = [event for event in events if isinstance(event, LiftRidden)]
+    assert arrived.up is (up > 0.0) and arrived.height is None
+    assert arrived.t_start == pytest.approx(6.0, abs=0.5) and arrived.t == pytest.approx(16.0, abs=0.5)
+    found = timeline(events)
+    assert [found.at(t) for t in (3.0, 7.0, 11.0, 15.0, 20.0)] == [STILL, activity, activity, activity, STILL]
+
+
+def test_a_lift_that_has_set_off_is_told_at_once_and_is_final_with_its_second_pulse():
+    events = [e for e in told(samples(lambda t: ride(t, 6.0, 16.0), 24.0)) if isinstance(e, ActivityChanged)]
+    assert [(e.activity, e.final) for e in events] == [(STILL, True), (UP, False), (UP, True), (STILL, True)]
+    first, again = events[1:3]
+    assert again.revises == first.t == again.t
+    assert first.known_at - 6.0 <= 1.0
+    assert again.known_at - 14.75 <= 1.0
+
+
+def test_a_sensor_that_reads_two_percent_too_much_feels_the_same_lift():
+    events = told(samples(lambda t: 0.2 + ride(t, 6.0, 16.0), 24.0))
+    assert [event.up for event in events if isinstance(event, LiftRidden)] == [True]
+
+
+def test_who_walks_off_before_the_second_pulse_rode_no_lift():
+    events = told(samples(lambda t: ride(t, 6.0, 99.0) if t < 12.0 else stride(t), 20.0))
+    assert not [event for event in events if isinstance(event, LiftRidden)]
+    found = timeline(events)
+    assert found.at(8.0) is STILL and found.at(14.0) in MOVING
+
+
+def test_no_second_pulse_for_a_minute_means_that_there_was_no_ride():
+    events = told(samples(lambda t: ride(t, 6.0, 999.0), 12.0 + 0.5 * LONGEST_RIDE))
+    assert timeline(events).at(30.0) is STILL
+    assert all(event.final for event in events[-1:])
+
+
+def test_a_foot_that_stands_otherwise_for_good_is_no_lift():
+    events = told(samples(lambda t: 0.0 if t < 10.0 else 0.4, 30.0))
+    assert not [event for event in events if isinstance(event, LiftRidden)]
+    assert timeline(events).at(20.0) is STILL
+
+
+def test_a_recording_that_begins_in_a_pulse_has_the_right_direction():
+    events = told(samples(lambda t: PULSE if t < 2.6 else ride(t, -9.0, 14.0), 24.0))
+    (arrived,) = [event for event in events if isinstance(event, LiftRidden)]
+    assert arrived.up
+
+
+def test_a_foot_that_is_put_elsewhere_has_not_walked():
+    events = told(samples(lambda t: stride(t) if 8.0 <= t < 8.4 else 0.0, 16.0))
+    assert [event.activity for event in events] == [STILL]
+
+
+def test_the_first_label_counts_from_the_first_sample():
+    (first,) = told(samples(lambda t: 0.0, 3.0, begin=50.0))
+    assert first.t == 50.0 and first.known_at == pytest.approx(52.5, abs=0.06)
+
+
+def test_changes_are_dated_to_when_they_were():
+    found = timeline(told(samples(lambda t: stride(t) if 6.0 <= t < 14.0 else 0.0, 22.0)))
+    (_, a, b) = [begin for begin, _, what in found.spans(22.0) if what is STILL or what in MOVING][:3]
+    assert a == pytest.approx(6.0, abs=0.5) and b == pytest.approx(14.0, abs=0.5)
+
+
+def test_after_seconds_without_samples_nobody_knows():
+    items = samples(lambda t: 0.0, 6.0) + samples(lambda t: 0.0, 6.0, begin=30.0)
+    found = timeline(told(items))
+    assert [found.at(t) for t in (4.0, 20.0, 33.0)] == [STILL, Activity.UNKNOWN, STILL]
+
+
+# --- feet -------------------------------------------------------------------------------------------------------------
+
+
+def test_one_foot_is_enough():
+    events = told(samples(lambda t: ride(t, 6.0, 16.0), 24.0, feet=(Foot.LEFT,)))
+    assert [event.up for event in events if isinstance(event, LiftRidden)] == [True]
+
+
+def test_a_foot_that_falls_silent_is_not_waited_for():
+    both = samples(lambda t: 0.0, 6.0)
+    one = [attrs.evolve(item, t=item.t) for item in samples(lambda t: ride(t, 6.0, 16.0), 24.0, feet=(Foot.LEFT,))]
+    events = told(both + [item for item in one if item.t >= 6.0])
+    assert [event.up for event in events if isinstance(event, LiftRidden)] == [True]
+
+
+def test_which_foot_is_heard_first_does_not_matter():
+    items = samples(lambda t: ride(t, 6.0, 16.0) if t < 20.0 else stride(t), 30.0)
+    swapped = [item for pair in zip(items[1::2], items[::2], strict=True) for item in pair]
+    assert told(items) == told(swapped)
+
+
+# --- the hidden Markov model ------------------------------------------------------------------------------------------
+
+
+def model(**changes):
+    """Three states of the same width whose means differ by 1 in the log variance."""
+
+    def at(middle):
+        width = tuple(tuple(1.0 if k == row else 0.0 for k in range(row + 1)) for row in range(len(FEATURES)))
+        return (Gaussian(1.0, (middle, 0.0, GRAVITY, log(1e-6), 0.0), width),)
+
+    known = {
+        "trained_on": "nothing", "moving": 1.0, "pulse": 0.2,
+        "walking": at(3.0), "stairs_up": at(4.0), "stairs_down": at(2.0),
+        "transitions": ((0.9, 0.06, 0.04), (0.1, 0.9, 0.0), (0.2, 0.0, 0.8)),
+    }  # fmt: skip
+    return WindowModel(**(known | changes))
+
+
+def test_a_gaussian_is_the_density_of_its_covariance():
+    factor = np.array([[0.5, 0, 0], [0.2, 0.7, 0], [-0.1, 0.3, 0.4]])
+    gaussian = Gaussian(0.5, (1.0, 2.0, 3.0), tuple(tuple(row[: k + 1]) for k, row in enumerate(factor.tolist())))
+    x, covariance = np.array([1.3, 1.5, 3.6]), factor @ factor.T
+    away = x - np.array(gaussian.mean)
+    expected = log(0.5) - 0.5 * away @ np.linalg.inv(covariance) @ away - 0.5 * log(np.linalg.det(covariance))
+    assert gaussian.log_density(tuple(x.tolist())) == pytest.approx(expected)
+
+
+def test_without_a_gyroscope_the_density_is_that_of_the_other_features():
+    factor = ((0.5,), (0.2, 0.7), (-0.1, 0.3, 0.4))
+    whole, part = Gaussian(1.0, (1.0, 2.0, 3.0), factor), Gaussian(1.0, (1.0, 2.0), factor[:2])
+    assert whole.log_density((0.4, 2.2)) == part.log_density((0.4, 2.2))
+
+
+def test_the_forward_filter_by_hand():
+    # a_z swings by +-v: its log variance is 2 log v, and each state is off by its own distance. With one foot the
+    # likelihoods are exp(-d^2 / 2) to the power of 1/4, for each window is seen four times.
+    swing = np.exp(0.5 * 3.6)
+    part = TwoSecondWindows(model())
+    items = samples(lambda t: swing * (-1.0) ** round(t * RATE), 4.55, feet=(Foot.LEFT,))
+    # windows end at 2.5, 3.0, 3.5, 4.0 and 4.5 s; the first without any standing is the fourth of a movement
+    told(items, part)
+    likely = np.exp(-0.5 * (3.6 - np.array([3.0, 4.0, 2.0])) ** 2 / BLOCKS)
+    belief = likely / likely.sum()
+    belief = belief @ np.array(model().transitions) * likely
+    assert part.belief == pytest.approx((belief / belief.sum()).tolist(), rel=1e-6)
+    assert part.belief[0] > part.belief[1] and part.activity is Activity.WALKING
+
+
+def test_two_feet_say_it_twice():
+    swing = np.exp(0.5 * 3.6)
+    part = TwoSecondWindows(model())
+    told(samples(lambda t: swing * (-1.0) ** round(t * RATE), 4.05), part)
+    likely = np.exp(-0.5 * (3.6 - np.array([3.0, 4.0, 2.0])) ** 2 / BLOCKS) ** 2
+    assert part.belief == pytest.approx((likely / likely.sum()).tolist(), rel=1e-6)
+
+
+def test_the_variance_tree_comes_first():
+    # variance 0.81 is below the threshold of 1, 1.21 above it, whatever the hidden Markov model says
+    for swing, moves in ((0.9, False), (1.1, True)):
+        part = TwoSecondWindows(model())
+        told(samples(lambda t, v=swing: v * (-1.0) ** round(t * RATE), 6.0), part)
+        assert (part.activity in MOVING) is moves
+
+
+# --- as a machine -----------------------------------------------------------------------------------------------------
+
+MIXED = samples(lambda t: ride(t, 6.0, 16.0) if t < 20.0 else stride(t), 30.0)
+
+
+@given(cut=st.integers(0, len(MIXED)))
+@settings(max_examples=25)
+def test_it_can_be_saved_anywhere(cut):
+    first = TwoSecondWindows()
+    before = told(MIXED[:cut], first)
+    saved = json.dumps(save(first), allow_nan=False)
+    assert len(saved) < 6000
+    assert before + told(MIXED[cut:], load(TwoSecondWindows, json.loads(saved))) == told(MIXED)
+
+
+def test_a_walk_at_another_hour_is_the_same_walk():
+    later = [attrs.evolve(item, t=item.t + 86400.0) for item in MIXED]
+    at_first, then = ([(e.t, e.known_at) for e in told(items)] for items in (MIXED, later))
+    assert [t for pair in then for t in pair] == pytest.approx([t + 86400.0 for pair in at_first for t in pair])
+
+
+numbers = st.floats(-499, 499)
+rows = st.tuples(st.floats(0, 3), st.booleans(), st.tuples(numbers, numbers, numbers))
+
+
+@given(items=st.lists(rows, max_size=120))
+def test_any_numbers_give_events_in_order_of_being_known(items):
+    part, t, found = TwoSecondWindows(), 0.0, []
+    for dt, left, acc in items:
+        t += 0.05 * dt**4 + 1e-3
+        foot = Foot.LEFT if left else Foot.RIGHT
+        found += part.foot_moved(FEET[foot], Sample(t=t, site=SITE_OF_FOOT[foot], acc=acc), [])
+    assert all(a.known_at <= b.known_at for a, b in zip(found, found[1:], strict=False))
+    assert all(event.t <= event.known_at for event in found)
+    json.dumps(save(part), allow_nan=False)
+
+
+def test_a_clock_that_begins_anew_begins_all_windows_anew():
+    part = TwoSecondWindows()
+    told(samples(lambda t: 0.0, 6.0, begin=100.0), part)
+    part.interrupt(SITE_OF_FOOT[Foot.LEFT])
+    assert part.activity is Activity.UNKNOWN
+    (first,) = told(samples(lambda t: 0.0, 6.0), part)
+    assert first.t == 0.0 and first.activity is STILL
+
+
+# --- what it was taught -----------------------------------------------------------------------------------------------
+
+
+def test_a_threshold_lies_between_what_it_parts():
+    assert threshold([1.0, 2.0, 3.0], [5.0, 6.0]) == pytest.approx(4.0)
+
+
+def test_a_threshold_leaves_as_few_as_can_be_on_the_wrong_side():
+    # above 5 lies one of four that should not; below it none of those that should
+    assert threshold([1.0, 2.0, 3.0, 9.0], [6.0, 7.0, 8.0]) == pytest.approx(4.5)
+
+
+def test_training_needs_every_activity_of_the_paper():
+    standing = Told(0, STILL, STILL, (Window(0, GRAVITY, 1e-4, 0.0, 0.0, None),))
+    with pytest.raises(ValueError, match="none of walking"):
+        train([Taught("one", (standing,))], "too little")
+
+
+def test_the_shipped_model_is_sound_and_says_what_it_was_taught_on():
+    known = shipped()
+    assert "hugadb" in known.trained_on and "seeds 101" in known.trained_on
+    assert known.moving > 0.0 and known.pulse > 0.0
+    for row in known.transitions:
+        assert sum(row) == pytest.approx(1.0, abs=1e-4)
+    for mixture in (known.walking, known.stairs_up, known.stairs_down):
+        assert sum([one.weight for one in mixture]) == pytest.approx(1.0, abs=1e-4)
+        assert all(len(one.mean) == len(one.factor) == len(FEATURES) for one in mixture)
+
+
+def test_features_are_in_the_order_of_their_names():
+    window = Window(0, 9.5, 2.0, 0.25, 3.0, 4.0)
+    assert seen(window) == pytest.approx((log(2.0), 0.25, 9.5, log(3.0), log(4.0)), abs=1e-5)
+    assert len(seen(attrs.evolve(window, turning=None))) == len(FEATURES) - 1
+
+
+def test_nothing_that_is_scored_was_learnt_from():
+    assert emulated.FIRST_TO_LEARN_FROM > 50
+
+
+def test_an_emulated_wearer_is_told_what_he_does():
+    said = score(FOOTSTEP_TRACKER, 2)
+    assert (said.windows.accuracy or 0.0) >= 0.93
+    assert said.time.rides_found == said.time.rides_true == 4
