@@ -69,7 +69,7 @@ class ShoeSensing(LinearDedrift):
     behind: float = 0.075
     """By how much the detector is late, s: half of the window of `ShortTimeEnergy`, since "n is the position of the
     centre of the sliding window". A stance that has ended did so that long ago, and the motion since then counts."""
-    doubtful: float = 0.035
+    doubtful: float = 0.04
     """m/s; of a foot that has moved for `late` s without a stance, s, twice as much:"""
     late: float = 0.9
     slow: float = 0.5
