@@ -7,16 +7,22 @@ By theorem 1 the feet may point anywhere, as long as they keep doing so. Works o
 
 from __future__ import annotations
 
+from math import pi
+
 from attrs import define, field, frozen
 
 from ..events import StepTaken
 from ..foot.turning_steps import TurningSteps
 from ..types import Foot
 
-ALONE = 1.5
-"""A foot that has not stepped for so long before a turn's end has no part in the turn, s."""
-STANDS = 1.2
-"""Who turns and then stands has turned, when no foot has come down for so long, s."""
+STANDS = 1.5
+"""Who turns and then stands has turned, when no foot has come down for so long, s, or for as long as the last turning
+step took with what went before it, but not for longer than"""
+PATIENCE = 4.0
+"""s."""
+STRAIGHT = 3
+"""So many steps straight on end a turn, of both feet where both are heard: one foot may step twice on the spot while
+the other turns."""
 
 
 @frozen
@@ -50,8 +56,8 @@ class FootTurn:
 
 @define
 class Direction:
-    """Steps in, whole turns out. Latency: a turn is known when both feet have gone straight on by one step (one step of
-    each, two where only one is heard), or have stood for `STANDS`."""
+    """Steps in, whole turns out. Latency: a turn is known when the feet have gone straight on for `STRAIGHT` steps (two
+    where only one is heard), or have stood for `STANDS`."""
 
     # state
     left: FootTurn = field(factory=FootTurn, init=False)
@@ -60,6 +66,7 @@ class Direction:
     """When the first turning step of the process did, s; None while the wearer goes straight on."""
     ended: float = field(default=0.0, init=False)
     """When the last one did, s."""
+    stands: float = field(default=STANDS, init=False)
 
     def step(self, taken: StepTaken) -> Turned | None:
         """One step of either foot, in the order in which they became known; the turn that is over by it."""
@@ -68,7 +75,7 @@ class Direction:
         foot.stepped = taken.t_end
         if angle != 0.0:
             over = None
-            if self.began is not None and taken.t_start - self.ended > STANDS:
+            if self.began is not None and taken.t_start - self.ended > self.stands:
                 over = self._over()
             if self.began is None:
                 self.began = self.ended = taken.t_start
@@ -76,19 +83,22 @@ class Direction:
             foot.angle += angle
             foot.straight = other.straight = 0
             self.ended = max(self.ended, taken.t_end)
+            self.stands = min(max(STANDS, 0.8 * self.stands, taken.t_end - taken.t_start), PATIENCE)
             return over
         foot.straight += 1
         if self.began is None:
             return None
-        alone = other.stepped is None or taken.t_end - other.stepped > ALONE
-        return self._over() if (foot.straight > 1 if alone else other.straight > 0) or foot.straight > 2 else None
+        if other.stepped is None or taken.t_end - other.stepped > self.stands:
+            return self._over() if foot.straight > 1 else None
+        both = other.straight > 0 and foot.straight + other.straight >= STRAIGHT
+        return self._over() if both or foot.straight >= STRAIGHT else None
 
     def stood(self, t: float) -> Turned | None:
         """It is `t` s; the turn that is over because nobody has stepped since."""
-        if self.began is None or t - self.ended <= STANDS:
+        if self.began is None or t - self.ended <= self.stands:
             return None
         newest = max(-1e12 if foot.stepped is None else foot.stepped for foot in (self.left, self.right))
-        return self._over() if t - newest > STANDS else None
+        return self._over() if t - newest > self.stands else None
 
     def interrupt(self, foot: Foot) -> None:
         """The clock of a foot begins anew: a turn under way has no length, and is forgotten."""
@@ -97,7 +107,7 @@ class Direction:
 
     def _over(self) -> Turned:
         began = self.ended if self.began is None else self.began
-        found = Turned(began, self.ended, self._part(self.left, began), self._part(self.right, began))
+        found = Turned(began, self.ended, *agreed(self._part(self.left, began), self._part(self.right, began)))
         self.began = None
         self.left.angle = self.right.angle = 0.0
         self.left.straight = self.right.straight = 0
@@ -106,3 +116,13 @@ class Direction:
     @staticmethod
     def _part(foot: FootTurn, began: float) -> float | None:
         return None if foot.stepped is None or foot.stepped < began else foot.angle
+
+
+def agreed(left: float | None, right: float | None) -> tuple[float | None, float | None]:
+    """What the feet turned, rad. A step's turn is known but for whole ones (StepTaken.heading_change), and who turns
+    about may swing a foot by more than half of one: feet that are further apart than that do not mean it."""
+    if left is None or right is None or abs(left - right) <= pi:
+        return left, right
+    whole = 2.0 * pi if left < right else -2.0 * pi
+    to_left, to_right = (left + whole, right), (left, right - whole)
+    return to_left if abs(sum(to_left)) <= abs(sum(to_right)) else to_right

@@ -14,7 +14,7 @@ direction, which is the mean of what both feet turned (section IV.D). What the p
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import cos, hypot, sin
+from math import cos, hypot, pi, sin
 
 from attrs import define, field
 
@@ -96,8 +96,10 @@ class Footsteps:
         turn = taken.heading_change
         heading = 0.5 * (this.turned + other.turned)
         x, y = _turned((taken.displacement[0], taken.displacement[1]), heading - this.own - 0.25 * turn)
-        this.turned += turn
         this.own += turn
+        this.turned += turn
+        if abs(this.turned - other.turned) > pi:  # it is known but for whole turns
+            this.turned -= 2.0 * pi * round((this.turned - other.turned) / (2.0 * pi))
         this.here = (this.here[0] + x, this.here[1] + y)
         this.ahead = (this.ahead[0] + x, this.ahead[1] + y)
         this.ahead_turned += turn

@@ -22,6 +22,7 @@ Axes and signs are those of critical_times.py. What the paper leaves open:
 - "When the users are turning they always take the gravity direction as the axis": the rate about it is g_z while the
   foot is flat, and g_z cos(theta) + g_y sin(theta) in general. Where strides were surveyed this comes to 183, 200, 1092
   and 295 degrees from uplift to rest, of 178, 175, 1082 and 239; (7) as printed to 333, 352, 875 and 644.
+  A foot that pivots on its sole, in what looks like a static zone, turns as its gyroscope says.
 - `printed` does without all this.
 - The integrals are trapezoidal. The critical times lie between two samples, where the signals are straight lines.
 - From one rest to the next the foot goes where it points after half of the turn: along the chord of an arc.
@@ -50,6 +51,8 @@ HOLE = 0.12
 """s: two of the paper's samples."""
 LONGEST = 2.0
 """A foot that has not lain still for longer than this is not followed any further before it does, s."""
+PIVOT = 0.15
+"""A foot that lies as if still and yet turns faster than this about the vertical pivots on its sole, rad/s."""
 FURTHEST = 3.0
 """No step is longer, m."""
 
@@ -112,7 +115,8 @@ class Projection(Strapdown):
         if stance.hint is not Phase.STATIONARY:
             return False
         if stance.segment is None:
-            self.attitude = self.stood
+            if self.printed or self.rate is None or abs(rotate(self.attitude, self.rate)[2]) < PIVOT:
+                self.attitude = self.stood
         else:
             self._rest(stance.segment)
         self.position, self.velocity = self.anchored, ZERO
@@ -222,17 +226,17 @@ def turned(rows: Sequence[Row], times: CriticalTimes) -> float:
 
 
 def turned_about_vertical(rows: Sequence[Row], times: CriticalTimes) -> float:
-    """The same of the rate about the vertical, from uplift to rest."""
-    step = span(rows, times.uplift, times.rest)
+    """The same of the rate about the vertical, from uplift to the last row: a flat foot may pivot yet."""
+    step = span(rows, times.uplift, max(times.rest, rows[-1][0]))
     lasted = times.rest - times.uplift
     if not lasted > 0.0:
         return 0.0
-    drift = _integral(step, 4) / lasted
+    drift = _integral(span(rows, times.uplift, times.rest), 4) / lasted
     theta, angle = 0.0, 0.0
     t, gx, was = step[0][0], step[0][4], step[0][6]
     for row in step[1:]:
         dt = row[0] - t
-        theta += (0.5 * (gx + row[4]) - drift) * dt
+        theta = theta + (0.5 * (gx + row[4]) - drift) * dt if row[0] <= times.rest else 0.0
         now = row[6] * cos(theta) + row[5] * sin(theta)
         angle += 0.5 * (was + now) * dt
         t, gx, was = row[0], row[4], now
