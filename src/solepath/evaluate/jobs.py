@@ -15,7 +15,7 @@ from attrs import frozen
 from ..calibration import Calibration
 from ..recording import RecordingError
 from .datasets import DATASETS, DataSet
-from .learning import Lesson, kind_of, part_for, taught
+from .learning import Lesson, lessons, part_for, taught
 from .recorded import Meta
 from .report import Result
 from .run import How
@@ -75,13 +75,6 @@ def recordings(folder: Path, data_set: DataSet) -> list[tuple[Path, Meta]]:
     return [(path, meta) for path, meta in found if path.is_file()]
 
 
-def lessons(folder: Path, data_sets: Sequence[DataSet], recipes: Sequence[str]) -> list[Lesson]:
-    """What the recipes' parts have to learn before those data sets can be scored."""
-    kinds = dict.fromkeys(kind for recipe in recipes if (kind := kind_of(recipe)) is not None)
-    taught_on = [one for data_set in data_sets if data_set.folds for one in recordings(folder, data_set)]
-    return [Lesson(kind, path, meta) for kind in kinds for path, meta in taught_on]
-
-
 def evaluate(
     folder: Path,
     recipes: Sequence[str],
@@ -96,7 +89,7 @@ def evaluate(
     known = Calibration() if calibration is None else calibration
     data_sets = find(folder, only)
     plan = [(d, recipe, recordings(folder, d)) for recipe in recipes for d in data_sets if d.suits(recipe)]
-    to_learn = lessons(folder, data_sets, recipes)
+    to_learn = lessons(folder, recipes) if any(data_set.folds for data_set in data_sets) else []
     count = len(to_learn) + sum(len(part) for _, _, part in plan)
     done = 0
 

@@ -1,7 +1,7 @@
 """Activity parts taught on some wearers' recordings, to be scored on the others'.
 
-A part that learns has a `Learner` here: features of one recording, which take the time and are the same whoever is left
-out, and the part that some recordings' features teach.
+A part that learns has a `Learner` here: the features of one source of what it learns from, which take the time and are
+the same whoever is left out, and the part that some sources' features teach.
 """
 
 from __future__ import annotations
@@ -18,16 +18,26 @@ from ..recipes import AnyActivity
 from ..recording import RecordingError
 from ..train import footstep_activity
 from ..train.folds import FOLDS, fold_of
+from ..train.hugadb import recordings
 from .recorded import Meta
+
+Sources = Sequence[tuple[Any, int | None]]
+"""Each with who wore it; None for what is no wearer's of hugadb, which may teach whoever is scored."""
 
 
 @frozen
 class Learner:
     """How one kind of part is taught."""
 
-    features: Callable[[Path], Any]
-    """Of a recording; runs in another process, so a function of a module. RecordingError when it cannot be read."""
+    sources: Callable[[Path], Sources]
+    """What there is to learn from in the data directory."""
+    features: Callable[[Any], Any]
+    """Of a source; runs in another process, so a function of a module. RecordingError when it cannot be read."""
     teach: Callable[[Sequence[Any]], AnyActivity]
+
+
+def _recordings(folder: Path) -> Sources:
+    return [(one.path, one.subject) for one in recordings(folder / "hugadb")]
 
 
 def _two_second_windows(taught: Sequence[footstep_activity.Taught]) -> TwoSecondWindows:
@@ -35,24 +45,30 @@ def _two_second_windows(taught: Sequence[footstep_activity.Taught]) -> TwoSecond
 
 
 LEARNERS: dict[type, Learner] = {
-    TwoSecondWindows: Learner(footstep_activity.of_recording, _two_second_windows),
+    TwoSecondWindows: Learner(_recordings, footstep_activity.of_recording, _two_second_windows),
 }
 
 
 @frozen
 class Lesson:
-    """One recording for one kind of part."""
+    """One source for one kind of part."""
 
     kind: type
-    path: Path
-    meta: Meta
+    source: Any
+    subject: int | None
 
     def features(self) -> Any:
-        """None when the recording cannot be read: scoring will say why."""
+        """None when it cannot be read: scoring will say why."""
         try:
-            return LEARNERS[self.kind].features(self.path)
+            return LEARNERS[self.kind].features(self.source)
         except RecordingError:
             return None
+
+
+def lessons(folder: Path, recipes: Sequence[str]) -> list[Lesson]:
+    """All that the recipes' parts have to learn from in the data directory."""
+    kinds = dict.fromkeys(kind for recipe in recipes if (kind := kind_of(recipe)) is not None)
+    return [Lesson(kind, source, subject) for kind in kinds for source, subject in LEARNERS[kind].sources(folder)]
 
 
 Taught = dict[tuple[type, int], AnyActivity]
@@ -70,8 +86,9 @@ def taught(lessons: Sequence[Lesson], features: Sequence[Any]) -> Taught:
     found: Taught = {}
     known = [(lesson, what) for lesson, what in zip(lessons, features, strict=True) if what is not None]
     for kind in dict.fromkeys(lesson.kind for lesson in lessons):
+        own = [(lesson.subject, what) for lesson, what in known if lesson.kind is kind]
         for number in range(len(FOLDS)):
-            others = [w for lesson, w in known if lesson.kind is kind and fold_of(lesson.meta["subject"]) != number]
+            others = [what for subject, what in own if subject is None or fold_of(subject) != number]
             found[kind, number] = LEARNERS[kind].teach(others)
     return found
 
