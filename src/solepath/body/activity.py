@@ -221,11 +221,7 @@ class Activities:
         courses = self.courses
         for begun, before in courses.settle(self._time(self.next) + (1e6 if at_last else 0.0)):
             if before is not None and before.activity in RIDDEN:
-                events.append(
-                    LiftRidden(
-                        t=begun.t, known_at=known_at, t_start=before.t, up=RIDDEN[before.activity], height=before.height
-                    )
-                )
+                events.append(_ridden(before, begun.t, known_at))
             revised = self.told[0].t if self.told else None
             self.told = []
             events.append(self._changed(begun, known_at, True, revised))
@@ -285,3 +281,11 @@ class Activities:
             known = evolve(step, known_at=max(known_at, step.known_at))
             events += self.flights.stepped(known, AFOOT.get(doing, 0))
         events += self.flights.waited(t, known_at)
+
+
+def _ridden(ride: Segment, over: float, known_at: float) -> LiftRidden:
+    start = ride.t if ride.from_ is None else ride.from_
+    end = max(start, over if ride.to is None else ride.to)
+    return LiftRidden(
+        t=end, known_at=max(known_at, end), t_start=start, up=RIDDEN[ride.activity], height=ride.height
+    )

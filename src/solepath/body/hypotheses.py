@@ -12,9 +12,10 @@ from collections.abc import Sequence
 from itertools import pairwise
 from math import exp, log
 
-from attrs import define, field, frozen
+from attrs import define, evolve, field, frozen
 
 from ..types import Activity
+from ..vector import TIE
 from .features import BLOCK
 from .ride import HALT, HALT_VARIES, USUAL, VARIES, Felt, Level, Ride
 
@@ -88,6 +89,9 @@ DOUBT = 8.0
 """One that is less likely by more than this has no say in what is settled."""
 SETTLED = 12.0
 """After so long, s, a ride has ended: the lift does not creep on to its floor."""
+EARLIER, LATER = 0.5, 1.0
+"""A ride begins so much earlier, s, than its first block that was felt, and ends so much later than its last: its first
+and last jerk are too weak to feel, and its doors are not open yet."""
 DECIDED = 60.0
 """After so long, s, it is settled what was begun: few rides are longer."""
 LONGEST = 8
@@ -96,10 +100,13 @@ LONGEST = 8
 
 @frozen
 class Segment:
-    """From `t` s on the wearer does `activity`. Of a ride that is over: its height, m, as far as it is known."""
+    """From `t` s on the wearer does `activity`. Of a ride: when its pulses were felt, s, and its height, m,
+    as far as it is known."""
 
     t: float
     activity: Activity
+    from_: float | None = None
+    to: float | None = None
     height: float | None = None
 
 
@@ -243,13 +250,19 @@ def _gone_on(token: Token, state: int, seen: Evidence) -> Token:
     ride, path, activity = token.ride, token.path, ACTIVITIES[state]
     begins = 0.0
     if not path or path[-1].activity is not activity:
+        begun = Segment(seen.t, activity)
         if state in RIDES:
             ride, begins = ride.begun(state in PULSES and bool(path), seen.before)
+            early = max(seen.t - EARLIER, path[-1].t + BLOCK) if path else seen.t
+            begun = Segment(min(early, seen.t), activity, seen.t)
         elif token.state in RIDES and path:
             last = path[-1]
-            path = (*path[:-1], Segment(last.t, last.activity, ride.risen(seen.after)))
+            path = (*path[:-1], evolve(last, to=seen.t, height=ride.risen(seen.after)))
             ride = ride.over()
-        path = (*path, Segment(seen.t, activity))
+            begun = Segment(seen.t + (LATER if state == STAND else 0.0), activity)
+        elif path and path[-1].t >= seen.t:
+            begun = Segment(path[-1].t + TIE, activity)
+        path = (*path, begun)
     if state in PULSES:
         ride, likely = ride.pulse(seen.felt, PULSES[state] * USUAL, VARIES, BLOCK)
     elif state in HALTS:

@@ -1,0 +1,249 @@
+"""Learns the network of `Activities` from blocks of half a second whose activity is known.
+
+    python -m solepath.train.activities DATA_DIR [--out FILE] [--without FOLD]
+
+writes activities.json beside the part, or FILE. Same data, same file. `--without`: leave out the wearers of a fold
+of hugadb (folds.py, from 0), for who wants to score on them.
+
+Learnt from: hugadb, as recorded and at other rates; level walks of other wearers, sensors and mountings (walking is all
+that is known of them, so only blocks with a step count); emulated wearers with seeds from 101. Neither the recorded
+stairs of gaitmap_examples nor those of xio_closed_walks are among them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from copy import deepcopy
+from pathlib import Path
+
+import attrs
+import numpy as np
+from attrs import frozen
+from numpy.typing import NDArray
+
+from .. import recipes
+from ..body import motion
+from ..body.features import BLOCK, COUNT, REACH, STEP, FootWindow
+from ..body.motion import MotionModel, to_json
+from ..foot.dedrift import LinearDedrift
+from ..foot.stance import Shoe
+from ..foot.tracker import FootTracker
+from ..recipes import Recipe
+from ..samples import load_samples
+from ..sim.parts import KXTJ9_IMU3000, LSM6DSOX, MPU6050, MPU9250
+from ..types import Activity, Foot, Sample
+from ..vector import TIE
+from . import emulated
+from .activities_net import CLASSES, learn
+from .folds import FOLDS
+from .hugadb import labels, recordings
+
+Floats = NDArray[np.float64]
+Label = Callable[[float], Activity | None]
+
+STRAPDOWN = Recipe("strapdown", Shoe(), LinearDedrift())
+"""Steps as a plain zero-velocity method sees them: the features of a step must not be one recipe's."""
+WAYS: tuple[tuple[float | None, Recipe], ...] = (
+    (None, recipes.DEFAULT),
+    (100.0, recipes.DEFAULT),
+    (20.0, recipes.DEFAULT),
+    (10.0, recipes.DEFAULT),
+    (None, STRAPDOWN),
+    (20.0, STRAPDOWN),
+)
+"""Rate in Hz (None: as recorded) and recipe in which each recording is seen."""
+MISTAKEN = ("various_03_05", "various_03_06")
+"""Labelled as going down, but each stride rises by 0.4 m and swings as two steps up at a time do with other wearers:
+the label is taken for a slip, and nothing is learnt from them."""
+LEVEL_WALKS = ("ipol_10m_uturn", "gumushane_gcp", "felius_2min_walk", "tripod_treadmill")
+EMULATED = range(emulated.FIRST_TO_LEARN_FROM, emulated.FIRST_TO_LEARN_FROM + 12)
+PARTS = ((20.0, MPU6050), (100.0, LSM6DSOX), (50.0, MPU9250), (20.0, KXTJ9_IMU3000), (10.0, MPU9250))
+"""Rate and inertial sensor of the emulated wearers, in turn."""
+AFOOT = 0.0
+"""Feature 1 (the stillest block of five) of a foot that walks all the time: a variance of |acc| above 1 (m/s^2)^2."""
+PURE = 0.9
+"""A block of which less has one label is left out."""
+
+
+@frozen(eq=False)
+class Blocks:
+    """Features (n, COUNT), classes (n) and whose they are (n): a number for each wearer and source."""
+
+    features: Floats
+    classes: NDArray[np.int64]
+    wearers: NDArray[np.int64]
+
+
+def blocks_of(samples: Sequence[Sample], label: Label, recipe: Recipe, wearer: int, only_steps: bool = False) -> Blocks:
+    """The labelled blocks of both feet. `only_steps`: those with a step in them."""
+    rows: list[list[float]] = []
+    classes: list[int] = []
+    begin = samples[0].t
+    for foot in Foot:
+        own = [sample for sample in samples if sample.site.foot is foot and sample.acc is not None]
+        for index, features in _features(foot, own, begin, recipe):
+            now = _pure(label, begin + index * BLOCK)
+            if now is not None and (not only_steps or (features[STEP] and features[1] > AFOOT)):
+                rows.append(features)
+                classes.append(CLASSES[now])
+    n = len(rows)
+    return Blocks(np.array(rows).reshape(n, COUNT), np.array(classes, dtype=np.int64), np.full(n, wearer))
+
+
+def _features(
+    foot: Foot, samples: Sequence[Sample], begin: float, recipe: Recipe
+) -> Iterator[tuple[int, list[float]]]:
+    parts = deepcopy(recipe)
+    tracker = FootTracker(foot, parts.detector, parts.corrector, cues=parts.cues)
+    window = FootWindow()
+    for sample in samples:
+        events = tracker.feed(sample)
+        index = int((sample.t - begin + TIE) / BLOCK)
+        if window.index is None or index > window.index:
+            if window.index is not None:
+                window.close()
+                yield from _judged(window, window.index - REACH, begin)
+            window.begin(index, tracker)
+        if sample.acc is not None:
+            window.add(sample.acc, sample.gyro)
+            if sample.gyro is not None and tracker.levelled:
+                window.track(tracker.corrector.position[2], tracker.corrector.velocity)
+        if events:
+            window.heard(events, tracker.corrector.position[2])
+
+
+def _judged(window: FootWindow, index: int, begin: float) -> Iterator[tuple[int, list[float]]]:
+    features = window.features(index, begin + (index + 0.5) * BLOCK)
+    if features is not None:
+        yield index, features
+
+
+def _pure(label: Label, begin: float) -> Activity | None:
+    """The label of nearly all of a block that begins then; None when it changes or is none."""
+    n = 20
+    found = [label(begin + BLOCK * (k + 0.5) / n) for k in range(n)]
+    most = max(set(found), key=found.count)
+    return most if found.count(most) >= PURE * n else None
+
+
+# --- sources ----------------------------------------------------------------------------------------------------------
+
+
+def hugadb(folder: Path, without: frozenset[int]) -> Iterator[Blocks]:
+    """All wearers but these, in every of `WAYS`."""
+    for one in recordings(folder):
+        if one.subject in without or one.path.stem in MISTAKEN:
+            continue
+        times, told = labels(one.path)
+        at = np.array(times)
+
+        def label(t: float, at: Floats = at, told: list[Activity | None] = told) -> Activity | None:
+            k = int(np.searchsorted(at, t))
+            return told[k] if k < len(told) else None
+
+        samples = list(load_samples(one.path))
+        for rate, recipe in WAYS:
+            yield blocks_of(samples if rate is None else resampled(samples, rate), label, recipe, one.subject)
+
+
+def level_walks(data: Path) -> Iterator[Blocks]:
+    """Recorded walks without stairs, every other one."""
+    for number, folder in enumerate(LEVEL_WALKS):
+        for path in sorted((data / folder).glob("*.npz"))[::2]:
+            samples = sorted(load_samples(path), key=_time)
+            yield blocks_of(samples, _walking, recipes.DEFAULT, 1000 + number, only_steps=True)
+
+
+def emulated_walks() -> Iterator[Blocks]:
+    """Each of another wearer, with sensors in the soles."""
+    for k, seed in enumerate(EMULATED):
+        walker = emulated.walker(seed, jogging=True)
+        truth = walker.truth()
+        rate, part = PARTS[k % len(PARTS)]
+        samples = sorted([one for foot in Foot for one in walker.samples(foot, rate, part)], key=_time)
+        for recipe in (recipes.DEFAULT, STRAPDOWN):
+            yield blocks_of(samples, truth.activity, recipe, 2000)
+
+
+def _walking(t: float) -> Activity:
+    return Activity.WALKING
+
+
+def _time(sample: Sample) -> float:
+    return sample.t
+
+
+def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
+    """The same at another rate, Hz: smoothed over half an interval where that is longer, as sensors do, and linear
+    between samples."""
+    found: list[Sample] = []
+    for foot in Foot:
+        own = [one for one in samples if one.site.foot is foot and one.acc is not None]
+        if len(own) < 2:
+            continue
+        t = np.array([one.t for one in own])
+        width = max(1, round(0.5 / rate / float(np.median(np.diff(t)))))
+        when = np.arange(t[0], t[-1], 1.0 / rate)
+
+        def channel(values: Iterable[float], t: Floats = t, when: Floats = when, width: int = width) -> Floats:
+            smooth = np.convolve(list(values), np.ones(width) / width, "same")
+            return np.asarray(np.interp(when, t, smooth))
+
+        acc = [channel([one.acc[i] for one in own if one.acc is not None]) for i in range(3)]
+        turns = all([one.gyro is not None for one in own])
+        gyro = [channel([one.gyro[i] for one in own if one.gyro is not None]) for i in range(3)] if turns else None
+        for k, at in enumerate(when.tolist()):
+            force = (float(acc[0][k]), float(acc[1][k]), float(acc[2][k]))
+            turn = None if gyro is None else (float(gyro[0][k]), float(gyro[1][k]), float(gyro[2][k]))
+            found.append(attrs.evolve(own[0], t=at, acc=force, gyro=turn))
+    return sorted(found, key=_time)
+
+
+# --- all of it --------------------------------------------------------------------------------------------------------
+
+
+def joined(parts: Iterable[Blocks]) -> Blocks:
+    """All of them."""
+    held = [part for part in parts if len(part.classes)]
+    return Blocks(
+        np.concatenate([part.features for part in held]),
+        np.concatenate([part.classes for part in held]),
+        np.concatenate([part.wearers for part in held]),
+    )
+
+
+def trained(data: Path, without: int | None) -> MotionModel:
+    """The model without the wearers of that fold."""
+    left_out = frozenset[int]() if without is None else FOLDS[without]
+    blocks = joined([*hugadb(data / "hugadb", left_out), *level_walks(data), *emulated_walks()])
+    fold = "all wearers" if without is None else f"the wearers but {sorted(left_out)}"
+    note = (
+        f"{fold} of HuGaDB (without {' and '.join(MISTAKEN)}) as recorded and at 100, 20 and 10 Hz; level walks of "
+        f"{', '.join(LEVEL_WALKS)}; emulated wearers, seeds {EMULATED[0]} to {EMULATED[-1]}"
+    )
+    return learn(blocks.features, blocks.classes, blocks.wearers, note)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(prog="python -m solepath.train.activities", description=__doc__)
+    parser.add_argument("data", type=Path)
+    parser.add_argument("--out", type=Path, default=Path(motion.__file__).with_name("activities.json"))
+    parser.add_argument("--without", type=int, choices=range(len(FOLDS)))
+    told = parser.parse_args(arguments)
+    model = trained(told.data, told.without)
+    rows = [f" {json.dumps(key)}: {_lines(value)}" for key, value in to_json(model).items()]
+    told.out.write_text("{\n" + ",\n".join(rows) + "\n}\n", encoding="utf-8")
+    return 0
+
+
+def _lines(value: object) -> str:
+    if isinstance(value, list) and value and isinstance(value[0], list):
+        return "[\n" + ",\n".join(["  " + json.dumps(row) for row in value]) + "\n ]"
+    return json.dumps(value)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
