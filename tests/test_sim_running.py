@@ -12,7 +12,7 @@ from solepath.sim.route import Route
 from solepath.sim.shoe import IN_SOLE, ON_INSTEP, Mounting
 from solepath.sim.styles import Manner
 from solepath.sim.walker import Walker
-from solepath.types import Activity, Foot
+from solepath.types import Activity, Foot, Site
 
 
 @pytest.fixture(scope="module")
@@ -121,6 +121,15 @@ def test_the_body_of_a_jogger_holds_together(jogger: Walker) -> None:
         leg = jogger.body.leg(foot, t)
         assert np.linalg.norm(leg.hip - leg.knee, axis=1) == pytest.approx(limbs.thigh)
         assert np.linalg.norm(leg.hip - leg.ankle, axis=1).max() <= limbs.thigh + limbs.shank + 1e-9
+
+
+@pytest.mark.parametrize("site", [site for site in Site if site.foot is None])
+def test_no_limb_of_a_jogger_is_jerked_about(jogger: Walker, site: Site) -> None:
+    """The heel is kicked up until the toes point down and back: the leg does not turn round with it."""
+    t = np.arange(0.5, jogger.duration - 0.5, 0.005)
+    found = jogger.body.at(site, t, Mounting((0.0, 0.0, 0.0)))
+    assert np.linalg.norm(found.rate, axis=1).max() < 15.0
+    assert np.linalg.norm(found.force, axis=1).max() < 300.0
 
 
 @settings(max_examples=25, deadline=None)

@@ -32,6 +32,7 @@ from .gait import Plan
 from .load import Loads
 from .motion import BLOCK, FootMotion, Kinematics, joined
 from .shoe import Mounting, Shoe
+from .styles import Manner
 from .turning import matrices, multiplied, quaternions, unit
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES
 
@@ -39,6 +40,8 @@ STEP = 0.01
 """s between the instants at which the pelvis is worked out; cubic B-splines join them."""
 STRETCH = 0.998
 """Of a leg, at the most: nobody walks on a straight knee."""
+RUNNING_STRETCH = 0.97
+"""The same of a runner, who lands with the knee bent by some 20 degrees (Novacheck 1998, Gait & Posture 7)."""
 FOLLOWING = 0.2
 """s over which the pelvis follows the legs' reach, and turns and sinks with them."""
 TURNING = 1.1
@@ -115,7 +118,7 @@ class Body:
         at, turn = self.pelvis(t)
         hip = at + turn[:, :, 1] * (0.5 * SIDES[foot] * self.limbs.hip_width)
         ankle = self.ankle(foot, t)
-        look = _level(turn[:, :, 0]) + _level(matrices(self.motions[foot].at(t, _BARE).attitude)[:, :, 0])
+        look = _level(turn[:, :, 0]) + _ahead(matrices(self.motions[foot].at(t, _BARE).attitude))
         thigh, shank = self.limbs.thigh, self.limbs.shank
         down = ankle - hip
         reach = np.linalg.norm(down, axis=1, keepdims=True)
@@ -196,7 +199,8 @@ def body(plan: Plan, motions: dict[Foot, FootMotion], loads: Loads, shoe: Shoe, 
     slips = {foot: _hanned(_slips(turns[foot], pull, share[foot]), 0.5 * FOLLOWING) for foot in Foot}
     ankles = {foot: feet[foot].position + _slid(turns[foot], slips[foot]) for foot in Foot}
 
-    yaws = [np.unwrap(np.arctan2(turn[:, 1, 0], turn[:, 0, 0])) for turn in turns.values()]
+    looks = [_ahead(turn) for turn in turns.values()]
+    yaws = [np.unwrap(np.arctan2(look[:, 1], look[:, 0])) for look in looks]
     yaw = _hanned(0.5 * (yaws[0] + yaws[1])[:, None], TURNING)[:, 0]
     apart = ankles[Foot.LEFT] - ankles[Foot.RIGHT]
     lead = apart[:, 0] * np.cos(yaw) + apart[:, 1] * np.sin(yaw)
@@ -204,7 +208,7 @@ def body(plan: Plan, motions: dict[Foot, FootMotion], loads: Loads, shoe: Shoe, 
     swing = _hanned(swing, FOLLOWING)
     yaw, roll = yaw + swing[:, 0], swing[:, 1]
 
-    reach = STRETCH * (limbs.thigh + limbs.shank)
+    reach = _stretch(plan, t) * (limbs.thigh + limbs.shank)
     half = 0.5 * limbs.hip_width * _turned(yaw, roll)[:, :, 1]
     highest = np.full(len(t), np.inf)
     for foot in Foot:
@@ -214,6 +218,17 @@ def body(plan: Plan, motions: dict[Foot, FootMotion], loads: Loads, shoe: Shoe, 
     z = _hanned(_least(highest, round(0.5 * FOLLOWING / STEP) + 2)[:, None], FOLLOWING)
     track = np.concatenate((centre, z, yaw[:, None], roll[:, None]), axis=1)
     return Body(limbs, shoe, motions, float(t[0]), track, slips)
+
+
+def _stretch(plan: Plan, t: Array) -> Array:
+    """How much of a leg's length hip and ankle are apart, at the most."""
+    least = np.full(len(t), STRETCH)
+    runs = [s for foot in Foot for s in plan.strides[foot] if s.manner is Manner.RUN]
+    if not runs:
+        return least
+    for stride in runs:
+        least[(t > stride.toe_off - FOLLOWING) & (t < stride.foot_flat + FOLLOWING)] = RUNNING_STRETCH
+    return np.asarray(np.minimum(_hanned(least[:, None], 2.0 * FOLLOWING)[:, 0], least))
 
 
 def _pressed(plan: Plan, loads: Loads, shoe: Shoe, t: Array) -> Array:
@@ -231,7 +246,7 @@ def _pressed(plan: Plan, loads: Loads, shoe: Shoe, t: Array) -> Array:
 
 
 def _slips(turn: Array, pull: Array, share: Array) -> Array:
-    ahead, left = _level(turn[:, :, 0])[:, :2], _level(turn[:, :, 1])[:, :2]
+    ahead, left = _ahead(turn)[:, :2], _level(turn[:, :, 1])[:, :2]
     felt = np.stack((np.sum(ahead * pull, axis=1), np.sum(left * pull, axis=1)), axis=1)
     return np.asarray(-share[:, None] * np.tanh(felt / YIELD) * SLACK)
 
@@ -268,6 +283,11 @@ def _least(values: Array, half: int) -> Array:
 def _level(v: Array) -> Array:
     """The horizontal direction of vectors."""
     return unit(v * (1.0, 1.0, 0.0))
+
+
+def _ahead(turn: Array) -> Array:
+    """Where feet of these attitudes look, level; a runner's heel is kicked up until the sole looks backwards and up."""
+    return np.asarray(_level(turn[:, :, 0]) * np.where(turn[:, 2, 2] < 0.0, -1.0, 1.0)[:, None])
 
 
 def _frame(up: Array, left: Array) -> Array:
