@@ -151,7 +151,8 @@ class Pedestrian:
             self.wait -= 1
             if self.wait <= 0:
                 events, self.late = self.late, []
-        events.append(stepped(self.t, (Foot.LEFT, Foot.RIGHT)[self.count % 2], self.count, self.track, degraded))
+        foot, stride = (Foot.LEFT, Foot.RIGHT)[self.count % 2], 2.0 * hypot(ex, ey)
+        events.append(stepped(self.t, foot, self.count, self.track, degraded, stride))
         sure = counts and not self.late
         self.told.append(Told(events, self.here(), self.level if sure else None, self.place if sure else None))
 
@@ -188,10 +189,12 @@ class Pedestrian:
         self.level, self.late, self.wait = level, [doing(self.t, self.t + 1.5, Activity.WALKING)], 3
 
 
-def stepped(t: float, foot: Foot, number: int, position: Vec3, degraded: bool = False) -> StepTaken:
+def stepped(
+    t: float, foot: Foot, number: int, position: Vec3, degraded: bool = False, stride: float = 1.2
+) -> StepTaken:
     return StepTaken(
-        t=t, known_at=t + 0.04, foot=foot, number=number, t_start=t - 1.0, t_end=t, displacement=(1.2, 0.0, 0.0),
-        position=position, stride_length=1.2, heading_change=0.0, height_change=0.0,
+        t=t, known_at=t + 0.04, foot=foot, number=number, t_start=t - 1.0, t_end=t, displacement=(stride, 0.0, 0.0),
+        position=position, stride_length=stride, heading_change=0.0, height_change=0.0,
         covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4), t_toe_off=t - 0.6, t_heel_strike=t - 0.1, degraded=degraded,
         features=StepFeatures(0.1, 3.0, 1.0, None, (), None),
     )  # fmt: skip

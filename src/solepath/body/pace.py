@@ -17,8 +17,8 @@ from ..types import Foot, Vec3
 
 GAIN = 0.06
 """Of one comparison."""
-SHORTEST = 0.5
-"""m; less is no walking."""
+SHORTEST, LONGEST = 0.5, 3.0
+"""m; less is no walking, and more no stride."""
 STRAIGHT = 0.3
 """A foot that turned by more than this, rad, has walked a bend, which is longer than its chord."""
 LEAST, MOST = 0.8, 1.6
@@ -45,7 +45,7 @@ class Pace:
     def stepped(self, step: StepTaken, here: Vec3) -> None:
         """A foot took a step, and the wearer is at `here` now, m."""
         this, other = (self.left, self.right) if step.foot is Foot.LEFT else (self.right, self.left)
-        sound = step.stride_length < 3.0 and not step.degraded
+        sound = step.stride_length < LONGEST
         if this is not None and other is not None and sound and abs(step.heading_change) < STRAIGHT:
             way, strides = hypot(here[0] - this.x, here[1] - this.y), 0.5 * (step.stride_length + other.stride)
             if way > SHORTEST and LEAST * way < strides < MOST * way:

@@ -16,11 +16,11 @@ from attrs import define, field
 
 from ..events import Event, Placed, PlaceLost, StepTaken
 from ..floorplan.index import IndexedPlan
-from ..floorplan.plan import FloorPlan, FloorPlanError, Point, Start
+from ..floorplan.plan import FloorPlan, FloorPlanError, Kind, Point, Start
 from ..types import Vec3
 from ..vector import ZERO
 from .crowd import Row, believed, effective, origin_of, packed, resampled, unpacked
-from .landings import landings, nearest, ways_out
+from .landings import Landing, landings, nearest, ways_out
 from .noise import NOISE, ROWS, following
 from .pace import Pace
 from .position import Position
@@ -52,6 +52,10 @@ FARTHEST = 100.0
 """A track that leaps by more is of no use, m."""
 OUTSIDE = 6
 """After so many steps outside of everything that the plan has, the wearer has left it."""
+ROUGH = 1.5
+"""A degraded step errs by so many times as much: few have lost samples, most but a peak that the sensor cannot show."""
+LOOK, OUT = 4, 0.25
+"""Every so many steps it is looked who has left the plan, and such a one counts so much less than those within."""
 STUCK = 5.0
 """When nobody could go on for so much of the track, m, there is no way."""
 HEADING = 0.12
@@ -64,8 +68,8 @@ ON_STAIRS = 2.0
 """Who does what one does on stairs, beside stairs, is so many times as likely to be on them as to go on along them."""
 ELSEWHERE = 0.02
 """With less belief than this near any landing, the wearer was not where the plan had him."""
-DOUBT = 0.5
-"""What a belief is worth then, against the landings."""
+DOUBT = {Kind.STAIRS: 0.85, Kind.LIFT: 0.5}
+"""What a belief is worth then, against the landings: level steps may be taken for stairs."""
 
 
 @define
@@ -84,6 +88,7 @@ class Placing:
     references: References = field(factory=References, init=False)
     pace: Pace = field(factory=Pace, init=False)
     random: int = field(default=1, init=False)
+    steps: int = field(default=0, init=False)
     outside: int = field(default=0, init=False)
     """Steps since the wearer was last within the plan."""
     stuck: float = field(default=0.0, init=False)
@@ -207,7 +212,10 @@ class Placing:
         move = (move[0] * self.pace.factor, move[1] * self.pace.factor)
         before = self.newest
         places = {row[:2] for row in rows}
-        rows = self._stepped(plan, rows, move, 3.0 if degraded else 1.0)
+        rows = self._stepped(plan, rows, move, ROUGH if degraded else 1.0)
+        self.steps = (self.steps + 1) % LOOK
+        if self.steps == 0:
+            rows = self._looked(plan, rows)
         stays = all(row[:2] in places for row in rows)
         self.stuck = self.stuck + hypot(*move) if stays else 0.0
         if not rows or self.stuck > STUCK:
@@ -216,6 +224,16 @@ class Placing:
             self._lose(f"the track goes where the plan has no way{where}{level}", here, known_at, told)
             return
         self.crowd = packed(rows)
+
+    def _looked(self, plan: IndexedPlan, rows: list[Row]) -> list[Row]:
+        """Who is where nobody can be counts less."""
+        x0, y0 = origin_of(plan.plan)
+        looked: list[Row] = []
+        for row in rows:
+            x, y, a, b, w, level, came, held = row
+            there = held or plan.inside(level, x0 + x, y0 + y)
+            looked.append(row if there else (x, y, a, b, OUT * w, level, came, held))
+        return looked
 
     def _stepped(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float) -> list[Row]:
         dx, dy = move
@@ -288,28 +306,22 @@ class Placing:
         rows = unpacked(self.crowd)
         if not any([landing.kind is arrived.kind for landing in stops]):
             return  # the plan does not have them all
-        x0, y0 = origin_of(plan.plan)
         held = [row for row in rows if row[7]]
         rows = [row for row in rows if not row[7]] or rows
         if rows and not held:
             held = self._near(plan.plan, rows, Held(arrived.kind, arrived.t_start))
         total = sum([row[4] for row in rows])
-        there: list[Row] = []
         self.random = following(self.random)
-        for k, (_, _, a, b, w, _, origin, stop) in enumerate(held):
-            for way, share in ways_out(stops, stops[stop - 1], arrived.up, arrived.height):
-                ex, ey, eh, es = NOISE[(self.random + k) % ROWS]
-                turn, stretch = TURNED * eh, 1.0 + 0.02 * es
-                x, y = way.place[0] + AROUND * ex, way.place[1] + AROUND * ey
-                if plan.crosses(way.level, way.place[0], way.place[1], x, y):
-                    x, y = way.place
-                a1, b1 = stretch * (a - b * turn), stretch * (b + a * turn)
-                there.append((x - x0, y - y0, a1, b1, w * share, way.level, origin or way.connector + 1, 0))
+        there = self._out(plan, stops, held, arrived, arrived.up)
+        if not there:
+            # to a foot, stairs up and down look much alike: from where there is no way up, one has gone down
+            there = self._out(plan, stops, held, arrived, not arrived.up)
         if sum([row[4] for row in there]) <= ELSEWHERE * total:
             there = self._anew(plan, arrived)
             weight = sum([row[4] for row in there])
             if rows and weight > 0.0 and total > 0.0:
-                each = weight * DOUBT / (1.0 - DOUBT) / FEW
+                doubt = DOUBT[arrived.kind]
+                each = weight * doubt / (1.0 - doubt) / FEW
                 kept = resampled(rows, FEW, 0.5)
                 stayed = [(x, y, a, b, each, level, came, 0) for x, y, a, b, _, level, came, _ in kept]
                 there = self._caught_up(plan, there, arrived.t) + stayed
@@ -321,6 +333,23 @@ class Placing:
         if there:
             self.outside = 0
             self.crowd = packed(there)
+
+    def _out(
+        self, plan: IndexedPlan, stops: list[Landing], held: list[Row], arrived: Arrived, up: bool
+    ) -> list[Row]:
+        """Those who changed level, where they come out."""
+        x0, y0 = origin_of(plan.plan)
+        there: list[Row] = []
+        for k, (_, _, a, b, w, _, origin, stop) in enumerate(held):
+            for way, share in ways_out(stops, stops[stop - 1], up, arrived.height):
+                ex, ey, eh, es = NOISE[(self.random + k) % ROWS]
+                turn, stretch = TURNED * eh, 1.0 + 0.02 * es
+                x, y = way.place[0] + AROUND * ex, way.place[1] + AROUND * ey
+                if plan.crosses(way.level, way.place[0], way.place[1], x, y):
+                    x, y = way.place
+                a1, b1 = stretch * (a - b * turn), stretch * (b + a * turn)
+                there.append((x - x0, y - y0, a1, b1, w * share, way.level, origin or way.connector + 1, 0))
+        return there
 
     def _anew(self, plan: IndexedPlan, arrived: Arrived) -> list[Row]:
         """Every place at which one may have come out: all stairs or lifts, all levels, all headings."""
@@ -387,7 +416,8 @@ class Placing:
             return 0.0
         stops = landings(plan)
         ways = ways_out(stops, stops[held - 1], passage.up > 0, None)
-        most = min([abs(way.elevation - stops[held - 1].elevation) for way, _ in ways], default=0.0)
+        rises = [way.elevation - stops[held - 1].elevation for way, _ in ways]
+        most = min([abs(rise) for rise in rises if (rise > 0.0) is (passage.up > 0)], default=0.0)
         height = min(passage.height(here.position) or 0.0, most)
         return height if passage.up > 0 else -height
 

@@ -34,6 +34,8 @@ STEEP, LANDING = 2.5, 4.0
 """Stairs lead no further away than so many times their height, and so many m of landings."""
 RIDE_OVER = 4.0
 """A ride that no event tells is over so long after the activity, s, or with the second step."""
+SAME_RIDE = 5.0
+"""Rides that end within this of each other are one, told twice, s."""
 TRACK = 24
 """Places of the track that are kept."""
 
@@ -123,7 +125,7 @@ class References:
     track: deque[tuple[float, float, float, float]] = field(factory=deque, init=False)
     """t in s and the place in m."""
     ridden: float | None = field(default=None, init=False)
-    """When the last ride that an event told was over, s."""
+    """When the last ride was over, s."""
 
     def forget(self) -> None:
         """Times begin anew."""
@@ -162,9 +164,10 @@ class References:
             elif isinstance(event, FlightClimbed):
                 self._climbed(event, told)
             elif isinstance(event, LiftRidden):
-                height = None if event.height is None or not isfinite(event.height) else abs(event.height)
-                told.append(Arrived(Kind.LIFT, event.up, height, min(event.t_start, event.t), event.t))
-                self.ridden = event.t
+                if self.ridden is None or event.t > self.ridden + SAME_RIDE:
+                    height = None if event.height is None or not isfinite(event.height) else abs(event.height)
+                    told.append(Arrived(Kind.LIFT, event.up, height, min(event.t_start, event.t), event.t))
+                    self.ridden = event.t
                 if self.passage is not None and self.passage.kind is Kind.LIFT:
                     self.passage = None
         if self.passage is not None:
@@ -235,6 +238,7 @@ class References:
         if passage.kind is Kind.LIFT:
             if waited > RIDE_OVER or passage.since >= 2:
                 self.passage = None
+                self.ridden = left
                 told.append(arrived)
             return
         storeys = rises(plan, Kind.STAIRS)
