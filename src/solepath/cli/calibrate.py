@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .calibrated import check_pressure
-from .failure import Failure, count, degrees_of, known_recipe, note, share
+from .failure import Failure, count, degrees_of, known_recipe, note, positive, share
 
 if TYPE_CHECKING:
     from ..calibrate.recorded import Recorded
@@ -23,7 +23,7 @@ def add_to(commands: Any) -> None:
         description=f"Make a calibration for `track`, `live` and `evaluate` (--calibration FILE). {MERGED}",
     )
     kinds = command.add_subparsers(metavar="KIND", dest="kind", required=True)
-    for add in (_add_noise, _add_shoe, _add_square, _add_newton, _add_modes):
+    for add in (_add_noise, _add_shoe, _add_square, _add_toe_out, _add_newton, _add_modes):
         kind = add(kinds)
         kind.add_argument("--out", metavar="FILE", type=Path, required=True, help="the calibration file")
         kind.set_defaults(run=run)
@@ -203,6 +203,43 @@ def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
         f"{found.foot.value} foot: {found.visits} visits of {found.marks} marks, drift {1000.0 * x:.2f}, "
         f"{1000.0 * y:.2f} mm/s within {1000.0 * found.scatter:.2f}: {verdict}",
     ]
+
+
+# --- toe-out ----------------------------------------------------------------------------------------------------------
+
+
+def _add_toe_out(kinds: Any) -> argparse.ArgumentParser:
+    command: argparse.ArgumentParser = kinds.add_parser(
+        "toe-out",
+        help="how far feet point beside their way, from a straight walk of known length",
+        description="From a straight walk whose length is known: how far each foot points outwards of its way, which "
+        "the recipe footstep-tracker takes into account.",
+        epilog="example: solepath calibrate toe-out corridor.jsonl --distance 20 --out me.json",
+    )
+    _recording(command)
+    command.add_argument("--distance", metavar="M", type=positive, required=True, help="length of the walk, m")
+    command.set_defaults(learn=_toe_out)
+    return command
+
+
+def _toe_out(options: argparse.Namespace, known: Calibration) -> Learnt:
+    from math import degrees
+
+    from ..calibrate.toe_out import learnt, toe_out
+    from ..source import open_source
+    from ..types import Foot
+    from ..view.table import number, table
+
+    foot = Foot(options.foot) if options.foot else None
+    found = toe_out(open_source(options.file, foot, report=note), options.distance)
+    angles = ["none" if one.angle is None else number(degrees(one.angle)) for one in found]
+    rows = [
+        [one.foot.value, str(one.steps), number(one.along, 2), angle] for one, angle in zip(found, angles, strict=True)
+    ]
+    lines = [table(["foot", "steps", "along the foot m", "toe-out degrees"], rows)]
+    if "none" in angles:
+        lines.append("none: these steps come to less than the walk, which no angle explains: nothing is learnt of it")
+    return learnt(found), lines
 
 
 # --- newton -----------------------------------------------------------------------------------------------------------

@@ -107,8 +107,10 @@ def _landing(rows: Sequence[Row], begin: int, end: int) -> float:
     """a_y(t - 1) > 0, a_y(t) < 0, looked for from the end, but not after `STRIKING`."""
     down = _crossing(rows, end, 4, 0.0) if end < len(rows) else rows[-1][0]
     for i in range(len(rows) - 1, begin, -1):
-        if rows[i][0] <= down + STRIKING and rows[i - 1][2] > 0.0 > rows[i][2] and rows[i][4] <= FLAT_RATE:
-            return _crossing(rows, i, 2, 0.0)
+        if rows[i - 1][2] > 0.0 > rows[i][2] and rows[i][4] <= FLAT_RATE:
+            landing = _crossing(rows, i, 2, 0.0)
+            if landing <= down + STRIKING:
+                return landing
     return down
 
 

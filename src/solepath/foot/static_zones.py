@@ -131,7 +131,7 @@ class StaticZones:
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
-        gap = 0.0 if self.last is None else t - self.last
+        gap = self.spacing if self.last is None else t - self.last
         self.last = t
         if gap > self.longest_gap:
             self.longest_gap = gap

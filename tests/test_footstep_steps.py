@@ -1,0 +1,354 @@
+"""Steps by static zones, critical times and projection, against cases worked by hand (recipe footstep-tracker)."""
+
+from __future__ import annotations
+
+import json
+from math import cos, pi, radians, sin, sqrt
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath import machine
+from solepath.foot.critical_cues import CriticalCues
+from solepath.foot.critical_times import CriticalTimes, Row, critical_times
+from solepath.foot.phase import Cue
+from solepath.foot.projection import (
+    Projection,
+    closed_step_length,
+    step_length,
+    turned,
+    turned_about_vertical,
+)
+from solepath.foot.segment import FootAxes, Segment, turned_to, with_offset
+from solepath.foot.stance import Stance
+from solepath.foot.static_zones import StaticZones
+from solepath.foot.turning_steps import TurningSteps
+from solepath.types import Foot, Phase, Vec3
+from solepath.vector import GRAVITY, ZERO
+
+G = GRAVITY
+
+
+def rows(dt: float, a_y: list[float], g_x: list[float]) -> list[Row]:
+    """Rows `dt` s apart with these signals and a foot that otherwise feels gravity alone."""
+    return [(k * dt, 0.0, a, -G, g, 0.0, 0.0) for k, (a, g) in enumerate(zip(a_y, g_x, strict=True))]
+
+
+# --- algorithm 1 ------------------------------------------------------------------------------------------------------
+
+#        rest      heel rises         toe rises                 slap        rest
+A_Y = [0.0, 0.0, -0.6, -2.0, -6.0, 2.0, 6.0, -4.0, -12.0, -8.0, 4.0, -4.0, 0.0, 0.0]
+G_X = [0.0, 0.0, -1.0, -3.0, -4.0, 1.0, 4.0, 4.0, 3.0, 1.0, -1.0, -2.0, 0.0, 0.0]
+
+
+def test_the_critical_times_of_a_step_drawn_by_hand_are_where_algorithm_1_has_them() -> None:
+    times = critical_times(rows(0.05, A_Y, G_X))
+    assert times is not None
+    assert times.uplift == pytest.approx(0.05 + 0.05 * 0.2)  # g_x from 0 to -1 passes -0.2
+    assert times.liftoff == pytest.approx(0.20 + 0.05 * 6.0 / 8.0)  # a_y from -6 to 2
+    assert times.landing == pytest.approx(0.50 + 0.05 * 0.5)  # a_y from 4 to -4, the last time
+    assert times.rest == pytest.approx(0.60)
+
+
+def test_mid_swing_where_the_foot_begins_to_slow_down_is_no_landing() -> None:
+    slows = [*A_Y[:10], -1.0, -4.0, 0.0, 0.0]  # a_y does not come up again as the heel strikes
+    times = critical_times(rows(0.05, slows, G_X))
+    assert times is not None
+    assert times.landing == pytest.approx(0.45 + 0.05 * 0.5)  # where the instep moves downward: g_x from 1 to -1
+
+
+def test_a_foot_that_lies_still_or_only_trembles_has_no_critical_times() -> None:
+    assert critical_times(rows(0.05, [0.0] * 12, [0.0] * 12)) is None
+    assert critical_times(rows(0.05, [0.4, -0.4] * 6, [0.3, -0.3] * 6)) is None
+    assert critical_times([]) is None
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.tuples(*[st.floats(-600.0, 600.0)] * 3), max_size=30))
+def test_whatever_a_foot_does_its_critical_times_follow_each_other(values: list[tuple[float, float, float]]) -> None:
+    drawn = [(0.02 * k, x, a, -G, g, 0.0, x) for k, (x, a, g) in enumerate(values)]
+    times = critical_times(drawn)
+    if times is not None:
+        assert times.uplift <= times.liftoff <= times.landing <= times.rest
+        step_length(drawn, times)
+        closed_step_length(drawn, times)
+
+
+# --- equations --------------------------------------------------------------------------------------------------------
+
+
+def test_gravity_alone_moves_no_step_however_the_foot_is_tilted() -> None:
+    # (2) and (3) with figure 8's signs: toe down by 1 rad/s for 1 s and up again by as much
+    drawn: list[Row] = []
+    for k in range(401):
+        t = 0.005 * k
+        theta = -t if t <= 1.0 else t - 2.0
+        drawn.append((t, 0.0, G * sin(theta), -G * cos(theta), -1.0 if t < 1.0 else 1.0 if t > 1.0 else 0.0, 0.0, 0.0))
+    times = CriticalTimes(0.0, 0.0, 2.0, 2.0)
+    assert sum(step_length(drawn, times)) == pytest.approx(0.0, abs=1e-3)
+    assert sum(closed_step_length(drawn, times)) == pytest.approx(0.0, abs=1e-3)
+
+
+def test_a_step_of_constant_push_and_brake_is_as_long_as_the_double_integral_says() -> None:
+    # 4 m/s^2 for half a second, then -4 for as long: 0.5 + 0.5 m by (5), all of it S_y of (6)
+    drawn = [(0.01 * k, 0.0, 4.0 if k < 50 else -4.0 if k > 50 else 0.0, -G, 0.0, 0.0, 0.0) for k in range(101)]
+    times = CriticalTimes(0.0, 0.0, 1.0, 1.0)
+    s_x, s_y, s_z = step_length(drawn, times)
+    assert (s_x, s_z) == (0.0, 0.0)
+    assert s_y == pytest.approx(1.0, abs=1e-3)
+    assert sum(closed_step_length(drawn, times)) == pytest.approx(1.0, abs=1e-3)
+
+
+def test_the_toe_out_angle_turns_the_acceleration_from_the_foot_s_direction_to_the_way() -> None:
+    # (1) and (4): a push of 1 m/s^2 along the way, seen by a foot that points 30 degrees to the left of it
+    phi = radians(30.0)
+    drawn = [(0.1 * k, sin(phi), cos(phi), -G, 0.0, 0.0, 0.0) for k in range(11)]
+    times = CriticalTimes(0.0, 0.0, 1.0, 1.0)
+    s_x, s_y, _ = step_length(drawn, times, phi)
+    assert s_x == pytest.approx(0.5 * sin(phi) ** 2) and s_y == pytest.approx(0.5 * cos(phi) ** 2)
+    assert sum(step_length(drawn, times)) == pytest.approx(0.5 * cos(phi))
+
+
+def test_the_integrals_begin_and_end_between_samples() -> None:
+    drawn = [(0.1 * k, 0.0, 2.0, -G, 0.0, 0.0, 3.0) for k in range(11)]
+    times = CriticalTimes(0.0, 0.23, 0.77, 1.0)
+    assert sum(step_length(drawn, times)) == pytest.approx(0.54**2)
+    assert turned(drawn, times) == pytest.approx(3.0 * 0.54)  # (7)
+
+
+def test_what_is_left_of_velocity_and_tilt_at_rest_is_taken_out() -> None:
+    # an accelerometer that is off by 0.5 m/s^2 and a gyroscope by 0.1 rad/s, on a foot that goes nowhere
+    drawn = [(0.01 * k, 0.0, 0.5, -G, 0.1, 0.0, 0.0) for k in range(101)]
+    times = CriticalTimes(0.0, 0.0, 1.0, 1.0)
+    assert abs(sum(step_length(drawn, times))) > 0.05
+    assert sum(closed_step_length(drawn, times)) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_turn_of_a_tilted_foot_is_about_the_vertical() -> None:
+    # the foot is 60 degrees toe down while it turns to the left by 1 rad/s: g_z sees half of that
+    theta = -radians(60.0)
+    drawn: list[Row] = [(0.0, 0.0, 0.0, -G, 0.0, 0.0, 0.0)]
+    for k in range(1, 200):
+        t = 0.005 * k
+        rate = theta / 0.1 if t < 0.1 else -theta / 0.1 if t > 0.895 else 0.0
+        turns = 1.0 if 0.1 <= t <= 0.895 else 0.0
+        drawn.append((t, 0.0, 0.0, -G, rate, turns * sin(theta), turns * cos(theta)))
+    times = CriticalTimes(0.0, 0.0, drawn[-1][0], drawn[-1][0])
+    assert turned(drawn, times) == pytest.approx(0.4, abs=0.01)
+    assert turned_about_vertical(drawn, times) == pytest.approx(0.8, abs=0.02)
+
+
+def test_a_coarse_accelerometer_that_reads_too_much_at_rest_is_off_and_not_stretched() -> None:
+    # it read 11.03 m/s^2 at rest and was multiplied by 0.889 for that: a push of 4 m/s^2 reads 3.56
+    scale = G / 11.03
+    ((_, _, a_y, a_z, *_),) = with_offset([(0.0, 0.0, 4.0 * scale, -G, 0.0, 0.0, 0.0)], scale)
+    assert a_y == pytest.approx(4.0)
+    assert a_z == pytest.approx(-G)
+
+
+# --- static zones -----------------------------------------------------------------------------------------------------
+
+
+def feed(zones: StaticZones, samples: list[tuple[float, Vec3, Vec3]]) -> list[Stance]:
+    found = []
+    last = samples[0][0]
+    for t, acc, gyro in samples:
+        found.append(zones.update(t, t - last, acc, gyro, None))
+        last = t
+    return found
+
+
+def still(n: int, rate: float, acc: Vec3 = (0.0, 0.0, G), gyro: Vec3 = ZERO) -> list[tuple[float, Vec3, Vec3]]:
+    return [(k / rate, acc, gyro) for k in range(n)]
+
+
+@pytest.mark.parametrize("up", [(0.0, 0.0, G), (0.0, 0.0, -G), (G, 0.0, 0.0), (0.6 * G, -0.8 * G, 0.0)])
+def test_a_foot_at_rest_is_static_however_the_sensor_is_mounted(up: Vec3) -> None:
+    assert feed(StaticZones(), still(8, 20.0, up))[-1].hint is Phase.STATIONARY
+
+
+def test_six_samples_at_20_hz_make_a_static_zone_and_five_do_not_while_the_gyroscope_is_not_quiet() -> None:
+    turning = still(6, 20.0, gyro=(0.0, 0.0, 2.0))
+    found = feed(StaticZones(), turning)
+    assert [one.hint for one in found] == [None] * 5 + [Phase.STATIONARY]
+
+
+def test_a_sample_that_does_not_lie_with_the_others_begins_the_zone_anew() -> None:
+    samples = still(12, 20.0, gyro=(0.0, 0.0, 2.0))
+    t, (x, y, z), gyro = samples[4]
+    samples[4] = (t, (x + 1.0, y, z), gyro)  # half of this may be a count
+    found = feed(StaticZones(), samples)
+    # the sixth after the odd one, which itself was a zone's first
+    assert [k for k, one in enumerate(found) if one.hint is Phase.STATIONARY][0] == 10
+
+
+def test_counts_of_a_coarse_accelerometer_may_flicker_in_a_static_zone() -> None:
+    count = G / 16.0
+    samples = [(t, (count * (k % 7 == 3), 0.0, G), gyro) for k, (t, _, gyro) in enumerate(still(30, 20.0))]
+    assert all(one.hint is Phase.STATIONARY for one in feed(StaticZones(), samples)[8:])
+
+
+def test_free_fall_is_not_rest() -> None:
+    assert all(one.hint is None for one in feed(StaticZones(), still(40, 100.0, ZERO)))
+
+
+def stride(rate: float, *, lasts: float = 0.6, rests: float = 0.4, strides: int = 3) -> list[tuple[float, Vec3, Vec3]]:
+    """A foot with x forward and y left: rests, rises toe down, swings toe up, and rests again."""
+    period = lasts + rests
+    samples = []
+    for k in range(int(strides * period * rate) + int(0.5 * rate)):
+        t = k / rate
+        u = (t % period) - rests
+        if u < 0.0 or t > strides * period:
+            samples.append((t, (0.0, 0.0, G), ZERO))
+            continue
+        s = u / lasts
+        pitch = 6.0 * sin(2.0 * pi * s)
+        samples.append((t, (12.0 * sin(2.0 * pi * s), 0.5, G + 8.0 * sin(4.0 * pi * s)), (0.0, pitch, 0.3)))
+    return samples
+
+
+@pytest.mark.parametrize("rate", [20.0, 60.0, 100.0, 400.0])
+def test_every_stride_is_a_segment_at_any_rate(rate: float) -> None:
+    found = [one.segment for one in feed(StaticZones(), stride(rate)) if one.segment is not None]
+    times = [segment.times for segment in found if segment.times is not None]
+    assert len(times) == 3
+    for k, one in enumerate(times):
+        assert one.uplift == pytest.approx(0.4 + k, abs=0.06)
+        assert one.rest == pytest.approx(1.0 + k, abs=0.08)
+
+
+def test_a_fast_foot_that_lies_still_for_a_tenth_of_a_second_has_static_zones() -> None:
+    found = feed(StaticZones(), stride(100.0, lasts=0.55, rests=0.15, strides=5))
+    assert sum(one.segment is not None and one.segment.times is not None for one in found) == 5
+
+
+def test_a_foot_that_never_rests_fills_no_memory() -> None:
+    zones = StaticZones()
+    for k in range(4000):
+        t = 0.0025 * k
+        zones.update(t, 0.0025, (9.0 * sin(9.1 * t), 7.0 * cos(23.0 * t), 12.0), (4.0 * sin(7.0 * t), 3.0, 0.1), None)
+    assert len(zones.rows) <= zones.most
+    assert len(json.dumps(machine.save(zones))) < 7000
+    again = machine.load(StaticZones, machine.save(zones))
+    assert again == zones
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    st.lists(
+        st.tuples(
+            st.floats(1e-9, 1e6),
+            st.tuples(*[st.floats(-500.0, 500.0)] * 3),
+            st.tuples(*[st.floats(-100.0, 100.0)] * 3),
+        ),
+        max_size=40,
+    )
+)
+def test_no_numbers_of_a_sensor_are_too_much_for_segments_and_projection(
+    samples: list[tuple[float, Vec3, Vec3]],
+) -> None:
+    zones, projection, t = StaticZones(), Projection(), 0.0
+    projection.start((1.0, 0.0, 0.0, 0.0), 0.1)
+    for dt, acc, gyro in samples:
+        t += dt
+        projection.predict(min(dt, 0.25), acc, gyro)
+        projection.correct(t, zones.update(t, dt, acc, gyro, None, projection.attitude))
+    json.dumps([machine.save(zones), machine.save(projection)], allow_nan=False)
+
+
+def test_the_foot_s_axes_are_learnt_from_how_the_heel_rises() -> None:
+    zones = StaticZones()
+    feed(zones, stride(100.0))
+    right, forward = zones.axes.axes((0.0, 0.0, 1.0)) or (ZERO, ZERO)
+    assert right == pytest.approx((0.0, -1.0, 0.0), abs=0.1)
+    assert forward == pytest.approx((1.0, 0.0, 0.0), abs=0.1)
+
+
+def test_axes_are_turned_to_the_paper_s_with_minus_9_8_at_rest() -> None:
+    ((t, a_x, a_y, a_z, g_x, g_y, g_z),) = turned_to(
+        [(3.0, 1.0, 2.0, G, 4.0, 5.0, 6.0)], (0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+    )
+    assert (t, a_x, a_y, a_z, g_x, g_y, g_z) == (3.0, -2.0, 1.0, -G, -5.0, 4.0, 6.0)
+
+
+def test_one_odd_step_does_not_turn_the_axes() -> None:
+    axes = FootAxes()
+    rise = [(0.02 * k, 0.0, 0.0, G, 0.0, 3.0 if k < 20 else -3.0, 0.0) for k in range(50)]
+    odd = [(t, ax, ay, az, gy, gx, gz) for t, ax, ay, az, gx, gy, gz in rise]
+    axes.learn(rise, (0.0, 0.0, 1.0))
+    before = axes.right
+    axes.learn(odd, (0.0, 0.0, 1.0))
+    assert axes.right == before
+    for _ in range(2):
+        axes.learn(odd, (0.0, 0.0, 1.0))
+    assert axes.right != before
+
+
+# --- from segments to steps and cues ----------------------------------------------------------------------------------
+
+
+def swung(turn: float = 0.0) -> Segment:
+    """1 m in 1 s, turning left by `turn` rad, x of the sensor forward."""
+    drawn = tuple([(0.01 * k, 0.0, 4.0 if k < 50 else -4.0 if k > 50 else 0.0, -G, 0.0, 0.0, turn) for k in range(101)])
+    return Segment(drawn, CriticalTimes(0.0, 0.0, 1.0, 1.0), (1.0, 0.0, 0.0), 0.01)
+
+
+def stepped(projection: Projection, segment: Segment) -> None:
+    projection.predict(0.01, (0.0, 0.0, G), ZERO)
+    projection.correct(1.0, Stance(ZERO, 0.01, 0.0, Phase.STATIONARY, segment))
+
+
+def test_a_step_moves_the_foot_by_its_length_and_a_turn_by_its_chord() -> None:
+    projection = Projection()
+    projection.start((1.0, 0.0, 0.0, 0.0), 0.0)
+    stepped(projection, swung())
+    assert projection.position == pytest.approx((1.0, 0.0, 0.0), abs=1e-3)
+    stepped(projection, swung(pi / 2.0))
+    assert projection.position == pytest.approx((1.0 + sqrt(0.5), sqrt(0.5), 0.0), abs=2e-2)
+    stepped(projection, swung())
+    x, y, z = projection.position
+    assert y == pytest.approx(1.0 + sqrt(0.5), abs=3e-2) and z == 0.0
+
+
+@pytest.mark.parametrize(("foot", "side"), [(Foot.LEFT, -1.0), (Foot.RIGHT, 1.0)])
+def test_the_way_of_a_foot_that_points_outwards_lies_on_its_inner_side(foot: Foot, side: float) -> None:
+    projection = Projection(toe_out=0.2, outwards=1.0 if foot is Foot.LEFT else -1.0)
+    projection.start((1.0, 0.0, 0.0, 0.0), 0.0)
+    stepped(projection, swung())
+    x, y, _ = projection.position
+    assert x == pytest.approx(cos(0.2) ** 2, abs=1e-2)
+    assert y == pytest.approx(side * sin(0.2) * cos(0.2), abs=1e-2)
+
+
+def test_a_step_with_a_hole_in_its_samples_is_not_integrated() -> None:
+    projection = Projection()
+    projection.start((1.0, 0.0, 0.0, 0.0), 0.0)
+    segment = swung()
+    stepped(projection, Segment(segment.rows, segment.times, segment.forward, 0.5))
+    assert abs(projection.position[0]) < 0.01  # the live track went nowhere
+
+
+def test_the_cues_of_a_step_come_all_at_once_with_their_own_times() -> None:
+    cues = CriticalCues()
+    segment = Segment((), CriticalTimes(1.0, 1.2, 1.6, 1.7), (1.0, 0.0, 0.0), 0.01)
+    stance = Stance(ZERO, 0.01, 0.0, Phase.STATIONARY, segment)
+    seen = cues.update(1.8, 0.01, ZERO, True, 0.0, Phase.STATIONARY, None, stance)
+    assert [(one.cue, one.t) for one in seen] == [
+        (Cue.LIFT, 1.0),
+        (Cue.CLEAR, 1.2),
+        (Cue.CONTACT, 1.6),
+        (Cue.FLAT, 1.7),
+    ]
+    assert not cues.update(1.9, 0.01, ZERO, True, 0.0, Phase.STATIONARY, None, stance._replace(segment=None))
+
+
+def test_the_habit_of_a_straight_step_is_no_turn_and_a_corner_is() -> None:
+    turning = TurningSteps()
+    for _ in range(60):
+        turning.turn(0.1)
+    assert turning.habit == pytest.approx(0.1, abs=0.01)
+    assert turning.turn(0.15) == 0.0
+    assert turning.turn(1.6) == pytest.approx(1.5, abs=0.02)
+    assert turning.habit == pytest.approx(0.1, abs=0.02)
