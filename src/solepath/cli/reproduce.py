@@ -9,7 +9,7 @@ from typing import Any
 
 from .failure import Failure, count, seed
 
-NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes")
+NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker")
 """As reproduce.EXPERIMENTS has them; said here so that --help loads nothing heavy."""
 
 
@@ -23,7 +23,7 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("name", metavar="NAME", help=", ".join(NAMES))
     command.add_argument(
-        "--walks", metavar="N", type=count, help="so many walks (default: as many as the paper: 20, 6 and 40)"
+        "--walks", metavar="N", type=count, help="so many walks, or wearers (default: as many as the paper)"
     )
     command.add_argument("--seed", metavar="S", type=seed, default=1, help="other walks and other sensors (default: 1)")
     command.add_argument("--json", metavar="FILE", type=Path, help="write the table as JSON too")
