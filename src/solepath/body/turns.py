@@ -24,9 +24,9 @@ SLIGHT = 0.61
 turns to the side come to, rad."""
 
 WEIGHTS: dict[Turn, tuple[float, float, float, float, float]] = {
-    Turn.LEFT: (2.86, 0.61, -3.85, -5.25, 3.9),
-    Turn.RIGHT: (-0.61, -2.86, -5.25, -3.85, 3.9),
-    Turn.ABOUT: (-1.21, 1.21, 3.88, 3.88, -4.98),
+    Turn.LEFT: (2.73, 0.7, -3.98, -5.14, 3.91),
+    Turn.RIGHT: (-0.7, -2.73, -5.14, -3.98, 3.91),
+    Turn.ABOUT: (-1.19, 1.19, 3.87, 3.87, -4.96),
 }
 
 
