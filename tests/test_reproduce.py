@@ -10,7 +10,7 @@ import pytest
 from commands import refused, run
 from solepath.cli import main
 from solepath.cli.reproduce import NAMES
-from solepath.reproduce import pressure_contour, walking_modes
+from solepath.reproduce import footstep_walks, pressure_contour, walking_modes
 from solepath.reproduce.experiments import EXPERIMENTS
 from solepath.reproduce.picture import Boxes, Drawn, Floor, Track
 from solepath.reproduce.pool import each
@@ -178,6 +178,8 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeyp
     monkeypatch.setattr(pressure_contour, "LAPS", 3)
     monkeypatch.setattr(walking_modes, "STEPS", 10)
     monkeypatch.setattr(walking_modes, "REPEATS", 1)
+    monkeypatch.setattr(footstep_walks, "PER_CLASS", 1)
+    monkeypatch.setattr(footstep_walks, "INCREMENTS", footstep_walks.INCREMENTS[:2])
     monkeypatch.chdir(tmp_path)
     told, figure = Path("table.json"), Path(f"{name}.png")
     options = ("--walks", 1, "--seed", 3, "--processes", 1, "--json", told)
@@ -190,12 +192,13 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeyp
     assert table["name"] == name and table["emulated"] is True
     assert list(table["table"]) == list(table["paper"])
     assert all(list(of) == FIVE for part in ("table", "paper") for of in table[part].values())
-    assert all(of["mean"] is not None for part in ("table", "paper") for of in table[part].values())
+    assert all(of["mean"] is not None for of in table["table"].values())
+    assert any(of["mean"] is not None for of in table["paper"].values())
 
 
 def test_an_experiment_that_there_is_not_is_refused_in_one_line():
     assert refused("reproduce", "kupt") == (
-        "solepath: there is no experiment 'kupt'; there are: kupt-dfpc, pressure-contour, walking-modes\n"
+        "solepath: there is no experiment 'kupt'; there are: " + ", ".join(NAMES) + "\n"
     )
 
 

@@ -275,9 +275,10 @@ class Session:
         floorplan: FloorPlan | IndexedPlan | None = None,
     ) -> Session:
         """A session that goes on where `saved` was taken. A snapshot holds no functions and no floor plan: `profiles`
-        and `floorplan` are to be given again. SnapshotError for another floor plan than then, and when it is not a snapshot of this version, was damaged, or is of a device that is not
-        among them, or is there with other counters, rates or ranges, or stands in the place of a device of ours then
-        and not now. Whether its functions are the same cannot be seen: that is for the app to keep."""
+        and `floorplan` are to be given again. SnapshotError when it is not a snapshot of this version, was damaged, was
+        taken with another floor plan, or is of a device that is not among the profiles, or is there with other
+        counters, rates or ranges, or stands in the place of a device of ours then and not now. Whether its functions
+        are the same cannot be seen: that is for the app to keep."""
         if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
             raise SnapshotError("not a snapshot of a session")
         if saved["solepath"] != SNAPSHOT_VERSION:

@@ -14,7 +14,7 @@ from ..evaluate.confusion import ActivityScore
 from ..sim.building import BUILDING
 from ..types import Activity, Turn
 from . import footstep_walks, published
-from .footstep_walks import CORRIDOR, INCREMENTS, Walked, walked
+from .footstep_walks import CORRIDOR, Walked, walked
 from .picture import Drawn, Floor, Track
 from .pool import Progress, each
 from .tables import Reproduction, Row, Statistics
@@ -84,7 +84,8 @@ def _notes(done: list[Walked]) -> tuple[str, ...]:
     for turn in Turn:
         pairs = [one.classes[turn] for one in done]
         lines.append(f"Turn {turn.value}: {_share(pairs):.1f} % right.")
-    by_angle = [(round(degrees(angle)), [one.turned[round(degrees(angle))] for one in done]) for angle in INCREMENTS]
+    angles = [round(degrees(angle)) for angle in footstep_walks.INCREMENTS]
+    by_angle = [(angle, [one.turned[angle] for one in done]) for angle in angles]
     lines.append(
         "Mean error of the turn angle, degrees: " + ", ".join(f"{a}: {sum(v) / len(v):.1f}" for a, v in by_angle) + "."
     )
