@@ -19,7 +19,7 @@ from typing import Protocol
 
 from attrs import define, evolve, field
 
-from ..events import ActivityChanged, Event, LiftRidden, StepTaken
+from ..events import ActivityChanged, Event, LiftRidden, StepFeatures, StepTaken
 from ..foot.tracker import FootTracker
 from ..types import Activity, Foot, Sample, Site
 from ..vector import TIE
@@ -46,8 +46,10 @@ MOST = 40.0
 """A mean force beyond is none of a standing foot, m/s^2."""
 WOBBLE = 1.0
 """What is not final is not told again because it began this little earlier or later, s."""
-WAITING = 16
+WAITING = 8
 """Steps that may wait for their activity."""
+NO_MORE = StepFeatures(0.0, 0.0, 0.0)
+"""Nobody asks for more of those that wait."""
 AFOOT = {Activity.STAIRS_UP: 1, Activity.STAIRS_DOWN: -1}
 RIDDEN = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
 
@@ -89,7 +91,7 @@ class Activities:
     """What was told and is not final, in the order of time."""
     flights: Flights = field(factory=Flights, init=False)
     steps: deque[StepTaken] = field(factory=deque, init=False)
-    """Steps whose activity is not known yet."""
+    """Steps whose activity is not known yet, without their features."""
 
     def interrupt(self, site: Site) -> None:
         """The clock of the samples of a site begins anew: what is under way there is forgotten."""
@@ -126,7 +128,7 @@ class Activities:
             side.heard(events, foot.corrector.position[2])
             for event in events:
                 if isinstance(event, StepTaken):
-                    self.steps.append(event)
+                    self.steps.append(evolve(event, features=NO_MORE))
                     if len(self.steps) > WAITING:
                         self.steps.popleft()
         return told

@@ -20,8 +20,8 @@ BLOCK = 0.5
 """s."""
 REACH = 2
 """Blocks before and after the one that is told; five of them are a window of 2.5 s."""
-KEPT = 2 * REACH + 2
-"""Blocks that are kept: the other foot may be one behind."""
+KEPT = 2 * REACH + 1
+"""Blocks that are kept."""
 BINS = 10
 """Of |acc|, 2 m/s^2 each, and of |gyro|, 1 rad/s each; the last one is open."""
 STEPS = 3
@@ -44,8 +44,6 @@ class Block:
 
     index: int
     count: int
-    acc: Vec3
-    """Mean, m/s^2, sensor frame."""
     force: float
     """Mean |acc|, m/s^2."""
     variance: float
@@ -92,7 +90,6 @@ class FootWindow:
     index: int | None = None
     """Of the block under way."""
     count: int = 0
-    sums: Vec3 = ZERO
     force: float = 0.0
     squares: float = 0.0
     acc_bins: list[int] = field(factory=lambda: [0] * BINS)
@@ -120,7 +117,6 @@ class FootWindow:
         """A block begins."""
         self.index = index
         self.count = self.rates = 0
-        self.sums = ZERO
         self.force = self.squares = self.rate_squares = 0.0
         self.acc_bins = [0] * BINS
         self.gyro_bins = [0] * BINS
@@ -134,8 +130,6 @@ class FootWindow:
         x, y, z = acc
         square = x * x + y * y + z * z
         length = sqrt(square)
-        sx, sy, sz = self.sums
-        self.sums = (sx + x, sy + y, sz + z)
         self.count += 1
         self.force += length
         self.squares += square
@@ -184,22 +178,21 @@ class FootWindow:
         if self.index is None or not self.count:
             return
         n = self.count
-        (x, y, z), mean = self.sums, self.force / n
+        mean = self.force / n
         self.blocks.append(
             Block(
                 self.index,
                 n,
-                (x / n, y / n, z / n),
-                mean,
-                max(0.0, self.squares / n - mean * mean),
+                round(mean, 6),
+                round(max(0.0, self.squares / n - mean * mean), 6),
                 self.acc_bins,
                 self.rates,
-                self.rate_squares / self.rates if self.rates else 0.0,
+                round(self.rate_squares / self.rates, 6) if self.rates else 0.0,
                 self.gyro_bins,
                 self.tracked,
-                self.climb,
-                self.sink,
-                sqrt(self.speed),
+                round(self.climb, 4),
+                round(self.sink, 4),
+                round(sqrt(self.speed), 4),
             )
         )
         if len(self.blocks) > KEPT:
@@ -209,11 +202,18 @@ class FootWindow:
         seen = step.features
         self.steps.append(
             Stepped(
-                step.t_start, step.t_end, step.stride_length, step.height_change, seen.clearance, seen.peak_speed,
-                seen.swing_pitch, self.top - self.flat, self.bottom - self.flat,
-                (self.struck if self.struck is not None else self.flat) - self.flat,
+                step.t_start,
+                step.t_end,
+                round(step.stride_length, 4),
+                round(step.height_change, 4),
+                round(seen.clearance, 4),
+                round(seen.peak_speed, 4),
+                round(seen.swing_pitch, 4),
+                round(self.top - self.flat, 4),
+                round(self.bottom - self.flat, 4),
+                round((self.struck if self.struck is not None else self.flat) - self.flat, 4),
             )
-        )  # fmt: skip
+        )
         if len(self.steps) > STEPS:
             self.steps.popleft()
 

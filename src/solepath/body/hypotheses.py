@@ -83,7 +83,7 @@ FROM: tuple[tuple[tuple[int, float], ...], ...] = tuple(
 )
 """For each state those that it may come from, with the logarithm of the chance."""
 
-FORGOTTEN = 25.0
+FORGOTTEN = 10.0
 """A token that is so much less likely than the best (natural logarithm) is dropped."""
 DOUBT = 8.0
 """One that is less likely by more than this has no say in what is settled."""

@@ -192,17 +192,17 @@ class Ride:
                 variance = max(variance, MOVED * MOVED)
             gain = variance / (variance + one.variance + uncertain)
             off = one.force - acceleration - level.value
-            levels.append(Level(level.value + gain * off, (1.0 - gain) * variance))
+            levels.append(Level(round(level.value + gain * off, 7), round((1.0 - gain) * variance, 9)))
         return evolve(self, levels=tuple(levels))
 
     def _moved(self, acceleration: float, block: float, levels: tuple[Level, ...]) -> Ride:
-        velocity = self.velocity + acceleration * block
+        velocity = round(self.velocity + acceleration * block, 6)
         return evolve(
             self,
             levels=levels,
             velocity=velocity,
             fastest=max(self.fastest, abs(velocity)),
-            height=self.height + 0.5 * (self.velocity + velocity) * block,
+            height=round(self.height + 0.5 * (self.velocity + velocity) * block, 6),
             lasted=self.lasted + block,
         )
 

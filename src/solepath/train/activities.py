@@ -31,10 +31,16 @@ from ..body.motion import MotionModel, to_json
 from ..foot.dedrift import LinearDedrift
 from ..foot.stance import Shoe
 from ..foot.tracker import FootTracker
+from ..link.decoder import Decoder
 from ..recipes import Recipe
 from ..samples import load_samples
-from ..sim.parts import KXTJ9_IMU3000, LSM6DSOX, MPU6050, MPU9250
-from ..types import Activity, Foot, Sample
+from ..sim.device import Device
+from ..sim.parts import LSM6DSOX, MPU6050, MPU9250, Imu
+from ..sim.sensortags import CC2541, CC2650
+from ..sim.shoe import IN_SOLE, ON_INSTEP, Mounting
+from ..sim.walk import emulate
+from ..sim.walker import Walker
+from ..types import SITE_OF_FOOT, Activity, Foot, Sample, Site
 from ..vector import TIE
 from . import emulated
 from .activities_net import CLASSES, learn
@@ -59,9 +65,18 @@ MISTAKEN = ("various_03_05", "various_03_06")
 """Labelled as going down, but each stride rises by 0.4 m and swings as two steps up at a time do with other wearers:
 the label is taken for a slip, and nothing is learnt from them."""
 LEVEL_WALKS = ("ipol_10m_uturn", "gumushane_gcp", "felius_2min_walk", "tripod_treadmill")
-EMULATED = range(emulated.FIRST_TO_LEARN_FROM, emulated.FIRST_TO_LEARN_FROM + 12)
-PARTS = ((20.0, MPU6050), (100.0, LSM6DSOX), (50.0, MPU9250), (20.0, KXTJ9_IMU3000), (10.0, MPU9250))
-"""Rate and inertial sensor of the emulated wearers, in turn."""
+EMULATED = range(emulated.FIRST_TO_LEARN_FROM, emulated.FIRST_TO_LEARN_FROM + 16)
+WORN: tuple[tuple[float, Imu, Mounting] | CC2650 | CC2541, ...] = (
+    (100.0, LSM6DSOX, IN_SOLE),
+    CC2650(),
+    (20.0, MPU6050, IN_SOLE),
+    CC2541(),
+    (100.0, MPU9250, ON_INSTEP),
+    CC2541(rate=20.0),
+    (50.0, MPU6050, ON_INSTEP),
+    (10.0, MPU9250, IN_SOLE),
+)
+"""What the emulated wearers wear, in turn: rate in Hz, inertial sensor and where it sits, or a device as it is sold."""
 AFOOT = 0.0
 """Feature 1 (the stillest block of five) of a foot that walks all the time: a variance of |acc| above 1 (m/s^2)^2."""
 PURE = 0.9
@@ -157,15 +172,28 @@ def level_walks(data: Path) -> Iterator[Blocks]:
             yield blocks_of(samples, _walking, recipes.DEFAULT, 1000 + number, only_steps=True)
 
 
-def emulated_walks() -> Iterator[Blocks]:
-    """Each of another wearer, with sensors in the soles."""
-    for k, seed in enumerate(EMULATED):
+def emulated_walks(seeds: Iterable[int] = EMULATED) -> Iterator[Blocks]:
+    """Each of another wearer."""
+    for seed in seeds:
         walker = emulated.walker(seed, jogging=True)
-        truth = walker.truth()
-        rate, part = PARTS[k % len(PARTS)]
-        samples = sorted([one for foot in Foot for one in walker.samples(foot, rate, part)], key=_time)
+        samples = _worn(walker, WORN[seed % len(WORN)], seed)
         for recipe in (recipes.DEFAULT, STRAPDOWN):
-            yield blocks_of(samples, truth.activity, recipe, 2000)
+            yield blocks_of(samples, walker.truth().activity, recipe, 2000)
+
+
+def _worn(walker: Walker, device: tuple[float, Imu, Mounting] | CC2650 | CC2541, seed: int) -> list[Sample]:
+    if isinstance(device, tuple):
+        rate, part, mounting = device
+        found = [one for foot in Foot for one in walker.samples(foot, rate, part, mounting=mounting)]
+        return sorted(found, key=_time)
+    devices: dict[Site, Device] = {site: attrs.evolve(device) for site in SITE_OF_FOOT.values()}
+    walk = emulate(walker.route, wearer=walker.wearer, devices=devices, seed=seed)
+    found = []
+    for site in devices:
+        decoder = Decoder(site)
+        outputs = [one for packet in walk.packets if packet.site is site for one in decoder.feed(packet)]
+        found += [one for one in outputs if isinstance(one, Sample)]
+    return sorted(found, key=_time)
 
 
 def _walking(t: float) -> Activity:

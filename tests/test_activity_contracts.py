@@ -1,0 +1,132 @@
+"""What must hold of the part for activities whatever its samples."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath import machine
+from solepath.body.activity import Activities
+from solepath.body.features import COUNT
+from solepath.body.motion import MOTIONS, from_json, shipped, to_json
+from solepath.events import ActivityChanged, Event
+from solepath.foot.cycle import Cycle
+from solepath.foot.eskf import ErrorStateFilter
+from solepath.foot.tracker import FootTracker
+from solepath.sim.parts import LSM6DSOX
+from solepath.sim.route import Route
+from solepath.sim.walker import Walker
+from solepath.types import SITE_OF_FOOT, Foot, Sample, Site
+
+number = st.floats(-1e9, 1e9) | st.floats(-30.0, 30.0)
+vector = st.tuples(number, number, number)
+moments = st.tuples(
+    st.sampled_from([0.0, 1e-6, 0.01, 0.1, 0.4, 2.0, 90.0, 1e5]),
+    st.sampled_from(Foot),
+    st.none() | vector,
+    st.none() | vector,
+    st.none() | st.floats(0.0, 2e5),
+    st.integers(0, 40),
+)
+
+
+class Wearing:
+    """The part with both feet's trackers, as a session holds them."""
+
+    def __init__(self) -> None:
+        self.part = Activities()
+        self.feet = {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in Foot}
+
+    def feed(self, sample: Sample) -> list[Event]:
+        tracker = self.feet[Foot.LEFT if sample.site is Site.LEFT_FOOT else Foot.RIGHT]
+        return self.part.foot_moved(tracker, sample, tracker.feed(sample))
+
+    def saved(self) -> str:
+        return json.dumps(machine.save(self.part), allow_nan=False, separators=(",", ":"))
+
+    def restore(self) -> None:
+        self.part = machine.load(Activities, json.loads(self.saved()))
+
+
+@cache
+def walk() -> tuple[Sample, ...]:
+    route = Route().stand(2.0).walk(5.0, 1.3).stairs(4).walk(2.0).stand(2.0)
+    walker = Walker(route, seed=3)
+    return tuple(sorted([one for foot in Foot for one in walker.samples(foot, 25.0, LSM6DSOX)], key=lambda one: one.t))
+
+
+@given(st.lists(moments, max_size=60))
+@settings(max_examples=60, deadline=None)
+def test_whatever_the_samples_are_events_come_in_their_time_and_the_state_can_be_saved(told: list[tuple]) -> None:  # type: ignore[type-arg]
+    wearing, t = Wearing(), 0.0
+    for dt, foot, acc, gyro, pressure, again in told:
+        for _ in range(again):
+            t += dt
+            sample = Sample(t=t, site=SITE_OF_FOOT[foot], acc=acc, gyro=gyro, air_pressure=pressure)
+            for event in wearing.feed(sample):
+                assert event.known_at >= event.t
+    wearing.restore()
+    assert all(event.known_at >= event.t for event in wearing.part.finish(t))
+
+
+@given(st.integers(0, len(walk())))
+@settings(max_examples=8, deadline=None)
+def test_saved_anywhere_it_goes_on_the_same(cut: int) -> None:
+    whole, halved = Wearing(), Wearing()
+    for k, sample in enumerate(walk()):
+        if k == cut:
+            halved.restore()
+        assert whole.feed(sample) == halved.feed(sample)
+    assert whole.saved() == halved.saved()
+
+
+def test_its_state_is_small_however_long_the_walk() -> None:
+    wearing, largest, now = Wearing(), 0, 0.0
+    for lap in range(3):
+        for k, sample in enumerate(walk()):
+            now = lap * 100.0 + sample.t
+            wearing.feed(Sample(t=now, site=sample.site, acc=sample.acc, gyro=sample.gyro))
+            if k % 50 == 0:
+                largest = max(largest, len(wearing.saved()))
+    assert largest < 12_000
+
+
+def test_after_a_long_gap_nobody_knows_what_was_done_in_it() -> None:
+    wearing = Wearing()
+    told: list[Event] = []
+    for away in (0.0, 60.0):
+        for sample in walk():
+            told += wearing.feed(Sample(t=sample.t + away, site=sample.site, acc=sample.acc, gyro=sample.gyro))
+    assert "UNKNOWN" in [event.activity.name for event in told if isinstance(event, ActivityChanged)]
+
+
+def test_a_clock_that_begins_anew_is_followed() -> None:
+    wearing = Wearing()
+    for sample in walk():
+        wearing.feed(Sample(t=sample.t + 1000.0, site=sample.site, acc=sample.acc, gyro=sample.gyro))
+    for foot, tracker in wearing.feet.items():
+        tracker.interrupt()
+        wearing.part.interrupt(SITE_OF_FOOT[foot])
+    told = [event for sample in walk() for event in wearing.feed(sample)]
+    assert told and all(event.t < 100.0 for event in told)
+
+
+@given(st.lists(st.floats(-5.0, 5.0), min_size=COUNT, max_size=COUNT))
+@settings(max_examples=30, deadline=None)
+def test_what_the_network_says_adds_up(features: list[float]) -> None:
+    from math import exp, isclose
+
+    model = shipped()
+    likely = model.log_probabilities(features)
+    assert len(likely) == len(MOTIONS) and isclose(sum(exp(one) for one in likely), 1.0, rel_tol=1e-9)
+    assert model.strangeness(features) >= 0.0
+
+
+def test_a_model_goes_through_its_file_and_a_snapshot() -> None:
+    model = shipped()
+    assert from_json(json.loads(json.dumps(to_json(model)))) == model
+    part = Activities(model=model)
+    assert machine.load(Activities, machine.save(part)) == part

@@ -1,0 +1,125 @@
+"""What emulated wearers do, as the part for activities tells it."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import pi, radians
+
+import attrs
+import pytest
+
+from solepath import Session, recipes
+from solepath.events import ActivityChanged, Event, FlightClimbed, LiftRidden
+from solepath.sim.parts import LSM6DSOX
+from solepath.sim.route import Route
+from solepath.sim.sensortags import CC2541
+from solepath.sim.walk import EmulatedWalk, emulate
+from solepath.sim.walker import Walker
+from solepath.timeline import Timeline
+from solepath.types import Activity, Foot, Packet, Sample, Site
+
+HOUSE = (
+    Route().stand(3.0).walk(8.0, 1.3).stairs(11).walk(1.2).turn(pi, 0.6).stairs(11).walk(5.0).turn(pi)
+    .lift(-6.8, speed=1.2).walk(7.0).stand(4.0).jog(30.0, 2.7).stand(3.0)
+)  # fmt: skip
+CELLAR = Route().stand(3.0).walk(6.0, 1.2).stairs(12, up=False).walk(6.0).turn(radians(90)).lift(3.4).walk(5.0).stand(3.0)
+ACTIVITIES = 0.9
+"""Share of the time that must be right: a ride is dated from its first jerk until its doors open, and who halts has one
+foot still while the other closes."""
+
+
+@cache
+def walker(route: Route) -> Walker:
+    return Walker(route, seed=5)
+
+
+@cache
+def samples(route: Route, rate: float) -> tuple[Sample, ...]:
+    found = [one for foot in Foot for one in walker(route).samples(foot, rate, LSM6DSOX)]
+    return tuple(sorted(found, key=lambda one: one.t))
+
+
+@cache
+def tagged() -> EmulatedWalk:
+    """Two of the older SensorTags, at 20 Hz, with barometers."""
+    return emulate(HOUSE, devices={Site.LEFT_FOOT: CC2541(rate=20.0), Site.RIGHT_FOOT: CC2541(rate=20.0)}, seed=5)
+
+
+def told(items: tuple[Sample, ...] | tuple[Packet, ...]) -> tuple[list[Event], Timeline]:
+    session = Session(recipes.DEFAULT)
+    events = [event for item in items for event in session.feed(item)] + session.finish()
+    timeline = Timeline()
+    for event in events:
+        if isinstance(event, ActivityChanged):
+            timeline.add(event)
+    return events, timeline
+
+
+def right(timeline: Timeline, route: Route) -> float:
+    """Share of the time for which the timeline has the truth, the last two seconds left out."""
+    truth = walker(route).truth()
+    times = [0.1 * k for k in range(int(10.0 * (truth.duration - 2.0)))]
+    return sum(timeline.at(t) is truth.activity(t) for t in times) / len(times)
+
+
+@pytest.mark.parametrize(("route", "rate"), [(HOUSE, 100.0), (HOUSE, 20.0), (CELLAR, 50.0)])
+def test_standing_walking_running_stairs_and_lifts_are_told(route: Route, rate: float) -> None:
+    _, timeline = told(samples(route, rate))
+    assert right(timeline, route) >= ACTIVITIES
+
+
+def test_one_foot_is_enough() -> None:
+    left = tuple(one for one in samples(HOUSE, 100.0) if one.site is Site.LEFT_FOOT)
+    _, timeline = told(left)
+    assert right(timeline, HOUSE) >= ACTIVITIES - 0.05
+
+
+def test_feet_without_gyroscopes_still_tell_standing_moving_and_lifts() -> None:
+    events, timeline = told(tuple(attrs.evolve(one, gyro=None) for one in samples(HOUSE, 100.0)))
+    truth = walker(HOUSE).truth()
+    still = (Activity.STANDING, Activity.ELEVATOR_DOWN)
+    times = [0.1 * k for k in range(int(10.0 * (truth.duration - 2.0)))]
+    alike = sum((timeline.at(t) in still) == (truth.activity(t) in still) for t in times) / len(times)
+    assert alike >= ACTIVITIES
+    assert [event.up for event in events if isinstance(event, LiftRidden)] == [False]
+
+
+def test_a_ride_is_told_with_its_times_and_its_height() -> None:
+    events, _ = told(samples(HOUSE, 100.0))
+    (ride,) = [event for event in events if isinstance(event, LiftRidden)]
+    (true,) = walker(HOUSE).truth().rides
+    assert not ride.up
+    assert abs(ride.t_start - true.t_start) < 1.0 and abs(ride.t - true.t_end) < 1.0
+    assert ride.height is not None and abs(ride.height - true.height) < 1.0
+
+
+def test_a_barometer_measures_the_ride() -> None:
+    events, _ = told(tagged().packets)
+    (ride,) = [event for event in events if isinstance(event, LiftRidden)]
+    assert not ride.up
+    assert ride.height is not None and abs(ride.height + 6.8) < 1.0
+
+
+def test_flights_are_told_with_their_direction() -> None:
+    events, _ = told(samples(HOUSE, 100.0))
+    assert [event.up for event in events if isinstance(event, FlightClimbed)] == [True, True]
+
+
+def test_what_is_final_is_never_replaced() -> None:
+    final: list[float] = []
+    for event in told(samples(HOUSE, 20.0))[0]:
+        if isinstance(event, ActivityChanged):
+            assert event.revises is None or event.revises not in final
+            assert not final or event.t >= final[-1]
+            if event.final:
+                final.append(event.t)
+    assert len(final) > 8
+
+
+def test_nothing_is_told_later_than_a_few_seconds_after_it_began() -> None:
+    first: dict[Activity, float] = {}
+    for event in told(samples(HOUSE, 100.0))[0]:
+        if isinstance(event, ActivityChanged):
+            first.setdefault(event.activity, event.known_at - event.t)
+    walked = {Activity.WALKING, Activity.STAIRS_UP, Activity.RUNNING}
+    assert walked <= first.keys() and max(first[activity] for activity in walked) < 4.0
