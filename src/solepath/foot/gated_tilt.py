@@ -26,6 +26,9 @@ USUAL = 1.2
 """A step that lasts longer has missed a stance, and gathers errors with the square of time, s."""
 LEAST = 0.03
 """s: no stance is shorter."""
+TOLD = 0.05
+"""Who stood certainly will do so again: a stance after such a one is told when it is certain, or has lasted so long,
+s."""
 LOST = 10.0
 """m/s^2 for each s: an attitude that saturated gyroscopes have spoilt makes any speed, and must not for ever keep a
 foot from standing."""
@@ -38,7 +41,8 @@ class ShoeSensing(LinearDedrift):
     """gyro' = gyro - Kp e stationary; Runge-Kutta quaternion; V(T) less e~ (T - t_a); S_z(T) less e~_s (T - t_a).
 
     Frame and units as in `Corrector`. Latency: velocity, position and, on a level step, height are put right, in one
-    jump, with the first sample of stance. The feedback of a sample of stance turns the interval after it.
+    jump, with the first sample of stance, and once more when a doubtful stance becomes certain. The feedback of a
+    sample of stance turns the interval after it.
 
     e~ = (dv2 - dv1) / (t_b - t_a) of section 3.3 is the velocity that is left when the foot stands again, over the time
     since it last stood; removed from the velocity in a line it takes half of itself times that time from the position.
@@ -66,9 +70,9 @@ class ShoeSensing(LinearDedrift):
     eliminate: bool = True
     highest: float = 0.12
     """m."""
-    behind: float = 0.075
-    """By how much the detector is late, s: half of the window of `ShortTimeEnergy`, since "n is the position of the
-    centre of the sliding window". A stance that has ended did so that long ago, and the motion since then counts."""
+    behind: float = 0.15
+    """How late the detector may be, s: the window of `ShortTimeEnergy`. A stance that has ended may have done so that
+    long ago, so what the samples since then gained counts as motion."""
     doubtful: float = 0.04
     """m/s; of a foot that has moved for `late` s without a stance, s, twice as much:"""
     late: float = 0.9
@@ -97,6 +101,10 @@ class ShoeSensing(LinearDedrift):
     """The least sigma of this stance, m/s."""
     came: float = field(default=0.0, init=False)
     """How long ago this stance, or the last one, began, s."""
+    sure: bool = field(default=True, init=False)
+    """The last stance became a certain one."""
+    tipping: tuple[float, float] = field(default=(0.0, 0.0), init=False)
+    """What the attitude will be turned by when this stance is over, half angles about x and y, rad."""
     raw: tuple[Vec3, Vec3] | None = field(default=None, init=False)
     """Position and velocity if the motion before this stance went on, m and m/s, as long as a more certain moment may
     put it right."""
@@ -119,6 +127,8 @@ class ShoeSensing(LinearDedrift):
         self.best = 0.0
         self.came = self.raw_swing = self.slope = 0.0
         self.raw = None
+        self.sure = True
+        self.tipping = (0.0, 0.0)
         self.lately.clear()
         self.measured = up
 
@@ -185,7 +195,7 @@ class ShoeSensing(LinearDedrift):
         self.swing = 0.0
         self.position = self.stood
         self.velocity = stance.v_ref
-        return True
+        return self.raw is None or not self.sure or self.came >= TOLD
 
     def _stands(self, stance: Stance) -> bool:
         sigma, sure = stance.sigma, stance.hint is Phase.STATIONARY
@@ -218,9 +228,8 @@ class ShoeSensing(LinearDedrift):
         rx, ry, rz = stance.v_ref
         (x, y, z), (vx, vy, vz) = self.raw
         half = 0.5 * self.raw_swing
-        if self.best == 0.0:
-            k = 0.5 * self.heed / (GRAVITY * max(self.raw_swing, BROKEN))
-            self.attitude = tipped(self.attitude, k * (vy - ry), -k * (vx - rx))
+        k = 0.5 * self.heed / (GRAVITY * max(self.raw_swing, BROKEN))
+        self.tipping = (k * (vy - ry), -k * (vx - rx))
         x, y, z = x + (rx - vx) * half, y + (ry - vy) * half, z + (rz - vz) * half
         if self.eliminate:
             z = self._height(x, y, z)
@@ -247,6 +256,9 @@ class ShoeSensing(LinearDedrift):
             self.levelled = min(self.levelled + 1, LEARNT)
             self.lean += self.slope / self.levelled
             self.slope = 0.0
+        self.sure = self.raw is None
+        self.attitude = tipped(self.attitude, *self.tipping)
+        self.tipping = (0.0, 0.0)
         self.swing = 0.0
         x, y, z = self.stood
         vx = vy = vz = 0.0

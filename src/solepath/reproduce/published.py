@@ -5,7 +5,8 @@ Applications", IEEE Internet of Things Journal. Bebek et al. 2010: O. Bebek and 
 High-Resolution Gait-Corrected Inertial Measurement Units", IEEE Transactions on Instrumentation and Measurement. Gong
 et al. 2023: "Improving Accuracy of Real-Time Positioning and Path Tracking by Using an Error Compensation Algorithm
 against Walking Modes", Sensors. Liu et al. 2015: C. Liu and others, "Track Your Foot Step: Anchor-free Indoor
-Localization based on Sensing Users' Foot Steps", IEEE MASS.
+Localization based on Sensing Users' Foot Steps", IEEE MASS. Li et al. 2016: F. Li and others, "3D Tracking via Shoe
+Sensing", Sensors 16, 1809.
 """
 
 from __future__ import annotations
@@ -145,3 +146,37 @@ FOOTSTEP_TRACKER: Table = {
 }
 """Of the text of sections V-C to V-F: 9.23 m, 9.2 m and 2.64 m off after 63 m; "a location error in 1m" on average, and
 "the initial location is determined after six steps" for one user."""
+
+# --- Li et al. 2016 ---------------------------------------------------------------------------------------------------
+
+SHOE_SENSING_TITLE = "Li et al. 2016, tables 1 and 2, figs. 21 to 35"
+
+SHOE_SENSING: Table = {
+    "plane deg/m": Statistics(3.935, 6.435),
+    "upstairs deg/m": Statistics(107.904, 36.465),
+    "downstairs deg/m": Statistics(-89.464, 34.907),
+    "walking, height before m": Statistics(0.1186, 0.0582),
+    "walking, height after m": Statistics(0.02, 0.06),
+    "jogging, height before m": Statistics(0.17, 0.22),
+    "jogging, height after m": Statistics(0.01, 0.06),
+    "walking, length m": Statistics(0.11, 0.08),
+    "jogging, length m": Statistics(0.13, 0.11),
+    "upstairs, length m": Statistics(0.09, 0.06),
+    "upstairs, height m": Statistics(0.04, 0.03),
+    "downstairs, length m": Statistics(0.12, 0.08),
+    "downstairs, height m": Statistics(0.07, 0.06),
+    "walking, table 2 %": Statistics(0.40),
+    "jogging, table 2 %": Statistics(0.36),
+    "upstairs, table 2 %": Statistics(0.56),
+    "downstairs, table 2 %": Statistics(0.88),
+    "walking, course deg": Statistics(5.65, 3.88),
+    "jogging, course deg": Statistics(7.09, 6.94),
+}
+"""Table 1; sections 3.4.2 and 4.2.3 (figs. 13, 14, 23, 24); section 4.2.4 (figs. 26 to 32); table 2; section 4.2.5
+(figs. 33, 34). Errors of single steps, without their signs. What the text calls variance or mean square error is taken
+for the standard deviation."""
+
+NORMALISED = 22.5
+"""Table 2 is the mean error of a step over its length, divided by this ("the accuracy of the two sensors differ
+22.5-fold"): 9.17 % / 22.5 = 0.41 % walking, 8.13 % jogging, 20.0 % downstairs; upstairs it is that of the height,
+12.5 %."""
