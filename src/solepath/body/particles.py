@@ -24,6 +24,8 @@ SHAKE = 0.03
 """... and by this, m."""
 TURN = 0.02
 """The track turns by up to this in the plan with each step, rad."""
+OF_TURN = 0.12
+"""... and by up to this share of what the wearer turns."""
 STRETCH = 0.008
 """Its stretch changes by up to this share ..."""
 PULL = 0.01
@@ -42,18 +44,19 @@ STAYS = 0.6
 class Particles(Placing):
     """The default for every recipe."""
 
-    def extended(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float) -> list[Row]:
+    def extended(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
         """The rows a move further; without those that cannot go there."""
-        kept = self._wandered(plan, rows, move, rough, BENDS)
-        return kept or self._wandered(plan, rows, move, 2.0 * rough, SQUEEZE)
+        turn = rough * (TURN + OF_TURN * turned)
+        kept = self._wandered(plan, rows, move, rough, turn, BENDS)
+        return kept or self._wandered(plan, rows, move, 2.0 * rough, 2.0 * turn, SQUEEZE)
 
     def _wandered(
-        self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, bends: tuple[float, ...]
+        self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turn: float, bends: tuple[float, ...]
     ) -> list[Row]:
         dx, dy = move
         x0, y0 = origin_of(plan.plan)
         long = hypot(dx, dy)
-        way, turn, stretch = rough * (STEP * long + SHAKE), rough * TURN, rough * STRETCH
+        way, stretch = rough * (STEP * long + SHAKE), rough * STRETCH
         self.random = k = following(self.random)
         k %= ROWS
         crosses = plan.crosses

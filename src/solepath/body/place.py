@@ -62,6 +62,8 @@ HEADING = 0.12
 """A known heading may be off by this, rad (the first stride's direction is the track's x axis)."""
 AROUND = 0.5
 """Where one steps off stairs or a lift, m around the landing."""
+SOON = 10.0
+"""Stairs that are entered so soon after others, s, are the same ones."""
 TURNED = 0.07
 """Stairs and rides turn the track by this, rad."""
 ON_STAIRS = 2.0
@@ -88,6 +90,8 @@ class Placing:
     references: References = field(factory=References, init=False)
     pace: Pace = field(factory=Pace, init=False)
     random: int = field(default=1, init=False)
+    arrived: float | None = field(default=None, init=False)
+    """When the wearer was last said to be on another level, s."""
     steps: int = field(default=0, init=False)
     outside: int = field(default=0, init=False)
     """Steps since the wearer was last within the plan."""
@@ -118,12 +122,13 @@ class Placing:
             self._begin(plan, here, known_at, told)
         if self.t is not None and here.t < self.t - 1.0:
             self.references.forget()
+            self.arrived = None
         self.t = here.t
         steps = [event for event in events if isinstance(event, StepTaken)]
         for step in steps:
             self.pace.stepped(step, here.position)
         if steps:
-            self._move(plan, here, any([step.degraded for step in steps]), known_at, told)
+            self._move(plan, here, steps, known_at, told)
         for reference in self.references.hear(plan.plan, events, here):
             match reference:
                 case Held():
@@ -138,9 +143,9 @@ class Placing:
 
     # --- how a method differs ---
 
-    def extended(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float) -> list[Row]:
+    def extended(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
         """The rows a move (m, track) further; without those that cannot go there. `rough`: how much worse than usual
-        the track is."""
+        the track is. `turned`: by how much the wearer has turned with it, rad, not negative."""
         raise NotImplementedError
 
     def scattered(self, k: int, count: int) -> tuple[float, float, float, float]:
@@ -197,7 +202,9 @@ class Placing:
             rows.append(row)
         return rows
 
-    def _move(self, plan: IndexedPlan, here: Position, degraded: bool, known_at: float, told: list[Event]) -> None:
+    def _move(
+        self, plan: IndexedPlan, here: Position, steps: list[StepTaken], known_at: float, told: list[Event]
+    ) -> None:
         """The track since the last step, for all rows."""
         x, y, _ = here.position
         move = (x - self.last[0], y - self.last[1])
@@ -212,7 +219,10 @@ class Placing:
         move = (move[0] * self.pace.factor, move[1] * self.pace.factor)
         before = self.newest
         places = {row[:2] for row in rows}
-        rows = self._stepped(plan, rows, move, ROUGH if degraded else 1.0)
+        # each foot turns as the wearer does, and each tells it by its own step
+        turned = min(0.5 * sum([abs(step.heading_change) for step in steps]), pi)
+        rough = ROUGH if any([step.degraded for step in steps]) else 1.0
+        rows = self._stepped(plan, rows, move, rough, turned)
         self.steps = (self.steps + 1) % LOOK
         if self.steps == 0:
             rows = self._looked(plan, rows)
@@ -235,14 +245,14 @@ class Placing:
             looked.append(row if there else (x, y, a, b, OUT * w, level, came, held))
         return looked
 
-    def _stepped(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float) -> list[Row]:
+    def _stepped(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
         dx, dy = move
         changing = [row for row in rows if row[7]]
         walking = [row for row in rows if not row[7]] if changing else rows
         if hypot(dx, dy) > JUMP:
             walking = self._jumped(plan, walking, move)
         elif walking:
-            walking = self.extended(plan, walking, move, rough)
+            walking = self.extended(plan, walking, move, rough, turned)
         # on stairs one goes as the track says: the walls around them are those of one level or the other
         carried = [
             (x + a * dx - b * dy, y + b * dx + a * dy, a, b, w, level, origin, held)
@@ -313,9 +323,14 @@ class Placing:
         total = sum([row[4] for row in rows])
         self.random = following(self.random)
         there = self._out(plan, stops, held, arrived, arrived.up)
+        again = self.arrived is not None and arrived.t_start < self.arrived + SOON
+        if not there and held and again:
+            self._release()  # the rest of a way that was taken for the whole
+            return
         if not there:
             # to a foot, stairs up and down look much alike: from where there is no way up, one has gone down
             there = self._out(plan, stops, held, arrived, not arrived.up)
+        self.arrived = arrived.t
         if sum([row[4] for row in there]) <= ELSEWHERE * total:
             there = self._anew(plan, arrived)
             weight = sum([row[4] for row in there])
@@ -374,7 +389,7 @@ class Placing:
         for (x, y, _), (x1, y1, _) in zip(way, way[1:], strict=False):
             move = ((x1 - x) * self.pace.factor, (y1 - y) * self.pace.factor)
             if rows and move != (0.0, 0.0) and abs(move[0]) < FARTHEST and abs(move[1]) < FARTHEST:
-                rows = self._stepped(plan, rows, move, 1.5)
+                rows = self._stepped(plan, rows, move, ROUGH, 0.0)
         return rows
 
     # --- what is told ---

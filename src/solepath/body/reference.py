@@ -26,12 +26,14 @@ WAIT = 8.0
 """s"""
 AWAY = 6.0
 """m"""
-FIT = 0.3
-"""A height fits a storey when it is off by no more than this share of the least storey."""
-LEAST, MOST = 0.6, 1.5
+FIT = 0.24
+"""A height fits a storey when it is off by no more than this share of the least storey: a landing half-way does not."""
+LEAST, MOST = 0.6, 2.0
 """Less than this share of the least storey is no arrival, nor more than this one of the highest way up."""
 STEEP, LANDING = 2.5, 4.0
 """Stairs lead no further away than so many times their height, and so many m of landings."""
+BLIP = 5
+"""So many strides up or down are forgotten when the next go the other way."""
 RIDE_OVER = 4.0
 """A ride that no event tells is over so long after the activity, s, or with the second step."""
 SAME_RIDE = 5.0
@@ -206,7 +208,8 @@ class References:
         kind, up = reference
         if kind is Kind.LIFT and self.ridden is not None and event.t < self.ridden:
             return
-        if passage is not None and passage.kind is kind:
+        turned = passage is not None and kind is Kind.STAIRS and 0 < (-passage.up if up else passage.up) <= BLIP
+        if passage is not None and passage.kind is kind and not turned:
             passage.t_left = passage.end = None
         else:
             if passage is not None:

@@ -11,7 +11,7 @@ a little more. Traces that have come to the same are one. There is no chance in 
 
 from __future__ import annotations
 
-from math import atan2, hypot
+from math import atan2, cos, hypot, sin
 
 from attrs import define
 
@@ -42,6 +42,8 @@ ASIDE = 0.3
 TURN = 0.04
 """rad"""
 STRETCH = 0.025
+BEND, OF_BEND = 0.3, (-0.24, -0.12, 0.12, 0.24)
+"""Who turns by more than this, rad, may have turned by so much more or less, as shares of it."""
 WORTH = 0.5
 """What a neighbour counts, at first."""
 MOST = 1.15
@@ -53,8 +55,10 @@ LEAST = 0.85
 class SnakeGame(Placing):
     """Traces from every reference, those through walls dropped, until one is left."""
 
-    def extended(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float) -> list[Row]:
+    def extended(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
         """The traces a move further; without those that cannot go there."""
+        if turned > BEND:
+            rows = rows + _turned(rows, turned)
         grown = self._grown(plan, rows, move, BENDS if rough < 2.0 else (*BENDS, *SQUEEZE))
         if not grown:
             grown = self._grown(plan, rows, move, SQUEEZE)
@@ -122,6 +126,16 @@ class SnakeGame(Placing):
         if len(rows) > wanted:
             rows = merged(rows, 2.0 * CELL)
         return rows if len(rows) <= wanted else merged(resampled(rows, wanted, 0.5), 0.01)
+
+
+def _turned(rows: list[Row], turned: float) -> list[Row]:
+    """Traces that have turned more, or less."""
+    added: list[Row] = []
+    for share in OF_BEND:
+        c, s = cos(share * turned), sin(share * turned)
+        for x, y, a, b, w, level, came, held in rows:
+            added.append((x, y, a * c - b * s, b * c + a * s, WORTH * w, level, came, held))
+    return added
 
 
 def merged(rows: list[Row], cell: float) -> list[Row]:
