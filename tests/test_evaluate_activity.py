@@ -215,6 +215,8 @@ def test_stairs_are_in_two_folders(data_dir):
 def test_each_recording_is_learnt_from_once_whatever_the_folds(data_dir):
     assert len(lessons(data_dir, ["footstep-tracker", "footstep-tracker"])) == 115
     assert not lessons(data_dir, ["shoe-sensing"])
+    default = lessons(data_dir, ["default"])
+    assert {lesson.subject for lesson in default} - {None} == {wearer for fold in FOLDS for wearer in fold}
 
 
 def test_windows_of_a_recording_carry_the_activity_of_their_middle(data_dir):

@@ -13,10 +13,12 @@ from typing import Any
 from attrs import frozen
 
 from .. import recipes
+from ..body.activity import Activities
 from ..body.footstep_activity import TwoSecondWindows
 from ..recipes import AnyActivity
 from ..recording import RecordingError
-from ..train import footstep_activity
+from ..train import activities, footstep_activity
+from ..train.activities_net import learn
 from ..train.folds import FOLDS, fold_of
 from ..train.hugadb import recordings
 from .recorded import Meta
@@ -44,7 +46,31 @@ def _two_second_windows(taught: Sequence[footstep_activity.Taught]) -> TwoSecond
     return TwoSecondWindows(footstep_activity.train(taught, "the other folds"))
 
 
+WEARERS = frozenset().union(*FOLDS)
+
+
+def _everyone(folder: Path) -> Sources:
+    """The wearers, the level walks and the emulated wearers that `activities` learns from."""
+    wearers = [(("wearer", folder, wearer), wearer) for wearer in sorted(WEARERS)]
+    emulated = [(("emulated", folder, seed), None) for seed in activities.EMULATED]
+    return [*wearers, (("level", folder, 0), None), *emulated]
+
+
+def _blocks(source: tuple[str, Path, int]) -> list[activities.Blocks]:
+    """Of one of those."""
+    what, folder, number = source
+    if what == "wearer":
+        return list(activities.hugadb(folder / "hugadb", WEARERS - {number}))
+    return list(activities.level_walks(folder) if what == "level" else activities.emulated_walks([number]))
+
+
+def _activities(taught: Sequence[list[activities.Blocks]]) -> Activities:
+    blocks = activities.joined([part for parts in taught for part in parts])
+    return Activities(learn(blocks.features, blocks.classes, blocks.wearers, "the other folds"))
+
+
 LEARNERS: dict[type, Learner] = {
+    Activities: Learner(_everyone, _blocks, _activities),
     TwoSecondWindows: Learner(_recordings, footstep_activity.of_recording, _two_second_windows),
 }
 
