@@ -59,7 +59,7 @@ def walk() -> tuple[Sample, ...]:
 
 
 @given(st.lists(moments, max_size=60))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 def test_whatever_the_samples_are_events_come_in_their_time_and_the_state_can_be_saved(told: list[tuple]) -> None:  # type: ignore[type-arg]
     wearing, t = Wearing(), 0.0
     for dt, foot, acc, gyro, pressure, again in told:

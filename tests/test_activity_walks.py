@@ -22,7 +22,9 @@ HOUSE = (
     Route().stand(3.0).walk(8.0, 1.3).stairs(11).walk(1.2).turn(pi, 0.6).stairs(11).walk(5.0).turn(pi)
     .lift(-6.8, speed=1.2).walk(7.0).stand(4.0).jog(30.0, 2.7).stand(3.0)
 )  # fmt: skip
-CELLAR = Route().stand(3.0).walk(6.0, 1.2).stairs(12, up=False).walk(6.0).turn(radians(90)).lift(3.4).walk(5.0).stand(3.0)
+CELLAR = (
+    Route().stand(3.0).walk(6.0, 1.2).stairs(12, up=False).walk(6.0).turn(radians(90)).lift(3.4).walk(5.0).stand(3.0)
+)
 ACTIVITIES = 0.9
 """Share of the time that must be right: a ride is dated from its first jerk until its doors open, and who halts has one
 foot still while the other closes."""

@@ -48,16 +48,16 @@ _CHANCES: dict[str, dict[str, float]] = {
     "STAND": {"WALK": 0.03, "RUN": 1e-3, "UP": 5e-3, "DOWN": 5e-3, "UNKNOWN": 1e-3, **_RIDE},
     "WALK": {"STAND": 0.03, "RUN": 4e-3, "UP": 0.015, "DOWN": 0.015, "UNKNOWN": 1e-3, **_BLIND},
     "RUN": {"STAND": 0.01, "WALK": 0.03, "UP": 2e-3, "DOWN": 2e-3, "UNKNOWN": 1e-3},
-    "UP": {"STAND": 0.02, "WALK": 0.05, "RUN": 2e-3, "DOWN": 2e-3, "UNKNOWN": 1e-3},
-    "DOWN": {"STAND": 0.02, "WALK": 0.05, "RUN": 2e-3, "UP": 2e-3, "UNKNOWN": 1e-3},
+    "UP": {"STAND": 0.02, "WALK": 0.05, "RUN": 2e-3, "DOWN": 2e-3, "UNKNOWN": 1e-3, **_BLIND},
+    "DOWN": {"STAND": 0.02, "WALK": 0.05, "RUN": 2e-3, "UP": 2e-3, "UNKNOWN": 1e-3, **_BLIND},
     "UNKNOWN": {"STAND": 0.1, "WALK": 0.1, "RUN": 0.02, "UP": 0.02, "DOWN": 0.02, **_BLIND},
     "RISE": {"RISING": 0.25, "RISEN": 0.05},
-    "RISING": {"RISEN": 0.07, "WALK": 2e-3, "STAND": 1e-5, "UNKNOWN": 1e-3},
+    "RISING": {"RISEN": 0.07, "WALK": 3e-4, "STAND": 1e-5, "UNKNOWN": 3e-4},
     "RISEN": {"STAND": 0.2, "WALK": 0.02, "NEARLY_UP": 0.08},
     "NEARLY_UP": {"UP_THERE": 0.1, "WALK": 1e-3, "UNKNOWN": 1e-3},
     "UP_THERE": {"STAND": 0.4, "WALK": 0.02},
     "SINK": {"SINKING": 0.25, "SUNK": 0.05},
-    "SINKING": {"SUNK": 0.07, "WALK": 2e-3, "STAND": 1e-5, "UNKNOWN": 1e-3},
+    "SINKING": {"SUNK": 0.07, "WALK": 3e-4, "STAND": 1e-5, "UNKNOWN": 3e-4},
     "SUNK": {"STAND": 0.2, "WALK": 0.02, "NEARLY_DOWN": 0.08},
     "NEARLY_DOWN": {"DOWN_THERE": 0.1, "WALK": 1e-3, "UNKNOWN": 1e-3},
     "DOWN_THERE": {"STAND": 0.4, "WALK": 0.02},
@@ -83,7 +83,7 @@ FROM: tuple[tuple[tuple[int, float], ...], ...] = tuple(
 )
 """For each state those that it may come from, with the logarithm of the chance."""
 
-FORGOTTEN = 10.0
+FORGOTTEN = 13.0
 """A token that is so much less likely than the best (natural logarithm) is dropped."""
 DOUBT = 8.0
 """One that is less likely by more than this has no say in what is settled."""
