@@ -9,7 +9,7 @@ from typing import Any
 
 from .failure import Failure, count, seed
 
-NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker")
+NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
 """As reproduce.EXPERIMENTS has them; said here so that --help loads nothing heavy."""
 
 

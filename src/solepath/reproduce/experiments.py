@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from . import footstep_tracker, kupt_dfpc, pressure_contour, walking_modes
+from . import footstep_tracker, kupt_dfpc, pressure_contour, shoe_sensing, walking_modes
 from .pool import Progress
 from .tables import Reproduction
 
@@ -22,4 +22,5 @@ EXPERIMENTS: dict[str, Experiment] = {
     pressure_contour.NAME: pressure_contour.reproduce,
     walking_modes.NAME: walking_modes.reproduce,
     footstep_tracker.NAME: footstep_tracker.reproduce,
+    shoe_sensing.NAME: shoe_sensing.reproduce,
 }

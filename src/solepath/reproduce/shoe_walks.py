@@ -35,6 +35,8 @@ STRAIGHT = 19.2
 """m (section 4.2.5): how far a heading is followed."""
 RISERS = 11
 """Of a flight (assumed); 0.16 m by 0.30 m each, as the paper's."""
+LAPS = 2
+"""Round the corridors of each storey, for five minutes in all."""
 SAME = 0.3
 """s: a step that ends further than this from a true one is another's."""
 STATES = ("walking", "jogging", "upstairs", "downstairs")
@@ -87,13 +89,13 @@ class Walked:
     tour: Tour
 
 
-def route_of(state: str, steps: int = STEPS) -> Route:
-    """So many strides on the level, or two flights with a landing between."""
+def route_of(state: str) -> Route:
+    """A hundred strides on the level, or two flights with a landing between."""
     begun = Route().stand(4.0)
     if state == "walking":
-        return begun.walk((steps + TO_HALT) * 1.22, WALKING).stop(2.0)
+        return begun.walk((STEPS + TO_HALT) * 1.22, WALKING).stop(2.0)
     if state == "jogging":
-        return begun.jog((steps + TO_HALT) * 1.60, JOGGING).stop(2.0)
+        return begun.jog((STEPS + TO_HALT) * 1.60, JOGGING).stop(2.0)
     up = state == "upstairs"
     begun = begun.walk(4.0, 1.2)
     return begun.stairs(RISERS, up=up).turn(radians(180), 0.7).stairs(RISERS, up=up).walk(4.0).stop(2.0)
@@ -103,7 +105,7 @@ def tour_route() -> Route:
     """Fig. 35: corridors of two storeys and the stairs between them, for five minutes."""
     route = Route().stand(4.0)
     for up in (True, False):
-        for _ in range(2):
+        for _ in range(LAPS):
             route = route.walk(19.2, 1.2).turn(radians(90), 1.0).walk(9.0).turn(radians(90), 1.0)
             route = route.walk(19.2).turn(radians(90), 1.0).walk(9.0).turn(radians(90), 1.0)
         route = route.walk(4.0)

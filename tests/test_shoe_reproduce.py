@@ -1,0 +1,82 @@
+"""`solepath reproduce shoe-sensing`: how steps are judged, the paper's figures, a short run of it."""
+
+from __future__ import annotations
+
+import pytest
+
+from solepath.events import StepFeatures, StepTaken
+from solepath.recipes import SHOE_SENSING
+from solepath.reproduce import shoe_sensing, shoe_walks
+from solepath.reproduce.published import NORMALISED
+from solepath.reproduce.published import SHOE_SENSING as PAPER
+from solepath.reproduce.shoe_walks import FOOT, STATES, heard, judged, matched, route_of, tour_route, worn
+from solepath.sim.truth import TrueStep
+
+
+def step(t: float) -> StepTaken:
+    return StepTaken(
+        t=t,
+        known_at=t,
+        foot=FOOT,
+        number=1,
+        t_start=t - 1.0,
+        t_end=t,
+        displacement=(1.2, 0.0, 0.0),
+        position=(0.0, 0.0, 0.0),
+        stride_length=1.2,
+        heading_change=0.0,
+        height_change=0.0,
+        covariance=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+        features=StepFeatures(0.1, 2.0, 1.0),
+    )
+
+
+def true(t: float) -> TrueStep:
+    return TrueStep(FOOT, 1, t - 1.0, t, t - 0.9, t - 0.7, t - 0.2, (1.2, 0.0, 0.0), 1.2, 0.0)
+
+
+def test_steps_are_matched_one_to_one_and_in_order() -> None:
+    found, so = [step(1.1), step(1.9), step(2.05), step(4.0)], [true(1.0), true(2.0), true(3.0)]
+    assert [(one.t, other.t_end) for one, other in matched(found, so)] == [(1.1, 1.0), (2.05, 2.0)]
+
+
+def test_table_2_is_the_mean_error_over_the_length_divided_by_22_5() -> None:
+    for row, off, length in (
+        ("walking, table 2 %", "walking, length m", 1.20),
+        ("jogging, table 2 %", "jogging, length m", 1.60),
+        ("upstairs, table 2 %", "upstairs, height m", 0.32),
+        ("downstairs, table 2 %", "downstairs, length m", 0.60),
+    ):
+        error, printed = PAPER[off].mean, PAPER[row].mean
+        assert error is not None and printed is not None
+        assert 100.0 * error / length / NORMALISED == pytest.approx(printed, abs=0.011)
+
+
+def test_strides_are_about_as_long_as_the_papers() -> None:
+    for state, length in (("walking", 1.20), ("jogging", 1.60), ("upstairs", 0.60), ("downstairs", 0.60)):
+        _, truth = worn(route_of(state), 1)
+        lengths = [one.length for one in truth.steps(FOOT) if state in STATES[:2] or abs(one.displacement[2]) > 0.25]
+        assert sorted(lengths)[len(lengths) // 2] == pytest.approx(length, rel=0.08)
+
+
+def test_five_minutes_are_five_minutes() -> None:
+    assert 240.0 < worn(tour_route(), 1)[1].duration < 360.0
+
+
+def test_on_the_stairs_those_strides_count_that_climb_two_risers() -> None:
+    samples, truth = worn(route_of("upstairs"), 1)
+    steps = judged(heard(SHOE_SENSING, samples), truth, "upstairs")
+    climbed = [one for one in truth.steps(FOOT) if one.displacement[2] > 0.25]
+    assert steps.found + steps.missed == len(climbed)
+    assert steps.right == (True,) * steps.found
+    assert all(80.0 < angle < 130.0 for angle in steps.angles)
+
+
+def test_a_row_stands_for_every_figure_of_the_paper(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shoe_walks, "STEPS", 10)
+    monkeypatch.setattr(shoe_walks, "LAPS", 0)
+    done = shoe_sensing.reproduce(1, 1)
+    assert set(PAPER) <= set(done.table)
+    assert all(len(row.values) for row in done.rows)
+    assert done.table["walking, height of 100 steps after m"].mean == pytest.approx(0.0, abs=0.1)
+    assert len(done.panels) == 2
