@@ -62,6 +62,8 @@ HEADING = 0.12
 """A known heading may be off by this, rad (the first stride's direction is the track's x axis)."""
 AROUND = 0.5
 """Where one steps off stairs or a lift, m around the landing."""
+LEAST_DOUBT = 0.15
+"""When more strides than this share lead the other way, both ways are followed."""
 SOON = 10.0
 """Stairs that are entered so soon after others, s, are the same ones."""
 TURNED = 0.07
@@ -356,7 +358,7 @@ class Placing:
         x0, y0 = origin_of(plan.plan)
         there: list[Row] = []
         for k, (_, _, a, b, w, _, origin, stop) in enumerate(held):
-            for way, share in ways_out(stops, stops[stop - 1], up, arrived.height):
+            for way, share in _ways(stops, stops[stop - 1], up, arrived):
                 ex, ey, eh, es = NOISE[(self.random + k) % ROWS]
                 turn, stretch = TURNED * eh, 1.0 + 0.02 * es
                 x, y = way.place[0] + AROUND * ex, way.place[1] + AROUND * ey
@@ -372,7 +374,7 @@ class Placing:
         weights: dict[int, float] = {}
         for entered in stops:
             if entered.kind is arrived.kind:
-                for way, share in ways_out(stops, entered, arrived.up, arrived.height):
+                for way, share in _ways(stops, entered, arrived.up, arrived):
                     weights[way.index] = weights.get(way.index, 0.0) + share
         total = sum(weights.values())
         rows: list[Row] = []
@@ -435,6 +437,15 @@ class Placing:
         most = min([abs(rise) for rise in rises if (rise > 0.0) is (passage.up > 0)], default=0.0)
         height = min(passage.height(here.position) or 0.0, most)
         return height if passage.up > 0 else -height
+
+
+def _ways(stops: list[Landing], entered: Landing, up: bool, arrived: Arrived) -> list[tuple[Landing, float]]:
+    """The ways out of who entered there, with how likely each is: also the other way, where strides told both."""
+    doubt = arrived.doubt if arrived.doubt > LEAST_DOUBT else 0.0
+    told = [(way, share * (1.0 - doubt)) for way, share in ways_out(stops, entered, up, arrived.height)]
+    if doubt:
+        told += [(way, share * doubt) for way, share in ways_out(stops, entered, not up, arrived.height)]
+    return told
 
 
 def nowhere(plan: IndexedPlan, start: Start) -> str | None:

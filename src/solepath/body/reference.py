@@ -28,6 +28,8 @@ AWAY = 6.0
 """m"""
 FIT = 0.24
 """A height fits a storey when it is off by no more than this share of the least storey: a landing half-way does not."""
+COUNTED = 0.95
+"""Share of the least storey from which on counted steps are taken for one at once."""
 LEAST, MOST = 0.6, 2.0
 """Less than this share of the least storey is no arrival, nor more than this one of the highest way up."""
 STEEP, LANDING = 2.5, 4.0
@@ -73,6 +75,8 @@ class Arrived:
     height: float | None
     t_start: float
     t: float
+    doubt: float = 0.0
+    """Share of the strides that were told to lead the other way."""
 
 
 Reference = Held | Released | Arrived
@@ -100,14 +104,31 @@ class Passage:
 
     def height(self, here: Vec3) -> float | None:
         """By the track where that says anything, else by flights or by counting steps, m, not negative."""
-        track = abs((here if self.end is None else self.end)[2] - self.begin[2])
+        track = self._track(here)
         if self.kind is Kind.LIFT:
             return track if track > 1.0 else None
-        strides = self.left + self.right
-        # a stride of a foot is two steps of the stair; of both feet each one is told by its own stride
-        counted = RISE * strides * (1.0 if self.left and self.right else 2.0)
-        return track if track > 0.5 * counted and track > 0.3 else max(abs(self.climbed), counted)
+        return track if self.measured(here) else max(abs(self.climbed), self._counted)
 
+    def measured(self, here: Vec3) -> bool:
+        """Whether the track has a height."""
+        track = self._track(here)
+        return track > 0.5 * self._counted and track > 0.3
+
+    def _track(self, here: Vec3) -> float:
+        return abs((here if self.end is None else self.end)[2] - self.begin[2])
+
+    @property
+    def _counted(self) -> float:
+        # a stride of a foot is two steps of the stair; of both feet each one is told by its own stride
+        # those that were told to lead the other way may have led this way, or may not have been on stairs: half of them
+        strides = 0.5 * (self.left + self.right + abs(self.up))
+        return RISE * strides * (1.0 if self.left and self.right else 2.0)
+
+    @property
+    def doubt(self) -> float:
+        """Share of the strides that lead the other way than most."""
+        strides = self.left + self.right
+        return 0.5 * (1.0 - abs(self.up) / strides) if self.kind is Kind.STAIRS and strides > abs(self.up) else 0.0
 
     def leads_away(self, here: Vec3) -> bool:
         """Further than stairs of that height do."""
@@ -236,7 +257,7 @@ class References:
     def _settle(self, passage: Passage, left: float, plan: FloorPlan, here: Position, told: list[Reference]) -> None:
         """Stairs or a lift were left: for another level, for a landing, or they never were any."""
         up, height = passage.up > 0, passage.height(here.position)
-        arrived = Arrived(passage.kind, up, height, passage.t, left)
+        arrived = Arrived(passage.kind, up, height, passage.t, left, passage.doubt)
         waited = here.t - left
         if passage.kind is Kind.LIFT:
             if waited > RIDE_OVER or passage.since >= 2:
@@ -252,6 +273,8 @@ class References:
         least, end = storeys[0], passage.end or passage.begin
         real = LEAST * least <= height <= MOST * storeys[-1] and not passage.leads_away(end)
         fits = min([abs(height - storey) for storey in storeys]) <= FIT * least
+        # counted steps are those of landings, too: a flight and a landing are not a storey
+        fits = fits and (passage.measured(here.position) or height >= COUNTED * least)
         if waited > WAIT or hypot(here.position[0] - end[0], here.position[1] - end[1]) > AWAY or (real and fits):
             self.passage = None
             told.append(arrived if real else Released())
