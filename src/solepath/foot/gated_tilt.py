@@ -64,7 +64,7 @@ class ShoeSensing(LinearDedrift):
 
     kp: float = 1.0
     """1/s; the paper has no figure."""
-    heed: float = 0.2
+    heed: float = 0.4
     """How much of the tilt that would explain the velocity left at the end of a motion is believed: joggers stand too
     shortly for the feedback. Not in the paper; 0 leaves it out."""
     eliminate: bool = True
