@@ -9,18 +9,19 @@ The track itself is never bent. Latency: a place is told with the step that lead
 
 from __future__ import annotations
 
-from math import cos, hypot, isfinite, pi, sin
+from math import hypot, isfinite, pi
 from typing import Protocol
 
 from attrs import define, field
 
 from ..events import Event, Placed, PlaceLost, StepTaken
 from ..floorplan.index import IndexedPlan
-from ..floorplan.plan import FloorPlan, FloorPlanError, Kind, Point, Start
+from ..floorplan.plan import FloorPlan, Kind, Point, Start
 from ..types import Vec3
 from ..vector import ZERO
+from .arrivals import anew, changing, fan, nowhere, out
 from .crowd import Row, believed, effective, origin_of, packed, resampled, unpacked
-from .landings import Landing, landings, nearest, ways_out
+from .landings import landings, ways_out
 from .noise import NOISE, ROWS, following
 from .pace import Pace
 from .position import Position
@@ -58,18 +59,8 @@ LOOK, OUT = 4, 0.25
 """Every so many steps it is looked who has left the plan, and such a one counts so much less than those within."""
 STUCK = 5.0
 """When nobody could go on for so much of the track, m, there is no way."""
-HEADING = 0.12
-"""A known heading may be off by this, rad (the first stride's direction is the track's x axis)."""
-AROUND = 0.5
-"""Where one steps off stairs or a lift, m around the landing."""
-LEAST_DOUBT = 0.15
-"""When more strides than this share lead the other way, both ways are followed."""
 SOON = 10.0
 """Stairs that are entered so soon after others, s, are the same ones."""
-TURNED = 0.07
-"""Stairs and rides turn the track by this, rad."""
-ON_STAIRS = 2.0
-"""Who does what one does on stairs, beside stairs, is so many times as likely to be on them as to go on along them."""
 ELSEWHERE = 0.02
 """With less belief than this near any landing, the wearer was not where the plan had him."""
 DOUBT = {Kind.STAIRS: 0.85, Kind.LIFT: 0.5}
@@ -136,7 +127,7 @@ class Placing:
                 case Held():
                     self._hold(plan.plan, reference)
                 case Arrived():
-                    self._arrive(plan, reference, known_at, told)
+                    self._arrive(plan, reference)
                 case _:
                     self._release()
         if steps and self.crowd:
@@ -176,33 +167,7 @@ class Placing:
             return
         level = plan.number(start.level)
         count = self.most if start.heading is None else 2 * FEW
-        self.crowd = packed(self._fan(plan, level, start.place, start.spread, start.heading, count, 0, 1.0))
-
-    def _fan(
-        self,
-        plan: IndexedPlan,
-        level: int,
-        place: Point,
-        spread: float,
-        heading: float | None,
-        count: int,
-        origin: int,
-        weight: float,
-    ) -> list[Row]:
-        """`count` rows around a place, of all headings where none is known, and of `weight` in all."""
-        x0, y0 = origin_of(plan.plan)
-        near = min(max(spread, 0.0), 20.0) * 1.2
-        rows: list[Row] = []
-        for k in range(count):
-            ex, ey, eh, es = self.scattered(k, count)
-            turn = 2.0 * pi * (k + 0.5 * eh) / count if heading is None else heading + 2.0 * HEADING * eh
-            x, y = place[0] + near * ex, place[1] + near * ey
-            if plan.crosses(level, place[0], place[1], x, y):
-                x, y = place
-            stretch = 1.0 + 0.05 * es
-            row = (x - x0, y - y0, stretch * cos(turn), stretch * sin(turn), weight / count, level, origin, 0)
-            rows.append(row)
-        return rows
+        self.crowd = packed(fan(self.scattered, plan, level, start.place, start.spread, start.heading, count, 0, 1.0))
 
     def _move(
         self, plan: IndexedPlan, here: Position, steps: list[StepTaken], known_at: float, told: list[Event]
@@ -212,7 +177,10 @@ class Placing:
         move = (x - self.last[0], y - self.last[1])
         if not (abs(move[0]) < FARTHEST and abs(move[1]) < FARTHEST):
             self.last = here.position
-            self._lose(f"the track leaps by more than {FARTHEST:.0f} m", here, known_at, told)
+            if self.crowd:
+                what = f"the track leaps by more than {FARTHEST:.0f} m"
+                told.append(PlaceLost(t=here.t, known_at=known_at, what=what))
+            self._forget()
             return
         self.last = here.position
         rows = unpacked(self.crowd)
@@ -230,12 +198,14 @@ class Placing:
             rows = self._looked(plan, rows)
         stays = all(row[:2] in places for row in rows)
         self.stuck = self.stuck + hypot(*move) if stays else 0.0
-        if not rows or self.stuck > STUCK:
+        self.crowd = packed(rows) if self.stuck <= STUCK else b""
+        if not self.crowd:
             where = "" if before is None else f" near ({before.position[0]:.1f}, {before.position[1]:.1f})"
             level = "" if before is None else f" on level {before.level}"
-            self._lose(f"the track goes where the plan has no way{where}{level}", here, known_at, told)
-            return
-        self.crowd = packed(rows)
+            told.append(
+                PlaceLost(t=here.t, known_at=known_at, what=f"the track goes where the plan has no way{where}{level}")
+            )
+            self._forget()
 
     def _looked(self, plan: IndexedPlan, rows: list[Row]) -> list[Row]:
         """Who is where nobody can be counts less."""
@@ -277,11 +247,6 @@ class Placing:
                     kept.append((nx, ny, a, b, w, level, origin, held))
         return kept if len(kept) <= self.most else resampled(kept, self.most, 0.5)
 
-    def _lose(self, what: str, here: Position, known_at: float, told: list[Event]) -> None:
-        if self.crowd:
-            told.append(PlaceLost(t=here.t, known_at=known_at, what=what))
-        self._forget()
-
     def _forget(self) -> None:
         self.crowd, self.newest, self.outside, self.stuck = b"", None, 0, 0.0
 
@@ -291,7 +256,7 @@ class Placing:
         """Who is near stairs or a lift may be changing level from now on, or may not: both are followed."""
         rows = unpacked(self.crowd)
         if rows:
-            self.crowd = packed(rows + self._near(plan, rows, held))
+            self.crowd = packed(rows + changing(plan, rows, held.kind, self._since(held.t)))
 
     def _release(self) -> None:
         """Nobody was changing level."""
@@ -299,42 +264,33 @@ class Placing:
         walking = [row for row in rows if not row[7]]
         self.crowd = packed(walking or [(x, y, a, b, w, level, came, 0) for x, y, a, b, w, level, came, _ in rows])
 
-    def _near(self, plan: FloorPlan, rows: list[Row], held: Held) -> list[Row]:
-        """Of those who are near, another each that changes level."""
-        stops = landings(plan)
-        x0, y0 = origin_of(plan)
-        tx, ty, _ = self.references.at(held.t)
-        dx, dy = (self.last[0] - tx) * self.pace.factor, (self.last[1] - ty) * self.pace.factor
-        marked: list[Row] = []
-        for x, y, a, b, w, level, origin, _ in rows:
-            found = nearest(stops, held.kind, level, x0 + x - (a * dx - b * dy), y0 + y - (b * dx + a * dy))
-            if found is not None:
-                marked.append((x, y, a, b, ON_STAIRS * w * found[1], level, origin, found[0].index))
-        return marked
+    def _since(self, t: float) -> Point:
+        """The way since then, m, track."""
+        x, y, _ = self.references.at(t)
+        return ((self.last[0] - x) * self.pace.factor, (self.last[1] - y) * self.pace.factor)
 
-    def _arrive(self, plan: IndexedPlan, arrived: Arrived, known_at: float, told: list[Event]) -> None:
+    def _arrive(self, plan: IndexedPlan, arrived: Arrived) -> None:
         """The wearer is on another level: every reading that could be there goes on from the landing."""
-        stops = landings(plan.plan)
         rows = unpacked(self.crowd)
-        if not any([landing.kind is arrived.kind for landing in stops]):
+        if not any([connector.kind is arrived.kind for connector in plan.plan.connectors]):
             return  # the plan does not have them all
         held = [row for row in rows if row[7]]
         rows = [row for row in rows if not row[7]] or rows
         if rows and not held:
-            held = self._near(plan.plan, rows, Held(arrived.kind, arrived.t_start))
+            held = changing(plan.plan, rows, arrived.kind, self._since(arrived.t_start))
         total = sum([row[4] for row in rows])
         self.random = following(self.random)
-        there = self._out(plan, stops, held, arrived, arrived.up)
+        there = out(plan, held, arrived, arrived.up, self.random)
         again = self.arrived is not None and arrived.t_start < self.arrived + SOON
         if not there and held and again:
             self._release()  # the rest of a way that was taken for the whole
             return
         if not there:
             # to a foot, stairs up and down look much alike: from where there is no way up, one has gone down
-            there = self._out(plan, stops, held, arrived, not arrived.up)
+            there = out(plan, held, arrived, not arrived.up, self.random)
         self.arrived = arrived.t
         if sum([row[4] for row in there]) <= ELSEWHERE * total:
-            there = self._anew(plan, arrived)
+            there = anew(self.scattered, plan, arrived, self.most)
             weight = sum([row[4] for row in there])
             if rows and weight > 0.0 and total > 0.0:
                 doubt = DOUBT[arrived.kind]
@@ -350,40 +306,6 @@ class Placing:
         if there:
             self.outside = 0
             self.crowd = packed(there)
-
-    def _out(
-        self, plan: IndexedPlan, stops: list[Landing], held: list[Row], arrived: Arrived, up: bool
-    ) -> list[Row]:
-        """Those who changed level, where they come out."""
-        x0, y0 = origin_of(plan.plan)
-        there: list[Row] = []
-        for k, (_, _, a, b, w, _, origin, stop) in enumerate(held):
-            for way, share in _ways(stops, stops[stop - 1], up, arrived):
-                ex, ey, eh, es = NOISE[(self.random + k) % ROWS]
-                turn, stretch = TURNED * eh, 1.0 + 0.02 * es
-                x, y = way.place[0] + AROUND * ex, way.place[1] + AROUND * ey
-                if plan.crosses(way.level, way.place[0], way.place[1], x, y):
-                    x, y = way.place
-                a1, b1 = stretch * (a - b * turn), stretch * (b + a * turn)
-                there.append((x - x0, y - y0, a1, b1, w * share, way.level, origin or way.connector + 1, 0))
-        return there
-
-    def _anew(self, plan: IndexedPlan, arrived: Arrived) -> list[Row]:
-        """Every place at which one may have come out: all stairs or lifts, all levels, all headings."""
-        stops = landings(plan.plan)
-        weights: dict[int, float] = {}
-        for entered in stops:
-            if entered.kind is arrived.kind:
-                for way, share in _ways(stops, entered, arrived.up, arrived):
-                    weights[way.index] = weights.get(way.index, 0.0) + share
-        total = sum(weights.values())
-        rows: list[Row] = []
-        for index in sorted(weights):
-            way = stops[index - 1]
-            count = max(self.most // len(weights), 12)
-            share = weights[index] / total
-            rows += self._fan(plan, way.level, way.place, AROUND, None, count, way.connector + 1, share)
-        return rows
 
     def _caught_up(self, plan: IndexedPlan, rows: list[Row], t: float) -> list[Row]:
         """Rows that stand where the wearer was at `t`, s, led on to where the track is now."""
@@ -437,24 +359,3 @@ class Placing:
         most = min([abs(rise) for rise in rises if (rise > 0.0) is (passage.up > 0)], default=0.0)
         height = min(passage.height(here.position) or 0.0, most)
         return height if passage.up > 0 else -height
-
-
-def _ways(stops: list[Landing], entered: Landing, up: bool, arrived: Arrived) -> list[tuple[Landing, float]]:
-    """The ways out of who entered there, with how likely each is: also the other way, where strides told both."""
-    doubt = arrived.doubt if arrived.doubt > LEAST_DOUBT else 0.0
-    told = [(way, share * (1.0 - doubt)) for way, share in ways_out(stops, entered, up, arrived.height)]
-    if doubt:
-        told += [(way, share * doubt) for way, share in ways_out(stops, entered, not up, arrived.height)]
-    return told
-
-
-def nowhere(plan: IndexedPlan, start: Start) -> str | None:
-    """Why nobody can set out there, in a sentence; None when one can."""
-    try:
-        level = plan.number(start.level)
-    except FloorPlanError as error:
-        return f"start: {error}"
-    if not plan.inside(level, *start.place):
-        x, y = start.place
-        return f"start: ({x:g}, {y:g}) is nowhere on level {start.level}: no room or corridor of the plan is there"
-    return None
