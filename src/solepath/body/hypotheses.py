@@ -69,7 +69,7 @@ _NAMES = (
     *("RISE", "RISING", "RISEN", "NEARLY_UP", "UP_THERE"),
     *("SINK", "SINKING", "SUNK", "NEARLY_DOWN", "DOWN_THERE"),
 )
-_BEGIN = (0.5, 0.25, 0.05, 0.05, 0.05, 0.04, *(0.005, 0.004, 0.002, 1e-4, 1e-4), *(0.005, 0.004, 0.002, 1e-4, 1e-4))
+_BEGIN = (0.5, 0.25, 0.05, 0.05, 0.05, 0.04, *(1e-3, 5e-4, 2e-4, 1e-5, 1e-5), *(1e-3, 5e-4, 2e-4, 1e-5, 1e-5))
 
 FROM: tuple[tuple[tuple[int, float], ...], ...] = tuple(
     tuple(
