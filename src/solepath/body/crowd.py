@@ -31,7 +31,7 @@ AGREED = 1.5
 """All places together are one candidate when they differ by no more (rms), m."""
 CANDIDATES = 24
 """No more are told; others count to the nearest."""
-FAINT = 0.003
+FAINT = 0.001
 """A candidate of less weight counts to the heaviest."""
 
 

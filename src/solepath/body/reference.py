@@ -24,7 +24,7 @@ RISE = 0.165
 """Of one step of a stair, m, where neither track nor plan tells a height."""
 WAIT = 8.0
 """s"""
-AWAY = 6.0
+AWAY = 3.5
 """m"""
 FIT = 0.24
 """A height fits a storey when it is off by no more than this share of the least storey: a landing half-way does not."""
