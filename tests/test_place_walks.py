@@ -40,7 +40,7 @@ class Followed:
     """What came of a tour."""
 
     errors: list[float] = field(factory=list)
-    """After the place was found, m; of another level, infinitely far."""
+    """While one candidate only is told, m; of another level, infinitely far."""
     dropped: int = 0
     """Steps at which no candidate was near the wearer."""
     found: int | None = None
@@ -70,7 +70,7 @@ def followed(part: Particles | SnakeGame, told: list[Told]) -> Followed:
         result.dropped += min(off, default=99.0) > NEAR
         if len(place.candidates) == 1 and result.found is None:
             result.found = k
-        if result.found is not None:
+        if len(place.candidates) == 1:
             result.errors.append(apart(place.position[:2], one.place) if place.level == one.level else float("inf"))
     return result
 
