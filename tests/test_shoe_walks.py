@@ -117,6 +117,14 @@ def test_a_foot_that_only_fidgets_is_in_the_end_unknown() -> None:
     assert kinds == [Activity.STANDING, Activity.UNKNOWN]
 
 
+def test_who_has_stood_for_long_and_sets_out_is_not_unknown() -> None:
+    samples, _ = worn(Route().stand(12.0).walk(6.0, 1.3).stop(2.0), 1)
+    session = Session(SHOE_SENSING)
+    told = session.feed(samples) + session.finish()
+    kinds = [event.activity for event in told if isinstance(event, ActivityChanged)]
+    assert kinds == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
+
+
 def test_one_foot_is_enough() -> None:
     session, told = Session(SHOE_SENSING), []
     for sample in worn(STAIRS, 1)[0]:

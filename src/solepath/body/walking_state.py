@@ -38,7 +38,7 @@ class AnglePerMetre:
     moved_at: float | None = field(default=None, init=False)
     """When a foot was last seen off the ground or on its way there; at first, when a foot was first seen, s."""
     stepped_at: float | None = field(default=None, init=False)
-    """The end of the last step; at first as above, s."""
+    """The end of the last step, or the last moment of standing; at first as above, s."""
 
     def interrupt(self, site: Site) -> None:
         """As in `ActivityPart`."""
@@ -66,7 +66,8 @@ class AnglePerMetre:
                 self.moved_at = t
             if t - self.stepped_at > self.lost and self.activity is not Activity.UNKNOWN:
                 self._tell(Activity.UNKNOWN, self.stepped_at, known_at, told)
-        elif t - self.moved_at >= self.stands - TIE and self.activity is not Activity.STANDING:
+        elif t - self.moved_at >= self.stands - TIE:
+            self.stepped_at = max(self.stepped_at, t)
             self._tell(Activity.STANDING, self.moved_at, known_at, told)
         if self.flights.way != 0:
             told += self.flights.waited(t, known_at)
