@@ -55,7 +55,9 @@ class ShoeSensing(LinearDedrift):
     What is beyond the paper. In the middle of a swing, and before a foot is flat, there are moments without
     acceleration, and joggers hardly have longer ones. So evidence without the hint STATIONARY is stance for the time
     being: only later than `BROKEN` after the last stance, of a sigma up to `doubtful`, and when the integration says
-    that the foot is slow. Should the foot then stand more certainly, the motion is put right by that later moment.
+    that the foot is slow. Should the foot then stand more certainly, the motion is put right by that later moment, and
+    a wearer whose last stance became certain is not told to stand before: walkers' steps end with certainty, a jogger's
+    first one may be told as one with the second. What velocity was left when a stance is over turns the tilt (`heed`).
     And most of a level step's height is a tilt that an accelerometer's bias makes, so much a metre in step after step
     (25 mg make 3.5 cm of 1.4 m): what the level steps so far had in common, `lean`, is taken off every step before it
     is judged. What then still comes down `highest` or more above or below where it stood is no level step, whatever its
