@@ -55,7 +55,7 @@ def test_a_finished_session_is_read_but_not_fed(name: str) -> None:
     with pytest.raises(ValueError, match="finished"):
         session.feed(machine.items[-1])
     assert session.position == position
-    assert Session.restore(machine.save(session)).position == position
+    assert machine.load(machine.save(session)).position == position
 
 
 @pytest.mark.parametrize("saved", [None, 5, "x", [], {}, {"solepath": 1}, {"state": {}}, {"solepath": 2, "state": {}}])

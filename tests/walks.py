@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
-from functools import cache
+from functools import cache, partial
 from math import radians
 from typing import Any
 
@@ -12,6 +12,8 @@ from attrs import evolve, frozen
 
 import declared
 from solepath import machine, recipes
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import Start
 from solepath.foot.cycle import Cycle
 from solepath.foot.dedrift import LinearDedrift
 from solepath.foot.eskf import ErrorStateFilter
@@ -20,6 +22,7 @@ from solepath.foot.stance import AngularRate, Graph, MovingVariance, Shoe
 from solepath.link.decoder import Decoder
 from solepath.recipes import DEFAULT, Recipe
 from solepath.session import Session
+from solepath.sim.building import BUILDING, COLUMNS
 from solepath.sim.insole_device import Insole
 from solepath.sim.insoles import layout
 from solepath.sim.parts import LSM6DSOX
@@ -93,6 +96,17 @@ def _session(name: str, items: tuple[Item, ...], recipe: Recipe = DEFAULT) -> Ma
     return Machine(f"session, {name}", items, begin, Session.restore)
 
 
+def _placed(name: str, items: tuple[Item, ...], recipe: Recipe) -> Machine:
+    """A session in a building whose wearer's first steps are known, and the rest has to be found out."""
+    building = IndexedPlan(BUILDING)
+    start = Start("0", (COLUMNS[0], 12.0))
+
+    def begin() -> Session:
+        return Session(recipe, poses=True, floorplan=building, start=start)
+
+    return Machine(f"session, {name}", items, begin, partial(Session.restore, floorplan=building))
+
+
 def _decoder(name: str, items: tuple[Packet, ...]) -> Machine:
     def begin() -> Decoder:
         return Decoder(LEFT)
@@ -139,10 +153,21 @@ def machines() -> dict[str, Machine]:
     for name in RECIPES:
         found.append(_session(name, packets()["few frames"], recipes.BY_NAME[name]))
     found.append(_session("seven sites", suited(), recipes.WALKING_MODES))
+    found.append(_placed("particles", plain, DEFAULT))
+    found.append(_placed("Snake game", plain, recipes.FOOTSTEP_TRACKER))
     return {one.name: one for one in found}
 
 
-RECIPES = ("kupt-dfpc", "zupt", "pressure-contour", "gyroscope", "walking-modes", "touchdown-acceleration")
+RECIPES = (
+    "kupt-dfpc",
+    "zupt",
+    "pressure-contour",
+    "gyroscope",
+    "walking-modes",
+    "touchdown-acceleration",
+    "footstep-tracker",
+    "shoe-sensing",
+)
 """Of the recipes, those that have a part of their own."""
 
 
@@ -183,6 +208,8 @@ SAMPLE_NAMES = tuple(
         "LinearDedrift",
         "LinearDedrift with pressure",
         "seven sites",
+        "particles",
+        "Snake game",
     )
 )
 NAMES = PACKET_NAMES + SAMPLE_NAMES
