@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath import machine
-from solepath.body.activity import Activities
-from solepath.body.features import COUNT
-from solepath.body.motion import MOTIONS, from_json, shipped, to_json
+from solepath.body.activity.activities import Activities
+from solepath.body.activity.features import COUNT
+from solepath.body.activity.motion import MOTIONS, from_json, shipped, to_json
 from solepath.events import ActivityChanged, Event
 from solepath.foot.cycle import Cycle
 from solepath.foot.eskf import ErrorStateFilter

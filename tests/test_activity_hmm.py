@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath import machine
-from solepath.body.hmm import ForwardFilter, spread, staying
+from solepath.body.activity.hmm import ForwardFilter, spread, staying
 
 BEGIN = (0.6, 0.3, 0.1)
 CHAIN = staying((0.9, 0.8, 0.7), ((0.0, 1.0, 1.0), (2.0, 0.0, 1.0), (1.0, 1.0, 0.0)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import sin
 
-from solepath.body.activity import Activities
+from solepath.body.activity.activities import Activities
 from solepath.events import ActivityChanged, Event, LiftRidden
 from solepath.foot.cycle import Cycle
 from solepath.foot.eskf import ErrorStateFilter

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.body.footstep_activity import LONGEST_RIDE, MOVING, TwoSecondWindows
-from solepath.body.window_model import FEATURES, Gaussian, WindowModel, seen, shipped
-from solepath.body.windows import BLOCKS, FootWindows, Window
+from solepath.body.activity.footstep_activity import LONGEST_RIDE, MOVING, TwoSecondWindows
+from solepath.body.activity.window_model import FEATURES, Gaussian, WindowModel, seen, shipped
+from solepath.body.activity.windows import BLOCKS, FootWindows, Window
 from solepath.evaluate.emulated_activity import score
 from solepath.events import ActivityChanged, LiftRidden
 from solepath.foot.cycle import Cycle

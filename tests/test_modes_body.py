@@ -11,9 +11,9 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.body.compensation import TABLE_1
-from solepath.body.modes import Modes
-from solepath.body.touchdown import Height, NetAcceleration
+from solepath.body.modes.compensation import TABLE_1
+from solepath.body.modes.modes import Modes
+from solepath.body.modes.touchdown import Height, NetAcceleration
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.events import Event, Limitation, TouchedDown, WalkingModeChanged
 from solepath.recipes import WALKING_MODES

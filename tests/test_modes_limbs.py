@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath import machine
-from solepath.body.inclination import Inclination
-from solepath.body.limbs import ABOVE, SEGMENTS, LowerLimbs, Transform, foot_end
+from solepath.body.modes.inclination import Inclination
+from solepath.body.modes.limbs import ABOVE, SEGMENTS, LowerLimbs, Transform, foot_end
 from solepath.calibration import Limbs
 from solepath.sim.gait import Wearer
 from solepath.sim.parts import MPU9250

@@ -7,8 +7,8 @@ from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.body.compensation import TABLE_1
-from solepath.body.mode import PACE, POINTS, STRAIGHT_ON, TH, Contact, at_pace, decide, regions
+from solepath.body.modes.compensation import TABLE_1
+from solepath.body.modes.mode import PACE, POINTS, STRAIGHT_ON, TH, Contact, at_pace, decide, regions
 from solepath.sim.insoles import layout
 from solepath.types import Cell, Foot, Layout, WalkingMode
 

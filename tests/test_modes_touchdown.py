@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath import machine
-from solepath.body.touchdown import (
+from solepath.body.modes.touchdown import (
     AnyTouchdown,
     Carrier,
     FootState,

@@ -27,9 +27,9 @@ from floors import (
     tour,
 )
 from solepath import Activity, Event, FlightClimbed, Foot, LiftRidden, Placed, PlaceLost, Session, machine, recipes
-from solepath.body.particles import Particles
+from solepath.body.place.particles import Particles
+from solepath.body.place.snake import SnakeGame
 from solepath.body.position import Position
-from solepath.body.snake import SnakeGame
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start, Wall
 from walks import insoles

@@ -13,7 +13,7 @@ import pytest
 from commands import refused, run
 from floors import LOW, OFFICE, RIGHT, Pedestrian, office, tour
 from solepath import PlaceLost
-from solepath.body.particles import Particles
+from solepath.body.place.particles import Particles
 from solepath.cli.failure import Failure
 from solepath.cli.floorplan import start_of
 from solepath.floorplan.geojson import write_floorplan

@@ -25,8 +25,8 @@ from floors import (
     tour,
 )
 from solepath import Activity, Event, LiftRidden, Placed, PlaceLost
-from solepath.body.particles import Particles
-from solepath.body.snake import SnakeGame
+from solepath.body.place.particles import Particles
+from solepath.body.place.snake import SnakeGame
 from solepath.floorplan.plan import Start
 
 METHODS = [Particles, SnakeGame]

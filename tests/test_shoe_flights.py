@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath import machine
-from solepath.body.flights import Flights
+from solepath.body.activity.flights import Flights
 from solepath.events import FlightClimbed, StepFeatures, StepTaken
 from solepath.types import Foot
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from solepath.body.walking_state import AnglePerMetre
+from solepath.body.activity.walking_state import AnglePerMetre
 from solepath.events import ActivityChanged, Event, FlightClimbed, StepTaken
 from solepath.foot.gated_tilt import ShoeSensing
 from solepath.foot.short_time_energy import ShortTimeEnergy

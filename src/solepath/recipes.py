@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from attrs import field, frozen
 
-from .body.activity import Activities
-from .body.compensation import TABLE_1
-from .body.footstep_activity import TwoSecondWindows
+from .body.activity.activities import Activities
+from .body.activity.footstep_activity import TwoSecondWindows
+from .body.activity.walking_state import AnglePerMetre
 from .body.footsteps import Footsteps
 from .body.fusion import DoubleFoot
-from .body.modes import Modes
-from .body.particles import Particles
+from .body.modes.compensation import TABLE_1
+from .body.modes.modes import Modes
+from .body.modes.touchdown import Height, MaximumPressure, NetAcceleration
+from .body.place.particles import Particles
+from .body.place.snake import SnakeGame
 from .body.position import MeanOfFeet
-from .body.snake import SnakeGame
-from .body.touchdown import Height, MaximumPressure, NetAcceleration
-from .body.walking_state import AnglePerMetre
 from .foot.bias_zupt import BiasZupt
 from .foot.contour_stance import ContourVelocity, GyroscopeMagnitude
 from .foot.cop_cues import CopCues

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from attrs import evolve, frozen
 
-from ..body.modes import Modes
+from ..body.modes.modes import Modes
 from ..calibration import Calibration, CalibrationError
 from ..events import TouchedDown
 from ..foot.cycle import Cycle
@@ -79,7 +79,7 @@ def read_marks(path: Path | str) -> list[Mark]:
 
 
 def touchdowns(walk: Recorded, known: Calibration, heading: float | None = None) -> list[TouchedDown]:
-    """What method III makes of a walk, without any compensation, in the order of time. `heading`: see body/modes.py."""
+    """What method III makes of a walk, without any compensation, in the order of time. `heading`: as in `Modes`."""
     insoles = dict(known.insoles)
     for foot, layout in walk.layouts.items():
         insole = known.insole(foot)

@@ -32,7 +32,7 @@ def add_floorplan(command: argparse.ArgumentParser) -> None:
 def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start | None]:
     """What --floorplan and --start name; what is worth saying of the plan goes to stderr. Failure when the plan cannot
     be used, or nobody can set out there."""
-    from ..body.arrivals import nowhere
+    from ..body.place.arrivals import nowhere
     from ..floorplan.checks import warnings
     from ..floorplan.index import IndexedPlan
     from ..floorplan.plan import FloorPlanError

@@ -13,8 +13,8 @@ from typing import Any
 from attrs import frozen
 
 from .. import recipes
-from ..body.activity import Activities
-from ..body.footstep_activity import TwoSecondWindows
+from ..body.activity.activities import Activities
+from ..body.activity.footstep_activity import TwoSecondWindows
 from ..recipes import AnyActivity
 from ..recording import RecordingError
 from ..train import activities, footstep_activity

@@ -61,8 +61,8 @@ def turned(q: Quat, before: Vec3, after: Vec3, h: float) -> Quat:
 
     Q' = 1/2 Q w, of which the paper prints the matrix, by
     Q_n+1 = Q_n + h/6 (k1 + 2 k2 + 2 k3 + k4), normalised; the paper has 3 k3, a misprint: the weights of the classical
-    method add up to 6; with 3 they add up to 7, and every turn comes out a sixth too wide. Its f(w_n + h/2, ...) is the rate half an interval
-    later: the mean of both.
+    method add up to 6; with 3 they add up to 7, and every turn comes out a sixth too wide. Its f(w_n + h/2, ...) is the
+    rate half an interval later: the mean of both.
     """
     ax, ay, az = before
     cx, cy, cz = after

@@ -17,7 +17,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from attrs import evolve, frozen
 
-from ..body.modes import Modes
+from ..body.modes.modes import Modes
 from ..calibrate.modes import MODES, Mark, mean_errors, step_errors, touchdowns
 from ..calibrate.recorded import Recorded
 from ..calibration import Calibration, InsoleCalibration, merged

@@ -25,9 +25,9 @@ from attrs import frozen
 from numpy.typing import NDArray
 
 from .. import recipes
-from ..body import motion
-from ..body.features import BLOCK, COUNT, REACH, STEP, FootWindow
-from ..body.motion import MotionModel, to_json
+from ..body.activity import motion
+from ..body.activity.features import BLOCK, COUNT, REACH, STEP, FootWindow
+from ..body.activity.motion import MotionModel, to_json
 from ..foot.dedrift import LinearDedrift
 from ..foot.stance import Shoe
 from ..foot.tracker import FootTracker

@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..body.features import COUNT, GYRO, STEP, TRACK
-from ..body.motion import MOTIONS, MotionModel
+from ..body.activity.features import COUNT, GYRO, STEP, TRACK
+from ..body.activity.motion import MOTIONS, MotionModel
 from ..types import Activity
 
 Floats = NDArray[np.float64]

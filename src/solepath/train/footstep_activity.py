@@ -24,9 +24,9 @@ import numpy as np
 from attrs import frozen
 from numpy.typing import NDArray
 
-from ..body import window_model
-from ..body.window_model import LEAST_VARIANCE, Gaussian, WindowModel, seen
-from ..body.windows import HOP, WINDOW, FootWindows, Window
+from ..body.activity import window_model
+from ..body.activity.window_model import LEAST_VARIANCE, Gaussian, WindowModel, seen
+from ..body.activity.windows import HOP, WINDOW, FootWindows, Window
 from ..samples import load_samples
 from ..types import Activity, Foot, Sample
 from . import emulated

@@ -12,8 +12,8 @@ from math import hypot
 
 from attrs import define, field
 
-from ..events import StepTaken
-from ..types import Foot, Vec3
+from ...events import StepTaken
+from ...types import Foot, Vec3
 
 GAIN = 0.06
 """Of one comparison."""

@@ -6,8 +6,8 @@ from math import cos
 
 from attrs import define, field
 
-from ..types import Quat
-from ..vector import IDENTITY, conjugate, from_yaw, multiply, normalise
+from ...types import Quat
+from ...vector import IDENTITY, conjugate, from_yaw, multiply, normalise
 
 QUIET = 0.04
 """A segment that turns by no more than this is quiet, rad: twice the 0.81 degrees to which the paper's sensor is good,

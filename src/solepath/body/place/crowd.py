@@ -9,8 +9,8 @@ from __future__ import annotations
 from math import atan2, hypot, sqrt
 from struct import Struct
 
-from ..events import Candidate
-from ..floorplan.plan import FloorPlan, Point
+from ...events import Candidate
+from ...floorplan.plan import FloorPlan, Point
 
 Row = tuple[float, float, float, float, float, int, int, int]
 """x, y: m, plan frame, less the `origin_of` the plan. a, b: a move (dx, dy) of the track is (a dx - b dy, b dx + a dy)

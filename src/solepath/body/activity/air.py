@@ -7,7 +7,7 @@ from math import exp, log
 
 from attrs import define, field
 
-from ..types import Foot
+from ...types import Foot
 from .hypotheses import (
     DOWN,
     DOWN_THERE,

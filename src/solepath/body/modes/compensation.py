@@ -11,7 +11,7 @@ After Gong et al. 2023 (Sensors 23, 5417), equation (8) and table 1. What the pa
 
 from __future__ import annotations
 
-from ..types import Foot, Vec3, WalkingMode
+from ...types import Foot, Vec3, WalkingMode
 
 Compensation = dict[Foot, dict[WalkingMode, tuple[float, float]]]
 """(forward, left), m, by the foot that comes down and the mode."""

@@ -17,8 +17,8 @@ from math import radians, sqrt
 
 from attrs import define, field, frozen
 
-from ..types import Vec3
-from ..vector import GRAVITY, TIE
+from ...types import Vec3
+from ...vector import GRAVITY, TIE
 
 HOP = 0.5
 """A window begins this much later than the one before, s."""

@@ -35,9 +35,9 @@ from __future__ import annotations
 
 from attrs import define, field
 
-from ..events import ActivityChanged, Event, LiftRidden
-from ..foot.tracker import FootTracker
-from ..types import Activity, Foot, Sample, Site
+from ...events import ActivityChanged, Event, LiftRidden
+from ...foot.tracker import FootTracker
+from ...types import Activity, Foot, Sample, Site
 from .hmm import forward, spread, weighed
 from .window_model import WindowModel, shipped
 from .windows import BLOCKS, HOP, WINDOW, FootWindows, Window

@@ -11,12 +11,12 @@ from math import hypot
 
 from attrs import define
 
-from ..floorplan.index import IndexedPlan
-from ..floorplan.plan import Point
+from ...floorplan.index import IndexedPlan
+from ...floorplan.plan import Point
 from .crowd import Row, origin_of, resampled
 from .landings import Landing, beside, landings
 from .noise import NOISE, ROWS, following
-from .place import Placing
+from .placing import Placing
 
 STEP = 0.06
 """A step errs by this share of its length, each way (half the width of an even distribution) ..."""

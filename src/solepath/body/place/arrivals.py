@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import cos, pi, sin
 
-from ..floorplan.index import IndexedPlan
-from ..floorplan.plan import FloorPlan, FloorPlanError, Kind, Point, Start
+from ...floorplan.index import IndexedPlan
+from ...floorplan.plan import FloorPlan, FloorPlanError, Kind, Point, Start
 from .crowd import Row, origin_of
 from .landings import Landing, landings, nearest, ways_out
 from .noise import NOISE, ROWS

@@ -12,9 +12,9 @@ from math import atan2, hypot, sqrt
 
 from attrs import define, field
 
-from ..foot.attitude import Levelling, Rest
-from ..types import Quat, Vec3
-from ..vector import GRAVITY, ZERO, from_rotation_vector, multiply, normalise, rotate, sub
+from ...foot.attitude import Levelling, Rest
+from ...types import Quat, Vec3
+from ...vector import GRAVITY, ZERO, from_rotation_vector, multiply, normalise, rotate, sub
 
 LONGEST = 0.25
 """A gap longer than this is not integrated over, s."""

@@ -11,10 +11,10 @@ from math import log, sqrt
 
 from attrs import define, field
 
-from ..events import Event, FootFlat, HeelStrike, StepTaken
-from ..foot.tracker import FootTracker
-from ..types import Vec3
-from ..vector import ZERO
+from ...events import Event, FootFlat, HeelStrike, StepTaken
+from ...foot.tracker import FootTracker
+from ...types import Vec3
+from ...vector import ZERO
 
 BLOCK = 0.5
 """s."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from attrs import define, field
 
-from ..events import Rejection
-from ..foot.refusal import Refusal, refusal
-from ..types import Sample, Site
+from ...events import Rejection
+from ...foot.refusal import Refusal, refusal
+from ...types import Sample, Site
 from .inclination import Inclination
 from .limbs import LowerLimbs
 

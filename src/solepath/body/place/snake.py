@@ -15,11 +15,11 @@ from math import atan2, cos, hypot, sin
 
 from attrs import define
 
-from ..floorplan.index import IndexedPlan
-from ..floorplan.plan import Point
+from ...floorplan.index import IndexedPlan
+from ...floorplan.plan import Point
 from .crowd import Row, origin_of, resampled
 from .landings import Landing, beside, landings
-from .place import Placing
+from .placing import Placing
 
 BENDS = (0.06, 0.14, 0.24)
 """One that meets a wall turns by so much, rad, to either side ..."""

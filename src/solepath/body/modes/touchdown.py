@@ -15,8 +15,8 @@ from __future__ import annotations
 
 from attrs import define, field
 
-from ..types import Foot, Vec3
-from ..vector import TIE, ZERO, sub
+from ...types import Foot, Vec3
+from ...vector import TIE, ZERO, sub
 
 OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 

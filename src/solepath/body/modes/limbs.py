@@ -17,9 +17,9 @@ from typing import NamedTuple
 
 from attrs import define, field
 
-from ..calibration import Limbs
-from ..types import Foot, Quat, Site, Vec3
-from ..vector import IDENTITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate
+from ...calibration import Limbs
+from ...types import Foot, Quat, Site, Vec3
+from ...vector import IDENTITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate
 from .segment import Segment
 
 ABOVE = (Site.PELVIS, Site.LEFT_THIGH, Site.RIGHT_THIGH, Site.LEFT_SHANK, Site.RIGHT_SHANK)

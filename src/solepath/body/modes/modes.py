@@ -29,20 +29,20 @@ from math import atan2, hypot
 
 from attrs import define, evolve, field
 
-from ..calibration import Calibration, Limbs
-from ..events import Event, Limitation, TouchedDown, WalkingModeChanged
-from ..foot.refusal import rejected
-from ..foot.tracker import FootTracker
-from ..foot.world import Covariance3
-from ..types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
-from ..vector import TIE, ZERO, sub
+from ...calibration import Calibration, Limbs
+from ...events import Event, Limitation, TouchedDown, WalkingModeChanged
+from ...foot.refusal import rejected
+from ...foot.tracker import FootTracker
+from ...foot.world import Covariance3
+from ...types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
+from ...vector import TIE, ZERO, sub
+from ..position import Position
 from .above import Above
 from .compensation import Compensation, chosen, epsilon_p, with_own
 from .evidence import UNSEEN
 from .limbs import ABOVE
 from .mode import LEAST_STEP, TH
 from .places import Places
-from .position import Position
 from .recognition import Recognition
 from .signs import Signs
 from .touchdown import OTHER, AnyTouchdown, Carrier, Height, MaximumPressure, suspended

@@ -13,14 +13,14 @@ from math import atan2, cos, hypot, pi, sin
 
 from attrs import define, field
 
-from ..calibration import Limbs
-from ..events import Event
-from ..foot.tracker import FootTracker
-from ..types import Foot, Sample, Vec3
-from ..vector import ZERO, sub
+from ...calibration import Limbs
+from ...events import Event
+from ...foot.tracker import FootTracker
+from ...types import Foot, Sample, Vec3
+from ...vector import ZERO, sub
+from ..position import MeanOfFeet, Placed
 from .limbs import LowerLimbs
 from .mode import LEAST_STEP
-from .position import MeanOfFeet, Placed
 from .touchdown import OTHER, suspended, v_change
 
 FIRST_WAY = 1.5

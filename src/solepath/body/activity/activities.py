@@ -19,10 +19,10 @@ from typing import Protocol
 
 from attrs import define, evolve, field
 
-from ..events import ActivityChanged, Event, LiftRidden, StepFeatures, StepTaken
-from ..foot.tracker import FootTracker
-from ..types import Activity, Foot, Sample, Site
-from ..vector import TIE
+from ...events import ActivityChanged, Event, LiftRidden, StepFeatures, StepTaken
+from ...foot.tracker import FootTracker
+from ...types import Activity, Foot, Sample, Site
+from ...vector import TIE
 from .air import NOTHING, Air
 from .features import BLOCK, REACH, FootWindow
 from .flights import Flights

@@ -15,10 +15,10 @@ from math import hypot, isfinite
 
 from attrs import define, field, frozen
 
-from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StepTaken
-from ..floorplan.plan import FloorPlan, Kind
-from ..types import Activity, Foot, Vec3
-from .position import Position
+from ...events import ActivityChanged, Event, FlightClimbed, LiftRidden, StepTaken
+from ...floorplan.plan import FloorPlan, Kind
+from ...types import Activity, Foot, Vec3
+from ..position import Position
 
 RISE = 0.165
 """Of one step of a stair, m, where neither track nor plan tells a height."""

@@ -6,7 +6,7 @@ from math import exp, hypot
 
 from attrs import frozen
 
-from ..floorplan.plan import FloorPlan, Kind, Point
+from ...floorplan.plan import FloorPlan, Kind, Point
 
 REACH = 5.0
 """Somebody who goes onto stairs or into a lift is within this of it as the track has it, m."""

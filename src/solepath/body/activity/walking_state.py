@@ -6,11 +6,11 @@ from __future__ import annotations
 
 from attrs import define, field
 
-from ..events import ActivityChanged, Event, StepTaken
-from ..foot.steepness import steepness
-from ..foot.tracker import FootTracker
-from ..types import Activity, Phase, Sample, Site
-from ..vector import TIE
+from ...events import ActivityChanged, Event, StepTaken
+from ...foot.steepness import steepness
+from ...foot.tracker import FootTracker
+from ...types import Activity, Phase, Sample, Site
+from ...vector import TIE
 from .flights import Flights
 
 _OF_STEP = {0: Activity.WALKING, 1: Activity.STAIRS_UP, -1: Activity.STAIRS_DOWN}

@@ -14,8 +14,8 @@ from math import exp, log
 
 from attrs import define, evolve, field, frozen
 
-from ..types import Activity
-from ..vector import TIE
+from ...types import Activity
+from ...vector import TIE
 from .features import BLOCK
 from .ride import HALT, HALT_VARIES, USUAL, VARIES, Felt, Level, Ride
 

@@ -6,10 +6,10 @@ from math import hypot
 
 from attrs import define, field
 
-from ..events import Event, FootFlat, Limitation, StepTaken
-from ..foot.tracker import FootTracker
-from ..types import SITE_OF_FOOT, Foot, Phase, Sample
-from ..vector import GRAVITY, rotate
+from ...events import Event, FootFlat, Limitation, StepTaken
+from ...foot.tracker import FootTracker
+from ...types import SITE_OF_FOOT, Foot, Phase, Sample
+from ...vector import GRAVITY, rotate
 from .evidence import Evidence
 from .touchdown import AnyTouchdown, Flags, FootState, Height, MaximumPressure, NetAcceleration
 

@@ -17,8 +17,8 @@ from __future__ import annotations
 
 from attrs import define, field
 
-from ..events import FlightClimbed, StepTaken
-from ..types import Foot
+from ...events import FlightClimbed, StepTaken
+from ...types import Foot
 
 
 @define

@@ -25,7 +25,7 @@ from __future__ import annotations
 
 from attrs import define, field
 
-from ..types import Foot, Layout, WalkingMode
+from ...types import Foot, Layout, WalkingMode
 
 POINTS: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
     "F1": ((0.66, 0.30), (0.71, -0.30)),

@@ -14,17 +14,17 @@ from typing import Protocol
 
 from attrs import define, field
 
-from ..events import Event, Placed, PlaceLost, StepTaken
-from ..floorplan.index import IndexedPlan
-from ..floorplan.plan import FloorPlan, Kind, Point, Start
-from ..types import Vec3
-from ..vector import ZERO
+from ...events import Event, Placed, PlaceLost, StepTaken
+from ...floorplan.index import IndexedPlan
+from ...floorplan.plan import FloorPlan, Kind, Point, Start
+from ...types import Vec3
+from ...vector import ZERO
+from ..position import Position
 from .arrivals import anew, changing, fan, nowhere, out
 from .crowd import Row, believed, effective, origin_of, packed, resampled, unpacked
 from .landings import landings, ways_out
 from .noise import NOISE, ROWS, following
 from .pace import Pace
-from .position import Position
 from .reference import Arrived, Held, References
 
 

@@ -13,7 +13,7 @@ from math import exp, log, pi, sqrt
 
 from attrs import define, evolve, frozen
 
-from ..vector import GRAVITY
+from ...vector import GRAVITY
 
 USUAL = 0.6
 """Acceleration of a lift that starts or stops, m/s^2, and"""

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from attrs import define, field
 
-from ..types import Foot, Layout, WalkingMode
+from ...types import Foot, Layout, WalkingMode
 from .mode import LEAST_STEP, LINGERS, STANDING_WEIGHT, TH, Contact, at_pace, decide
 from .touchdown import OTHER, FootState, MaximumPressure
 
