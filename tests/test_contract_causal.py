@@ -14,11 +14,13 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 from solepath import (
+    ActivityChanged,
     FootFlat,
     FootMoved,
     HeelOff,
     HeelStrike,
     Packet,
+    Placed,
     Sample,
     Session,
     Site,
@@ -70,8 +72,23 @@ def test_what_was_final_stays_when_more_comes(name: str, data: st.DataObject) ->
     some = machine.items[: data.draw(st.integers(1, len(machine.items)))]
     told = [event for item in some for event in one.feed(item)]
     assert tuple(told) == whole[: len(told)]
-    # the live position is never final, and a touchdown not before the wearer's first heading is settled
-    assert all(event.final for event in told if not isinstance(event, FootMoved | TouchedDown | Sample))
+    # live positions and places are never final, a touchdown not before the wearer's first heading is settled, an
+    # activity as long as it may turn out to be another
+    live = FootMoved | Placed | TouchedDown | ActivityChanged | Sample
+    assert all(event.final for event in told if not isinstance(event, live))
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])
+def test_an_activity_that_is_final_is_never_replaced_and_a_revision_names_what_it_replaces(name: str) -> None:
+    told: list[ActivityChanged] = []
+    for event in of(ActivityChanged, list(fed_singly(name))):
+        assert not any(before.final and before.t >= event.t for before in told), event
+        if event.revises is not None:
+            named = [before for before in told if before.t == event.revises]
+            assert named and not any(before.final for before in told if before.t >= event.revises), event
+            told = [before for before in told if before.t < event.revises]
+        told = [before for before in told if before.t < event.t]
+        told.append(event)
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])

@@ -146,6 +146,8 @@ class Session:
         if not self._state.finished:
             for decoder in self._state.decoders.values():
                 self._take(decoder.site, decoder.finish(), events)
+            if self._state.now is not None:
+                events += self._state.wearer.finish(self._state.now)
             self._state.finished = True
         return events
 

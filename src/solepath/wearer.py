@@ -104,6 +104,10 @@ class Wearer:
         if site.foot is not None and site.foot in self.feet:
             self.feet[site.foot].interrupt()
 
+    def finish(self, known_at: float) -> list[Event]:
+        """No more samples come: what was held back. `known_at`: s, now."""
+        return [*self.activity.finish(known_at), *self.turns.finish(known_at)]
+
     def _follow(self, plan: IndexedPlan, events: list[Event]) -> None:
         """Where on the plan `events` lead."""
         if any([isinstance(event, LEADS) for event in events]):

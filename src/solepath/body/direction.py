@@ -100,6 +100,10 @@ class Direction:
         newest = max(-1e12 if foot.stepped is None else foot.stepped for foot in (self.left, self.right))
         return self._over() if t - newest > self.stands else None
 
+    def finish(self) -> Turned | None:
+        """The turn under way, which nobody will go on with."""
+        return None if self.began is None else self._over()
+
     def interrupt(self, foot: Foot) -> None:
         """The clock of a foot begins anew: a turn under way has no length, and is forgotten."""
         self.began = None

@@ -71,6 +71,11 @@ class Turns:
                 found.append(turned)
         return [made(turned, known_at) for turned in found if abs(turned.angle) > 0.5 * SLIGHT]
 
+    def finish(self, known_at: float) -> list[TurnMade]:
+        """Nobody steps any more: the turn under way, if any, is over."""
+        turned = self.direction.finish()
+        return [] if turned is None or abs(turned.angle) <= 0.5 * SLIGHT else [made(turned, known_at)]
+
     def interrupt(self, site: Site) -> None:
         """The clock of a site's samples begins anew."""
         if site.foot is not None:

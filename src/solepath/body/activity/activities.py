@@ -70,6 +70,9 @@ class ActivityPart(Protocol):
     def interrupt(self, site: Site) -> None:
         """The clock of the samples of a site begins anew."""
 
+    def finish(self, known_at: float) -> list[Event]:
+        """Nothing more comes: whatever was held back comes out. `known_at`: s, now."""
+
 
 @define
 class Activities:

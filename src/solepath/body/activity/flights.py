@@ -95,6 +95,13 @@ class Flights:
                 self.stood = {}
         return events
 
+    def finish(self, known_at: float) -> list[FlightClimbed]:
+        """Nobody steps any more: the flight under way is over."""
+        events: list[FlightClimbed] = []
+        if self.way != 0:
+            self._over(known_at, events)
+        return events
+
     def _begin(self, step: StepTaken, way: int) -> None:
         self.way = way
         self.t_start, self.t_end = step.t_start, step.t

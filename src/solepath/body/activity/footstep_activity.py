@@ -127,6 +127,10 @@ class TwoSecondWindows:
             self.activity = Activity.UNKNOWN
             self.feet, self.standing = {}, {}
 
+    def finish(self, known_at: float) -> list[Event]:
+        """As in `ActivityPart`: half a window tells nothing."""
+        return []
+
     def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
         """A foot has used `sample`."""
         acc = sample.acc

@@ -45,6 +45,10 @@ class AnglePerMetre:
         self.since = self.moved_at = self.stepped_at = None
         self.flights.interrupt()
 
+    def finish(self, known_at: float) -> list[Event]:
+        """As in `ActivityPart`."""
+        return [*self.flights.finish(known_at)]
+
     def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
         """As in `ActivityPart`."""
         t = sample.t
