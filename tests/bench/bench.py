@@ -21,9 +21,11 @@ from yardstick import Yardstick
 
 from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StepTaken, recipes
 from solepath.calibration import InsoleCalibration
+from solepath.floorplan.index import IndexedPlan
 from solepath.foot.cycle import Cycle
 from solepath.foot.dedrift import LinearDedrift
 from solepath.link.decoder import Decoder
+from solepath.sim.building import BUILDING
 from solepath.sim.insole_device import Insole
 from solepath.sim.insoles import layout
 from solepath.sim.parts import LSM6DSOX
@@ -32,6 +34,7 @@ from solepath.sim.route import Route
 from solepath.sim.suit import limb_samples
 from solepath.sim.walk import emulate
 from solepath.sim.walker import Walker
+from solepath.sim.ways import wandering
 from solepath.types import SITE_OF_FOOT
 
 RUNS = 5
@@ -92,6 +95,47 @@ def told_of(recipe: Recipe, infos: list[Packet]) -> Session:
     return session
 
 
+class Timed:
+    """Stands before a part of a wearer and sums up what its calls take, garbage collector or not."""
+
+    def __init__(self, part: Any) -> None:
+        self.part = part
+        self.taken = 0.0
+
+    def __getattr__(self, name: str) -> Any:
+        what = getattr(self.part, name)
+        if not callable(what):
+            return what
+
+        def timed(*arguments: Any) -> Any:
+            began = perf_counter()
+            try:
+                return what(*arguments)
+            finally:
+                self.taken += perf_counter() - began
+
+        return timed
+
+
+def parts_of(items: list[Sample], recipe: Recipe, plan: IndexedPlan) -> dict[str, float]:
+    """Microseconds a sample that activities, turns and the place on a plan take in a walk through a building."""
+    found: dict[str, list[float]] = {"activity": [], "turns": [], "place": []}
+    for _ in range(RUNS):
+        session = Session(recipe, floorplan=plan)
+        wearer = session._state.wearer
+        watched = {name: Timed(getattr(wearer, name)) for name in found}
+        for name, part in watched.items():
+            setattr(wearer, name, part)
+        gc.collect()
+        gc.disable()
+        for item in items:
+            session.feed(item)
+        gc.enable()
+        for name, part in watched.items():
+            found[name].append(part.taken / len(items) * 1e6)
+    return {name: median(taken) for name, taken in found.items()}
+
+
 def _moment(sample: Sample) -> float:
     return sample.t
 
@@ -149,6 +193,15 @@ def main() -> None:
     add("insole frame, 96 cells: session", each(frames, Session, info), "us a packet")
     add("insole frame, 96 cells: session, FootMoved", each(frames, lambda: Session(poses=True), info), "us a packet")
     add("insole fragment of 20 bytes: session", each(fragments, Session), "us a packet")
+
+    way = wandering(1)
+    indoors = Walker(way.route, seed=1)
+    wandered = [sample for foot in Foot for sample in indoors.samples(foot, 100.0, LSM6DSOX)]
+    wandered.sort(key=_moment)
+    for recipe in (recipes.DEFAULT, recipes.FOOTSTEP_TRACKER, recipes.SHOE_SENSING):
+        took = parts_of(wandered, recipe, IndexedPlan(BUILDING))
+        for name, what in (("activity", "activities"), ("turns", "turns"), ("place", "place on a floor plan")):
+            add(f"of it {what}, {recipe.name}", took[name])
 
     def both() -> None:
         session = Session()
