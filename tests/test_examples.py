@@ -96,3 +96,12 @@ def test_two_insoles_tell_how_far_both_feet_have_gone():
     assert all("96 cells" in line for line in lines[:2])
     assert float(lines[-1].split()[0]) == pytest.approx(20.0, abs=0.4)
     assert any(line.split()[3] != line.split()[6] for line in lines[2:-1]), "no stride was calibrated by the other foot"
+
+
+def test_in_a_building_walls_leave_one_place_of_many():
+    told = run("indoors").splitlines()
+    possible = [int(line.split()[2]) for line in told if " possible place" in line]
+    assert possible == sorted(possible, reverse=True) and possible[0] > possible[-1] == 1
+    did = [line.split()[2] for line in told if line.split()[1:2] == ["s"] and line.split()[2].isupper()]
+    assert did[:2] == ["STANDING", "ELEVATOR_DOWN"] and "WALKING" in did and "ELEVATOR_UP" in did
+    assert float(told[-1].split()[-4]) < 3.0

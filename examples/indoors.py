@@ -1,0 +1,41 @@
+"""Where in a building somebody is who wears two SensorTags in the shoes, and what they do there.
+
+    python examples/indoors.py
+
+An emulated wearer takes a lift down, walks along corridors and leaves by another lift. Nobody tells where it begins.
+"""
+
+from math import hypot
+from pathlib import Path
+
+from solepath import ActivityChanged, LiftRidden, Placed, Session, Site, recipes
+from solepath.floorplan.reading import read_floorplan
+from solepath.sim.sensortags import CC2541
+from solepath.sim.shoe import IN_SOLE
+from solepath.sim.walk import emulate
+from solepath.sim.ways import case_study
+
+plan = read_floorplan(Path(__file__).with_name("building.geojson"))
+way = case_study()
+tag = CC2541(rate=20.0, mounting=IN_SOLE)
+walk = emulate(way.route, devices={Site.LEFT_FOOT: tag, Site.RIGHT_FOOT: tag}, seed=2)
+
+session = Session(recipes.FOOTSTEP_TRACKER, floorplan=plan)
+possible = 100
+for event in session.feed(walk.packets) + session.finish():
+    match event:
+        case ActivityChanged(t=t, activity=activity, final=True):
+            print(f"{t:5.1f} s  {activity.value}")
+        case LiftRidden(t=t, up=up):
+            print(f"{t:5.1f} s  out of the lift that went {'up' if up else 'down'}")
+        case Placed(t=t, level=level, position=(x, y, _), candidates=candidates):
+            if len(candidates) <= possible // 2:
+                possible = len(candidates)
+                places = "place" if possible == 1 else "places"
+                print(f"{t:5.1f} s  {possible} possible {places}, the best on level {level} at ({x:.1f}, {y:.1f})")
+
+place = session.place
+if place is not None:
+    ((level, x, y),) = way.places(walk.walker, place.t)
+    off = hypot(place.position[0] - x, place.position[1] - y)
+    print(f"At the end on level {place.level}; truly on level {level}, {off:.1f} m from there.")
