@@ -19,7 +19,7 @@ from solepath.calibration import Calibration, CalibrationError, merged, read_cal
 from solepath.cli.main import main
 from solepath.events import Event, StepFeatures, StepTaken, TurnMade
 from solepath.foot.projection import Projection
-from solepath.recipes import FOOTSTEP_TRACKER, Recipe
+from solepath.recipes import DEFAULT, FOOTSTEP_TRACKER, Recipe
 from solepath.recording import PacketWriter
 from solepath.samples import load_samples
 from solepath.sim.route import Route
@@ -163,6 +163,26 @@ def test_one_foot_stepping_on_the_spot_does_not_end_the_other_s_turn() -> None:
     assert len(found) == 1 and degrees(found[0].angle) == pytest.approx(170.0)
 
 
+def test_a_foot_that_pivots_without_a_step_has_turned_all_the_same() -> None:
+    direction = Direction()
+    told(direction, both([(0, 0), (0, 0)]))
+    for k in range(3):
+        assert direction.pivot(Foot.LEFT, 3.0 + k, 3.5 + k, radians(30.0)) is None
+        assert direction.pivot(Foot.RIGHT, 3.5 + k, 4.0 + k, radians(32.0)) is None
+    (found,) = told(direction, both([(0, 0), (0, 0)], first=7.0))
+    assert degrees(found.angle) == pytest.approx(93.0)
+    assert (found.t_start, found.t_end) == (3.0, 6.0)
+
+
+def test_a_foot_that_shuffles_where_it_stands_has_not_turned_nor_gone_straight_on() -> None:
+    direction = Direction()
+    told(direction, both([(0, 0), (45, 45)]))
+    for k in range(4):
+        assert direction.pivot(Foot.RIGHT, 2.6 + 0.1 * k, 2.7 + 0.1 * k, radians(3.0)) is None
+    (found,) = told(direction, both([(45, 45), (0, 0), (0, 0)], first=3.5))
+    assert degrees(found.angle) == pytest.approx(90.0)
+
+
 def test_a_foot_that_swings_by_more_than_half_a_turn_means_what_the_other_does() -> None:
     left, right = agreed(radians(-175.0), radians(160.0))
     assert left is not None and right is not None
@@ -278,7 +298,21 @@ def test_a_walk_over_a_bad_radio_is_the_same_however_it_is_cut_and_saved() -> No
     assert of(StepTaken, whole)
 
 
-@pytest.mark.parametrize("rate", [20.0, 100.0, 400.0])
+@pytest.mark.parametrize("recipe", [DEFAULT, FOOTSTEP_TRACKER])
+@pytest.mark.parametrize(("degrees_", "turn"), [(90.0, Turn.LEFT), (-90.0, Turn.RIGHT), (-180.0, Turn.ABOUT)])
+def test_who_turns_on_the_spot_has_turned_though_the_feet_hardly_leave_the_ground(
+    recipe: Recipe, degrees_: float, turn: Turn
+) -> None:
+    device = CC2541(rate=20.0, mounting=IN_SOLE)
+    route = Route().stand(2.0).walk(3.0, 1.2).turn(radians(degrees_)).walk(3.0).stop(2.0)
+    walked = emulate(route, devices={LEFT: device, RIGHT: evolve(device)}, seed=109)
+    session = Session(recipe)
+    (made,) = of(TurnMade, session.feed(walked.packets) + session.finish())
+    assert made.turn is turn
+    assert abs(degrees(made.angle) - degrees_) < 30.0
+
+
+@pytest.mark.parametrize("rate", [10.0, 20.0, 100.0, 400.0])
 def test_steps_are_found_at_any_rate(rate: float) -> None:
     session = Session(FOOTSTEP_TRACKER)
     events = session.feed(samples(cells=0, rate=rate)) + session.finish()

@@ -13,16 +13,16 @@ from solepath import machine
 from solepath.foot.critical_cues import CriticalCues
 from solepath.foot.critical_times import CriticalTimes, Row, critical_times
 from solepath.foot.phase import Cue
-from solepath.foot.projection import (
-    Projection,
+from solepath.foot.projection import Projection
+from solepath.foot.segment import FootAxes, Segment, turned_to, with_offset
+from solepath.foot.stance import Stance
+from solepath.foot.static_zones import StaticZones
+from solepath.foot.step_length import (
     closed_step_length,
     step_length,
     turned,
     turned_about_vertical,
 )
-from solepath.foot.segment import FootAxes, Segment, turned_to, with_offset
-from solepath.foot.stance import Stance
-from solepath.foot.static_zones import StaticZones
 from solepath.foot.turning_steps import TurningSteps
 from solepath.types import Foot, Phase, Vec3
 from solepath.vector import GRAVITY, ZERO

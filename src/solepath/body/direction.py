@@ -3,6 +3,9 @@
 Turning steps are told from steps straight on (foot/turning_steps.py). "For a n-step turning process, we then sum the
 alpha_i up to get the turning degree alpha for one foot. Then we use the mean of the two feet as the turning degree."
 By theorem 1 the feet may point anywhere, as long as they keep doing so. Works on the steps of any recipe.
+
+Who turns on the spot steps with hardly any swing: a foot that was flat, left the ground unseen and is flat again,
+turned, has pivoted. That is no step, but part of a turn.
 """
 
 from __future__ import annotations
@@ -15,7 +18,7 @@ from ..events import StepTaken
 from ..foot.turning_steps import TurningSteps
 from ..types import Foot
 
-STANDS = 1.5
+STANDS = 2.0
 """Who turns and then stands has turned, when no foot has come down for so long, s, or for as long as the last turning
 step took with what went before it, but not for longer than"""
 PATIENCE = 4.0
@@ -70,21 +73,11 @@ class Direction:
 
     def step(self, taken: StepTaken) -> Turned | None:
         """One step of either foot, in the order in which they became known; the turn that is over by it."""
-        foot, other = (self.left, self.right) if taken.foot is Foot.LEFT else (self.right, self.left)
+        foot, other = self._feet(taken.foot)
         angle = foot.turning.turn(taken.heading_change)
         foot.stepped = taken.t_end
         if angle != 0.0:
-            over = None
-            if self.began is not None and taken.t_start - self.ended > self.stands:
-                over = self._over()
-            if self.began is None:
-                self.began = self.ended = taken.t_start
-                foot.angle = other.angle = 0.0
-            foot.angle += angle
-            foot.straight = other.straight = 0
-            self.ended = max(self.ended, taken.t_end)
-            self.stands = min(max(STANDS, 0.8 * self.stands, taken.t_end - taken.t_start), PATIENCE)
-            return over
+            return self._turning(foot, other, taken.t_start, taken.t_end, angle)
         foot.straight += 1
         if self.began is None:
             return None
@@ -92,6 +85,31 @@ class Direction:
             return self._over() if foot.straight > 1 else None
         both = other.straight > 0 and foot.straight + other.straight >= STRAIGHT
         return self._over() if both or foot.straight >= STRAIGHT else None
+
+    def pivot(self, foot: Foot, t_start: float, t_end: float, angle: float) -> Turned | None:
+        """A foot that took no step from one foot-flat to the next, s, has turned by `angle`, rad: as above, but when it
+        is no turning step it is nothing."""
+        this, other = self._feet(foot)
+        if abs(angle) <= this.turning.straight:
+            return None
+        this.stepped = t_end
+        return self._turning(this, other, t_start, t_end, angle)
+
+    def _feet(self, foot: Foot) -> tuple[FootTurn, FootTurn]:
+        return (self.left, self.right) if foot is Foot.LEFT else (self.right, self.left)
+
+    def _turning(self, foot: FootTurn, other: FootTurn, t_start: float, t_end: float, angle: float) -> Turned | None:
+        over = None
+        if self.began is not None and t_start - self.ended > self.stands:
+            over = self._over()
+        if self.began is None:
+            self.began = self.ended = t_start
+            foot.angle = other.angle = 0.0
+        foot.angle += angle
+        foot.straight = other.straight = 0
+        self.ended = max(self.ended, t_end)
+        self.stands = min(max(STANDS, 0.8 * self.stands, t_end - t_start), PATIENCE)
+        return over
 
     def stood(self, t: float) -> Turned | None:
         """It is `t` s; the turn that is over because nobody has stepped since."""

@@ -14,9 +14,10 @@ from math import pi
 
 from attrs import define, field
 
-from ..events import Event, StepTaken, TurnMade
+from ..events import Event, FootFlat, StepTaken, TurnMade
 from ..foot.tracker import FootTracker
-from ..types import Sample, Site, Turn
+from ..foot.turn import heading_turned
+from ..types import Foot, Quat, Sample, Site, Turn
 from .direction import Direction, Turned
 
 SLIGHT = 0.61
@@ -48,28 +49,51 @@ def classified(left: float | None, right: float | None) -> Turn | None:
 
 
 @define
+class Lain:
+    """When a foot was last flat, s, and its attitude then, navigation frame."""
+
+    since: float
+    attitude: Quat
+
+
+@define
 class Turns:
-    """What the wearer's steps turned. Latency: as `Direction` has it."""
+    """What the wearer's steps turned, and what the feet did between them. Latency: as `Direction` has it."""
 
     # state
     direction: Direction = field(factory=Direction, init=False)
+    lain: dict[Foot, Lain] = field(factory=dict, init=False)
 
     def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[TurnMade]:
         """The turns that are over: `events` are what came of `sample`."""
         found: list[Turned] = []
         known_at = sample.t
         for event in events:
-            if isinstance(event, StepTaken):
+            if not isinstance(event, StepTaken | FootFlat):
+                continue
+            turned = self._footfall(foot, event, events)
+            if turned is not None:
                 known_at = event.known_at
-                turned = self.direction.step(event)
-                if turned is not None:
-                    found.append(turned)
+                found.append(turned)
         if not found and self.direction.began is not None:
             turned = self.direction.stood(sample.t)
             if turned is not None:
                 known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
                 found.append(turned)
         return [made(turned, known_at) for turned in found if abs(turned.angle) > 0.5 * SLIGHT]
+
+    def _footfall(self, foot: FootTracker, event: StepTaken | FootFlat, events: list[Event]) -> Turned | None:
+        """A step is one by itself; a foot that is flat without one may have pivoted."""
+        if isinstance(event, StepTaken):
+            return self.direction.step(event)
+        if not foot.levelled:
+            return None
+        lay, now = self.lain.get(event.foot), foot.gait.step.attitude
+        self.lain[event.foot] = Lain(event.t, now)
+        stepped = any(isinstance(one, StepTaken) and one.t == event.t for one in events)
+        if lay is None or stepped or event.t < lay.since:
+            return None
+        return self.direction.pivot(event.foot, lay.since, event.t, heading_turned(lay.attitude, now))
 
     def finish(self, known_at: float) -> list[TurnMade]:
         """Nobody steps any more: the turn under way, if any, is over."""
@@ -80,6 +104,7 @@ class Turns:
         """The clock of a site's samples begins anew."""
         if site.foot is not None:
             self.direction.interrupt(site.foot)
+            self.lain.pop(site.foot, None)
 
 
 def made(turned: Turned, known_at: float) -> TurnMade:
