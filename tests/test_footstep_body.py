@@ -235,7 +235,7 @@ def test_the_training_turns_are_what_the_emulator_gives() -> None:
 
 
 def test_a_wearer_who_turns_is_told_to_have_turned() -> None:
-    for seed in (1, 2):
+    for seed in (3, 5):  # near 90 and 180 degrees
         for turn in ANGLES:
             session = Session(FOOTSTEP_TRACKER)
             told = [event for packet in walk(seed, turn).packets for event in session.feed(packet)]

@@ -19,6 +19,7 @@ from solepath.foot.stance import Stance
 from solepath.foot.static_zones import StaticZones
 from solepath.foot.step_length import (
     closed_step_length,
+    missed,
     step_length,
     turned,
     turned_about_vertical,
@@ -123,6 +124,57 @@ def test_what_is_left_of_velocity_and_tilt_at_rest_is_taken_out() -> None:
     times = CriticalTimes(0.0, 0.0, 1.0, 1.0)
     assert abs(sum(step_length(drawn, times))) > 0.05
     assert sum(closed_step_length(drawn, times)) == pytest.approx(0.0, abs=1e-6)
+
+
+def clipped(drawn: list[Row], most: float) -> list[Row]:
+    """What a gyroscope that ends at `most` rad/s has of it."""
+    return [(*row[:4], *[min(max(g, -most), most) for g in row[4:]]) for row in drawn]  # type: ignore[misc]
+
+
+def swing() -> list[Row]:
+    """Toe down by 0.6 rad, up to as much, and flat again within 1 s, while the foot goes 1 m ahead: a push and a
+    brake of 4 m/s^2 each along the ground, as a tilted foot feels them."""
+    drawn: list[Row] = []
+    for k in range(201):
+        t = 0.005 * k
+        theta = -0.6 * sin(2.0 * pi * t) * (1.0 - cos(2.0 * pi * t))
+        rate = -1.2 * pi * (cos(2.0 * pi * t) - cos(4.0 * pi * t))
+        push = 4.0 if t < 0.5 else -4.0 if t > 0.5 else 0.0
+        a_y = push * cos(theta) + G * sin(theta)
+        a_z = push * sin(theta) - G * cos(theta)
+        drawn.append((t, 0.0, a_y, a_z, rate, 0.0, 0.0))
+    return drawn
+
+
+def test_what_a_clipped_gyroscope_missed_is_found_from_tilt_and_velocity_at_rest() -> None:
+    drawn, times = swing(), CriticalTimes(0.0, 0.0, 1.0, 1.0)
+    assert sum(closed_step_length(drawn, times)) == pytest.approx(1.0, abs=0.01)
+    seen = clipped(drawn, 4.0)  # its toe rises at up to 7.5 rad/s and sinks at up to 4.2
+    off = abs(sum(closed_step_length(seen, times)) - 1.0)
+    assert off > 0.05
+    assert abs(sum(closed_step_length(seen, times, end=3.99)) - 1.0) < 0.5 * off
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_foot_that_turns_faster_than_its_gyroscope_can_tell_has_turned_further(side: float) -> None:
+    # a bell of 8 rad/s and 0.5 s: 2 rad, of which 5 rad/s leave some
+    bell = [side * 4.0 * (1.0 - cos(4.0 * pi * 0.02 * k)) if k <= 25 else 0.0 for k in range(41)]
+    drawn: list[Row] = [(0.02 * k, 0.0, 0.0, -G, 0.0, 0.0, g) for k, g in enumerate(bell)]
+    times = CriticalTimes(0.0, 0.0, 0.8, 0.8)
+    assert turned_about_vertical(drawn, times) == pytest.approx(side * 2.0, abs=0.01)
+    seen = clipped(drawn, 5.0)
+    told = abs(turned_about_vertical(seen, times))
+    known = abs(turned_about_vertical(seen, times, 4.99))
+    assert told < 1.7
+    assert 0.5 * (2.0 - told) < known - told < 1.1 * (2.0 - told)
+
+
+def test_the_area_under_the_cubic_that_leaves_a_range_and_comes_back_is_as_its_slopes_have_it() -> None:
+    # 10 rad/s^2 up to 1 rad/s, 0.3 s at the end, and down again: T^2 (10 + 10) / 12
+    rates = [0.0, 0.5, 1.0, 1.0, 1.0, 1.0, 0.5, 0.0]
+    drawn: list[Row] = [(0.05 * k, 0.0, 0.0, -G, 0.0, 0.0, g) for k, g in enumerate(rates)]
+    assert missed(drawn, 6, 0.99) == pytest.approx(0.15**2 * 20.0 / 12.0)
+    assert missed(drawn, 6, 1.01) == 0.0
 
 
 def test_a_turn_of_a_tilted_foot_is_about_the_vertical() -> None:

@@ -25,9 +25,9 @@ SLIGHT = 0.61
 turns to the side come to, rad."""
 
 WEIGHTS: dict[Turn, tuple[float, float, float, float, float]] = {
-    Turn.LEFT: (2.73, 0.7, -3.98, -5.14, 3.91),
-    Turn.RIGHT: (-0.7, -2.73, -5.14, -3.98, 3.91),
-    Turn.ABOUT: (-1.19, 1.19, 3.87, 3.87, -4.96),
+    Turn.LEFT: (2.79, 1.82, -4.51, -5.9, 4.24),
+    Turn.RIGHT: (-1.82, -2.79, -5.9, -4.51, 4.24),
+    Turn.ABOUT: (-1.32, 1.32, 4.05, 4.05, -5.55),
 }
 
 

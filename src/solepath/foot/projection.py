@@ -32,9 +32,10 @@ LONGEST = 2.0
 """A foot that has not lain still for longer than this is not followed any further before it does, s."""
 PIVOT = 0.15
 """A foot that lies as if still and yet turns faster than this about the vertical pivots on its sole, rad/s."""
-NEAR_END = 0.88
-"""A rate beyond this share of the largest that was told as saturated may be one, too: the bias is taken off by then,
-which is up to 8 % of a range of 250 degrees/s."""
+ENDS = 0.8
+"""The bias is taken off already: the ends of a gyroscope's ranges differ by no more than this share."""
+AT_END = 0.95
+"""Rates about the foot's axes are somewhat less than about the sensor's, which are up to 15 degrees off."""
 FURTHEST = 3.0
 """No step is longer, m."""
 
@@ -60,7 +61,9 @@ class Projection(Strapdown):
     turning: TurningSteps = field(factory=TurningSteps)
     # state
     end: float = field(default=0.0, init=False)
-    """The largest rate about an axis that the device called saturated, rad/s; 0 when it never did."""
+    """The largest rate about an axis that the device called saturated, rad/s; 0 when it never did;"""
+    near: float = field(default=0.0, init=False)
+    """the least of them, but for those of an accelerometer's saturation."""
     stood: Quat = field(default=IDENTITY, init=False)
     """Attitude at the last rest."""
     anchored: Vec3 = field(default=ZERO, init=False)
@@ -89,7 +92,10 @@ class Projection(Strapdown):
         self.integrate(dt, acc, gyro)
         if saturated:
             x, y, z = gyro
-            self.end = max(self.end, abs(x), abs(y), abs(z))
+            rate = max(abs(x), abs(y), abs(z))
+            self.end = max(self.end, rate)
+            if self.near < ENDS * self.end or ENDS * self.end <= rate < self.near:
+                self.near = rate
         self.moving += dt
         if self.moving > LONGEST:
             self.velocity, self.position = ZERO, before
@@ -131,7 +137,7 @@ class Projection(Strapdown):
         if self.printed:
             length, turn = sum(step_length(rows, times, phi)), turned(rows, times)
         else:
-            end = NEAR_END * self.end if self.end > 0.0 else inf
+            end = AT_END * self.near if self.near > 0.0 else inf
             length, turn = sum(closed_step_length(rows, times, phi, end)), turned_about_vertical(rows, times, end)
         turn = self.turning.turn(turn)
         fx, fy, _ = rotate(self.stood, segment.forward)

@@ -37,7 +37,7 @@ EACH = 30
 """Turns of each class (section V.E)."""
 WEARERS = 3
 ANGLES = {Turn.LEFT: 90.0, Turn.RIGHT: -90.0, Turn.ABOUT: 180.0}
-SPREAD = 5.0
+SPREAD = 15.0
 """Nobody turns by 90 degrees exactly: standard deviation, degrees."""
 ROUNDS = 20_000
 SLACK = 1e-3
