@@ -19,8 +19,11 @@ from solepath.foot.eskf import ErrorStateFilter
 from solepath.foot.tracker import FootTracker
 from solepath.machine import load, save
 from solepath.recipes import FOOTSTEP_TRACKER
+from solepath.reproduce import footstep_tracker
 from solepath.timeline import Timeline
-from solepath.train import emulated
+from solepath.train import activities, emulated
+from solepath.train import footstep_activity as footstep_training
+from solepath.train import turns as turns_training
 from solepath.train.footstep_activity import Taught, Told, threshold, train
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample
 from solepath.vector import GRAVITY
@@ -382,8 +385,15 @@ def test_features_are_in_the_order_of_their_names():
     assert len(seen(attrs.evolve(window, turning=None))) == len(FEATURES) - 1
 
 
-def test_nothing_that_is_scored_was_learnt_from():
-    assert emulated.FIRST_TO_LEARN_FROM > 50
+def test_no_wearer_that_is_scored_was_learnt_from():
+    first, last = emulated.FIRST_TO_LEARN_FROM, emulated.LAST_TO_LEARN_FROM
+    for seeds in (
+        range(first, first + footstep_training.WALKS),
+        range(turns_training.FIRST_TO_LEARN_FROM, turns_training.FIRST_TO_LEARN_FROM + turns_training.EACH),
+        activities.EMULATED,
+    ):
+        assert first <= min(seeds) and max(seeds) <= last
+    assert last < footstep_tracker.FIRST and first > 50  # and the tests' own wearers come before
 
 
 def test_an_emulated_wearer_is_told_what_he_does():

@@ -29,7 +29,7 @@ class Emulated:
 
 
 def score(recipe: Recipe, seed: int) -> Emulated:
-    """What a session of the recipe says of the walk of a seed. Score seeds below `emulated.FIRST_TO_LEARN_FROM`."""
+    """What a session of the recipe says of the walk of a seed. Score seeds that nothing was learnt from."""
     walked = emulated.walk(seed)
     session, gathering = Session(recipe), Gathering()
     for packet in walked.packets:

@@ -9,13 +9,14 @@ from collections.abc import Sequence
 from math import degrees, hypot, pi, radians
 
 import numpy as np
-from attrs import field, frozen
+from attrs import frozen
 
 from ..calibrate.toe_out import learnt, toe_out
 from ..calibration import Calibration, CalibrationError
-from ..evaluate import emulated_activity
+from ..evaluate import emulated_activity, emulated_place
 from ..evaluate.confusion import ActivityScore
-from ..events import Event, Placed, StepTaken, TurnMade
+from ..evaluate.emulated_place import PlaceScore
+from ..events import Event, StepTaken, TurnMade
 from ..recipes import BY_NAME, Recipe
 from ..session import Session
 from ..sim.building import BUILDING
@@ -24,7 +25,7 @@ from ..sim.route import Route
 from ..sim.sensortags import CC2541
 from ..sim.shoe import IN_SOLE
 from ..sim.walk import EmulatedWalk, emulate
-from ..sim.ways import Way, case_study, corridor
+from ..sim.ways import Way, case_study, corridor, wandering
 from ..sim.wearers import wearer
 from ..types import Foot, Site, Turn
 
@@ -41,9 +42,6 @@ user's height"; the paper does not say how, this is the factor that pedometers u
 INCREMENTS = tuple(radians(angle) for angle in range(-180, 181, 30) if angle)
 """Of fig. 13 (d)."""
 CLASSES = {Turn.LEFT: (0.5 * pi,), Turn.RIGHT: (-0.5 * pi,), Turn.ABOUT: (pi, -pi)}
-Points = tuple[tuple[float, float], ...]
-FOUND_AFTER = 2
-"""Turns: fig. 13 (g) is "started from the second turn"."""
 
 
 @frozen
@@ -72,17 +70,8 @@ class Walked:
     """By the true turn, how far off the angle was."""
     classes: dict[Turn, tuple[int, int]]
     """(right, all)."""
-    placed: tuple[float, ...]
-    """How far off the place was after each step from the second turn on."""
-    decided: int | None
-    """After so many steps there was one candidate; None when there never was."""
-    dropped: int
-    """Steps after which no candidate was within 3 m of the wearer, though there were candidates."""
-    path: Points = field(default=(), repr=False)
-    track: Points = field(default=(), repr=False)
-    """Places since there was one candidate ..."""
-    before: Points = field(default=(), repr=False)
-    """... and all candidates of the time before."""
+    places: tuple[PlaceScore, ...]
+    """Along the way of the paper's case study, and along another."""
 
 
 def wears(seed: int) -> Wears:
@@ -99,11 +88,8 @@ def walked(seed: int) -> Walked:
     one_foot, by_height, two_feet, step_one, step_two = _corridor(known, calibration, seed)
     windows = emulated_activity.score(BY_NAME[NAME], seed).windows
     turned, classes = _turns(known, calibration, seed)
-    placed, decided, dropped, path, track, before = _placed(known, calibration, seed)
-    return Walked(
-        one_foot, by_height, two_feet, step_one, step_two, windows, turned, classes, placed, decided, dropped,
-        path, track, before,
-    )  # fmt: skip
+    places = tuple(_placed(known, calibration, way, seed) for way in (case_study(), wandering(seed)))
+    return Walked(one_foot, by_height, two_feet, step_one, step_two, windows, turned, classes, places)
 
 
 def _tags(feet: Sequence[Foot] = tuple(Foot)) -> dict[Site, CC2541]:
@@ -210,29 +196,6 @@ def _turn(
 # --- place, fig. 13 (f) to (h) ----------------------------------------------------------------------------------------
 
 
-def _placed(
-    known: Wears, calibration: Calibration, seed: int
-) -> tuple[tuple[float, ...], int | None, int, Points, Points, Points]:
-    way = case_study()
+def _placed(known: Wears, calibration: Calibration, way: Way, seed: int) -> PlaceScore:
     walk = emulate(way.route, wearer=known.who, devices=_tags(), seed=seed)
-    events = _heard(walk, BY_NAME[NAME], calibration, way)
-    told = [event for event in events if isinstance(event, Placed)]
-    turns = [event.t for event in events if isinstance(event, TurnMade) and event.turn is not None]
-    second = turns[FOUND_AFTER - 1] if len(turns) >= FOUND_AFTER else float("inf")
-    off, dropped, decided = [], 0, None
-    track, before = [], []
-    places = way.places(walk.walker, np.array([one.t for one in told]))
-    for k, (one, (level, x, y)) in enumerate(zip(told, places, strict=True)):
-        apart = hypot(one.position[0] - x, one.position[1] - y)
-        near = [c for c in one.candidates if hypot(c.position[0] - x, c.position[1] - y) < 3.0 and c.level == level]
-        dropped += not near
-        if decided is None and len(one.candidates) == 1:
-            decided = k + 1
-        if one.t >= second:
-            off.append(apart)
-        if decided is None:
-            before += [(c.position[0], c.position[1]) for c in one.candidates]
-        else:
-            track.append((one.position[0], one.position[1]))
-    path = tuple((x, y) for _, x, y in places)
-    return tuple(off), decided, dropped, path, tuple(track), tuple(before)
+    return emulated_place.score(way, walk.walker, walk.truth, _heard(walk, BY_NAME[NAME], calibration, way))

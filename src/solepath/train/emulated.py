@@ -1,7 +1,7 @@
 """Emulated wearers who stand, walk, climb stairs and take lifts, each another one, at 20 Hz with sensors in the soles.
 
 As in Liu et al. 2015, section V.C, whose wearers "ascend/descend the stairs, walk and take elevator". Seeds from
-`FIRST_TO_LEARN_FROM` are for training; what is scored has a smaller one.
+`FIRST_TO_LEARN_FROM` up to `LAST_TO_LEARN_FROM` are for training; what is scored has another.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from ..types import SITE_OF_FOOT, Foot, Sample
 RATE = 20.0
 """Hz (section IV: "we sample the accelerometer and gyroscope with 20 Hz")."""
 FIRST_TO_LEARN_FROM = 101
+LAST_TO_LEARN_FROM = 999
 
 _Part = Callable[[Route, np.random.Generator], Route]
 
