@@ -6,7 +6,7 @@ Two CC2541 in the insoles at 20 Hz (section IV, "System Deployment"), another pa
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import degrees, hypot, pi, radians
+from math import degrees, hypot, pi, radians, remainder
 
 import numpy as np
 from attrs import frozen
@@ -167,20 +167,23 @@ def _turns(
     turned: dict[float, float] = {}
     for angle in INCREMENTS:
         made = _turn(known, calibration, angle, rng, seed)
-        turned[round(degrees(angle))] = abs(degrees(sum([one.angle for one in made]) - angle))
+        off = sum([one.angle for one in made]) - angle
+        turned[round(degrees(angle))] = abs(degrees(remainder(off, 2.0 * pi)))  # about is about, to either side
     classes = {}
     for turn, angles in CLASSES.items():
         right = 0
         for k in range(PER_CLASS):
-            angle = angles[k % len(angles)] + float(rng.normal(0.0, radians(8.0)))
+            angle = angles[k % len(angles)] + float(rng.normal(0.0, TURN_SPREAD))
             made = _turn(known, calibration, angle, rng, seed + k)
             right += [one.turn for one in made if one.turn is not None] == [turn]
         classes[turn] = (right, PER_CLASS)
     return turned, classes
 
 
-PER_CLASS = 4
+PER_CLASS = 10
 """Turns of each class and wearer; the paper has 30 of three wearers to train with, and five new ones."""
+TURN_SPREAD = radians(15.0)
+"""Nobody turns by 90 degrees exactly: standard deviation; as the classifier was trained (train/turns.py)."""
 
 
 def _turn(
