@@ -231,7 +231,7 @@ def test_the_training_turns_are_what_the_emulator_gives() -> None:
     again = emulated([101])
     assert [one.turn for one in again] == [one.turn for one in kept]
     for one, other in zip(again, kept, strict=True):
-        assert (one.left, one.right) == pytest.approx((other.left, other.right), abs=5.0)
+        assert (one.left, one.right) == pytest.approx((other.left, other.right), abs=0.5)
 
 
 def test_a_wearer_who_turns_is_told_to_have_turned() -> None:

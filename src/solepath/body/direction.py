@@ -1,4 +1,4 @@
-"""Turns of the body from the steps of its feet (Liu et al. 2015, footstep-tracker, section IV.D).
+"""Turns of the body from the steps of its feet (Liu et al. 2015, IEEE MASS, section IV.D).
 
 Turning steps are told from steps straight on (foot/turning_steps.py). "For a n-step turning process, we then sum the
 alpha_i up to get the turning degree alpha for one foot. Then we use the mean of the two feet as the turning degree."

@@ -1,4 +1,4 @@
-"""The feet calibrate each other (Liu et al. 2015, footstep-tracker, section IV.C, "Double feet based calibration").
+"""The feet calibrate each other (Liu et al. 2015, IEEE MASS, section IV.C, "Double feet based calibration").
 
 "If the difference of displacement for each foot is more than one meter, we chose the mean of them as the displacement,
 and restart the estimation process." The feet's ways are added up since the last restart; each step goes in the common

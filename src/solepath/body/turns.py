@@ -1,5 +1,5 @@
 """Left, right and about turns, told apart by a linear classifier on what both feet turned (Liu et al. 2015,
-footstep-tracker, section V.E: "we use the degree of both foot as features of the turn, and use SVM").
+IEEE MASS, section V.E: "we use the degree of both foot as features of the turn, and use SVM").
 
 An about turn to the left and one to the right lie on both sides of everything else, which no line through the plane of
 two angles parts; with their magnitudes beside them one does. Features of a turn, in half turns (rad / pi):

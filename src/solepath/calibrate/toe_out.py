@@ -1,4 +1,4 @@
-"""The toe-out angle from a walk of known length (Liu et al. 2015, footstep-tracker, section IV.C and figure 10).
+"""The toe-out angle from a walk of known length (Liu et al. 2015, IEEE MASS, section IV.C and figure 10).
 
 The wearer walks straight ahead for s metres. The steps along the foot's own direction, the double integral of a_f, come
 to s_f, and since the foot points phi beside its way, phi = arccos(s / s_f).

@@ -1,4 +1,4 @@
-"""Heel-off, toe-off, heel-strike and foot-flat as the critical times of a step (Liu et al. 2015, algorithm 1).
+"""Heel-off, toe-off, heel-strike and foot-flat as critical times of a step (Liu et al. 2015, IEEE MASS, algorithm 1).
 
 A detector that cuts the samples into steps (static_zones.StaticZones) brings them all at once. A foot that lay still
 again without a swing has taken no step, and nothing is said of it.

@@ -1,4 +1,4 @@
-"""The critical times of one step: algorithm 1 of Liu et al. 2015 (footstep-tracker, section IV.C and figure 8).
+"""The critical times of one step: algorithm 1 of Liu et al. 2015 (IEEE MASS, section IV.C and figure 8).
 
 Axes as in the paper's figure 3: x to the wearer's right, y forward, z up. g is the angular rate, right handed: g_x is
 negative while the heel rises and positive while the toe does, g_z is positive for a turn to the left. a_x and a_y are

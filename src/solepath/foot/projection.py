@@ -1,4 +1,4 @@
-"""Step by step over the ground (Liu et al. 2015, footstep-tracker, sections IV.C and IV.D): the corrector.
+"""Step by step over the ground (Liu et al. 2015, IEEE MASS, sections IV.C and IV.D): the corrector.
 
 How long a step is and how far it turns are the equations of step_length.py. What the paper leaves open:
 

@@ -1,4 +1,4 @@
-"""Step segmentation by static zones (Liu et al. 2015, footstep-tracker, section IV.B and figure 7).
+"""Step segmentation by static zones (Liu et al. 2015, IEEE MASS, section IV.B and figure 7).
 
 A static zone is six consecutive samples at 20 Hz that lie within 0.5 m/s^2 of rest on all axes. Between two of them
 lies one step, whose critical times (critical_times.py) are found as soon as the second is. What the letter of this

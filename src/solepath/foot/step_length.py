@@ -1,4 +1,4 @@
-"""Step length by projection onto the ground, and turn by the swing (Liu et al. 2015, footstep-tracker, sections IV.C
+"""Step length by projection onto the ground, and turn by the swing (Liu et al. 2015, IEEE MASS, sections IV.C
 and IV.D).
 
     theta(t) = integral of g_x from uplift to t                                   (3)

@@ -1,4 +1,4 @@
-"""Which steps turn and which go straight on (Liu et al. 2015, footstep-tracker, section IV.D).
+"""Which steps turn and which go straight on (Liu et al. 2015, IEEE MASS, section IV.D).
 
 "FootStep-Tracker use low-pass filter to extract the turning steps from the steps of walking straight ahead." The paper
 gives no filter. A foot's turn of a straight step is not zero: it has a habit of its own (what the ankle does while the

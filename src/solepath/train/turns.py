@@ -1,10 +1,10 @@
 """The classifier of turns (body/turns.py): `python -m solepath.train.turns` prints its weights.
 
-As in Liu et al. 2015, section V.E: wearers turn 30 times to the left, to the right and about, and a linear SVM learns
-to tell these by the degrees of both feet. The turns are emulated (turns.csv beside this file, one a line: seed, class,
-degrees of the left foot and of the right one): a wearer of some size with a 20 Hz SensorTag in either sole walks 4 m,
-turns on the spot or along an arc of up to 1.2 m, and walks on. What is said here of a turn is what the recipe
-footstep-tracker measured. `--emulate` makes turns.csv anew, from seeds that nothing is scored on.
+As in Liu et al. 2015 (IEEE MASS), section V.E: wearers turn 30 times to the left, to the right and about, and a linear
+SVM learns to tell these by the degrees of both feet. The turns are emulated (turns.csv beside this file, one a line:
+seed, class, degrees of the left foot and of the right one): a wearer of some size with a 20 Hz SensorTag in either sole
+walks 4 m, turns on the spot or along an arc of up to 1.2 m, and walks on. What is said here of a turn is what the
+recipe footstep-tracker measured. `--emulate` makes turns.csv anew, from seeds that nothing is scored on.
 """
 
 from __future__ import annotations
