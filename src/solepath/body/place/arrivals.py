@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import cos, pi, sin
+from math import cos, pi, sin, sqrt
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import FloorPlan, FloorPlanError, Kind, Point, Start
@@ -18,10 +18,13 @@ AROUND = 0.5
 """Where one steps off stairs or a lift, m around the landing."""
 TURNED = 0.07
 """Stairs and rides turn the track by this, rad."""
+LEAST_DOUBT = 0.15
+"""Share of strides."""
 ON_STAIRS = 2.0
 """Who does what one does on stairs, beside stairs, is so many times as likely to be on them as to go on along them."""
-LEAST_DOUBT = 0.15
-"""When more strides than this share lead the other way, both ways are followed."""
+OTHER_WAY = {Kind.STAIRS: 0.1, Kind.LIFT: 0.01}
+"""How often somebody goes up who is told to go down, or the other way round, at the least. To a foot, stairs up and
+down look much alike."""
 
 Scattered = Callable[[int, int], tuple[float, float, float, float]]
 
@@ -67,13 +70,13 @@ def changing(plan: FloorPlan, rows: list[Row], kind: Kind, since: Point) -> list
     return marked
 
 
-def out(plan: IndexedPlan, held: list[Row], arrived: Arrived, up: bool, random: int) -> list[Row]:
-    """Those who changed level, where they come out."""
+def out(plan: IndexedPlan, held: list[Row], arrived: Arrived, random: int) -> list[Row]:
+    """Those who changed level, where they come out: most where they are told to, some the other way."""
     x0, y0 = origin_of(plan.plan)
     stops = landings(plan.plan)
     there: list[Row] = []
     for k, (_, _, a, b, w, _, origin, stop) in enumerate(held):
-        for way, share in _ways(stops, stops[stop - 1], up, arrived):
+        for way, share in _ways(plan.plan, stops, stops[stop - 1], arrived):
             ex, ey, eh, es = NOISE[(random + k) % ROWS]
             turn, stretch = TURNED * eh, 1.0 + 0.02 * es
             x, y = way.place[0] + AROUND * ex, way.place[1] + AROUND * ey
@@ -90,25 +93,35 @@ def anew(scattered: Scattered, plan: IndexedPlan, arrived: Arrived, most: int) -
     weights: dict[int, float] = {}
     for entered in stops:
         if entered.kind is arrived.kind:
-            for way, share in _ways(stops, entered, arrived.up, arrived):
+            for way, share in _ways_anew(plan.plan, stops, entered, arrived):
                 weights[way.index] = weights.get(way.index, 0.0) + share
-    total = sum(weights.values())
+    total, roots = sum(weights.values()), sum([sqrt(weight) for weight in weights.values()])
     rows: list[Row] = []
     for index in sorted(weights):
         way = stops[index - 1]
-        count = max(most // len(weights), 12)
         share = weights[index] / total
+        count = max(int(most * sqrt(weights[index]) / roots), 8)
         rows += fan(scattered, plan, way.level, way.place, AROUND, None, count, way.connector + 1, share)
     return rows
 
 
-def _ways(stops: list[Landing], entered: Landing, up: bool, arrived: Arrived) -> list[tuple[Landing, float]]:
-    """The ways out of who entered there, with how likely each is: also the other way, where strides told both."""
-    doubt = arrived.doubt if arrived.doubt > LEAST_DOUBT else 0.0
-    told = [(way, share * (1.0 - doubt)) for way, share in ways_out(stops, entered, up, arrived.height)]
-    if doubt:
-        told += [(way, share * doubt) for way, share in ways_out(stops, entered, not up, arrived.height)]
-    return told
+def _ways_anew(
+    plan: FloorPlan, stops: list[Landing], entered: Landing, arrived: Arrived
+) -> list[tuple[Landing, float]]:
+    """The same where nothing is known: the other way only when strides were told to go it. Floors are often alike, and
+    then nothing ever parts the two, while every place needs many readings."""
+    ways = _ways(plan, stops, entered, arrived)
+    if arrived.doubt >= LEAST_DOUBT:
+        return ways
+    return [(way, share) for way, share in ways if (way.elevation > entered.elevation) is arrived.up]
+
+
+def _ways(plan: FloorPlan, stops: list[Landing], entered: Landing, arrived: Arrived) -> list[tuple[Landing, float]]:
+    """The ways out of who entered there, with how likely each is."""
+    doubt = max(arrived.doubt, OTHER_WAY[arrived.kind])
+    told = [(way, share * (1.0 - doubt)) for way, share in ways_out(plan, stops, entered, arrived.up, arrived.height)]
+    other = ways_out(plan, stops, entered, not arrived.up, arrived.height)
+    return told + [(way, share * doubt) for way, share in other]
 
 
 def nowhere(plan: IndexedPlan, start: Start) -> str | None:

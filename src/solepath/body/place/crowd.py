@@ -9,6 +9,8 @@ from __future__ import annotations
 from math import atan2, hypot, sqrt
 from struct import Struct
 
+from attrs import evolve
+
 from ...events import Candidate
 from ...floorplan.plan import FloorPlan, Point
 
@@ -17,7 +19,8 @@ Row = tuple[float, float, float, float, float, int, int, int]
 of the plan: a turn and a stretch. Weight. Level, as an index into the plan's. Where it came from: 0 the start, else one
 more than the index of a connector. Where it may be changing level: 0 nowhere, else Landing.index."""
 
-_ROW = Struct("<ffffeHHH")
+_ROW, _PLACE, _COUNT = Struct("<ffeeeH"), Struct("<HHH"), Struct("<H")
+"""A row has x, y, a, b, its weight, and which of the few combinations of level, origin and landing that follow."""
 
 FAR = 1e5
 """Nothing is so far from the origin of a plan, m."""
@@ -29,30 +32,43 @@ ALIKE = 0.87
 """Cosine of the angle between two ways in which the track lies."""
 AGREED = 1.5
 """All places together are one candidate when they differ by no more (rms), m."""
-CANDIDATES = 24
+CANDIDATES = 16
 """No more are told; others count to the nearest."""
-FAINT = 0.001
+FAINT = 0.002
 """A candidate of less weight counts to the heaviest."""
 
 
 def packed(rows: list[Row]) -> bytes:
-    """The rows, the weights so that the largest is 1; those that are too far or too light to keep are left out."""
+    """The rows, the weights so that the largest is 1; those that are too far or too light to keep are left out. a, b
+    and the weight keep three digits: a turn by 0.0005 rad is less than any track is good for."""
     most = max([row[4] for row in rows], default=0.0)
     if not most > 0.0:
         return b""
     k, pack = 1.0 / most, _ROW.pack
-    return b"".join(
+    numbers: dict[tuple[int, int, int], int] = {}
+    number = numbers.setdefault
+    body = b"".join(
         [
-            pack(x, y, a, b, w * k, level, origin, held)
+            pack(x, y, a, b, w * k, number((level, origin, held), len(numbers)))
             for x, y, a, b, w, level, origin, held in rows
             if -FAR < x < FAR and -FAR < y < FAR and w * k > 1e-5
         ]
     )
+    return b"".join([_COUNT.pack(len(numbers)), *[_PLACE.pack(*key) for key in numbers], body])
 
 
 def unpacked(crowd: bytes) -> list[Row]:
-    """The rows again. A length that is none of ours gives none: a snapshot may have been damaged."""
-    return [] if len(crowd) % _ROW.size else list(_ROW.iter_unpack(crowd))
+    """The rows again. What is none of ours gives none: a snapshot may have been damaged."""
+    if len(crowd) < _COUNT.size:
+        return []
+    begin = _COUNT.size + _COUNT.unpack_from(crowd)[0] * _PLACE.size
+    if begin > len(crowd) or (len(crowd) - begin) % _ROW.size:
+        return []
+    places = list(_PLACE.iter_unpack(crowd[_COUNT.size : begin]))
+    try:
+        return [(x, y, a, b, w, *places[k]) for x, y, a, b, w, k in _ROW.iter_unpack(crowd[begin:])]
+    except IndexError:
+        return []
 
 
 def resampled(rows: list[Row], count: int, offset: float) -> list[Row]:
@@ -87,10 +103,15 @@ def origin_of(plan: FloorPlan) -> Point:
     return (0.0, 0.0)
 
 
-def believed(rows: list[Row], plan: FloorPlan, origin: Point, height: float) -> tuple[tuple[Candidate, ...], float]:
-    """The candidates, heaviest first, and the rms distance of all from the first one's place, m. `height`: m, by which
-    those who change level are above the level that they come from. At least one row."""
-    groups = _grouped(rows)
+def believed(
+    rows: list[Row], plan: FloorPlan, heights: dict[int, float], track: float | None, agreed: float = AGREED
+) -> tuple[tuple[Candidate, ...], float]:
+    """The candidates, heaviest first, and the rms distance of all from the first one's place, m. `heights`: of those
+    who change level, by where they entered, m, plan frame. `track`: m, the height to be told where the plan knows none,
+    else None. `agreed`: all are one candidate when they differ by no more (rms), m. At least one row. Places are
+    rounded to a millimetre: they are kept."""
+    origin = origin_of(plan)
+    groups = _grouped(rows, agreed)
     total = sum([group[0] for group in groups])
     groups.sort(key=_weight, reverse=True)
     kept = [group for group in groups if group[0] >= FAINT * total] or groups[:1]
@@ -98,14 +119,16 @@ def believed(rows: list[Row], plan: FloorPlan, origin: Point, height: float) -> 
     told = []
     for group in kept:
         weight, x, y, a, b, length, level, came, held = group
-        share = (weight + (rest if group is kept[0] else 0.0)) / total
-        floor = plan.levels[level].elevation + (height if held else 0.0)
-        position = (origin[0] + x / weight, origin[1] + y / weight, floor)
-        heading = atan2(b, a) if hypot(a, b) > 0.5 * length else None
+        share = (weight + (rest if group is kept[0] else 0.0)) / total if len(kept) > 1 else 1.0
+        floor = track if track is not None else heights.get(held, 0.0) if held else plan.levels[level].elevation
+        position = (round(origin[0] + x / weight, 3), round(origin[1] + y / weight, 3), round(floor, 3))
+        heading = round(atan2(b, a), 4) if hypot(a, b) > 0.5 * length else None
         name = plan.connectors[came - 1].name if came else "start"
-        told.append(Candidate(plan.levels[level].id, position, heading, share, name))
+        told.append(Candidate(plan.levels[level].id, position, heading, round(share, 5), name))
     bx, by = kept[0][1] / kept[0][0], kept[0][2] / kept[0][0]
     squares = sum([row[4] * ((row[0] - bx) ** 2 + (row[1] - by) ** 2) for row in rows])
+    if len(told) > 1:
+        told[0] = evolve(told[0], weight=1.0 - sum([one.weight for one in told[1:]]))
     return tuple(told), sqrt(squares / total)
 
 
@@ -117,7 +140,7 @@ def _weight(group: _Group) -> float:
     return group[0]
 
 
-def _grouped(rows: list[Row]) -> list[_Group]:
+def _grouped(rows: list[Row], agreed: float) -> list[_Group]:
     """All as one where they agree, else by nearness."""
     _, _, _, _, _, level, came, held = rows[0]
     whole = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, level, came, held)
@@ -133,7 +156,7 @@ def _grouped(rows: list[Row]) -> list[_Group]:
         sa += w * a
         sb += w * b
         square += w * (x * x + y * y)
-    if one and square / sw - (sx * sx + sy * sy) / (sw * sw) < AGREED * AGREED:
+    if one and square / sw - (sx * sx + sy * sy) / (sw * sw) < agreed * agreed:
         # the length of (a, b) is near 1 for all
         whole = (sw, sx, sy, sa, sb, sw, level, came, held)
         return [whole]

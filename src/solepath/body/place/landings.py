@@ -18,6 +18,8 @@ OFF = 0.35
 """Standard deviation of a told height, m, ..."""
 OFF_SHARE = 0.12
 """... and per m."""
+LOW, HIGH = 2.4, 5.0
+"""Usual heights of a storey, m."""
 UNLIKELY = 0.02
 """Of the best one: less likely ways out are none."""
 
@@ -33,6 +35,8 @@ class Landing:
     kind: Kind
     level: int
     """Its level's place in the plan."""
+    ordinal: int
+    """Its level's place in the order of storeys."""
     elevation: float
     """m"""
     place: Point
@@ -47,8 +51,9 @@ def landings(plan: FloorPlan) -> list[Landing]:
         for stop in connector.stops:
             k = levels.get(stop.level)
             if k is not None:
-                elevation = plan.levels[k].elevation
-                found.append(Landing(len(found) + 1, c, connector.kind, k, elevation, stop.place))
+                level = plan.levels[k]
+                number = len(found) + 1
+                found.append(Landing(number, c, connector.kind, k, level.ordinal, level.elevation, stop.place))
     return found
 
 
@@ -65,14 +70,20 @@ def nearest(all_of_them: list[Landing], kind: Kind, level: int, x: float, y: flo
 
 
 def ways_out(
-    all_of_them: list[Landing], entered: Landing, up: bool, height: float | None
+    plan: FloorPlan, all_of_them: list[Landing], entered: Landing, up: bool, height: float | None
 ) -> list[tuple[Landing, float]]:
-    """Where one who entered there and rode or climbed `height` m (None: any) comes out, with how likely each is."""
+    """Where one who entered there and rode or climbed `height` m (None: any) comes out, with how likely each is. Where
+    the plan knows no heights, any usual height of a storey is as good."""
     ways = []
     for landing in all_of_them:
         rise = landing.elevation - entered.elevation
         if landing.connector == entered.connector and (rise > 0.0 if up else rise < 0.0):
-            off = 0.0 if height is None else (height - abs(rise)) / (OFF + OFF_SHARE * abs(rise))
+            low = high = abs(rise)
+            if not plan.heights_known:
+                storeys = max(abs(landing.ordinal - entered.ordinal), 1)
+                low, high = LOW * storeys, HIGH * storeys
+            out = 0.0 if height is None else max(low - height, height - high, 0.0)
+            off = out / (OFF + OFF_SHARE * low)
             ways.append((landing, exp(-0.5 * min(off * off, 1000.0))))
     most = max([weight for _, weight in ways], default=0.0)
     if most <= 0.0:

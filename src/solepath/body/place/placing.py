@@ -1,4 +1,4 @@
-"""Where on a floor plan the wearer is: what a session asks of the part, and what both methods have in common.
+"""Where on a floor plan the wearer is: what both methods have in common.
 
 The track has a shape, but nobody knows how it lies in the plan. Stairs and lifts tell a place (a known start does,
 too); walls tell the rest: of all ways in which the track could lie there, those that lead through walls are wrong (Liu
@@ -10,84 +10,49 @@ The track itself is never bent. Latency: a place is told with the step that lead
 from __future__ import annotations
 
 from math import hypot, isfinite, pi
-from typing import Protocol
 
 from attrs import define, field
 
-from ...events import Event, Placed, PlaceLost, StepTaken
+from ...events import Event, Placed, PlaceLost, StepTaken, TurnMade
 from ...floorplan.index import IndexedPlan
-from ...floorplan.plan import FloorPlan, Kind, Point, Start
-from ...types import Vec3
-from ...vector import ZERO
+from ...floorplan.plan import Start
 from ..position import Position
-from .arrivals import anew, changing, fan, nowhere, out
-from .crowd import Row, believed, effective, origin_of, packed, resampled, unpacked
-from .landings import landings, ways_out
-from .noise import NOISE, ROWS, following
-from .pace import Pace
-from .reference import Arrived, Held, References
+from .arrivals import fan, nowhere
+from .crowd import AGREED, believed, effective, origin_of, packed, unpacked
+from .levels import FARTHEST, FEW, ROUGH, Levels
+from .readings import ABOUT, looked, mistold
+from .reference import Arrived, Held
 
-
-class PlacePart(Protocol):
-    """The track and what the wearer does in, the place on the plan out. A plain record, as every machine is."""
-
-    def set_out(self, start: Start) -> None:
-        """The wearer sets out there. To be told before the first `follow`. ValueError for what is no number."""
-
-    def follow(self, plan: IndexedPlan, events: list[Event], here: Position) -> list[Event]:
-        """`events`: what has just become known, of steps and of what the wearer does; `here`: where the track leads
-        now, world frame. Always with the same plan. Returns Placed or PlaceLost, or nothing."""
-
-    @property
-    def place(self) -> Placed | None:
-        """Where the wearer is on the plan; None while it is of no use."""
-
-
-FEW = 64
-"""So many readings of the track are kept once the place is known ..."""
-MORE = 40
-"""... so many more for every other candidate ..."""
-JUMP = 4.0
-"""A move of more than this between two steps is across a gap, m: which way it went is not known."""
-FARTHEST = 100.0
-"""A track that leaps by more is of no use, m."""
+MORE = 30
+"""So many more readings are kept for every other candidate, when it is not faint, than once the place is known."""
 OUTSIDE = 6
 """After so many steps outside of everything that the plan has, the wearer has left it."""
-ROUGH = 1.5
-"""A degraded step errs by so many times as much: few have lost samples, most but a peak that the sensor cannot show."""
-LOOK, OUT = 4, 0.25
-"""Every so many steps it is looked who has left the plan, and such a one counts so much less than those within."""
+LOOK = 4
+"""Every so many steps it is looked who has left the plan."""
+WIDE = 12
+"""Steps until the walls have decided which way an about-turn led."""
+APART = 0.5
+"""Until then all places together are one candidate only when they differ by no more (rms), m."""
 STUCK = 5.0
 """When nobody could go on for so much of the track, m, there is no way."""
-SOON = 10.0
-"""Stairs that are entered so soon after others, s, are the same ones."""
-ELSEWHERE = 0.02
-"""With less belief than this near any landing, the wearer was not where the plan had him."""
-DOUBT = {Kind.STAIRS: 0.85, Kind.LIFT: 0.5}
-"""What a belief is worth then, against the landings: level steps may be taken for stairs."""
+CLEAR, FADE, ASIDE = 0.9, 0.88, 3.0
+"""Where one place has so much of the belief, the one that is within `ASIDE`, m, of it on another level keeps so much of
+its own with each step: floors are often alike, and then no wall ever decides."""
 
 
 @define
-class Placing:
+class Placing(Levels):
     """What both methods do alike: they start, change level, end and tell. How they extend the track is their own."""
 
-    most: int = 300
-    """More readings of the track than this are never kept."""
     # state
     start: Start | None = field(default=None, init=False)
     begun: bool = field(default=False, init=False)
-    crowd: bytes = field(default=b"", init=False)
-    last: Vec3 = field(default=ZERO, init=False)
-    """Up to where the track has been followed, m."""
     t: float | None = field(default=None, init=False)
-    references: References = field(factory=References, init=False)
-    pace: Pace = field(factory=Pace, init=False)
-    random: int = field(default=1, init=False)
-    arrived: float | None = field(default=None, init=False)
-    """When the wearer was last said to be on another level, s."""
     steps: int = field(default=0, init=False)
     outside: int = field(default=0, init=False)
     """Steps since the wearer was last within the plan."""
+    wide: int = field(default=0, init=False)
+    """Steps for which more readings are kept than belief asks for."""
     stuck: float = field(default=0.0, init=False)
     """Track, m, since anybody could go on."""
     newest: Placed | None = field(default=None, init=False)
@@ -122,32 +87,20 @@ class Placing:
             self.pace.stepped(step, here.position)
         if steps:
             self._move(plan, here, steps, known_at, told)
+        for event in events:
+            if isinstance(event, TurnMade) and abs(event.angle) > ABOUT and self.crowd:
+                self._turned(plan, event.t)
         for reference in self.references.hear(plan.plan, events, here):
             match reference:
                 case Held():
-                    self._hold(plan.plan, reference)
+                    self.hold(plan.plan, reference)
                 case Arrived():
-                    self._arrive(plan, reference)
+                    self.arrive(plan, reference)
                 case _:
-                    self._release()
+                    self.release()
         if steps and self.crowd:
             told.append(self._told(plan, here, known_at))
         return told
-
-    # --- how a method differs ---
-
-    def extended(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
-        """The rows a move (m, track) further; without those that cannot go there. `rough`: how much worse than usual
-        the track is. `turned`: by how much the wearer has turned with it, rad, not negative."""
-        raise NotImplementedError
-
-    def scattered(self, k: int, count: int) -> tuple[float, float, float, float]:
-        """For the k-th of `count` new rows, each from -1 to 1: x, y, heading, stretch."""
-        raise NotImplementedError
-
-    def thinned(self, rows: list[Row], wanted: int) -> list[Row]:
-        """About so many rows that stand for all."""
-        raise NotImplementedError
 
     # --- the flow ---
 
@@ -192,10 +145,10 @@ class Placing:
         # each foot turns as the wearer does, and each tells it by its own step
         turned = min(0.5 * sum([abs(step.heading_change) for step in steps]), pi)
         rough = ROUGH if any([step.degraded for step in steps]) else 1.0
-        rows = self._stepped(plan, rows, move, rough, turned)
+        rows = self.stepped(plan, rows, move, rough, turned)
         self.steps = (self.steps + 1) % LOOK
         if self.steps == 0:
-            rows = self._looked(plan, rows)
+            rows = looked(plan, rows)
         stays = all(row[:2] in places for row in rows)
         self.stuck = self.stuck + hypot(*move) if stays else 0.0
         self.crowd = packed(rows) if self.stuck <= STUCK else b""
@@ -207,121 +160,23 @@ class Placing:
             )
             self._forget()
 
-    def _looked(self, plan: IndexedPlan, rows: list[Row]) -> list[Row]:
-        """Who is where nobody can be counts less."""
-        x0, y0 = origin_of(plan.plan)
-        looked: list[Row] = []
-        for row in rows:
-            x, y, a, b, w, level, came, held = row
-            there = held or plan.inside(level, x0 + x, y0 + y)
-            looked.append(row if there else (x, y, a, b, OUT * w, level, came, held))
-        return looked
-
-    def _stepped(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
-        dx, dy = move
-        changing = [row for row in rows if row[7]]
-        walking = [row for row in rows if not row[7]] if changing else rows
-        if hypot(dx, dy) > JUMP:
-            walking = self._jumped(plan, walking, move)
-        elif walking:
-            walking = self.extended(plan, walking, move, rough, turned)
-        # on stairs one goes as the track says: the walls around them are those of one level or the other
-        carried = [
-            (x + a * dx - b * dy, y + b * dx + a * dy, a, b, w, level, origin, held)
-            for x, y, a, b, w, level, origin, held in changing
-        ]
-        return carried + walking
-
-    def _jumped(self, plan: IndexedPlan, rows: list[Row], move: Point) -> list[Row]:
-        """Across a gap: walls on the straight way say nothing, but the end must be somewhere."""
-        dx, dy = move
-        off = 0.3 * hypot(dx, dy)
-        x0, y0 = origin_of(plan.plan)
-        self.random = following(self.random)
-        kept: list[Row] = []
-        for k, (x, y, a, b, w, level, origin, held) in enumerate(rows):
-            for j in (0, 1):
-                ex, ey, _, _ = NOISE[(self.random + 2 * k + j) % ROWS]
-                nx, ny = x + a * dx - b * dy + off * ex, y + b * dx + a * dy + off * ey
-                if plan.inside(level, nx + x0, ny + y0):
-                    kept.append((nx, ny, a, b, w, level, origin, held))
-        return kept if len(kept) <= self.most else resampled(kept, self.most, 0.5)
+    def _turned(self, plan: IndexedPlan, t: float) -> None:
+        """The wearer has turned about, until `t` s."""
+        rows = unpacked(self.crowd)
+        self.keep(rows + mistold(plan, rows, self.since(t)))
+        self.wide = WIDE
 
     def _forget(self) -> None:
         self.crowd, self.newest, self.outside, self.stuck = b"", None, 0, 0.0
-
-    # --- levels ---
-
-    def _hold(self, plan: FloorPlan, held: Held) -> None:
-        """Who is near stairs or a lift may be changing level from now on, or may not: both are followed."""
-        rows = unpacked(self.crowd)
-        if rows:
-            self.crowd = packed(rows + changing(plan, rows, held.kind, self._since(held.t)))
-
-    def _release(self) -> None:
-        """Nobody was changing level."""
-        rows = unpacked(self.crowd)
-        walking = [row for row in rows if not row[7]]
-        self.crowd = packed(walking or [(x, y, a, b, w, level, came, 0) for x, y, a, b, w, level, came, _ in rows])
-
-    def _since(self, t: float) -> Point:
-        """The way since then, m, track."""
-        x, y, _ = self.references.at(t)
-        return ((self.last[0] - x) * self.pace.factor, (self.last[1] - y) * self.pace.factor)
-
-    def _arrive(self, plan: IndexedPlan, arrived: Arrived) -> None:
-        """The wearer is on another level: every reading that could be there goes on from the landing."""
-        rows = unpacked(self.crowd)
-        if not any([connector.kind is arrived.kind for connector in plan.plan.connectors]):
-            return  # the plan does not have them all
-        held = [row for row in rows if row[7]]
-        rows = [row for row in rows if not row[7]] or rows
-        if rows and not held:
-            held = changing(plan.plan, rows, arrived.kind, self._since(arrived.t_start))
-        total = sum([row[4] for row in rows])
-        self.random = following(self.random)
-        there = out(plan, held, arrived, arrived.up, self.random)
-        again = self.arrived is not None and arrived.t_start < self.arrived + SOON
-        if not there and held and again:
-            self._release()  # the rest of a way that was taken for the whole
-            return
-        if not there:
-            # to a foot, stairs up and down look much alike: from where there is no way up, one has gone down
-            there = out(plan, held, arrived, not arrived.up, self.random)
-        self.arrived = arrived.t
-        if sum([row[4] for row in there]) <= ELSEWHERE * total:
-            there = anew(self.scattered, plan, arrived, self.most)
-            weight = sum([row[4] for row in there])
-            if rows and weight > 0.0 and total > 0.0:
-                doubt = DOUBT[arrived.kind]
-                each = weight * doubt / (1.0 - doubt) / FEW
-                kept = resampled(rows, FEW, 0.5)
-                stayed = [(x, y, a, b, each, level, came, 0) for x, y, a, b, _, level, came, _ in kept]
-                there = self._caught_up(plan, there, arrived.t) + stayed
-                self.crowd = packed(self.thinned(there, self.most) if len(there) > self.most else there)
-                return
-        if len(there) > self.most:
-            there = self.thinned(there, self.most)
-        there = self._caught_up(plan, there, arrived.t)
-        if there:
-            self.outside = 0
-            self.crowd = packed(there)
-
-    def _caught_up(self, plan: IndexedPlan, rows: list[Row], t: float) -> list[Row]:
-        """Rows that stand where the wearer was at `t`, s, led on to where the track is now."""
-        way = [place for place in self.references.after(t)]
-        for (x, y, _), (x1, y1, _) in zip(way, way[1:], strict=False):
-            move = ((x1 - x) * self.pace.factor, (y1 - y) * self.pace.factor)
-            if rows and move != (0.0, 0.0) and abs(move[0]) < FARTHEST and abs(move[1]) < FARTHEST:
-                rows = self._stepped(plan, rows, move, ROUGH, 0.0)
-        return rows
 
     # --- what is told ---
 
     def _told(self, plan: IndexedPlan, here: Position, known_at: float) -> Event:
         rows = unpacked(self.crowd)
-        origin = origin_of(plan.plan)
-        candidates, spread = believed(rows, plan.plan, origin, self._climbed(plan.plan, rows, here))
+        known = plan.plan.heights_known
+        shown, heights = self.shown(plan.plan, rows, here)
+        candidates, spread = believed(shown, plan.plan, heights, None if known else here.position[2],
+            AGREED if self.wide == 0 else APART)
         first = candidates[0]
         if len(candidates) == 1 and not plan.inside(
             plan.number(first.level), first.position[0], first.position[1]
@@ -334,8 +189,22 @@ class Placing:
                 return PlaceLost(t=here.t, known_at=known_at, what=what)
         else:
             self.outside = 0
-        wanted = min(self.most, FEW + MORE * (len(candidates) - 1) + int(8.0 * min(spread, 5.0)))
-        if len(rows) > 1.25 * wanted or effective(rows) < 0.5 * wanted:
+        others = sum([min(1.0, 10.0 * one.weight) for one in candidates[1:]])
+        wanted = min(self.most, FEW + int(MORE * others if others else 8.0 * min(spread, 5.0)))
+        if self.wide > 0:
+            self.wide, wanted = self.wide - 1, self.most
+        few = len(rows) <= 1.25 * wanted and (self.wide > 0 or effective(rows) >= 0.5 * wanted)
+        if first.weight >= CLEAR and len(candidates) > 1 and self.wide == 0:
+            x0, y0 = origin_of(plan.plan)
+            x, y, at = first.position[0] - x0, first.position[1] - y0, plan.number(first.level)
+            rows = [
+                (*row[:4], FADE * row[4], *row[5:])
+                if told[5] != at and (row[0] - x) ** 2 + (row[1] - y) ** 2 < ASIDE * ASIDE
+                else row
+                for row, told in zip(rows, shown, strict=True)
+            ]
+            self.crowd = packed(rows)
+        if not few:
             self.crowd = packed(self.thinned(rows, wanted))
         self.newest = Placed(
             t=here.t,
@@ -346,16 +215,3 @@ class Placing:
             candidates=candidates,
         )
         return self.newest
-
-    def _climbed(self, plan: FloorPlan, rows: list[Row], here: Position) -> float:
-        """How far above where they entered those are who change level, m: no further than the next landing."""
-        passage = self.references.passage
-        held = next((row[7] for row in rows if row[7]), 0)
-        if passage is None or not held:
-            return 0.0
-        stops = landings(plan)
-        ways = ways_out(stops, stops[held - 1], passage.up > 0, None)
-        rises = [way.elevation - stops[held - 1].elevation for way, _ in ways]
-        most = min([abs(rise) for rise in rises if (rise > 0.0) is (passage.up > 0)], default=0.0)
-        height = min(passage.height(here.position) or 0.0, most)
-        return height if passage.up > 0 else -height

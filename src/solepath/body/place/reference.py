@@ -1,8 +1,9 @@
 """References to a floor plan: what the wearer does that can be done in few places only, on stairs and in lifts.
 
 Out of activities, rides, flights and the track come three things (Liu et al. 2015, section IV.E): somebody may be on
-stairs or in a lift (`Held`), was not after all (`Released`), or has come to another level (`Arrived`). Half a storey is
-a landing, and a window or two of stairs on level ground are a mistake: neither is an arrival.
+stairs or in a lift (`Held`), was not after all (`Released`), or has come to another level (`Arrived`), which is more or
+less sure. Half a storey is a landing, and a window or two of stairs on level ground are a mistake: neither is likely to
+be an arrival.
 
 Latency: a lift's ride with the event that tells it, or two steps or 4 s after an activity which no such event follows;
 stairs with the activity that follows them, or up to `WAIT` s or `AWAY` m later when the height fits no storey.
@@ -19,9 +20,9 @@ from ...events import ActivityChanged, Event, FlightClimbed, LiftRidden, StepTak
 from ...floorplan.plan import FloorPlan, Kind
 from ...types import Activity, Foot, Vec3
 from ..position import Position
+from .landings import HIGH, LOW
+from .passage import Passage
 
-RISE = 0.165
-"""Of one step of a stair, m, where neither track nor plan tells a height."""
 WAIT = 8.0
 """s"""
 AWAY = 3.5
@@ -32,10 +33,10 @@ COUNTED = 0.95
 """Share of the least storey from which on counted steps are taken for one at once."""
 LEAST, MOST = 0.6, 2.0
 """Less than this share of the least storey is no arrival, nor more than this one of the highest way up."""
-STEEP, LANDING = 2.5, 4.0
-"""Stairs lead no further away than so many times their height, and so many m of landings."""
-BLIP = 5
-"""So many strides up or down are forgotten when the next go the other way."""
+SOME = 0.35
+"""Less than this share is a kerb. What is between is half a storey, or a whole one of which half was told."""
+SURE, FAIR, HALF, SURE_RIDE = 0.97, 0.9, 0.1, 0.99
+"""How sure an arrival is: when the height fits a storey, when it does not quite, when it is half of one, and a ride."""
 RIDE_OVER = 4.0
 """A ride that no event tells is over so long after the activity, s, or with the second step."""
 SAME_RIDE = 5.0
@@ -77,66 +78,11 @@ class Arrived:
     t: float
     doubt: float = 0.0
     """Share of the strides that were told to lead the other way."""
+    sure: float = 0.97
+    """How likely it is that there were stairs or a lift at all, and that they led to another level; less than 1."""
 
 
 Reference = Held | Released | Arrived
-
-
-@define
-class Passage:
-    """Being on stairs or in a lift, as far as is known."""
-
-    kind: Kind
-    t: float
-    begin: Vec3
-    """Of the track, m."""
-    up: int = 0
-    """Strides (of stairs) or tellings (of lifts) that lead up, less those that lead down."""
-    left: int = 0
-    right: int = 0
-    """Strides of each foot."""
-    climbed: float = 0.0
-    """Sum of the heights of flights, m."""
-    t_left: float | None = None
-    end: Vec3 | None = None
-    since: int = 0
-    """Strides since."""
-
-    def height(self, here: Vec3) -> float | None:
-        """By the track where that says anything, else by flights or by counting steps, m, not negative."""
-        track = self._track(here)
-        if self.kind is Kind.LIFT:
-            return track if track > 1.0 else None
-        return track if self.measured(here) else max(abs(self.climbed), self._counted)
-
-    def measured(self, here: Vec3) -> bool:
-        """Whether the track has a height."""
-        track = self._track(here)
-        return track > 0.5 * self._counted and track > 0.3
-
-    def _track(self, here: Vec3) -> float:
-        return abs((here if self.end is None else self.end)[2] - self.begin[2])
-
-    @property
-    def _counted(self) -> float:
-        # a stride of a foot is two steps of the stair; of both feet each one is told by its own stride
-        # those that were told to lead the other way may have led this way, or may not have been on stairs: half of them
-        strides = 0.5 * (self.left + self.right + abs(self.up))
-        return RISE * strides * (1.0 if self.left and self.right else 2.0)
-
-    @property
-    def doubt(self) -> float:
-        """Share of the strides that lead the other way than most."""
-        strides = self.left + self.right
-        return 0.5 * (1.0 - abs(self.up) / strides) if self.kind is Kind.STAIRS and strides > abs(self.up) else 0.0
-
-    def leads_away(self, here: Vec3) -> bool:
-        """Further than stairs of that height do."""
-        if self.kind is Kind.LIFT:
-            return False
-        end = here if self.end is None else self.end
-        away = hypot(end[0] - self.begin[0], end[1] - self.begin[1])
-        return away > STEEP * (self.height(end) or 0.0) + LANDING
 
 
 @define
@@ -175,7 +121,7 @@ class References:
     def hear(self, plan: FloorPlan, events: list[Event], here: Position) -> list[Reference]:
         """What `events` mean; the wearer is at `here` now."""
         x, y, z = here.position
-        self.track.append((here.t, x, y, z))
+        self.track.append((here.t, round(x, 3), round(y, 3), round(z, 3)))
         if len(self.track) > TRACK:
             self.track.popleft()
         told: list[Reference] = []
@@ -189,7 +135,8 @@ class References:
             elif isinstance(event, LiftRidden):
                 if self.ridden is None or event.t > self.ridden + SAME_RIDE:
                     height = None if event.height is None or not isfinite(event.height) else abs(event.height)
-                    told.append(Arrived(Kind.LIFT, event.up, height, min(event.t_start, event.t), event.t))
+                    t_start = min(event.t_start, event.t)
+                    told.append(Arrived(Kind.LIFT, event.up, height, t_start, event.t, sure=SURE_RIDE))
                     self.ridden = event.t
                 if self.passage is not None and self.passage.kind is Kind.LIFT:
                     self.passage = None
@@ -229,8 +176,7 @@ class References:
         kind, up = reference
         if kind is Kind.LIFT and self.ridden is not None and event.t < self.ridden:
             return
-        turned = passage is not None and kind is Kind.STAIRS and 0 < (-passage.up if up else passage.up) <= BLIP
-        if passage is not None and passage.kind is kind and not turned:
+        if passage is not None and passage.kind is kind:
             passage.t_left = passage.end = None
         else:
             if passage is not None:
@@ -257,27 +203,42 @@ class References:
     def _settle(self, passage: Passage, left: float, plan: FloorPlan, here: Position, told: list[Reference]) -> None:
         """Stairs or a lift were left: for another level, for a landing, or they never were any."""
         up, height = passage.up > 0, passage.height(here.position)
-        arrived = Arrived(passage.kind, up, height, passage.t, left, passage.doubt)
         waited = here.t - left
         if passage.kind is Kind.LIFT:
             if waited > RIDE_OVER or passage.since >= 2:
                 self.passage = None
                 self.ridden = left
-                told.append(arrived)
+                told.append(Arrived(passage.kind, up, height, passage.t, left, sure=SURE_RIDE))
             return
-        storeys = rises(plan, Kind.STAIRS)
-        if not storeys or height is None:
+        least, most = storeys(plan)
+        if height is None or not most > 0.0:
             self.passage = None
             told.append(Released())
             return
-        least, end = storeys[0], passage.end or passage.begin
-        real = LEAST * least <= height <= MOST * storeys[-1] and not passage.leads_away(end)
-        fits = min([abs(height - storey) for storey in storeys]) <= FIT * least
+        end, measured = passage.end or passage.begin, passage.measured(here.position)
+        if not measured and height < LEAST * least <= passage.told_both_ways:
+            height = passage.told_both_ways  # half of them told wrong, or up and down again
+        real = height >= LEAST * least
+        possible = SOME * least <= height <= MOST * most and not passage.leads_away(end)
+        fits = plan.heights_known and min([abs(height - rise) for rise in rises(plan, Kind.STAIRS)]) <= FIT * least
         # counted steps are those of landings, too: a flight and a landing are not a storey
-        fits = fits and (passage.measured(here.position) or height >= COUNTED * least)
-        if waited > WAIT or hypot(here.position[0] - end[0], here.position[1] - end[1]) > AWAY or (real and fits):
+        soon = real and possible and fits and (measured or height >= COUNTED * least)
+        if waited > WAIT or hypot(here.position[0] - end[0], here.position[1] - end[1]) > AWAY or soon:
             self.passage = None
-            told.append(arrived if real else Released())
+            sure = (SURE if fits else FAIR if real else HALF) * (1.0 - passage.doubt)
+            arrived = Arrived(passage.kind, up, height, passage.t, left, passage.doubt, sure)
+            told.append(arrived if possible else Released())
+
+
+def storeys(plan: FloorPlan) -> tuple[float, float]:
+    """The least and the greatest height, m, that stairs of the plan may lead to; 0 where there are none."""
+    found = rises(plan, Kind.STAIRS)
+    if not found:
+        return (0.0, 0.0)
+    if plan.heights_known:
+        return (found[0], found[-1])
+    ordinals = [level.ordinal for level in plan.levels]
+    return (LOW, HIGH * max(max(ordinals) - min(ordinals), 1))
 
 
 def rises(plan: FloorPlan, kind: Kind) -> list[float]:
