@@ -11,13 +11,14 @@ from hypothesis import strategies as st
 from solepath import machine
 from solepath.body.activity.flights import Flights
 from solepath.events import FlightClimbed, StepFeatures, StepTaken
+from solepath.foot.steepness import HIGHEST_RISE
 from solepath.types import Foot
 
 RISER = 0.16
 FEET = (Foot.LEFT, Foot.RIGHT)
 
 
-def step(foot: Foot, t: float, height: float, ground: float = 0.6) -> StepTaken:
+def step(foot: Foot, t: float, height: float, ground: float = 0.6, degraded: bool = False) -> StepTaken:
     return StepTaken(
         t=t,
         known_at=t,
@@ -31,6 +32,7 @@ def step(foot: Foot, t: float, height: float, ground: float = 0.6) -> StepTaken:
         heading_change=0.0,
         height_change=height,
         covariance=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+        degraded=degraded,
         features=StepFeatures(0.1, 2.0, 1.0),
     )
 
@@ -130,11 +132,58 @@ def test_a_clock_that_begins_anew_gives_up_the_flight() -> None:
     assert flights.stepped(step(Foot.LEFT, 3.0, 0.0), 0) == []
 
 
+def climbed(heights: list[float], *, degraded: bool = False) -> list[FlightClimbed]:
+    """Strides upstairs of alternating feet, one after the other, and a rest at the top."""
+    flights = Flights()
+    told: list[FlightClimbed] = []
+    for k, height in enumerate(heights):
+        told += flights.stepped(step(FEET[k % 2], 0.6 * k, height, degraded=degraded), 1)
+    return told + flights.finish(60.0)
+
+
+def test_a_stride_higher_than_any_stairs_rises_by_what_the_others_do() -> None:
+    (flight,) = climbed([0.32, 0.32, 11.5, 0.32, 0.32, 0.32])
+    assert flight.steps == 6
+    assert flight.height == pytest.approx(6 * 0.16)
+    # also when it is the first one, before anybody knows what the others will do
+    assert climbed([2.3, 0.32, 0.32, 0.32])[0].height == pytest.approx(4 * 0.16)
+
+
+def test_strides_none_of_which_can_be_of_stairs_are_no_flight() -> None:
+    # with the heights of strides that a clipped gyroscope at 20 Hz has made
+    assert climbed([2.31, 1.53, 1.69], degraded=True) == []
+    assert climbed([1.19, 2.81, 0.91, 3.88]) == []
+
+
+def test_two_treads_at_a_time_are_climbed_too_when_nothing_is_missing() -> None:
+    assert climbed([0.68] * 4)[0].height == pytest.approx(4 * 0.34)
+    assert climbed([0.68] * 4, degraded=True) == []
+
+
+def test_a_level_stride_of_an_impossible_height_is_not_the_first_riser() -> None:
+    flights = Flights()
+    told = flights.stepped(step(Foot.LEFT, 1.0, 5.0, 20.0), 0)
+    told += [event for k in range(4) for event in flights.stepped(step(Foot.LEFT, 2.0 + k, 2 * RISER), 1)]
+    told += flights.stepped(step(Foot.LEFT, 7.0, 5.0, 20.0), 0)
+    assert told[0].height == pytest.approx(8 * RISER)
+
+
+def test_who_rests_after_a_stride_of_unknown_height_has_arrived() -> None:
+    flights = Flights()
+    for k, height in enumerate((0.32, 0.32, 7.0, 0.32)):
+        assert flights.stepped(step(FEET[k % 2], 0.6 * k, height), 1) == []
+    assert [flight.steps for flight in flights.waited(6.0, 6.0)] == [4]
+
+
+def test_strides_that_sink_are_no_flight_upwards() -> None:
+    assert climbed([-0.32] * 6) == []
+
+
 strides = st.lists(
     st.tuples(
         st.sampled_from(FEET),
         st.floats(0.0, 20.0, allow_nan=False),
-        st.floats(-1e6, 1e6, allow_nan=False),
+        st.one_of(st.floats(-1e6, 1e6, allow_nan=False), st.floats(-1.0, 1.0)),
         st.sampled_from((-1, 0, 1)),
     ),
     max_size=40,
@@ -154,3 +203,6 @@ def test_whatever_the_strides_flights_are_in_order_and_high(told: list[tuple[Foo
         assert flight.final
         assert flight.t_start <= flight.t <= flight.known_at
         assert abs(flight.height) >= 0.4
+        assert flight.up == (flight.height > 0.0)
+        # a level stride may add to each stair stride, and one to each foot before the first
+        assert abs(flight.height) <= HIGHEST_RISE * (2 * flight.steps + 2)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from functools import cache
 from math import radians
 from pathlib import Path
 
 import pytest
+from attrs import evolve
 
 from solepath.body.activity.walking_state import AnglePerMetre
 from solepath.events import ActivityChanged, Event, FlightClimbed, StepTaken
@@ -23,7 +25,7 @@ from solepath.sim.route import Route
 from solepath.sim.shoe import ON_INSTEP
 from solepath.sim.truth import Truth
 from solepath.sim.walker import Walker
-from solepath.types import Activity, Foot, Sample
+from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample
 
 LEVEL = Route().stand(3.0).walk(30.0, 1.3).stop(2.0)
 JOG = Route().stand(3.0).jog(40.0, 2.6).stop(2.0)
@@ -155,6 +157,77 @@ def test_a_clock_that_begins_anew_is_told_on_the_new_one() -> None:
             told += part.foot_moved(foot, sample, foot.feed(sample))
     assert told[0].activity is Activity.STANDING and told[0].t < 3.0
     assert load(AnglePerMetre, save(part)) == part
+
+
+def rebound(shifts: dict[Foot, float], *, silent: Foot | None = None) -> tuple[list[Event], list[Event]]:
+    """Level, twice, with a rest between, in which each foot in `shifts` gets another device whose clock is that far
+    ahead of the first one's; `silent` says nothing any more. What is told before the rest and from there on."""
+    first = worn(LEVEL, 1)[0]
+    over = first[-1].t + 0.01
+    session = Session(SHOE_SENSING)
+    for foot in Foot:
+        session.bind(SITE_OF_FOOT[foot], "first")
+    before = session.feed(first)
+    for foot in shifts:
+        session.bind(SITE_OF_FOOT[foot], "second")
+    after: list[Event] = []
+    for sample in first:
+        foot = sample.site.foot
+        if foot is not None and foot is not silent:
+            after += session.feed(evolve(sample, t=sample.t + over + shifts.get(foot, 0.0)))
+    return before, after + session.finish()
+
+
+def changes(events: Iterable[Event]) -> list[tuple[float, Activity]]:
+    return [(event.t, event.activity) for event in events if isinstance(event, ActivityChanged)]
+
+
+@pytest.mark.parametrize("shift", [-1e9, -40.0, 0.0, 1e9])
+def test_a_foot_whose_clock_restarts_dates_nothing_while_the_other_goes_on(shift: float) -> None:
+    before, after = rebound({Foot.LEFT: shift})
+    told = changes([*before, *after])
+    assert [t for t, _ in told] == sorted(t for t, _ in told)
+    # the other foot's clock dates the second walk, as if nothing had happened
+    expected = [what for _, what in changes(heard(LEVEL, 1))]
+    assert [what for _, what in told] == expected + expected[1:]
+    assert told[-1][0] == pytest.approx(told[len(expected) - 1][0] + worn(LEVEL, 1)[0][-1].t, abs=1.0)
+
+
+@pytest.mark.parametrize("shift", [-1e9, -40.0])
+def test_when_both_clocks_restart_all_is_told_anew_on_the_new_one(shift: float) -> None:
+    before, after = rebound(dict.fromkeys(Foot, shift))
+    once, again = changes(before), changes(after)
+    assert [what for _, what in again] == [what for _, what in once]
+    over = worn(LEVEL, 1)[0][-1].t + 0.01 + shift
+    assert [t - over for t, _ in again] == pytest.approx([t for t, _ in once], abs=0.2)
+
+
+def test_a_restarted_clock_dates_what_is_told_once_the_other_foot_has_fallen_silent() -> None:
+    _, after = rebound({Foot.LEFT: -1e9}, silent=Foot.RIGHT)
+    told = changes(after)
+    assert [what for _, what in told][-2:] == [Activity.WALKING, Activity.STANDING]
+    assert all(t < -9e8 for t, _ in told)
+
+
+def test_a_saved_part_whose_feet_have_two_clocks_is_the_same() -> None:
+    part = AnglePerMetre()
+    part.clocks, part.apart = {Foot.RIGHT: 1000.0}, {Foot.LEFT: None}
+    assert load(AnglePerMetre, json.loads(json.dumps(save(part)))) == part
+
+
+@pytest.mark.parametrize("height", [-11.46, 2.31])
+def test_a_step_higher_than_stairs_have_is_neither_upstairs_nor_downstairs(height: float) -> None:
+    part, foot = AnglePerMetre(), FootTracker(Foot.LEFT, ShortTimeEnergy(), ShoeSensing())
+    told: list[Event] = []
+    for sample in worn(LEVEL, 1)[0]:
+        if sample.site.foot is Foot.LEFT:
+            events = [
+                evolve(event, height_change=height) if isinstance(event, StepTaken) and event.number % 3 == 0 else event
+                for event in foot.feed(sample)
+            ]
+            told += part.foot_moved(foot, sample, events)
+    assert [what for _, what in changes(told)] == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
+    assert not any(isinstance(event, FlightClimbed) for event in told)
 
 
 # --- recorded stairs --------------------------------------------------------------------------------------------------

@@ -27,6 +27,12 @@ DOWN_FROM = 0.5 * (PLANE + DOWNSTAIRS)
 LEAST_RISE = 0.08
 """A foot that comes down less than this above or below where it stood has not taken a stair, m; half of a riser. The
 angle of a foot that hardly goes anywhere is large whatever it does; the paper does not say what becomes of it."""
+HIGHEST_RISE = 0.88
+"""No stride of stairs rises more, m: two treads at a time, and the highest risers that The Building Regulations 2010,
+Approved Document K (2013), table 1.1, allow, 0.22 m."""
+HIGHEST_DEGRADED = 0.6
+"""Nor is one believed to rise more when samples were missing within it: one tread at a time, 0.44 m, and a third of
+that for what the gap has done, m. Nobody can tell two treads from a height that has drifted."""
 _LEAST_GROUND = 1e-3
 """m."""
 
@@ -42,3 +48,8 @@ def steepness(ground: float, height: float) -> int:
         return 0
     angle = angle_per_metre(ground, height)
     return 1 if angle > UP_FROM else -1 if angle < DOWN_FROM else 0
+
+
+def of_stairs(height: float, degraded: bool = False) -> bool:
+    """Whether stairs have strides that gain `height`, m, so that the angle of one means anything."""
+    return abs(height) <= (HIGHEST_DEGRADED if degraded else HIGHEST_RISE)

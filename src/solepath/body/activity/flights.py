@@ -11,6 +11,10 @@ while a stride that is misjudged in the middle of the stairs stands alone (with 
 over as well with the first stride the other way, and when both feet stand at one height for `patience` s: at the top
 nobody need walk on, and who rests on the stairs with a foot on each tread is not there yet. What is lower than
 `least_height` is a kerb. Latency: that of the level strides, about a second, or `patience`.
+
+What no stride of stairs can gain (foot/steepness.py) is an error of the track: such a stride begins no flight, counts
+as one of the flight under way, and is taken to rise by the mean of those that can be believed; where none can, there is
+no height to tell and no flight is told.
 """
 
 from __future__ import annotations
@@ -18,6 +22,7 @@ from __future__ import annotations
 from attrs import define, field
 
 from ...events import FlightClimbed, StepTaken
+from ...foot.steepness import of_stairs
 from ...types import Foot
 
 
@@ -46,6 +51,10 @@ class Flights:
     """Level strides since the last stair stride."""
     climbed: dict[Foot, float] = field(factory=dict, init=False)
     """By each foot in this flight, m."""
+    unbelieved: dict[Foot, int] = field(factory=dict, init=False)
+    """Strides of each foot in this flight whose height is beyond what stairs have."""
+    believed: float = field(default=0.0, init=False)
+    """What the other stair strides of this flight gained together, m."""
     stood: dict[Foot, float] = field(factory=dict, init=False)
     """Height of each foot above where both were last known to be on one level, m."""
     before: dict[Foot, float] = field(factory=dict, init=False)
@@ -60,28 +69,33 @@ class Flights:
     def stepped(self, step: StepTaken, way: int) -> list[FlightClimbed]:
         """A step of either foot that goes upstairs (1), downstairs (-1) or neither (0)."""
         foot, height = step.foot, step.height_change
+        believed = of_stairs(height, step.degraded)
         events: list[FlightClimbed] = []
         if way != 0 and self.way not in (0, way):
             self._over(step.known_at, events)
+        if way != 0 and self.way == 0:
+            self._begin(step, way)
         if way != 0:
-            if self.way == 0:
-                self._begin(step, way)
             self.t_end = max(self.t_end, step.t)
             self.strides += 1
             self.level = 0
             first = self.before.pop(foot, 0.0)
-            self._climb(foot, height + (first if way * first > self.rise else 0.0))
+            if believed:
+                self.believed += height
+                self._climb(foot, height + (first if way * first > self.rise else 0.0))
+            else:
+                self.unbelieved[foot] = self.unbelieved.get(foot, 0) + 1
         elif self.way != 0:
             self.level += 1
-            if self.way * height > self.rise and foot in self.climbed:
+            if believed and self.way * height > self.rise and foot in self.climbed:
                 self._climb(foot, height)
             else:
-                self.before[foot] = height
+                self.before[foot] = height if believed else 0.0
             if self.level >= self._heard(foot, step.t):
                 self._over(step.known_at, events)
                 self.stood = {}
         else:
-            self.before[foot] = height
+            self.before[foot] = height if believed else 0.0
         self.stepped_at[foot] = step.t
         return events
 
@@ -90,7 +104,8 @@ class Flights:
         events: list[FlightClimbed] = []
         if self.way != 0 and t - max(self.stepped_at.values(), default=t) > self.patience:
             heights = list(self.stood.values())
-            if max(heights) - min(heights) < self.even:
+            # once a stride's height is not known, nor is whether the feet stand on one level
+            if self.unbelieved or max(heights) - min(heights) < self.even:
                 self._over(known_at, events)
                 self.stood = {}
         return events
@@ -106,7 +121,8 @@ class Flights:
         self.way = way
         self.t_start, self.t_end = step.t_start, step.t
         self.strides = self.level = 0
-        self.climbed = {}
+        self.climbed, self.unbelieved = {}, {}
+        self.believed = 0.0
 
     def _climb(self, foot: Foot, height: float) -> None:
         self.climbed[foot] = self.climbed.get(foot, 0.0) + height
@@ -118,8 +134,14 @@ class Flights:
         return 1 + sum([abs(t - at) < self.heard_within for at in others])
 
     def _over(self, known_at: float, events: list[FlightClimbed]) -> None:
-        height = sum(self.climbed.values()) / len(self.climbed)
-        if abs(height) >= self.least_height and self.strides > 1:
+        unbelieved = sum(self.unbelieved.values())
+        known = self.strides - unbelieved
+        if known:
+            feet = len(self.climbed | self.unbelieved)
+            height = (sum(self.climbed.values()) + unbelieved * self.believed / known) / feet
+        else:
+            height = 0.0
+        if self.way * height >= self.least_height and self.strides > 1:
             events.append(
                 FlightClimbed(
                     t=self.t_end,
@@ -132,3 +154,5 @@ class Flights:
             )
         self.way = 0
         self.before = {}
+        if unbelieved:
+            self.stood, self.unbelieved = {}, {}

@@ -7,9 +7,9 @@ from __future__ import annotations
 from attrs import define, field
 
 from ...events import ActivityChanged, Event, StepTaken
-from ...foot.steepness import steepness
+from ...foot.steepness import of_stairs, steepness
 from ...foot.tracker import FootTracker
-from ...types import Activity, Phase, Sample, Site
+from ...types import Activity, Foot, Phase, Sample, Site
 from ...vector import TIE
 from .flights import Flights
 
@@ -24,17 +24,29 @@ class AnglePerMetre:
     word for who does not walk: feet that stand for `stands` s are STANDING since they came to stand, and feet that move
     without a step for `lost` s are UNKNOWN. What is told is final and knows no probabilities. Latency: the step's end,
     for a state that began with its toe-off; `stands` for standing.
+
+    A step that gains more than stairs have (steepness.py) is an error of the track, and its angle means nothing: who
+    walked or climbed goes on doing so, who stood is UNKNOWN. When the clock of one foot begins anew, the other's goes
+    on and dates what is told; a foot whose times are elsewhere is left out until they come within `lost` s of the
+    other's, or the other begins anew too, or says nothing for `silent` s.
     """
 
     stands: float = 1.2
     """Longer than a foot of a slow walker stands, s."""
     lost: float = 5.0
     """s."""
+    silent: float = 10.0
+    """s."""
     # state
     activity: Activity = field(default=Activity.UNKNOWN, init=False)
     flights: Flights = field(factory=Flights, init=False)
     since: float | None = field(default=None, init=False)
     """`t` of what was told last, s; None when it was told on a clock that is gone."""
+    clocks: dict[Foot, float] = field(factory=dict, init=False)
+    """The newest time of each foot that dates what is told, s."""
+    apart: dict[Foot, float | None] = field(factory=dict, init=False)
+    """Of each foot whose clock began anew and that does not: since when it has waited for the other, by its own clock,
+    s; None when the other was heard just now."""
     moved_at: float | None = field(default=None, init=False)
     """When a foot was last seen off the ground or on its way there; at first, when a foot was first seen, s."""
     stepped_at: float | None = field(default=None, init=False)
@@ -42,8 +54,12 @@ class AnglePerMetre:
 
     def interrupt(self, site: Site) -> None:
         """As in `ActivityPart`."""
-        self.since = self.moved_at = self.stepped_at = None
+        foot = site.foot
+        if foot is None:
+            return
         self.flights.interrupt()
+        self.clocks.pop(foot, None)
+        self.apart[foot] = None
 
     def finish(self, known_at: float) -> list[Event]:
         """As in `ActivityPart`."""
@@ -54,16 +70,24 @@ class AnglePerMetre:
         t = sample.t
         if foot.moved_at != t or not foot.levelled:
             return []
+        if self.apart and not self._dates(foot.foot, t):
+            return []
+        self.clocks[foot.foot] = t
         if self.moved_at is None or self.stepped_at is None:
             self.moved_at = self.stepped_at = t
         known_at = t if sample.known_at is None else max(t, sample.known_at)
         told: list[Event] = []
         for event in events:
             if isinstance(event, StepTaken):
-                way = steepness(event.stride_length, event.height_change)
                 began = event.t_start if event.t_toe_off is None else max(event.t_start, event.t_toe_off)
                 self.stepped_at = max(self.stepped_at, event.t)
-                self._tell(_OF_STEP[way], began, known_at, told)
+                if of_stairs(event.height_change, event.degraded):
+                    way = steepness(event.stride_length, event.height_change)
+                    self._tell(_OF_STEP[way], began, known_at, told)
+                else:
+                    way = self.flights.way
+                    if self.activity is Activity.STANDING:
+                        self._tell(Activity.UNKNOWN, began, known_at, told)
                 told += self.flights.stepped(event, way)
         if foot.phase is not Phase.STATIONARY:
             if t > self.moved_at:
@@ -77,8 +101,32 @@ class AnglePerMetre:
             told += self.flights.waited(t, known_at)
         return told
 
+    def _dates(self, foot: Foot, t: float) -> bool:
+        """Whether the times of `foot`, of which `t` is the newest, date what is told."""
+        apart, clocks = self.apart, self.clocks
+        if foot not in apart and clocks:
+            for other in apart:
+                apart[other] = None
+            return True
+        if clocks and abs(t - max(clocks.values())) > self.lost:
+            waiting = apart[foot]
+            if waiting is None:
+                apart[foot] = waiting = t
+            if t - waiting <= self.silent:
+                return False
+            for other in clocks:
+                apart[other] = None
+            clocks.clear()
+            self.flights.interrupt()
+        if not clocks:
+            self.moved_at = self.stepped_at = None
+            if self.since is not None and t < self.since:
+                self.since = None
+        apart.pop(foot, None)
+        return True
+
     def _tell(self, activity: Activity, began: float, known_at: float, told: list[Event]) -> None:
-        if activity is self.activity:
+        if activity is self.activity and self.since is not None:
             return
         began = began if self.since is None else max(began, self.since)
         self.activity, self.since = activity, began
