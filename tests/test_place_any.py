@@ -130,7 +130,7 @@ def test_the_state_is_small_and_does_not_grow(method: Method) -> None:
         sizes.append(len(json.dumps(machine.save(part))))
         if part.place is not None and len(part.place.candidates) == 1:
             found.append(sizes[-1])
-    assert max(sizes) < 24_000, "while it is undecided"
+    assert max(sizes) < 10_000, "while it is undecided"
     assert sum(found) / len(found) < 8_000 and max(found[-100:]) < 10_000, "once it is decided"
 
 

@@ -225,7 +225,8 @@ class References:
         soon = real and possible and fits and (measured or height >= COUNTED * least)
         if waited > WAIT or hypot(here.position[0] - end[0], here.position[1] - end[1]) > AWAY or soon:
             self.passage = None
-            sure = (SURE if fits else FAIR if real else HALF) * (1.0 - passage.doubt)
+            good = fits or (real and not plan.heights_known)
+            sure = (SURE if good else FAIR if real else HALF) * (1.0 - passage.doubt)
             arrived = Arrived(passage.kind, up, height, passage.t, left, passage.doubt, sure)
             told.append(arrived if possible else Released())
 
