@@ -7,13 +7,15 @@ from fractions import Fraction
 from itertools import pairwise
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from solepath.floorplan.crossing import Walls
+from solepath.floorplan.enclosure import Enclosure
+from solepath.floorplan.grid import Grid
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Connector, Door, FloorPlan, FloorPlanError, Kind, Level, Stop, Wall
-from solepath.floorplan.segments import side, touch
+from solepath.floorplan.segments import distance, side, touch
 
 Line = tuple[tuple[float, float], tuple[float, float]]
 
@@ -109,6 +111,46 @@ def test_nobody_leaves_a_round_room_of_a_thousand_walls() -> None:
 def test_a_level_without_walls_stops_nobody() -> None:
     assert not Walls([]).crosses(0.0, 0.0, 1.0, 1.0)
     assert not Walls([]).crosses(-1e6, 0.0, 1e6, 1.0)
+
+
+# --- the grid ---------------------------------------------------------------------------------------------------------
+
+
+@given(lines, st.lists(lines, max_size=3), st.floats(0.0, 3.0), st.integers(64, 3000))
+def test_walking_along_a_line_finds_all_cells_that_are_near_and_no_others(
+    line: Line, others: list[Line], within: float, most: int
+) -> None:
+    flat = [(*start, *end) for start, end in (line, *others)]
+    grid = Grid(flat, 0.5, 0.25, most)
+    found = grid.near(*flat[0], within)
+    assert len(dict(found)) == len(found)
+    for at in range(grid.columns * grid.rows):
+        x, y = grid.left + (at % grid.columns + 0.5) * grid.cell, grid.bottom + (at // grid.columns + 0.5) * grid.cell
+        away = distance(*flat[0], x, y)
+        if abs(away - within) > 1e-9:
+            assert (at in dict(found)) == (away < within)
+
+
+def test_a_wall_across_the_largest_plan_is_in_the_cells_along_it_only() -> None:
+    grid = Grid([(0.0, 0.0, 5000.0, 5000.0)], 2.0, 0.5, 100_000)
+    assert grid.columns * grid.rows > 95_000
+    assert len(grid.near(0.0, 0.0, 5000.0, 5000.0, 13.0)) < 1300
+
+
+@settings(max_examples=60, deadline=None)
+@given(walls_of, st.integers(64, 400))
+def test_outside_is_what_a_walk_over_the_lattice_reaches_without_touching_a_wall(walls: list[Line], most: int) -> None:
+    level, solid = Level("0", "", 0, 0.0, tuple(Wall(start, end) for start, end in walls)), Walls(walls)
+    found = Enclosure(level, solid, most)
+    every = {(i, j): found.place(i, j) for i in range(found.columns) for j in range(found.rows)}
+    assume(all(distance(*start, *end, *place) > 1e-6 for start, end in walls for place in every.values()))
+    reached, now = {(0, 0)}, [(0, 0)]
+    for i, j in now:
+        for there in ((i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
+            if there in every and there not in reached and not solid.crosses(*every[i, j], *every[there]):
+                reached.add(there)
+                now.append(there)
+    assert sorted(found.outside) == sorted(every[at] for at in reached)
 
 
 # --- the whole plan ---------------------------------------------------------------------------------------------------

@@ -13,8 +13,21 @@ from floorplans import FILES, doors, plans, walls
 from solepath.floorplan.checks import unusable, warnings
 from solepath.floorplan.doors import with_doors_cut
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import Anchor, Connector, Door, FloorPlan, FloorPlanError, Kind, Level, Point, Stop, Wall
+from solepath.floorplan.plan import (
+    Anchor,
+    Connector,
+    Door,
+    FloorPlan,
+    FloorPlanError,
+    Kind,
+    Level,
+    Point,
+    Start,
+    Stop,
+    Wall,
+)
 from solepath.floorplan.reading import read_floorplan
+from solepath.session import Session
 
 HOUSE = read_floorplan(FILES / "house.geojson")
 GROUND = HOUSE.levels[0]
@@ -191,3 +204,96 @@ def test_one_walks_through_the_middle_of_a_door_in_a_wall_of_any_direction(turn:
     for x, free in ((at + 0.5 * wide, True), (at + 0.01, True), (at - 0.01, False), (at + wide - 0.01, True),
                     (at + wide + 0.01, at + wide > 10.0 - 0.01)):  # fmt: skip
         assert plan.crosses(0, *along(x, -0.4), *along(x, 0.4)) != free
+
+
+# --- what a program may have put into the records ---------------------------------------------------------------------
+
+HUGE = 10**400
+
+MISSHAPEN = [
+    (evolve(HOUSE, levels=None), "the plan's levels are None, not a tuple"),
+    (evolve(HOUSE, levels=[GROUND]), "the plan's levels are a list, not a tuple"),
+    (evolve(HOUSE, levels=(1,)), "the plan's levels: one is 1, no Level"),
+    (evolve(HOUSE, name=3), "the plan's name is 3, not a text"),
+    (evolve(HOUSE, connectors=({},)), "the plan's connectors: one is a dict, no Connector"),
+    (evolve(HOUSE, anchor=(48.0, 11.0)), "the anchor is (48, 11), no Anchor"),
+    (evolve(HOUSE, anchor=Anchor("x", 0.0)), "the anchor's latitude is 'x', not a number"),
+    (with_level(id=0), "a level's id is 0, not a text"),
+    (with_level(ordinal="x"), "level '0': its ordinal is 'x', not a whole number up to 100000"),
+    (with_level(ordinal=HUGE), "level '0': its ordinal is a huge number, not a whole number up to 100000"),
+    (with_level(elevation=None), "level '0': its elevation is None, not a number"),
+    (with_level(elevation=HUGE), "level '0': its elevation is a huge number"),
+    (with_level(walls=[]), "level '0': its walls are a list, not a tuple"),
+    (with_level(walls=(Wall((0, 0), (HUGE, 1)),)), "level '0': wall 0 is at (a huge number, 1)"),
+    (with_level(walls=(Wall((0, 0), (1,)),)), "level '0': wall 0 is ((0, 0), (1)), not from (x, y) to (x, y)"),
+    (with_level(walls=(Wall((0, 0), "ab"),)), "level '0': wall 0 is ((0, 0), 'ab'), not from (x, y) to (x, y)"),
+    (with_level(doors=(Door((0, 0), (True, 1)),)),
+     "level '0': door 0 is ((0, 0), (True, 1)), not from (x, y) to (x, y)"),
+    (with_level(rooms=(((0, 0), (1, 0), (1, None)),)), "level '0': room 0 has a corner (1, None), not (x, y)"),
+    (stairs(Stop("0", None)), "stairs 'A': a stop has a place None, not (x, y)"),
+    (stairs(Stop(["0"], (1.0, 1.0))), "stairs 'A': the level of a stop is a list, not a text"),
+    (stairs(Stop("0", (1.0, 1.0)), flights=1.5), "stairs 'A': has 1.5 flights, not a whole number"),
+    (stairs(Stop("0", (1.0, 1.0)), flights=10**5000), "stairs 'A': has a huge number flights a storey"),
+    (stairs(Stop("0", (1.0, 1.0)), rise=HUGE), "stairs 'A': its steps rise a huge number m"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("plan", "says"), MISSHAPEN, ids=[says[:40] for _, says in MISSHAPEN])
+def test_a_plan_of_something_else_than_records_is_refused_by_the_session_in_one_line(
+    plan: FloorPlan, says: str
+) -> None:
+    assert unusable(plan) == says
+    with pytest.raises(FloorPlanError) as refused:
+        Session(floorplan=plan)
+    assert str(refused.value) == says
+
+
+NO_STARTS = [
+    (Start("0", (1,)), "its place is (1), not (x, y) in m"),
+    (Start("0", (1.0, 2.0, 3.0)), "its place is (1, 2, 3), not (x, y) in m"),
+    (Start("0", None), "its place is None, not (x, y) in m"),
+    (Start("0", (HUGE, 1)), "its place is (a huge number, 1), not (x, y) in m"),
+    (Start("0", (math.nan, 1.0)), "its place is (nan, 1), not (x, y) in m"),
+    (Start(0, (1.0, 2.0)), "its level is 0, not a text"),
+    (Start("0", (1.0, 2.0), "x"), "its heading is 'x', not in rad"),
+    (Start("0", (1.0, 2.0), 1e308), "its heading is 1e+308, not in rad"),
+    (Start("0", (1.0, 2.0), HUGE), "its heading is a huge number, not in rad"),
+    (Start("0", (1.0, 2.0), spread=-1.0), "its spread is -1; it can be 0 to 5000 m"),
+    (Start("0", (1.0, 2.0), spread=1e300), "its spread is 1e+300; it can be 0 to 5000 m"),
+    (Start("0", (1.0, 2.0), spread=None), "its spread is None; it can be 0 to 5000 m"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("start", "says"), NO_STARTS, ids=[says[:40] for _, says in NO_STARTS])
+def test_a_start_that_cannot_be_is_refused_by_the_session_in_one_line(start: Start, says: str) -> None:
+    with pytest.raises(FloorPlanError) as refused:
+        Session(floorplan=HOUSE, start=start)
+    assert str(refused.value) == f"start: {says}"
+
+
+# --- how much of it ---------------------------------------------------------------------------------------------------
+
+
+def test_a_plan_has_no_more_levels_stops_walls_and_corners_than_are_good_for_a_session() -> None:
+    def lifts(count: int, stops: int) -> FloorPlan:
+        levels = tuple(Level(str(k), "", k, 3.0 * k, box(0.0, 0.0, 20.0, 10.0)) for k in range(stops))
+        each = tuple(Stop(str(k), (1.0, 1.0)) for k in range(stops))
+        return FloorPlan("", levels, tuple(Connector(Kind.LIFT, str(k), each) for k in range(count)))
+
+    too_many = "the plan's stairs and lifts have more than 2000 stops"
+    assert unusable(lifts(66_000, 1)) == unusable(lifts(1001, 2)) == unusable(lifts(250, 300)) == too_many
+    assert unusable(lifts(1000, 2)) is None
+    levels = tuple(Level(str(k), "", k, 0.0, ()) for k in range(1001))
+    assert unusable(FloorPlan("", levels)) == "the plan has more than 1000 levels or 100000 walls"
+    many = (Wall((0.0, 0.0), (1.0, 1.0)),) * 100_001
+    assert unusable(with_level(walls=many)) == "the plan has more than 1000 levels or 100000 walls"
+    ring = tuple((math.cos(0.001 * k), math.sin(0.001 * k)) for k in range(1000))
+    assert unusable(with_level(rooms=(ring,) * 101)) == "the plan has more than 100000 doors and corners of rooms"
+    long = tuple(Wall((0.0, 0.01 * k), (4000.0, 0.01 * k)) for k in range(126))
+    assert unusable(with_level(walls=long)) == "the walls, doors and rooms of the plan come to 504 km; it can have 500"
+
+
+def test_more_walls_around_one_place_than_a_step_can_be_tried_against_are_refused() -> None:
+    comb = tuple(Wall((0.001 * k, 0.0), (0.001 * k, 1.0)) for k in range(2500))
+    with pytest.raises(FloorPlanError, match=r"^level '0': \d+ walls lie around \(-?\d+, -?\d+\)$"):
+        IndexedPlan(with_level(walls=comb))

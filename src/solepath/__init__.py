@@ -49,6 +49,7 @@ from .events import (
 )
 from .floorplan.index import IndexedPlan
 from .floorplan.plan import FloorPlan, FloorPlanError, Start
+from .floorplan.reading import read_floorplan
 from .machine import SnapshotError
 from .recipes import Recipe
 from .session import Session
@@ -135,5 +136,6 @@ __all__ = [
     "WalkingMode",
     "WalkingModeChanged",
     "read_calibration",
+    "read_floorplan",
     "recipes",
 ]

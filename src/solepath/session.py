@@ -21,7 +21,8 @@ from .body.position import Position
 from .calibration import Calibration, CalibrationError, unusable
 from .events import Event, PacketRejected, Placed, SampleRejected
 from .floorplan.index import IndexedPlan
-from .floorplan.plan import FloorPlan, Start
+from .floorplan.plan import FloorPlan, FloorPlanError, Start
+from .floorplan.records import no_start
 from .foot.phase import SUPPORT
 from .foot.tracker import FootTracker
 from .link.decoder import Decoder
@@ -53,9 +54,10 @@ class Session:
     also emit FootMoved, the live position at every sample. `devices`: the address of the device at a site
     (`Packet.device`, in upper or lower case); packets of other devices are rejected there. A site that is not named is
     bound to the first device that it hears. `profiles`: devices of the app's own (link/driver.py), beside those that
-    are known. `floorplan`: of the building, made ready once (IndexedPlan) where many sessions share it; `start`: where
-    on it the wearer sets out, None when nobody knows. CalibrationError, a ValueError, for a calibration of what cannot
-    be (protocol/calibration.md), FloorPlanError, a ValueError, for such a floor plan (protocol/floorplan.md).
+    are known. `floorplan`: of the building, from a file (read_floorplan) or made by a program, and made ready once
+    (IndexedPlan) where many sessions share it; `start`: where on it the wearer sets out, None when nobody knows.
+    CalibrationError, a ValueError, for a calibration of what cannot be (protocol/calibration.md), FloorPlanError, a
+    ValueError, for such a floor plan or start (protocol/floorplan.md).
 
     `feed`, `advance` and `finish` return the events that became known, in the order in which they did. `feed` is
     total: any bytes give events, never an exception, unless a reader of the app's own is itself wrong. TypeError for
@@ -95,6 +97,9 @@ class Session:
         if start is not None:
             if not isinstance(start, Start) or self._plan is None:
                 raise TypeError("start must be a Start, on a floor plan")
+            why_not = no_start(start)
+            if why_not is not None:
+                raise FloorPlanError(f"start: {why_not}")
             wearer.place.set_out(deepcopy(start))
         self._state = _State(wearer, None if self._plan is None else self._plan.fingerprint)
         for site, device in ({} if devices is None else devices).items():

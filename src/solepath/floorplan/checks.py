@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from math import isfinite
+from math import hypot
 
 from attrs import evolve
 
-from .enclosure import Enclosure
+from .crossing import MOST_CELLS, Walls
+from .enclosure import MOST_PLACES, Enclosure
+from .grid import CELLS, PLACES, share
 from .plan import Connector, FloorPlan, Level, Point
+from .records import FARTHEST, misshapen, shown
 from .rooms import Rooms
-
-FARTHEST = 1e7
-"""m; of any coordinate from the plan's origin: national grids have up to 1e7."""
 
 WIDEST = 5000.0
 NARROWEST = 1.0
@@ -22,7 +22,13 @@ HIGHEST_STOREY = 50.0
 """m; from one level to the next."""
 
 MOST_LEVELS = 1000
-MOST_WALLS = 200_000
+MOST_STOPS = 2000
+"""Of all stairs and lifts: a lift of twenty storeys has twenty."""
+MOST_WALLS = 100_000
+MOST_CORNERS = 100_000
+"""Of rooms, stairwells and cabins, with the doors."""
+LONGEST = 500e3
+"""m; of all walls, doors and outlines together. Grids are laid along them."""
 
 
 def unusable(plan: FloorPlan) -> str | None:
@@ -32,10 +38,10 @@ def unusable(plan: FloorPlan) -> str | None:
 
 
 def _faults(plan: FloorPlan) -> Iterator[str]:
+    yield from misshapen(plan)
     if not plan.levels:
         yield "the plan has no levels"
-    if len(plan.levels) > MOST_LEVELS or sum(len(level.walls) for level in plan.levels) > MOST_WALLS:
-        yield f"the plan has more than {MOST_LEVELS} levels or {MOST_WALLS} walls"
+    yield from _faults_of_size(plan)
     ids = set()
     for level in plan.levels:
         if not level.id:
@@ -46,35 +52,59 @@ def _faults(plan: FloorPlan) -> Iterator[str]:
     for level in plan.levels:
         yield from _faults_of_level(level)
     yield from _faults_of_units(plan)
+    elevations = {level.id: level.elevation for level in plan.levels}
     for one in plan.connectors:
-        yield from _faults_of_connector(one, plan)
+        yield from _faults_of_connector(one, elevations)
+    yield from _faults_of_length(plan)
     anchor = plan.anchor
     if anchor is not None:
-        if not (isfinite(anchor.bearing) and abs(anchor.bearing) <= 10.0):
-            yield f"the anchor's bearing is {anchor.bearing:g} rad"
+        if not abs(anchor.bearing) <= 10.0:
+            yield f"the anchor's bearing is {shown(anchor.bearing)} rad"
         if not (abs(anchor.latitude) <= 89.0 and abs(anchor.longitude) <= 180.0):
-            yield f"the anchor is at latitude {anchor.latitude:g}, longitude {anchor.longitude:g}"
+            yield f"the anchor is at latitude {shown(anchor.latitude)}, longitude {shown(anchor.longitude)}"
+
+
+def _faults_of_size(plan: FloorPlan) -> Iterator[str]:
+    if len(plan.levels) > MOST_LEVELS or sum(len(level.walls) for level in plan.levels) > MOST_WALLS:
+        yield f"the plan has more than {MOST_LEVELS} levels or {MOST_WALLS} walls"
+    if len(plan.connectors) > MOST_STOPS or sum(len(one.stops) for one in plan.connectors) > MOST_STOPS:
+        yield f"the plan's stairs and lifts have more than {MOST_STOPS} stops"
+    corners = sum(len(level.doors) + sum(map(len, level.rooms)) for level in plan.levels)
+    corners += sum(len(stop.outline) for one in plan.connectors for stop in one.stops)
+    if corners > MOST_CORNERS:
+        yield f"the plan has more than {MOST_CORNERS} doors and corners of rooms"
+
+
+def _faults_of_length(plan: FloorPlan) -> Iterator[str]:
+    lines = [(wall.start, wall.end) for level in plan.levels for wall in level.walls]
+    lines += [(door.start, door.end) for level in plan.levels for door in level.doors]
+    rings = [room for level in plan.levels for room in level.rooms]
+    rings += [stop.outline for one in plan.connectors for stop in one.stops]
+    lines += [line for ring in rings for line in zip(ring, (*ring[1:], *ring[:1]), strict=True)]
+    long = sum([hypot(b[0] - a[0], b[1] - a[1]) for a, b in lines])
+    if long > LONGEST:
+        yield (f"the walls, doors and rooms of the plan come to {long / 1000.0:.0f} km; it can have "
+               f"{LONGEST / 1000.0:.0f}")  # fmt: skip
 
 
 def _faults_of_level(level: Level) -> Iterator[str]:
     name = f"level {level.id!r}"
-    if not (isfinite(level.elevation) and abs(level.elevation) <= FARTHEST):
-        yield f"{name}: its elevation is {level.elevation:g}"
+    if not abs(level.elevation) <= FARTHEST:
+        yield f"{name}: its elevation is {shown(level.elevation)}"
     for what, points in _drawn(level):
         for point in points:
             if not _is_place(point):
-                yield f"{name}: {what} is at ({point[0]:g}, {point[1]:g})"
+                yield f"{name}: {what} is at {shown(point)}"
     for i, wall in enumerate(level.walls):
         if wall.start == wall.end:
-            yield f"{name}: wall {i} has no length, at ({wall.start[0]:g}, {wall.start[1]:g})"
+            yield f"{name}: wall {i} has no length, at {shown(wall.start)}"
     for i, room in enumerate(level.rooms):
         if len(room) < 3:
             yield f"{name}: room {i} has {len(room)} corners"
 
 
-def _faults_of_connector(one: Connector, plan: FloorPlan) -> Iterator[str]:
+def _faults_of_connector(one: Connector, elevations: dict[str, float]) -> Iterator[str]:
     name = f"{one.kind.value} {one.name!r}"
-    elevations = {level.id: level.elevation for level in plan.levels}
     if not one.stops:
         yield f"{name}: has no stops"
     before = None
@@ -84,16 +114,16 @@ def _faults_of_connector(one: Connector, plan: FloorPlan) -> Iterator[str]:
             return
         for point in (stop.place, *stop.outline):
             if not _is_place(point):
-                yield f"{name}: its stop at level {stop.level!r} is at ({point[0]:g}, {point[1]:g})"
+                yield f"{name}: its stop at level {stop.level!r} is at {shown(point)}"
         if len(stop.outline) in (1, 2):
             yield f"{name}: its outline at level {stop.level!r} has {len(stop.outline)} corners"
         if before is not None and not elevations[stop.level] > before:
             yield f"{name}: its stops are not from the lowest to the highest"
         before = elevations[stop.level]
     if one.flights is not None and not 1 <= one.flights <= 100:
-        yield f"{name}: has {one.flights} flights a storey"
+        yield f"{name}: has {shown(one.flights)} flights a storey"
     if one.rise is not None and not 0.02 <= one.rise <= 0.6:
-        yield f"{name}: its steps rise {one.rise:g} m"
+        yield f"{name}: its steps rise {shown(one.rise)} m"
 
 
 def _faults_of_units(plan: FloorPlan) -> Iterator[str]:
@@ -135,15 +165,17 @@ def _extent(values: Iterable[float]) -> float:
 
 def warnings(plan: FloorPlan) -> tuple[str, ...]:
     """What is worth saying of a plan that can be used, one line each: what its reader remarked, walls that do not
-    close, no stairs or lifts, a level that none of them leads to. It takes up to 0.1 s a level."""
+    close, no stairs or lifts, a level that none of them leads to. It takes about as long as to index the plan."""
     return (*plan.remarks, *_remarks(plan)) if unusable(plan) is None else ()
 
 
 def _remarks(plan: FloorPlan) -> Iterator[str]:
     if not plan.heights_known and len(plan.levels) > 1:
         yield "the plan does not say how high its levels lie"
+    count = len(plan.levels)
+    cells, places = share(MOST_CELLS, CELLS, count), share(MOST_PLACES, PLACES, count)
     for level in plan.levels:
-        yield from _remarks_of_walls(level)
+        yield from _remarks_of_walls(level, cells, places)
     if not plan.connectors:
         yield "the plan has no stairs and no lifts: nothing on it shows a level or a place"
     for one in plan.connectors:
@@ -156,14 +188,14 @@ def _remarks(plan: FloorPlan) -> Iterator[str]:
                 yield f"level {level.id!r}: neither stairs nor a lift lead there"
 
 
-def _remarks_of_walls(level: Level) -> Iterator[str]:
+def _remarks_of_walls(level: Level, cells: int, places: int) -> Iterator[str]:
     if not level.walls:
         yield f"level {level.id!r}: has no walls"
         return
-    found = Enclosure(level)
+    found = Enclosure(level, Walls([(wall.start, wall.end) for wall in level.walls], cells), places)
     way_in: Point | None = found.open_end
     if level.rooms:
-        rooms = Rooms(evolve(level, doors=()), ())  # a doorstep is no room
-        way_in = next((place for place in found.order if rooms.inside(*place)), None)
+        rooms = Rooms(evolve(level, doors=()), (), places)  # a doorstep is no room
+        way_in = next((place for place in found.outside if rooms.inside(*place)), None)
     if way_in is not None:
         yield f"level {level.id!r}: its walls do not close near ({way_in[0]:.1f}, {way_in[1]:.1f})"

@@ -7,7 +7,8 @@ line; only where these leave doubt or the move goes through the line, the exact 
 
 Cost of a step's move among 500 walls in rooms of 15 m^2, the mean over moves in all directions from anywhere: 2 us; 0.5
 us in the open, 3 to 5 us where it does cross a wall; half as much again among 10,000 walls. A move of 4 m: 8 us. To sow
-the walls takes about 0.13 ms each, and they take 1.2 kB each. tests/bench/floorplan.py measures it.
+the walls takes about 0.05 ms each, and they take 1.2 kB each; long ones take as much more as they are long.
+tests/bench/floorplan.py measures it.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import ceil, hypot, isfinite, sqrt
 
+from .grid import Grid
 from .plan import Point
 from .segments import distance, touch
 
@@ -38,45 +40,35 @@ _Wall = tuple[float, float, float, float, float, float, float]
 class Walls:
     """Straight walls in a grid. `walls`: (start, end) in m; none of them a single point."""
 
-    __slots__ = ("_all", "_bottom", "_clear", "_left", "_near", "_per_m", "_rows", "_columns")
+    __slots__ = ("_all", "_bottom", "_clear", "_columns", "_left", "_near", "_per_m", "_rows")
 
-    def __init__(self, walls: Sequence[tuple[Point, Point]]) -> None:
-        self._all = [_lined(start, end) for start, end in walls]
-        xs = [x for start, end in walls for x in (start[0], end[0])] or [0.0]
-        ys = [y for start, end in walls for y in (start[1], end[1])] or [0.0]
-        margin = REACH + CELL
-        width, depth = max(xs) - min(xs) + 2.0 * margin, max(ys) - min(ys) + 2.0 * margin
-        cell = max(CELL, sqrt(width * depth / MOST_CELLS), width / MOST_CELLS, depth / MOST_CELLS)
-        self._left, self._bottom, self._per_m = min(xs) - margin, min(ys) - margin, 1.0 / cell
-        self._columns, self._rows = ceil(width / cell), ceil(depth / cell)
+    def __init__(self, walls: Sequence[tuple[Point, Point]], most: int = MOST_CELLS) -> None:
+        """`most`: cells that the grid may have."""
+        self._all = [_lined(start, end) for start, end in dict.fromkeys(walls)]
+        grid = Grid(self.ends, REACH + CELL, CELL, most)
+        self._left, self._bottom, self._per_m = grid.left, grid.bottom, grid.per_m
+        self._columns, self._rows = grid.columns, grid.rows
         self._near: list[tuple[_Wall, ...]] = [()] * (self._columns * self._rows)
         self._clear = [_REACH2] * (self._columns * self._rows)
-        self._sow(cell)
+        self._sow(grid)
 
-    def _sow(self, cell: float) -> None:
+    def _sow(self, grid: Grid) -> None:
         """Every wall into the cells that it can be reached from."""
-        half = cell * sqrt(0.5) + 1e-6  # from the centre to a corner, and the rounding of who is in the cell
-        most = REACH + half
+        half = grid.cell * sqrt(0.5) + 1e-6  # from the centre to a corner, and the rounding of who is in the cell
         near: dict[int, list[_Wall]] = {}
         clear: dict[int, float] = {}
         for wall in self._all:
-            ax, ay, bx, by = wall[3:]
-            first, last = self._span(ax, bx, self._left, most, self._columns)
-            for j in range(*self._span(ay, by, self._bottom, most, self._rows)):
-                y = self._bottom + (j + 0.5) * cell
-                for i in range(first, last):
-                    away = distance(ax, ay, bx, by, self._left + (i + 0.5) * cell, y)
-                    if away <= most:
-                        at = j * self._columns + i
-                        near.setdefault(at, []).append(wall)
-                        clear[at] = min(clear.get(at, most), away)
+            for at, away in grid.near(*wall[3:], REACH + half):
+                known = near.get(at)
+                if known is None:
+                    near[at], clear[at] = [wall], away
+                else:
+                    known.append(wall)
+                    if away < clear[at]:
+                        clear[at] = away
         for at, walls in near.items():
             self._near[at] = tuple(walls)
-            self._clear[at] = max(clear[at] - half, 0.0) ** 2
-
-    def _span(self, a: float, b: float, origin: float, most: float, count: int) -> tuple[int, int]:
-        low, high = min(a, b) - most - origin, max(a, b) + most - origin
-        return max(int(low * self._per_m), 0), min(int(high * self._per_m) + 1, count)
+            self._clear[at] = max(sqrt(clear[at]) - half, 0.0) ** 2
 
     def crosses(self, x0: float, y0: float, x1: float, y1: float) -> bool:
         """Whether the straight move from (x0, y0) to (x1, y1), m, touches a wall, its own ends and the wall's included.
@@ -94,13 +86,24 @@ class Walls:
         return _touches_any(self._near[at], x0, y0, x1, y1)
 
     @property
+    def thickest(self) -> tuple[int, Point]:
+        """The most walls that a move is ever tried against, and about where that is, m."""
+        counts = [len(walls) for walls in self._near]
+        at = max(range(len(counts)), key=counts.__getitem__)
+        i, j = at % self._columns, at // self._columns
+        return counts[at], (self._left + (i + 0.5) / self._per_m, self._bottom + (j + 0.5) / self._per_m)
+
+    @property
     def ends(self) -> list[tuple[float, float, float, float]]:
-        """(ax, ay, bx, by) of every wall, in the order given."""
+        """(ax, ay, bx, by) of every wall, in the order given; one for those that are the same."""
         return [wall[3:] for wall in self._all]
 
     def joined(self, x: float, y: float, own: tuple[float, float, float, float], within: float) -> bool:
         """Whether a wall other than `own`, and than `own` drawn once more, comes within `within` <= REACH, m."""
-        at = int((y - self._bottom) * self._per_m) * self._columns + int((x - self._left) * self._per_m)
+        across, up = (x - self._left) * self._per_m, (y - self._bottom) * self._per_m
+        if not (0.0 <= across < self._columns and 0.0 <= up < self._rows):
+            return False
+        at = int(up) * self._columns + int(across)
         same = (own, (own[2], own[3], own[0], own[1]))
         return any(wall[3:] not in same and distance(*wall[3:], x, y) <= within for wall in self._near[at])
 

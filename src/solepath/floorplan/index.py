@@ -1,8 +1,8 @@
 """A floor plan made ready for questions that are asked thousands of times a step.
 
-`crosses` costs 2 us for a step's move (crossing.py), `inside` 1 to 3 us (rooms.py, enclosure.py). Making it costs about
-0.13 ms a wall, and the first `inside` of a level up to 100 ms. It is no machine and is not saved: with the same plan it
-is the same again.
+`crosses` costs 2 us for a step's move (crossing.py), `inside` 1 to 5 us (rooms.py, enclosure.py). Making it takes about
+0.1 ms a wall, some seconds for the largest plans that can be used; no later question has to wait for any of that. It is
+no machine and is not saved: with the same plan it is the same again.
 """
 
 from __future__ import annotations
@@ -10,10 +10,15 @@ from __future__ import annotations
 from math import hypot, isfinite
 
 from .checks import unusable
-from .crossing import Walls
-from .enclosure import Enclosure
+from .crossing import MOST_CELLS, Walls
+from .enclosure import MOST_PLACES, Enclosure
+from .grid import CELLS, PLACES, share
 from .plan import Connector, FloorPlan, FloorPlanError, Kind, Stop
+from .rooms import MOST_CELLS as MOST_ROOM_CELLS
 from .rooms import Rooms
+
+THICKEST = 2000
+"""Walls around one place: a move is tried against all of them."""
 
 
 class IndexedPlan:
@@ -29,12 +34,26 @@ class IndexedPlan:
         self.plan = plan
         self.fingerprint: int = plan.fingerprint
         self._numbers = {level.id: number for number, level in enumerate(plan.levels)}
-        self._walls = [Walls([(wall.start, wall.end) for wall in level.walls]) for level in plan.levels]
-        self._stops: list[tuple[tuple[Connector, Stop], ...]] = [
-            tuple((one, stop) for one in plan.connectors for stop in one.stops if stop.level == level.id)
-            for level in plan.levels
+        count = len(plan.levels)
+        cells = share(MOST_CELLS, CELLS, count)
+        self._walls = [Walls([(wall.start, wall.end) for wall in level.walls], cells) for level in plan.levels]
+        for level, walls in zip(plan.levels, self._walls, strict=True):
+            thickest, (x, y) = walls.thickest
+            if thickest > THICKEST:
+                raise FloorPlanError(f"level {level.id!r}: {thickest} walls lie around ({x:.0f}, {y:.0f})")
+        here: list[list[tuple[Connector, Stop]]] = [[] for _ in plan.levels]
+        for one in plan.connectors:
+            for stop in one.stops:
+                here[self._numbers[stop.level]].append((one, stop))
+        self._stops: list[tuple[tuple[Connector, Stop], ...]] = [tuple(pairs) for pairs in here]
+        room_cells = share(MOST_ROOM_CELLS, CELLS, count)
+        places = share(MOST_PLACES, PLACES, sum([not level.rooms for level in plan.levels]))
+        self._insides: list[Rooms | Enclosure] = [
+            Rooms(level, tuple([stop.outline for _, stop in pairs]), room_cells)
+            if level.rooms
+            else Enclosure(level, walls, places)
+            for level, walls, pairs in zip(plan.levels, self._walls, self._stops, strict=True)
         ]
-        self._insides: list[Rooms | Enclosure | None] = [None] * len(plan.levels)
 
     def number(self, level: str) -> int:
         """The place of the level with this id in `plan.levels`. FloorPlanError when there is none."""
@@ -55,20 +74,13 @@ class IndexedPlan:
         close. False on a level without walls and rooms, and for what is no place."""
         if not (isfinite(x) and isfinite(y)):
             return False
-        known = self._insides[level]
-        if known is None:
-            known = self._insides[level] = self._made(level)
-        return known.inside(x, y)
-
-    def _made(self, number: int) -> Rooms | Enclosure:
-        level = self.plan.levels[number]
-        if level.rooms:
-            return Rooms(level, tuple(stop.outline for _, stop in self._stops[number]))
-        return Enclosure(level)
+        return self._insides[level].inside(x, y)
 
     def stops(self, level: int, kind: Kind | None = None) -> tuple[tuple[Connector, Stop], ...]:
         """The connectors that stop at this level, of one kind or of all, each with that stop."""
-        return tuple(pair for pair in self._stops[level] if kind is None or pair[0].kind is kind)
+        if kind is None:
+            return self._stops[level]
+        return tuple(pair for pair in self._stops[level] if pair[0].kind is kind)
 
     def nearest(self, level: int, x: float, y: float, kind: Kind | None = None) -> tuple[Connector, Stop, float] | None:
         """The connector whose stop at this level is the nearest to (x, y), that stop, and how far off it is as the crow

@@ -1,15 +1,14 @@
-"""Floor plan files: what a file is, is told by what is in it."""
+"""Floor plan files: what a file is, is told by what is in it.
+
+The readers of the formats, and the libraries that they need, are loaded with the first file: most apps read none.
+"""
 
 from __future__ import annotations
 
-import zipfile
-import zlib
 from io import BytesIO
 from pathlib import Path
 
-from . import geojson, imdf, osm
 from .checks import unusable
-from .features import parsed
 from .plan import FloorPlan, FloorPlanError
 
 LARGEST = 32_000_000
@@ -44,6 +43,8 @@ def _checked(plan: FloorPlan) -> FloorPlan:
 
 
 def _read(path: Path, storey: float) -> FloorPlan:
+    from . import imdf
+
     if path.is_dir():
         names = [name for name in imdf.FILES if (path / name).is_file()]
         return imdf.of_files({name: _bounded(path / name) for name in names}, storey)
@@ -61,6 +62,9 @@ def _bounded(path: Path) -> bytes:
 
 
 def _plan(data: bytes, storey: float) -> FloorPlan:
+    from . import geojson, imdf, osm
+    from .features import parsed
+
     if not 1.0 <= storey <= 50.0:
         raise FloorPlanError(f"a storey of {storey:g} m cannot be")
     if data.startswith(b"PK"):
@@ -83,6 +87,11 @@ def _plan(data: bytes, storey: float) -> FloorPlan:
 
 def _unpacked(data: bytes) -> dict[str, bytes]:
     """The files that are read, wherever in the archive they lie, and no more of them than LARGEST."""
+    import zipfile
+    import zlib
+
+    from . import imdf
+
     try:
         with zipfile.ZipFile(BytesIO(data)) as archive:
             names = set(archive.namelist())
