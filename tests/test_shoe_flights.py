@@ -160,6 +160,39 @@ def test_two_treads_at_a_time_are_climbed_too_when_nothing_is_missing() -> None:
     assert climbed([0.68] * 4, degraded=True) == []
 
 
+def test_a_stride_that_rises_where_the_stairs_go_down_rises_by_what_the_others_do() -> None:
+    (flight,) = climbed([0.32, 0.32, -0.58, 0.32, 0.32, 0.32])
+    assert flight.height == pytest.approx(6 * 0.16)
+
+
+def test_where_most_strides_are_not_believed_there_is_no_height_to_tell() -> None:
+    assert climbed([0.32, 0.32, 5.0, 5.0, 5.0]) == []
+    assert len(climbed([0.32, 0.32, 5.0, 5.0])) == 1
+
+
+def unjudged(ways: list[int | None]) -> list[FlightClimbed]:
+    """Strides of alternating feet whose judge says so of them; None: of 5 m, so the judge cannot tell."""
+    flights = Flights()
+    told: list[FlightClimbed] = []
+    for k, way in enumerate(ways):
+        told += flights.stepped(step(FEET[k % 2], 0.6 * k, 5.0 if way is None else 0.32 * way), way)
+    return told + flights.finish(60.0)
+
+
+def test_a_stride_that_nobody_can_judge_is_of_the_flight_when_the_next_one_is() -> None:
+    (flight,) = unjudged([1, 1, 1, None, 1, 1])
+    assert flight.steps == 6
+    assert flight.height == pytest.approx(6 * 0.16)
+    assert unjudged([1, 1, 1, 1, None])[0].steps == 4
+    assert unjudged([None, 1, 1, 1])[0].steps == 3
+
+
+def test_strides_that_nobody_can_judge_end_a_flight_as_level_ones_do() -> None:
+    first, second = unjudged([1, 1, 1, 1, None, None, 1, 1, 1, 1])
+    assert (first.steps, second.steps) == (4, 4)
+    assert first.known_at == pytest.approx(0.6 * 5)
+
+
 def test_a_level_stride_of_an_impossible_height_is_not_the_first_riser() -> None:
     flights = Flights()
     told = flights.stepped(step(Foot.LEFT, 1.0, 5.0, 20.0), 0)
@@ -184,14 +217,14 @@ strides = st.lists(
         st.sampled_from(FEET),
         st.floats(0.0, 20.0, allow_nan=False),
         st.one_of(st.floats(-1e6, 1e6, allow_nan=False), st.floats(-1.0, 1.0)),
-        st.sampled_from((-1, 0, 1)),
+        st.sampled_from((-1, 0, 1, None)),
     ),
     max_size=40,
 )
 
 
 @given(strides)
-def test_whatever_the_strides_flights_are_in_order_and_high(told: list[tuple[Foot, float, float, int]]) -> None:
+def test_whatever_the_strides_flights_are_in_order_and_high(told: list[tuple[Foot, float, float, int | None]]) -> None:
     flights, t = Flights(), 0.0
     found: list[FlightClimbed] = []
     for foot, dt, height, way in told:

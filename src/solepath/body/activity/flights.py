@@ -3,7 +3,8 @@
 For whoever judges strides one by one, whatever the method:
 
     flights = Flights()
-    for each StepTaken of either foot:  events += flights.stepped(step, 1 upstairs, -1 downstairs, 0 on the level)
+    for each StepTaken of either foot:  events += flights.stepped(step, 1 upstairs, -1 downstairs, 0 on the level,
+                                                                        None: its judge cannot tell)
     now and then, with the time:        events += flights.waited(t, known_at)
 
 A flight is over when as many level strides follow each other as feet are heard: a landing gives each foot at least one,
@@ -12,9 +13,10 @@ over as well with the first stride the other way, and when both feet stand at on
 nobody need walk on, and who rests on the stairs with a foot on each tread is not there yet. What is lower than
 `least_height` is a kerb. Latency: that of the level strides, about a second, or `patience`.
 
-What no stride of stairs can gain (foot/steepness.py) is an error of the track: such a stride begins no flight, counts
-as one of the flight under way, and is taken to rise by the mean of those that can be believed; where none can, there is
-no height to tell and no flight is told.
+What no stride of stairs gains (foot/steepness.py), or one the other way, is an error of the track and is not believed:
+such a stride is taken to rise by the mean of those of the flight that are, and where these are not even half of them
+there is no height to tell, and no flight is told. A stride that nobody can judge parts flights as level ones do, and
+is one of the flight when a stair stride follows it.
 """
 
 from __future__ import annotations
@@ -22,7 +24,7 @@ from __future__ import annotations
 from attrs import define, field
 
 from ...events import FlightClimbed, StepTaken
-from ...foot.steepness import of_stairs
+from ...foot.steepness import LEAST_RISE, of_stairs
 from ...types import Foot
 
 
@@ -52,7 +54,9 @@ class Flights:
     climbed: dict[Foot, float] = field(factory=dict, init=False)
     """By each foot in this flight, m."""
     unbelieved: dict[Foot, int] = field(factory=dict, init=False)
-    """Strides of each foot in this flight whose height is beyond what stairs have."""
+    """Strides of each foot in this flight whose height is not believed."""
+    unjudged: dict[Foot, int] = field(factory=dict, init=False)
+    """Strides of each foot since the last stair stride that nobody could judge."""
     believed: float = field(default=0.0, init=False)
     """What the other stair strides of this flight gained together, m."""
     stood: dict[Foot, float] = field(factory=dict, init=False)
@@ -66,27 +70,21 @@ class Flights:
         self.way = 0
         self.stood, self.before, self.stepped_at = {}, {}, {}
 
-    def stepped(self, step: StepTaken, way: int) -> list[FlightClimbed]:
-        """A step of either foot that goes upstairs (1), downstairs (-1) or neither (0)."""
+    def stepped(self, step: StepTaken, way: int | None) -> list[FlightClimbed]:
+        """A step of either foot that goes upstairs (1), downstairs (-1), neither (0), or nobody knows (None)."""
         foot, height = step.foot, step.height_change
-        believed = of_stairs(height, step.degraded)
+        believed = way is not None and of_stairs(height, step.degraded)
         events: list[FlightClimbed] = []
-        if way != 0 and self.way not in (0, way):
+        if way and self.way not in (0, way):
             self._over(step.known_at, events)
-        if way != 0 and self.way == 0:
-            self._begin(step, way)
-        if way != 0:
-            self.t_end = max(self.t_end, step.t)
-            self.strides += 1
-            self.level = 0
-            first = self.before.pop(foot, 0.0)
-            if believed:
-                self.believed += height
-                self._climb(foot, height + (first if way * first > self.rise else 0.0))
-            else:
-                self.unbelieved[foot] = self.unbelieved.get(foot, 0) + 1
+        if way:
+            if self.way == 0:
+                self._begin(step, way)
+            self._stair(step, way, believed and way * height > -LEAST_RISE)
         elif self.way != 0:
             self.level += 1
+            if way is None:
+                self.unjudged[foot] = self.unjudged.get(foot, 0) + 1
             if believed and self.way * height > self.rise and foot in self.climbed:
                 self._climb(foot, height)
             else:
@@ -99,13 +97,29 @@ class Flights:
         self.stepped_at[foot] = step.t
         return events
 
+    def _stair(self, step: StepTaken, way: int, believed: bool) -> None:
+        foot, height = step.foot, step.height_change
+        self.t_end = max(self.t_end, step.t)
+        self.level = 0
+        self.strides += 1
+        first = self.before.pop(foot, 0.0)
+        if believed:
+            self.believed += height
+            self._climb(foot, height + (first if way * first > self.rise else 0.0))
+        else:
+            self.unbelieved[foot] = self.unbelieved.get(foot, 0) + 1
+        for other, strides in self.unjudged.items():
+            self.strides += strides
+            self.unbelieved[other] = self.unbelieved.get(other, 0) + strides
+        self.unjudged = {}
+
     def waited(self, t: float, known_at: float) -> list[FlightClimbed]:
         """It is `t` s, and no step has come since the last one told."""
         events: list[FlightClimbed] = []
         if self.way != 0 and t - max(self.stepped_at.values(), default=t) > self.patience:
             heights = list(self.stood.values())
             # once a stride's height is not known, nor is whether the feet stand on one level
-            if self.unbelieved or max(heights) - min(heights) < self.even:
+            if self.unbelieved or self.unjudged or max(heights) - min(heights) < self.even:
                 self._over(known_at, events)
                 self.stood = {}
         return events
@@ -121,7 +135,7 @@ class Flights:
         self.way = way
         self.t_start, self.t_end = step.t_start, step.t
         self.strides = self.level = 0
-        self.climbed, self.unbelieved = {}, {}
+        self.climbed, self.unbelieved, self.unjudged = {}, {}, {}
         self.believed = 0.0
 
     def _climb(self, foot: Foot, height: float) -> None:
@@ -136,11 +150,10 @@ class Flights:
     def _over(self, known_at: float, events: list[FlightClimbed]) -> None:
         unbelieved = sum(self.unbelieved.values())
         known = self.strides - unbelieved
-        if known:
+        height = 0.0
+        if 0 < known >= unbelieved:
             feet = len(self.climbed | self.unbelieved)
             height = (sum(self.climbed.values()) + unbelieved * self.believed / known) / feet
-        else:
-            height = 0.0
         if self.way * height >= self.least_height and self.strides > 1:
             events.append(
                 FlightClimbed(

@@ -81,13 +81,12 @@ class AnglePerMetre:
             if isinstance(event, StepTaken):
                 began = event.t_start if event.t_toe_off is None else max(event.t_start, event.t_toe_off)
                 self.stepped_at = max(self.stepped_at, event.t)
+                way = None
                 if of_stairs(event.height_change, event.degraded):
                     way = steepness(event.stride_length, event.height_change)
                     self._tell(_OF_STEP[way], began, known_at, told)
-                else:
-                    way = self.flights.way
-                    if self.activity is Activity.STANDING:
-                        self._tell(Activity.UNKNOWN, began, known_at, told)
+                elif self.activity is Activity.STANDING:
+                    self._tell(Activity.UNKNOWN, began, known_at, told)
                 told += self.flights.stepped(event, way)
         if foot.phase is not Phase.STATIONARY:
             if t > self.moved_at:
