@@ -47,6 +47,9 @@ class ShoeSensing(LinearDedrift):
     e~ = (dv2 - dv1) / (t_b - t_a) of section 3.3 is the velocity that is left when the foot stands again, over the time
     since it last stood; removed from the velocity in a line it takes half of itself times that time from the position.
     Of section 3.4.2's height error, removed in the same way, nothing is left at t_b: the foot stands as high as before.
+    e~_s itself is only known at t_b, and the paper does not say how its live track has it before. Here it has not:
+    within a step the live height (`FootMoved`) is as integration has it, with all that it has drifted since t_a, and
+    the line is taken off in one jump when the foot stands; heights of the samples in between are not told again.
     Both V(T) and S_z(T) are printed with `stationary = 1` beside the moving foot and 0 beside the standing one; by
     section 3.1.2 it is the other way about.
 
