@@ -10,6 +10,7 @@ from typing import Any
 from .calibrated import add_calibration, calibration_of
 from .choosing import add_devices, need_bleak
 from .failure import known_recipe
+from .floorplan import add_floorplan, floorplan_of
 
 
 def add_to(commands: Any) -> None:
@@ -23,9 +24,13 @@ def add_to(commands: Any) -> None:
     add_devices(live)
     live.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
     add_calibration(live)
+    add_floorplan(live)
     live.add_argument("--record", metavar="FILE", type=Path, help="write the packets as a recording too")
     live.add_argument(
-        "--out", metavar="DIR", type=Path, help="write events.jsonl, track.csv and steps.csv into this directory"
+        "--out",
+        metavar="DIR",
+        type=Path,
+        help="write events.jsonl, track.csv and steps.csv into this directory, with a floor plan places.csv too",
     )
     live.set_defaults(run=run)
 
@@ -38,7 +43,7 @@ def add_to(commands: Any) -> None:
     )
     add_devices(record)
     record.add_argument("--out", metavar="FILE", dest="record", type=Path, required=True, help="the recording")
-    record.set_defaults(run=run, recipe="default", calibration=None, out=None)
+    record.set_defaults(run=run, recipe="default", calibration=None, out=None, floorplan=None, start=None)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -46,8 +51,9 @@ def run(options: argparse.Namespace) -> int:
 
     recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
     calibration = calibration_of(options)
+    plan, start = floorplan_of(options)
     need_bleak()
     from .live_run import listen
     from .loop import run_to_end
 
-    return run_to_end(partial(listen, options, recipe, calibration))
+    return run_to_end(partial(listen, options, recipe, calibration, plan, start))

@@ -13,12 +13,15 @@ from ..ble import Devices, scan
 from ..ble.record import beginning
 from ..calibration import Calibration
 from ..events import Event
+from ..floorplan.index import IndexedPlan
+from ..floorplan.plan import Start
 from ..monitor import Monitor
-from ..output import EVENTS, STEPS, TRACK, TrackFiles
+from ..output import EVENTS, PLACES, STEPS, TRACK, TrackFiles
 from ..recipes import Recipe
 from ..recording import PacketWriter, RecordingError, printable, why
 from ..session import Session
 from ..types import Packet
+from ..view.placed import Places
 from ..view.summary import summary
 from .choosing import LISTENED, chosen, how_long, wanted
 from .failure import Failure, note
@@ -27,13 +30,19 @@ from .showing import shown
 
 
 async def listen(
-    options: argparse.Namespace, recipe: Recipe, calibration: Calibration | None, stop: asyncio.Event
+    options: argparse.Namespace,
+    recipe: Recipe,
+    calibration: Calibration | None,
+    plan: IndexedPlan | None,
+    start: Start | None,
+    stop: asyncio.Event,
 ) -> int:
     """Until it is told to stop; the exit status."""
     devices = wanted(options)
-    check_writable(options.record, options.out)
+    check_writable(options.record, options.out, plan is not None)
     seconds = how_long(options)
-    monitor = Monitor(Session(recipe, calibration=calibration, poses=True))
+    monitor = Monitor(Session(recipe, calibration=calibration, poses=True, floorplan=plan, start=start))
+    places = None if plan is None else Places()
     async with AsyncExitStack() as stack:
         async with unless_told(stop):
             backend = await stack.enter_async_context(air(options.via))
@@ -41,13 +50,16 @@ async def listen(
                 print(f"looking for sensors for {LISTENED:g} s ...", flush=True)
                 devices = chosen(await scan(LISTENED, backend=backend), options.profile)
             heard = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
-        files = Files(options.record, options.out)  # not before: a search in vain replaces nothing of an earlier run
+        # not before: a search in vain replaces nothing of an earlier run
+        files = Files(options.record, options.out, plan is not None)
         try:
             with shown(monitor, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
                 async for packet in until(heard, stop, seconds):
                     files.packet(packet)
                     for event in monitor.take(packet):
                         files.event(event)
+                        if places is not None:
+                            places.add(event)
                     report()
                     if files.failure is not None:
                         break
@@ -56,8 +68,12 @@ async def listen(
         finally:
             for event in monitor.finish():
                 files.event(event)
+                if places is not None:
+                    places.add(event)
             files.close()
     print(summary(monitor.tally, title=f"recipe {recipe.name}", seconds=0.0))
+    if places is not None:
+        print("\n".join(places.lines()))
     if files.failure is not None:
         raise Failure(files.failure)
     if options.record:
@@ -75,14 +91,14 @@ class Files:
     _packets: PacketWriter | None
     _events: TrackFiles | None
 
-    def __init__(self, record: Path | None, out: Path | None) -> None:
-        """Failure when one cannot be opened."""
+    def __init__(self, record: Path | None, out: Path | None, places: bool = False) -> None:
+        """`places`: there is a floor plan. Failure when one cannot be opened."""
         self.failure = self._packets = self._events = None
         try:
             if record is not None:
                 self._packets = PacketWriter(record, beginning())
             if out is not None:
-                self._events = TrackFiles(out)
+                self._events = TrackFiles(out, places=places)
         except (RecordingError, OSError) as error:
             self.close()
             raise Failure(_words(error)) from None
@@ -110,12 +126,13 @@ class Files:
                 self.failure = self.failure or _words(error)
 
 
-def check_writable(record: Path | None, out: Path | None) -> None:
+def check_writable(record: Path | None, out: Path | None, places: bool = False) -> None:
     """Failure now when these will not be opened later. What is in them stays."""
     try:
         if out is not None:
             out.mkdir(parents=True, exist_ok=True)
-        for path in [*([record] if record else []), *([out / name for name in (EVENTS, TRACK, STEPS)] if out else [])]:
+        names = (EVENTS, TRACK, STEPS, PLACES) if places else (EVENTS, TRACK, STEPS)
+        for path in [*([record] if record else []), *([out / name for name in names] if out else [])]:
             there = path.exists()
             if not there or path.is_file() or path.is_dir():  # a pipe would take it for the end
                 path.open("ab").close()

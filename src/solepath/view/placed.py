@@ -73,5 +73,15 @@ class Places:
         return lines
 
 
+def here(place: Placed) -> str:
+    """Where the wearer is now, in a line."""
+    x, y, _ = place.position
+    several = len(place.candidates)
+    at = f"place: level {printable(place.level)}, ({number(x, 1)}, {number(y, 1)}) m"
+    if several == 1:
+        return f"{at}, within {number(place.spread, 1)} m"
+    return f"{at}, {100.0 * place.candidates[0].weight:.0f} % sure, one of {several} candidates"
+
+
 def _more(count: int) -> str:
     return f" and {count - MOST} more" if count > MOST else ""

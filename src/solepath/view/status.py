@@ -1,15 +1,18 @@
-"""How the links do, a line for each site: rate, loss, battery, signal."""
+"""How the links do, a line for each site: rate, loss, battery, signal; and where the wearer is on a floor plan."""
 
 from __future__ import annotations
 
 from ..monitor import LinkHealth, Monitor
 from ..recording import printable
 from ..types import Site
+from .placed import here
 
 
 def status(monitor: Monitor) -> list[str]:
-    """A line for each site that was heard of, in the order of Site."""
-    return [_line(site, monitor.links[site], monitor.now) for site in Site if site in monitor.links]
+    """A line for each site that was heard of, in the order of Site, and one for the place once it is known."""
+    lines = [_line(site, monitor.links[site], monitor.now) for site in Site if site in monitor.links]
+    place = monitor.session.place
+    return lines if place is None else [*lines, here(place)]
 
 
 def _line(site: Site, link: LinkHealth, now: float) -> str:

@@ -18,8 +18,6 @@ AROUND = 0.5
 """Where one steps off stairs or a lift, m around the landing."""
 TURNED = 0.07
 """Stairs and rides turn the track by this, rad."""
-LEAST_DOUBT = 0.15
-"""Share of strides."""
 ON_STAIRS = 2.0
 """Who does what one does on stairs, beside stairs, is so many times as likely to be on them as to go on along them."""
 OTHER_WAY = {Kind.STAIRS: 0.1, Kind.LIFT: 0.01}
@@ -93,7 +91,7 @@ def anew(scattered: Scattered, plan: IndexedPlan, arrived: Arrived, most: int) -
     weights: dict[int, float] = {}
     for entered in stops:
         if entered.kind is arrived.kind:
-            for way, share in _ways_anew(plan.plan, stops, entered, arrived):
+            for way, share in _ways(plan.plan, stops, entered, arrived):
                 weights[way.index] = weights.get(way.index, 0.0) + share
     total, roots = sum(weights.values()), sum([sqrt(weight) for weight in weights.values()])
     rows: list[Row] = []
@@ -103,17 +101,6 @@ def anew(scattered: Scattered, plan: IndexedPlan, arrived: Arrived, most: int) -
         count = max(int(most * sqrt(weights[index]) / roots), 8)
         rows += fan(scattered, plan, way.level, way.place, AROUND, None, count, way.connector + 1, share)
     return rows
-
-
-def _ways_anew(
-    plan: FloorPlan, stops: list[Landing], entered: Landing, arrived: Arrived
-) -> list[tuple[Landing, float]]:
-    """The same where nothing is known: the other way only when strides were told to go it. Floors are often alike, and
-    then nothing ever parts the two, while every place needs many readings."""
-    ways = _ways(plan, stops, entered, arrived)
-    if arrived.doubt >= LEAST_DOUBT:
-        return ways
-    return [(way, share) for way, share in ways if (way.elevation > entered.elevation) is arrived.up]
 
 
 def _ways(plan: FloorPlan, stops: list[Landing], entered: Landing, arrived: Arrived) -> list[tuple[Landing, float]]:

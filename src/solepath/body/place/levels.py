@@ -50,6 +50,8 @@ class Levels(Readings):
     """Up to where the track has been followed, m."""
     references: References = field(factory=References, init=False)
     pace: Pace = field(factory=Pace, init=False)
+    either: bool = field(default=False, init=False)
+    """Only the direction in which stairs were told to lead says which level it is, and that is easily wrong."""
     arrived: float | None = field(default=None, init=False)
     """When the wearer was last said to be on another level, s."""
 
@@ -94,11 +96,13 @@ class Levels(Readings):
                 self.release()
                 return
             there = anew(self.scattered, plan, arrived, self.most)
+            self.either = arrived.kind is Kind.STAIRS
             found = sum([row[4] for row in there])
             sure = 1.0 - DOUBT[arrived.kind]
             k = total * sure / (1.0 - sure) / found if found > 0.0 and total > 0.0 else 1.0
         else:
             k = arrived.sure / (1.0 - arrived.sure)
+            self.either = False
         self.arrived = arrived.t
         there = [(x, y, a, b, k * w, level, came, 0) for x, y, a, b, w, level, came, _ in there]
         if len(there) > self.most:

@@ -194,7 +194,7 @@ class Placing(Levels):
         if self.wide > 0:
             self.wide, wanted = self.wide - 1, self.most
         few = len(rows) <= 1.25 * wanted and (self.wide > 0 or effective(rows) >= 0.5 * wanted)
-        if first.weight >= CLEAR and len(candidates) > 1 and self.wide == 0:
+        if first.weight >= CLEAR and len(candidates) > 1 and self.wide == 0 and not self.either:
             x0, y0 = origin_of(plan.plan)
             x, y, at = first.position[0] - x0, first.position[1] - y0, plan.number(first.level)
             rows = [

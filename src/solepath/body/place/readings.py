@@ -27,7 +27,7 @@ WAYS, OF_THEM = 12, 8
 class Readings:
     """How a method extends readings is its own; what is left is here."""
 
-    most: int = 220
+    most: int = 260
     """More readings of the track than this are never kept."""
     # state
     crowd: bytes = field(default=b"", init=False)
