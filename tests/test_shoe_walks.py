@@ -167,14 +167,14 @@ def rebound(shifts: dict[Foot, float], *, silent: Foot | None = None) -> tuple[l
     session = Session(SHOE_SENSING)
     for foot in Foot:
         session.bind(SITE_OF_FOOT[foot], "first")
-    before = session.feed(first)
+    before: list[Event] = session.feed(first)
     for foot in shifts:
         session.bind(SITE_OF_FOOT[foot], "second")
     after: list[Event] = []
     for sample in first:
-        foot = sample.site.foot
-        if foot is not None and foot is not silent:
-            after += session.feed(evolve(sample, t=sample.t + over + shifts.get(foot, 0.0)))
+        worn_on = sample.site.foot
+        if worn_on is not None and worn_on is not silent:
+            after += session.feed(evolve(sample, t=sample.t + over + shifts.get(worn_on, 0.0)))
     return before, after + session.finish()
 
 

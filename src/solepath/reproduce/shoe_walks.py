@@ -12,6 +12,7 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ..evaluate.alignment import Floats, align
+from ..evaluate.matching import pairs
 from ..events import Event, FlightClimbed, StepTaken
 from ..foot.gated_tilt import ShoeSensing
 from ..foot.steepness import angle_per_metre, steepness
@@ -23,7 +24,7 @@ from ..sim.shoe import ON_INSTEP
 from ..sim.truth import TrueStep, Truth
 from ..sim.walker import Walker
 from ..types import Foot, Sample
-from .walks import ALIGNED_OVER, thinned
+from .walks import ALIGNED_OVER, laid, thinned
 
 FOOT = Foot.RIGHT
 """Whose shoe ("attached to one of the user's shoes"); which of them is assumed."""
@@ -40,6 +41,8 @@ LAPS = 2
 SAME = 0.3
 """s: a step that ends further than this from a true one is another's."""
 STATES = ("walking", "jogging", "upstairs", "downstairs")
+LAST = 9
+"""Steps whose directions say how far the heading is off."""
 TO_HALT = 1.5
 """Strides of a walk that are not whole, before and after."""
 
@@ -47,14 +50,16 @@ TO_HALT = 1.5
 @frozen
 class Steps:
     """What one session made of one walk. By true step that was found: `angles` (degrees/m), errors of length and height
-    and the true ones (m), `courses` (degrees, of the first 19.2 m), `right`: whether the state is. `found`, `missed`
-    and `invented`: how many; `height`: what the track gained that the wearer did not, m."""
+    and the true ones (m), `courses` (degrees, of the first 19.2 m), `right`: whether the state is, `merged`: whether it
+    was told as one with the step before, whose end was missed. `found`, `missed` and `invented`: how many; `height`:
+    what the track gained over all of it that the wearer did not, m."""
 
     angles: tuple[float, ...]
     lengths: tuple[tuple[float, float], ...]
     heights: tuple[tuple[float, float], ...]
     courses: tuple[float, ...]
     right: tuple[bool, ...]
+    merged: tuple[bool, ...]
     found: int
     missed: int
     invented: int
@@ -68,10 +73,13 @@ class Steps:
 
 @frozen
 class Tour:
-    """Five minutes in a building: how far the end is off along the floor and in height, m; flights told and true (up or
-    not); the tracks seen from above and from the side, ours and the true one."""
+    """Five minutes in a building: how far the end is off along the floor and in height, and the way along the floor, m;
+    flights told and true (up or not); the tracks seen from above and from the side, ours and the true one."""
 
     off: float
+    way: float
+    heading: float
+    """How far the direction of the last steps is off, degrees."""
     height: float
     told: tuple[bool, ...]
     true: tuple[bool, ...]
@@ -139,12 +147,12 @@ def heard(recipe: Recipe, samples: Sequence[Sample]) -> list[Event]:
 def judged(events: Sequence[Event], truth: Truth, state: str) -> Steps:
     """Steps found against the true ones. On the stairs, those that climb two risers count, and nothing else."""
     steps = [event for event in events if isinstance(event, StepTaken)]
-    pairs = matched(steps, truth.steps(FOOT))
+    together = matched(steps, truth.steps(FOOT))
     stairs = state in ("upstairs", "downstairs")
     way = {"upstairs": 1, "downstairs": -1}.get(state, 0)
-    counted = [(step, true) for step, true in pairs if not stairs or abs(true.displacement[2]) > 0.25]
+    counted = [(step, true) for step, true in together if not stairs or abs(true.displacement[2]) > 0.25]
     wanted = [true for true in truth.steps(FOOT) if not stairs or abs(true.displacement[2]) > 0.25]
-    taken = [step for step, _ in pairs]
+    taken = [step for step, _ in together]
     during = [
         step for step in steps if not stairs or any(true.t_start < step.t < true.t_end for true in wanted)
     ]
@@ -152,8 +160,9 @@ def judged(events: Sequence[Event], truth: Truth, state: str) -> Steps:
         angles=tuple(degrees(angle_per_metre(step.stride_length, step.height_change)) for step, _ in counted),
         lengths=tuple((step.stride_length - true.length, true.length) for step, true in counted),
         heights=tuple((step.height_change - true.displacement[2], true.displacement[2]) for step, true in counted),
-        courses=() if stairs else _courses(pairs),
+        courses=() if stairs else _courses(together),
         right=tuple(steepness(step.stride_length, step.height_change) == way for step, _ in counted),
+        merged=tuple(step.t_start < true.t_start - SAME for step, true in counted),
         found=len(counted),
         missed=len(wanted) - len(counted),
         invented=sum([step not in taken for step in during]),
@@ -162,34 +171,30 @@ def judged(events: Sequence[Event], truth: Truth, state: str) -> Steps:
 
 
 def matched(steps: Sequence[StepTaken], true: Sequence[TrueStep]) -> list[tuple[StepTaken, TrueStep]]:
-    """Each true step with the found one that ends nearest to it, one to one, in order."""
-    pairs, left = [], list(steps)
-    for one in true:
-        near = [step for step in left if abs(step.t_end - one.t_end) < SAME]
-        if near:
-            best = near[int(np.argmin([abs(step.t_end - one.t_end) for step in near]))]
-            pairs.append((best, one))
-            left = left[left.index(best) + 1 :]
-    return pairs
+    """Each true step with the found one that ends nearest to it, one to one."""
+    ends = [one.t_end for one in true], [step.t_end for step in steps]
+    return [(steps[j], true[i]) for i, j in pairs(*ends, SAME)]
 
 
-def _courses(pairs: Sequence[tuple[StepTaken, TrueStep]]) -> tuple[float, ...]:
+def _courses(together: Sequence[tuple[StepTaken, TrueStep]]) -> tuple[float, ...]:
     """Direction of each step less the true one, degrees, when the first two metres are laid on the truth."""
-    if len(pairs) < 2:
+    if len(together) < 2:
         return ()
-    ours = np.cumsum([step.displacement[:2] for step, _ in pairs], axis=0)
-    true = np.cumsum([one.displacement[:2] for _, one in pairs], axis=0)
+    ours = np.cumsum([step.displacement[:2] for step, _ in together], axis=0)
+    true = np.cumsum([one.displacement[:2] for _, one in together], axis=0)
     far = np.linalg.norm(true, axis=1)
     ours, true = (np.vstack([np.zeros(2), track[far < STRAIGHT]]) for track in (ours, true))
     count = 2 + int(np.sum(far < ALIGNED_OVER))
     ours = align(ours[:count], true[:count]).apply(ours)
-    off = _direction(np.diff(ours, axis=0)) - _direction(np.diff(true, axis=0))
-    return tuple(np.degrees(np.arctan2(np.sin(off), np.cos(off))).tolist())
+    return tuple(_directions_off(ours, true).tolist())
 
 
-def _direction(ways: Floats) -> Floats:
-    angles: Floats = np.arctan2(ways[:, 1], ways[:, 0])
-    return angles
+def _directions_off(ours: Floats, true: Floats) -> Floats:
+    """Direction of each way from row to row less the true one, degrees, in (-180, 180]."""
+    angles = [np.arctan2(way[:, 1], way[:, 0]) for way in (np.diff(ours, axis=0), np.diff(true, axis=0))]
+    off = angles[0] - angles[1]
+    degrees_off: Floats = np.degrees(np.arctan2(np.sin(off), np.cos(off)))
+    return degrees_off
 
 
 def toured(seed: int) -> Tour:
@@ -200,12 +205,12 @@ def toured(seed: int) -> Tour:
     ours = np.array([(0.0, 0.0, 0.0), *(step.position for step in steps)])
     true = truth.pose(FOOT, np.array([0.0, *(step.t_end for step in steps)])).position
     true = true - true[0]
-    far = np.linalg.norm(true[:, :2], axis=1) > ALIGNED_OVER
-    count = int(np.argmax(far)) + 1 if far.any() else len(true)
-    flat = align(ours[:count], true[:count]).apply(ours)
+    flat = laid(ours[:, :2], true[:, :2])
     gone = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(true[:, :2], axis=0), axis=1))])
     return Tour(
-        off=hypot(*(flat[-1, :2] - true[-1, :2])),
+        off=hypot(*(flat[-1] - true[-1, :2])),
+        way=float(gone[-1]),
+        heading=float(np.median(_directions_off(flat, true[:, :2])[-LAST:])),
         height=float(ours[-1, 2] - true[-1, 2]),
         told=tuple(event.up for event in events if isinstance(event, FlightClimbed)),
         true=tuple(flight.up for flight in truth.flights),
