@@ -181,6 +181,36 @@ def test_a_weight_that_is_no_number_is_refused(what: Any) -> None:
         Session(calibration=Calibration(weight=what))
 
 
+MISSHAPEN: list[tuple[dict[str, Any], str]] = [
+    ({"toe_out": {"left": 1.0}}, "toe_out has the key 'left', no Foot"),
+    ({"toe_out": None}, "toe_out is None, no dict"),
+    ({"toe_out": [1]}, "toe_out is a list, no dict"),
+    ({"toe_out": {Foot.LEFT: 10**5000}}, "toe_out.left is a huge number; it can be -1 to 1 rad"),
+    ({"insoles": {"left": InsoleCalibration()}}, "insoles has the key 'left', no Foot"),
+    ({"insoles": {Foot.LEFT: 3}}, "insoles.left is 3, no InsoleCalibration"),
+    ({"insoles": {Foot.LEFT: InsoleCalibration(noise=None)}}, "insoles.left.noise is None, not a tuple of numbers"),  # type: ignore[arg-type]
+    ({"insoles": {Foot.LEFT: InsoleCalibration(layout=0)}}, "insoles.left.layout is 0, no Layout"),  # type: ignore[arg-type]
+    ({"insoles": {Foot.LEFT: InsoleCalibration(newtons=Newtons((1.0,)))}},  # type: ignore[arg-type]
+     "insoles.left.newtons.coefficients is a tuple, not a tuple of 4 numbers"),
+    ({"shoe": "brown"}, "shoe is 'brown', no ShoeGeometry"),
+    ({"shoe": ShoeGeometry(forefoot_radius=1.0)}, "shoe.forefoot_radius is 1, not a tuple of numbers"),  # type: ignore[arg-type]
+    ({"drift": {Foot.LEFT: 0.1}}, "drift.left is 0.1, not a tuple of 2 numbers"),
+    ({"drift": {Foot.LEFT: (0.1,)}}, "drift.left is a tuple, not a tuple of 2 numbers"),
+    ({"limbs": ()}, "limbs is a tuple, no Limbs"),
+    ({"modes": {Foot.LEFT: {"left": (0.0, 0.0)}}}, "modes.left has the key 'left', no WalkingMode"),
+    ({"modes": {Foot.LEFT: None}}, "modes.left is None, no dict"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("what", "says"), MISSHAPEN, ids=[says[:40] for _, says in MISSHAPEN])
+def test_a_calibration_of_something_else_than_records_is_refused_by_the_session_in_one_line(
+    what: dict[str, Any], says: str
+) -> None:
+    with pytest.raises(CalibrationError) as refused:
+        Session(calibration=Calibration(**what))
+    assert str(refused.value) == f"calibration: {says}"
+
+
 def test_what_can_be_is_not_refused() -> None:
     assert unusable(WHOLE) is None
     assert unusable(Calibration()) is None

@@ -295,3 +295,10 @@ def test_a_seed_below_zero_is_refused(capsys):
         with pytest.raises(SystemExit, match="2"):
             main([*command, "--seed", "-1"])
         assert "'-1' is not a whole number" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("distance", ["1e308", "80"])
+def test_a_walk_of_which_no_toe_out_is_learnt_writes_nothing_and_says_so(tags: Path, tmp_path: Path, distance) -> None:
+    said = refused("calibrate", "toe-out", tags, "--distance", distance, "--out", tmp_path / "me.json")
+    assert "nothing is learnt: the steps come to " in said and "m of the left foot and " in said
+    assert not (tmp_path / "me.json").exists()

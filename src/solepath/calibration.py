@@ -14,7 +14,7 @@ from typing import TypeVar
 from attrs import evolve, field, fields, frozen
 
 from .machine import SnapshotError, load, save
-from .types import Foot, Layout, WalkingMode
+from .types import Cell, Foot, Layout, WalkingMode
 
 FORMAT = "solepath-calibration"
 VERSION = 1
@@ -197,6 +197,9 @@ _Limit = tuple[str, object, float, float, str]
 def unusable(calibration: Calibration) -> str | None:
     """Why it cannot be used: the first key whose value is none of a wearer, a shoe or an insole; None when it can. The
     limits are those of protocol/calibration.md."""
+    misshapen = next(_misshapen(calibration), None)
+    if misshapen is not None:
+        return misshapen
     for key, value, least, most, unit in _limits(calibration):
         if isinstance(value, bool) or not isinstance(value, int | float) or not least <= value <= most:
             return f"{key} is {_shown(value)}; it can be {least:g} to {most:g}{unit}"
@@ -206,6 +209,57 @@ def unusable(calibration: Calibration) -> str | None:
     if calibration.shoe is not None:
         return _unusable_shoe(calibration.shoe)
     return None
+
+
+def _misshapen(calibration: Calibration) -> Iterator[str]:
+    """What is of another kind than the records above say: a program may have put anything into them. Numbers are left
+    to _limits."""
+    yield from _table("insoles", calibration.insoles, Foot)
+    for foot, insole in calibration.insoles.items():
+        key = f"insoles.{foot.value}"
+        yield from _kind(key, insole, InsoleCalibration)
+        if insole.layout is not None:
+            yield from _kind(f"{key}.layout", insole.layout, Layout)
+            yield from _kind(f"{key}.layout.cells", insole.layout.cells, tuple)
+            for cell in insole.layout.cells:
+                yield from _kind(f"one of {key}.layout.cells", cell, Cell)
+        if insole.newtons is not None:
+            yield from _kind(f"{key}.newtons", insole.newtons, Newtons)
+            yield from _row(f"{key}.newtons.coefficients", insole.newtons.coefficients, 4)
+        yield from _row(f"{key}.noise", insole.noise)
+    if calibration.shoe is not None:
+        yield from _kind("shoe", calibration.shoe, ShoeGeometry)
+        yield from _row("shoe.forefoot_radius", calibration.shoe.forefoot_radius)
+        yield from _row("shoe.pivot_to_toe", calibration.shoe.pivot_to_toe)
+    yield from _table("drift", calibration.drift, Foot)
+    for foot, slope in calibration.drift.items():
+        yield from _row(f"drift.{foot.value}", slope, 2)
+    if calibration.limbs is not None:
+        yield from _kind("limbs", calibration.limbs, Limbs)
+    if calibration.modes is not None:
+        yield from _table("modes", calibration.modes, Foot)
+        for foot, modes in calibration.modes.items():
+            yield from _table(f"modes.{foot.value}", modes, WalkingMode)
+            for mode, way in modes.items():
+                yield from _row(f"modes.{foot.value}.{mode.value}", way, 2)
+    yield from _table("toe_out", calibration.toe_out, Foot)
+
+
+def _kind(key: str, value: object, kind: type) -> Iterator[str]:
+    if not isinstance(value, kind):
+        yield f"{key} is {_shown(value)}, no {kind.__name__}"
+
+
+def _table(key: str, value: object, keys: type) -> Iterator[str]:
+    yield from _kind(key, value, dict)
+    for one in value if isinstance(value, dict) else ():
+        if not isinstance(one, keys):
+            yield f"{key} has the key {_shown(one)}, no {keys.__name__}"
+
+
+def _row(key: str, value: object, count: int | None = None) -> Iterator[str]:
+    if not isinstance(value, tuple) or count is not None and len(value) != count:
+        yield f"{key} is {_shown(value)}, not a tuple of {'numbers' if count is None else f'{count} numbers'}"
 
 
 def _limits(calibration: Calibration) -> Iterator[_Limit]:
@@ -265,4 +319,8 @@ def _unusable_shoe(shoe: ShoeGeometry) -> str | None:
 
 
 def _shown(value: object) -> str:
-    return f"{value:g}" if isinstance(value, float) else repr(value)[:40]
+    if isinstance(value, int) and not abs(value) < 10**30:
+        return "a huge number"  # Python does not write all of them
+    if value is None or isinstance(value, str | int):
+        return repr(value)[:40]
+    return f"{value:g}" if isinstance(value, float) else f"a {type(value).__name__}"

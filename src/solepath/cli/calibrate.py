@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .calibrated import check_pressure
-from .failure import Failure, count, degrees_of, known_recipe, note, positive, share
+from .failure import Failure, check_writable, count, degrees_of, known_recipe, note, positive, share
 
 if TYPE_CHECKING:
     from ..calibrate.recorded import Recorded
@@ -50,12 +50,9 @@ def run(options: argparse.Namespace) -> int:
 
 def _check_writable(path: Path) -> None:
     """OSError now, not after a long recording was read, and Failure for what is no file. What is in the file stays."""
-    there = path.exists()
-    if there and not path.is_file() and not path.is_dir():  # of a folder the system speaks
+    if path.exists() and not path.is_file() and not path.is_dir():  # of a folder the system speaks
         raise Failure(f"{path}: is no regular file")
-    path.open("ab").close()
-    if not there:
-        path.unlink()
+    check_writable(path)
 
 
 Learnt = tuple["Calibration", list[str]]
@@ -237,6 +234,9 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> Learnt:
         [one.foot.value, str(one.steps), number(one.along, 2), angle] for one, angle in zip(found, angles, strict=True)
     ]
     lines = [table(["foot", "steps", "along the foot m", "toe-out degrees"], rows)]
+    if all([one.angle is None for one in found]):
+        far = " and ".join([f"{one.along:.1f} m of the {one.foot.value} foot" for one in found])
+        raise Failure(f"nothing is learnt: the steps come to {far}, less than the {options.distance:g} m of the walk")
     if "none" in angles:
         lines.append("none: these steps come to less than the walk, which no angle explains: nothing is learnt of it")
     return learnt(found), lines

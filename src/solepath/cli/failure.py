@@ -6,6 +6,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 from math import isfinite, nan, radians
+from pathlib import Path
 
 from ..recording import printable
 
@@ -21,6 +22,15 @@ def note(sentence: str) -> None:
     """One line on stderr that does not stop anything."""
     sys.stdout.flush()
     print(f"solepath: {printable(sentence, LONGEST)}", file=sys.stderr)
+
+
+def check_writable(path: Path) -> None:
+    """OSError now, not after a long recording was read. What is in the file stays."""
+    there = path.exists()
+    if not there or not path.is_fifo():  # a pipe would take it for the end
+        path.open("ab").close()
+    if not there:
+        path.unlink()
 
 
 def positive(text: str) -> float:

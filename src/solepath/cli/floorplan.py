@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from math import isfinite, radians
+from math import isfinite, nan, radians
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -59,6 +59,7 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
 def start_of(text: str) -> Start:
     """LEVEL,X,Y or LEVEL,X,Y,HEADING; the level's name may have commas. Failure when it is something else."""
     from ..floorplan.plan import Start
+    from ..floorplan.records import no_start
     from ..recording import printable
 
     for numbers in (3, 2):
@@ -66,13 +67,19 @@ def start_of(text: str) -> Start:
         values = [_finite(part) for part in parts]
         if len(values) == numbers and level.strip() and None not in values:
             x, y, *heading = [value for value in values if value is not None]
-            return Start(level.strip(), (x, y), radians(heading[0]) if heading else None)
+            if heading and not abs(heading[0]) <= 360.0:
+                raise Failure(f"--start {printable(text, 80)}: a heading can be -360 to 360 degrees")
+            start = Start(level.strip(), (x, y), radians(heading[0]) if heading else None)
+            why_not = no_start(start)
+            if why_not is not None:
+                raise Failure(f"--start {printable(text, 80)}: {why_not}")
+            return start
     raise Failure(f"--start {printable(text, 80)} is not LEVEL,X,Y or LEVEL,X,Y,HEADING, as in 0,12.5,3 or 0,12.5,3,90")
 
 
 def _finite(text: str) -> float | None:
     try:
-        value = float(text)
+        value = nan if "_" in text else float(text)  # Python takes 1_0 for ten
     except ValueError:
         return None
     return value if isfinite(value) else None

@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 from typing import Any
 
-from .failure import Failure, count, seed
+from .failure import Failure, check_writable, count, seed
 
 NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
 """As reproduce.EXPERIMENTS has them; said here so that --help loads nothing heavy."""
@@ -49,7 +49,7 @@ def run(options: argparse.Namespace) -> int:
     figure = _figure(options)
     for path in (options.json, figure):
         if path is not None:
-            _check_writable(path)
+            check_writable(path)
 
     from ..recording import printable
     from ..reproduce.experiments import EXPERIMENTS
@@ -95,12 +95,3 @@ def _figure(options: argparse.Namespace) -> Path | None:
     if path.suffix[1:].lower() not in formats():
         raise Failure(f"{printable(str(path))}: ends in none of {', '.join(formats())}, which says what to draw")
     return path
-
-
-def _check_writable(path: Path) -> None:
-    """OSError now, not after all the walks. What is in it stays."""
-    there = path.exists()
-    if not there or not path.is_fifo():  # a pipe would take it for the end
-        path.open("ab").close()
-    if not there:
-        path.unlink()

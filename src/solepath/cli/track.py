@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .calibrated import add_calibration, calibration_of, check_pressure
-from .failure import Failure, known_recipe, note
+from .failure import Failure, check_writable, known_recipe, note
 from .floorplan import add_floorplan, floorplan_of
 
 if TYPE_CHECKING:
@@ -75,6 +75,12 @@ def run(options: argparse.Namespace) -> int:
     with ExitStack() as stack:
         files: TrackFiles | None = None
 
+        def opened() -> TrackFiles:
+            made = stack.enter_context(TrackFiles(options.out, places=plan is not None))
+            if plan is not None:
+                check_writable(options.out / PLAN)  # it is written last
+            return made
+
         def told(event: Event) -> None:
             tally.add(event)
             if files is not None:
@@ -89,7 +95,7 @@ def run(options: argparse.Namespace) -> int:
             for item in source:
                 # not before: a file that cannot be used must not replace what an earlier run wrote
                 if files is None and options.out:
-                    files = stack.enter_context(TrackFiles(options.out, places=plan is not None))
+                    files = opened()
                 if isinstance(item, Sample):
                     tally.fed_sample(item)
                 else:
@@ -100,7 +106,7 @@ def run(options: argparse.Namespace) -> int:
         except RecordingError as error:
             failure = Failure(str(error))
         if files is None and options.out and failure is None:
-            files = stack.enter_context(TrackFiles(options.out, places=plan is not None))  # of a recording of nothing
+            files = opened()  # of a recording of nothing
         # what came before a fault in the file is a walk of its own: it is finished and written like any other
         for event in session.finish():
             told(event)

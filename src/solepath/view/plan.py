@@ -49,10 +49,13 @@ class PlanPicture:
             self.breaks.add(len(self.places))
 
     def write(self, path: Path, title: str) -> None:
-        """The picture into a file, UTF-8. OSError when it cannot be written."""
+        """The picture into a file, UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
         tree = ElementTree(self.drawn(title))
         indent(tree, space=" ")
-        tree.write(path, encoding="utf-8", xml_declaration=True)
+        try:
+            tree.write(path, encoding="utf-8", xml_declaration=True)
+        except OSError as error:
+            raise OSError(error.errno, error.strerror, str(path)) from None
 
     def drawn(self, title: str) -> Element:
         """The picture as an <svg> element."""
@@ -64,7 +67,7 @@ class PlanPicture:
         height = HEAD + rows * (frame.height + GAP) + FOOT
         size = {"width": _px(width), "height": _px(height), "viewBox": f"0 0 {_px(width)} {_px(height)}"}
         svg = Element("svg", {"xmlns": "http://www.w3.org/2000/svg", **size, "font-family": "system-ui, sans-serif"})
-        SubElement(svg, "title").text = title
+        SubElement(svg, "title").text = _plain(title)
         SubElement(svg, "rect", {"width": "100%", "height": "100%", "fill": PAPER})
         _text(svg, MARGIN, 30.0, title, size=17.0, weight="600")
         for k, level in enumerate(self.plan.levels):
@@ -206,7 +209,7 @@ def _connector(panel: Element, kind: Kind, name: str, place: Point, outline: tup
     if outline:
         SubElement(panel, "polygon", {"points": frame.points(outline), "fill": fill, "fill-opacity": "0.55"})
     mark = SubElement(panel, "g", {"transform": f"translate({_px(x)} {_px(y)})"})
-    SubElement(mark, "title").text = name
+    SubElement(mark, "title").text = _plain(name)
     SubElement(mark, "circle", {"r": "7", "fill": fill, "stroke": PAPER, "stroke-width": "1.5"})
     stairs, lift = "M-4 3h2.7v-2.3h2.7v-2.3h2.7", "M-2.6 -0.8l2.6 -3l2.6 3M-2.6 0.8l2.6 3l2.6 -3"
     sign = {"d": stairs if kind is Kind.STAIRS else lift, "stroke": INK, "stroke-width": "1.2", "fill": "none"}
@@ -255,11 +258,16 @@ def _text(
     halo: bool = False,
 ) -> None:
     look = {"x": _px(x), "y": _px(y), "font-size": _px(size), "font-weight": weight, "text-anchor": anchor}
-    plain = "".join([c if c.isprintable() else " " for c in words])
+    plain = _plain(words)
     if halo:
         edge = {"fill": PAPER, "stroke": PAPER, "stroke-width": "3", "stroke-linejoin": "round"}
         SubElement(parent, "text", {**look, **edge}).text = plain
     SubElement(parent, "text", {**look, "fill": colour}).text = plain
+
+
+def _plain(words: str) -> str:
+    """XML has no control characters and no lone surrogates, and names of levels and lifts may have any."""
+    return "".join([c if c.isprintable() else " " for c in words])
 
 
 def _px(value: float) -> str:
