@@ -18,7 +18,7 @@ from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
 from ..position import Position
 from .arrivals import fan, nowhere
-from .crowd import AGREED, believed, effective, origin_of, packed, unpacked
+from .crowd import AGREED, Row, believed, effective, origin_of, packed, unpacked
 from .levels import FARTHEST, FEW, ROUGH, Levels
 from .readings import ABOUT, looked, mistold
 from .reference import Arrived, Held
@@ -141,7 +141,7 @@ class Placing(Levels):
             return
         move = (move[0] * self.pace.factor, move[1] * self.pace.factor)
         before = self.newest
-        places = {row[:2] for row in rows}
+        came_from = rows
         # each foot turns as the wearer does, and each tells it by its own step
         turned = min(0.5 * sum([abs(step.heading_change) for step in steps]), pi)
         rough = ROUGH if any([step.degraded for step in steps]) else 1.0
@@ -149,7 +149,7 @@ class Placing(Levels):
         self.steps = (self.steps + 1) % LOOK
         if self.steps == 0:
             rows = looked(plan, rows)
-        stays = all(row[:2] in places for row in rows)
+        stays = _stay(rows, came_from)
         self.stuck = self.stuck + hypot(*move) if stays else 0.0
         self.crowd = packed(rows) if self.stuck <= STUCK else b""
         if not self.crowd:
@@ -215,3 +215,14 @@ class Placing(Levels):
             candidates=candidates,
         )
         return self.newest
+
+
+
+def _stay(rows: list[Row], before: list[Row]) -> bool:
+    """Whether all are where some were before. Most often the first one is not."""
+    if rows:
+        x, y = rows[0][:2]
+        if not any([row[0] == x and row[1] == y for row in before]):
+            return False
+    places = {row[:2] for row in before}
+    return all([row[:2] in places for row in rows])
