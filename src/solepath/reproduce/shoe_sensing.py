@@ -193,8 +193,8 @@ def _heights_told(done: Sequence[Walked]) -> list[str]:
     lines.append(
         "The paper's heights before elimination (0.12 m walking, 0.17 m jogging) are of \"100 sets of data\", and it "
         "does not say how many steps a set has; they stand beside ours of single steps. Ours of a whole walk are "
-        "metres where the paper has decimetres: an offset of the accelerometer, emulated as large as its data sheet has "
-        "it, tilts every step the same way, and without elimination nothing in the method finds it."
+        "metres where the paper has decimetres: an offset of the accelerometer, emulated as large as its data sheet "
+        "has it, tilts every step the same way, and without elimination nothing in the method finds it."
     )
     return lines
 
