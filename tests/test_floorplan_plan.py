@@ -65,6 +65,17 @@ def test_a_level_is_found_by_its_id_and_an_unknown_one_is_named() -> None:
         HOUSE.level("2")
 
 
+def test_a_plan_knows_a_round_place_near_which_it_is_with_walls_or_rooms_or_stops_only() -> None:
+    far = ((1e6 + 0.5, -2e6 - 0.5), (1e6 + 60.0, -2e6), (1e6, -2e6 + 60.0))
+    walled = Level("0", "", 0, 0.0, (Wall(far[0], far[1]),))
+    roomed = Level("0", "", 0, 0.0, (), (), (far,))
+    bare = Level("0", "", 0, 0.0, ())
+    lift = Connector(Kind.LIFT, "", (Stop("0", far[0]),))
+    for plan in (FloorPlan("", (walled,)), FloorPlan("", (bare, roomed)), FloorPlan("", (bare,), (lift,))):
+        assert plan.origin == (1e6, -2e6 - 1.0)
+    assert FloorPlan("", (bare,)).origin == (0.0, 0.0)
+
+
 UNUSABLE = [
     (evolve(HOUSE, levels=()), "the plan has no levels"),
     (evolve(HOUSE, levels=(GROUND, GROUND)), "two levels have the id '0'"),

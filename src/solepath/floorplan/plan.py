@@ -112,6 +112,17 @@ class FloorPlan:
         anew, in a time that grows with the plan."""
         return checksum(save(evolve(self, remarks=())))
 
+    @property
+    def origin(self) -> Point:
+        """A round place, m, near which the plan is, wherever its zero may be: what is kept in few digits is kept from
+        there."""
+        for level in self.levels:
+            for x, y in [wall.start for wall in level.walls[:1]] + [room[0] for room in level.rooms[:1] if room]:
+                return x // 1.0, y // 1.0
+        for x, y in [stop.place for one in self.connectors[:1] for stop in one.stops[:1]]:
+            return x // 1.0, y // 1.0
+        return 0.0, 0.0
+
     def level(self, name: str) -> Level:
         """The level with this id. FloorPlanError when there is none."""
         for level in self.levels:
