@@ -196,6 +196,17 @@ def test_a_few_steps_that_look_like_stairs_on_level_ground_change_nothing(method
 
 
 @pytest.mark.parametrize("method", METHODS)
+def test_who_stands_in_a_lift_that_has_stopped_is_on_the_level_that_it_went_to(method: Method) -> None:
+    one = Pedestrian(11, "0", (20.0, LOW))
+    part = method()
+    part.set_out(Start("0", one.place, -one.turned))
+    one.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
+    one.ride("1", STOREY)
+    last = placed(followed(part, one.told).events)[-1]
+    assert last.level == "1" and last.t == one.t and apart(last.position[:2], one.place) <= 1.0
+
+
+@pytest.mark.parametrize("method", METHODS)
 def test_a_lift_that_only_the_activity_tells_of_changes_the_level_too(method: Method) -> None:
     one = Pedestrian(11, "0", (20.0, LOW))
     part = method()

@@ -22,6 +22,7 @@ from .events import (
     Limitation,
     SampleRejected,
     StepTaken,
+    TurnMade,
 )
 from .floorplan.index import IndexedPlan
 from .foot.refusal import rejected, with_sound_attitude, wrong_time
@@ -30,7 +31,7 @@ from .foot.tracker import FootTracker
 from .recipes import AnyActivity, AnyBody, AnyPlace, Recipe
 from .types import Foot, Sample, Site
 
-LEADS = (StepTaken, ActivityChanged, LiftRidden, FlightClimbed)
+LEADS = (StepTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
 """What a place on a floor plan follows from."""
 
 _Key = TypeVar("_Key")

@@ -15,7 +15,7 @@ class Candidate:
     level: str
     """Level.id of the plan."""
     position: Vec3
-    """Plan frame, m; z is the height above the plan's zero."""
+    """Plan frame, m; z is the height above the plan's zero, or the track's own where the plan knows no heights."""
     heading: float | None
     """Of the track's x axis in the plan frame, counter-clockwise from the plan's x axis, rad; None while unknown."""
     weight: float

@@ -90,15 +90,17 @@ class Placing(Levels):
         for event in events:
             if isinstance(event, TurnMade) and abs(event.angle) > ABOUT and self.crowd:
                 self._turned(plan, event.t)
+        arrived = False
         for reference in self.references.hear(plan.plan, events, here):
             match reference:
                 case Held():
                     self.hold(plan.plan, reference)
                 case Arrived():
                     self.arrive(plan, reference)
+                    arrived = True
                 case _:
                     self.release()
-        if steps and self.crowd:
+        if (steps or arrived) and self.crowd:
             told.append(self._told(plan, here, known_at))
         return told
 
