@@ -161,17 +161,17 @@ def _lengths_told(done: Sequence[Walked]) -> list[str]:
         lengths = [pair for one in steps for pair in one.lengths]
         if not lengths:
             continue
-        merged = [is_merged for one in steps for is_merged in one.merged]
+        merged, parted = sum([one.merged for one in steps]), sum([one.parted for one in steps])
         worst = max([abs(error) for error, _ in lengths])
         line = (
             f"{state.capitalize()}: steps of {np.mean([true for _, true in lengths]):.2f} m on average, lengths right "
             f"to {100.0 * (1.0 - _relative(lengths)):.1f} %, at worst off by {worst:.2f} m"
         )
-        others = [abs(error) for (error, _), is_merged in zip(lengths, merged, strict=True) if not is_merged]
-        if any(merged) and others:
+        others = [abs(error) for one in steps for error in one.whole]
+        if merged + parted and others:
             line += (
-                f"; {sum(merged)} of {len(lengths)} steps were told as one with the step before, whose stance was "
-                f"missed, and the others are at worst off by {max(others):.2f} m"
+                f"; of {len(lengths)} steps {merged} were told as one with the step before, whose stance was missed, "
+                f"and {parted} in two pieces; the others are at worst off by {max(others):.2f} m"
             )
         lines.append(f"{line}.")
     return lines

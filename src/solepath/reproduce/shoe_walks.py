@@ -50,20 +50,36 @@ TO_HALT = 1.5
 @frozen
 class Steps:
     """What one session made of one walk. By true step that was found: `angles` (degrees/m), errors of length and height
-    and the true ones (m), `courses` (degrees, of the first 19.2 m), `right`: whether the state is, `merged`: whether it
-    was told as one with the step before, whose end was missed. `found`, `missed` and `invented`: how many; `height`:
-    what the track gained over all of it that the wearer did not, m."""
+    and the true ones (m), `courses` (degrees, of the first 19.2 m), `right`: whether the state is, `late`: how much
+    later than the true one it begins, s. `found`, `missed` and `invented`: how many; `height`: what the track gained
+    over all of it that the wearer did not, m."""
 
     angles: tuple[float, ...]
     lengths: tuple[tuple[float, float], ...]
     heights: tuple[tuple[float, float], ...]
     courses: tuple[float, ...]
     right: tuple[bool, ...]
-    merged: tuple[bool, ...]
+    late: tuple[float, ...]
     found: int
     missed: int
     invented: int
     height: float
+
+    @property
+    def merged(self) -> int:
+        """Steps that were told as one with the step before, whose end was missed."""
+        return sum([late < -SAME for late in self.late])
+
+    @property
+    def parted(self) -> int:
+        """Steps that were told in two pieces, of which the last counts as found."""
+        return sum([late > SAME for late in self.late])
+
+    @property
+    def whole(self) -> tuple[float, ...]:
+        """Errors of length of the others, m."""
+        both = zip(self.lengths, self.late, strict=True)
+        return tuple(error for (error, _), late in both if abs(late) <= SAME)
 
     @property
     def extracted(self) -> float:
@@ -162,7 +178,7 @@ def judged(events: Sequence[Event], truth: Truth, state: str) -> Steps:
         heights=tuple((step.height_change - true.displacement[2], true.displacement[2]) for step, true in counted),
         courses=() if stairs else _courses(together),
         right=tuple(steepness(step.stride_length, step.height_change) == way for step, _ in counted),
-        merged=tuple(step.t_start < true.t_start - SAME for step, true in counted),
+        late=tuple(step.t_start - true.t_start for step, true in counted),
         found=len(counted),
         missed=len(wanted) - len(counted),
         invented=sum([step not in taken for step in during]),
