@@ -27,7 +27,8 @@ from floors import (
 from solepath import Activity, Event, LiftRidden, Placed, PlaceLost
 from solepath.body.place.particles import Particles
 from solepath.body.place.snake import SnakeGame
-from solepath.floorplan.plan import Start
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import FloorPlan, Level, Start
 
 METHODS = [Particles, SnakeGame]
 Method = type[Particles] | type[SnakeGame]
@@ -285,6 +286,20 @@ def test_a_lift_ride_that_was_told_before_is_not_told_again_by_the_activity() ->
     one.walk(beside(one.place), (24.0, LOW))
     result = followed(part, one.told)
     assert placed(result.events)[-1].level == "0" and result.mean < 1.0
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_plan_of_rooms_without_walls_far_from_its_zero_is_a_plan_too(method: Method) -> None:
+    room = ((1e6, 1e6), (1e6 + 60.0, 1e6), (1e6 + 60.0, 1e6 + 60.0), (1e6, 1e6 + 60.0))
+    hall = IndexedPlan(FloorPlan("hall", (Level("0", "ground", 0, 0.0, (), (), (room,)),)))
+    part = method()
+    part.set_out(Start("0", (1e6 + 20.0, 1e6 + 20.0), 0.0))
+    one = Pedestrian(11, "0", (20.0, 20.0))
+    one.walk((30.0, 20.0))
+    events = [event for told in one.told for event in part.follow(hall, told.events, told.here)]
+    assert len(placed(events)) == len(events) > 5
+    x, y, _ = placed(events)[-1].position
+    assert apart((x - 1e6, y - 1e6), (20.0, 20.0)) == pytest.approx(10.0, abs=1.5)
 
 
 def test_the_track_turned_by_any_angle_leads_to_the_same_place() -> None:

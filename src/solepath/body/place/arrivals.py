@@ -7,7 +7,7 @@ from math import cos, pi, sin, sqrt
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import FloorPlan, FloorPlanError, Kind, Point, Start
-from .crowd import Row, origin_of
+from .crowd import Row
 from .landings import Landing, landings, nearest, ways_out
 from .noise import NOISE, ROWS
 from .reference import Arrived
@@ -40,7 +40,7 @@ def fan(
 ) -> list[Row]:
     """`count` rows around a place, of all headings where none is known, and of `weight` in all. `scattered`: where the
     k-th of so many lies, each from -1 to 1: x, y, heading, stretch."""
-    x0, y0 = origin_of(plan.plan)
+    x0, y0 = plan.plan.origin
     near = min(max(spread, 0.0), 20.0) * 1.2
     rows: list[Row] = []
     for k in range(count):
@@ -58,7 +58,7 @@ def fan(
 def changing(plan: FloorPlan, rows: list[Row], kind: Kind, since: Point) -> list[Row]:
     """Of those who are near stairs or a lift, another each that changes level; `since`: their way since then, m."""
     stops = landings(plan)
-    x0, y0 = origin_of(plan)
+    x0, y0 = plan.origin
     dx, dy = since
     marked: list[Row] = []
     for x, y, a, b, w, level, origin, _ in rows:
@@ -70,7 +70,7 @@ def changing(plan: FloorPlan, rows: list[Row], kind: Kind, since: Point) -> list
 
 def out(plan: IndexedPlan, held: list[Row], arrived: Arrived, random: int) -> list[Row]:
     """Those who changed level, where they come out: most where they are told to, some the other way."""
-    x0, y0 = origin_of(plan.plan)
+    x0, y0 = plan.plan.origin
     stops = landings(plan.plan)
     there: list[Row] = []
     for k, (_, _, a, b, w, _, origin, stop) in enumerate(held):

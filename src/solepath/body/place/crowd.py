@@ -12,10 +12,10 @@ from struct import Struct
 from attrs import evolve
 
 from ...events import Candidate
-from ...floorplan.plan import FloorPlan, Point
+from ...floorplan.plan import FloorPlan
 
 Row = tuple[float, float, float, float, float, int, int, int]
-"""x, y: m, plan frame, less the `origin_of` the plan. a, b: a move (dx, dy) of the track is (a dx - b dy, b dx + a dy)
+"""x, y: m, plan frame, less the `FloorPlan.origin`. a, b: a move (dx, dy) of the track is (a dx - b dy, b dx + a dy)
 of the plan: a turn and a stretch. Weight. Level, as an index into the plan's. Where it came from: 0 the start, else one
 more than the index of a connector. Where it may be changing level: 0 nowhere, else Landing.index."""
 
@@ -95,12 +95,6 @@ def effective(rows: list[Row]) -> float:
     return roots * roots / total if total > 0.0 else 0.0
 
 
-def origin_of(plan: FloorPlan) -> Point:
-    """A round place near which the plan is: places are kept from there, for a plan may lie far from its zero."""
-    for level in plan.levels:
-        for wall in level.walls:
-            return (wall.start[0] // 1.0, wall.start[1] // 1.0)
-    return (0.0, 0.0)
 
 
 def believed(
@@ -110,7 +104,7 @@ def believed(
     who change level, by where they entered, m, plan frame. `track`: m, the height to be told where the plan knows none,
     else None. `agreed`: all are one candidate when they differ by no more (rms), m. At least one row. Places are
     rounded to a millimetre: they are kept."""
-    origin = origin_of(plan)
+    origin = plan.origin
     groups = _grouped(rows, agreed)
     total = sum([group[0] for group in groups])
     groups.sort(key=_weight, reverse=True)

@@ -75,9 +75,9 @@ def ways_out(
     """Where one who entered there and rode or climbed `height` m (None: any) comes out, with how likely each is. Where
     the plan knows no heights, any usual height of a storey is as good."""
     ways = []
-    for landing in all_of_them:
+    for landing in _along(all_of_them, entered):
         rise = landing.elevation - entered.elevation
-        if landing.connector == entered.connector and (rise > 0.0 if up else rise < 0.0):
+        if rise > 0.0 if up else rise < 0.0:
             low = high = abs(rise)
             if not plan.heights_known:
                 storeys = max(abs(landing.ordinal - entered.ordinal), 1)
@@ -89,6 +89,16 @@ def ways_out(
     if most <= 0.0:
         return [(landing, 1.0 / len(ways)) for landing, _ in ways]
     return [(landing, weight / most) for landing, weight in ways if weight >= UNLIKELY * most]
+
+
+def _along(all_of_them: list[Landing], entered: Landing) -> list[Landing]:
+    """The landings of the same connector: they stand side by side."""
+    first = last = entered.index - 1
+    while first > 0 and all_of_them[first - 1].connector == entered.connector:
+        first -= 1
+    while last < len(all_of_them) and all_of_them[last].connector == entered.connector:
+        last += 1
+    return all_of_them[first:last]
 
 
 def beside(all_of_them: list[Landing], level: int, x: float, y: float) -> bool:

@@ -18,7 +18,7 @@ from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
 from ..position import Position
 from .arrivals import fan, nowhere
-from .crowd import AGREED, Row, believed, effective, origin_of, packed, unpacked
+from .crowd import AGREED, Row, believed, effective, packed, unpacked
 from .levels import FARTHEST, FEW, ROUGH, Levels
 from .readings import ABOUT, looked, mistold
 from .reference import Arrived, Held
@@ -197,7 +197,7 @@ class Placing(Levels):
             self.wide, wanted = self.wide - 1, self.most
         few = len(rows) <= 1.25 * wanted and (self.wide > 0 or effective(rows) >= 0.5 * wanted)
         if first.weight >= CLEAR and len(candidates) > 1 and self.wide == 0 and not self.either:
-            x0, y0 = origin_of(plan.plan)
+            x0, y0 = plan.plan.origin
             x, y, at = first.position[0] - x0, first.position[1] - y0, plan.number(first.level)
             rows = [
                 (*row[:4], FADE * row[4], *row[5:])

@@ -8,7 +8,7 @@ from attrs import define, field
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
-from .crowd import Row, origin_of, packed, resampled
+from .crowd import Row, packed, resampled
 from .noise import NOISE, ROWS, following
 
 JUMP = 4.0
@@ -74,7 +74,7 @@ class Readings:
         """Across a gap: walls on the straight way say nothing, but the end must be somewhere."""
         dx, dy = move
         off = 0.3 * hypot(dx, dy)
-        x0, y0 = origin_of(plan.plan)
+        x0, y0 = plan.plan.origin
         self.random = following(self.random)
         kept: list[Row] = []
         for k, (x, y, a, b, w, level, origin, held) in enumerate(rows):
@@ -88,7 +88,7 @@ class Readings:
 
 def looked(plan: IndexedPlan, rows: list[Row]) -> list[Row]:
     """Who is where nobody can be counts less."""
-    x0, y0 = origin_of(plan.plan)
+    x0, y0 = plan.plan.origin
     seen: list[Row] = []
     for row in rows:
         x, y, a, b, w, level, came, held = row
@@ -101,7 +101,7 @@ def mistold(plan: IndexedPlan, rows: list[Row], since: Point) -> list[Row]:
     """Rows of all headings for an about-turn that the track may have wrong: few and little believed, for the walls to
     decide. `since`: the way since the turn, m, track."""
     dx, dy = since
-    x0, y0 = origin_of(plan.plan)
+    x0, y0 = plan.plan.origin
     some = resampled([row for row in rows if not row[7]], OF_THEM, 0.5)
     total, drawn = sum([row[4] for row in rows]), sum([row[4] for row in some])
     added: list[Row] = []

@@ -6,7 +6,7 @@ from math import hypot
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
-from .crowd import Row, origin_of
+from .crowd import Row
 from .landings import Landing, beside, landings
 from .noise import NOISE, ROWS
 
@@ -54,7 +54,7 @@ def _swayed(
     bends: tuple[float, ...],
 ) -> list[Row]:
     dx, dy = move
-    x0, y0 = origin_of(plan.plan)
+    x0, y0 = plan.plan.origin
     way, stretch = rough * (STEP * hypot(dx, dy) + SHAKE), rough * STRETCH
     crosses = plan.crosses
     kept: list[Row] = []
