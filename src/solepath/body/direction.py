@@ -70,6 +70,8 @@ class Direction:
     ended: float = field(default=0.0, init=False)
     """When the last one did, s."""
     stands: float = field(default=STANDS, init=False)
+    told: float | None = field(default=None, init=False)
+    """When the last turn that was told was over, s."""
 
     def step(self, taken: StepTaken) -> Turned | None:
         """One step of either foot, in the order in which they became known; the turn that is over by it."""
@@ -103,7 +105,9 @@ class Direction:
         if self.began is not None and t_start - self.ended > self.stands:
             over = self._over()
         if self.began is None:
-            self.began = self.ended = t_start
+            # who stood for long did not turn meanwhile, nor before the last turn was over
+            began = max(t_start, t_end - PATIENCE)
+            self.began = self.ended = began if self.told is None else max(began, min(self.told, t_end))
             foot.angle = other.angle = 0.0
         foot.angle += angle
         foot.straight = other.straight = 0
@@ -124,13 +128,13 @@ class Direction:
 
     def interrupt(self, foot: Foot) -> None:
         """The clock of a foot begins anew: a turn under way has no length, and is forgotten."""
-        self.began = None
+        self.began = self.told = None
         (self.left if foot is Foot.LEFT else self.right).stepped = None
 
     def _over(self) -> Turned:
         began = self.ended if self.began is None else self.began
         found = Turned(began, self.ended, *agreed(self._part(self.left, began), self._part(self.right, began)))
-        self.began = None
+        self.began, self.told = None, self.ended
         self.left.angle = self.right.angle = 0.0
         self.left.straight = self.right.straight = 0
         return found
