@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from solepath import machine
 from solepath.body.activity.activities import Activities
-from solepath.body.activity.features import COUNT
+from solepath.body.activity.features import COUNT, GYRO
 from solepath.body.activity.motion import MOTIONS, from_json, shipped, to_json
 from solepath.events import ActivityChanged, Event
 from solepath.foot.cycle import Cycle
@@ -123,6 +123,13 @@ def test_what_the_network_says_adds_up(features: list[float]) -> None:
     likely = model.log_probabilities(features)
     assert len(likely) == len(MOTIONS) and isclose(sum(exp(one) for one in likely), 1.0, rel_tol=1e-9)
     assert model.strangeness(features) >= 0.0
+
+
+def test_a_foot_without_a_gyroscope_is_judged_by_its_accelerometer_alone() -> None:
+    model, acc = shipped(), [0.1] * GYRO
+    unknown = model.log_probabilities([*acc, 0.0, *[0.3] * (COUNT - GYRO - 1)])
+    assert unknown == model.alone.log_probabilities(acc)
+    assert unknown != model.log_probabilities([*acc, 1.0, *[0.3] * (COUNT - GYRO - 1)])
 
 
 def test_a_model_goes_through_its_file_and_a_snapshot() -> None:

@@ -18,7 +18,6 @@ from ..body.activity.footstep_activity import TwoSecondWindows
 from ..recipes import AnyActivity
 from ..recording import RecordingError
 from ..train import activities, footstep_activity
-from ..train.activities_net import learn
 from ..train.folds import FOLDS, fold_of
 from ..train.hugadb import recordings
 from .recorded import Meta
@@ -65,8 +64,7 @@ def _blocks(source: tuple[str, Path, int]) -> list[activities.Blocks]:
 
 
 def _activities(taught: Sequence[list[activities.Blocks]]) -> Activities:
-    blocks = activities.joined([part for parts in taught for part in parts])
-    return Activities(learn(blocks.features, blocks.classes, blocks.wearers, "the other folds"))
+    return Activities(activities.learnt([part for parts in taught for part in parts], "the other folds"))
 
 
 LEARNERS: dict[type, Learner] = {

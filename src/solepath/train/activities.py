@@ -28,6 +28,8 @@ from .. import recipes
 from ..body.activity import motion
 from ..body.activity.features import BLOCK, COUNT, REACH, STEP, FootWindow
 from ..body.activity.motion import MotionModel, to_json
+from ..body.activity.ride import Felt
+from ..body.activity.votes import felt
 from ..foot.dedrift import LinearDedrift
 from ..foot.stance import Shoe
 from ..foot.tracker import FootTracker
@@ -43,7 +45,8 @@ from ..sim.walker import Walker
 from ..types import SITE_OF_FOOT, Activity, Foot, Sample, Site
 from ..vector import TIE
 from . import emulated
-from .activities_net import CLASSES, learn
+from .activities_course import Course, Said, Span, chances, shifts, spans
+from .activities_net import CLASSES, networks, usual
 from .folds import FOLDS
 from .hugadb import labels, recordings
 
@@ -77,6 +80,8 @@ WORN: tuple[tuple[float, Imu, Mounting] | CC2650 | CC2541, ...] = (
     (10.0, MPU9250, IN_SOLE),
 )
 """What the emulated wearers wear, in turn: rate in Hz, inertial sensor and where it sits, or a device as it is sold."""
+EMULATOR = 2000
+"""The number of all emulated wearers together."""
 AFOOT = 0.0
 """Feature 1 (the stillest block of five) of a foot that walks all the time: a variance of |acc| above 1 (m/s^2)^2."""
 PURE = 0.9
@@ -90,27 +95,40 @@ class Blocks:
     features: Floats
     classes: NDArray[np.int64]
     wearers: NDArray[np.int64]
+    course: Course | None = None
+    """The whole recording, where what follows what is learnt from it."""
 
 
-def blocks_of(samples: Sequence[Sample], label: Label, recipe: Recipe, wearer: int, only_steps: bool = False) -> Blocks:
-    """The labelled blocks of both feet. `only_steps`: those with a step in them."""
+def blocks_of(
+    samples: Sequence[Sample],
+    label: Label,
+    recipe: Recipe,
+    wearer: int,
+    only_steps: bool = False,
+    followed: Sequence[Span] | None = None,
+) -> Blocks:
+    """The labelled blocks of both feet. `only_steps`: those with a step in them. `followed`: what was done when, of a
+    recording whose course is learnt from."""
     rows: list[list[float]] = []
     classes: list[int] = []
     begin = samples[0].t
+    seen: dict[int, dict[Foot, Said]] = {}
     for foot in Foot:
         own = [sample for sample in samples if sample.site.foot is foot and sample.acc is not None]
-        for index, features in _features(foot, own, begin, recipe):
+        for index, features, force in _features(foot, own, begin, recipe):
+            seen.setdefault(index, {})[foot] = features, force
             now = _pure(label, begin + index * BLOCK)
             if now is not None and (not only_steps or (features[STEP] and features[1] > AFOOT)):
                 rows.append(features)
                 classes.append(CLASSES[now])
     n = len(rows)
-    return Blocks(np.array(rows).reshape(n, COUNT), np.array(classes, dtype=np.int64), np.full(n, wearer))
+    course = None if followed is None else Course(begin, seen, tuple(followed), wearer != EMULATOR)
+    return Blocks(np.array(rows).reshape(n, COUNT), np.array(classes, dtype=np.int64), np.full(n, wearer), course)
 
 
 def _features(
     foot: Foot, samples: Sequence[Sample], begin: float, recipe: Recipe
-) -> Iterator[tuple[int, list[float]]]:
+) -> Iterator[tuple[int, list[float], Felt | None]]:
     parts = deepcopy(recipe)
     tracker = FootTracker(foot, parts.detector, parts.corrector, cues=parts.cues)
     window = FootWindow()
@@ -130,10 +148,12 @@ def _features(
             window.heard(events, tracker.corrector.position[2])
 
 
-def _judged(window: FootWindow, index: int, begin: float) -> Iterator[tuple[int, list[float]]]:
+def _judged(
+    window: FootWindow, index: int, begin: float
+) -> Iterator[tuple[int, list[float], Felt | None]]:
     features = window.features(index, begin + (index + 0.5) * BLOCK)
     if features is not None:
-        yield index, features
+        yield index, features, felt(window.block(index), window.grain)
 
 
 def _pure(label: Label, begin: float) -> Activity | None:
@@ -160,8 +180,11 @@ def hugadb(folder: Path, without: frozenset[int]) -> Iterator[Blocks]:
             return told[k] if k < len(told) else None
 
         samples = list(load_samples(one.path))
+        done = spans(times, told)
         for rate, recipe in WAYS:
-            yield blocks_of(samples if rate is None else resampled(samples, rate), label, recipe, one.subject)
+            seen = samples if rate is None else resampled(samples, rate)
+            followed = done if (rate, recipe) == WAYS[0] else None
+            yield blocks_of(seen, label, recipe, one.subject, followed=followed)
 
 
 def level_walks(data: Path) -> Iterator[Blocks]:
@@ -177,8 +200,9 @@ def emulated_walks(seeds: Iterable[int] = EMULATED) -> Iterator[Blocks]:
     for seed in seeds:
         walker = emulated.walker(seed, jogging=True)
         samples = _worn(walker, WORN[seed % len(WORN)], seed)
-        for recipe in (recipes.DEFAULT, STRAPDOWN):
-            yield blocks_of(samples, walker.truth().activity, recipe, 2000)
+        truth = walker.truth()
+        yield blocks_of(samples, truth.activity, recipes.DEFAULT, EMULATOR, followed=truth.activities)
+        yield blocks_of(samples, truth.activity, STRAPDOWN, EMULATOR)
 
 
 def _worn(walker: Walker, device: tuple[float, Imu, Mounting] | CC2650 | CC2541, seed: int) -> list[Sample]:
@@ -233,26 +257,27 @@ def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
 # --- all of it --------------------------------------------------------------------------------------------------------
 
 
-def joined(parts: Iterable[Blocks]) -> Blocks:
-    """All of them."""
+def learnt(parts: Iterable[Blocks], note: str) -> MotionModel:
+    """The model of all of them."""
     held = [part for part in parts if len(part.classes)]
-    return Blocks(
-        np.concatenate([part.features for part in held]),
-        np.concatenate([part.classes for part in held]),
-        np.concatenate([part.wearers for part in held]),
-    )
+    features = np.concatenate([part.features for part in held])
+    classes = np.concatenate([part.classes for part in held])
+    whole, alone = networks(features, classes, np.concatenate([part.wearers for part in held]))
+    means, deviations = usual(features, classes)
+    courses = [part.course for part in held if part.course is not None]
+    model = MotionModel(note, whole, alone, means, deviations, chances(courses), ())
+    return attrs.evolve(model, shifts=shifts(courses, model))
 
 
 def trained(data: Path, without: int | None) -> MotionModel:
     """The model without the wearers of that fold."""
     left_out = frozenset[int]() if without is None else FOLDS[without]
-    blocks = joined([*hugadb(data / "hugadb", left_out), *level_walks(data), *emulated_walks()])
     fold = "all wearers" if without is None else f"the wearers but {sorted(left_out)}"
     note = (
         f"{fold} of HuGaDB (without {' and '.join(MISTAKEN)}) as recorded and at 100, 20 and 10 Hz; level walks of "
         f"{', '.join(LEVEL_WALKS)}; emulated wearers, seeds {EMULATED[0]} to {EMULATED[-1]}"
     )
-    return learn(blocks.features, blocks.classes, blocks.wearers, note)
+    return learnt([*hugadb(data / "hugadb", left_out), *level_walks(data), *emulated_walks()], note)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -262,14 +287,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--without", type=int, choices=range(len(FOLDS)))
     told = parser.parse_args(arguments)
     model = trained(told.data, told.without)
-    rows = [f" {json.dumps(key)}: {_lines(value)}" for key, value in to_json(model).items()]
-    told.out.write_text("{\n" + ",\n".join(rows) + "\n}\n", encoding="utf-8")
+    told.out.write_text(_lines(to_json(model), 0) + "\n", encoding="utf-8")
     return 0
 
 
-def _lines(value: object) -> str:
+def _lines(value: object, depth: int) -> str:
+    """JSON with a line for each row of numbers."""
+    inner, close = "\n" + " " * (depth + 1), "\n" + " " * depth
+    if isinstance(value, dict):
+        rows = [f"{json.dumps(key)}: {_lines(one, depth + 1)}" for key, one in value.items()]
+        return "{" + inner + ("," + inner).join(rows) + close + "}"
     if isinstance(value, list) and value and isinstance(value[0], list):
-        return "[\n" + ",\n".join(["  " + json.dumps(row) for row in value]) + "\n ]"
+        return "[" + inner + ("," + inner).join([json.dumps(row) for row in value]) + close + "]"
     return json.dumps(value)
 
 

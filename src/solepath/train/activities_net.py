@@ -1,7 +1,7 @@
-"""The small network of `Activities`: one hidden layer, fitted by stochastic gradient descent (Adam: Kingma, Ba 2015).
+"""The small networks of `Activities`: one hidden layer, fitted by stochastic gradient descent (Adam: Kingma, Ba 2015).
 
-Some features are hidden from the network in every pass, so that it can do without them: those of the gyroscope, of the
-track and of the steps. Those of the track are also disturbed by as much as tracks of clipping accelerometers are wrong.
+Some features are hidden from the network in every pass, so that it can do without them: those of the track and of the
+steps. Those of the track are also disturbed by as much as tracks of clipping accelerometers are wrong.
 """
 
 from __future__ import annotations
@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..body.activity.features import COUNT, GYRO, STEP, TRACK
-from ..body.activity.motion import MOTIONS, MotionModel
+from ..body.activity.features import GYRO, STEP, TRACK
+from ..body.activity.motion import MOTIONS, Network, Row
 from ..types import Activity
 
 Floats = NDArray[np.float64]
@@ -26,12 +26,12 @@ CLASSES: dict[Activity, int] = {
     Activity.STAIRS_DOWN: 4,
 }
 """Output of the network for each activity: a foot in a lift stands."""
-HIDDEN = 16
+HIDDEN = 24
 EPOCHS = 15
 BATCH = 512
 RATE = 3e-3
 DECAY = 1e-3
-WITHOUT_GYRO, WITHOUT_TRACK, WITHOUT_STEP = 0.25, 0.1, 0.2
+WITHOUT_TRACK, WITHOUT_STEP = 0.1, 0.2
 """Shares of blocks in a pass that are seen without."""
 LEAST_SPREAD = 0.02
 
@@ -47,17 +47,26 @@ def weights(classes: Numbers, wearers: Numbers) -> Floats:
     return np.asarray(found / found.mean())
 
 
-def learn(features: Floats, classes: Numbers, wearers: Numbers, note: str, seed: int = 0) -> MotionModel:
-    """The network of these blocks: `features` (n, COUNT), `classes` (n) as in CLASSES, `wearers` (n)."""
+def networks(features: Floats, classes: Numbers, wearers: Numbers) -> tuple[Network, Network]:
+    """Of feet with a gyroscope, and of the accelerometer alone: `features` (n, COUNT), `classes` (n) as in CLASSES,
+    `wearers` (n)."""
+    turned = features[:, GYRO] > 0.0
+    whole = learn(features[turned], classes[turned], wearers[turned])
+    return whole, learn(features[:, :GYRO], classes, wearers)
+
+
+def learn(features: Floats, classes: Numbers, wearers: Numbers, seed: int = 0) -> Network:
+    """The network of these blocks."""
     rng = np.random.default_rng(seed)
     weight = weights(classes, wearers)
     mean, spread = features.mean(0), features.std(0) + 0.01
-    shapes = ((COUNT, HIDDEN), (HIDDEN,), (HIDDEN, len(MOTIONS)), (len(MOTIONS),))
+    inputs = features.shape[1]
+    shapes = ((inputs, HIDDEN), (HIDDEN,), (HIDDEN, len(MOTIONS)), (len(MOTIONS),))
     held = [rng.normal(0.0, shape[0] ** -0.5, shape) if len(shape) == 2 else np.zeros(shape) for shape in shapes]
     first, second = [np.zeros(shape) for shape in shapes], [np.zeros(shape) for shape in shapes]
     count = 0
     for epoch in range(EPOCHS):
-        seen = (disturbed(features, rng) - mean) / spread
+        seen = ((disturbed(features, rng) if inputs > GYRO else features) - mean) / spread
         rate = RATE * 0.5 * (1.0 + np.cos(np.pi * epoch / EPOCHS))
         order = rng.permutation(len(seen))
         for begin in range(0, len(order), BATCH):
@@ -69,15 +78,20 @@ def learn(features: Floats, classes: Numbers, wearers: Numbers, note: str, seed:
                 step = first[k] / (1.0 - 0.9**count) / (np.sqrt(second[k] / (1.0 - 0.999**count)) + 1e-8)
                 held[k] -= rate * step
     hidden = held[0] / spread[:, None]
+    return Network(
+        hidden=tuple([row_of(row) for row in hidden.T]),
+        hidden_bias=row_of(held[1] - mean @ hidden),
+        output=tuple([row_of(row) for row in held[2].T]),
+        output_bias=row_of(held[3]),
+    )
+
+
+def usual(features: Floats, classes: Numbers) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
+    """Mean and deviation of the features of the accelerometer, for each of MOTIONS."""
     alone = [features[classes == k][:, :GYRO] for k in range(len(MOTIONS))]
-    return MotionModel(
-        trained_on=note,
-        hidden=tuple([_row(row) for row in hidden.T]),
-        hidden_bias=_row(held[1] - mean @ hidden),
-        output=tuple([_row(row) for row in held[2].T]),
-        output_bias=_row(held[3]),
-        usual=tuple([_row(one.mean(0)) for one in alone]),
-        spread=tuple([_row(np.maximum(one.std(0), LEAST_SPREAD)) for one in alone]),
+    return (
+        tuple([row_of(one.mean(0)) for one in alone]),
+        tuple([row_of(np.maximum(one.std(0), LEAST_SPREAD)) for one in alone]),
     )
 
 
@@ -109,9 +123,9 @@ def disturbed(features: Floats, rng: np.random.Generator) -> Floats:
         found[stepped, STEP + column] += rng.normal(0.0, size, n)[stepped]
     found[rng.random(n) < WITHOUT_STEP, STEP:] = 0.0
     found[rng.random(n) < WITHOUT_TRACK, TRACK:] = 0.0
-    found[rng.random(n) < WITHOUT_GYRO, GYRO:] = 0.0
     return found
 
 
-def _row(values: Floats) -> tuple[float, ...]:
+def row_of(values: Floats) -> Row:
+    """Rounded as the file of the model has them."""
     return tuple([float(f"{value:.5g}") for value in values.tolist()])

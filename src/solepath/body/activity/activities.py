@@ -2,7 +2,7 @@
 
 Each foot is looked at in blocks of half a second (features.py) and says of every block how likely each way of moving is
 (motion.py). The feet's votes, what a lift adds to the force on a standing foot (ride.py) and the slope of the air
-pressure, where there is a barometer (air.py), are the evidence of a chain of twelve states that is followed by
+pressure, where there is a barometer (air.py), are the evidence of a chain of sixteen states that is followed by
 Viterbi's algorithm (hypotheses.py).
 
 When what is known: a block is judged when two more have come, 1 to 1.5 s after it. The likeliest course is told at
@@ -22,34 +22,25 @@ from attrs import define, evolve, field
 from ...events import ActivityChanged, Event, LiftRidden, StepFeatures, StepTaken
 from ...foot.tracker import FootTracker
 from ...types import Activity, Foot, Sample, Site
-from ...vector import TIE
+from ...vector import TIE, ZERO
 from .air import NOTHING, Air
 from .features import BLOCK, REACH, FootWindow
 from .flights import Flights
 from .hypotheses import Evidence, Hypotheses, Segment
 from .motion import MotionModel, shipped
-from .ride import SWAY, Felt
+from .votes import felt, motions
 
-SHARE = 0.6
-"""Neighbouring windows are of the same samples, so each vote counts so much."""
-STRANGE = 3.0
-"""Something that nobody has learnt is as likely as this (minus natural logarithm) for a foot that moves as usual,"""
-USUAL = 6.0
-"""up to this strangeness (motion.py), and ever more likely above."""
 SILENT = 3
 """Blocks after which a foot is not waited for."""
 PATIENT = 60
 """Blocks of silence that are gone through one by one."""
-MOVES = 1.0
-"""Variance of |acc| of a foot that does not stand, (m/s^2)^2."""
-MOST = 40.0
-"""A mean force beyond is none of a standing foot, m/s^2."""
 WOBBLE = 1.0
 """What is not final is not told again because it began this little earlier or later, s."""
 WAITING = 8
 """Steps that may wait for their activity."""
 NO_MORE = StepFeatures(0.0, 0.0, 0.0)
-"""Nobody asks for more of those that wait."""
+NOWHERE = (0.0,) * 6
+"""Of those that wait nobody asks for more than their times and heights."""
 AFOOT = {Activity.STAIRS_UP: 1, Activity.STAIRS_DOWN: -1}
 RIDDEN = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
 
@@ -131,7 +122,7 @@ class Activities:
             side.heard(events, foot.corrector.position[2])
             for event in events:
                 if isinstance(event, StepTaken):
-                    self.steps.append(evolve(event, features=NO_MORE))
+                    self.steps.append(_slimmed(event))
                     if len(self.steps) > WAITING:
                         self.steps.popleft()
         return told
@@ -174,40 +165,22 @@ class Activities:
         """Whether anything was heard in it."""
         t = self._time(index)
         model = shipped() if self.model is None else self.model
-        motions = [0.0] * 5
-        unknown = 0.0
-        felt: list[Felt | None] = []
-        heard = False
-        for side in (self.left, self.right):
-            features = side.features(index, t + 0.5 * BLOCK)
-            block = side.block(index)
-            if features is None or block is None:
-                felt.append(None)
-                continue
-            heard = True
-            for i, likely in enumerate(model.log_probabilities(features)):
-                motions[i] += SHARE * max(likely, -12.0)
-            unknown += SHARE * min(0.5 * (model.strangeness(features) - USUAL) - STRANGE, 0.0)
-            if block.force < MOST:
-                variance = SWAY * SWAY + 0.05 * min(block.variance, 1e4) + side.grain * side.grain / 12.0
-                felt.append(Felt(block.force, variance, block.variance > MOVES))
-            else:
-                felt.append(None)
-        if not heard:
-            motions = [-1.0] * 5
+        sides = (self.left, self.right)
+        said = [side.features(index, t + 0.5 * BLOCK) for side in sides]
         air = self.air
         climbs = air.climbs(index, BLOCK) if air.blocks else NOTHING
         self.courses.update(
             Evidence(
                 t=t,
-                motions=(*motions, unknown),
-                felt=tuple(felt),
+                motions=motions(model, said),
+                felt=tuple([felt(side.block(index), side.grain) for side in sides]),
                 climbs=climbs,
                 before=air.height(index - 3, index - 1),
                 after=air.height(index, index + REACH),
-            )
+            ),
+            model.chain,
         )
-        return heard
+        return any([features is not None for features in said])
 
     def _time(self, index: int) -> float:
         return (0.0 if self.origin is None else self.origin) + index * BLOCK
@@ -286,6 +259,10 @@ class Activities:
             known = evolve(step, known_at=max(known_at, step.known_at))
             events += self.flights.stepped(known, AFOOT.get(doing, 0))
         events += self.flights.waited(t, known_at)
+
+
+def _slimmed(step: StepTaken) -> StepTaken:
+    return evolve(step, displacement=ZERO, position=ZERO, covariance=NOWHERE, features=NO_MORE)
 
 
 def _ridden(ride: Segment, over: float, known_at: float) -> LiftRidden:

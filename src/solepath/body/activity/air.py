@@ -8,7 +8,7 @@ from math import exp, log
 from attrs import define, field
 
 from ...types import Foot
-from .hypotheses import (
+from .chain import (
     DOWN,
     DOWN_THERE,
     NEARLY_DOWN,

@@ -15,6 +15,7 @@ from ...events import Event, FootFlat, HeelStrike, StepTaken
 from ...foot.tracker import FootTracker
 from ...types import Vec3
 from ...vector import ZERO
+from .block import Block, Stepped
 
 BLOCK = 0.5
 """s."""
@@ -29,57 +30,16 @@ STEPS = 3
 LONGEST = 1.6
 """A step that lasted longer began with standing, s."""
 
-GYRO = 4 + BINS
+THIRDS = 3
+"""Parts of a window: the blocks before the one that is told, that one, and the blocks after it."""
+
+GYRO = 4 + THIRDS * BINS
 """Index of the first feature that needs a gyroscope."""
-TRACK = GYRO + 5 + BINS
+TRACK = GYRO + 5 + THIRDS * BINS
 """Index of the first feature that needs a track."""
 STEP = TRACK + 6
 """Index of the first feature of a step."""
 COUNT = STEP + 11
-
-
-@define
-class Block:
-    """Means and shares over the samples of one block."""
-
-    index: int
-    count: int
-    force: float
-    """Mean |acc|, m/s^2."""
-    variance: float
-    """Of |acc|, (m/s^2)^2."""
-    acc_bins: list[int]
-    rates: int
-    """Samples with a gyroscope."""
-    rate: float
-    """Mean square of |gyro|, (rad/s)^2."""
-    gyro_bins: list[int]
-    tracked: bool
-    climb: float
-    """Largest velocity upwards, m/s,"""
-    sink: float
-    """downwards, negative,"""
-    speed: float
-    """and in all."""
-
-
-@define
-class Stepped:
-    """What counts of a step: times in s, lengths in m, m/s, rad."""
-
-    start: float
-    end: float
-    length: float
-    rise: float
-    clearance: float
-    speed: float
-    pitch: float
-    top: float
-    """Highest above where it began,"""
-    bottom: float
-    """lowest,"""
-    strike: float
-    """and at heel-strike."""
 
 
 @define
@@ -185,10 +145,10 @@ class FootWindow:
                 n,
                 round(mean, 6),
                 round(max(0.0, self.squares / n - mean * mean), 6),
-                self.acc_bins,
+                _packed(self.acc_bins),
                 self.rates,
                 round(self.rate_squares / self.rates, 6) if self.rates else 0.0,
-                self.gyro_bins,
+                _packed(self.gyro_bins),
                 self.tracked,
                 round(self.climb, 4),
                 round(self.sink, 4),
@@ -246,9 +206,7 @@ class FootWindow:
         mean = sum([block.force * block.count for block in near]) / whole
         squares = sum([(block.variance + block.force * block.force) * block.count for block in near]) / whole
         told[3] = _logarithm(max(0.0, squares - mean * mean))
-        for block in near:
-            for i, n in enumerate(block.acc_bins):
-                told[4 + i] += n / whole
+        _shares(told, 4, [(_third(block, index), block.count, block.acc_bins) for block in near])
         turned = [block for block in near if block.rates]
         if turned:
             rates = sum([block.rates for block in turned])
@@ -257,9 +215,7 @@ class FootWindow:
             told[GYRO + 2] = _logarithm(min([block.rate for block in turned]))
             told[GYRO + 3] = _logarithm(max([block.rate for block in turned]))
             told[GYRO + 4] = _logarithm(sum([block.rate * block.rates for block in turned]) / rates)
-            for block in turned:
-                for i, n in enumerate(block.gyro_bins):
-                    told[GYRO + 5 + i] += n / rates
+            _shares(told, GYRO + 5, [(_third(block, index), block.rates, block.gyro_bins) for block in turned])
         tracked = [block for block in near if block.tracked]
         if tracked:
             told[TRACK] = 1.0
@@ -298,3 +254,23 @@ class FootWindow:
 def _logarithm(variance: float) -> float:
     """Of a variance: about -1 at rest and 1 in a run."""
     return 0.25 * log(min(max(variance, 1e-4), 1e4))
+
+
+def _packed(bins: list[int]) -> bytes:
+    return bytes([min(n, 255) for n in bins])
+
+
+def _third(block: Block, index: int) -> int:
+    return 1 if block.index == index else 2 * (block.index > index)
+
+
+def _shares(told: list[float], first: int, parts: list[tuple[int, int, bytes]]) -> None:
+    """Shares of each bin among the samples of each third of the window; `parts`: third, samples and bins of blocks."""
+    counts = [0] * THIRDS
+    for third, count, _ in parts:
+        counts[third] += count
+    for third, _, bins in parts:
+        at = first + third * BINS
+        for i, n in enumerate(bins):
+            if n:
+                told[at + i] += n / counts[third]

@@ -2,8 +2,7 @@
 
 Viterbi's algorithm with the paths kept in tokens (Young, Russell, Thornton 1989, "Token passing"): each state holds one
 token, the best course that ends in it. Where the tokens agree the past is settled; a token that disagrees with what is
-settled is dropped, so that it stays settled. A ride in a lift is five states each way: it sets off, runs,
-stops, or creeps on to its floor first and stops there.
+settled is dropped, so that it stays settled. The states are those of chain.py.
 """
 
 from __future__ import annotations
@@ -16,72 +15,9 @@ from attrs import define, evolve, field, frozen
 
 from ...types import Activity
 from ...vector import TIE
+from .chain import ACTIVITIES, BEGIN, CRUISES, HALTS, LIFTS, PULSES, RIDES, STAND, Chain
 from .features import BLOCK
 from .ride import HALT, HALT_VARIES, USUAL, VARIES, Felt, Level, Ride
-
-STAND, WALK, RUN, UP, DOWN, UNKNOWN = range(6)
-RISE, RISING, RISEN, NEARLY_UP, UP_THERE = range(6, 11)
-SINK, SINKING, SUNK, NEARLY_DOWN, DOWN_THERE = range(11, 16)
-
-ACTIVITIES = (
-    Activity.STANDING,
-    Activity.WALKING,
-    Activity.RUNNING,
-    Activity.STAIRS_UP,
-    Activity.STAIRS_DOWN,
-    Activity.UNKNOWN,
-    *[Activity.ELEVATOR_UP] * 5,
-    *[Activity.ELEVATOR_DOWN] * 5,
-)
-"""Of each state."""
-LIFTS = frozenset((Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN))
-PULSES = {RISE: 1, RISEN: -1, SINK: -1, SUNK: 1}
-"""Which way the acceleration of these states points."""
-HALTS = {UP_THERE: -1, DOWN_THERE: 1}
-"""The same of a lift that has crept on to its floor and stops: less than the others."""
-RIDES = frozenset(range(RISE, DOWN_THERE + 1))
-CRUISES = frozenset((RISING, NEARLY_UP, SINKING, NEARLY_DOWN))
-
-_RIDE = {"RISE": 3e-3, "RISING": 1e-5, "SINK": 3e-3, "SINKING": 1e-5}
-_BLIND = {"RISE": 1e-3, "RISING": 3e-4, "SINK": 1e-3, "SINKING": 3e-4}
-_CHANCES: dict[str, dict[str, float]] = {
-    "STAND": {"WALK": 0.03, "RUN": 1e-3, "UP": 5e-3, "DOWN": 5e-3, "UNKNOWN": 1e-3, **_RIDE},
-    "WALK": {"STAND": 0.03, "RUN": 4e-3, "UP": 0.015, "DOWN": 0.015, "UNKNOWN": 1e-3, **_BLIND},
-    "RUN": {"STAND": 0.01, "WALK": 0.03, "UP": 2e-3, "DOWN": 2e-3, "UNKNOWN": 1e-3},
-    "UP": {"STAND": 0.02, "WALK": 0.05, "RUN": 2e-3, "DOWN": 2e-3, "UNKNOWN": 1e-3, **_BLIND},
-    "DOWN": {"STAND": 0.02, "WALK": 0.05, "RUN": 2e-3, "UP": 2e-3, "UNKNOWN": 1e-3, **_BLIND},
-    "UNKNOWN": {"STAND": 0.1, "WALK": 0.1, "RUN": 0.02, "UP": 0.02, "DOWN": 0.02, **_BLIND},
-    "RISE": {"RISING": 0.25, "RISEN": 0.05},
-    "RISING": {"RISEN": 0.07, "WALK": 3e-4, "STAND": 1e-5, "UNKNOWN": 3e-4},
-    "RISEN": {"STAND": 0.2, "WALK": 0.02, "NEARLY_UP": 0.08},
-    "NEARLY_UP": {"UP_THERE": 0.1, "WALK": 1e-3, "UNKNOWN": 1e-3},
-    "UP_THERE": {"STAND": 0.4, "WALK": 0.02},
-    "SINK": {"SINKING": 0.25, "SUNK": 0.05},
-    "SINKING": {"SUNK": 0.07, "WALK": 3e-4, "STAND": 1e-5, "UNKNOWN": 3e-4},
-    "SUNK": {"STAND": 0.2, "WALK": 0.02, "NEARLY_DOWN": 0.08},
-    "NEARLY_DOWN": {"DOWN_THERE": 0.1, "WALK": 1e-3, "UNKNOWN": 1e-3},
-    "DOWN_THERE": {"STAND": 0.4, "WALK": 0.02},
-}
-"""Of going from one state to another within half a second; the rest is staying. They say how long things last (a pulse
-2 s, a ride between its pulses 7 s, a stand quarter of a minute) and are not fitted to any recording."""
-_NAMES = (
-    *("STAND", "WALK", "RUN", "UP", "DOWN", "UNKNOWN"),
-    *("RISE", "RISING", "RISEN", "NEARLY_UP", "UP_THERE"),
-    *("SINK", "SINKING", "SUNK", "NEARLY_DOWN", "DOWN_THERE"),
-)
-_BEGIN = (0.5, 0.25, 0.05, 0.05, 0.05, 0.04, *(1e-3, 5e-4, 2e-4, 1e-5, 1e-5), *(1e-3, 5e-4, 2e-4, 1e-5, 1e-5))
-
-FROM: tuple[tuple[tuple[int, float], ...], ...] = tuple(
-    tuple(
-        [
-            (i, log(1.0 - sum(_CHANCES[name].values()) if name == to else _CHANCES[name][to]))
-            for i, name in enumerate(_NAMES)
-            if name == to or to in _CHANCES[name]
-        ]
-    )
-    for to in _NAMES
-)
-"""For each state those that it may come from, with the logarithm of the chance."""
 
 FORGOTTEN = 13.0
 """A token that is so much less likely than the best (natural logarithm) is dropped."""
@@ -89,9 +25,6 @@ DOUBT = 8.0
 """One that is less likely by more than this has no say in what is settled."""
 SETTLED = 12.0
 """After so long, s, a ride has ended: the lift does not creep on to its floor."""
-EARLIER, LATER = 0.5, 1.0
-"""A ride begins so much earlier, s, than its first block that was felt, and ends so much later than its last: its first
-and last jerk are too weak to feel, and its doors are not open yet."""
 DECIDED = 60.0
 """After so long, s, it is settled what was begun: few rides are longer."""
 LONGEST = 8
@@ -151,19 +84,19 @@ class Hypotheses:
         """The likeliest; None before any evidence."""
         return max(self.tokens, key=_score, default=None)
 
-    def update(self, seen: Evidence) -> None:
+    def update(self, seen: Evidence, chain: Chain) -> None:
         """Half a second more."""
-        held: list[Token | None] = [None] * len(_NAMES)
+        held: list[Token | None] = [None] * len(ACTIVITIES)
         for token in self.tokens:
             held[token.state] = token
         found: list[Token] = []
-        for state, before in enumerate(FROM):
+        for state, before in enumerate(chain.before):
             arrived = _likeliest(held, state, before) if self.tokens else _begun(state)
             if arrived is not None:
-                found.append(_gone_on(arrived, state, seen))
+                found.append(_gone_on(arrived, state, seen, chain))
         highest = max([token.score for token in found])
         for token in found:
-            token.score -= highest
+            token.score = round(token.score - highest, 4)
         self.tokens = [token for token in found if token.score >= -FORGOTTEN]
 
     def settle(self, now: float) -> list[tuple[Segment, Segment | None]]:
@@ -206,7 +139,7 @@ class Hypotheses:
 
 
 def _begun(state: int) -> Token:
-    return Token(state, log(_BEGIN[state]), (), Ride((Level(), Level())))
+    return Token(state, log(BEGIN[state]), (), Ride((Level(), Level())))
 
 
 def _score(token: Token) -> float:
@@ -245,24 +178,25 @@ def _likeliest(held: Sequence[Token | None], state: int, before: tuple[tuple[int
     return None if best is None else Token(best.state, highest, best.path, best.ride)
 
 
-def _gone_on(token: Token, state: int, seen: Evidence) -> Token:
+def _gone_on(token: Token, state: int, seen: Evidence, chain: Chain) -> Token:
     """The token after half a second in the state."""
     ride, path, activity = token.ride, token.path, ACTIVITIES[state]
     begins = 0.0
-    if not path or path[-1].activity is not activity:
-        begun = Segment(seen.t, activity)
+    if not path:
+        path = (Segment(seen.t, activity, seen.t if state in RIDES else None),)
         if state in RIDES:
-            ride, begins = ride.begun(state in PULSES and bool(path), seen.before)
-            early = max(seen.t - EARLIER, path[-1].t + BLOCK) if path else seen.t
-            begun = Segment(min(early, seen.t), activity, seen.t)
-        elif token.state in RIDES and path:
-            last = path[-1]
-            path = (*path[:-1], evolve(last, to=seen.t, height=ride.risen(seen.after)))
-            ride = ride.over()
-            begun = Segment(seen.t + (LATER if state == STAND else 0.0), activity)
-        elif path and path[-1].t >= seen.t:
-            begun = Segment(path[-1].t + TIE, activity)
-        path = (*path, begun)
+            ride, begins = ride.begun(False, seen.before)
+    elif path[-1].activity is not activity:
+        last = path[-1]
+        t = max(seen.t + chain.shifts.get((last.activity, activity), 0.0), last.t + TIE)
+        if state in RIDES:
+            ride, begins = ride.begun(state in PULSES, seen.before)
+            path = (*path, Segment(t, activity, seen.t))
+        else:
+            if token.state in RIDES:
+                path = (*path[:-1], evolve(last, to=seen.t, height=ride.risen(seen.after)))
+                ride = ride.over()
+            path = (*path, Segment(t, activity))
     if state in PULSES:
         ride, likely = ride.pulse(seen.felt, PULSES[state] * USUAL, VARIES, BLOCK)
     elif state in HALTS:

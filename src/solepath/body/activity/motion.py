@@ -1,7 +1,8 @@
-"""From one foot's features to how likely each way of moving is: a small network, evaluated in plain Python.
+"""From one foot's features to how likely each way of moving is: two small networks, evaluated in plain Python.
 
-One hidden layer of tanh, outputs that add up to 1 (softmax). It was trained by `solepath.train.activities`, which also
-says what on; what it learnt is activities.json beside this file.
+One hidden layer of tanh, outputs that add up to 1 (softmax); a foot without a gyroscope has a network of its own. They
+were trained by `solepath.train.activities`, which also says what on; what it learnt is activities.json beside this
+file. How long things last and when labels change belong to it as well: chain.py says what for.
 
 How like anything that it was trained on the features are is said by `strangeness`: each way of moving has a mean and a
 deviation for every feature, and the strangeness is the mean square of deviations from the nearest.
@@ -14,10 +15,13 @@ from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
 from math import exp, log, tanh
+from operator import mul
 from typing import Any
 
 from attrs import frozen
 
+from ...types import Activity
+from .chain import Chain, Chances, Shifts, chain_of
 from .features import COUNT, GYRO
 
 MOTIONS = ("still", "walking", "running", "stairs_up", "stairs_down")
@@ -27,34 +31,50 @@ Row = tuple[float, ...]
 
 
 @frozen
-class MotionModel:
-    """All that was learnt. `hidden` and `output`: a row of weights for each unit, `COUNT` and `len(hidden)` long."""
+class Network:
+    """`hidden` and `output`: a row of weights for each unit."""
 
-    trained_on: str
-    """In a sentence."""
     hidden: tuple[Row, ...]
     hidden_bias: Row
     output: tuple[Row, ...]
     """One for each of `MOTIONS`."""
     output_bias: Row
-    usual: tuple[Row, ...]
-    """Mean of the features that need an accelerometer only, for each of `MOTIONS`,"""
-    spread: tuple[Row, ...]
-    """and their deviation."""
 
     def log_probabilities(self, features: Sequence[float]) -> list[float]:
-        """Of each of `MOTIONS`, natural logarithms; the exponentials add up to 1."""
+        """Of each of `MOTIONS`, natural logarithms; the exponentials add up to 1. What the network has no weights for
+        does not count."""
         inner = [
-            tanh(bias + sum([w * x for w, x in zip(row, features, strict=True)]))
+            tanh(bias + sum(map(mul, row, features)))
             for row, bias in zip(self.hidden, self.hidden_bias, strict=True)
         ]
         outer = [
-            bias + sum([w * x for w, x in zip(row, inner, strict=True)])
-            for row, bias in zip(self.output, self.output_bias, strict=True)
+            bias + sum(map(mul, row, inner)) for row, bias in zip(self.output, self.output_bias, strict=True)
         ]
         highest = max(outer)
         total = highest + log(sum([exp(value - highest) for value in outer]))
         return [value - total for value in outer]
+
+
+@frozen
+class MotionModel:
+    """All that was learnt."""
+
+    trained_on: str
+    """In a sentence."""
+    whole: Network
+    """Of all `COUNT` features."""
+    alone: Network
+    """Of the first `GYRO`, for a foot without a gyroscope."""
+    usual: tuple[Row, ...]
+    """Mean of the features that need an accelerometer only, for each of `MOTIONS`,"""
+    spread: tuple[Row, ...]
+    """and their deviation."""
+    chances: Chances
+    shifts: Shifts
+
+    def log_probabilities(self, features: Sequence[float]) -> list[float]:
+        """Of each of `MOTIONS`, as `Network` says."""
+        return (self.whole if features[GYRO] else self.alone).log_probabilities(features)
 
     def strangeness(self, features: Sequence[float]) -> float:
         """1 for what is as usual, 4 for what is two deviations off in every feature of the accelerometer."""
@@ -64,6 +84,11 @@ class MotionModel:
                 for means, deviations in zip(self.usual, self.spread, strict=True)
             ]
         ) / GYRO
+
+    @property
+    def chain(self) -> Chain:
+        """How what is done goes on."""
+        return chain_of(self.chances, self.shifts)
 
 
 @cache
@@ -76,15 +101,15 @@ def from_json(told: dict[str, Any]) -> MotionModel:
     """The model of what activities.json holds. ValueError when it does not fit the features of this release."""
     model = MotionModel(
         trained_on=str(told["trained_on"]),
-        hidden=_rows(told["hidden"]),
-        hidden_bias=_row(told["hidden_bias"]),
-        output=_rows(told["output"]),
-        output_bias=_row(told["output_bias"]),
+        whole=_network(told["whole"], COUNT),
+        alone=_network(told["alone"], GYRO),
         usual=_rows(told["usual"]),
         spread=_rows(told["spread"]),
+        chances=_rows(told["chances"]),
+        shifts=tuple([(Activity(a), Activity(b), float(shift)) for a, b, shift in told["shifts"]]),
     )
-    if len(model.output) != len(MOTIONS) or any([len(row) != COUNT for row in model.hidden]):
-        raise ValueError(f"a model of {len(model.output)} motions and {len(model.hidden[0])} features does not fit")
+    if [len(row) for row in model.chances] != [len(MOTIONS)] * len(MOTIONS):
+        raise ValueError("chances of other motions do not fit")
     return model
 
 
@@ -92,12 +117,33 @@ def to_json(model: MotionModel) -> dict[str, Any]:
     """What `from_json` reads."""
     return {
         "trained_on": model.trained_on,
-        "hidden": [list(row) for row in model.hidden],
-        "hidden_bias": list(model.hidden_bias),
-        "output": [list(row) for row in model.output],
-        "output_bias": list(model.output_bias),
+        "whole": _told(model.whole),
+        "alone": _told(model.alone),
         "usual": [list(row) for row in model.usual],
         "spread": [list(row) for row in model.spread],
+        "chances": [list(row) for row in model.chances],
+        "shifts": [[a.value, b.value, shift] for a, b, shift in model.shifts],
+    }
+
+
+def _network(told: dict[str, Any], count: int) -> Network:
+    network = Network(
+        hidden=_rows(told["hidden"]),
+        hidden_bias=_row(told["hidden_bias"]),
+        output=_rows(told["output"]),
+        output_bias=_row(told["output_bias"]),
+    )
+    if len(network.output) != len(MOTIONS) or any([len(row) != count for row in network.hidden]):
+        raise ValueError(f"a network of {len(network.output)} motions and {len(network.hidden[0])} features")
+    return network
+
+
+def _told(network: Network) -> dict[str, Any]:
+    return {
+        "hidden": [list(row) for row in network.hidden],
+        "hidden_bias": list(network.hidden_bias),
+        "output": [list(row) for row in network.output],
+        "output_bias": list(network.output_bias),
     }
 
 

@@ -1,0 +1,35 @@
+"""What the part for activities learns of how they follow each other."""
+
+from __future__ import annotations
+
+from math import isclose
+
+from solepath.body.activity.chain import STAND, SUPPOSED, UP, WALK, chain_of
+from solepath.train.activities_course import Course, chances, changes, spans
+from solepath.types import Activity
+
+STOOD, WALKED, CLIMBED = Activity.STANDING, Activity.WALKING, Activity.STAIRS_UP
+
+
+def test_labels_become_spans_and_a_gap_parts_them() -> None:
+    t = [0.0, 0.1, 0.2, 0.3, 5.0, 5.1]
+    done = spans(t, [STOOD, STOOD, WALKED, WALKED, WALKED, None])
+    assert done == [(0.0, 0.1, STOOD), (0.2, 0.3, WALKED), (5.0, 5.0, WALKED)]
+    assert changes(done) == [(0.2, STOOD, WALKED)]
+
+
+def test_who_climbs_often_makes_stairs_likelier() -> None:
+    done = [(10.0 * k, 10.0 * k + 10.0, (WALKED, CLIMBED)[k % 2]) for k in range(100)]
+    learnt = chances([Course(0.0, {}, tuple(done))])
+    assert all(isclose(sum(row), 1.0, abs_tol=1e-4) for row in learnt)
+    assert SUPPOSED[WALK][UP] < learnt[WALK][UP] < 1.0 / 20.0 + 1e-3  # ten seconds are twenty blocks
+
+
+def test_without_recordings_everything_is_as_supposed() -> None:
+    for row, supposed in zip(chances([]), SUPPOSED, strict=True):
+        assert all(isclose(a, b, abs_tol=1e-5) for a, b in zip(row, supposed, strict=True))
+
+
+def test_from_standing_one_may_come_to_anything() -> None:
+    chain = chain_of(SUPPOSED, ())
+    assert all(STAND in [source for source, _ in chain.before[state]] for state in range(UP))
