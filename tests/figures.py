@@ -9,6 +9,8 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from solepath.evaluate.datasets import DATASETS
+
 Row = tuple[str, str, str]
 
 MARK = "<!-- figures -->\n"
@@ -22,7 +24,14 @@ INSOLES = [
     *(word for name in COMPARED for word in ("--recipe", name)),
     "--markdown",
 ]
-EXPERIMENTS = ("kupt-dfpc", "pressure-contour", "walking-modes")
+QUICK = [word for data_set in DATASETS if not data_set.folds for word in ("--only", data_set.name)]
+"""All data but those for which a recipe must first learn, in folds: that takes minutes."""
+ACTIVITIES = [
+    *(word for data in ("hugadb", "stairs") for word in ("--only", data)),
+    *(word for name in ("default", "footstep-tracker") for word in ("--recipe", name)),
+    "--markdown",
+]
+EXPERIMENTS = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
 SURVEYED = ("exp31", "exp33", "exp37")
 EVENTS = ("heel-strike", "foot-flat", "heel-off", "toe-off")
 

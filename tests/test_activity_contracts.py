@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 from functools import cache
+from math import cos, sin
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import machine
+from solepath import Session, machine
 from solepath.body.activity.activities import Activities
 from solepath.body.activity.features import COUNT, GYRO
 from solepath.body.activity.motion import MOTIONS, from_json, shipped, to_json
@@ -137,3 +138,24 @@ def test_a_model_goes_through_its_file_and_a_snapshot() -> None:
     assert from_json(json.loads(json.dumps(to_json(model)))) == model
     part = Activities(model=model)
     assert machine.load(Activities, machine.save(part)) == part
+
+
+@given(st.sampled_from([3.0, 5.6, 8.0]), st.floats(2.0, 10.0), st.sampled_from([4, 7, 11]))
+@settings(max_examples=5, deadline=None)
+def test_at_the_end_nothing_is_left_open_and_what_is_final_is_likely(rate: float, amplitude: float, span: int) -> None:
+    """One foot that moves and rests by turns, as no foot that was learnt from does."""
+    session, events = Session(), list[Event]()
+    for k in range(1200):
+        t = k / 20
+        moves = 0.0 if int(t) // span % 2 else max(0.0, sin(rate * t))
+        acc = (amplitude * moves * cos(2 * rate * t), 0.0, 9.81 + 0.6 * amplitude * moves * sin(3 * rate * t))
+        events += session.feed(Sample(t, Site.RIGHT_FOOT, acc, (0.0, 4.0 * moves * cos(rate * t), 0.0)))
+    live: list[ActivityChanged] = []
+    for event in [*events, *session.finish()]:
+        if isinstance(event, ActivityChanged):
+            if event.revises is not None:
+                assert event.revises in [before.t for before in live if not before.final]
+                live = [before for before in live if before.t < event.revises]
+            live.append(event)
+    assert live and all(event.final for event in live)
+    assert all(event.probability is not None and event.probability > 0.05 for event in live)

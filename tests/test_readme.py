@@ -2,6 +2,7 @@
 
 import io
 import re
+import shutil
 import subprocess
 import sys
 from argparse import ArgumentParser
@@ -13,13 +14,13 @@ from typing import get_args
 import pytest
 
 import figures
-from solepath import Event
+from solepath import Event, LiftRidden
 from solepath.cli.main import parser
 from solepath.evaluate.report import as_json
 from solepath.foot.pressure import Insole
 from solepath.foot.tracker import AnyCorrector, AnyCues, AnyDetector
 from solepath.output import STEP_COLUMNS, TRACK_COLUMNS
-from solepath.recipes import BY_NAME, AnyBody
+from solepath.recipes import BY_NAME, AnyActivity, AnyBody, AnyPlace
 from solepath.recording import PacketWriter
 from solepath.sim import Radio, Route, emulate
 from solepath.types import Foot
@@ -46,6 +47,7 @@ def first_cells(table: list[str]) -> list[str]:
 
 def test_its_programs_run_one_after_the_other_and_say_what_they_promise(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    shutil.copytree(ROOT / "examples", "examples")
     walk = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), radio=Radio(corrupt=0.02), seed=1)
     with PacketWriter("walk.jsonl") as writer:
         for packet in walk.packets:
@@ -56,7 +58,7 @@ def test_its_programs_run_one_after_the_other_and_say_what_they_promise(tmp_path
         with redirect_stdout(io.StringIO()) as out:
             exec(compile(program, "README.md", "exec"), names)
         printed.append(out.getvalue())
-    loop, _, _, saved, _, _ = printed
+    loop, _, _, saved, *_ = printed
     for foot in Foot:
         assert loop.count(f"{foot.value} step of") == len(walk.truth.steps(foot))
         assert f"s: {foot.value} heel-strike" in loop
@@ -66,6 +68,11 @@ def test_its_programs_run_one_after_the_other_and_say_what_they_promise(tmp_path
         names["notified"](bytearray())
         names["every_second"]()
     assert out.getvalue().startswith("PacketRejected(")
+    with redirect_stdout(io.StringIO()) as out:
+        names["did"](LiftRidden(t=9.0, known_at=9.5, t_start=2.0, up=False, height=-3.0))
+    assert out.getvalue() == "down -3.0\n"
+    names["indoors"].feed(walk.packets)
+    assert names["indoors"].place.level == "0"
     # the detector of its own is a detector indeed
     steps = [event for event in names["session"].feed(walk.packets) if type(event).__name__ == "StepTaken"]
     assert len(steps) == sum(len(walk.truth.steps(foot)) for foot in Foot)
@@ -112,7 +119,7 @@ def test_columns_parts_and_recipes_are_those_of_the_library():
     assert f"`{','.join(STEP_COLUMNS)}`" in README
     parts = re.findall(r"^\| (`[A-Z].*?) \| `(solepath[\w.]+)` \|", README, re.MULTILINE)
     told = {getattr(import_module(module), name) for names, module in parts for name in re.findall(r"`(\w+)`", names)}
-    kinds = (AnyDetector, AnyCorrector, AnyCues, AnyBody)
+    kinds = (AnyDetector, AnyCorrector, AnyCues, AnyBody, AnyActivity, AnyPlace)
     assert told == {Insole, *(part for kind in kinds for part in get_args(kind))}
     table = README.split("| recipe | what it is |", 1)[1].split("\n\n", 1)[0]
     names = [name for line in table.splitlines()[2:] for name in re.findall(r"`([\w-]+)`", line.split("|")[1])]

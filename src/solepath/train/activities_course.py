@@ -121,6 +121,6 @@ def followed(course: Course, model: MotionModel) -> list[Span]:
             ),
             model.chain,
         )
-        begun += [(segment.t, segment.activity) for segment, _ in courses.settle(t if index < last else 1e9)]
+        begun += [(segment.t, segment.activity) for segment, _, _ in courses.settle(t if index < last else 1e9)]
     ends = [*[t for t, _ in begun[1:]], course.begin + (last + 1) * BLOCK]
     return [(t, end, activity) for (t, activity), end in zip(begun, ends, strict=True)]

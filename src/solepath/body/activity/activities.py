@@ -83,6 +83,8 @@ class Activities:
     courses: Hypotheses = field(factory=Hypotheses, init=False)
     told: list[Segment] = field(factory=list, init=False)
     """What was told and is not final, in the order of time."""
+    instead: float | None = field(default=None, init=False)
+    """`t` of what was told after that, not final either: that what was told of then was wrong, s."""
     flights: Flights = field(factory=Flights, init=False)
     steps: deque[StepTaken] = field(factory=deque, init=False)
     """Steps whose activity is not known yet, without their features."""
@@ -190,19 +192,18 @@ class Activities:
         self.next = 0
         self.air = Air()
         self.courses = Hypotheses()
-        self.told = []
+        self.told, self.instead = [], None
 
     # --- telling ---
 
     def _tell(self, known_at: float, events: list[Event], at_last: bool = False) -> None:
         """What is new of the likeliest course; `at_last`: all of it is settled."""
         courses = self.courses
-        for begun, before in courses.settle(self._time(self.next) + (1e6 if at_last else 0.0)):
+        for begun, before, likely in courses.settle(self._time(self.next) + (1e6 if at_last else 0.0)):
             if before is not None and before.activity in RIDDEN:
                 events.append(_ridden(before, begun.t, known_at))
-            revised = self.told[0].t if self.told else None
-            self.told = []
-            events.append(self._changed(begun, known_at, True, revised))
+            events.append(self._changed(begun, known_at, True, self.told[0].t if self.told else self.instead, likely))
+            self.told, self.instead = [], None
         best = courses.best
         if best is None:
             return
@@ -212,33 +213,35 @@ class Activities:
             if old.activity is not new.activity or abs(old.t - new.t) > WOBBLE:
                 break
             same += 1
-        dropped = self.told[same:]
-        fresh = list(open_[same:])
+        dropped, fresh = self.told[same:], list(open_[same:])
+        revised = dropped[0].t if dropped else self.instead
         if dropped and not fresh:
             # nothing takes its place but what went before it
-            last = Segment(dropped[0].t, self._before(same))
-            fresh = [last]
-            events.append(self._changed(last, known_at, False, dropped[0].t))
-            self.told = self.told[:same]
-            return
-        for i, segment in enumerate(fresh):
-            revised = dropped[0].t if dropped and i == 0 else None
-            events.append(self._changed(segment, known_at, False, revised))
+            self._go_on(same, dropped[0].t, known_at, False, events)
+        for segment in fresh:
+            events.append(self._changed(segment, known_at, False, revised, courses.probability(segment)))
+            revised = self.instead = None
         self.told = [*self.told[:same], *fresh]
+        if at_last and self.instead is not None:
+            self._go_on(same, self.instead, known_at, True, events)
 
-    def _before(self, same: int) -> Activity:
-        if same:
-            return self.told[same - 1].activity
-        return Activity.UNKNOWN if self.courses.settled is None else self.courses.settled
+    def _go_on(self, same: int, t: float, known_at: float, final: bool, events: list[Event]) -> None:
+        """What was told of `t`, s, was wrong, and what went before it goes on."""
+        settled = Activity.UNKNOWN if self.courses.settled is None else self.courses.settled
+        on = Segment(t, self.told[same - 1].activity if same else settled)
+        events.append(self._changed(on, known_at, final, t, self.courses.probability(on)))
+        self.instead = None if final else t
 
-    def _changed(self, segment: Segment, known_at: float, final: bool, revises: float | None) -> ActivityChanged:
+    def _changed(
+        self, segment: Segment, known_at: float, final: bool, revises: float | None, probability: float
+    ) -> ActivityChanged:
         self.activity = segment.activity
         return ActivityChanged(
             t=segment.t,
             known_at=max(known_at, segment.t),
             final=final,
             activity=segment.activity,
-            probability=self.courses.probability(segment),
+            probability=probability,
             revises=revises,
         )
 

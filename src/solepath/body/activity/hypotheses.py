@@ -99,10 +99,11 @@ class Hypotheses:
             token.score = round(token.score - highest, 4)
         self.tokens = [token for token in found if token.score >= -FORGOTTEN]
 
-    def settle(self, now: float) -> list[tuple[Segment, Segment | None]]:
-        """What is settled from now on, `now` s: each activity that was begun, with the one before it that it ends."""
+    def settle(self, now: float) -> list[tuple[Segment, Segment | None, float]]:
+        """What is settled from now on, `now` s: each activity that was begun, with the one before it that it ends, and
+        how likely it is of the courses that were held."""
         best = self.best
-        found: list[tuple[Segment, Segment | None]] = []
+        found: list[tuple[Segment, Segment | None, float]] = []
         if best is None:
             return found
         old = _old(best.path, now)
@@ -115,8 +116,8 @@ class Hypotheses:
                 or all([_agrees(token, i, begun) for token in self.tokens if token.score >= -DOUBT])
             ):
                 break
+            found.append((begun, best.path[0] if i else None, self.probability(begun)))
             self.tokens = [token for token in self.tokens if _agrees(token, i, begun)]
-            found.append((begun, best.path[0] if i else None))
             self.settled = begun.activity
             for token in self.tokens:
                 token.path = token.path[i:]
