@@ -8,8 +8,7 @@ An emulated wearer takes a lift down, walks along corridors and leaves by anothe
 from math import hypot
 from pathlib import Path
 
-from solepath import ActivityChanged, LiftRidden, Placed, Session, Site, recipes
-from solepath.floorplan.reading import read_floorplan
+from solepath import ActivityChanged, LiftRidden, Placed, Session, Site, read_floorplan, recipes
 from solepath.sim.sensortags import CC2541
 from solepath.sim.shoe import IN_SOLE
 from solepath.sim.walk import emulate
