@@ -195,7 +195,7 @@ def test_attitudes_are_off_by_the_paper_s_sensor_and_mountings_stay(walker: Walk
         mounting = strapped(site, walker.wearer.limbs, 7)
         assert mounting == strapped(site, walker.wearer.limbs, 7) != strapped(site, walker.wearer.limbs, 8)
         t = np.array([sample.t for sample in exact[site]])
-        turn = walker.body.modes.segment(site, t)[1]
+        turn = walker.body.segment(site, t)[1]
         expected = multiplied(quaternions(turn), np.array([mounting.attitude]))
         same = np.abs(np.sum(expected * np.array([sample.quat for sample in exact[site]]), axis=1))
         assert same == pytest.approx(1.0, abs=1e-9)

@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import attrs
 import pytest
 from attrs import frozen
 
@@ -56,6 +57,14 @@ def info_record(fields: Any) -> insole_info.InsoleInfo:
     return insole_info.InsoleInfo(**fields | {"foot": Foot(fields["foot"]), "cells": cells})
 
 
+def fragment_fields(piece: fragment.Fragment) -> Any:
+    return attrs.asdict(piece) | {"body": piece.body.hex()}
+
+
+def fragment_record(fields: Any) -> fragment.Fragment:
+    return fragment.Fragment(**fields | {"body": bytes.fromhex(fields["body"])})
+
+
 COMMANDS = {
     "START": insole_control.Start,
     "STOP": insole_control.Stop,
@@ -75,7 +84,9 @@ def command_record(fields: Any) -> Any:
 
 FORMATS = {
     "insole-frame": record(insole.InsoleFrame, insole.parse_frame, insole.build_frame),
-    "insole-fragment": record(fragment.Fragment, fragment.parse_fragment, fragment.build_fragment),
+    "insole-fragment": Format(
+        fragment.parse_fragment, fragment.build_fragment, fragment_fields, fragment_record
+    ),
     "insole-info": Format(insole_info.parse_info, insole_info.build_info, info_fields, info_record),
     "insole-control": Format(
         insole_control.parse_control, insole_control.build_control, command_fields, command_record
