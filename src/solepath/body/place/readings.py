@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from math import cos, hypot, pi, sin
 
 from attrs import define, field
@@ -24,7 +25,7 @@ WAYS, OF_THEM = 12, 8
 
 
 @define
-class Readings:
+class Readings(ABC):
     """How a method extends readings is its own; what is left is here."""
 
     most: int = 260
@@ -35,18 +36,18 @@ class Readings:
 
     # --- how a method differs ---
 
+    @abstractmethod
     def extended(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
         """The rows a move (m, track) further; without those that cannot go there. `rough`: how much worse than usual
         the track is. `turned`: by how much the wearer has turned with it, rad, not negative."""
-        raise NotImplementedError
 
+    @abstractmethod
     def scattered(self, k: int, count: int) -> tuple[float, float, float, float]:
         """For the k-th of `count` new rows, each from -1 to 1: x, y, heading, stretch."""
-        raise NotImplementedError
 
+    @abstractmethod
     def thinned(self, rows: list[Row], wanted: int) -> list[Row]:
         """About so many rows that stand for all."""
-        raise NotImplementedError
 
     # --- what all do ---
 
