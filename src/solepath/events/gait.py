@@ -44,6 +44,9 @@ class StepFeatures:
     samples. `cop`: centre-of-pressure path (x, y) in the foot frame over the same time, m, at most 32
     points evenly spaced in samples. `error_index`: by how much the integrated velocity missed the known one at toe-off
     and heel-strike, m/s (Chen et al. 2019, equation (10)); None where the velocity of the rolling shoe was not used.
+    `toe_off_angle`: how far the heel is up at toe-off, against the sole lying flat before, rad; `heel_strike_angle`:
+    how far the toe is up at heel-strike, against the sole lying flat after it, rad. Both are about the axis to the
+    wearer's left, which a foot shows by its first push-off.
     """
 
     clearance: float
@@ -52,6 +55,8 @@ class StepFeatures:
     contact_load: float | None = None
     cop: tuple[tuple[float, float], ...] = ()
     error_index: float | None = None
+    toe_off_angle: float | None = None
+    heel_strike_angle: float | None = None
 
 
 @frozen(kw_only=True)

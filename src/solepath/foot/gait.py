@@ -66,9 +66,9 @@ class Gait:
         known_at = max(known_at, t)
         events: list[Event] = [BEGINS[phase](t=t, known_at=known_at, foot=self.foot, inferred=inferred)]
         if phase is Phase.SWING:
-            self.step.t_toe_off = t
+            self.step.left(t, interval)
         elif phase is Phase.LOADING:
-            self.step.t_heel_strike = t
+            self.step.struck(t, interval)
         elif phase is Phase.PUSH_OFF and corrector is not None:
             self.habit.lift(t)
             self._anchor(corrector)

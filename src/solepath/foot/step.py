@@ -13,6 +13,8 @@ from .turn import heading_turned
 from .world import World
 
 COP_POINTS = 32
+RECENT = 32
+"""Samples of which the pitch is kept: a toe-off or heel-strike is dated back by less."""
 
 
 @define
@@ -76,6 +78,14 @@ class StepBuilder:
     pitch: float = field(default=0.0, init=False)
     pitch_low: float = field(default=0.0, init=False)
     pitch_high: float = field(default=0.0, init=False)
+    pitches: list[float] = field(factory=lambda: [0.0] * RECENT, init=False)
+    """The newest ones, rad; the next goes to `slot`."""
+    slot: int = field(default=0, init=False)
+    moved_at: float = field(default=0.0, init=False)
+    """When the newest one was, s."""
+    toe_off_pitch: float | None = field(default=None, init=False)
+    heel_strike_pitch: float | None = field(default=None, init=False)
+    """Toe down positive, rad."""
     load_sum: float = field(default=0.0, init=False)
     load_count: int = field(default=0, init=False)
     cop: list[tuple[float, float]] = field(factory=list, init=False)
@@ -88,6 +98,7 @@ class StepBuilder:
         self.start = position
         self.attitude = attitude
         self.t_toe_off = self.t_heel_strike = None
+        self.toe_off_pitch = self.heel_strike_pitch = None
         # foot-flat is dated back, into a gap even: what is wrong after it is wrong with the new step
         self.degraded = self.spoilt_until is not None and t < self.spoilt_until
         self.highest = position[2]
@@ -103,17 +114,41 @@ class StepBuilder:
         self.degraded = True
         self.spoilt_until = until
 
-    def moved(self, dt: float, height: float, speed: float, sagittal: float) -> None:
-        """One sample: height in m, speed in m/s, sagittal rate in rad/s."""
+    def moved(self, t: float, dt: float, height: float, speed: float, sagittal: float) -> None:
+        """One sample: height in m, speed in m/s, sagittal rate in rad/s, 0 while its axis is not known."""
         if height > self.highest:
             self.highest = height
         if speed > self.fastest:
             self.fastest = speed
         pitch = self.pitch = self.pitch + sagittal * dt
+        self.moved_at = t
+        self.pitches[self.slot] = pitch
+        self.slot = (self.slot + 1) % RECENT
         if pitch < self.pitch_low:
             self.pitch_low = pitch
         elif pitch > self.pitch_high:
             self.pitch_high = pitch
+
+    def left(self, t: float, interval: float) -> None:
+        """The toe left the ground at `t`, s. `interval`: the usual one between samples, s."""
+        self.t_toe_off = t
+        self.toe_off_pitch = self._pitch_at(t, interval)
+
+    def struck(self, t: float, interval: float) -> None:
+        """The foot touched the ground at `t`, s."""
+        self.t_heel_strike = t
+        self.heel_strike_pitch = self._pitch_at(t, interval)
+
+    def _pitch_at(self, t: float, interval: float) -> float | None:
+        """Between the two samples around `t`, rad; None when a gap hides them, and before the axis is known: nothing
+        has turned."""
+        if t > self.moved_at or self.pitches[self.slot - 2] == 0.0:
+            return None
+        back = (self.moved_at - t) / interval if interval > 0.0 else 0.0
+        back = min(max(back, 0.0), RECENT - 2.0)
+        k = int(back)
+        later, earlier = self.pitches[self.slot - 1 - k], self.pitches[self.slot - 2 - k]
+        return later + (back - k) * (earlier - later)
 
     def loaded(self, total: float, cop: tuple[float, float] | None) -> None:
         """One sample of a foot on the ground. Keeps at most COP_POINTS points, evenly spaced, by thinning."""
@@ -170,6 +205,9 @@ class StepBuilder:
                 clearance=self.highest - max(position[2], self.start[2]),
                 peak_speed=self.fastest,
                 swing_pitch=self.pitch_high - self.pitch_low,
+                toe_off_angle=self.toe_off_pitch,
+                # the sole that lies flat again is what it is measured against
+                heel_strike_angle=None if self.heel_strike_pitch is None else self.pitch - self.heel_strike_pitch,
                 contact_load=self.load_sum / self.load_count if self.load_count else None,
                 cop=tuple(self.cop),
                 error_index=error_index,

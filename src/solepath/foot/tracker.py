@@ -276,7 +276,7 @@ class FootTracker:
         habit = gait.habit
         if habit.lifted is not None and t >= habit.due:
             habit.keep(t, corrector.attitude, corrector.velocity, corrector.position, acc, gyro)
-        self.gait.step.moved(dt, corrector.position[2], speed, cues.sagittal if cues.axis is not None else 0.0)
+        self.gait.step.moved(t, dt, corrector.position[2], speed, cues.sagittal if cues.axis is not None else 0.0)
         if seen:
             for one in seen:
                 self._see(one, known_at, events)
