@@ -1,5 +1,6 @@
 """The scores, on tracks and events whose errors are known by hand."""
 
+from itertools import pairwise
 from math import cos, pi, sin, sqrt
 
 import numpy as np
@@ -11,9 +12,11 @@ from numpy.testing import assert_allclose
 
 from solepath.evaluate.alignment import Alignment, align, at_times, path_length, rms_distance, track_error
 from solepath.evaluate.contacts import merged, switch_contacts
-from solepath.evaluate.matching import Matching, match
+from solepath.evaluate.errors import Errors
+from solepath.evaluate.legs import between, leg_errors, turned_about
+from solepath.evaluate.matching import Matching, interval_errors, match
 from solepath.evaluate.score import Scored, summarise
-from solepath.evaluate.strides import StrideScore, position_errors, stride_score, surveyed_score
+from solepath.evaluate.strides import StrideScore, marker_rests, position_errors, stride_score, surveyed_score
 
 SQUARE = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]])
 
@@ -226,3 +229,68 @@ def test_figures_are_averaged_and_events_and_strides_are_pooled():
     assert summary.together["heel_strike_f1"] == 1.0 and summary.together["heel_strike_bias"] == 0.0
     assert summary.together["strides_found"] == 3 and summary.together["stride_error"] == pytest.approx(0.2)
     assert summarise(scores, "odd").mean == {"rms": 6.0}
+
+
+# --- legs and times ---------------------------------------------------------------------------------------------------
+
+
+def to_and_fro(*turns, pace=1.0):
+    """A track along a slanted line that walks from place to place, m, at `pace`, and rests 2 s at each; its times of
+    the rests' middles."""
+    t, along, rests = [0.0], [turns[0]], [0.0]
+    for a, b in pairwise(turns):
+        for length, to in ((2.0, a), (abs(b - a) / pace, b)):
+            n = round(length / 0.01)
+            along += np.linspace(along[-1], to, n + 1)[1:].tolist()
+            t += (t[-1] + 0.01 * np.arange(1, n + 1)).tolist()
+        rests.append(t[-1] + 1.0)
+    return np.array(t), np.outer(along, [0.8, 0.6, 0.0]), rests
+
+
+def test_a_leg_is_the_distance_between_its_ends():
+    t, positions, _ = to_and_fro(0.0, 9.0, 1.0)
+    assert_allclose(between([0.0, 11.0, 21.0], t, positions), [9.0, 8.0], atol=1e-9)
+    errors = leg_errors([0.0, 11.0, 21.0], [10.0, 10.0], t, positions)
+    assert_allclose(errors.values, [-0.1, -0.2])
+    assert (errors.mean, errors.median, errors.bias) == pytest.approx((0.15, 0.15, -0.15))
+    assert leg_errors([0.0, 1.0], [10.0], np.empty(0), np.empty((0, 3))) == Errors()
+
+
+def test_a_track_to_and_fro_is_cut_where_it_turns_about():
+    t, positions, _ = to_and_fro(0.0, 10.0, 0.5, 9.5, -0.2)
+    assert_allclose(between(turned_about(t, positions, 4), t, positions), [10.0, 9.5, 9.0, 9.7], atol=0.06)
+
+
+@given(yaw=yaws, x=metres, y=metres)
+def test_where_a_track_turns_about_does_not_depend_on_its_frame(yaw, x, y):
+    t, positions, _ = to_and_fro(0.0, 10.0, 0.5, 9.5, -0.2)
+    cut = turned_about(t, turned(positions, yaw, x, y), 4)
+    assert_allclose(between(cut, t, positions), [10.0, 9.5, 9.0, 9.7], atol=0.06)
+
+
+def test_errors_of_stride_times_are_of_events_that_follow_each_other():
+    # the third is not found, the last follows after a rest; a shift of all of them is no error
+    true, found = [1.0, 2.0, 3.0, 4.0, 5.0, 9.0], [1.1, 2.12, 4.1, 5.05, 9.1]
+    assert_allclose(interval_errors(true, found, longest=2.5).values, [0.02, -0.05])
+    assert interval_errors([], found, longest=2.5).median is None
+
+
+def test_a_marker_on_a_foot_rests_between_strides():
+    t = 0.01 * np.arange(400)
+    x = np.interp(t, [0.5, 1.0, 1.5, 2.0, 2.5, 3.0], [0.0, 1.2, 1.2, 2.3, 2.3, 2.35])
+    ends, rests = marker_rests(t, np.column_stack([x, 0.0 * x, 0.1 + 0.0 * x]))
+    assert_allclose(rests[:, 0], [0.0, 1.2, 2.325], atol=0.03)
+    assert_allclose(ends[:2], [0.5, 1.5], atol=0.06)
+
+
+def test_heights_have_an_error_of_their_own():
+    lifted = SQUARE + [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]
+    error = track_error(lifted, SQUARE)
+    assert (error.rms_2d, error.rms_z, error.rms_3d) == pytest.approx((0.0, 1.0, 1.0))
+
+
+def test_errors_are_pooled_over_recordings():
+    scores = [Scored("a", errors={"leg": Errors((0.1, -0.1))}), Scored("b", errors={"leg": Errors((0.4,))})]
+    together = summarise(scores, "all").together
+    assert together["leg_count"] == 3 and together["leg_error"] == pytest.approx(0.2)
+    assert together["leg_error_median"] == together["leg_bias"] == pytest.approx(0.1)

@@ -65,6 +65,8 @@ class TrackError:
     """Root mean square of the horizontal Euclidean distance."""
     rms_3d: float
     """The same with heights, whose mean difference is taken out as the third part of the shift."""
+    rms_z: float
+    """Of the heights alone, after that."""
 
     @property
     def armse_2d(self) -> float:
@@ -76,7 +78,11 @@ def track_error(track: NDArray[Any], truth: NDArray[Any]) -> TrackError:
     """Error of `track` (n,3) against `truth` (n,3), row by row the same instants."""
     moved = align(track, truth).apply(track)
     moved[:, 2] += float(np.mean(truth[:, 2] - moved[:, 2]))
-    return TrackError(rms_2d=rms_distance(moved[:, :2], truth[:, :2]), rms_3d=rms_distance(moved, truth))
+    return TrackError(
+        rms_2d=rms_distance(moved[:, :2], truth[:, :2]),
+        rms_3d=rms_distance(moved, truth),
+        rms_z=rms_distance(moved[:, 2:], truth[:, 2:]),
+    )
 
 
 def at_times(t: Floats, positions: Floats, wanted: NDArray[Any]) -> Floats:

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from attrs import frozen
 
+from .errors import Errors
+
 TOLERANCE = 0.25
 """s; design: "matched within 250 ms"."""
 
@@ -32,6 +34,11 @@ class Matching:
     def bias(self) -> float | None:
         """Median offset, s: positive when we are late."""
         return float(np.median(self.offsets)) if self.offsets else None
+
+    @property
+    def off(self) -> float | None:
+        """Median magnitude of the offsets, s."""
+        return float(np.median(np.abs(self.offsets))) if self.offsets else None
 
     @property
     def mad(self) -> float | None:
@@ -72,3 +79,21 @@ def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> li
             free_found.discard(j)
             chosen.append((i, j))
     return sorted(chosen)
+
+
+def interval_errors(
+    true: Iterable[float], found: Iterable[float], *, longest: float, tolerance: float = TOLERANCE
+) -> Errors:
+    """By how much the time from a found event to the next differs from that between the true ones that they were
+    matched with, s. Only of true ones that follow each other within `longest` s, both of which were matched."""
+    truth, ours = sorted(true), sorted(found)
+    by_true = dict(pairs(truth, ours, tolerance))
+    return Errors(
+        tuple(
+            [
+                (ours[by_true[k + 1]] - ours[by_true[k]]) - (truth[k + 1] - truth[k])
+                for k in range(len(truth) - 1)
+                if k in by_true and k + 1 in by_true and truth[k + 1] - truth[k] <= longest
+            ]
+        )
+    )

@@ -9,29 +9,46 @@ from pathlib import Path
 from time import perf_counter
 
 import attrs
+import numpy as np
 from attrs import frozen
 
 from .. import recipes
 from ..calibration import Calibration, merged
 from ..events import Event, LiftRidden, TurnMade
-from ..recipes import AnyActivity
+from ..recipes import AnyActivity, Recipe
 from ..samples import load_samples
 from ..session import Session
 from ..timeline import Timeline
-from ..types import Foot
+from ..types import Foot, Vec3
+from .alignment import Floats
 from .gathered import FootRun, Gathering
+
+Chosen = str | Recipe
+"""A recipe, or the name of one of ours."""
+
+
+def recipe_of(chosen: Chosen) -> Recipe:
+    return chosen if isinstance(chosen, Recipe) else recipes.BY_NAME[chosen]
 
 
 @frozen
 class How:
-    """How a recording is computed: the recipe's name, and what is known beforehand.
+    """How a recording is computed: the recipe, and what is known beforehand.
 
     `activity`: in the place of the recipe's own part, the same part taught on other recordings.
     """
 
-    recipe: str
+    recipe: Chosen
     calibration: Calibration = Calibration()
     activity: AnyActivity | None = None
+
+
+@frozen(eq=False)
+class Track:
+    """`positions` (n,3) in m at `t` (n,) s."""
+
+    t: Floats
+    positions: Floats
 
 
 @frozen(eq=False)
@@ -44,6 +61,8 @@ class Run:
     samples: int
     seconds: float
     """Wall time that the session took."""
+    body: Track | None = None
+    """Where the session had the wearer after every sample, where that was asked for."""
 
 
 def run(
@@ -53,14 +72,15 @@ def run(
     without_pressure: bool = False,
     calibration: Calibration | None = None,
     poses: bool = True,
+    body: bool = False,
 ) -> Run:
     """The recording at `path` through a session, sample by sample.
 
     `without_pressure`: leave the pressure out, because the truth was made of it. `calibration`: where the cells are.
-    `poses`: the live position at every sample is asked for.
+    `poses`: the live position at every sample is asked for. `body`: and that of the wearer.
     """
     known = how.calibration if calibration is None else merged(how.calibration, calibration)
-    recipe = recipes.BY_NAME[how.recipe]
+    recipe = recipe_of(how.recipe)
     if how.activity is not None:
         recipe = attrs.evolve(recipe, activity=how.activity)
     session = Session(recipe, calibration=known, poses=poses)
@@ -69,9 +89,16 @@ def run(
     if without_pressure:
         samples = [attrs.evolve(sample, pressure=None) for sample in samples]
     said: list[list[Event]] = []
+    places: list[tuple[float, Vec3]] = []
     began = perf_counter()
-    for sample in samples:
-        said.append(session.feed(sample))
+    if body:
+        for sample in samples:
+            said.append(session.feed(sample))
+            if (position := session.position) is not None:
+                places.append((position.t, position.position))
+    else:
+        for sample in samples:
+            said.append(session.feed(sample))
     said.append(session.finish())
     seconds = perf_counter() - began
     gathering = Gathering()
@@ -80,4 +107,5 @@ def run(
             gathering.add(event)
     feet = {table.foot: gathering.foot(table.foot) for table in recording.tables}
     rides, turns = tuple(gathering.rides), tuple(gathering.turns)
-    return Run(feet, gathering.timeline, rides, turns, samples=len(samples), seconds=seconds)
+    wearer = Track(np.array([t for t, _ in places]), np.array([at for _, at in places]).reshape(-1, 3))
+    return Run(feet, gathering.timeline, rides, turns, len(samples), seconds, wearer if places else None)

@@ -10,6 +10,7 @@ import numpy as np
 from attrs import field, frozen
 
 from .confusion import ActivityScore
+from .errors import Errors
 from .matching import Matching
 from .strides import StrideScore
 
@@ -26,6 +27,8 @@ class Scored:
     """By kind: heel_strike, toe_off."""
     strides: StrideScore | None = None
     activity: ActivityScore | None = None
+    errors: dict[str, Errors] = field(factory=dict)
+    """By kind: leg and body_leg (relative), stride_time (s)."""
     groups: tuple[str, ...] = ("all",)
     """The averages that this recording belongs to."""
     samples: int = 0
@@ -33,11 +36,14 @@ class Scored:
 
     def flat(self) -> Figures:
         """Every figure of this recording by its name in tables and JSON."""
-        return self.figures | pooled_figures(self.events, self.strides, self.activity)
+        return self.figures | pooled_figures(self.events, self.strides, self.activity, self.errors)
 
 
 def pooled_figures(
-    events: dict[str, Matching], strides: StrideScore | None, activity: ActivityScore | None
+    events: dict[str, Matching],
+    strides: StrideScore | None,
+    activity: ActivityScore | None,
+    errors: dict[str, Errors],
 ) -> Figures:
     flat: Figures = {}
     for kind, matching in events.items():
@@ -47,6 +53,7 @@ def pooled_figures(
             f"{kind}_f1": matching.f1,
             f"{kind}_bias": matching.bias,
             f"{kind}_mad": matching.mad,
+            f"{kind}_off": matching.off,
         }
     if strides is not None:
         flat |= {
@@ -59,6 +66,13 @@ def pooled_figures(
         }
     if activity is not None:
         flat |= activity.figures
+    for kind, pooled in errors.items():
+        flat |= {
+            f"{kind}_count": len(pooled.values),
+            f"{kind}_error": pooled.mean,
+            f"{kind}_error_median": pooled.median,
+            f"{kind}_bias": pooled.bias,
+        }
     return flat
 
 
@@ -71,7 +85,7 @@ class Summary:
     mean: Figures
     median: Figures
     together: Figures
-    """Figures of the pooled events, strides and activities."""
+    """Figures of the pooled events, strides, activities and errors."""
     confusion: dict[str, dict[str, int]] | None = None
     """{true activity: {told activity: samples}}, where activities were scored."""
 
@@ -85,11 +99,13 @@ def summarise(scores: Sequence[Scored], group: str) -> Summary:
     strides = [score.strides for score in members if score.strides is not None]
     activities = [score.activity for score in members if score.activity is not None]
     activity = reduce(add, activities) if activities else None
+    pools = list(dict.fromkeys(kind for score in members for kind in score.errors))
+    errors = {kind: reduce(add, [s.errors[kind] for s in members if kind in s.errors]) for kind in pools}
     return Summary(
         group=group,
         count=len(members),
         mean={key: float(np.mean(v)) for key, v in values.items() if v},
         median={key: float(np.median(v)) for key, v in values.items() if v},
-        together=pooled_figures(events, reduce(add, strides) if strides else None, activity),
+        together=pooled_figures(events, reduce(add, strides) if strides else None, activity, errors),
         confusion=None if activity is None else activity.table,
     )

@@ -22,6 +22,14 @@ SLACK = 0.15
 """s by which a step may end after its stride's time: less than half of any swing, so never in the next stride."""
 ALIGNED_OVER = 2.0
 """m; design: "after aligning the first two metres"."""
+STILL = 0.15
+"""m/s: a marker on a foot that stands is slower, and one on a foot that swings is not."""
+OVER = 0.05
+"""s to both sides, over which a marker's speed is measured."""
+REST = 0.2
+"""s that a marker rests at the least in stance."""
+LEAST = 0.1
+"""m from one rest of a foot to the next, at the least; less is the same rest."""
 
 
 @frozen
@@ -103,6 +111,26 @@ def surveyed_score(
     known = lengths > 0.0
     track_errors = live_lengths[known] / lengths[known] - 1.0
     return attrs.evolve(stride_score(times, lengths, steps), track_errors=tuple(track_errors.tolist()))
+
+
+def marker_rests(t: NDArray[Any], places: NDArray[Any]) -> tuple[Floats, Floats]:
+    """When (n,) the rests of a marker at `places` (m,3) on a foot end, s, and where (n,3) it is on the mean."""
+    when, where = np.asarray(t, np.float64), np.asarray(places, np.float64)
+    ahead, behind = at_times(when, where, when + OVER), at_times(when, where, when - OVER)
+    still = np.linalg.norm(ahead - behind, axis=1) < STILL * 2.0 * OVER
+    edges = [0, *(np.flatnonzero(still[1:] != still[:-1]) + 1).tolist(), len(still)]
+    ends: list[float] = []
+    rests: list[Floats] = []
+    for a, b in zip(edges, edges[1:], strict=False):
+        if not still[a] or when[b - 1] - when[a] < REST:
+            continue
+        place = where[a:b].mean(axis=0)
+        if rests and float(np.linalg.norm(place[:2] - rests[-1][:2])) < LEAST:
+            ends.pop()
+            rests.pop()
+        ends.append(float(when[b - 1]))
+        rests.append(place)
+    return np.array(ends), np.array(rests).reshape(-1, 3)
 
 
 def position_errors(times: NDArray[Any], places: NDArray[Any], track_t: Floats, track: Floats) -> Floats:
