@@ -4,7 +4,8 @@ No single threshold serves a stroll and a run: between a stroll's stance and its
 to 10^7, in a run from 10^5 to 10^8. So what is still is judged against the wearer's own last cycle: in logarithms, the
 threshold lies a fixed share of the way from the quietest to the loudest moment of the last 1.2 to 1.6 s. The noise of
 the evidence comes from the motion itself: a foot that turns at w about a point of the sole r away moves the sensor at
-r w, and the steeper second term keeps early and late stance, when the foot rolls, from outvoting mid-stance.
+r w. What of that is known, the height of the sensor above the sole (lever.py), is the velocity that it ought to have;
+what is not is noise, and the steeper second term keeps early and late stance from outvoting mid-stance.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from attrs import define, field
 
 from ..types import Phase, Quat, Vec3
 from ..vector import IDENTITY, TIE, ZERO
+from .lever import EMPTY, Lever
 from .stance import SIGMA_ACC, SIGMA_GYRO, Load, Shoe, Stance
 
 
@@ -34,15 +36,18 @@ class Cycle:
     """Below this the foot is still whatever the filter believes."""
     sigma: float = 0.01
     """Noise of a foot that does not move at all, m/s."""
-    arm: float = 0.1
+    arm: float = 0.05
     """Velocity noise for each rad/s, m."""
-    arm2: float = 1.2
+    arm2: float = 0.5
     """Velocity noise for each (rad/s)^2, m s: the rolling foot."""
     off_gravity: float = 0.05
     """Velocity noise for each m/s^2 off gravity, s."""
     bucket: float = 0.4
     """Length of one of the four spans over which the extremes are kept, s."""
+    rolls: bool = True
+    """The velocity that the sensor ought to have is that of a foot that rolls (`lever`); otherwise zero."""
     # state
+    lever: Lever = field(factory=Lever, init=False)
     shoe: Shoe = field(factory=Shoe, init=False)
     bucket_end: float | None = field(default=None, init=False)
     lows: tuple[float, float, float] = field(default=(1e12, 1e12, 1e12), init=False)
@@ -59,10 +64,13 @@ class Cycle:
         statistic = force / SIGMA_ACC**2 + rate / SIGMA_GYRO**2
         self._remember(t, statistic)
         if load is not None and load.airborne:
+            self.lever.lift()
             return Stance(ZERO, inf, statistic, Phase.SWING)
         if statistic < self.floor:
             hint = Phase.STATIONARY if statistic < self.certain else None
         elif statistic > self.ceiling or statistic > self._threshold():
+            if self.lever.sums is not EMPTY:
+                self.lever.lift()
             return Stance(ZERO, inf, statistic, None)
         else:
             hint = None
@@ -71,7 +79,10 @@ class Cycle:
             + (self.arm * self.arm + self.arm2 * self.arm2 * rate) * rate
             + self.off_gravity * self.off_gravity * force
         )
-        return Stance(ZERO, sqrt(variance), statistic, hint)
+        if not self.rolls:
+            return Stance(ZERO, sqrt(variance), statistic, hint)
+        vx, vy = self.lever.roll(dt, acc, gyro, attitude)
+        return Stance((vx, vy, 0.0), sqrt(variance), statistic, hint)
 
     def _threshold(self) -> float:
         low = max(min(self.low, self.past_low), self.quietest)
