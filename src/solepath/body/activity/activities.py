@@ -107,17 +107,18 @@ class Activities:
             if acc is None:
                 return []
             self.origin = t
-        index = floor((t - self.origin + TIE) / BLOCK)
+        since = (t - self.origin + TIE) / BLOCK
         told: list[Event] = []
         if sample.air_pressure is not None and side.index is not None:
-            self.air.add(foot.foot, index, sample.air_pressure)
+            self.air.add(foot.foot, floor(since), sample.air_pressure)
         if acc is not None:
-            if side.index is None or index > side.index:
+            if side.index is None or since >= side.index + 1:
                 side.close()
-                side.begin(index, foot)
+                side.begin(floor(since), foot)
                 told = self._judge(sample)
-            side.add(acc, sample.gyro)
-            if sample.gyro is not None and foot.levelled:
+            gyro = sample.gyro
+            side.add(acc, gyro)
+            if gyro is not None and foot.levelled:
                 corrector = foot.corrector
                 side.track(corrector.position[2], corrector.velocity)
         if events:

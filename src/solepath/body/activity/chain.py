@@ -8,7 +8,6 @@ were not fitted to labels, but they were chosen in view of HuGaDB's recordings a
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import lru_cache
 from math import log
 
@@ -88,11 +87,11 @@ BEGIN = (0.5, 0.25, 0.05, 0.05, 0.05, 0.04, *(1e-3, 5e-4, 2e-4, 1e-5, 1e-5), *(1
 
 @frozen
 class Chain:
-    """`before`: for each state those that it may come from, with the logarithm of the chance."""
+    """`before`: for each state those that it may come from, with the logarithm of the chance. `late`: from one state
+    to another, how much later than the half second in which it is seen first the new activity began, s."""
 
     before: tuple[tuple[tuple[int, float], ...], ...]
-    shifts: Mapping[tuple[Activity, Activity], float]
-    """As `Shifts`; those that are not among them are 0."""
+    late: tuple[tuple[float, ...], ...]
 
 
 @lru_cache(maxsize=4)
@@ -113,4 +112,5 @@ def chain_of(chances: Chances, shifts: Shifts) -> Chain:
             for to in _NAMES
         ]
     )
-    return Chain(before, {(a, b): shift for a, b, shift in shifts})
+    known = {(a, b): shift for a, b, shift in shifts}
+    return Chain(before, tuple([tuple([known.get((a, b), 0.0) for b in ACTIVITIES]) for a in ACTIVITIES]))

@@ -49,11 +49,10 @@ class FootWindow:
     # state
     index: int | None = None
     """Of the block under way."""
-    count: int = 0
     force: float = 0.0
     squares: float = 0.0
     acc_bins: list[int] = field(factory=lambda: [0] * BINS)
-    rates: int = 0
+    """Of the samples of the block under way; every one is in a bin."""
     rate_squares: float = 0.0
     gyro_bins: list[int] = field(factory=lambda: [0] * BINS)
     bias: Vec3 = ZERO
@@ -76,7 +75,6 @@ class FootWindow:
     def begin(self, index: int, foot: FootTracker) -> None:
         """A block begins."""
         self.index = index
-        self.count = self.rates = 0
         self.force = self.squares = self.rate_squares = 0.0
         self.acc_bins = [0] * BINS
         self.gyro_bins = [0] * BINS
@@ -90,7 +88,6 @@ class FootWindow:
         x, y, z = acc
         square = x * x + y * y + z * z
         length = sqrt(square)
-        self.count += 1
         self.force += length
         self.squares += square
         self.acc_bins[int(length * 0.5) if length < 2.0 * BINS else BINS - 1] += 1
@@ -101,7 +98,6 @@ class FootWindow:
             y -= by
             z -= bz
             square = x * x + y * y + z * z
-            self.rates += 1
             self.rate_squares += square
             self.gyro_bins[int(sqrt(square)) if square < BINS * BINS else BINS - 1] += 1
 
@@ -135,9 +131,9 @@ class FootWindow:
 
     def close(self) -> None:
         """The block under way is over."""
-        if self.index is None or not self.count:
+        n, rates = sum(self.acc_bins), sum(self.gyro_bins)
+        if self.index is None or not n:
             return
-        n = self.count
         mean = self.force / n
         self.blocks.append(
             Block(
@@ -146,8 +142,8 @@ class FootWindow:
                 round(mean, 6),
                 round(max(0.0, self.squares / n - mean * mean), 6),
                 _packed(self.acc_bins),
-                self.rates,
-                round(self.rate_squares / self.rates, 6) if self.rates else 0.0,
+                rates,
+                round(self.rate_squares / rates, 6) if rates else 0.0,
                 _packed(self.gyro_bins),
                 self.tracked,
                 round(self.climb, 4),
@@ -180,7 +176,7 @@ class FootWindow:
     def anew(self) -> None:
         """Times begin anew."""
         self.index = None
-        self.count = 0
+        self.acc_bins = [0] * BINS
         self.blocks.clear()
         self.steps.clear()
 
@@ -206,7 +202,14 @@ class FootWindow:
         mean = sum([block.force * block.count for block in near]) / whole
         squares = sum([(block.variance + block.force * block.force) * block.count for block in near]) / whole
         told[3] = _logarithm(max(0.0, squares - mean * mean))
-        _shares(told, 4, [(_third(block, index), block.count, block.acc_bins) for block in near])
+        thirds = (
+            [block for block in near if block.index < index],
+            [here],
+            [block for block in near if block.index > index],
+        )
+        for at, third in enumerate(thirds):
+            first = 4 + at * BINS
+            told[first : first + BINS] = _shares([b.acc_bins for b in third], [b.count for b in third])
         turned = [block for block in near if block.rates]
         if turned:
             rates = sum([block.rates for block in turned])
@@ -215,7 +218,10 @@ class FootWindow:
             told[GYRO + 2] = _logarithm(min([block.rate for block in turned]))
             told[GYRO + 3] = _logarithm(max([block.rate for block in turned]))
             told[GYRO + 4] = _logarithm(sum([block.rate * block.rates for block in turned]) / rates)
-            _shares(told, GYRO + 5, [(_third(block, index), block.rates, block.gyro_bins) for block in turned])
+            for at, third in enumerate(thirds):
+                third = [block for block in third if block.rates]
+                first = GYRO + 5 + at * BINS
+                told[first : first + BINS] = _shares([b.gyro_bins for b in third], [b.rates for b in third])
         tracked = [block for block in near if block.tracked]
         if tracked:
             told[TRACK] = 1.0
@@ -260,17 +266,11 @@ def _packed(bins: list[int]) -> bytes:
     return bytes([min(n, 255) for n in bins])
 
 
-def _third(block: Block, index: int) -> int:
-    return 1 if block.index == index else 2 * (block.index > index)
-
-
-def _shares(told: list[float], first: int, parts: list[tuple[int, int, bytes]]) -> None:
-    """Shares of each bin among the samples of each third of the window; `parts`: third, samples and bins of blocks."""
-    counts = [0] * THIRDS
-    for third, count, _ in parts:
-        counts[third] += count
-    for third, _, bins in parts:
-        at = first + third * BINS
-        for i, n in enumerate(bins):
-            if n:
-                told[at + i] += n / counts[third]
+def _shares(bins: list[bytes], counts: list[int]) -> list[float]:
+    """Shares of each bin among the samples of the blocks of one third of a window."""
+    if not bins:
+        return [0.0] * BINS
+    whole = sum(counts)
+    if len(bins) == 1:
+        return [n / whole for n in bins[0]]
+    return [a / whole + b / whole for a, b in zip(*bins, strict=True)]

@@ -9,15 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from math import exp, log
+from math import exp, inf, log
 
-from attrs import define, evolve, field, frozen
+from attrs import define, field, frozen
 
 from ...types import Activity
 from ...vector import TIE
 from .chain import ACTIVITIES, BEGIN, CRUISES, HALTS, LIFTS, PULSES, RIDES, STAND, Chain
 from .features import BLOCK
-from .ride import HALT, HALT_VARIES, USUAL, VARIES, Felt, Level, Ride
+from .ride import DWELLS, HALT, HALT_VARIES, HASTE, USUAL, VARIES, Beside, Felt, Level, Levels, Ride
 
 FORGOTTEN = 13.0
 """A token that is so much less likely than the best (natural logarithm) is dropped."""
@@ -27,6 +27,8 @@ SETTLED = 12.0
 """After so long, s, a ride has ended: the lift does not creep on to its floor."""
 DECIDED = 60.0
 """After so long, s, it is settled what was begun: few rides are longer."""
+ENDS = RIDES - CRUISES
+"""A ride ends in one of these states."""
 LONGEST = 8
 """Changes of activity that may be unsettled."""
 
@@ -86,18 +88,40 @@ class Hypotheses:
 
     def update(self, seen: Evidence, chain: Chain) -> None:
         """Half a second more."""
+        scores, stops = [-inf] * len(ACTIVITIES), [0.0] * len(ACTIVITIES)
         held: list[Token | None] = [None] * len(ACTIVITIES)
         for token in self.tokens:
-            held[token.state] = token
-        found: list[Token] = []
+            state = token.state
+            held[state], scores[state] = token, token.score
+            if state in ENDS:
+                stops[state] = token.ride.stopped()
+        beside = Beside(seen.felt)
+        found: list[tuple[float, int, Token, Levels, float]] = []
         for state, before in enumerate(chain.before):
-            arrived = _likeliest(held, state, before) if self.tokens else _begun(state)
+            # the best course that goes on to the state
+            best, highest = -1, -inf
+            if not self.tokens:
+                best, highest = state, BEGUN[state].score
+            elif state in RIDES:
+                for i, chance in before:
+                    score = scores[i] + chance
+                    if score > highest:
+                        best, highest = i, score
+            else:
+                for i, chance in before:
+                    score = scores[i] + chance + stops[i]
+                    if score > highest:
+                        best, highest = i, score
+            arrived = (held[best] if self.tokens else BEGUN[state]) if best >= 0 else None
             if arrived is not None:
-                found.append(_gone_on(arrived, state, seen, chain))
-        highest = max([token.score for token in found])
-        for token in found:
-            token.score = round(token.score - highest, 4)
-        self.tokens = [token for token in found if token.score >= -FORGOTTEN]
+                found.append(_scored(arrived, highest, state, seen, beside))
+        highest = max([score for score, *_ in found])
+        self.tokens = []
+        for likely, state, token, levels, taken in found:
+            score = round(likely - highest, 4)
+            if score >= -FORGOTTEN:
+                path, ride = _gone_on(token, state, seen, chain, levels, taken)
+                self.tokens.append(Token(state, score, path, ride))
 
     def settle(self, now: float) -> list[tuple[Segment, Segment | None, float]]:
         """What is settled from now on, `now` s: each activity that was begun, with the one before it that it ends, and
@@ -139,10 +163,6 @@ class Hypotheses:
         return those / whole if whole > 0.0 else 1.0
 
 
-def _begun(state: int) -> Token:
-    return Token(state, log(BEGIN[state]), (), Ride((Level(), Level())))
-
-
 def _score(token: Token) -> float:
     return token.score
 
@@ -163,53 +183,58 @@ def _agrees(token: Token, i: int, begun: Segment) -> bool:
     return other.t == begun.t and other.activity is begun.activity
 
 
-def _likeliest(held: Sequence[Token | None], state: int, before: tuple[tuple[int, float], ...]) -> Token | None:
-    """The best course that goes on to the state: its token, with the score that it has there."""
-    best: Token | None = None
-    highest = 0.0
-    for i, chance in before:
-        token = held[i]
-        if token is None:
-            continue
-        score = token.score + chance
-        if i in RIDES and i not in CRUISES and state not in RIDES:
-            score += token.ride.stopped()
-        if best is None or score > highest:
-            best, highest = token, score
-    return None if best is None else Token(best.state, highest, best.path, best.ride)
+def _scored(
+    token: Token, score: float, state: int, seen: Evidence, beside: Beside
+) -> tuple[float, int, Token, Levels, float]:
+    """How likely the course of `token`, that far, is after half a second in the state; with the levels of its feet at
+    rest, and the acceleration of the lift, m/s^2."""
+    levels, taken, begins = token.ride.levels, 0.0, 0.0
+    motion = state
+    if state in RIDES:
+        motion = STAND
+        if token.ride.stood < DWELLS and (not token.path or token.path[-1].activity is not ACTIVITIES[state]):
+            begins = -HASTE
+        if state in PULSES:
+            levels, taken, likely = beside.pulse(levels, PULSES[state] * USUAL, VARIES)
+        elif state in HALTS:
+            levels, taken, likely = beside.pulse(levels, HALTS[state] * HALT, HALT_VARIES)
+        else:
+            levels, likely = beside.rest(levels)
+    elif state == STAND:
+        levels, likely = beside.rest(levels)
+    else:
+        levels, likely = beside.walk(levels)
+    return score + begins + seen.motions[motion] + likely + seen.climbs[state], state, token, levels, taken
 
 
-def _gone_on(token: Token, state: int, seen: Evidence, chain: Chain) -> Token:
-    """The token after half a second in the state."""
+def _gone_on(
+    token: Token, state: int, seen: Evidence, chain: Chain, levels: Levels, taken: float
+) -> tuple[tuple[Segment, ...], Ride]:
+    """The course of the token and its ride after half a second in the state."""
     ride, path, activity = token.ride, token.path, ACTIVITIES[state]
-    begins = 0.0
+    rides = state in RIDES
     if not path:
-        path = (Segment(seen.t, activity, seen.t if state in RIDES else None),)
-        if state in RIDES:
-            ride, begins = ride.begun(False, seen.before)
+        path = (Segment(seen.t, activity, seen.t if rides else None),)
+        if rides:
+            ride = ride.begun(False, seen.before)
     elif path[-1].activity is not activity:
         last = path[-1]
-        t = max(seen.t + chain.shifts.get((last.activity, activity), 0.0), last.t + TIE)
-        if state in RIDES:
-            ride, begins = ride.begun(state in PULSES, seen.before)
+        t = max(seen.t + chain.late[token.state][state], last.t + TIE)
+        if rides:
+            ride = ride.begun(state in PULSES, seen.before)
             path = (*path, Segment(t, activity, seen.t))
         else:
             if token.state in RIDES:
-                path = (*path[:-1], evolve(last, to=seen.t, height=ride.risen(seen.after)))
+                ended = Segment(last.t, last.activity, last.from_, seen.t, ride.risen(seen.after))
+                path = (*path[:-1], ended)
                 ride = ride.over()
             path = (*path, Segment(t, activity))
-    if state in PULSES:
-        ride, likely = ride.pulse(seen.felt, PULSES[state] * USUAL, VARIES, BLOCK)
-    elif state in HALTS:
-        ride, likely = ride.pulse(seen.felt, HALTS[state] * HALT, HALT_VARIES, BLOCK)
-    elif state in CRUISES:
-        ride, likely = ride.rest(seen.felt)
-        ride = ride.cruise(BLOCK)
-    elif state == STAND:
-        ride, likely = ride.rest(seen.felt)
-    else:
-        ride, likely = ride.walk(seen.felt)
-    if state not in RIDES:
-        ride = ride.waited(BLOCK)
-    score = token.score + begins + seen.motions[STAND if state in RIDES else state] + likely + seen.climbs[state]
-    return Token(state, score, path, ride)
+    if rides:
+        return path, ride.goes(levels, taken, BLOCK)
+    if state == STAND:
+        return path, ride.stands(levels, BLOCK)
+    return path, Ride(levels, stood=ride.stood).stands(levels, BLOCK)
+
+
+BEGUN = tuple([Token(state, log(chance), (), Ride((Level(), Level()))) for state, chance in enumerate(BEGIN)])
+"""A course that has done nothing yet, for each state."""

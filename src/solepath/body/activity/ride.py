@@ -10,8 +10,9 @@ holds that the lift has just set off takes another level for that of rest than w
 from __future__ import annotations
 
 from math import exp, log, pi, sqrt
+from operator import is_
 
-from attrs import define, evolve, frozen
+from attrs import define, frozen
 
 from ...vector import GRAVITY
 
@@ -64,12 +65,130 @@ class Level:
     variance: float = LEVEL * LEVEL
 
 
+Levels = tuple[Level, ...]
+"""Of the left foot and the right one."""
+
+
+class Beside:
+    """Half a second of both feet beside their levels at rest.
+
+    Most courses hold the very same levels, and then what comes of them is worked out once. It lasts no longer than the
+    half second, and is no state.
+    """
+
+    __slots__ = ("_acceleration", "_pulses", "_rests", "_walks", "felt")
+
+    def __init__(self, felt: tuple[Felt | None, ...]) -> None:
+        self.felt = felt
+        # by the identity of levels, which somebody holds as long as this lasts
+        self._acceleration: dict[int, tuple[float, float] | None] = {}
+        self._rests: dict[int, tuple[Levels, float]] = {}
+        self._walks: dict[int, tuple[Levels, float]] = {}
+        self._pulses: dict[tuple[int, float], tuple[Levels, float, float]] = {}
+
+    def rest(self, levels: Levels) -> tuple[Levels, float]:
+        """Without acceleration: the levels after it, and the logarithm of how likely what was felt is."""
+        known = self._rests.get(id(levels))
+        if known is None:
+            known = self._rests[id(levels)] = self._rest(levels)
+        return known
+
+    def _rest(self, levels: Levels) -> tuple[Levels, float]:
+        seen = self.acceleration(levels)
+        if seen is None:
+            return levels, 0.0
+        acceleration, variance = seen
+        regular = (1.0 - OUTLIER) * _density(acceleration, variance)
+        odd = OUTLIER * _density(acceleration, variance + 1.0)
+        return self._learnt(levels, 0.0, 0.0 if regular > odd else 1e9), log(regular + odd + LEAST)
+
+    def pulse(self, levels: Levels, usual: float, varies: float) -> tuple[Levels, float, float]:
+        """Of an acceleration `usual` with the deviation `varies`, m/s^2: levels, what it was, logarithm as above."""
+        known = self._pulses.get((id(levels), usual))
+        if known is None:
+            known = self._pulses[id(levels), usual] = self._pulse(levels, usual, varies)
+        return known
+
+    def _pulse(self, levels: Levels, usual: float, varies: float) -> tuple[Levels, float, float]:
+        seen = self.acceleration(levels)
+        if seen is None:
+            return levels, usual, 0.0
+        acceleration, variance = seen
+        off = acceleration - usual
+        likely = log(_density(off, variance + varies * varies) + LEAST)
+        share = varies * varies / (varies * varies + variance)
+        taken = usual + share * off
+        return self._learnt(levels, taken, share * variance), taken, likely
+
+    def walk(self, levels: Levels) -> tuple[Levels, float]:
+        """Of feet that move by themselves: no lift is felt."""
+        known = self._walks.get(id(levels))
+        if known is None:
+            known = self._walks[id(levels)] = self._walk(levels)
+        return known
+
+    def _walk(self, levels: Levels) -> tuple[Levels, float]:
+        seen = self.acceleration(levels)
+        walked = tuple(
+            [
+                level
+                if one is None or not one.moved or level.variance >= MOVED * MOVED
+                else Level(level.value, MOVED * MOVED)
+                for level, one in zip(levels, self.felt, strict=True)
+            ]
+        )
+        if all(map(is_, walked, levels)):
+            walked = levels
+        if seen is None:
+            return walked, 0.0
+        near, far = _density(seen[0], seen[1] + 1.0), _density(seen[0], seen[1] + WIDE * WIDE)
+        return walked, log((1.0 - FEET) * near + FEET * far + LEAST)
+
+    def acceleration(self, levels: Levels) -> tuple[float, float] | None:
+        """(m/s^2, its variance) of the feet that were heard, each beside its own level; None without any."""
+        if id(levels) not in self._acceleration:
+            self._acceleration[id(levels)] = self._accelerated(levels)
+        return self._acceleration[id(levels)]
+
+    def _accelerated(self, levels: Levels) -> tuple[float, float] | None:
+        total = weights = 0.0
+        offs = []
+        for level, one in zip(levels, self.felt, strict=True):
+            if one is not None:
+                off = one.force - level.value
+                weight = 1.0 / (level.variance + one.variance)
+                offs.append((off, 1.0 / weight))
+                total += weight * off
+                weights += weight
+        if weights == 0.0:
+            return None
+        variance = 1.0 / weights
+        if len(offs) == 2:  # a lift moves both feet alike
+            (a, va), (b, vb) = offs
+            variance += 0.25 * max(0.0, (a - b) * (a - b) - va - vb)
+        return total / weights, variance
+
+    def _learnt(self, levels: Levels, acceleration: float, uncertain: float) -> Levels:
+        """After half a second in which the lift accelerated by so much, with that variance."""
+        learnt = []
+        for level, one in zip(levels, self.felt, strict=True):
+            if one is None:
+                learnt.append(level)
+                continue
+            variance = level.variance + WANDER
+            if one.moved:
+                variance = max(variance, MOVED * MOVED)
+            gain = variance / (variance + one.variance + uncertain)
+            off = one.force - acceleration - level.value
+            learnt.append(Level(round(level.value + gain * off, 7), round((1.0 - gain) * variance, 9)))
+        return tuple(learnt)
+
+
 @define
 class Ride:
     """What a hypothesis has of a lift: all upwards positive."""
 
-    levels: tuple[Level, ...]
-    """Of the left foot and the right one."""
+    levels: Levels
     velocity: float = 0.0
     """m/s."""
     fastest: float = 0.0
@@ -85,65 +204,40 @@ class Ride:
     stood: float = 1e3
     """Since the last ride ended, s."""
 
-    def rest(self, felt: tuple[Felt | None, ...]) -> tuple[Ride, float]:
-        """Half a second without acceleration: the ride after it, and the logarithm of how likely what was felt is."""
-        seen = self._acceleration(felt)
-        if seen is None:
-            return self, 0.0
-        acceleration, variance = seen
-        regular = (1.0 - OUTLIER) * _density(acceleration, variance)
-        odd = OUTLIER * _density(acceleration, variance + 1.0)
-        rested = self._learnt(felt, 0.0, 0.0 if regular > odd else 1e9)
-        return rested, log(regular + odd + LEAST)
+    def begun(self, whole: bool, air: float | None) -> Ride:
+        """A ride begins, `whole` when with its first pulse, at the height `air` in m."""
+        return Ride(self.levels, 0.0, 0.0, 0.0, 0.0, whole, air)
 
-    def pulse(
-        self, felt: tuple[Felt | None, ...], usual: float, varies: float, block: float
-    ) -> tuple[Ride, float]:
-        """`block` s of acceleration, `usual` with the deviation `varies`, m/s^2."""
-        seen = self._acceleration(felt)
-        if seen is None:
-            return self._moved(usual, block, self.levels), 0.0
-        acceleration, variance = seen
-        off = acceleration - usual
-        likely = log(_density(off, variance + varies * varies) + LEAST)
-        share = varies * varies / (varies * varies + variance)
-        taken = usual + share * off
-        learnt = self._learnt(felt, taken, share * variance)
-        return self._moved(taken, block, learnt.levels), likely
-
-    def walk(self, felt: tuple[Felt | None, ...]) -> tuple[Ride, float]:
-        """The feet move by themselves: no lift is felt."""
-        seen = self._acceleration(felt)
-        levels = tuple(
-            [
-                level
-                if one is None or not one.moved
-                else Level(level.value, max(level.variance, MOVED * MOVED))
-                for level, one in zip(self.levels, felt, strict=True)
-            ]
+    def goes(self, levels: Levels, acceleration: float, block: float) -> Ride:
+        """`block` s more with this acceleration, m/s^2, and the levels after it."""
+        before = self.velocity
+        velocity = round(before + acceleration * block, 6)
+        fast = abs(velocity)
+        return Ride(
+            levels,
+            velocity,
+            fast if fast > self.fastest else self.fastest,
+            round(self.height + 0.5 * (before + velocity) * block, 6),
+            self.lasted + block,
+            self.whole,
+            self.air,
+            self.stood,
         )
-        walked = Ride(levels, stood=self.stood)
-        if seen is None:
-            return walked, 0.0
-        near, far = _density(seen[0], seen[1] + 1.0), _density(seen[0], seen[1] + WIDE * WIDE)
-        return walked, log((1.0 - FEET) * near + FEET * far + LEAST)
 
-    def begun(self, whole: bool, air: float | None) -> tuple[Ride, float]:
-        """A ride begins, `whole` when with its first pulse, at the height `air` in m; the logarithm of how likely it is
-        that it does so now."""
-        return Ride(self.levels, whole=whole, air=air), -HASTE if self.stood < DWELLS else 0.0
+    def stands(self, levels: Levels, block: float) -> Ride:
+        """`block` s more without a ride: the levels after it. What there was of one is kept."""
+        stood = self.stood
+        if stood < DWELLS:
+            stood += block
+        elif levels is self.levels:
+            return self
+        return Ride(
+            levels, self.velocity, self.fastest, self.height, self.lasted, self.whole, self.air, stood
+        )
 
     def over(self) -> Ride:
         """The same levels, no ride."""
         return Ride(self.levels, stood=0.0)
-
-    def waited(self, block: float) -> Ride:
-        """`block` s more without a ride."""
-        return evolve(self, stood=self.stood + block) if self.stood < DWELLS else self
-
-    def cruise(self, block: float) -> Ride:
-        """`block` s more at the same speed."""
-        return self._moved(0.0, block, self.levels)
 
     def stopped(self) -> float:
         """Logarithm of how likely it is that a lift that moved like this stands now."""
@@ -160,51 +254,6 @@ class Ride:
         if air is not None and self.air is not None:
             return air - self.air
         return self.height - 0.5 * self.velocity * self.lasted if self.whole else None
-
-    def _acceleration(self, felt: tuple[Felt | None, ...]) -> tuple[float, float] | None:
-        """(m/s^2, its variance) of the feet that were heard, each beside its own level; None without any."""
-        total = weights = 0.0
-        offs = []
-        for level, one in zip(self.levels, felt, strict=True):
-            if one is not None:
-                off = one.force - level.value
-                weight = 1.0 / (level.variance + one.variance)
-                offs.append((off, 1.0 / weight))
-                total += weight * off
-                weights += weight
-        if weights == 0.0:
-            return None
-        variance = 1.0 / weights
-        if len(offs) == 2:  # a lift moves both feet alike
-            (a, va), (b, vb) = offs
-            variance += 0.25 * max(0.0, (a - b) * (a - b) - va - vb)
-        return total / weights, variance
-
-    def _learnt(self, felt: tuple[Felt | None, ...], acceleration: float, uncertain: float) -> Ride:
-        """The levels after half a second in which the lift accelerated by so much, with that variance."""
-        levels = []
-        for level, one in zip(self.levels, felt, strict=True):
-            if one is None:
-                levels.append(level)
-                continue
-            variance = level.variance + WANDER
-            if one.moved:
-                variance = max(variance, MOVED * MOVED)
-            gain = variance / (variance + one.variance + uncertain)
-            off = one.force - acceleration - level.value
-            levels.append(Level(round(level.value + gain * off, 7), round((1.0 - gain) * variance, 9)))
-        return evolve(self, levels=tuple(levels))
-
-    def _moved(self, acceleration: float, block: float, levels: tuple[Level, ...]) -> Ride:
-        velocity = round(self.velocity + acceleration * block, 6)
-        return evolve(
-            self,
-            levels=levels,
-            velocity=velocity,
-            fastest=max(self.fastest, abs(velocity)),
-            height=round(self.height + 0.5 * (self.velocity + velocity) * block, 6),
-            lasted=self.lasted + block,
-        )
 
 
 def _density(off: float, variance: float) -> float:
