@@ -468,7 +468,7 @@ def test_evaluate_in_short_is_a_markdown_table(data):
 
 def test_evaluate_says_what_it_needs(data, tmp_path, monkeypatch):
     monkeypatch.delenv("SOLEPATH_DATA", raising=False)
-    needs = "evaluate needs DIR, or the environment variable SOLEPATH_DATA"
+    needs = "evaluate needs DIR, or the environment variable SOLEPATH_DATA, or --emulated"
     assert needs in one_line(in_this_process("evaluate"))
     assert "does not hold any of the data sets" in one_line(in_this_process("evaluate", tmp_path))
     assert "is not a directory" in one_line(in_this_process("evaluate", tmp_path / "none"))

@@ -1,14 +1,19 @@
-"""`solepath evaluate [DIR]`: every recipe on recorded data with a truth, as tables."""
+"""`solepath evaluate [DIR]`: every recipe on recorded data with a truth, and on emulated walks, as tables."""
 
 from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .calibrated import add_calibration, calibration_of
 from .failure import Failure, known_recipe, note
+
+if TYPE_CHECKING:
+    from ..evaluate.report import Result
 
 ENVIRONMENT = "SOLEPATH_DATA"
 
@@ -16,8 +21,9 @@ ENVIRONMENT = "SOLEPATH_DATA"
 def add_to(commands: Any) -> None:
     command: argparse.ArgumentParser = commands.add_parser(
         "evaluate",
-        help="score recipes on recorded data with a truth",
-        description="Score recipes on a directory of recorded data with a truth, and print the tables.",
+        help="score recipes on recorded data with a truth, and on emulated walks",
+        description="Score recipes on a directory of recorded data with a truth, on long emulated walks, or on both, "
+        "and print the tables.",
     )
     command.add_argument("dir", metavar="DIR", nargs="?", type=Path, help=f"the data (default: ${ENVIRONMENT})")
     command.add_argument(
@@ -27,6 +33,16 @@ def add_to(commands: Any) -> None:
         "--recipe", metavar="NAME", action="append", default=[], help="this recipe only; may be given again"
     )
     add_calibration(command)
+    command.add_argument(
+        "--emulated",
+        action="store_true",
+        help="on emulated walks too (without DIR on them alone): 500 m, 30 minutes, four floors of stairs; with the "
+        "recipe default where no --recipe is named",
+    )
+    command.add_argument(
+        "--walks", metavar="N", type=int, default=3, help="so many emulated walks of each kind (default: 3)"
+    )
+    command.add_argument("--seed", metavar="K", type=int, default=1, help="the first one's seed (default: 1)")
     command.add_argument(
         "--markdown", action="store_true", help="print one table of the averages only, as the README quotes it"
     )
@@ -41,20 +57,25 @@ def run(options: argparse.Namespace) -> int:
     import json
 
     from .. import recipes
-    from ..evaluate.jobs import evaluate
+    from ..evaluate.datasets import EMULATED
+    from ..evaluate.jobs import evaluate, evaluate_emulated
     from ..evaluate.report import as_json
     from ..recording import RecordingError
     from ..view.markdown import accuracy_table
     from ..view.progress import progress_bar
     from ..view.scores import score_table
 
+    walks = [data_set.name for data_set in EMULATED]
+    recorded, walked = ([name for name in options.only if (name in walks) is made] for made in (False, True))
+    emulated = bool(walked) or options.emulated and not options.only
     named = os.environ.get(ENVIRONMENT)
-    folder = options.dir or (Path(named) if named else None)
-    if folder is None:
-        raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}")
+    folder = options.dir or (Path(named) if named and (recorded or not emulated) else None)
+    if folder is None and (recorded or not emulated):
+        raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
+    if options.walks < 1 or options.seed < 0:
+        raise Failure("--walks must be 1 or more, and --seed not negative")
     known = list(recipes.BY_NAME)
-    chosen = [known_recipe(name, known) for name in options.recipe] or known
-    calibration = calibration_of(options)
+    chosen = [known_recipe(name, known) for name in options.recipe]
     results = []
     try:
         with progress_bar("recordings", 100) as show:
@@ -62,14 +83,16 @@ def run(options: argparse.Namespace) -> int:
             def percent(done: int, total: int) -> None:
                 show(100 * done // total)
 
-            for result in evaluate(
-                folder,
-                chosen,
-                only=options.only,
-                calibration=calibration,
-                processes=max(1, options.processes),
-                progress=percent,
-            ):
+            how: dict[str, Any] = {
+                "calibration": calibration_of(options), "processes": max(1, options.processes), "progress": percent,
+            }  # fmt: skip
+            parts: list[Iterator[Result]] = []
+            if folder is not None and (recorded or not options.only):
+                parts.append(evaluate(folder, chosen or known, only=recorded, **how))
+            if emulated:
+                seeds = range(options.seed, options.seed + options.walks)
+                parts.append(evaluate_emulated(chosen or [recipes.DEFAULT], seeds, only=walked, **how))
+            for result in chain(*parts):
                 results.append(result)
                 if not options.markdown:
                     print(score_table(result), end="\n\n", flush=True)

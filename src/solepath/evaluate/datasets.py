@@ -1,7 +1,7 @@
 """The recorded data that have a truth, and how each is scored. The folder's README says where they come from.
 
 Every scorer takes the recording's path, its entry in dataset.json and how to compute. The session gets the samples
-and nothing else.
+and nothing else. Of what is emulated the path is a name only, and the entry says the seed.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from attrs import frozen
 
 from .activity import CLIMBED, score_labelled, score_stairs
 from .confusion import CLASSES
+from .emulated_walks import score_four_floors, score_half_hour, score_long_way
 from .recorded import Meta
 from .run import Chosen, How, recipe_of
 from .score import Scored
@@ -22,8 +23,8 @@ from .tracking import score_counted, score_loop, score_optitrack, score_surveyed
 
 @frozen
 class DataSet:
-    """`folders`: their names below the data directory. `has_truth`: of a recording's name and entry. `figures`: what
-    its table shows, in order."""
+    """`folders`: their names below the data directory; none of what is emulated. `has_truth`: of a recording's name and
+    entry. `figures`: what its table shows, in order."""
 
     name: str
     folders: tuple[str, ...]
@@ -178,3 +179,16 @@ DATASETS = (
         ("stairs_called", "stairs_direction", "level_called"),
     ),
 )  # fmt: skip
+
+WALKED = (
+    "rms_2d", "end_error_2d", "end_relative", "position_max", "largest_relative", "height_end", "height_max", "path",
+)  # fmt: skip
+EMULATED = tuple(
+    DataSet(name, (), title, _always, score, WALKED + STRIDES, pressed=True)
+    for name, title, score in (
+        ("emulated_long_way", "500 m with turns, emulated insoles on both feet", score_long_way),
+        ("emulated_half_hour", "30 minutes with turns, emulated insoles on both feet", score_half_hour),
+        ("emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", score_four_floors),
+    )
+)
+"""What needs no data: a recording is a seed."""

@@ -29,12 +29,17 @@ class FootComparison:
     """True steps that were found."""
     steps_invented: int
     """Found steps that never were."""
-    length_error: float | None
-    """Mean absolute relative error of the stride lengths (0.01 is 1 %)."""
+    length_errors: tuple[float, ...]
+    """Relative error of each stride length (0.01 is 1 %), ours less the true one."""
     events: dict[str, Matching]
     """heel_strike, foot_flat, heel_off, toe_off."""
     end_error: float | None
     """Horizontal distance in m of the last position from the true one, after aligning the first two metres."""
+
+    @property
+    def length_error(self) -> float | None:
+        """Mean absolute relative error of the stride lengths."""
+        return mean_magnitude(self.length_errors)
 
 
 def compare(truth: Truth, feet: Mapping[Foot, FootRun]) -> list[FootComparison]:
@@ -49,7 +54,7 @@ def _compare(truth: FootTruth, run: FootRun) -> FootComparison:
         steps_true=len(truth.steps),
         steps_found=len(matched),
         steps_invented=len(run.steps) - len(matched),
-        length_error=mean_magnitude(errors),
+        length_errors=tuple(errors),
         events={
             "heel_strike": match(truth.heel_strikes, run.heel_strikes, windows=ALWAYS),
             "foot_flat": match(truth.foot_flats, run.foot_flats, windows=ALWAYS),

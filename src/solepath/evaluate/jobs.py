@@ -13,12 +13,13 @@ from typing import Any
 from attrs import frozen
 
 from ..calibration import Calibration
+from ..recipes import Recipe
 from ..recording import RecordingError
-from .datasets import DATASETS, DataSet
+from .datasets import DATASETS, EMULATED, DataSet
 from .learning import Lesson, lessons, part_for, taught
 from .recorded import Meta
 from .report import Result
-from .run import How
+from .run import Chosen, How, recipe_of
 from .score import Scored
 
 
@@ -75,9 +76,12 @@ def recordings(folder: Path, data_set: DataSet) -> list[tuple[Path, Meta]]:
     return [(path, meta) for path, meta in found if path.is_file()]
 
 
+Plan = list[tuple[DataSet, Recipe, list[tuple[Path, Meta]]]]
+
+
 def evaluate(
     folder: Path,
-    recipes: Sequence[str],
+    recipes: Sequence[Chosen],
     *,
     only: Sequence[str] = (),
     calibration: Calibration | None = None,
@@ -86,10 +90,36 @@ def evaluate(
 ) -> Iterator[Result]:
     """The result of each recipe on each data set of `folder`, as they are done; `calibration` is used for every
     recording, and `progress` gets (done, all)."""
+    data_sets, chosen = find(folder, only), [recipe_of(one) for one in recipes]
+    plan = [(d, recipe, recordings(folder, d)) for recipe in chosen for d in data_sets if d.suits(recipe)]
+    to_learn = lessons(folder, chosen) if any(data_set.folds for data_set in data_sets) else []
+    return _scored(plan, to_learn, calibration, processes, progress)
+
+
+def evaluate_emulated(
+    recipes: Sequence[Chosen],
+    seeds: Sequence[int],
+    *,
+    only: Sequence[str] = (),
+    calibration: Calibration | None = None,
+    processes: int = 1,
+    progress: Callable[[int, int], None] | None = None,
+) -> Iterator[Result]:
+    """The same on the emulated walks of `seeds`, of all kinds or of those named in `only`."""
+    chosen = [recipe_of(one) for one in recipes]
+    walks: list[tuple[Path, Meta]] = [(Path(f"seed {seed}"), {"seed": seed}) for seed in seeds]
+    plan = [(d, recipe, walks) for recipe in chosen for d in EMULATED if not only or d.name in only]
+    return _scored(plan, [], calibration, processes, progress)
+
+
+def _scored(
+    plan: Plan,
+    to_learn: list[Lesson],
+    calibration: Calibration | None,
+    processes: int,
+    progress: Callable[[int, int], None] | None,
+) -> Iterator[Result]:
     known = Calibration() if calibration is None else calibration
-    data_sets = find(folder, only)
-    plan = [(d, recipe, recordings(folder, d)) for recipe in recipes for d in data_sets if d.suits(recipe)]
-    to_learn = lessons(folder, recipes) if any(data_set.folds for data_set in data_sets) else []
     count = len(to_learn) + sum(len(part) for _, _, part in plan)
     done = 0
 
@@ -121,4 +151,4 @@ def evaluate(
                     scores.append(outcome)
                 else:
                     failures.append(outcome)
-            yield Result(data_set, recipe, tuple(scores), tuple(failures))
+            yield Result(data_set, recipe.name, tuple(scores), tuple(failures))

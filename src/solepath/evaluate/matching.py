@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Sequence
 
 import numpy as np
@@ -68,9 +69,12 @@ def match(
 
 def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> list[tuple[int, int]]:
     """(index in `true`, index in `found`) of the pairs no further apart than `tolerance`, the closest first served,
-    each used once; in the order of `true`."""
-    candidates = ((abs(f - t), i, j) for i, t in enumerate(true) for j, f in enumerate(found))
-    near = sorted(candidate for candidate in candidates if candidate[0] <= tolerance)
+    each used once; in the order of `true`. Both are in order of time."""
+    near: list[tuple[float, int, int]] = []
+    for i, t in enumerate(true):
+        around = range(bisect_left(found, t - 2.0 * tolerance), bisect_right(found, t + 2.0 * tolerance))
+        near += [(abs(found[j] - t), i, j) for j in around if abs(found[j] - t) <= tolerance]
+    near.sort()
     free_true, free_found = set(range(len(true))), set(range(len(found)))
     chosen: list[tuple[int, int]] = []
     for _, i, j in near:

@@ -20,6 +20,10 @@ def _short_metres(value: float | None) -> str:
     return number(value, 1)
 
 
+def _hundredths(share: float | None) -> str:
+    return percent(share, 2)
+
+
 def _count(value: float | None) -> str:
     return number(value, 0)
 
@@ -46,11 +50,15 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "relative": ("of path %", percent),
     "position_mean": ("error m", _metres),
     "position_max": ("largest m", _metres),
+    "largest_relative": ("of path %", _hundredths),
     "authors": ("authors' m", _metres),
     "authors_beaten": ("better %", percent),
     "end_error": ("end error m", _metres),
     "end_error_2d": ("in 2D m", _metres),
     "end_height": ("in height m", _metres),
+    "end_relative": ("of path %", _hundredths),
+    "height_end": ("height at end m", _metres),
+    "height_max": ("height, largest m", _metres),
     "strides_found": ("found", _count),
     "strides_true": ("of strides", _count),
     "strides_invented": ("invented", _count),
