@@ -466,6 +466,22 @@ def test_evaluate_in_short_is_a_markdown_table(data):
     assert second.startswith("|  | from end to start, horizontal | 0.") and second.endswith(" m |")
 
 
+def test_evaluate_says_what_figures_were(data, tmp_path):
+    old = tmp_path / "old.json"
+    command = ("evaluate", data, "--recipe", "default", "--processes", "1")
+    assert in_this_process(*command, "--json", old).returncode == 0
+    scores = json.loads(old.read_text())
+    scores["default"]["xio_closed_walks"]["summary"]["all"]["mean"]["end_error_2d"] *= 2.0
+    old.write_text(json.dumps(scores))
+    told = in_this_process(*command, "--compare", old)
+    assert told.returncode == 0 and "xio_closed_walks, default, compared: 1 better, 0 worse" in told.stdout
+    (line,) = (line for line in told.stdout.splitlines() if line.startswith("end_error_2d (mean)"))
+    was, now, word = line.split()[-3:]
+    assert float(was) == pytest.approx(2.0 * float(now), rel=0.02) and word == "better"
+    old.write_text("{")
+    assert "old.json: is not JSON" in one_line(in_this_process(*command, "--compare", old))
+
+
 def test_evaluate_says_what_it_needs(data, tmp_path, monkeypatch):
     monkeypatch.delenv("SOLEPATH_DATA", raising=False)
     needs = "evaluate needs DIR, or the environment variable SOLEPATH_DATA, or --emulated"

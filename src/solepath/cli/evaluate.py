@@ -48,6 +48,12 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("--json", metavar="FILE", type=Path, help="write the scores as JSON too")
     command.add_argument(
+        "--compare",
+        metavar="OLD",
+        type=Path,
+        help="the JSON of an earlier evaluation: say of every figure what it was, and whether it is better or worse",
+    )
+    command.add_argument(
         "--processes", metavar="N", type=int, default=os.cpu_count() or 1, help="how many recordings at a time"
     )
     command.set_defaults(run=run)
@@ -57,10 +63,12 @@ def run(options: argparse.Namespace) -> int:
     import json
 
     from .. import recipes
+    from ..evaluate.changes import read_scores
     from ..evaluate.datasets import EMULATED
     from ..evaluate.jobs import evaluate, evaluate_emulated
     from ..evaluate.report import as_json
     from ..recording import RecordingError
+    from ..view.changes import comparison_tables
     from ..view.markdown import accuracy_table
     from ..view.progress import progress_bar
     from ..view.scores import score_table
@@ -78,6 +86,7 @@ def run(options: argparse.Namespace) -> int:
     chosen = [known_recipe(name, known) for name in options.recipe]
     results = []
     try:
+        before = read_scores(options.compare) if options.compare else None
         with progress_bar("recordings", 100) as show:
 
             def percent(done: int, total: int) -> None:
@@ -102,6 +111,8 @@ def run(options: argparse.Namespace) -> int:
         print(accuracy_table(results))
         for failed in (sentence for result in results for sentence in result.failures):
             note(f"not scored: {failed}")
+    if before is not None:
+        print(comparison_tables(before, as_json(results)))
     if options.json:
         with options.json.open("w", encoding="utf-8") as file:
             json.dump(as_json(results), file, indent=1, allow_nan=False)

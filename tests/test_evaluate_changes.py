@@ -1,0 +1,110 @@
+"""Figures beside those of an earlier evaluation."""
+
+import copy
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath.evaluate.changes import BETTER, Better, Verdict, compared, missing, read_scores, verdict
+from solepath.evaluate.datasets import DATASETS, EMULATED
+from solepath.evaluate.score import Scored, pooled_figures
+from solepath.recording import RecordingError
+from solepath.view.changes import comparison_tables
+
+NEITHER = {
+    "path", "authors", "most_frequent", "strides_true", "rides_true", "heel_strike_true", "heel_strike_found",
+    "toe_off_true", "toe_off_found",
+}  # fmt: skip
+
+OLD = {
+    "default": {
+        "loops": {
+            "recordings": {"a": {"end_error": 1.0, "path": 60.0}, "b": {"end_error": 2.0, "path": 60.0}},
+            "summary": {
+                "all": {
+                    "count": 2, "mean": {"end_error": 1.5, "path": 60.0}, "median": {"end_error": 1.5},
+                    "together": {"heel_strike_bias": -0.02, "heel_strike_f1": 0.9}, "confusion": None,
+                }
+            },
+            "failures": [],
+        },
+        "walks": {"recordings": {}, "summary": {}, "failures": []},
+    }
+}  # fmt: skip
+
+
+def test_every_figure_of_the_tables_is_better_one_way_or_neither():
+    shown = {figure for data_set in (*DATASETS, *EMULATED) for figure in data_set.figures}
+    assert shown - BETTER.keys() == NEITHER & shown
+
+
+def test_an_error_is_better_when_it_is_smaller_and_a_share_when_it_is_larger():
+    assert verdict("end_error", 1.0, 0.9) is verdict("heel_strike_f1", 0.9, 0.95) is Verdict.BETTER
+    assert verdict("end_error", 0.9, 1.0) is verdict("heel_strike_f1", 0.95, 0.9) is Verdict.WORSE
+
+
+def test_a_bias_is_better_nearer_to_zero_on_either_side():
+    assert verdict("heel_strike_bias", -0.02, 0.01) is Verdict.BETTER
+    assert verdict("heel_strike_bias", -0.02, 0.02) is Verdict.SAME
+    assert verdict("heel_strike_bias", 0.01, -0.02) is Verdict.WORSE
+
+
+def test_what_cannot_be_seen_in_the_digits_shown_is_the_same():
+    assert verdict("end_error", 0.83481, 0.83479) is Verdict.SAME
+    assert verdict("end_error", None, None) is Verdict.SAME
+    assert verdict("end_error", None, 1.0) is verdict("path", 60.0, 61.0) is Verdict.CHANGED
+
+
+@given(figure=st.sampled_from(sorted(BETTER)), was=st.floats(-1e6, 1e6), now=st.floats(-1e6, 1e6))
+def test_what_is_better_now_was_worse_then(figure, was, now):
+    opposite = {Verdict.BETTER: Verdict.WORSE, Verdict.WORSE: Verdict.BETTER, Verdict.SAME: Verdict.SAME}
+    assert verdict(figure, now, was) is opposite[verdict(figure, was, now)]
+
+
+def test_recordings_and_data_sets_on_one_side_only_are_said():
+    now = copy.deepcopy(OLD)
+    loops = now["default"]["loops"]
+    loops["recordings"]["c"] = loops["recordings"].pop("b")
+    loops["recordings"]["a"]["end_error"] = 0.5
+    loops["summary"]["all"]["together"]["heel_strike_bias"] = 0.03
+    now["default"]["climbs"] = now["default"].pop("walks")
+    (changes,) = [found for found in compared(OLD, now) if found.data_set == "loops"]
+    assert (changes.gone, changes.new) == (("b",), ("c",))
+    assert {(c.what, c.figure, c.verdict) for c in changes.changes if c.verdict is not Verdict.SAME} == {
+        ("a", "end_error", Verdict.BETTER), ("together", "heel_strike_bias", Verdict.WORSE),
+    }  # fmt: skip
+    assert missing(OLD, now) == ["default: walks"] and missing(now, OLD) == ["default: climbs"]
+    told = comparison_tables(OLD, now)
+    assert "loops, default, compared: 1 better, 1 worse, 5 the same" in told
+    assert "scored then and not now: b\nnot scored then: c" in told
+    assert "evaluated then and not now: default: walks" in told and "not evaluated then: default: climbs" in told
+
+
+def test_a_recipe_that_is_on_one_side_only_is_said():
+    assert missing(OLD, {}) == ["default"]
+    assert compared({}, OLD) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "[1, 2]", '{"default": 3}', '{"default": {"loops": {}}}', '{"default": {"loops": {"recordings": {"a": 1}}}}'],
+)
+def test_a_file_that_holds_no_scores_is_refused_in_one_sentence(text, tmp_path):
+    file = tmp_path / "old.json"
+    file.write_text(text)
+    with pytest.raises(RecordingError, match=r"old\.json: (is not JSON|does not hold the scores of an evaluation)"):
+        read_scores(file)
+    with pytest.raises(RecordingError, match="No such file"):
+        read_scores(tmp_path / "none.json")
+
+
+def test_scores_that_were_written_are_read_again(tmp_path):
+    (tmp_path / "old.json").write_text(json.dumps(OLD))
+    assert read_scores(tmp_path / "old.json") == OLD
+
+
+def test_figures_of_a_recording_are_those_that_are_pooled():
+    assert Scored("a", {"rms_2d": 1.0}).flat() == {"rms_2d": 1.0} | pooled_figures({}, None, None, {})
+    assert Better.LESS is BETTER["rms_2d"]
