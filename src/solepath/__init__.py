@@ -1,6 +1,7 @@
 """solepath: bytes of foot-worn sensors in; gait events, steps and a track out."""
 
 from . import recipes
+from .body.gait_means import Figure, GaitParameters, StrideFigures
 from .body.position import Position
 from .calibration import Calibration, CalibrationError, read_calibration
 from .events import (
@@ -42,6 +43,7 @@ from .events import (
     StreamResumed,
     StreamStale,
     StrideFused,
+    StrideMeasured,
     ToeOff,
     TouchedDown,
     TurnMade,
@@ -84,6 +86,7 @@ __all__ = [
     "Disconnected",
     "Event",
     "FeetSwapped",
+    "Figure",
     "FlightClimbed",
     "FloorPlan",
     "FloorPlanError",
@@ -92,6 +95,7 @@ __all__ = [
     "FootHeard",
     "FootMoved",
     "FootSilent",
+    "GaitParameters",
     "HeelOff",
     "HeelStrike",
     "IndexedPlan",
@@ -126,7 +130,9 @@ __all__ = [
     "StreamRestarted",
     "StreamResumed",
     "StreamStale",
+    "StrideFigures",
     "StrideFused",
+    "StrideMeasured",
     "Support",
     "ToeOff",
     "TouchedDown",

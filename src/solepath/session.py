@@ -17,6 +17,7 @@ from typing import Any
 
 from attrs import define, evolve, field
 
+from .body.gait_means import GaitParameters
 from .body.position import Position
 from .calibration import Calibration, CalibrationError, unusable
 from .events import Event, PacketRejected, Placed, SampleRejected
@@ -249,6 +250,12 @@ class Session:
     def activity(self) -> Activity:
         """What the wearer does, as last told; UNKNOWN before anything was."""
         return self._state.wearer.activity.activity
+
+    @property
+    def gait(self) -> GaitParameters | None:
+        """Gait parameters as means of the steady strides so far, of walking or of running as the newest of them was;
+        None before any. Each stride's own are events (StrideMeasured)."""
+        return self._state.wearer.strides.parameters
 
     @property
     def support(self) -> Support | None:

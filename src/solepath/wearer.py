@@ -9,6 +9,7 @@ from typing import TypeVar
 from attrs import define, field
 
 from .body.position import Position
+from .body.strides import Strides
 from .body.turns import Turns
 from .body.wear import Wear
 from .calibration import Calibration
@@ -52,6 +53,7 @@ class Wearer:
     activity: AnyActivity = field(init=False)
     place: AnyPlace = field(init=False)
     turns: Turns = field(factory=Turns, init=False)
+    strides: Strides = field(factory=Strides, init=False)
     wear: Wear = field(factory=Wear, init=False)
     feet: dict[Foot, FootTracker] = field(factory=dict, init=False)
     unused: list[Site] = field(factory=list, init=False)
@@ -80,6 +82,9 @@ class Wearer:
                 events += self.wear.heard(tracker, sample, events)
                 events += self.body.foot_moved(tracker, sample, events)
                 events += did
+                if events or self.strides.waits:
+                    known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
+                    events += self.strides.foot_moved(tracker, self.feet, known_at, events, self.body)
                 if plan is not None and events:
                     self._follow(plan, events)
         return events
@@ -107,7 +112,8 @@ class Wearer:
 
     def finish(self, known_at: float) -> list[Event]:
         """No more samples come: what was held back. `known_at`: s, now."""
-        return [*self.activity.finish(known_at), *self.turns.finish(known_at)]
+        did: list[Event] = [*self.activity.finish(known_at), *self.turns.finish(known_at)]
+        return did + self.strides.finish(self.feet, known_at, self.body)
 
     def _follow(self, plan: IndexedPlan, events: list[Event]) -> None:
         """Where on the plan `events` lead."""
@@ -120,6 +126,7 @@ class Wearer:
         self.body.interrupt(site)
         self.activity.interrupt(site)
         self.turns.interrupt(site)
+        self.strides.interrupt(site)
 
     @property
     def position(self) -> Position | None:

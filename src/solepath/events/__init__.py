@@ -52,6 +52,7 @@ from .place import (
     Placed,
     PlaceLost,
 )
+from .stride import StrideMeasured
 from .wear import (
     CellFault,
     CellsFailed,
@@ -105,6 +106,7 @@ __all__ = [
     "StreamResumed",
     "StreamStale",
     "StrideFused",
+    "StrideMeasured",
     "ToeOff",
     "TouchedDown",
     "TurnMade",
@@ -132,7 +134,7 @@ LinkEvent = (
     | KeysChanged
     | Limitation
 )
-BodyEvent = StrideFused | TouchedDown | WalkingModeChanged
+BodyEvent = StrideMeasured | StrideFused | TouchedDown | WalkingModeChanged
 ActivityEvent = ActivityChanged | LiftRidden | FlightClimbed | TurnMade
 PlaceEvent = Placed | PlaceLost
 WearEvent = CellsFailed | InsoleNeverUnloads | FeetSwapped | FootSilent | FootHeard

@@ -1,0 +1,95 @@
+"""The gait cycles of one foot, from the events of its phases.
+
+A cycle goes from a contact of the foot to its next one. A stance or a swing of more than `STANDS` is no part of a
+stride: the wearer stood, or held the foot up.
+"""
+
+from __future__ import annotations
+
+from attrs import define, field
+
+from ..events import StepTaken, StrideMeasured
+from ..types import Vec3
+
+STANDS = 2.0
+"""Longer is no stance of a stride, and no swing, s."""
+SHORTEST = 0.35
+"""Nor is any stride of a runner shorter than this, s."""
+KEPT = 4
+"""Newest contacts, toe-offs and places of a foot that are remembered for the other's strides."""
+
+
+@define
+class Cycle:
+    """A cycle that is over but for its foot-flat, and the step that is told with that."""
+
+    start: float
+    toe_off: float
+    end: float
+    follows: bool
+    """The foot's cycle before it was a stride too."""
+    degraded: bool
+    flat: bool = False
+    """The foot lay flat after it: without a step it has stepped on the spot."""
+    step: StepTaken | None = None
+
+
+@define
+class Footfalls:
+    """One foot: the cycle under way, and those that wait."""
+
+    contact: float | None = None
+    """At which the cycle under way began, s; None while there is none."""
+    toe_off: float | None = None
+    """Within it, s; of a foot in the air even without a cycle."""
+    follows: bool = False
+    degraded: bool = False
+    ended: Cycle | None = None
+    waiting: list[Cycle] = field(factory=list)
+    count: int = 0
+    """Strides measured."""
+    last: StrideMeasured | None = None
+    """The newest of them, which counts in the means once another follows."""
+    contacts: list[float] = field(factory=list)
+    """The newest that were seen, s."""
+    toe_offs: list[float] = field(factory=list)
+    places: list[tuple[float, Vec3]] = field(factory=list)
+    """Contact (s) and place (own track, m) of the newest steps."""
+
+    def landed(self, t: float, inferred: bool) -> None:
+        """The foot touched the ground at `t`, s."""
+        start, toe_off = self.contact, self.toe_off
+        if start is not None and toe_off is None:
+            return  # it never left the ground
+        if start is not None and toe_off is not None:
+            stride = toe_off - start <= STANDS and t - toe_off <= STANDS and t - start >= SHORTEST
+            if stride:
+                self.ended = Cycle(start, toe_off, t, self.follows, self.degraded or inferred)
+            self.follows = stride
+        self.contact, self.toe_off, self.degraded = t, None, inferred
+        if not inferred:
+            self.contacts = [*self.contacts[1 - KEPT :], t]
+
+    def lifted(self, t: float, inferred: bool) -> None:
+        """The toe left the ground at `t`, s."""
+        self.toe_off = t
+        self.degraded = self.degraded or inferred
+        if not inferred:
+            self.toe_offs = [*self.toe_offs[1 - KEPT :], t]
+
+    def stepped(self, step: StepTaken) -> None:
+        """The foot is flat after a step."""
+        contact = step.t_end if step.t_heel_strike is None else step.t_heel_strike
+        self.places = [*self.places[1 - KEPT :], (contact, step.position)]
+        cycle = self.ended
+        # a runner's foot may go through several cycles without being flat: then nobody knows which way was whose
+        if cycle is not None and cycle.end == contact and cycle.toe_off == step.t_toe_off:
+            if step.t_start >= cycle.start:
+                cycle.step = step
+            cycle.degraded = cycle.degraded or step.degraded
+
+    def settle(self) -> None:
+        """All that belongs to the cycle that is over was told."""
+        if self.ended is not None:
+            self.waiting = [*self.waiting[1 - KEPT :], self.ended]
+            self.ended = None
