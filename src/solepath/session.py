@@ -115,10 +115,10 @@ class Session:
         """
         if self._state.finished:
             raise ValueError("this session is finished")
-        if isinstance(data, Packet):
-            return self._packet(data)
         if isinstance(data, Sample):
             return self._sample(data)
+        if isinstance(data, Packet):
+            return self._packet(data)
         if not isinstance(data, Iterable) or isinstance(data, str | bytes):
             raise TypeError(f"feed takes packets or samples, not {type(data).__name__}")
         events: list[Event] = []
@@ -202,14 +202,14 @@ class Session:
         return events
 
     def _sample(self, sample: Sample) -> list[Event]:
-        state, events = self._state, list[Event]()
-        if not isinstance(sample.site, Site) or not isinstance(sample.t, float | int):
+        state, t = self._state, sample.t
+        if not isinstance(sample.site, Site) or not isinstance(t, float | int):
             raise TypeError("a sample holds a time and a Site")
-        self._take(sample.site, [sample], events)
-        if not any([isinstance(event, SampleRejected) for event in events]) and (
-            state.now is None or sample.t > state.now
+        events = state.wearer.feed(sample, sample.site in state.decoders, self._plan)
+        if (state.now is None or t > state.now) and not (
+            events and any([isinstance(event, SampleRejected) for event in events])
         ):
-            state.now = sample.t
+            state.now = t
         return events
 
     def _take(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:

@@ -16,14 +16,28 @@ Quat = tuple[float, float, float, float]
 """Unit quaternion (w, x, y, z), turning sensor coordinates into world coordinates."""
 
 
-class Foot(Enum):
+class Word(Enum):
+    """A closed set of words. Each is one object, so that is its hash: Enum's own is a call of Python at every look-up,
+    and what is done with a sample looks up feet, sites and phases all the time."""
+
+    __hash__ = object.__hash__
+
+
+class Foot(Word):
     """One of the wearer's feet."""
 
     LEFT = "left"
     RIGHT = "right"
 
 
-class Site(Enum):
+class OnBody(Word):
+    """A place on the body."""
+
+    foot: Foot | None
+    """The foot that this site is, or None for the sites above the ankle."""
+
+
+class Site(OnBody):
     """Where on the body a sensor sits."""
 
     LEFT_FOOT = "left_foot"
@@ -35,21 +49,18 @@ class Site(Enum):
     RIGHT_SHANK = "right_shank"
 
     @property
-    def foot(self) -> Foot | None:
-        """The foot that this site is, or None for the sites above the ankle."""
-        return _FOOT_OF_SITE.get(self)
-
-    @property
     def words(self) -> str:
         """The site as in a sentence: "left foot"."""
         return self.value.replace("_", " ")
 
 
-_FOOT_OF_SITE = {Site.LEFT_FOOT: Foot.LEFT, Site.RIGHT_FOOT: Foot.RIGHT}
+for _site in Site:
+    _site.foot = {"left_foot": Foot.LEFT, "right_foot": Foot.RIGHT}.get(_site.value)
+
 SITE_OF_FOOT = {Foot.LEFT: Site.LEFT_FOOT, Foot.RIGHT: Site.RIGHT_FOOT}
 
 
-class Phase(Enum):
+class Phase(Word):
     """What one foot is doing; each phase begins with the event in brackets."""
 
     LOADING = "LOADING"  # HeelStrike
@@ -58,7 +69,7 @@ class Phase(Enum):
     SWING = "SWING"  # ToeOff
 
 
-class Support(Enum):
+class Support(Word):
     """Which feet carry the body."""
 
     DOUBLE = "DOUBLE"
@@ -67,7 +78,7 @@ class Support(Enum):
     FLIGHT = "FLIGHT"
 
 
-class WalkingMode(Enum):
+class WalkingMode(Word):
     """How the wearer walks: straight on, round a wide (4 m) or a tight (2 m) bend, or not at all."""
 
     STRAIGHT = "STRAIGHT"
@@ -78,7 +89,7 @@ class WalkingMode(Enum):
     STANDING = "STANDING"
 
 
-class Activity(Enum):
+class Activity(Word):
     """What the wearer does."""
 
     STANDING = "STANDING"
@@ -92,7 +103,7 @@ class Activity(Enum):
     UNKNOWN = "UNKNOWN"
 
 
-class Turn(Enum):
+class Turn(Word):
     """Where the wearer turned to."""
 
     LEFT = "LEFT"

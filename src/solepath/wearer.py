@@ -67,26 +67,34 @@ class Wearer:
     def feed(self, sample: Sample, scale_is_said: bool, plan: IndexedPlan | None) -> list[Event]:
         """A sample of any site. `scale_is_said`: by its link, which knows the range, so the foot need not. `plan`: the
         floor plan, always the same."""
-        sample = with_sound_attitude(sample)
+        if sample.quat is not None:
+            sample = with_sound_attitude(sample)
         foot = sample.site.foot
         if foot is None:
             return self._limb(sample)
-        tracker = self._tracker(foot)
-        tracker.scale_said = tracker.scale_said or scale_is_said
+        known = self.feet.get(foot)
+        tracker = self._tracker(foot) if known is None else known
+        if scale_is_said:
+            tracker.scale_said = True
         events = tracker.feed(sample)
-        if tracker.t is not None:  # else it could not be used: nothing is known of this foot yet
+        if tracker.t is None:  # it could not be used: nothing is known of this foot yet
+            return events
+        if known is None:
             self._keep(tracker)
-            if not (events and isinstance(events[0], SampleRejected)):
-                did: list[Event] = self.activity.foot_moved(tracker, sample, events)
-                did += self.turns.foot_moved(tracker, sample, events)
-                events += self.wear.heard(tracker, sample, events)
-                events += self.body.foot_moved(tracker, sample, events)
-                events += did
-                if events or self.strides.waits:
-                    known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
-                    events += self.strides.foot_moved(tracker, self.feet, known_at, events, self.body)
-                if plan is not None and events:
-                    self._follow(plan, events)
+        if events and isinstance(events[0], SampleRejected):
+            return events
+        did: list[Event] = self.activity.foot_moved(tracker, sample, events)
+        if events or self.turns.under_way:
+            did += self.turns.foot_moved(tracker, sample, events)
+        events += self.wear.heard(tracker, sample, events)
+        events += self.body.foot_moved(tracker, sample, events)
+        if did:
+            events += did
+        if events or self.strides.waits:
+            known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
+            events += self.strides.foot_moved(tracker, self.feet, known_at, events, self.body)
+        if plan is not None and events:
+            self._follow(plan, events)
         return events
 
     def hear(self, site: Site, event: Event) -> None:

@@ -64,6 +64,11 @@ class Turns:
     direction: Direction = field(factory=Direction, init=False)
     lain: dict[Foot, Lain] = field(factory=dict, init=False)
 
+    @property
+    def under_way(self) -> bool:
+        """A turn has begun, so that it may be over without any footfall."""
+        return self.direction.began is not None
+
     def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[TurnMade]:
         """The turns that are over: `events` are what came of `sample`."""
         found: list[Turned] = []

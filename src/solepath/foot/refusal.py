@@ -7,7 +7,7 @@ from math import inf, isfinite
 from attrs import evolve
 
 from ..events import Rejection, SampleRejected
-from ..types import Sample
+from ..types import Sample, Vec3
 from ..vector import normalise
 
 ABSURD_ACC = 500.0
@@ -27,23 +27,22 @@ Refusal = tuple[Rejection, str]
 
 def refusal(sample: Sample, newest: float | None) -> Refusal | None:
     """Why `sample` cannot be used after one of `newest` s; None when it can."""
-    t = sample.t
-    wrong = wrong_time(sample)
-    if wrong is not None:
-        return wrong
-    if newest is not None and t <= newest:
-        if t == newest:
-            return Rejection.DUPLICATE, f"a second sample for {t:.6g} s"
-        return Rejection.TIME_BACKWARDS, f"{newest - t:.6g} s before the sample before"
-    for name, vector, limit in (("acc", sample.acc, ABSURD_ACC), ("gyro", sample.gyro, ABSURD_GYRO)):
-        if vector is None:
-            continue
-        x, y, z = vector
-        if not (-limit < x < limit and -limit < y < limit and -limit < z < limit):
-            worst = next(value for value in vector if not -limit < value < limit)
-            if worst != worst or abs(worst) == inf:
-                return Rejection.NOT_FINITE, f"{name} is not a number"
-            return Rejection.ABSURD, f"{name} of {_shown(worst)}"
+    t, known_at = sample.t, sample.known_at
+    if (
+        not -ABSURD_TIME <= t <= ABSURD_TIME
+        or (known_at is not None and not -ABSURD_TIME <= known_at <= ABSURD_TIME)
+        or (newest is not None and t <= newest)
+    ):
+        return wrong_time(sample) or _wrong_order(t, t if newest is None else newest)
+    acc, gyro = sample.acc, sample.gyro
+    if acc is not None:
+        x, y, z = acc
+        if not (-ABSURD_ACC < x < ABSURD_ACC and -ABSURD_ACC < y < ABSURD_ACC and -ABSURD_ACC < z < ABSURD_ACC):
+            return _wrong_vector("acc", acc, ABSURD_ACC)
+    if gyro is not None:
+        x, y, z = gyro
+        if not (-ABSURD_GYRO < x < ABSURD_GYRO and -ABSURD_GYRO < y < ABSURD_GYRO and -ABSURD_GYRO < z < ABSURD_GYRO):
+            return _wrong_vector("gyro", gyro, ABSURD_GYRO)
     if sample.pressure:
         total = _total(sample.pressure)
         if not -ABSURD_TOTAL < total < ABSURD_TOTAL:
@@ -51,6 +50,19 @@ def refusal(sample: Sample, newest: float | None) -> Refusal | None:
                 f"pressure of {_shown(total)} in all"
             )
     return None
+
+
+def _wrong_order(t: float, newest: float) -> Refusal:
+    if t == newest:
+        return Rejection.DUPLICATE, f"a second sample for {t:.6g} s"
+    return Rejection.TIME_BACKWARDS, f"{newest - t:.6g} s before the sample before"
+
+
+def _wrong_vector(name: str, vector: Vec3, limit: float) -> Refusal:
+    worst = next(value for value in vector if not -limit < value < limit)
+    if worst != worst or abs(worst) == inf:
+        return Rejection.NOT_FINITE, f"{name} is not a number"
+    return Rejection.ABSURD, f"{name} of {_shown(worst)}"
 
 
 def _total(cells: tuple[float, ...]) -> float:

@@ -29,14 +29,19 @@ class Rhythm:
     def update(self, dt: float) -> bool:
         """One wait, s; True when it was a gap."""
         usual = self.usual
-        self.seen = min(self.seen + 1, self.young + 1)
+        if self.seen <= self.young:
+            self.seen += 1
         if usual is None or (self.seen <= self.young and dt * self.share < usual):
             self.usual = dt
             return False
-        gap = dt > self.share * usual and dt - usual > self.least
         # the usual wait follows slowly and mistrusts the unusual
-        self.usual = usual + 0.02 * (min(max(dt, 0.5 * usual), 2.0 * usual) - usual)
-        if not gap:
+        trusted = dt
+        if trusted < 0.5 * usual:
+            trusted = 0.5 * usual
+        elif trusted > 2.0 * usual:
+            trusted = 2.0 * usual
+        self.usual = usual + 0.02 * (trusted - usual)
+        if dt <= self.share * usual or dt - usual <= self.least:
             self.count = 0
             return False
         if self.count == 0 or abs(dt - self.first) > self.alike * self.first:

@@ -12,7 +12,7 @@ from attrs import define, evolve, field
 
 from ..events import Event, FootMoved, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
-from ..vector import ZERO, sub
+from ..vector import ZERO
 from .attitude import Levelling, Rest, suspected
 from .bias_zupt import BiasZupt
 from .contour_stance import ContourVelocity, GyroscopeMagnitude
@@ -172,58 +172,62 @@ class FootTracker:
 
     def feed(self, sample: Sample) -> list[Event]:
         """One sample of this foot. A sample that cannot be used changes nothing and is named in an event."""
-        t = sample.t
-        whole = sample.acc is not None and sample.gyro is not None
+        t, acc, gyro = sample.t, sample.acc, sample.gyro
+        whole = acc is not None and gyro is not None
         last = self.moved_at if whole else self.pressed_at
         why_not = refusal(sample, last)
         if why_not is not None:
             return [rejected(sample, why_not, last)]
         known_at = t if sample.known_at is None else max(t, sample.known_at)
-        if sample.acc is None and sample.gyro is None and not sample.pressure:
+        if acc is None and gyro is None and not sample.pressure:
             return []  # a barometer's or magnetometer's: not a matter of the foot
         events: list[Event] = []
         if self.limits.waiting:
             self.limits.flush(t, known_at, events)
-        self.t = t if self.t is None else max(self.t, t)
+        if self.t is None or t > self.t:
+            self.t = t
         if sample.saturated:
             self.gait.step.spoil(t)
-        load = self.sole.press(sample, known_at, self.phase, self.limits, events)
-        if self.sole.worn and self.insole.layout is not None:
-            self._wear_parts(self.insole.layout)
+        sole, load = self.sole, None
+        if sample.pressure or sole.pressed:
+            load = sole.press(sample, known_at, self.gait.phase, self.limits, events)
+            if sole.worn and sole.insole.layout is not None:
+                self._wear_parts(sole.insole.layout)
         if load is not None:
-            if self.phase is not Phase.SWING and self.gait.step.t_toe_off is None:
-                self.gait.step.loaded(sum(load.cells), load.centre)
-        elif self.needs_pressure and not self.sole.pressed:
+            gait = self.gait
+            if gait.phase is not Phase.SWING and gait.step.t_toe_off is None:
+                gait.step.loaded(sum(load.cells), load.centre)
+        elif self.needs_pressure and not sole.pressed:
             what = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
             self.limits.lacks(what, t, known_at, events)
             return events
-        if sample.acc is not None and sample.gyro is not None:
-            dt = 0.0 if last is None else self._watch_for_gaps(last, t, known_at, sample, events)
+        if acc is not None and gyro is not None:
+            dt = 0.0 if last is None else t - last
+            if last is not None and (self.rhythm.update(dt) or dt > LONGEST_BRIDGE):
+                dt = self._gap(last, t, known_at, sample, events)
             self.moved_at = t
             self.limits.since = None
             if load is None:
                 load, self.load = self.load, None
             if sample.quat is not None:
                 self.corrector.told(sample.quat)
-            self._inertial(t, dt, known_at, sample.acc, sample.gyro, sample.saturated, load, events)
+            self._inertial(t, dt, known_at, acc, gyro, sample.saturated, load, events)
             return events
         self.pressed_at = t
         if self.moved_at is not None and t - self.moved_at < WITHOUT:
             self.load = load  # cells and inertial sensor come apart; the next inertial sample takes the load along
         else:
-            dt = 0.0 if last is None else self._watch_for_gaps(last, t, known_at, sample, events)
+            dt = 0.0 if last is None else t - last
+            if last is not None and (self.rhythm.update(dt) or dt > LONGEST_BRIDGE):
+                dt = self._gap(last, t, known_at, sample, events)
             self._pressure_alone(t, dt, known_at, sample, load, events)
         return events
 
-    def _watch_for_gaps(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
+    def _gap(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
         """Name a gap between two samples; returns the time to integrate over, s."""
-        dt = t - last
-        if self.rhythm.update(dt) or dt > LONGEST_BRIDGE:
-            events.append(SampleGap(t=last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=dt))
-            self.gait.step.spoil(t)
-            if self.levelled:
-                return self._over_gap(last, t, known_at, sample, events)
-        return dt
+        events.append(SampleGap(t=last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=t - last))
+        self.gait.step.spoil(t)
+        return self._over_gap(last, t, known_at, sample, events) if self.levelled else t - last
 
     def _over_gap(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
         if t - last <= SHORTEST or sample.acc is None or sample.gyro is None:
@@ -232,9 +236,12 @@ class FootTracker:
         return cross(self.gait, self.corrector, self.cues, last, t, known_at, seen, self.rhythm.usual or 0.0, events)
 
     def _calibrated(self, acc: Vec3, gyro: Vec3) -> tuple[Vec3, Vec3]:
-        k = self.rest.scale
+        rest = self.rest
+        k = rest.scale
         x, y, z = acc
-        return (x * k, y * k, z * k), sub(gyro, self.rest.bias)
+        gx, gy, gz = gyro
+        bx, by, bz = rest.bias
+        return (x * k, y * k, z * k), (gx - bx, gy - by, gz - bz)
 
     def _inertial(
         self,
@@ -247,13 +254,13 @@ class FootTracker:
         load: Load | None,
         events: list[Event],
     ) -> None:
-        if self.rest.update(t, acc, gyro):
+        rest, corrector, gait = self.rest, self.corrector, self.gait
+        if rest.update(t, acc, gyro):
             self._check_scale(t, known_at, events)
             scaled = getattr(self.detector, "scaled", None)
             if scaled is not None:
-                scaled(self.rest.scale)
+                scaled(rest.scale)
         acc, gyro = self._calibrated(acc, gyro)
-        corrector, gait = self.corrector, self.gait
         if self.levelled:
             corrector.predict(dt, acc, gyro, saturated)
         stance = self.detector.update(t, dt, acc, gyro, load, corrector.attitude)
@@ -262,34 +269,34 @@ class FootTracker:
             if first is not None:
                 corrector.start(*first)
                 self.levelled = True
-                self.gait.step.begin(t, ZERO, corrector.attitude)
-            self._say_where(t, known_at, events)
+                gait.step.begin(t, ZERO, corrector.attitude)
+            if self.poses:
+                self._say_where(t, known_at, events)
             return
         believed = corrector.correct(t, stance)
         vx, vy, vz = corrector.velocity
         speed = sqrt(vx * vx + vy * vy + vz * vz)
-        still = believed and speed < STILL
         cues = self.cues
-        seen = cues.update(t, dt, gyro, still, speed, gait.phase, load, stance)
+        seen = cues.update(t, dt, gyro, believed and speed < STILL, speed, gait.phase, load, stance)
         if cues.mark is not None:
             corrector.mark(t, cues.mark)
         habit = gait.habit
         if habit.lifted is not None and t >= habit.due:
             habit.keep(t, corrector.attitude, corrector.velocity, corrector.position, acc, gyro)
-        self.gait.step.moved(t, dt, corrector.position[2], speed, cues.sagittal if cues.axis is not None else 0.0)
+        gait.step.moved(t, dt, corrector.position[2], speed, cues.sagittal if cues.axis is not None else 0.0)
         if seen:
             for one in seen:
                 self._see(one, known_at, events)
         elif gait.world.north is None:
             gait.world.find(corrector.position)
-        self._say_where(t, known_at, events)
+        if self.poses:
+            self._say_where(t, known_at, events)
 
     def _say_where(self, t: float, known_at: float, events: list[Event]) -> None:
-        if self.poses:
-            here, velocity = self.position, self.velocity
-            events.append(
-                FootMoved(t=t, known_at=known_at, foot=self.foot, position=here, velocity=velocity, phase=self.phase)
-            )
+        here, velocity = self.position, self.velocity
+        events.append(
+            FootMoved(t=t, known_at=known_at, foot=self.foot, position=here, velocity=velocity, phase=self.phase)
+        )
 
     def _pressure_alone(
         self, t: float, dt: float, known_at: float, sample: Sample, load: Load | None, events: list[Event]
