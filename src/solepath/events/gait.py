@@ -46,7 +46,8 @@ class StepFeatures:
     and heel-strike, m/s (Chen et al. 2019, equation (10)); None where the velocity of the rolling shoe was not used.
     `toe_off_angle`: how far the heel is up at toe-off, against the sole lying flat before, rad; `heel_strike_angle`:
     how far the toe is up at heel-strike, against the sole lying flat after it, rad. Both are about the axis to the
-    wearer's left, which a foot shows by its first push-off.
+    wearer's left, which a foot shows by its first push-off. `rise`: the height of the step as integration has it,
+    before it is judged whether the step was level, m.
     """
 
     clearance: float
@@ -57,6 +58,7 @@ class StepFeatures:
     error_index: float | None = None
     toe_off_angle: float | None = None
     heel_strike_angle: float | None = None
+    rise: float | None = None
 
 
 @frozen(kw_only=True)

@@ -16,14 +16,18 @@ tests/test_covariance.py holds them against the matrix form.
 
 from __future__ import annotations
 
+from math import sqrt
+
 Covariance = tuple[float, ...]
 """45 numbers: pp, pv, pt, vv, vt, tt."""
 
 Correction = tuple[float, float, float, float, float, float, float, float, float]
 """What to add to dp, dv and dt: m, m/s, rad."""
 
+HEIGHT = 5
+"""Where the variance of the height stands in a Covariance."""
 VELOCITY_X, VELOCITY_Y, VELOCITY_Z = 24, 27, 29
-"""Where the variances of the velocity stand in a Covariance."""
+"""Where the variances of the velocity stand."""
 TILT_X, TILT_Y, YAW = 39, 42, 44
 """Where the variances of the attitude stand."""
 
@@ -268,3 +272,14 @@ def update(
             htzx * wx + htzy * wy + htzz * wz,
         ),
     )
+
+
+def believed_height(covariance: Covariance, left: float) -> Covariance:
+    """The height is known from elsewhere, with `left` (0 to 1) of its variance: P <- D P D, D = diag(1, 1, d, 1, ...)
+    with d^2 = `left`. What else is uncertain stays so, and has less to do with the height."""
+    d = sqrt(left)
+    p = list(covariance)
+    p[HEIGHT] *= left
+    for i in (2, 4, 12, 13, 14, 21, 22, 23):  # ppxz, ppyz, pvz, ptz
+        p[i] *= d
+    return tuple(p)

@@ -18,6 +18,7 @@ from attrs import define, field
 from ..types import Phase, Quat, Vec3
 from ..vector import GRAVITY, TIE, ZERO, normalise
 from .covariance import (
+    HEIGHT,
     TILT_X,
     TILT_Y,
     VELOCITY_X,
@@ -26,9 +27,11 @@ from .covariance import (
     YAW,
     Correction,
     Covariance,
+    believed_height,
     propagate,
     update,
 )
+from .level import Level
 from .navigate import LONGEST_BRIDGE, Strapdown
 from .stance import Stance
 
@@ -76,6 +79,8 @@ class ErrorStateFilter(Strapdown):
     """What a stride taken by habit may differ by, m/s, rad and rad."""
     leap_tilt: float = 0.1
     leap_yaw: float = 0.06
+    level: Level = field(factory=Level)
+    """What keeps level walking level."""
     # state
     uncertainty: Covariance = field(default=(0.0,) * 45, init=False)
     stretch: float = field(default=0.0, init=False)
@@ -196,6 +201,19 @@ class ErrorStateFilter(Strapdown):
         self._carry()
         Strapdown.mend(self, yaw, position)
         self._here()
+
+    def flat(self, start: Vec3, turn: float) -> None:
+        if not self.level.gate:
+            return
+        self._carry()
+        (x, y, z), (sx, sy, sz) = self.position, start
+        variance = self.uncertainty[HEIGHT]
+        height, level = self.level.judge((x - sx, y - sy, z - sz), turn, variance, self.attitude)
+        # tilt and velocity are left out of it: what heights have in common is no random error of theirs
+        self.position = self.start_position = (x, y, sz + height)
+        least = self.level.uneven * self.level.uneven
+        if variance > least:
+            self.uncertainty = believed_height(self.uncertainty, 1.0 - level * (1.0 - least / variance))
 
     def anchor(self) -> tuple[float, ...]:
         self._carry()

@@ -103,12 +103,21 @@ class Gait:
         if mended is not None:
             (x, y, z), (dx, dy, dz) = step.start, mended.way
             corrector.mend(mended.turn, (x + dx, y + dy, z + dz))
+        rise = corrector.position[2] - step.start[2]
+        corrector.flat(step.start, turn)
         position, attitude = corrector.position, corrector.attitude
         if not self.headed and step.t_toe_off is not None:
             # the first step fixes the heading; until then it was the direction in which the foot set out
             self.headed = world.find(position, step.shortest)
         taken = step.finish(
-            t, known_at, position, attitude, corrector.covariance(), world, error_index=corrector.error_index
+            t,
+            known_at,
+            position,
+            attitude,
+            corrector.covariance(),
+            world,
+            error_index=corrector.error_index,
+            rise=rise,
         )
         if taken is not None:
             # a final step is never seen from another frame again, even when it was too short to give a direction

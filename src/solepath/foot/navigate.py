@@ -63,6 +63,10 @@ class Corrector(Protocol):
     def mend(self, yaw: float, position: Vec3) -> None:
         """A gap has spoilt the stride that ends here: turn the attitude by `yaw` rad, and take `position`, m."""
 
+    def flat(self, start: Vec3, turn: float) -> None:
+        """The foot is flat again, turned by `turn` rad since it was so at `start`, m: a corrector that knows whether a
+        step was level puts the height right."""
+
     def anchor(self) -> tuple[float, ...]:
         """Begin a new stretch here. Returns the covariance of the stretch that ends: position xx, xy, xz, yy, yz, zz
         (m^2) and yaw (rad^2)."""
@@ -99,6 +103,9 @@ class Strapdown:
         self.attitude = normalise(multiply(from_yaw(yaw), self.attitude))
         self.position = position
         self.force = None
+
+    def flat(self, start: Vec3, turn: float) -> None:
+        """As in `Corrector`; heights stay as integration has them."""
 
     def integrate(self, dt: float, acc: Vec3, gyro: Vec3) -> Vec3:
         """One sample; returns the mean acceleration over dt, m/s^2."""

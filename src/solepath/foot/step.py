@@ -175,6 +175,7 @@ class StepBuilder:
         world: World,
         *,
         error_index: float | None = None,
+        rise: float | None = None,
     ) -> StepTaken | None:
         """The foot is flat again: the step, if it was one. `position`, `attitude` and `stretch` as `begin` had them."""
         if self.t_start is None or self.t_toe_off is None or max(self.t_start, self.t_toe_off) > t:
@@ -211,5 +212,6 @@ class StepBuilder:
                 contact_load=self.load_sum / self.load_count if self.load_count else None,
                 cop=tuple(self.cop),
                 error_index=error_index,
+                rise=rise,
             ),
         )

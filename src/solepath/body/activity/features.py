@@ -156,13 +156,16 @@ class FootWindow:
 
     def _stepped(self, step: StepTaken) -> None:
         seen = step.features
+        # heights as integration has them: what is told from them was learnt so
+        rise = step.height_change if seen.rise is None else seen.rise
+        clearance = seen.clearance + max(step.height_change, 0.0) - max(rise, 0.0)
         self.steps.append(
             Stepped(
                 step.t_start,
                 step.t_end,
                 round(step.stride_length, 4),
-                round(step.height_change, 4),
-                round(seen.clearance, 4),
+                round(rise, 4),
+                round(clearance, 4),
                 round(seen.peak_speed, 4),
                 round(seen.swing_pitch, 4),
                 round(self.top - self.flat, 4),
