@@ -287,7 +287,7 @@ class FootTracker:
         if seen:
             for one in seen:
                 self._see(one, known_at, events)
-        elif gait.world.north is None:
+        elif not gait.headed:
             gait.world.find(corrector.position)
         if self.poses:
             self._say_where(t, known_at, events)

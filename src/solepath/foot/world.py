@@ -1,8 +1,8 @@
 """The world frame of one foot: z up, x along the first heading, y left, origin where the sensor was first seen.
 
 Navigation begins before anybody knows where the wearer will go, in a frame with an arbitrary heading. The first
-heading is known once the foot has moved a little; from then on everything is reported in the world frame. What was
-reported before lies within `FIRST_WAY` of the origin and was not final.
+heading is that of the first step; from when the foot has moved a little until that step is over it is the direction in
+which the foot has come so far. What was reported before lies within `FIRST_WAY` of the origin and was not final.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from ..types import Quat, Vec3
 from ..vector import from_yaw, multiply
 
 FIRST_WAY = 0.15
-"""The first heading is the direction in which the foot is this far from where it first stood, m."""
+"""The foot tells a heading when it is this far from where it first stood, m."""
 
 Covariance3 = tuple[float, float, float, float, float, float]
 """xx, xy, xz, yy, yz, zz."""
