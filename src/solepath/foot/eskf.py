@@ -16,7 +16,8 @@ from math import inf
 from attrs import define, field
 
 from ..types import Phase, Quat, Vec3
-from ..vector import GRAVITY, TIE, ZERO, normalise
+from ..vector import GRAVITY, TIE, ZERO, from_rotation_vector, multiply, normalise
+from .clipping import NUDGE, Clipping, Missed, apart, spread
 from .covariance import (
     HEIGHT,
     TILT_X,
@@ -58,12 +59,13 @@ class ErrorStateFilter(Strapdown):
     between: float = 0.25
     """What two neighbouring samples differ by and the straight line between them cannot know, as a share of it. Small
     at 400 Hz; at 20 Hz, where a heel-strike falls between two samples, all that there is."""
-    clipping: float = 8.5
-    """Rates beyond this may be clipped (many foot sensors end at 500 deg/s), rad/s."""
-    clipped_noise: float = 0.3
-    """Noise of a rate that may be clipped, rad/s/sqrt(Hz)."""
-    saturated_noise: float = 1.0
-    """Noise of a rate that the device says is clipped, rad/s/sqrt(Hz)."""
+    recover: bool = True
+    """Make up for the turn that a gyroscope at the end of its range missed (clipping.py)."""
+    suspect: float = 8.5
+    """Rates beyond this may be clipped though no end of a range is seen (axes that were turned since, by a
+    calibration), rad/s."""
+    suspect_noise: float = 0.2
+    """Noise of such a rate, rad/s/sqrt(Hz)."""
     heading_drift: float = 0.004
     """Growth of the heading error, rad/sqrt(s): half a degree in the first four seconds, two in a minute. What the
     noise above makes of yaw is not it: that noise is there to keep tilt correctable, and over a step it cancels."""
@@ -94,6 +96,10 @@ class ErrorStateFilter(Strapdown):
     accepted: float | None = field(default=None, init=False)
     quietest: float = field(default=1e12, init=False)
     quiet_since: float | None = field(default=None, init=False)
+    clipping: Clipping = field(factory=Clipping, init=False)
+    earlier: Vec3 = field(default=ZERO, init=False)
+    """The rate before `rate`, rad/s, and how long before it, s:"""
+    earlier_dt: float = field(default=0.0, init=False)
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         self.attitude = attitude
@@ -109,26 +115,32 @@ class ErrorStateFilter(Strapdown):
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         before, rate = self.force or ZERO, self.rate or gyro
-        ax, ay, az = self.integrate(dt, acc, gyro)
         gx, gy, gz = gyro
         rx, ry, rz = rate
+        turning = gx * gx + gy * gy + gz * gz
+        clipping, missed = self.clipping, None
+        if clipping.busy or turning > clipping.watch:
+            missed = clipping.update(dt, gyro, rate, self.earlier, self.earlier_dt, saturated)
+            clipping.keep(dt, gyro, rate, acc, self.attitude)
+        elif clipping.rows:
+            clipping.rows = []
+        self.earlier, self.earlier_dt = rate, dt
+        ax, ay, az = self.integrate(dt, acc, gyro)
         fx, fy, fz = before
         x, y, z = self.force or ZERO
         x, y, z, rx, ry, rz = x - fx, y - fy, z - fz, gx - rx, gy - ry, gz - rz
         share, unknown = self.in_motion * self.in_motion, self.between * self.between * dt
-        turning = gx * gx + gy * gy + gz * gz
         self.acc_variance += (
             self.acc_noise * self.acc_noise + share * (ax * ax + ay * ay + az * az) + unknown * (x * x + y * y + z * z)
         ) * dt
         noise = self.gyro_noise * self.gyro_noise + share * turning + unknown * (rx * rx + ry * ry + rz * rz)
-        limit = self.clipping
-        if saturated:
-            noise += self.saturated_noise * self.saturated_noise
-        elif turning > limit * limit and (abs(gx) > limit or abs(gy) > limit or abs(gz) > limit):
-            noise += self.clipped_noise * self.clipped_noise
+        if turning > self.suspect * self.suspect and not (clipping.busy and self.recover):
+            noise += self.suspect_noise * self.suspect_noise
         self.gyro_variance += noise * dt
         self.since += dt
         self.stretch += dt
+        if missed and self.recover:
+            self._missed(missed)
 
     def correct(self, t: float, stance: Stance) -> bool:
         sigma = stance.sigma
@@ -162,12 +174,26 @@ class ErrorStateFilter(Strapdown):
         self.quietest = 1e12
         return True
 
+    def _missed(self, missed: tuple[Missed, ...]) -> None:
+        """The state as it is with what the gyroscope turned out to have missed, and the doubt: clipping.py."""
+        self._carry()
+        for one in missed:
+            seen, likely, more = (self.clipping.anew(one, angle) for angle in (0.0, one.angle, one.angle + NUDGE))
+            (px, py, pz), (vx, vy, vz), turn = apart(seen, likely)
+            x, y, z = self.position
+            self.position = self.start_position = (x + px, y + py, z + pz)
+            x, y, z = self.velocity
+            self.velocity = self.start_velocity = (x + vx, y + vy, z + vz)
+            self.attitude = normalise(multiply(from_rotation_vector(turn), self.attitude))
+            self.uncertainty = spread(self.uncertainty, *apart(likely, more), one.sigma / NUDGE)
+
     def bridge(self, dt: float) -> float:
         # a foot accelerates by some 10 m/s^2 and turns by some rad/s; what happened in between is anyone's guess
         if dt <= LONGEST_BRIDGE:
             self.acc_variance += 4.0 * dt
             self.gyro_variance += 0.25 * dt
             return dt
+        self.clipping.interrupt()
         self._carry()
         if dt == inf:  # times begin anew
             self.accepted = self.quiet_since = None
@@ -184,6 +210,7 @@ class ErrorStateFilter(Strapdown):
         return 0.0
 
     def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+        self.clipping.interrupt()
         self._carry()
         self.stretch += dt
         self.attitude, self.velocity, self.position = attitude, velocity, position
@@ -216,6 +243,7 @@ class ErrorStateFilter(Strapdown):
             self.uncertainty = believed_height(self.uncertainty, 1.0 - level * (1.0 - least / variance))
 
     def anchor(self) -> tuple[float, ...]:
+        self.clipping.stepped()
         self._carry()
         stretch = self._stretch(self.uncertainty)
         self.stretch = 0.0
