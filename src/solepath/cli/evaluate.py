@@ -14,6 +14,7 @@ from .failure import Failure, known_recipe, note
 
 if TYPE_CHECKING:
     from ..evaluate.report import Result
+    from ..recipes import Recipe
 
 ENVIRONMENT = "SOLEPATH_DATA"
 
@@ -44,6 +45,11 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("--seed", metavar="K", type=int, default=1, help="the first one's seed (default: 1)")
     command.add_argument(
+        "--ablation",
+        action="store_true",
+        help="the default recipe with one part at a time switched off, and what becomes of its main figures",
+    )
+    command.add_argument(
         "--markdown", action="store_true", help="print one table of the averages only, as the README quotes it"
     )
     command.add_argument("--json", metavar="FILE", type=Path, help="write the scores as JSON too")
@@ -63,11 +69,13 @@ def run(options: argparse.Namespace) -> int:
     import json
 
     from .. import recipes
+    from ..evaluate import ablation
     from ..evaluate.changes import read_scores
     from ..evaluate.datasets import EMULATED
-    from ..evaluate.jobs import evaluate, evaluate_emulated
+    from ..evaluate.jobs import evaluate, evaluate_emulated, find
     from ..evaluate.report import as_json
     from ..recording import RecordingError
+    from ..view.ablation import ablation_table
     from ..view.changes import comparison_tables
     from ..view.markdown import accuracy_table
     from ..view.progress import progress_bar
@@ -82,8 +90,12 @@ def run(options: argparse.Namespace) -> int:
         raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
     if options.walks < 1 or options.seed < 0:
         raise Failure("--walks must be 1 or more, and --seed not negative")
-    known = list(recipes.BY_NAME)
-    chosen = [known_recipe(name, known) for name in options.recipe]
+    known: list[str | Recipe] = list(recipes.BY_NAME)
+    chosen: list[str | Recipe] = [known_recipe(name, list(recipes.BY_NAME)) for name in options.recipe]
+    if options.ablation:
+        if chosen:
+            raise Failure("--ablation chooses the recipes itself, so it goes without --recipe")
+        chosen = list(ablation.recipes())
     results = []
     try:
         before = read_scores(options.compare) if options.compare else None
@@ -96,6 +108,9 @@ def run(options: argparse.Namespace) -> int:
                 "calibration": calibration_of(options), "processes": max(1, options.processes), "progress": percent,
             }  # fmt: skip
             parts: list[Iterator[Result]] = []
+            if options.ablation and folder is not None and not options.only:
+                main = {column.data_set for column in ablation.COLUMNS}
+                recorded = [data_set.name for data_set in find(folder) if data_set.name in main]
             if folder is not None and (recorded or not options.only):
                 parts.append(evaluate(folder, chosen or known, only=recorded, **how))
             if emulated:
@@ -103,12 +118,15 @@ def run(options: argparse.Namespace) -> int:
                 parts.append(evaluate_emulated(chosen or [recipes.DEFAULT], seeds, only=walked, **how))
             for result in chain(*parts):
                 results.append(result)
-                if not options.markdown:
+                if not options.markdown and not options.ablation:
                     print(score_table(result), end="\n\n", flush=True)
     except RecordingError as error:
         raise Failure(str(error)) from None
-    if options.markdown:
+    if options.ablation:
+        print(ablation_table(results, options.markdown))
+    elif options.markdown:
         print(accuracy_table(results))
+    if options.ablation or options.markdown:
         for failed in (sentence for result in results for sentence in result.failures):
             note(f"not scored: {failed}")
     if before is not None:

@@ -1,0 +1,74 @@
+"""The table of what each part of the default recipe is worth."""
+
+import pytest
+
+from solepath.evaluate.ablation import COLUMNS, WITHOUT, Column, recipes
+from solepath.evaluate.changes import BETTER
+from solepath.evaluate.datasets import DATASETS, EMULATED
+from solepath.evaluate.matching import Matching
+from solepath.evaluate.report import Result
+from solepath.evaluate.score import Scored
+from solepath.machine import load, save
+from solepath.recipes import DEFAULT
+from solepath.session import Session
+from solepath.sim.route import Route
+from solepath.sim.walk import sampled
+from solepath.view.ablation import ablation_table
+
+BY_NAME = {data_set.name: data_set for data_set in (*DATASETS, *EMULATED)}
+
+
+def results(recipe, height, offset):
+    loops = Scored("a", {"end_error": height})
+    walks = Scored("b", events={"heel_strike": Matching(1, 1, (offset,))})
+    return [
+        Result(BY_NAME["xio_closed_walks"], recipe, (loops,)),
+        Result(BY_NAME["gaitmap_examples"], recipe, (walks,)),
+    ]
+
+
+def test_every_row_differs_from_the_default_and_from_every_other():
+    first, *rows = recipes()
+    assert first is DEFAULT and [row.name for row in rows] == list(WITHOUT)
+    parts = [(row.detector, row.corrector, row.cues, row.insole, row.body) for row in (first, *rows)]
+    assert all(one != other for k, one in enumerate(parts) for other in parts[:k])
+
+
+def test_the_parts_of_every_row_can_be_saved():
+    for row in recipes():
+        for part in (row.detector, row.corrector):
+            assert load(type(part), save(part)) == part
+
+
+def test_every_column_is_a_figure_that_is_better_one_way():
+    for column in COLUMNS:
+        assert column.figure in BETTER and column.data_set in BY_NAME
+
+
+def test_a_row_holds_what_each_data_set_came_to():
+    scored = [*results("default", 0.5, -0.012), *results("no wings", 2.0, 0.034)]
+    text = ablation_table(scored).splitlines()
+    assert text[0].split() == ["xio", "end", "m", "gaitmap", "HS", "ms"]
+    assert text[2].split() == ["default", "0.500", "-12"] and text[3].split() == ["no", "wings", "2.000", "34"]
+    assert ablation_table(scored, markdown=True).splitlines() == [
+        "|  | xio end m | gaitmap HS ms |", "| --- | ---: | ---: |", "| default | 0.500 | -12 |",
+        "| no wings | 2.000 | 34 |",
+    ]  # fmt: skip
+
+
+def test_what_was_not_scored_is_a_dash():
+    column = Column("RMS 3D", "pyshoe_vicon", "rms_3d")
+    assert column.of(results("default", 0.5, 0.0), "default") is None
+    assert "-" in ablation_table([*results("default", 0.5, 0.0), *results("mute", None, 0.0)]).splitlines()[-1].split()
+
+
+@pytest.fixture(scope="module")
+def samples():
+    return sampled(Route().stand(1.0).walk(2.0).stop(0.5), seed=101).samples
+
+
+@pytest.mark.parametrize("without", WITHOUT)
+def test_whatever_is_missing_the_wearer_is_somewhere(without, samples):
+    session = Session(WITHOUT[without])
+    session.feed(samples)
+    assert all(abs(part) < 10.0 for part in session.position.position)
