@@ -1,4 +1,4 @@
-"""What `track` writes: events.jsonl, track.csv and steps.csv, with a floor plan also places.csv.
+"""What `track` writes: events.jsonl, track.csv, steps.csv and gait.csv, with a floor plan also places.csv.
 
 Times are the recording's own, written so that reading gives the same float again; places in m to the micrometre.
 """
@@ -17,14 +17,22 @@ from typing import Any, TextIO
 import attrs
 from attrs import define, field
 
-from .events import Event, FootMoved, Placed, StepTaken
+from .events import Event, FootMoved, Placed, StepTaken, StrideMeasured
 from .types import Site
 
-EVENTS, TRACK, STEPS, PLACES, PLAN = "events.jsonl", "track.csv", "steps.csv", "places.csv", "plan.svg"
+EVENTS, TRACK, STEPS, GAIT = "events.jsonl", "track.csv", "steps.csv", "gait.csv"
+PLACES, PLAN = "places.csv", "plan.svg"
 TRACK_COLUMNS = ("t", "foot", "x", "y", "z", "phase")
 STEP_COLUMNS = (
     "foot", "t_start", "t_end", "x", "y", "z", "stride_length", "heading_change", "height_change", "degraded",
 )  # fmt: skip
+GAIT_TIMES = ("t_start", "t_toe_off", "t")
+GAIT_MEASURES = (
+    "stride_time", "stance_time", "swing_time", "step_time", "initial_double_support", "terminal_double_support",
+    "single_support", "stance_share", "double_support_share", "cadence", "stride_length", "step_length", "step_width",
+    "speed", "clearance", "toe_off_angle", "heel_strike_angle", "turning_angle", "rise", "phase",
+)  # fmt: skip
+GAIT_COLUMNS = ("foot", "number", *GAIT_TIMES, *GAIT_MEASURES, "degraded", "steady")
 PLACE_COLUMNS = ("t", "level", "x", "y", "z", "spread", "heading", "candidates", "weight")
 FIRST_KEYS = ("t", "known_at", "final", "foot")
 
@@ -68,14 +76,22 @@ def _place_row(event: Placed) -> list[str]:
     return [repr(event.t), event.level, *numbers, heading, str(len(event.candidates)), f"{first.weight:.4f}"]
 
 
+def _gait_row(event: StrideMeasured) -> list[str]:
+    """What could not be told is left empty."""
+    times = [repr(getattr(event, name)) for name in GAIT_TIMES]
+    values = [getattr(event, name) for name in GAIT_MEASURES]
+    measures = ["" if value is None else f"{value:.6f}" for value in values]
+    return [event.foot.value, str(event.number), *times, *measures, str(int(event.degraded)), str(int(event.steady))]
+
+
 @define
 class TrackFiles:
     """The files in `directory`, which is made when there is none. Files of an earlier run are replaced.
 
-    A FootMoved is a row of track.csv, a final StepTaken one of steps.csv, a Placed one of places.csv (its heaviest
-    candidate's, and how many there are), and every event but FootMoved a line of events.jsonl. `places`: of a session
-    with a floor plan; without one there is no places.csv. OSError, naming the directory, when they cannot be made or
-    written (the disk is full).
+    A FootMoved is a row of track.csv, a final StepTaken one of steps.csv, a StrideMeasured one of gait.csv, a Placed one
+    of places.csv (its heaviest candidate's, and how many there are), and every event but FootMoved a line of
+    events.jsonl. `places`: of a session with a floor plan; without one there is no places.csv. OSError, naming the
+    directory, when they cannot be made or written (the disk is full).
     """
 
     directory: Path
@@ -84,6 +100,7 @@ class TrackFiles:
     _events: TextIO = field(init=False)
     _track: TextIO = field(init=False)
     _steps: Any = field(init=False)
+    _gait: Any = field(init=False)
     _places: Any = field(default=None, init=False)
 
     def __attrs_post_init__(self) -> None:
@@ -92,6 +109,8 @@ class TrackFiles:
         self._track.write(",".join(TRACK_COLUMNS) + "\n")
         self._steps = csv.writer(steps, lineterminator="\n")
         self._steps.writerow(STEP_COLUMNS)
+        self._gait = csv.writer(self._open(GAIT), lineterminator="\n")
+        self._gait.writerow(GAIT_COLUMNS)
         if self.places:
             self._places = csv.writer(self._open(PLACES), lineterminator="\n")
             self._places.writerow(PLACE_COLUMNS)
@@ -119,6 +138,8 @@ class TrackFiles:
             lengths = (x, y, z, event.stride_length, event.heading_change, event.height_change)
             row = [event.foot.value, repr(event.t_start), repr(event.t_end), *(f"{v:.6f}" for v in lengths)]
             self._steps.writerow([*row, int(event.degraded)])
+        elif isinstance(event, StrideMeasured):
+            self._gait.writerow(_gait_row(event))
         elif isinstance(event, Placed) and self._places is not None:
             self._places.writerow(_place_row(event))
 

@@ -6,6 +6,7 @@ from collections import Counter
 
 from attrs import define, field
 
+from .body.gait_means import GaitMeans
 from .events import (
     ActivityChanged,
     CellsFailed,
@@ -33,6 +34,7 @@ from .events import (
     StreamRestarted,
     StreamStale,
     StrideFused,
+    StrideMeasured,
     ToeOff,
     TouchedDown,
     TurnMade,
@@ -52,6 +54,8 @@ DATED: dict[type[Event], str] = {
 """The events of a foot's phases, and what they are called."""
 
 
+EVER = 10**9
+"""More strides than anybody takes."""
 NAMED = 8
 """Cells that are named one by one."""
 
@@ -152,6 +156,8 @@ class Tally:
     rides: Counter[bool] = field(factory=Counter)
     """Rides in a lift, as well."""
     turns: Counter[Turn] = field(factory=Counter)
+    gait: GaitMeans = field(factory=lambda: GaitMeans(memory=EVER))
+    """Of all steady strides, none fading."""
     worn: list[str] = field(factory=list)
     """What is wrong with how sensors are worn, or with their cells; each once."""
     silences: Counter[Foot] = field(factory=Counter)
@@ -230,6 +236,8 @@ class Tally:
             case ScaleSuspect(site=site, magnitude=magnitude, suggestion=suggestion):
                 told = f": {suggestion}" if suggestion else ""
                 self.suspects.append(f"{site.words}: |acc| is {magnitude:.2f} m/s^2 at rest{told}")
+            case StrideMeasured():
+                self.gait.hear(event)
             case StrideFused(final=True):
                 self.fused = event
             case TouchedDown(mode=mode, final=True):

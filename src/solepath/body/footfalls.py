@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from attrs import define, field
 
-from ..events import StepTaken, StrideMeasured
+from ..events import StepTaken
 from ..types import Vec3
 
 STANDS = 2.0
@@ -48,8 +48,6 @@ class Footfalls:
     waiting: list[Cycle] = field(factory=list)
     count: int = 0
     """Strides measured."""
-    last: StrideMeasured | None = None
-    """The newest of them, which counts in the means once another follows."""
     contacts: list[float] = field(factory=list)
     """The newest that were seen, s."""
     toe_offs: list[float] = field(factory=list)

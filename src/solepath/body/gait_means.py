@@ -24,17 +24,17 @@ MEMORY = 120
 
 @define
 class RunningMean:
-    """Mean and variance of a figure, older values fading once there were `MEMORY`. O(1)."""
+    """Mean and variance of a figure. O(1)."""
 
     count: int = 0
-    """Values, up to MEMORY."""
+    """Values, up to those that are remembered."""
     mean: float = 0.0
     variance: float = 0.0
     """About the mean, by the weights of the values."""
 
-    def add(self, value: float) -> None:
-        """One more."""
-        self.count = min(self.count + 1, MEMORY)
+    def add(self, value: float, memory: int) -> None:
+        """One more; older ones fade once there were `memory`."""
+        self.count = min(self.count + 1, memory)
         weight = 1.0 / self.count
         off = value - self.mean
         self.mean += weight * off
@@ -55,7 +55,7 @@ class Figure:
     mean: float
     sd: float | None
     strides: int
-    """Over which it was taken, at most 120 of a foot."""
+    """Over which it was taken; of a session at most 120 of a foot."""
 
     @property
     def cv(self) -> float | None:
@@ -145,15 +145,15 @@ class StrideSums:
         """A foot's."""
         return self.left if foot is Foot.LEFT else self.right
 
-    def add(self, stride: StrideMeasured) -> None:
+    def add(self, stride: StrideMeasured, memory: int) -> None:
         """One more stride."""
         sums = self.of(stride.foot)
         for name in NAMES:
             value = getattr(stride, name)
             if value is not None:
-                sums.setdefault(name, RunningMean()).add(value)
+                sums.setdefault(name, RunningMean()).add(value, memory)
         if stride.phase is not None:
-            sums.setdefault(OFF, RunningMean()).add(abs(stride.phase - 0.5))
+            sums.setdefault(OFF, RunningMean()).add(abs(stride.phase - 0.5), memory)
 
     @property
     def coordination(self) -> float | None:
@@ -172,18 +172,41 @@ def _swing(sums: dict[str, RunningMean]) -> float:
 
 @define
 class GaitMeans:
-    """Steady strides in, running means out."""
+    """Every stride in, running means of the steady ones out: each is counted once the next one of its foot follows, so
+    that the last one before a stop is not."""
 
+    memory: int = MEMORY
+    """Strides of a foot after which old ones fade."""
     # state
+    left: StrideMeasured | None = field(default=None, init=False)
+    right: StrideMeasured | None = field(default=None, init=False)
+    """The foot's newest stride."""
     walked: StrideSums = field(factory=StrideSums, init=False)
     run: StrideSums = field(factory=StrideSums, init=False)
     running: bool | None = field(default=None, init=False)
-    """What the newest stride was; None before any."""
+    """What the newest stride that counts was; None before any."""
 
-    def add(self, stride: StrideMeasured) -> None:
-        """One more steady stride."""
-        self.running = stride.running
-        (self.run if stride.running else self.walked).add(stride)
+    def newest(self, foot: Foot) -> StrideMeasured | None:
+        """The foot's newest stride."""
+        return self.left if foot is Foot.LEFT else self.right
+
+    def hear(self, stride: StrideMeasured) -> None:
+        """One more stride, of either foot in the order of its time."""
+        before = self.newest(stride.foot)
+        if stride.foot is Foot.LEFT:
+            self.left = stride
+        else:
+            self.right = stride
+        if before is not None and before.steady and before.t == stride.t_start:
+            self.running = before.running
+            (self.run if before.running else self.walked).add(before, self.memory)
+
+    def interrupt(self, foot: Foot) -> None:
+        """Nothing that comes follows what came."""
+        if foot is Foot.LEFT:
+            self.left = None
+        else:
+            self.right = None
 
     @property
     def parameters(self) -> GaitParameters | None:

@@ -75,6 +75,7 @@ class Strides:
         """The clock of a site's samples begins anew: what is under way there has no length, and the other foot's times
         cannot be compared with it any more."""
         if site.foot is not None:
+            self.means.interrupt(site.foot)
             count = self._falls(site.foot).count
             if site.foot is Foot.LEFT:
                 self.left = Footfalls(count=count)
@@ -115,9 +116,7 @@ class Strides:
         told: list[Event] = []
         for cycle in cycles:
             falls.count += 1
-            stride = measured(foot, falls.count, cycle, falls.last, other, tracked, known_at, body)
-            if falls.last is not None and falls.last.steady and falls.last.t == stride.t_start:
-                self.means.add(falls.last)
-            falls.last = stride
+            stride = measured(foot, falls.count, cycle, self.means.newest(foot), other, tracked, known_at, body)
+            self.means.hear(stride)
             told.append(stride)
         return told

@@ -41,6 +41,7 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     from ..demo import ROUTE, make_demo, radio, straight
     from ..view.comparison import comparison_table
+    from ..view.gait import gait_lines
     from ..view.summary import latency
 
     route = ROUTE if options.distance is None else straight(options.distance)
@@ -60,7 +61,8 @@ def run(options: argparse.Namespace) -> int:
     else:
         _tell(demo)
     print()
-    print("\n".join([comparison_table(demo.comparison()), "", *latency(demo.monitor.tally)]))
+    gait = gait_lines(demo.monitor.tally.gait) or [""]
+    print("\n".join([comparison_table(demo.comparison()), *gait, *latency(demo.monitor.tally)]))
     return 0
 
 

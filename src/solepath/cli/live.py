@@ -30,7 +30,8 @@ def add_to(commands: Any) -> None:
         "--out",
         metavar="DIR",
         type=Path,
-        help="write events.jsonl, track.csv and steps.csv into this directory, with a floor plan places.csv too",
+        help="write events.jsonl, track.csv, steps.csv and gait.csv into this directory, with a floor plan "
+        "places.csv too",
     )
     live.set_defaults(run=run)
 

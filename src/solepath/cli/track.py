@@ -39,7 +39,8 @@ def add_to(commands: Any) -> None:
         "--out",
         metavar="DIR",
         type=Path,
-        help="write events.jsonl, track.csv and steps.csv into it, with a floor plan places.csv and plan.svg too",
+        help="write events.jsonl, track.csv, steps.csv and gait.csv into it, with a floor plan places.csv and "
+        "plan.svg too",
     )
     command.set_defaults(run=run)
 

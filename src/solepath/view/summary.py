@@ -7,6 +7,7 @@ from statistics import median
 from ..recording import printable
 from ..tally import DATED, Tally
 from ..types import Foot, Site, Turn, WalkingMode
+from .gait import gait_lines
 from .table import milliseconds, number, table
 
 
@@ -33,6 +34,7 @@ def summary(tally: Tally, *, title: str, seconds: float) -> str:
             lines.append(f"{foot.value}: {one.degraded} of {one.steps} steps degraded by missing or saturated samples")
     lines += _together(tally)
     lines += did(tally)
+    lines += gait_lines(tally.gait)
     lines += worn(tally)
     lines += link_health(tally)
     lines += latency(tally)
