@@ -23,8 +23,8 @@ def _with(part: Any, **changes: Any) -> Any:
 
 NEVER = 1e12
 """A limit that nothing exceeds."""
-FIXED = 8e4
-"""SHOE's statistic of a standing foot in ordinary walking lies below this, and that of its swing above."""
+FIXED = 1e6
+"""SHOE's statistic, of 8e4, 2e5, 4e5 and 1e6 the one with which recorded walks come out best."""
 
 _DETECTOR, _CORRECTOR = DEFAULT.detector, DEFAULT.corrector
 
