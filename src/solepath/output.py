@@ -88,8 +88,8 @@ def _gait_row(event: StrideMeasured) -> list[str]:
 class TrackFiles:
     """The files in `directory`, which is made when there is none. Files of an earlier run are replaced.
 
-    A FootMoved is a row of track.csv, a final StepTaken one of steps.csv, a StrideMeasured one of gait.csv, a Placed one
-    of places.csv (its heaviest candidate's, and how many there are), and every event but FootMoved a line of
+    A FootMoved is a row of track.csv, a final StepTaken one of steps.csv, a StrideMeasured one of gait.csv, a Placed
+    one of places.csv (its heaviest candidate's, and how many there are), and every event but FootMoved a line of
     events.jsonl. `places`: of a session with a floor plan; without one there is no places.csv. OSError, naming the
     directory, when they cannot be made or written (the disk is full).
     """

@@ -15,6 +15,8 @@ STANDS = 2.0
 """Longer is no stance of a stride, and no swing, s."""
 SHORTEST = 0.35
 """Nor is any stride of a runner shorter than this, s."""
+GAP = 0.1
+"""A steady stride lacks no samples for longer, s: a radio that loses 1 packet in 30 leaves few strides whole."""
 KEPT = 4
 """Newest contacts, toe-offs and places of a foot that are remembered for the other's strides."""
 
@@ -29,6 +31,9 @@ class Cycle:
     follows: bool
     """The foot's cycle before it was a stride too."""
     degraded: bool
+    """Something is missing in it,"""
+    spoilt: bool
+    """and more than a steady stride may lack."""
     flat: bool = False
     """The foot lay flat after it: without a step it has stepped on the spot."""
     step: StepTaken | None = None
@@ -44,6 +49,7 @@ class Footfalls:
     """Within it, s; of a foot in the air even without a cycle."""
     follows: bool = False
     degraded: bool = False
+    spoilt: bool = False
     ended: Cycle | None = None
     waiting: list[Cycle] = field(factory=list)
     count: int = 0
@@ -62,18 +68,24 @@ class Footfalls:
         if start is not None and toe_off is not None:
             stride = toe_off - start <= STANDS and t - toe_off <= STANDS and t - start >= SHORTEST
             if stride:
-                self.ended = Cycle(start, toe_off, t, self.follows, self.degraded or inferred)
+                lacks, spoilt = self.degraded or inferred, self.spoilt or inferred
+                self.ended = Cycle(start, toe_off, t, self.follows, lacks, spoilt)
             self.follows = stride
-        self.contact, self.toe_off, self.degraded = t, None, inferred
+        self.contact, self.toe_off = t, None
+        self.degraded = self.spoilt = inferred
         if not inferred:
             self.contacts = [*self.contacts[1 - KEPT :], t]
 
     def lifted(self, t: float, inferred: bool) -> None:
         """The toe left the ground at `t`, s."""
         self.toe_off = t
-        self.degraded = self.degraded or inferred
+        self.degraded, self.spoilt = self.degraded or inferred, self.spoilt or inferred
         if not inferred:
             self.toe_offs = [*self.toe_offs[1 - KEPT :], t]
+
+    def lost(self, duration: float) -> None:
+        """There was no sample for so long, s."""
+        self.degraded, self.spoilt = True, self.spoilt or duration > GAP
 
     def stepped(self, step: StepTaken) -> None:
         """The foot is flat after a step."""
@@ -84,6 +96,8 @@ class Footfalls:
         if cycle is not None and cycle.end == contact and cycle.toe_off == step.t_toe_off:
             if step.t_start >= cycle.start:
                 cycle.step = step
+            if step.degraded and not cycle.degraded and not self.degraded:
+                cycle.spoilt = True  # nothing is missing: samples were saturated
             cycle.degraded = cycle.degraded or step.degraded
 
     def settle(self) -> None:

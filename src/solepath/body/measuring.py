@@ -3,9 +3,9 @@ StrideMeasured is.
 
 Steady strides count in the running means. A stride is steady when
 
-- no sample was missing or saturated in it, and none of its events is inferred;
+- no sample was saturated in it, none was missing for longer than `GAP`, and none of its events is inferred;
 - it follows another stride without a pause. With the half stride from the first stand that leaves out the first three
-  steps of a walk, after which gait is steady (Mann et al. 1979, Med. Sci. Sports 11);
+  steps of a walk, after which gait is steady (Mann et al. 1979, J. Bone Joint Surg. Am. 61);
 - it is as long, in s and m, as the one before it, within a factor of `ALIKE`: who hesitates is not walking steadily;
 - it turns by less than `TURNS`, and climbs less than `CLIMBS` of its length;
 - the foot took a step in it, where it has a track: stepping on the spot is no walk.
@@ -99,7 +99,7 @@ def measured(
 
 def is_steady(cycle: Cycle, time: float, before: StrideMeasured | None, tracked: bool) -> bool:
     """By the rule at the top of this file; `time`: of the cycle, s."""
-    if cycle.degraded or not cycle.follows or before is None or before.t != cycle.start:
+    if cycle.spoilt or not cycle.follows or before is None or before.t != cycle.start:
         return False
     if not _alike(time, before.stride_time):
         return False

@@ -58,7 +58,7 @@ class Strides:
             elif isinstance(event, StepTaken):
                 this.stepped(event)
             elif isinstance(event, SampleGap) and event.site is SITE_OF_FOOT[foot.foot]:
-                this.degraded = True
+                this.lost(event.duration)
         if this.ended is not None and this.ended.flat:
             this.settle()
         return self._release(feet, known_at, body)
