@@ -386,14 +386,14 @@ def test_the_cues_of_a_step_come_all_at_once_with_their_own_times() -> None:
     cues = CriticalCues()
     segment = Segment((), CriticalTimes(1.0, 1.2, 1.6, 1.7), (1.0, 0.0, 0.0), 0.01)
     stance = Stance(ZERO, 0.01, 0.0, Phase.STATIONARY, segment)
-    seen = cues.update(1.8, 0.01, ZERO, True, 0.0, Phase.STATIONARY, None, stance)
+    seen = cues.update(1.8, 0.01, ZERO, ZERO, True, 0.0, Phase.STATIONARY, None, stance)
     assert [(one.cue, one.t) for one in seen] == [
         (Cue.LIFT, 1.0),
         (Cue.CLEAR, 1.2),
         (Cue.CONTACT, 1.6),
         (Cue.FLAT, 1.7),
     ]
-    assert not cues.update(1.9, 0.01, ZERO, True, 0.0, Phase.STATIONARY, None, stance._replace(segment=None))
+    assert not cues.update(1.9, 0.01, ZERO, ZERO, True, 0.0, Phase.STATIONARY, None, stance._replace(segment=None))
 
 
 def test_the_habit_of_a_straight_step_is_no_turn_and_a_corner_is() -> None:

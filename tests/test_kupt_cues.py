@@ -16,11 +16,12 @@ from solepath.sim.insoles import layout
 from solepath.sim.route import Route
 from solepath.sim.walker import Walker
 from solepath.types import Cell, Foot, Layout, Phase, Vec3
-from solepath.vector import ZERO
+from solepath.vector import GRAVITY, ZERO
 
 FOUR = Layout(4, Foot.LEFT, (Cell(0.034, 0.0), Cell(0.07, 0.0), Cell(0.12, 0.0), Cell(0.166, 0.0)), 0.2)
 """The paper's cells lie from 34 to 166 mm: its foot centre is 100 mm."""
 CELLS = (0.0,) * 96
+UP: Vec3 = (0.0, 0.0, GRAVITY)
 STANDS, MOVES = Stance(ZERO, 0.01, 0.5, Phase.STATIONARY), Stance(ZERO, inf, 0.0, None)
 
 Row = tuple[float | None, bool]
@@ -52,7 +53,7 @@ def watch(
     for k, (x, stands) in enumerate(rows):
         load = Load(0.0 if x is None else 0.5, 0.0, 0.0, 0.0, x is None, CELLS, None if x is None else (x, 0.0))
         stance = STANDS if stands else MOVES
-        for one in cues.update(0.01 * k, 0.01, gyro, stands, 0.0 if stands else speed, phase, load, stance):
+        for one in cues.update(0.01 * k, 0.01, UP, gyro, stands, 0.0 if stands else speed, phase, load, stance):
             seen.append((one, k))
             phase = PHASES[phase][one.cue]
         marks.append(cues.mark)
@@ -152,7 +153,7 @@ def test_before_any_load_is_known_the_inertial_cues_speak() -> None:
     phase = Phase.STATIONARY
     for k in range(80):
         rate = 0.0 if k < 20 else 4.0 if k < 40 else 0.5
-        for one in cues.update(0.01 * k, 0.01, (0.0, rate, 0.0), k < 20, 0.3, phase, None, MOVES):
+        for one in cues.update(0.01 * k, 0.01, UP, (0.0, rate, 0.0), k < 20, 0.3, phase, None, MOVES):
             seen.append(one.cue)
             phase = PHASES[phase][one.cue]
     assert seen == [Cue.LIFT, Cue.CLEAR]

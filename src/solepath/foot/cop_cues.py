@@ -107,6 +107,7 @@ class CopCues:
         self,
         t: float,
         dt: float,
+        acc: Vec3,
         gyro: Vec3,
         still: bool,
         speed: float,
@@ -116,7 +117,7 @@ class CopCues:
     ) -> Sequence[Seen]:
         """As in `Cues`."""
         self.mark = None
-        seen = self.inertial.update(t, dt, gyro, still, speed, phase)
+        seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)
         if load is None and self.pressed_at is not None and t - self.pressed_at < self.stale:
             return ()
         stationary = still and stance.hint is Phase.STATIONARY

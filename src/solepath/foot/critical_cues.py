@@ -50,6 +50,7 @@ class CriticalCues:
         self,
         t: float,
         dt: float,
+        acc: Vec3,
         gyro: Vec3,
         still: bool,
         speed: float,

@@ -3,9 +3,9 @@
 `InertialCues` reads stillness and the sagittal angular rate (about the axis that points to the wearer's left, so that
 positive is toe down). Of a step that rate shows: a rise as the heel lifts, a peak of several rad/s as the toe pushes
 off, a long negative hump while the leg swings, and a return through zero as the heel lands. Toe-off is where the rate
-has fallen to 65 % of its peak, heel-strike where it comes up after the hump as the ground turns the sole down: on the
-hand-checked events of 10 m walks these places lie within a sample or two of the truth. Landmarks of this kind are
-common in gait analysis (Sabatini et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Gait & Posture 37, 2013).
+has fallen to half its peak, the steepest place of its fall. Landmarks of this kind are common in gait analysis
+(Sabatini et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Gait & Posture 37, 2013).
+The ground may stop the foot later than that, or earlier: heel-strike is the middle of the impact (impact.py).
 
 `PressureCues` reads the load on the insole.
 """
@@ -19,6 +19,7 @@ from attrs import define, field
 
 from ..types import Phase, Vec3
 from ..vector import TIE, ZERO
+from .impact import Impact
 from .phase import Cue
 from .stance import Load
 
@@ -34,22 +35,32 @@ class Seen(NamedTuple):
 
 @define
 class InertialCues:
-    """Latency: heel-strike and toe-off one sample; foot-flat and heel-off `settle` s."""
+    """Latency: toe-off one sample; heel-strike `hear_out` s, or when the foot is still where no impact shows; foot-flat
+    and heel-off `settle` s."""
 
     settle: float = 0.009
     """Stillness, or its loss, must last this long, s."""
     push: float = 1.5
     """A push-off's peak rate is at least this, rad/s."""
-    past_peak: float = 0.65
+    past_peak: float = 0.5
     """Toe-off is where the rate has fallen to this share of its peak."""
     hump: float = 1.0
     """The swing's negative hump is at least this, rad/s."""
     slap: float = 1.0
-    """Heel-strike is where the rate comes up through this, as the ground turns the sole down, rad/s."""
+    """The heel lands about when the rate comes up through this, as the ground turns the sole down, rad/s."""
+    hear_out: float = 0.04
+    """Then the impact is heard out until its middle is this long ago, s,"""
+    longest_impact: float = 0.1
+    """but not for longer than this, s."""
+    jolt: float = 1e4
+    """A foot that has lost its speed has landed if the impact's squared jerk came to this, m^2/s^5: 600 m/s^3 for
+    30 ms. Muscles that swing a leg reach half of that jerk, the ground some thousands."""
     shortest_swing: float = 0.1
     """No heel-strike sooner than this after toe-off, s."""
     shuffle_speed: float = 0.35
     """A foot that moves this fast for `shuffle_time` is in swing, however it got there, m/s."""
+    reach: float = 0.2
+    """That is this much faster for each rad/s: no sensor is further from the toes, which a foot rolls over, m."""
     shuffle_time: float = 0.15
     loading_time: float = 0.4
     """The same right after heel-strike, when the sensor still swings down with the sole, s."""
@@ -72,11 +83,19 @@ class InertialCues:
     peak: float = field(default=0.0, init=False)
     trough: float = field(default=0.0, init=False)
     toe_off: float = field(default=0.0, init=False)
+    struck: float | None = field(default=None, init=False)
+    """When the rate came up after the swing, s, until heel-strike is told."""
+    force: Vec3 | None = field(default=None, init=False)
+    """Specific force of the last sample, m/s^2."""
+    impact: Impact = field(factory=Impact, init=False)
     sagittal: float = field(default=0.0, init=False)
     """Sagittal rate of the last sample, rad/s; the whole rate while the axis is unknown."""
 
-    def update(self, t: float, dt: float, gyro: Vec3, still: bool, speed: float, phase: Phase) -> Seen | None:
-        """`gyro` in rad/s without bias, `still`: the evidence of zero velocity was believed, `speed` in m/s."""
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase
+    ) -> Seen | None:
+        """`acc` in m/s^2, `gyro` in rad/s without bias, `still`: the evidence of zero velocity was believed, `speed` in
+        m/s."""
         before = self.sagittal
         gx, gy, gz = gyro
         if self.axis is None:
@@ -85,6 +104,7 @@ class InertialCues:
             x, y, z = self.axis
             now = x * gx + y * gy + z * gz
         self.sagittal = now
+        was, self.force = self.force, acc
         if still:
             self.moving_since = self.fast_since = None
             if self.still_since is None:
@@ -95,13 +115,13 @@ class InertialCues:
                 self.moving_since = t
                 self.turned = ZERO
                 self.peak = 0.0
-            if speed < self.shuffle_speed:
+            if speed < self.shuffle_speed + self.reach * abs(now):
                 self.fast_since = None
             elif self.fast_since is None:
                 self.fast_since = t
         if phase is Phase.SWING:
             self.calm = None
-            return self._in_swing(t, dt, before, now)
+            return self._in_swing(t, dt, speed, before, now, was)
         if now < self.rolling and (still or self.calm is None):
             self.calm = t
         if self.still_since is not None:
@@ -130,19 +150,33 @@ class InertialCues:
             return self._clear(self.fast_since)
         return None
 
-    def _in_swing(self, t: float, dt: float, before: float, now: float) -> Seen | None:
-        self.trough = min(self.trough, now)
+    def _in_swing(self, t: float, dt: float, speed: float, before: float, now: float, was: Vec3 | None) -> Seen | None:
+        if now < self.trough:
+            self.trough = now
+        impact = self.impact
+        if was is not None and self.force is not None:
+            impact.feel(t, dt, was, self.force, speed, self.struck is not None)
+        if self.struck is not None:
+            middle = max(self.struck, impact.middle)
+            over = t - middle >= self.hear_out - TIE or t - self.struck >= self.longest_impact - TIE
+            return self._landed(middle) if over or self.still_since is not None else None
         if self.still_since is not None:
             if t - self.still_since >= self.settle - TIE:
-                return Seen(Cue.CONTACT, self.still_since - self.lookback)
+                return self._landed(impact.jolted if impact.hardest > 0.0 else self.still_since - self.lookback)
             return None
-        landed = self.axis is not None and self.trough < -self.hump and t - self.toe_off >= self.shortest_swing - TIE
-        if landed and before < self.slap <= now:
-            self.peak = 0.0
-            self.turned = ZERO
-            self.fast_since = None
-            return Seen(Cue.CONTACT, t - dt * (now - self.slap) / (now - before))
+        if t - self.toe_off < self.shortest_swing - TIE:
+            return None
+        if before < self.slap <= now and self.trough < -self.hump and self.axis is not None:
+            self.struck = t - dt * (now - self.slap) / (now - before)
+        elif speed < self.shuffle_speed and impact.hardest > self.jolt and t - impact.jolted >= self.hear_out - TIE:
+            return self._landed(impact.jolted)
         return None
+
+    def _landed(self, t: float) -> Seen:
+        self.peak = 0.0
+        self.turned = ZERO
+        self.struck = self.fast_since = None
+        return Seen(Cue.CONTACT, t)
 
     def interrupt(self) -> None:
         """What lasts must be seen to last: a gap counts neither as stillness nor as speed."""
@@ -156,8 +190,16 @@ class InertialCues:
 
     def _clear(self, t: float) -> Seen:
         self.toe_off = t
+        self.impact.begin(t)
+        self.struck = None
         self.trough = self.peak = 0.0
         return Seen(Cue.CLEAR, t)
+
+    def pushed_off(self, phase: Phase) -> None:
+        """The load says that the toe has left the ground, in `phase`: how the foot has turned shows the axis all the
+        same."""
+        if phase is Phase.PUSH_OFF and self.peak > self.push:
+            self._learn_axis()
 
     def _learn_axis(self) -> bool:
         """The heel lifts by a turn about the axis to the left; True when it turned far enough to be a push-off."""

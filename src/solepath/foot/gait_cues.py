@@ -38,6 +38,7 @@ class Cues(Protocol):
         self,
         t: float,
         dt: float,
+        acc: Vec3,
         gyro: Vec3,
         still: bool,
         speed: float,
@@ -45,8 +46,8 @@ class Cues(Protocol):
         load: Load | None,
         stance: Stance,
     ) -> Sequence[Seen]:
-        """One corrected sample: `gyro` in rad/s without bias, `still`: the evidence of zero velocity was believed,
-        `speed` in m/s, `phase` before it. What was seen, in order."""
+        """One corrected sample: `acc` in m/s^2, `gyro` in rad/s without bias, `still`: the evidence of zero velocity
+        was believed, `speed` in m/s, `phase` before it. What was seen, in order."""
 
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[Seen]:
         """The same for an insole without an inertial sensor."""
@@ -93,6 +94,7 @@ class GaitCues:
         self,
         t: float,
         dt: float,
+        acc: Vec3,
         gyro: Vec3,
         still: bool,
         speed: float,
@@ -101,7 +103,7 @@ class GaitCues:
         stance: Stance,
     ) -> Sequence[Seen]:
         """As in `Cues`; at most one."""
-        seen = self.inertial.update(t, dt, gyro, still, speed, phase)
+        seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)
         if load is not None:
             pressed = self.pressure.update(t, dt, load, phase)
             if len(load.cells) <= FEW:
@@ -112,6 +114,8 @@ class GaitCues:
                 if airborne is not (phase is Phase.SWING):
                     pressed = Seen(Cue.CLEAR if airborne else Cue.CONTACT, t)
             if pressed is not None:
+                if pressed.cue is Cue.CLEAR:
+                    self.inertial.pushed_off(phase)
                 return (pressed,)
             if seen is not None and seen.cue is not Cue.FLAT:
                 seen = self.pressure.dated(seen) if seen.cue is Cue.LIFT else None

@@ -277,7 +277,7 @@ class FootTracker:
         vx, vy, vz = corrector.velocity
         speed = sqrt(vx * vx + vy * vy + vz * vz)
         cues = self.cues
-        seen = cues.update(t, dt, gyro, believed and speed < STILL, speed, gait.phase, load, stance)
+        seen = cues.update(t, dt, acc, gyro, believed and speed < STILL, speed, gait.phase, load, stance)
         if cues.mark is not None:
             corrector.mark(t, cues.mark)
         habit = gait.habit
