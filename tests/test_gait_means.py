@@ -1,0 +1,273 @@
+"""Gait cycles from any events of two feet, and the arithmetic of running means, symmetry and coordination."""
+
+from __future__ import annotations
+
+import json
+from math import isfinite
+from statistics import mean, stdev
+
+import attrs
+import pytest
+from attrs import define
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath import (
+    FootFlat,
+    HeelOff,
+    HeelStrike,
+    SampleGap,
+    Site,
+    StepFeatures,
+    StepTaken,
+    StrideMeasured,
+    ToeOff,
+    machine,
+)
+from solepath.body.gait_means import MEMORY, GaitMeans, RunningMean
+from solepath.body.strides import Strides
+from solepath.events import Event
+from solepath.foot.cycle import Cycle
+from solepath.foot.eskf import ErrorStateFilter
+from solepath.foot.tracker import FootTracker
+from solepath.types import SITE_OF_FOOT, Foot, Vec3
+
+L, R = Foot.LEFT, Foot.RIGHT
+
+
+@define
+class SideBySide:
+    """A body whose feet have tracks in one frame but for where the right one began, m."""
+
+    right: Vec3 = (0.0, 0.0, 0.0)
+
+    def common(self, foot: Foot, place: Vec3) -> Vec3 | None:
+        x, y, z = place
+        a, b, c = self.right if foot is R else (0.0, 0.0, 0.0)
+        return (x + a, y + b, z + c)
+
+
+@define
+class Walked:
+    """Two feet whose events are written down."""
+
+    strides: Strides
+    feet: dict[Foot, FootTracker]
+    body: object = None
+
+    def told(self, foot: Foot, t: float, *events: Event) -> list[StrideMeasured]:
+        """The events of a sample of `t`, s."""
+        self.feet[foot].t = t
+        found = self.strides.foot_moved(self.feet[foot], self.feet, t, list(events), self.body)
+        return [event for event in found if isinstance(event, StrideMeasured)]
+
+
+def walked(*feet: Foot, body: object = None) -> Walked:
+    return Walked(Strides(), {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in feet}, body)
+
+
+def taken(foot: Foot, toe_off: float, struck: float, begin: Vec3, end: Vec3) -> StepTaken:
+    way = (end[0] - begin[0], end[1] - begin[1], end[2] - begin[2])
+    return StepTaken(
+        t=struck + 0.1, known_at=struck + 0.1, foot=foot, number=1, t_start=toe_off - 0.3, t_end=struck + 0.1,
+        displacement=way, position=end, stride_length=abs(way[0]), heading_change=0.0, height_change=way[2],
+        covariance=(0.0,) * 6, t_toe_off=toe_off, t_heel_strike=struck, features=StepFeatures(0.1, 4.0, 1.0),
+    )  # fmt: skip
+
+
+def gone(
+    on: Walked, count: int, *, step: float = 0.5, late: float = 0.0, length: float | None = None, begins: float = 0.0
+) -> list[StrideMeasured]:
+    """Both feet walk on: the right one comes down `step` after the left one, and `late` s more."""
+    found: list[StrideMeasured] = []
+    for k in range(count):
+        foot = L if k % 2 == 0 else R
+        struck = begins + k * step + (late if foot is R else 0.0)
+        cleared = struck - 0.8 * step
+        found += on.told(foot, cleared, ToeOff(t=cleared, known_at=cleared, foot=foot))
+        found += on.told(foot, struck, HeelStrike(t=struck, known_at=struck, foot=foot))
+        flat: list[Event] = [FootFlat(t=struck + 0.1, known_at=struck + 0.1, foot=foot)]
+        if length is not None and k > 1:
+            at = (0.5 * k * length, 0.1 if foot is L else -0.05, 0.0)
+            flat.append(taken(foot, cleared, struck, (at[0] - length, at[1], 0.0), at))
+        for other in on.feet:
+            found += on.told(other, struck + 0.1, *(flat if other is foot else ()))
+    return found
+
+
+# --- cycles -----------------------------------------------------------------------------------------------------------
+
+
+def test_a_cycle_goes_from_contact_to_contact_and_the_other_foot_divides_it() -> None:
+    found = gone(walked(L, R), 8)
+    assert [(stride.foot, stride.t_start, stride.t) for stride in found[:2]] == [(L, 0.0, 1.0), (R, 0.5, 1.5)]
+    for stride in found:
+        assert (stride.stride_time, stride.cadence) == (1.0, 120.0)
+        assert stride.stance_time == pytest.approx(0.6) and stride.swing_time == pytest.approx(0.4)
+        assert stride.step_time == pytest.approx(0.5) and stride.phase == pytest.approx(0.5)
+        assert stride.initial_double_support == pytest.approx(0.1)
+        assert stride.terminal_double_support == pytest.approx(0.1)
+        assert stride.single_support == pytest.approx(0.4)
+
+
+def test_step_length_and_width_are_measured_along_the_stride_and_across_it() -> None:
+    """The left foot walks 0.15 m beside the right one, and its track's origin is 0.2 m before the other's."""
+    found = gone(walked(L, R, body=SideBySide((0.2, 0.0, 0.0))), 10, length=1.4)
+    lengths = {foot: [s.step_length for s in found if s.foot is foot and s.step_length is not None] for foot in Foot}
+    assert lengths[L] and lengths[R]
+    assert lengths[L] == pytest.approx([0.5] * len(lengths[L]))
+    assert lengths[R] == pytest.approx([0.9] * len(lengths[R]))
+    widths = [stride.step_width for stride in found if stride.step_width is not None]
+    assert widths == pytest.approx([0.15] * len(widths))
+
+
+def test_a_stand_of_more_than_two_seconds_is_no_stride() -> None:
+    on = walked(L, R)
+    gone(on, 6)
+    again = gone(on, 6, begins=12.0)
+    assert min(stride.t_start for stride in again) >= 12.0
+    assert not [stride for stride in again if stride.steady and stride.t_start < 12.9]
+
+
+def test_a_heel_that_comes_down_again_without_the_toe_leaving_is_no_contact() -> None:
+    on = walked(L)
+    gone_on = [(ToeOff, 0.0), (HeelStrike, 0.4), (FootFlat, 0.5), (HeelOff, 0.8), (HeelStrike, 0.9), (FootFlat, 0.95),
+               (HeelOff, 1.0), (ToeOff, 1.1), (HeelStrike, 1.5), (FootFlat, 1.6)]  # fmt: skip
+    found = [s for kind, t in gone_on for s in on.told(L, t, kind(t=t, known_at=t, foot=L))]
+    assert [(stride.t_start, stride.t) for stride in found] == [(0.4, 1.5)]
+
+
+def test_a_stride_waits_for_the_other_foots_samples_but_not_for_ever() -> None:
+    on = walked(L, R)
+    gone(on, 4)
+    on.told(L, 1.2, ToeOff(t=1.2, known_at=1.2, foot=L))
+    on.told(L, 2.0, HeelStrike(t=2.0, known_at=2.0, foot=L))
+    assert not on.told(L, 2.1, FootFlat(t=2.1, known_at=2.1, foot=L)) and on.strides.waits
+    assert not on.told(L, 2.4)
+    (late,) = on.told(L, 2.5)
+    assert (late.t, late.known_at) == (2.0, 2.5) and not on.strides.waits
+
+
+def test_a_clock_that_begins_anew_ends_the_cycle_under_way() -> None:
+    on = walked(L, R)
+    before = gone(on, 6)
+    on.strides.interrupt(Site.LEFT_FOOT)
+    after = gone(on, 6, begins=100.0)
+    assert all(stride.t_start >= 100.0 for stride in after if stride.foot is L)
+    assert [s.number for s in (*before, *after) if s.foot is L] == [1, 2, 3, 4]
+
+
+def test_a_long_gap_spoils_a_steady_stride_and_a_short_one_does_not() -> None:
+    for duration, steady in ((0.03, True), (0.3, False)):
+        on = walked(L, R)
+        gone(on, 8)
+        on.told(L, 3.6, SampleGap(t=3.5, known_at=3.6, site=SITE_OF_FOOT[L], duration=duration))
+        (stride,) = [stride for stride in gone(on, 1, begins=4.0) if stride.foot is L]
+        assert stride.degraded and stride.steady is steady
+
+
+def test_the_last_stride_before_a_stop_does_not_count() -> None:
+    on = walked(L, R)
+    found = gone(on, 12)
+    left = on.strides.means.of(False)
+    assert left is not None and left.feet[L].stride_time is not None
+    assert left.feet[L].stride_time.strides == len([s for s in found if s.foot is L]) - 2
+
+
+KINDS = st.sampled_from([HeelStrike, FootFlat, HeelOff, ToeOff, StepTaken, SampleGap])
+TIMES = st.one_of(st.floats(0.0, 0.7), st.sampled_from([0.0, 1e-9, 5.0, 1e9, 1e300]))
+PLACES = st.one_of(st.floats(-3.0, 3.0), st.sampled_from([1e30, -1e200, 1e308]))
+
+
+@given(st.lists(st.tuples(st.sampled_from(Foot), KINDS, TIMES, PLACES, st.booleans()), max_size=60))
+@settings(deadline=None, max_examples=60)
+def test_whatever_the_feet_do_strides_are_sound_and_can_be_saved(
+    does: list[tuple[Foot, type, float, float, bool]],
+) -> None:
+    on = walked(L, R, body=SideBySide())
+    t, off = 0.0, 0.0
+    found: list[Event] = []
+    for foot, kind, passed, place, inferred in does:
+        t += passed
+        if kind is StepTaken:
+            event: Event = taken(foot, off, t, (0.0, 0.0, 0.0), (place, 0.5 * place, 0.1))
+        elif kind is SampleGap:
+            event = SampleGap(t=t, known_at=t, site=SITE_OF_FOOT[foot], duration=passed)
+        else:
+            event = kind(t=t, known_at=t, foot=foot, inferred=inferred)
+        off = t if kind is ToeOff else off
+        found += on.told(foot, t, event)
+        copy = machine.load(Strides, json.loads(json.dumps(machine.save(on.strides), allow_nan=False)))
+        assert copy == on.strides
+    found += on.strides.finish(on.feet, t, on.body)
+    for stride in found:
+        assert isinstance(stride, StrideMeasured)
+        assert stride.t_start <= stride.t_toe_off <= stride.t <= stride.known_at
+        for one in attrs.fields(StrideMeasured):
+            value = getattr(stride, one.name)
+            assert not isinstance(value, float) or isfinite(value)
+    parameters = on.strides.parameters
+    assert parameters is None or (parameters.cadence or 0.0) > 0.0
+
+
+# --- means ------------------------------------------------------------------------------------------------------------
+
+
+@given(st.lists(st.floats(-10.0, 10.0), min_size=2, max_size=MEMORY))
+def test_up_to_two_minutes_of_walking_mean_and_deviation_are_plain_ones(values: list[float]) -> None:
+    running = RunningMean()
+    for value in values:
+        running.add(value, MEMORY)
+    assert running.figure.strides == len(values)
+    assert running.figure.mean == pytest.approx(mean(values), abs=1e-9)
+    assert running.figure.sd == pytest.approx(stdev(values), abs=1e-6)
+
+
+def test_after_that_what_is_old_fades() -> None:
+    running = RunningMean()
+    for value in [1.0] * 500 + [2.0] * 500:
+        running.add(value, MEMORY)
+    assert running.figure.mean == pytest.approx(2.0, abs=0.02)
+    assert running.count == MEMORY
+
+
+def test_one_stride_has_no_deviation() -> None:
+    running = RunningMean()
+    running.add(1.0, MEMORY)
+    assert running.figure.sd is running.figure.cv is None
+
+
+def test_walking_alternately_is_symmetric_and_limping_is_not() -> None:
+    even, limping = walked(L, R), walked(L, R)
+    gone(even, 20)
+    gone(limping, 20, late=0.05)
+    same, other = even.strides.parameters, limping.strides.parameters
+    assert same is not None and other is not None
+    assert same.asymmetry("step_time") == pytest.approx(0.0) and same.coordination == pytest.approx(0.0, abs=1e-9)
+    # the right foot's step takes 0.55 s, the left one's 0.45 s: 2 (0.55 - 0.45) / (0.55 + 0.45)
+    assert other.asymmetry("step_time") == pytest.approx(0.2)
+    # at 0.55 of the cycle instead of at 0.5
+    assert other.coordination == pytest.approx(0.1)
+
+
+def test_a_difference_between_the_feet_is_no_variability() -> None:
+    on = walked(L, R)
+    gone(on, 20, late=0.05)
+    parameters = on.strides.parameters
+    assert parameters is not None and parameters.both.step_time is not None
+    assert parameters.both.step_time.mean == pytest.approx(0.5)
+    assert parameters.both.step_time.sd == pytest.approx(0.0, abs=1e-6)
+
+
+def test_walking_and_running_are_added_up_apart() -> None:
+    found = gone(walked(L, R), 12)
+    means = GaitMeans()
+    for stride in found:
+        means.hear(stride)
+    assert means.of(True) is None and means.of(False) is not None
+    for stride in found:
+        ran = attrs.evolve(stride, t=stride.t + 10.0, t_start=stride.t_start + 10.0, stance_time=0.3, steady=True)
+        means.hear(ran)
+    both = means.of(True), means.of(False)
+    assert both[0] is not None and both[1] is not None
+    assert means.parameters == both[0] and both[0].running and not both[1].running
