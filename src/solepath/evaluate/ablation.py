@@ -12,6 +12,7 @@ from typing import Any
 import attrs
 from attrs import frozen
 
+from ..foot.level import Level
 from ..recipes import DEFAULT, Recipe
 from .report import Result
 
@@ -40,6 +41,7 @@ WITHOUT: dict[str, Recipe] = {
     "no recovery of what was refused": attrs.evolve(
         DEFAULT, corrector=_with(_CORRECTOR, patience=NEVER, lasting=NEVER)
     ),
+    "no level, slope or stair": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, level=Level(gate=False))),
     "no tilt aiding": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, tilt_rate=0.0)),
     "no noise of what lies between samples": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, between=0.0)),
     "no recovery of a clipped gyroscope": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, recover=False)),
