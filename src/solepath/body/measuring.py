@@ -38,7 +38,8 @@ OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 
 @runtime_checkable
 class Shared(Protocol):
-    """A body that puts both feet into one frame has this method; the Body protocol does not ask for it."""
+    """A body that measures where one foot is from the other has this method; the Body protocol does not ask for it. One
+    that supposes that a foot lands half-way along the other's stride must not: all steps would be as long."""
 
     def common(self, foot: Foot, place: Vec3) -> Vec3 | None:
         """A place on a foot's own track (StepTaken.position), m, in a frame that both feet share, z up; None while

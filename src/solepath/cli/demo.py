@@ -61,8 +61,8 @@ def run(options: argparse.Namespace) -> int:
     else:
         _tell(demo)
     print()
-    gait = gait_lines(demo.monitor.tally.gait) or [""]
-    print("\n".join([comparison_table(demo.comparison()), *gait, *latency(demo.monitor.tally)]))
+    lines = [*gait_lines(demo.monitor.tally.gait), comparison_table(demo.comparison()), "", *latency(demo.monitor.tally)]
+    print("\n".join(lines))
     return 0
 
 

@@ -54,7 +54,9 @@ class StrideMeasured(Happening):
     """`stride_length` / `stride_time`, m/s."""
     step_length: float | None
     """From where the other foot stood to where this one came down, along this foot's stride (Huxham et al. 2006, Gait &
-    Posture 23), in the frame that both feet share, between the sensors: right where both are mounted alike."""
+    Posture 23), between the sensors: right where both are mounted alike. It takes a recipe whose body measures where
+    one foot is from the other (body/measuring.py); two tracks that are only supposed to lie beside one another do not
+    tell it."""
     step_width: float | None
     """The other foot's distance from the line of this stride (as above); below zero when the feet cross."""
     clearance: float | None

@@ -30,13 +30,14 @@ SHARES = (
 
 
 def gait_lines(means: GaitMeans) -> list[str]:
-    """A table for walking and one for running, each of steady strides; nothing where there were none."""
+    """A table for walking and one for running, each of steady strides and followed by a blank line; nothing where there
+    were none."""
     lines: list[str] = []
     for running in (False, True):
         parameters = means.of(running)
         if parameters is not None:
-            lines += ["", *_table(parameters)]
-    return [*lines, ""] if lines else []
+            lines += [*_table(parameters), ""]
+    return lines
 
 
 def _table(parameters: GaitParameters) -> list[str]:

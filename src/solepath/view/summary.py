@@ -34,7 +34,8 @@ def summary(tally: Tally, *, title: str, seconds: float) -> str:
             lines.append(f"{foot.value}: {one.degraded} of {one.steps} steps degraded by missing or saturated samples")
     lines += _together(tally)
     lines += did(tally)
-    lines += gait_lines(tally.gait)
+    if gait := gait_lines(tally.gait):
+        lines += ["", *gait]
     lines += worn(tally)
     lines += link_health(tally)
     lines += latency(tally)
