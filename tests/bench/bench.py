@@ -17,7 +17,7 @@ from statistics import median
 from time import perf_counter
 from typing import Any
 
-from yardstick import Yardstick
+from yardstick import Tuned, Usual
 
 from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StepTaken, recipes
 from solepath.calibration import InsoleCalibration
@@ -96,11 +96,18 @@ def told_of(recipe: Recipe, infos: list[Packet]) -> Session:
 
 
 class Timed:
-    """Stands before a part of a wearer and sums up what its calls take, garbage collector or not."""
+    """Stands before a part and sums up what its calls take, garbage collector or not; fields are the part's own."""
 
     def __init__(self, part: Any) -> None:
         self.part = part
         self.taken = 0.0
+        self.calls = 0
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in ("part", "taken", "calls"):
+            object.__setattr__(self, name, value)
+        else:
+            setattr(self.part, name, value)
 
     def __getattr__(self, name: str) -> Any:
         what = getattr(self.part, name)
@@ -113,8 +120,56 @@ class Timed:
                 return what(*arguments)
             finally:
                 self.taken += perf_counter() - began
+                self.calls += 1
 
         return timed
+
+
+def shares_of(items: list[Sample], begin: Callable[[], Session]) -> dict[str, float]:
+    """Microseconds a sample that each part of a foot and of a wearer takes, less what the clock does."""
+    found: dict[str, list[float]] = {}
+    for _ in range(RUNS):
+        session = begin()
+        session.feed(items[0])
+        wearer = session._state.wearer
+        (foot,) = wearer.feet.values()
+        held = {
+            "rest": (foot, "rest"),
+            "detector": (foot, "detector"),
+            "filter": (foot, "corrector"),
+            "cues": (foot, "cues"),
+            "cells": (foot, "sole"),
+            "activities": (wearer, "activity"),
+            "turns": (wearer, "turns"),
+            "how it is worn": (wearer, "wear"),
+            "body": (wearer, "body"),
+        }
+        watched = {}
+        for name, (holder, where) in held.items():
+            watched[name] = Timed(getattr(holder, where))
+            setattr(holder, where, watched[name])
+        gc.collect()
+        gc.disable()
+        for item in items[1:]:
+            session.feed(item)
+        gc.enable()
+        call = overhead()
+        for name, part in watched.items():
+            found.setdefault(name, []).append((part.taken - part.calls * call) / len(items) * 1e6)
+    return {name: median(taken) for name, taken in found.items()}
+
+
+def overhead() -> float:
+    """What `Timed` measures of a call that does nothing, s."""
+
+    class Idle:
+        def call(self, one: int, other: int) -> None:
+            pass
+
+    idle = Timed(Idle())
+    for _ in range(20_000):
+        idle.call(1, 2)
+    return idle.taken / idle.calls
 
 
 def parts_of(items: list[Sample], recipe: Recipe, plan: IndexedPlan) -> dict[str, float]:
@@ -153,7 +208,9 @@ def main() -> None:
     fragments = list(emulate(ROUTE, devices={Site.LEFT_FOOT: small}, seed=1).packets)
     linear = Recipe("linear", Cycle(), LinearDedrift())
 
-    yard = each(bare, Yardstick)
+    faster: list[Sample] = walker.samples(Foot.LEFT, 200.0, LSM6DSOX)
+
+    yard = each(bare, Usual)
     rows: list[tuple[str, float, str]] = []
 
     def add(what: str, microseconds: float, unit: str = "us a sample") -> None:
@@ -172,8 +229,10 @@ def main() -> None:
         session.feed(told)
         return session
 
-    add("yardstick: numpy, nine states, SHOE", yard)
+    add("yardstick: numpy, nine states, SHOE, the usual way", yard)
+    add("the same, tuned", each(bare, Tuned))
     add("foot sample, inertial", each(bare, Session))
+    add("foot sample, inertial at 200 Hz", each(faster, Session))
     add("foot sample, inertial, FootMoved", each(bare, lambda: Session(poses=True)))
     add("foot sample, 96 cells", each(pressed, knowing))
     add("foot sample, 96 cells, FootMoved", each(pressed, knowing_poses))
@@ -193,6 +252,11 @@ def main() -> None:
     add("insole frame, 96 cells: session", each(frames, Session, info), "us a packet")
     add("insole frame, 96 cells: session, FootMoved", each(frames, lambda: Session(poses=True), info), "us a packet")
     add("insole fragment of 20 bytes: session", each(fragments, Session), "us a packet")
+
+    for name, took in shares_of(bare, Session).items():
+        add(f"of a foot sample, inertial: {name}", took)
+    pressing = shares_of(pressed, knowing)
+    add("of a foot sample, 96 cells: cells", pressing["cells"])
 
     way = wandering(1)
     indoors = Walker(way.route, seed=1)

@@ -1,12 +1,24 @@
-"""A yardstick for the benchmark: a foot-mounted filter written the way it usually is, with numpy for everything.
+"""Yardsticks for the benchmark: a foot-mounted error-state filter with SHOE in numpy, written the usual way and tuned.
 
-Nine error states (position, velocity, attitude), the SHOE detector over a window of five samples, a zero-velocity
-update whenever its statistic is below the gate: the textbook arrangement of Foxlin (2005) and Skog et al. (2010), one
-sample at a time. It is honest code, not slowed down: matrices are made once where they can be, and nothing is computed
-twice. What it does not do is what makes up a session: gaps, calibration, phases, steps, pressure.
+Both are the textbook arrangement of Foxlin (2005) and Skog et al. (2010), one sample at a time: nine error states
+(position, velocity, attitude), the SHOE detector over a window of five samples, a zero-velocity update whenever its
+statistic is below the gate. They agree to rounding, and neither does what else makes up a session: gaps, calibration,
+phases, steps, pressure, activities.
+
+`Usual` is how published research code is written (OpenShoe's functions and what came after it in Python: one function
+for each equation of the paper, arrays in and arrays out). Vectors are arrays, the attitude is a quaternion that is
+turned into a matrix where one is needed, the matrices F and G of the error states are put together anew for every
+sample out of blocks, the gain comes from the inverse of the innovation's covariance, the covariance is made symmetric
+again after every change, and SHOE is a loop over the window as the paper has it, a sum over it. Nothing is slowed
+down on purpose: no copies, no Python loops where such code has none, no work that the method does not ask for.
+
+`Tuned` does the same with matrices made once where they can be, rotation matrices instead of quaternions, and SHOE as
+one expression over a ring of rows.
 """
 
 from __future__ import annotations
+
+from collections import deque
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,10 +33,107 @@ GATE = 3e5
 SIGMA_ACC, SIGMA_GYRO = 0.01, np.radians(0.1)
 ACC_NOISE, GYRO_NOISE, ZERO_VELOCITY = 0.5, np.radians(0.5), 0.01
 """m/s^2, rad/s, m/s."""
+FIRST = (1e-5, 1e-2, 1e-3**0.5)
+"""Deviations of position, m, velocity, m/s, and attitude, rad, at the beginning."""
 
 
 def cross_matrix(v: Array) -> Array:
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+
+
+# --- the usual way ----------------------------------------------------------------------------------------------------
+
+
+def quaternion_of(r: Array) -> Array:
+    """(w, x, y, z) of the turn by |r| rad about r."""
+    angle = np.linalg.norm(r)
+    if angle == 0.0:
+        return np.array([1.0, 0.0, 0.0, 0.0])
+    return np.concatenate(([np.cos(angle / 2.0)], np.sin(angle / 2.0) * r / angle))
+
+
+def product(p: Array, q: Array) -> Array:
+    """Hamilton's."""
+    w, x, y, z = p
+    matrix = np.array([[w, -x, -y, -z], [x, w, -z, y], [y, z, w, -x], [z, -y, x, w]])
+    return matrix @ q
+
+
+def matrix_of(q: Array) -> Array:
+    """Rotation matrix of a unit quaternion."""
+    w, v = q[0], q[1:]
+    return (w**2 - v @ v) * np.eye(3) + 2.0 * np.outer(v, v) + 2.0 * w * cross_matrix(v)
+
+
+def state_matrices(attitude: Array, acc: Array, dt: float) -> tuple[Array, Array]:
+    """F of the error states and G, through which the noise of acc and gyro enters: I + dt Fc and dt Gc."""
+    zero, one, turn = np.zeros((3, 3)), np.eye(3), matrix_of(attitude)
+    force = turn @ acc
+    fc = np.block([[zero, one, zero], [zero, zero, -cross_matrix(force)], [zero, zero, zero]])
+    gc = np.block([[zero, zero], [turn, zero], [zero, turn]])
+    return np.eye(9) + dt * fc, dt * gc
+
+
+def shoe(window: deque[tuple[Array, Array]]) -> float:
+    """The statistic: how little the window looks like a sensor that stands still."""
+    mean = np.mean([acc for acc, _ in window], axis=0)
+    up = mean / np.linalg.norm(mean)
+    total = 0.0
+    for acc, gyro in window:
+        off = acc - GRAVITY * up
+        total += off @ off / SIGMA_ACC**2 + gyro @ gyro / SIGMA_GYRO**2
+    return float(total) / len(window)
+
+
+class Usual:
+    """Feed it the samples of one foot; `position` is where it is, m."""
+
+    def __init__(self) -> None:
+        self.position = np.zeros(3)
+        self.velocity = np.zeros(3)
+        self.attitude: Array | None = None
+        self.covariance = np.diag(np.repeat(FIRST, 3) ** 2)
+        self.noise = np.diag([ACC_NOISE**2] * 3 + [GYRO_NOISE**2] * 3)
+        self.window: deque[tuple[Array, Array]] = deque(maxlen=WINDOW)
+        self.t = 0.0
+
+    def feed(self, sample: Sample) -> None:
+        acc, gyro = np.array(sample.acc), np.array(sample.gyro)
+        dt, self.t = sample.t - self.t, sample.t
+        self.window.append((acc, gyro))
+        if self.attitude is None:
+            self.attitude = quaternion_of(_levelling(acc))
+        else:
+            self.attitude = self._predict(self.attitude, dt, acc, gyro)
+        if len(self.window) == WINDOW and shoe(self.window) < GATE:
+            self.attitude = self._correct(self.attitude)
+
+    def _predict(self, attitude: Array, dt: float, acc: Array, gyro: Array) -> Array:
+        attitude = product(attitude, quaternion_of(gyro * dt))
+        attitude = attitude / np.linalg.norm(attitude)
+        force = matrix_of(attitude) @ acc
+        acceleration = force - np.array([0.0, 0.0, GRAVITY])
+        self.position = self.position + self.velocity * dt + 0.5 * acceleration * dt**2
+        self.velocity = self.velocity + acceleration * dt
+        f, g = state_matrices(attitude, acc, dt)
+        self.covariance = f @ self.covariance @ f.T + g @ self.noise @ g.T
+        self.covariance = (self.covariance + self.covariance.T) / 2.0
+        return attitude
+
+    def _correct(self, attitude: Array) -> Array:
+        h = np.block([np.zeros((3, 3)), np.eye(3), np.zeros((3, 3))])
+        r = ZERO_VELOCITY**2 * np.eye(3)
+        p = self.covariance
+        gain = p @ h.T @ np.linalg.inv(h @ p @ h.T + r)
+        error = gain @ (np.zeros(3) - self.velocity)
+        self.covariance = (np.eye(9) - gain @ h) @ p
+        self.covariance = (self.covariance + self.covariance.T) / 2.0
+        self.position = self.position + error[0:3]
+        self.velocity = self.velocity + error[3:6]
+        return product(quaternion_of(error[6:9]), attitude)
+
+
+# --- the same, tuned --------------------------------------------------------------------------------------------------
 
 
 def rotation(r: Array) -> Array:
@@ -36,14 +145,14 @@ def rotation(r: Array) -> Array:
     return np.eye(3) + np.sin(angle) * k + (1.0 - np.cos(angle)) * (k @ k)
 
 
-class Yardstick:
-    """Feed it the samples of one foot; `position` is where it is, m."""
+class Tuned:
+    """As `Usual`."""
 
     def __init__(self) -> None:
         self.position = np.zeros(3)
         self.velocity = np.zeros(3)
         self.attitude: Array | None = None
-        self.covariance = np.diag([1e-10] * 3 + [1e-4] * 3 + [1e-3] * 3)
+        self.covariance = np.diag(np.repeat(FIRST, 3) ** 2)
         self.acc = np.zeros((WINDOW, 3))
         self.gyro = np.zeros((WINDOW, 3))
         self.count = 0
@@ -59,18 +168,11 @@ class Yardstick:
         self.count += 1
         dt, self.t = sample.t - self.t, sample.t
         if self.attitude is None:
-            self._level(acc)
+            self.attitude = rotation(_levelling(acc))
         else:
             self._predict(dt, acc, gyro)
         if self.count >= WINDOW and self._statistic() < GATE:
             self._correct()
-
-    def _level(self, acc: Array) -> None:
-        up = acc / np.linalg.norm(acc)
-        axis = np.cross(up, [0.0, 0.0, 1.0])
-        sine = np.linalg.norm(axis)
-        turn = axis / sine * np.arctan2(sine, up[2]) if sine > 0.0 else axis
-        self.attitude = rotation(turn)
 
     def _predict(self, dt: float, acc: Array, gyro: Array) -> None:
         self.attitude = self.attitude @ rotation(gyro * dt)
@@ -96,3 +198,11 @@ class Yardstick:
         self.position = self.position + error[:3]
         self.velocity = self.velocity + error[3:6]
         self.attitude = rotation(error[6:]) @ self.attitude
+
+
+def _levelling(acc: Array) -> Array:
+    """Rotation vector that takes the specific force at rest to straight up."""
+    up = acc / np.linalg.norm(acc)
+    axis = np.cross(up, [0.0, 0.0, 1.0])
+    sine = np.linalg.norm(axis)
+    return axis / sine * np.arctan2(sine, up[2]) if sine > 0.0 else axis

@@ -8,7 +8,8 @@ there is no `Load`: a load that still falls is always the least so far, and a fo
 
 from __future__ import annotations
 
-from operator import mul
+from functools import lru_cache
+from operator import itemgetter, mul
 
 from attrs import define, evolve, field
 
@@ -73,8 +74,10 @@ class Insole:
     layout: Layout | None = field(default=None, init=False)
     cells: tuple[float, ...] = field(default=(), init=False)
     """The newest values, noise taken off."""
-    heel_cells: list[int] = field(factory=list, init=False)
-    forefoot_cells: list[int] = field(factory=list, init=False)
+    sum: float = field(default=0.0, init=False)
+    """Of them."""
+    heel_cells: tuple[int, ...] = field(default=(), init=False)
+    forefoot_cells: tuple[int, ...] = field(default=(), init=False)
     total: Extremes = field(factory=Extremes, init=False)
     heel: Extremes = field(factory=Extremes, init=False)
     forefoot: Extremes = field(factory=Extremes, init=False)
@@ -98,12 +101,12 @@ class Insole:
         """The device said where its cells are."""
         self.layout = layout
         heel_ends, forefoot_begins = self.heel_ends * layout.length, self.forefoot_begins * layout.length
-        self.heel_cells = [i for i, cell in enumerate(layout.cells) if cell.x < heel_ends]
+        self.heel_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x < heel_ends])
         self.xs = [cell.x for cell in layout.cells]
         self.ys = [cell.y for cell in layout.cells]
         if len(self.tare) != len(layout.cells):
             self.tare = [0.0] * len(layout.cells)
-        self.forefoot_cells = [i for i, cell in enumerate(layout.cells) if cell.x > forefoot_begins]
+        self.forefoot_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x > forefoot_begins])
 
     def interrupt(self) -> None:
         """Times begin anew: the extremes are kept, but their spans end here."""
@@ -117,9 +120,9 @@ class Insole:
             pairs = zip(cells, self.noise, strict=True)
             cells = tuple([value - zero if value > zero else 0.0 for value, zero in pairs])
         self.cells = cells
-        total = sum(cells)
+        total = self.sum = sum(cells)
         self.total.update(t, total)
-        largest = max(cells, default=0.0)
+        largest = max(cells) if cells else 0.0
         self.highest = max(self.highest * 0.9999, largest)
         heel = forefoot = None
         if self.layout is not None and len(cells) == len(self.layout.cells):
@@ -150,10 +153,10 @@ class Insole:
         return Load(share, heel, forefoot, highest, airborne, cells, centre)
 
     @staticmethod
-    def _above_least(t: float, cells: tuple[float, ...], indices: list[int], extremes: Extremes) -> float | None:
+    def _above_least(t: float, cells: tuple[float, ...], indices: tuple[int, ...], extremes: Extremes) -> float | None:
         if not indices:
             return None
-        value = sum([cells[i] for i in indices])
+        value = sum(picker(indices)(cells)) if len(indices) > 1 else cells[indices[0]]
         extremes.update(t, value)
         return value - extremes.low
 
@@ -169,11 +172,17 @@ class Insole:
         for Internet of Things applications", with load in place of pressure."""
         if not self.xs or not len(cells) == len(self.xs) == len(self.tare):
             return None
-        loads = self.above_tare(cells)
+        loads = [value - zero if value > zero else 0.0 for value, zero in zip(cells, self.tare, strict=True)]
         load = sum(loads)
         if load <= self.least * (self.total.high - self.total.low):
             return None
         return (sum(map(mul, self.xs, loads)) / load, sum(map(mul, self.ys, loads)) / load)
+
+
+@lru_cache(maxsize=16)
+def picker(indices: tuple[int, ...]) -> itemgetter[tuple[float, ...]]:
+    """Takes these of a tuple, two or more: in a third of the time of a loop."""
+    return itemgetter(*indices)
 
 
 def in_newtons(newtons: Newtons, cells: tuple[float, ...]) -> tuple[float, ...]:

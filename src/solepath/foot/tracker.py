@@ -196,7 +196,7 @@ class FootTracker:
         if load is not None:
             gait = self.gait
             if gait.phase is not Phase.SWING and gait.step.t_toe_off is None:
-                gait.step.loaded(sum(load.cells), load.centre)
+                gait.step.loaded(sole.insole.sum, load.centre)
         elif self.needs_pressure and not sole.pressed:
             what = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
             self.limits.lacks(what, t, known_at, events)

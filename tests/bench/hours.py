@@ -1,0 +1,86 @@
+"""Whether ten hours cost what a minute does: `python tests/bench/hours.py [--hours 10] [--every 30]`. A soak, no test.
+
+A minute of both feet with 96 cells, emulated once, is walked again and again, later by its length each time. Of the
+first minute, of one in every `--every` and of the last it says what processor time a sample took and how large the
+session is, as a snapshot and in the interpreter, and at the end how the last minute compares with the second, the
+first with every part of a session at work. The wearer comes back to where the minute began, so joining them moves
+nobody.
+"""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import json
+import tracemalloc
+from time import process_time
+
+from attrs import evolve
+
+from solepath import Calibration, Foot, Sample, Session, StepTaken
+from solepath.calibration import InsoleCalibration
+from solepath.sim.insoles import layout
+from solepath.sim.parts import LSM6DSOX
+from solepath.sim.route import Route
+from solepath.sim.walker import Walker
+
+LOOP = Route().stand(1.0).walk(14.0, 1.3).turn(3.1416).walk(14.0).turn(3.1416).walk(14.0).stop(4.0)
+CELLS = 96
+
+
+def minute() -> list[Sample]:
+    """Samples of both feet in the order of time."""
+    walker = Walker(LOOP, seed=1)
+    found = [s for foot in Foot for s in walker.samples(foot, 100.0, LSM6DSOX, layout=layout(CELLS, foot))]
+    return sorted(found, key=lambda sample: sample.t)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--hours", type=float, default=10.0)
+    parser.add_argument("--every", type=int, default=30, help="minutes from one line to the next")
+    asked = parser.parse_args()
+    loop = minute()
+    length = loop[-1].t + 0.01
+    count = max(3, round(asked.hours * 3600.0 / length))
+    known = Calibration(insoles={foot: InsoleCalibration(layout(CELLS, foot)) for foot in Foot})
+    session = Session(calibration=known)
+    told: list[tuple[float, int, int]] = []
+    print(f"{length:.1f} s of both feet with {CELLS} cells, {len(loop)} samples, {count} times")
+    print(f"{'hour':>6} {'us a sample':>12} {'snapshot, B':>12} {'memory, kB':>11} {'steps':>6}")
+    gc.collect()
+    gc.disable()
+    for k in range(count):
+        samples = [evolve(sample, t=sample.t + k * length) for sample in loop]
+        feed, steps = session.feed, 0
+        began = process_time()
+        for sample in samples:
+            for event in feed(sample):
+                steps += isinstance(event, StepTaken)
+        took = (process_time() - began) / len(samples) * 1e6
+        if k in (0, 1, count - 1) or k % asked.every == 0:
+            size = len(json.dumps(session.snapshot()))
+            told.append((took, size, held(session)))
+            hour, memory = (k + 1) * length / 3600.0, told[-1][2] / 1000
+            print(f"{hour:6.2f} {took:12.1f} {size:12} {memory:11.0f} {steps:6}", flush=True)
+        gc.collect()
+    time, snapshot, memory = (last / second for last, second in zip(told[-1], told[1], strict=True))
+    print(f"the last beside the second: time {time:.2f}, snapshot {snapshot:.2f}, memory {memory:.2f}")
+
+
+def held(session: Session) -> int:
+    """Bytes of a session: those of another that is restored from its snapshot."""
+    saved = session.snapshot()
+    gc.collect()
+    tracemalloc.start()
+    before = tracemalloc.get_traced_memory()[0]
+    other = Session.restore(saved)
+    gc.collect()
+    found = tracemalloc.get_traced_memory()[0] - before
+    tracemalloc.stop()
+    del other
+    return found
+
+
+if __name__ == "__main__":
+    main()
