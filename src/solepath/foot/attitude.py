@@ -57,9 +57,12 @@ class Span:
 
 @define
 class Levelling:
-    """The first attitude: gravity over the first quiet quarter of a second, or after `patience` over any.
+    """The first attitude: gravity over the first quiet quarter of a second; of a foot that walks already, over the
+    middle of a stance.
 
-    Heading is left as it is (the smallest turn that takes the measured up to up).
+    That is a span of `moment` s that is about as quiet as the quietest was so far, once `stride` s were seen, for no
+    stride lasts longer; after `patience` it is any. Heading is left as it is (the smallest turn that takes the measured
+    up to up).
     """
 
     length: float = 0.25
@@ -67,17 +70,30 @@ class Levelling:
     """Standard deviation of acc that still counts as quiet, m/s^2; eight-bit accelerometers flicker by 0.3."""
     quiet_gyro: float = 0.1
     """The same of the angular rate, rad/s; its mean says nothing yet, since cheap gyroscopes are off by 0.3 at rest."""
-    patience: float = 2.0
+    moment: float = 0.06
+    stride: float = 1.3
+    alike: float = 4.0
+    """How much louder than the quietest moment, in squares, another may be."""
+    turning: float = 0.3
+    """What turns the foot at this rate, rad/s, is as loud as 1 m/s^2."""
+    patience: float = 3.0
     # state
     span: Span = field(factory=Span, init=False)
+    short: Span = field(factory=Span, init=False)
+    short_start: float = field(default=0.0, init=False)
+    quietest: float = field(default=1e12, init=False)
+    """(m/s^2)^2."""
     span_start: float = field(default=0.0, init=False)
     begun: float | None = field(default=None, init=False)
 
     def update(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[Quat, float] | None:
         """(attitude, standard deviation of its tilt in rad) once it is known."""
         if self.begun is None:
-            self.begun = self.span_start = t
+            self.begun = self.span_start = self.short_start = t
         self.span.add(acc, gyro)
+        walking = self._walking(t, acc, gyro, self.begun)
+        if walking is not None:
+            return walking
         if t - self.span_start < self.length - TIE or self.span.count < 3:
             return None
         mean_acc, _ = self.span.means()
@@ -90,6 +106,23 @@ class Levelling:
         if t - self.begun >= self.patience - TIE:
             return levelling(mean_acc), 0.2
         return None
+
+    def _walking(self, t: float, acc: Vec3, gyro: Vec3, begun: float) -> tuple[Quat, float] | None:
+        """As `update`, of a foot that never stands for a quarter of a second."""
+        short = self.short
+        short.add(acc, gyro)
+        if t - self.short_start < self.moment - TIE or short.count < 2:
+            return None
+        (ax, ay, az), (gx, gy, gz) = short.means()
+        acc_variance, gyro_variance = short.variances()
+        off = (ax * ax + ay * ay + az * az) ** 0.5 - GRAVITY
+        rate = gx * gx + gy * gy + gz * gz + gyro_variance
+        loud = acc_variance + off * off + rate / (self.turning * self.turning)
+        self.short = Span()
+        self.short_start = t
+        stands = t - begun >= self.stride - TIE and loud <= self.alike * self.quietest
+        self.quietest = min(self.quietest, loud)
+        return (levelling((ax, ay, az)), 0.06) if stands else None
 
 
 @define

@@ -16,8 +16,8 @@ from math import inf
 from attrs import define, field
 
 from ..types import Phase, Quat, Vec3
-from ..vector import GRAVITY, TIE, ZERO, from_rotation_vector, multiply, normalise
-from .clipping import NUDGE, Clipping, Missed, apart, spread
+from ..vector import GRAVITY, TIE, ZERO, from_rotation_vector, multiply, normalise, rotate
+from .clipping import LEAST_FORCE, STEEPEST_FORCE, TRIFLE_SPEED, Clipping, Missed
 from .covariance import (
     HEIGHT,
     TILT_X,
@@ -33,6 +33,7 @@ from .covariance import (
     update,
 )
 from .level import Level
+from .missed import NUDGE, Swing, apart, spread
 from .navigate import LONGEST_BRIDGE, Strapdown
 from .stance import Stance
 
@@ -60,7 +61,7 @@ class ErrorStateFilter(Strapdown):
     """What two neighbouring samples differ by and the straight line between them cannot know, as a share of it. Small
     at 400 Hz; at 20 Hz, where a heel-strike falls between two samples, all that there is."""
     recover: bool = True
-    """Make up for the turn that a gyroscope at the end of its range missed (clipping.py)."""
+    """Make up for the turn that a gyroscope at the end of its range missed (clipping.py, missed.py)."""
     suspect: float = 8.5
     """Rates beyond this may be clipped though no end of a range is seen (axes that were turned since, by a
     calibration), rad/s."""
@@ -97,6 +98,11 @@ class ErrorStateFilter(Strapdown):
     quietest: float = field(default=1e12, init=False)
     quiet_since: float | None = field(default=None, init=False)
     clipping: Clipping = field(factory=Clipping, init=False)
+    swing: Swing = field(factory=Swing, init=False)
+    blows: Clipping = field(factory=lambda: Clipping(LEAST_FORCE, STEEPEST_FORCE, TRIFLE_SPEED), init=False)
+    """The same of the accelerometer; and its last two readings, m/s^2:"""
+    felt: Vec3 = field(default=ZERO, init=False)
+    felt_before: Vec3 = field(default=ZERO, init=False)
     earlier: Vec3 = field(default=ZERO, init=False)
     """The rate before `rate`, rad/s, and how long before it, s:"""
     earlier_dt: float = field(default=0.0, init=False)
@@ -106,7 +112,9 @@ class ErrorStateFilter(Strapdown):
         self.velocity = self.position = self.start_velocity = self.start_position = ZERO
         self.force = self.rate = None
         covariance = [0.0] * 45
-        covariance[VELOCITY_X] = covariance[VELOCITY_Y] = covariance[VELOCITY_Z] = 1e-4
+        # who was not seen to lie still may be moving
+        speed = 0.01 if tilt_sigma < 0.03 else 2.0 * tilt_sigma
+        covariance[VELOCITY_X] = covariance[VELOCITY_Y] = covariance[VELOCITY_Z] = speed * speed
         covariance[TILT_X] = covariance[TILT_Y] = tilt_sigma * tilt_sigma
         self.uncertainty = tuple(covariance)
         self.since = self.stretch = self.acc_variance = self.gyro_variance = 0.0
@@ -121,9 +129,14 @@ class ErrorStateFilter(Strapdown):
         clipping, missed = self.clipping, None
         if clipping.busy or turning > clipping.watch:
             missed = clipping.update(dt, gyro, rate, self.earlier, self.earlier_dt, saturated)
-            clipping.keep(dt, gyro, rate, acc, self.attitude)
-        elif clipping.rows:
-            clipping.rows = []
+            self.swing.keep(dt, gyro, rate, acc, self.attitude)
+        elif self.swing.rows:
+            self.swing.rows = []
+        x, y, z = acc
+        blows, lost = self.blows, None
+        if blows.busy or x * x + y * y + z * z > blows.watch:
+            lost = blows.update(dt, acc, self.felt, self.felt_before, self.earlier_dt, saturated)
+        self.felt, self.felt_before = acc, self.felt
         self.earlier, self.earlier_dt = rate, dt
         ax, ay, az = self.integrate(dt, acc, gyro)
         fx, fy, fz = before
@@ -141,6 +154,8 @@ class ErrorStateFilter(Strapdown):
         self.stretch += dt
         if missed and self.recover:
             self._missed(missed)
+        if lost and self.recover:
+            self._lost(lost)
 
     def correct(self, t: float, stance: Stance) -> bool:
         sigma = stance.sigma
@@ -175,10 +190,10 @@ class ErrorStateFilter(Strapdown):
         return True
 
     def _missed(self, missed: tuple[Missed, ...]) -> None:
-        """The state as it is with what the gyroscope turned out to have missed, and the doubt: clipping.py."""
+        """The state as it is with what the gyroscope turned out to have missed, and the doubt: missed.py."""
         self._carry()
         for one in missed:
-            seen, likely, more = (self.clipping.anew(one, angle) for angle in (0.0, one.angle, one.angle + NUDGE))
+            seen, likely, more = (self.swing.anew(one, angle) for angle in (0.0, one.angle, one.angle + NUDGE))
             (px, py, pz), (vx, vy, vz), turn = apart(seen, likely)
             x, y, z = self.position
             self.position = self.start_position = (x + px, y + py, z + pz)
@@ -187,6 +202,21 @@ class ErrorStateFilter(Strapdown):
             self.attitude = normalise(multiply(from_rotation_vector(turn), self.attitude))
             self.uncertainty = spread(self.uncertainty, *apart(likely, more), one.sigma / NUDGE)
 
+    def _lost(self, lost: tuple[Missed, ...]) -> None:
+        """The same of what the accelerometer missed."""
+        self._carry()
+        for one in lost:
+            x, y, z = (1.0 if axis == one.axis else 0.0 for axis in (0, 1, 2))
+            ux, uy, uz = rotate(self.attitude, (x, y, z))
+            k = one.ago + 0.5 * one.lasted
+            along = (k * ux, k * uy, k * uz)
+            v = one.angle
+            x, y, z = self.position
+            self.position = self.start_position = (x + v * k * ux, y + v * k * uy, z + v * k * uz)
+            x, y, z = self.velocity
+            self.velocity = self.start_velocity = (x + v * ux, y + v * uy, z + v * uz)
+            self.uncertainty = spread(self.uncertainty, along, (ux, uy, uz), ZERO, one.sigma)
+
     def bridge(self, dt: float) -> float:
         # a foot accelerates by some 10 m/s^2 and turns by some rad/s; what happened in between is anyone's guess
         if dt <= LONGEST_BRIDGE:
@@ -194,6 +224,8 @@ class ErrorStateFilter(Strapdown):
             self.gyro_variance += 0.25 * dt
             return dt
         self.clipping.interrupt()
+        self.swing.rows = []
+        self.blows.interrupt()
         self._carry()
         if dt == inf:  # times begin anew
             self.accepted = self.quiet_since = None
@@ -211,6 +243,8 @@ class ErrorStateFilter(Strapdown):
 
     def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         self.clipping.interrupt()
+        self.swing.rows = []
+        self.blows.interrupt()
         self._carry()
         self.stretch += dt
         self.attitude, self.velocity, self.position = attitude, velocity, position
@@ -244,6 +278,7 @@ class ErrorStateFilter(Strapdown):
 
     def anchor(self) -> tuple[float, ...]:
         self.clipping.stepped()
+        self.blows.stepped()
         self._carry()
         stretch = self._stretch(self.uncertainty)
         self.stretch = 0.0
