@@ -82,7 +82,7 @@ class InertialCues:
     """Turn since the foot began to move, rad, sensor frame."""
     peak: float = field(default=0.0, init=False)
     trough: float = field(default=0.0, init=False)
-    toe_off: float = field(default=0.0, init=False)
+    toe_off: float | None = field(default=None, init=False)
     struck: float | None = field(default=None, init=False)
     """When the rate came up after the swing, s, until heel-strike is told."""
     force: Vec3 | None = field(default=None, init=False)
@@ -164,7 +164,7 @@ class InertialCues:
             if t - self.still_since >= self.settle - TIE:
                 return self._landed(impact.jolted if impact.hardest > 0.0 else self.still_since - self.lookback)
             return None
-        if t - self.toe_off < self.shortest_swing - TIE:
+        if self.toe_off is not None and t - self.toe_off < self.shortest_swing - TIE:
             return None
         if before < self.slap <= now and self.trough < -self.hump and self.axis is not None:
             self.struck = t - dt * (now - self.slap) / (now - before)

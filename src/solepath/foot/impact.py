@@ -30,8 +30,8 @@ class Impact:
     aloft: float = 0.1
     """The jolts of leaving the ground are over so long after toe-off, s."""
     # state
-    began: float = field(default=0.0, init=False)
-    """When the swing did, s."""
+    began: float | None = field(default=None, init=False)
+    """When the swing did, s; None: before anybody looked."""
     shock: float = field(default=0.0, init=False)
     """Squared jerk of the last moments, summed over time, m^2/s^5."""
     middle: float = field(default=0.0, init=False)
@@ -69,6 +69,6 @@ class Impact:
         self.shock = shock = shock + jolt
         if jolt > 0.0:
             self.middle += (t - 0.5 * dt - self.middle) * jolt / shock
-        if shock > self.hardest and t - self.began >= self.aloft - TIE:
+        if shock > self.hardest and (self.began is None or t - self.began >= self.aloft - TIE):
             self.hardest = shock
             self.jolted = self.middle
