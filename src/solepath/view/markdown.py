@@ -13,9 +13,11 @@ PLACES = {
     "rms_2d": "position error RMS, horizontal",
     "armse_2d": "the same / sqrt 2 (ARMSE2d)",
     "rms_3d": "position error RMS, in space",
+    "rms_z": "height error RMS",
     "position_mean": "position error at the footprints",
     "end_error": "from end to start, in space",
     "end_error_2d": "from end to start, horizontal",
+    "end_height": "from end to start, in height",
 }
 """Figures that are averaged over recordings, m."""
 STAIRS = {
@@ -24,6 +26,8 @@ STAIRS = {
     "level_called": "time on the level that was called stairs",
 }
 """Shares that are averaged over recordings."""
+LEGS = {"leg": "length of a leg, by each foot's track", "body_leg": "the same by the wearer's position"}
+"""Relative errors that are pooled."""
 EVENTS = {"heel_strike": "heel-strike", "toe_off": "toe-off"}
 
 
@@ -37,7 +41,11 @@ def accuracy_table(results: Sequence[Result]) -> str:
                 continue
             count = f"{summary.count} recording{'s' * (summary.count > 1)}"
             data = f"{result.data_set.title}: `{result.data_set.name}`, {count}"
-            figures = [*_places(summary), *_strides(summary.together), *_events(summary.together), *_did(summary)]
+            bipedal = [other for other in result.summaries if other.group == "bipedal"]
+            figures = [
+                *_places(summary), *_better(summary), *(row for other in bipedal for row in _bipedal(other)),
+                *_strides(summary.together), *_legs(summary.together), *_events(summary.together), *_did(summary),
+            ]  # fmt: skip
             for what, figure in figures:
                 rows.setdefault((data, what), {})[result.recipe] = figure
     heads = ["came to"] if len(recipes) == 1 else [f"`{recipe}`" for recipe in recipes]
@@ -62,6 +70,17 @@ def _places(summary: Summary) -> list[tuple[str, str]]:
     return told
 
 
+def _better(summary: Summary) -> list[tuple[str, str]]:
+    share = summary.mean.get("authors_beaten")
+    what = "trials in which the authors' own system is further off"
+    return [] if share is None else [(what, f"{percent(share)} %")]
+
+
+def _bipedal(summary: Summary) -> list[tuple[str, str]]:
+    mean, median = (f"{number(part['armse_2d'], 3)} m" for part in (summary.mean, summary.median))
+    return [(f"ARMSE2d of the {summary.count} bipedal trials", f"mean {mean}, median {median}")]
+
+
 def _strides(pooled: Figures) -> list[tuple[str, str]]:
     told = []
     if (true := pooled.get("strides_true")) is not None:
@@ -70,6 +89,18 @@ def _strides(pooled: Figures) -> list[tuple[str, str]]:
     if (error := pooled.get("stride_error")) is not None:
         median = percent(pooled["stride_error_median"])
         told.append(("stride length error", f"mean {percent(error)} %, median {median} %"))
+    return told
+
+
+def _legs(pooled: Figures) -> list[tuple[str, str]]:
+    told = []
+    for kind, what in LEGS.items():
+        if pooled.get(f"{kind}_error") is not None:
+            mean, median = (percent(pooled[f"{kind}_{part}"]) for part in ("error", "error_median"))
+            told.append((f"{what} ({number(pooled[f'{kind}_count'], 0)})", f"median error {median} %, mean {mean} %"))
+    if (error := pooled.get("stride_time_error")) is not None:
+        median = milliseconds(pooled["stride_time_error_median"])
+        told.append(("stride time", f"median error {median} ms, mean {milliseconds(error)} ms"))
     return told
 
 
