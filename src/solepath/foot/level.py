@@ -22,7 +22,7 @@ scatter by a decimetre, until the pitch of several steps has shown it.
 
 from __future__ import annotations
 
-from math import exp, hypot, pi, sqrt
+from math import exp, hypot, log, pi, sqrt
 
 from attrs import define, field
 
@@ -32,6 +32,12 @@ from ..vector import ZERO, conjugate, rotate
 UP = (0.0, 0.0, 1.0)
 FARTHEST = 1e3
 """No step is longer, m, nor is anything learnt of one."""
+OUTSET = 0.05
+"""How often a walk begins on a slope."""
+SURE, RUN = 4, 20
+"""So many steps in a row show that there are two slopes, and more than these are no better proof."""
+LIKELIER = 2.0
+"""Natural logarithm of the odds at which the other one is taken for level."""
 FLATTEST = 2e-4
 """The pitch of a flat foot is not known better than by this variance, rad^2."""
 
@@ -79,6 +85,12 @@ class Level:
     """Level steps that it is known from."""
     wobble: float = field(default=5e-4, init=False)
     """Variance of the pitch of a flat foot from step to step, rad^2."""
+    run: int = field(default=0, init=False)
+    """Steps on a slope up to now, and their mean"""
+    grade: float = field(default=0.0, init=False)
+    """rise for each metre, and"""
+    tipped: Vec3 = field(default=ZERO, init=False)
+    """up in the sensor's axes."""
     slope: float = field(default=0.02, init=False)
     stair: float = field(default=0.02, init=False)
     """How likely the last step was on a slope, and on a stair."""
@@ -99,7 +111,7 @@ class Level:
         spread = noise + ground * ground / (1.0 / (self.lean_sigma * self.lean_sigma) + self.leant)
         rises = self.steep * self.steep
         slopes = ground * ground * rises
-        gain = slopes / (spread + slopes)  # of a slope's height, what of it to believe
+        gain = slopes / (spread + slopes)
         level, slope, stair = self._expected()
         level *= _density(height, spread)
         slope *= _density(height, spread + slopes)
@@ -125,7 +137,8 @@ class Level:
             self.slope, self.stair = slope, stair
         if walked:
             self._learn(level, height, ground, variance, noise, up, pitch)
-        return (slope * gain + stair) * height, level
+            self._go_on(slope, height / ground, up)
+        return (slope + stair) * height, level
 
     def _expected(self) -> tuple[float, float, float]:
         """How likely each of the three is by the step before."""
@@ -164,6 +177,30 @@ class Level:
             x, y, z = self.upright
             ux, uy, uz = up
             self.upright = (x + k * (ux - x), y + k * (uy - y), z + k * (uz - z))
+
+
+    def _go_on(self, slope: float, grade: float, up: Vec3) -> None:
+        """A step of `grade`, rise for each metre, that was on a slope with that probability.
+
+        Who sets out on a slope has what is level and what is not the wrong way round. It shows when the slope is left:
+        with the other one for level there would be hardly any lean."""
+        if slope < 0.5:
+            self.run = 0
+            return
+        self.run = min(self.run + 1, RUN)
+        k = 1.0 / self.run
+        self.grade += k * (grade - self.grade)
+        x, y, z = self.tipped
+        ux, uy, uz = up
+        self.tipped = (x + k * (ux - x), y + k * (uy - y), z + k * (uz - z))
+        lean, other = self.lean, self.lean + self.grade
+        odds = 0.5 * (lean * lean - other * other) / (self.lean_sigma * self.lean_sigma)
+        # each step more on a slope costs the chance that it goes on; the first one, to be on it from the start or later
+        odds += log(OUTSET / self.seldom[0]) + log(self.stays[0]) * (self.stood - self.run)
+        if self.run >= SURE and odds > LIKELIER:
+            self.lean, self.upright, self.stood = other, self.tipped, float(self.run)
+            self.leant *= 0.5
+            self.slope, self.stair, self.run = 0.02, 0.02, 0
 
 
 def _density(off: float, variance: float) -> float:
