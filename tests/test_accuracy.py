@@ -12,27 +12,54 @@ def scores(results: list[Result], data_set: str) -> tuple[dict[str, Scored], Sum
 
 
 def test_vicon_tracks_of_28_trials_with_one_causal_configuration(results):
+    """The threshold tuned per trial on the truth, an oracle, comes to a mean of 0.056 m."""
     trials, summary = scores(results, "pyshoe_vicon")
     assert len(trials) == 28
-    assert summary.mean["armse_2d"] <= 0.20
-    assert summary.median["armse_2d"] <= 0.12
+    assert summary.mean["armse_2d"] <= 0.13
+    assert summary.median["armse_2d"] <= 0.08
+
+
+def test_vicon_tracks_of_ordinary_walking(results):
+    (result,) = (result for result in results if result.data_set.name == "pyshoe_vicon")
+    (bipedal,) = (summary for summary in result.summaries if summary.group == "bipedal")
+    assert bipedal.mean["armse_2d"] <= 0.08
+
+
+def test_the_surveyed_footprints_are_nearer_than_their_authors_own_system_had_them(results):
+    walks, _ = scores(results, "gumushane_surveyed")
+    known = [walk.figures for walk in walks.values() if walk.figures["authors"] is not None]
+    assert sum(walk["authors_beaten"] for walk in known) >= 5 and len(known) == 6
+    assert sum(walk["position_mean"] for walk in known) / len(known) < 1.27
 
 
 def test_every_surveyed_stride_is_found_and_its_length_known(results):
-    walks, _ = scores(results, "gumushane_surveyed")
+    walks, summary = scores(results, "gumushane_surveyed")
+    assert summary.together["strides_found"] >= 0.95 * summary.together["strides_true"]
+    assert summary.together["stride_error"] <= 0.025
     for name in ("exp31", "exp33", "exp37"):
         strides = walks[name].strides
         assert (strides.n_found, strides.n_invented) == (strides.n_true, 0), name
-        assert strides.mean_error <= 0.035, name
 
 
 def test_a_closed_loop_of_60_m_ends_near_its_start(results):
     walks, _ = scores(results, "xio_closed_walks")
-    assert walks["long_walk"].figures["end_error"] <= 0.9
+    assert walks["long_walk"].figures["end_error"] <= 0.42
 
 
 def test_contacts_of_both_feet_are_found_in_spite_of_radio_losses(results):
     _, summary = scores(results, "ipol_10m_uturn")
     for kind in ("heel_strike", "toe_off"):
-        assert summary.together[f"{kind}_f1"] >= 0.95
-        assert abs(summary.together[f"{kind}_bias"]) <= 0.06
+        assert summary.together[f"{kind}_f1"] >= 0.97
+        assert abs(summary.together[f"{kind}_bias"]) <= 0.03
+
+
+def test_ten_metres_and_back_are_ten_metres(results):
+    _, summary = scores(results, "ipol_10m_uturn")
+    assert summary.together["leg_error_median"] <= 0.03
+    assert summary.together["body_leg_error_median"] <= 0.03
+
+
+def test_initial_contacts_are_those_of_motion_capture(results):
+    walks, summary = scores(results, "gaitmap_examples")
+    assert summary.together["heel_strike_f1"] >= 0.97
+    assert abs(walks["walk_4x10m_ic"].events["heel_strike"].bias) <= 0.015
