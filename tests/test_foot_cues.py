@@ -8,17 +8,23 @@ from statistics import median
 import pytest
 
 from solepath import Foot, Sample, Session, Site, ToeOff
-from solepath.events import HeelStrike
+from solepath.events import Event, HeelStrike
+from solepath.foot.cues import InertialCues
 from solepath.foot.eskf import ErrorStateFilter
+from solepath.foot.phase import PHASES, Cue
 from solepath.foot.stance import Stance
 from solepath.sim import Route, Walker
 from solepath.types import Phase
 from solepath.vector import GRAVITY, ZERO, from_rotation_vector, rotate
 
 
-def walked(speed: float) -> tuple[Walker, list[Sample]]:
-    walker = Walker(Route().stand(2).walk(15, speed).stop(2), seed=5)
-    return walker, [Sample(s.t, s.site, s.acc, s.gyro) for s in walker.samples(Foot.LEFT, 100)]
+def walked(speed: float, rate: float = 100.0, far: float = 15.0) -> tuple[Walker, list[Sample]]:
+    walker = Walker(Route().stand(2).walk(far, speed).stop(2), seed=5)
+    return walker, [Sample(s.t, s.site, s.acc, s.gyro) for s in walker.samples(Foot.LEFT, rate)]
+
+
+def of(kind: type[HeelStrike] | type[ToeOff], events: list[Event]) -> list[HeelStrike | ToeOff]:
+    return [event for event in events if isinstance(event, kind)]
 
 
 @pytest.mark.parametrize("speed", [0.9, 1.3, 1.7])
@@ -32,6 +38,70 @@ def test_without_cells_toe_off_and_heel_strike_are_seen_by_how_the_foot_turns(sp
         offsets = [a - b for a, b in zip(seen, true, strict=True)]
         assert abs(median(offsets)) < 0.045, kind.__name__
         assert max(offsets) - min(offsets[1:]) < 0.2, kind.__name__
+
+
+@pytest.mark.parametrize("rate", [20.0, 50.0, 200.0, 400.0])
+def test_heel_strike_is_where_the_ground_stops_the_foot_at_any_rate(rate: float) -> None:
+    walker, samples = walked(1.2, rate, 8.0)
+    seen = [event.t for event in of(HeelStrike, Session().feed(samples))]
+    true = walker.truth().feet[Foot.LEFT].heel_strikes
+    assert len(seen) == len(true)
+    # between two samples nobody knows more
+    assert abs(median(a - b for a, b in zip(seen, true, strict=True))) < 0.015 + 0.5 / rate
+
+
+@pytest.mark.parametrize("speed", [0.7, 1.3, 1.8])
+def test_heel_strike_and_toe_off_are_known_within_60_ms(speed: float) -> None:
+    _, samples = walked(speed)
+    events = Session().feed(samples)
+    late = [event.known_at - event.t for kind in (HeelStrike, ToeOff) for event in of(kind, events)[1:-1]]
+    assert len(late) > 10 and max(late) < 0.0605
+
+
+def test_heel_strike_stays_where_it_is_when_the_accelerometer_clips_at_2_g() -> None:
+    _, samples = walked(1.4)
+    limit = 2.0 * GRAVITY
+
+    def clipped(sample: Sample) -> Sample:
+        assert sample.acc is not None
+        x, y, z = (max(-limit, min(limit, value)) for value in sample.acc)
+        return Sample(sample.t, sample.site, (x, y, z), sample.gyro)
+
+    whole, cut = (of(HeelStrike, Session().feed(fed)) for fed in (samples, [clipped(sample) for sample in samples]))
+    assert len(cut) == len(whole)
+    assert abs(median(a.t - b.t for a, b in zip(cut, whole, strict=True))) < 0.02
+
+
+def after_standing(speed: float, rate: float) -> list[Cue]:
+    """What is seen of a foot that stood, and whose heel then rises for 0.6 s: the sensor's speed in m/s, the foot's
+    rate in rad/s."""
+    cues = InertialCues()
+    phase, seen = Phase.STATIONARY, []
+    for k in range(160):
+        still = k < 100
+        gyro = ZERO if still else (0.0, rate, 0.0)
+        one = cues.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), gyro, still, 0.0 if still else speed, phase)
+        if one is not None and PHASES[phase][one.cue] is not phase:
+            phase = PHASES[phase][one.cue]
+            seen.append(one.cue)
+    return seen
+
+
+def test_a_foot_that_slides_away_without_turning_has_left_its_place() -> None:
+    assert after_standing(0.6, 0.1) == [Cue.LIFT, Cue.CLEAR]
+
+
+def test_a_foot_that_rolls_over_its_toe_has_not_left_the_ground_however_fast_the_sensor_goes() -> None:
+    assert after_standing(0.6, 3.5) == [Cue.LIFT]
+
+
+def test_a_jolt_in_the_middle_of_a_long_swing_is_no_heel_strike() -> None:
+    cues = InertialCues()
+    cues.cleared(0.0)
+    cues.trough = 0.0
+    for k in range(1, 80):
+        acc = (40.0 if k == 30 else 0.0, 0.0, GRAVITY)
+        assert cues.update(0.01 * k, 0.01, acc, (0.0, -3.0, 0.0), False, 2.0, Phase.SWING) is None
 
 
 def test_gravity_rights_a_standing_foot_even_when_the_filter_is_sure_of_its_tilt() -> None:
