@@ -61,8 +61,8 @@ def run(options: argparse.Namespace) -> int:
     else:
         _tell(demo)
     print()
-    lines = [*gait_lines(demo.monitor.tally.gait), comparison_table(demo.comparison()), "", *latency(demo.monitor.tally)]
-    print("\n".join(lines))
+    tally = demo.monitor.tally
+    print("\n".join([*gait_lines(tally.gait), comparison_table(demo.comparison()), "", *latency(tally)]))
     return 0
 
 
