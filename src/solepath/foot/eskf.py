@@ -41,6 +41,10 @@ REFERENCE_INTERVAL = 0.005
 """The spacing of updates that a Stance's sigma is meant for, s; other spacings scale its variance."""
 SHORTEST_INTERVAL = 0.0035
 """Corrections closer together than this are left out: neighbouring samples say the same, s."""
+SETTLED = 0.06
+"""After so much of a stance corrections are as close as this no longer, s,"""
+SETTLED_INTERVAL = 0.0185
+"""but as this: every second sample at 100 Hz."""
 
 
 @define
@@ -72,9 +76,9 @@ class ErrorStateFilter(Strapdown):
     noise above makes of yaw is not it: that noise is there to keep tilt correctable, and over a step it cancels."""
     refuse: float = 12.0
     """Largest normalised innovation squared (chi-square, three degrees of freedom)."""
-    patience: float = 1.2
+    patience: float = 2.0
     """After refusing everything for this long the filter is lost, s."""
-    lasting: float = 0.25
+    lasting: float = 0.5
     """Evidence that goes on for this long is not refused any longer, s."""
     tilt_rate: float = 2.0
     """How fast gravity pulls the tilt upright while the evidence is certain, 1/s."""
@@ -164,8 +168,9 @@ class ErrorStateFilter(Strapdown):
             return False
         if self.quiet_since is None:
             self.quiet_since = t
-        if self.since < SHORTEST_INTERVAL:
+        if self.since < (SHORTEST_INTERVAL if t - self.quiet_since < SETTLED else SETTLED_INTERVAL):
             return self.accepted is not None and self.quietest >= 1e12  # as the sample before was judged
+        share = self.tilt_rate * min(self.since, SETTLED_INTERVAL)
         r = sigma * sigma * REFERENCE_INTERVAL / self.since
         self._carry()
         certain = stance.hint is Phase.STATIONARY
@@ -176,14 +181,14 @@ class ErrorStateFilter(Strapdown):
         if not certain and t - self.accepted > self.patience - TIE and stance.statistic <= 3.0 * self.quietest:
             self._doubt(velocity=0.3, tilt=0.03)
         elif min(t - self.quiet_since, t - self.accepted) > self.lasting - TIE:
-            # no swing is quiet for so long, so the foot stands and the velocity is what is wrong
+            # not even a foot that is carried is quiet for so long: it stands, and the velocity is what is wrong
             self._doubt(velocity=abs(vx - rx) + abs(vy - ry) + abs(vz - rz), tilt=0.1)
         outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if certain else self.refuse)
         if outcome is None:
             self.quietest = min(self.quietest, stance.statistic)
             return False
         self.uncertainty, error = outcome
-        tx, ty = self._off_plumb(self.tilt_rate * REFERENCE_INTERVAL) if certain else (0.0, 0.0)
+        tx, ty = self._off_plumb(share) if certain else (0.0, 0.0)
         self._inject(error, tx, ty)
         self.accepted = t
         self.quietest = 1e12
