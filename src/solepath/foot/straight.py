@@ -45,7 +45,8 @@ class StraightOn:
         if self.footfalls < 3:
             return 0.0
         off = self.heading + turn
-        doubt = self.gap_turn * min(2.0, unsure + sparse / 0.05)
+        # between two samples a straight line errs by the square of the time
+        doubt = self.gap_turn * min(2.0, unsure + 200.0 * sparse * sparse)
         return -off * share(off * off, doubt, self.sigma, pi, 1)
 
     def footfall(self, turn: float, mended: float, unsure: float, sparse: float) -> None:
