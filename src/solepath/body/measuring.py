@@ -16,7 +16,7 @@ It is counted once the next stride of the foot follows, so that the last one bef
 from __future__ import annotations
 
 from math import hypot
-from typing import Protocol, runtime_checkable
+from typing import Protocol
 
 from ..events import StepTaken, StrideMeasured
 from ..types import Foot, Vec3
@@ -36,7 +36,6 @@ LEAST_WAY = 0.2
 OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 
 
-@runtime_checkable
 class Shared(Protocol):
     """A body that measures where one foot is from the other has this method; the Body protocol does not ask for it. One
     that supposes that a foot lands half-way along the other's stride must not: all steps would be as long."""
@@ -122,10 +121,11 @@ def placed(
     """Step length and step width, m: how the place where the other foot came down at `struck`, s, lies to the line of
     the step."""
     stood = [place for contact, place in other.places if contact == struck]
-    if not stood or not isinstance(body, Shared):
+    if not stood or not hasattr(body, "common"):  # isinstance of a protocol takes 20 us
         return None, None
-    begin = body.common(foot, sub(step.position, step.displacement))
-    end, beside = body.common(foot, step.position), body.common(OTHER[foot], stood[-1])
+    shared: Shared = body
+    begin = shared.common(foot, sub(step.position, step.displacement))
+    end, beside = shared.common(foot, step.position), shared.common(OTHER[foot], stood[-1])
     if begin is None or end is None or beside is None:
         return None, None
     dx, dy, _ = sub(end, begin)
