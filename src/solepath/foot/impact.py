@@ -15,7 +15,6 @@ from __future__ import annotations
 from attrs import define, field
 
 from ..types import Vec3
-from ..vector import TIE
 
 MOST = 1e12
 """A jolt weighs no more than this, m^2/s^5."""
@@ -28,7 +27,7 @@ class Impact:
     memory: float = 0.02
     """What is older than about this is no part of it, s."""
     aloft: float = 0.1
-    """The jolts of leaving the ground are over so long after toe-off, s."""
+    """A jolt nearer than this to toe-off is that of leaving the ground, s."""
     # state
     began: float | None = field(default=None, init=False)
     """When the swing did, s; None: before anybody looked."""
@@ -69,6 +68,6 @@ class Impact:
         self.shock = shock = shock + jolt
         if jolt > 0.0:
             self.middle += (t - 0.5 * dt - self.middle) * jolt / shock
-        if shock > self.hardest and (self.began is None or t - self.began >= self.aloft - TIE):
+        if shock > self.hardest and (self.began is None or self.middle - self.began >= self.aloft):
             self.hardest = shock
             self.jolted = self.middle
