@@ -110,9 +110,8 @@ def advertises(task: asyncio.Task[Any]) -> bool:
 
 @cache
 def walk(seed: int) -> Walked:
-    bench = Bench(
-        ROUTE, devices=worn(), seed=seed, faults=[Fault(FIRST + APART * k, FEET[k % 2], What.DISCONNECT) for k in range(CUTS)]
-    )
+    faults = [Fault(FIRST + APART * k, FEET[k % 2], What.DISCONNECT) for k in range(CUTS)]
+    bench = Bench(ROUTE, devices=worn(), seed=seed, faults=faults)
     truth = bench.truth()
     assert truth.duration - 2.0 > FIRST + APART * CUTS
     walked = Walked(truth)
