@@ -4,16 +4,17 @@ Many gyroscopes end at 250 or 500 degrees/s, which a foot exceeds as its heel ri
 the blow of a heel-strike is more than the 2 g of some accelerometers. The reading then stands at the end of the range.
 How much is missed is known in part: the reading leaves the range and comes back to it as steeply as it is seen to.
 Under the cubic through both ends with these slopes lie D^2 (rise + fall) / 12 for D seconds beyond the range; the
-longer it lasts the flatter is what a foot really does, and so
+longer it lasts and the less alike its ends are, the flatter is what a foot really does, and so
 
-    m = D^2 (rise + fall) / (12 (1 + D / FLAT))
+    m = D^2 sqrt(rise fall) / (6 (1 + D / FLAT))
 
-is taken. missed.py says what follows. Where the range ends is learnt: an axis that stands at its largest reading is at
+is taken: on recorded feet, cut off at 250 degrees/s, a third of m off as a rule. missed.py says what follows. Where the range ends is learnt: an axis that stands at its largest reading is at
 its end. Smooth maxima that look like it last so short that m is nothing.
 """
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import NamedTuple
 
 from attrs import define, field
@@ -32,7 +33,7 @@ SPIKE = 1.5
 """No reading is believed to be more than so many times the largest before it."""
 FADES = 0.97
 """What is left, a step later, of the largest rate, so that what was broken is forgotten."""
-FLAT = 0.3
+FLAT = 0.25
 """s, as in m."""
 SPREAD = 0.7
 """What m is wrong by, as a share of it; and as a share of what was seen meanwhile:"""
@@ -198,7 +199,7 @@ def _follow(axis: Axis, i: int, dt: float, a: float, most: float) -> Missed | No
     fall = max(_slope(end - axis.after, axis.after_dt, most), _slope(axis.after - a, dt, most))
     tail = min((end - axis.after) / fall, axis.after_dt)
     lasted = axis.lasted + axis.after_dt - tail
-    angle = min(lasted * lasted * (axis.rise + fall) / (12.0 * (1.0 + lasted / FLAT)), MOST)
+    angle = min(lasted * lasted * sqrt(axis.rise * fall) / (6.0 * (1.0 + lasted / FLAT)), MOST)
     axis.side, axis.after, axis.after_dt = 0, None, 0.0
     return Missed(i, sign * angle, SPREAD * angle + FLOOR * end * lasted, lasted, dt + tail, axis.rise, fall)
 
