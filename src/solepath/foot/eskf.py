@@ -43,8 +43,8 @@ SHORTEST_INTERVAL = 0.0035
 """Corrections closer together than this are left out: neighbouring samples say the same, s."""
 SETTLED = 0.06
 """After so much of a stance corrections are as close as this no longer, s,"""
-SETTLED_INTERVAL = 0.0185
-"""but as this: every second sample at 100 Hz."""
+SETTLED_INTERVAL = 0.0385
+"""but as this: every fourth sample at 100 Hz. What they correct has hardly grown in between, s."""
 
 
 @define
