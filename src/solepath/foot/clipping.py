@@ -8,8 +8,9 @@ longer it lasts and the less alike its ends are, the flatter is what a foot real
 
     m = D^2 sqrt(rise fall) / (6 (1 + D / FLAT))
 
-is taken: on recorded feet, cut off at 250 degrees/s, a third of m off as a rule. missed.py says what follows. Where the range ends is learnt: an axis that stands at its largest reading is at
-its end. Smooth maxima that look like it last so short that m is nothing.
+is taken: on recorded feet, cut off at 250 degrees/s, a third of m off as a rule. missed.py says what follows. Where
+the range ends is learnt: an axis that stands at its largest reading is at its end. Smooth maxima that look like it last
+so short that m is nothing.
 """
 
 from __future__ import annotations
