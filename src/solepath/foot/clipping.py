@@ -36,7 +36,7 @@ FADES = 0.97
 """What is left, a step later, of the largest rate, so that what was broken is forgotten."""
 FLAT = 0.25
 """s, as in m."""
-SPREAD = 0.7
+SPREAD = 1.0
 """What m is wrong by, as a share of it; and as a share of what was seen meanwhile:"""
 FLOOR = 0.05
 MOST = 1.0
