@@ -7,6 +7,7 @@ from attrs import field, frozen
 from .body.activity.activities import Activities
 from .body.activity.footstep_activity import TwoSecondWindows
 from .body.activity.walking_state import AnglePerMetre
+from .body.both_feet import BothFeet
 from .body.footsteps import Footsteps
 from .body.fusion import DoubleFoot
 from .body.modes.compensation import TABLE_1
@@ -32,7 +33,7 @@ from .foot.static_zones import StaticZones
 from .foot.swing_dedrift import SwingDedrift
 from .foot.tracker import AnyCorrector, AnyCues, AnyDetector
 
-AnyBody = MeanOfFeet | DoubleFoot | Modes | Footsteps
+AnyBody = BothFeet | MeanOfFeet | DoubleFoot | Modes | Footsteps
 AnyActivity = Activities | AnglePerMetre | TwoSecondWindows
 AnyPlace = Particles | SnakeGame
 

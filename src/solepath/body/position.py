@@ -72,6 +72,18 @@ class Placed:
         dx, dy, dz = self.offset
         return (x + dx, y + dy, z + dz)
 
+    def correct(self, at: Vec3, yaw: float, dx: float, dy: float) -> None:
+        """Turn its track by `yaw` rad about the place `at` on it, m, and move it by (dx, dy) m, among both feet."""
+        x, y, _ = self.place(at)
+        self.turn += yaw
+        nx, ny, _ = self.place(at)
+        ox, oy, oz = self.offset
+        self.offset = (ox + x + dx - nx, oy + y + dy - ny, oz)
+
+    def undone(self, place: Vec3) -> Vec3:
+        """Where its own track has a place among both feet, m."""
+        return _turned(sub(place, self.offset), -self.turn)
+
 
 @define
 class MeanOfFeet:

@@ -268,6 +268,12 @@ class ErrorStateFilter(Strapdown):
         Strapdown.mend(self, yaw, position)
         self._here()
 
+    def shift(self, yaw: float, by: Vec3) -> None:
+        """Turn everything by `yaw` rad about the foot and move it `by` m, navigation frame: nothing has happened."""
+        self._carry()
+        self.turn_about(yaw, by)
+        self._here()
+
     def flat(self, start: Vec3, turn: float) -> None:
         if not self.level.gate:
             return

@@ -107,6 +107,18 @@ class Strapdown:
     def flat(self, start: Vec3, turn: float) -> None:
         """As in `Corrector`; heights stay as integration has them."""
 
+    def turn_about(self, yaw: float, by: Vec3) -> None:
+        """Turn attitude, velocity and force by `yaw` rad about the foot, and move it `by` m."""
+        c, s = cos(yaw), sin(yaw)
+        self.attitude = normalise(multiply(from_yaw(yaw), self.attitude))
+        x, y, z = self.velocity
+        self.velocity = (c * x - s * y, s * x + c * y, z)
+        if self.force is not None:
+            x, y, z = self.force
+            self.force = (c * x - s * y, s * x + c * y, z)
+        (x, y, z), (dx, dy, dz) = self.position, by
+        self.position = (x + dx, y + dy, z + dz)
+
     def integrate(self, dt: float, acc: Vec3, gyro: Vec3) -> Vec3:
         """One sample; returns the mean acceleration over dt, m/s^2."""
         # turn by the mean rate: half angles, sin and cos by their series (angles of a sample are small)
