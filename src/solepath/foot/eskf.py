@@ -16,8 +16,7 @@ from math import inf
 from attrs import define, field
 
 from ..types import Phase, Quat, Vec3
-from ..vector import GRAVITY, TIE, ZERO, from_rotation_vector, multiply, normalise, rotate
-from .clipping import LEAST_FORCE, STEEPEST_FORCE, TRIFLE_SPEED, Clipping, Missed
+from ..vector import GRAVITY, TIE, ZERO, normalise
 from .covariance import (
     HEIGHT,
     TILT_X,
@@ -33,8 +32,8 @@ from .covariance import (
     update,
 )
 from .level import Level
-from .missed import NUDGE, Swing, apart, spread
 from .navigate import LONGEST_BRIDGE, Strapdown
+from .recovery import Recovery
 from .stance import Stance
 
 REFERENCE_INTERVAL = 0.005
@@ -101,15 +100,7 @@ class ErrorStateFilter(Strapdown):
     accepted: float | None = field(default=None, init=False)
     quietest: float = field(default=1e12, init=False)
     quiet_since: float | None = field(default=None, init=False)
-    clipping: Clipping = field(factory=Clipping, init=False)
-    swing: Swing = field(factory=Swing, init=False)
-    blows: Clipping = field(factory=lambda: Clipping(LEAST_FORCE, STEEPEST_FORCE, TRIFLE_SPEED), init=False)
-    """The same of the accelerometer; and its last two readings, m/s^2:"""
-    felt: Vec3 = field(default=ZERO, init=False)
-    felt_before: Vec3 = field(default=ZERO, init=False)
-    earlier: Vec3 = field(default=ZERO, init=False)
-    """The rate before `rate`, rad/s, and how long before it, s:"""
-    earlier_dt: float = field(default=0.0, init=False)
+    recovery: Recovery = field(factory=Recovery, init=False)
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         self.attitude = attitude
@@ -130,18 +121,8 @@ class ErrorStateFilter(Strapdown):
         gx, gy, gz = gyro
         rx, ry, rz = rate
         turning = gx * gx + gy * gy + gz * gz
-        clipping, missed = self.clipping, None
-        if clipping.busy or turning > clipping.watch:
-            missed = clipping.update(dt, gyro, rate, self.earlier, self.earlier_dt, saturated)
-            self.swing.keep(dt, gyro, rate, acc, self.attitude)
-        elif self.swing.rows:
-            self.swing.rows = []
-        x, y, z = acc
-        blows, lost = self.blows, None
-        if blows.busy or x * x + y * y + z * z > blows.watch:
-            lost = blows.update(dt, acc, self.felt, self.felt_before, self.earlier_dt, saturated)
-        self.felt, self.felt_before = acc, self.felt
-        self.earlier, self.earlier_dt = rate, dt
+        recovery = self.recovery
+        missed, lost = recovery.watch(dt, acc, gyro, rate, self.attitude, saturated)
         ax, ay, az = self.integrate(dt, acc, gyro)
         fx, fy, fz = before
         x, y, z = self.force or ZERO
@@ -151,15 +132,20 @@ class ErrorStateFilter(Strapdown):
             self.acc_noise * self.acc_noise + share * (ax * ax + ay * ay + az * az) + unknown * (x * x + y * y + z * z)
         ) * dt
         noise = self.gyro_noise * self.gyro_noise + share * turning + unknown * (rx * rx + ry * ry + rz * rz)
-        if turning > self.suspect * self.suspect and not (clipping.busy and self.recover):
+        if turning > self.suspect * self.suspect and not (recovery.turns.busy and self.recover):
             noise += self.suspect_noise * self.suspect_noise
         self.gyro_variance += noise * dt
         self.since += dt
         self.stretch += dt
-        if missed and self.recover:
-            self._missed(missed)
-        if lost and self.recover:
-            self._lost(lost)
+        if (missed or lost) and self.recover:
+            self._carry()
+            state = (self.attitude, self.velocity, self.position, self.uncertainty)
+            if missed:
+                state = recovery.turned(missed, state)
+            if lost:
+                state = recovery.struck(lost, state)
+            self.attitude, self.velocity, self.position, self.uncertainty = state
+            self._here()
 
     def correct(self, t: float, stance: Stance) -> bool:
         sigma = stance.sigma
@@ -194,43 +180,13 @@ class ErrorStateFilter(Strapdown):
         self.quietest = 1e12
         return True
 
-    def _missed(self, missed: tuple[Missed, ...]) -> None:
-        """The state as it is with what the gyroscope turned out to have missed, and the doubt: missed.py."""
-        self._carry()
-        for one in missed:
-            seen, likely, more = (self.swing.anew(one, angle) for angle in (0.0, one.angle, one.angle + NUDGE))
-            (px, py, pz), (vx, vy, vz), turn = apart(seen, likely)
-            x, y, z = self.position
-            self.position = self.start_position = (x + px, y + py, z + pz)
-            x, y, z = self.velocity
-            self.velocity = self.start_velocity = (x + vx, y + vy, z + vz)
-            self.attitude = normalise(multiply(from_rotation_vector(turn), self.attitude))
-            self.uncertainty = spread(self.uncertainty, *apart(likely, more), one.sigma / NUDGE)
-
-    def _lost(self, lost: tuple[Missed, ...]) -> None:
-        """The same of what the accelerometer missed."""
-        self._carry()
-        for one in lost:
-            x, y, z = (1.0 if axis == one.axis else 0.0 for axis in (0, 1, 2))
-            ux, uy, uz = rotate(self.attitude, (x, y, z))
-            k = one.ago + 0.5 * one.lasted
-            along = (k * ux, k * uy, k * uz)
-            v = one.angle
-            x, y, z = self.position
-            self.position = self.start_position = (x + v * k * ux, y + v * k * uy, z + v * k * uz)
-            x, y, z = self.velocity
-            self.velocity = self.start_velocity = (x + v * ux, y + v * uy, z + v * uz)
-            self.uncertainty = spread(self.uncertainty, along, (ux, uy, uz), ZERO, one.sigma)
-
     def bridge(self, dt: float) -> float:
         # a foot accelerates by some 10 m/s^2 and turns by some rad/s; what happened in between is anyone's guess
         if dt <= LONGEST_BRIDGE:
             self.acc_variance += 4.0 * dt
             self.gyro_variance += 0.25 * dt
             return dt
-        self.clipping.interrupt()
-        self.swing.rows = []
-        self.blows.interrupt()
+        self.recovery.interrupt()
         self._carry()
         if dt == inf:  # times begin anew
             self.accepted = self.quiet_since = None
@@ -247,9 +203,7 @@ class ErrorStateFilter(Strapdown):
         return 0.0
 
     def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
-        self.clipping.interrupt()
-        self.swing.rows = []
-        self.blows.interrupt()
+        self.recovery.interrupt()
         self._carry()
         self.stretch += dt
         self.attitude, self.velocity, self.position = attitude, velocity, position
@@ -288,8 +242,7 @@ class ErrorStateFilter(Strapdown):
             self.uncertainty = believed_height(self.uncertainty, 1.0 - level * (1.0 - least / variance))
 
     def anchor(self) -> tuple[float, ...]:
-        self.clipping.stepped()
-        self.blows.stepped()
+        self.recovery.stepped()
         self._carry()
         stretch = self._stretch(self.uncertainty)
         self.stretch = 0.0
