@@ -127,36 +127,33 @@ class Timed:
 
 def shares_of(items: list[Sample], begin: Callable[[], Session]) -> dict[str, float]:
     """Microseconds a sample that each part of a foot and of a wearer takes, less what the clock does."""
-    found: dict[str, list[float]] = {}
-    for _ in range(RUNS):
-        session = begin()
-        session.feed(items[0])
-        wearer = session._state.wearer
-        (foot,) = wearer.feet.values()
-        held = {
-            "rest": (foot, "rest"),
-            "detector": (foot, "detector"),
-            "filter": (foot, "corrector"),
-            "cues": (foot, "cues"),
-            "cells": (foot, "sole"),
-            "activities": (wearer, "activity"),
-            "turns": (wearer, "turns"),
-            "how it is worn": (wearer, "wear"),
-            "body": (wearer, "body"),
-        }
-        watched = {}
-        for name, (holder, where) in held.items():
-            watched[name] = Timed(getattr(holder, where))
-            setattr(holder, where, watched[name])
-        gc.collect()
-        gc.disable()
-        for item in items[1:]:
-            session.feed(item)
-        gc.enable()
-        call = overhead()
-        for name, part in watched.items():
-            found.setdefault(name, []).append((part.taken - part.calls * call) / len(items) * 1e6)
-    return {name: median(taken) for name, taken in found.items()}
+    held = {
+        "rest": ("foot", "rest"),
+        "detector": ("foot", "detector"),
+        "filter": ("foot", "corrector"),
+        "cues": ("foot", "cues"),
+        "cells": ("foot", "sole"),
+        "activities": ("wearer", "activity"),
+        "turns": ("wearer", "turns"),
+        "how it is worn": ("wearer", "wear"),
+        "body": ("wearer", "body"),
+    }
+    return {name: median([_share(items, begin(), *where) for _ in range(RUNS)]) for name, where in held.items()}
+
+
+def _share(items: list[Sample], session: Session, whose: str, name: str) -> float:
+    """One at a time: a part that looks at one that is watched would pay for that."""
+    session.feed(items[0])
+    wearer = session._state.wearer
+    holder: Any = wearer if whose == "wearer" else next(iter(wearer.feet.values()))
+    part = Timed(getattr(holder, name))
+    setattr(holder, name, part)
+    gc.collect()
+    gc.disable()
+    for item in items[1:]:
+        session.feed(item)
+    gc.enable()
+    return (part.taken - part.calls * overhead()) / len(items) * 1e6
 
 
 def overhead() -> float:
