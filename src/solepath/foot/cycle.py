@@ -30,8 +30,8 @@ class Cycle:
     """The threshold is never below this; what a standing foot shows."""
     quietest: float = 3e3
     """A moment quieter than this counts as this: after standing, the next stance is not as still as standing was."""
-    ceiling: float = 3e6
-    """Nor above this; no stance of the recordings seen is louder."""
+    ceiling: float = 6e6
+    """Nor above this: what a runner's stance comes to."""
     certain: float = 2e3
     """Below this the foot is still whatever the filter believes."""
     sigma: float = 0.01
@@ -42,6 +42,8 @@ class Cycle:
     """Velocity noise for each (rad/s)^2, m s: the rolling foot."""
     off_gravity: float = 0.05
     """Velocity noise for each m/s^2 off gravity, s."""
+    off_gravity2: float = 0.02
+    """Velocity noise for each (m/s^2)^2 off gravity, s^3/m: a foot that is braked before it lands may turn no more."""
     bucket: float = 0.4
     """Length of one of the four spans over which the extremes are kept, s."""
     rolls: bool = True
@@ -77,7 +79,7 @@ class Cycle:
         variance = (
             self.sigma * self.sigma
             + (self.arm * self.arm + self.arm2 * self.arm2 * rate) * rate
-            + self.off_gravity * self.off_gravity * force
+            + (self.off_gravity * self.off_gravity + self.off_gravity2 * self.off_gravity2 * force) * force
         )
         if not self.rolls:
             return Stance(ZERO, sqrt(variance), statistic, hint)
