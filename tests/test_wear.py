@@ -105,7 +105,7 @@ def test_a_silent_foot_does_not_hold_the_wearer_back(foot: Site) -> None:
     x, y, across, along = place(tuple(silent(both(FAR), foot, 12.0)))
     whole = place(both(FAR))
     assert x == pytest.approx(40.0, abs=0.8)
-    assert abs(y - whole[1]) < 1.5
+    assert abs(y) < 3.0 * along, "its heading is its own, but no worse than it says"
     assert across > 1.2 * whole[2] and along > 1.2 * whole[3], "one foot alone is known less well than the mean of two"
 
 
