@@ -7,6 +7,7 @@ from attrs import field, frozen
 from .body.activity.activities import Activities
 from .body.activity.footstep_activity import TwoSecondWindows
 from .body.activity.walking_state import AnglePerMetre
+from .body.altitude import Altitude
 from .body.both_feet import BothFeet
 from .body.footsteps import Footsteps
 from .body.fusion import DoubleFoot
@@ -45,7 +46,8 @@ class Recipe:
     `detector`: what says that a foot stands still, or how fast it rolls. `corrector`: what keeps the integration from
     drifting. `cues`: what sees heel-strike, foot-flat, heel-off and toe-off. `insole`: what makes a load of cells.
     `body`: what puts both feet together. `activity`: what says what the wearer does. `place`: what finds the wearer
-    on a floor plan. `needs_pressure`: without pressure cells it has nothing to say.
+    on a floor plan. `needs_pressure`: without pressure cells it has nothing to say. `altitude`: what follows lifts and
+    the air pressure; None: the feet's own heights.
     """
 
     name: str
@@ -57,9 +59,10 @@ class Recipe:
     activity: AnyActivity = field(factory=Activities)
     place: AnyPlace = field(factory=Particles)
     needs_pressure: bool = False
+    altitude: Altitude | None = None
 
 
-DEFAULT = Recipe("default", Cycle(), ErrorStateFilter())
+DEFAULT = Recipe("default", Cycle(), ErrorStateFilter(), altitude=Altitude())
 """Stance judged within each gait cycle, nine-state error-state filter."""
 
 BOARD = 0.44

@@ -8,6 +8,7 @@ from typing import TypeVar
 
 from attrs import define, field
 
+from .body.altitude import Altitude
 from .body.position import Position
 from .body.strides import Strides
 from .body.turns import Turns
@@ -52,6 +53,7 @@ class Wearer:
     body: AnyBody = field(init=False)
     activity: AnyActivity = field(init=False)
     place: AnyPlace = field(init=False)
+    altitude: Altitude | None = field(init=False)
     turns: Turns = field(factory=Turns, init=False)
     strides: Strides = field(factory=Strides, init=False)
     wear: Wear = field(factory=Wear, init=False)
@@ -63,6 +65,7 @@ class Wearer:
         self.body = _calibrated(deepcopy(self.recipe.body), self.calibration)
         self.activity = _calibrated(deepcopy(self.recipe.activity), self.calibration)
         self.place = deepcopy(self.recipe.place)
+        self.altitude = deepcopy(self.recipe.altitude)
 
     def feed(self, sample: Sample, scale_is_said: bool, plan: IndexedPlan | None) -> list[Event]:
         """A sample of any site. `scale_is_said`: by its link, which knows the range, so the foot need not. `plan`: the
@@ -90,6 +93,12 @@ class Wearer:
         events += self.body.foot_moved(tracker, sample, events)
         if did:
             events += did
+        altitude = self.altitude
+        if altitude is not None:
+            if sample.air_pressure is not None:
+                altitude.breathed(tracker, sample.t, sample.air_pressure)
+            if events:
+                events = altitude.follow(events)
         if events or self.strides.waits:
             known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
             events += self.strides.foot_moved(tracker, self.feet, known_at, events, self.body)
@@ -121,6 +130,8 @@ class Wearer:
     def finish(self, known_at: float) -> list[Event]:
         """No more samples come: what was held back. `known_at`: s, now."""
         did: list[Event] = [*self.activity.finish(known_at), *self.turns.finish(known_at)]
+        if self.altitude is not None:
+            did = self.altitude.follow(did)
         return did + self.strides.finish(self.feet, known_at, self.body)
 
     def _follow(self, plan: IndexedPlan, events: list[Event]) -> None:
@@ -132,14 +143,17 @@ class Wearer:
 
     def _interrupt_parts(self, site: Site) -> None:
         self.body.interrupt(site)
+        if self.altitude is not None:
+            self.altitude.interrupt(site)
         self.activity.interrupt(site)
         self.turns.interrupt(site)
         self.strides.interrupt(site)
 
     @property
     def position(self) -> Position | None:
-        """As the recipe's body has it; None before any sample."""
-        return self.body.position(self.feet)
+        """As the recipe's body has it, at the height that the recipe finds; None before any sample."""
+        found = self.body.position(self.feet)
+        return found if found is None or self.altitude is None else self.altitude.placed(found)
 
     def _tracker(self, foot: Foot) -> FootTracker:
         """The foot's own tracker, or a new one that nobody holds yet."""

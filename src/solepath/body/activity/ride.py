@@ -44,6 +44,10 @@ HASTE = 6.0
 """or is so much less likely (natural logarithm)."""
 LEAST = 1e-6
 """No density is less, s^2/m."""
+PULSES = 0.1
+"""A ride's height by its pulses is wrong by this share of it,"""
+AIR = 0.3
+"""and by the air pressure by so much: readings of a second or two at either end, m."""
 SLOWEST = 0.4
 """No lift is slower, m/s."""
 
@@ -249,11 +253,17 @@ class Ride:
         return -min(odd, 8.0)
 
     def risen(self, air: float | None) -> float | None:
-        """How far it went, m: by the air pressure, where there is one; else by the pulses, taking away the drift of a
-        lift that must stand in the end; None when the first was not felt. `air`: how high it is now."""
-        if air is not None and self.air is not None:
-            return air - self.air
-        return self.height - 0.5 * self.velocity * self.lasted if self.whole else None
+        """How far it went, m: by the pulses, taking away the drift of a lift that must stand in the end, and by the air
+        pressure, each as far as it is sure; None when there is no air and the first pulse was not felt. `air`: how high
+        it is now."""
+        by_air = None if air is None or self.air is None else air - self.air
+        if not self.whole:
+            return by_air
+        felt = self.height - 0.5 * self.velocity * self.lasted
+        if by_air is None:
+            return felt
+        share = AIR * AIR / (AIR * AIR + (PULSES * by_air) ** 2)
+        return by_air + share * (felt - by_air)
 
 
 def _density(off: float, variance: float) -> float:
