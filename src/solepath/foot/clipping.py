@@ -9,8 +9,8 @@ longer it lasts and the less alike its ends are, the flatter is what a foot real
     m = D^2 sqrt(rise fall) / (6 (1 + D / FLAT))
 
 is taken: on recorded feet, cut off at 250 degrees/s, a third of m off as a rule. missed.py says what follows. Where
-the range ends is learnt: an axis that stands at its largest reading is at its end. Smooth maxima that look like it last
-so short that m is nothing.
+the range ends is learnt: an axis that stands at its largest reading for D seconds is at its end, unless that is no more
+than what a smooth maximum does. Between ends as steep as those, it would rise by D sqrt(rise fall) / 4.
 """
 
 from __future__ import annotations
@@ -36,6 +36,8 @@ FADES = 0.97
 """What is left, a step later, of the largest rate, so that what was broken is forgotten."""
 FLAT = 0.25
 """s, as in m."""
+BULGE = 3.0
+"""An end of a range is believed when a smooth maximum would rise by so many times what readings there differ by."""
 SPREAD = 1.0
 """What m is wrong by, as a share of it; and as a share of what was seen meanwhile:"""
 FLOOR = 0.05
@@ -161,12 +163,12 @@ def _enter(
     if a > end * (1.0 + SAME):
         known = told  # it can say more than was thought
     end = max(end, min(a, SPIKE * end))
-    known = known or stands or told
+    known = known or told
     if sign > 0:
         axis.top, axis.ends_above = end, known
     else:
         axis.bottom, axis.ends_below = -end, known
-    if not known:
+    if not (known or stands):
         return
     axis.side, axis.after, axis.after_dt = sign, None, 0.0
     axis.rise = _slope(before - earlier, earlier_dt, most)
@@ -198,6 +200,14 @@ def _follow(axis: Axis, i: int, dt: float, a: float, most: float) -> Missed | No
         axis.after, axis.after_dt = a, dt
         return None
     fall = max(_slope(end - axis.after, axis.after_dt, most), _slope(axis.after - a, dt, most))
+    if not (axis.ends_above if sign > 0 else axis.ends_below):
+        if axis.lasted * sqrt(axis.rise * fall) < 4.0 * BULGE * SAME * end:
+            axis.side, axis.after, axis.after_dt = 0, None, 0.0
+            return None
+        if sign > 0:
+            axis.ends_above = True
+        else:
+            axis.ends_below = True
     tail = min((end - axis.after) / fall, axis.after_dt)
     lasted = axis.lasted + axis.after_dt - tail
     angle = min(lasted * lasted * sqrt(axis.rise * fall) / (6.0 * (1.0 + lasted / FLAT)), MOST)
