@@ -77,7 +77,7 @@ class ErrorStateFilter(Strapdown):
     """Largest normalised innovation squared (chi-square, three degrees of freedom)."""
     patience: float = 2.0
     """After refusing everything for this long the filter is lost, s."""
-    lasting: float = 0.5
+    lasting: float = 0.35
     """Evidence that goes on for this long is not refused any longer, s."""
     tilt_rate: float = 2.0
     """How fast gravity pulls the tilt upright while the evidence is certain, 1/s."""
