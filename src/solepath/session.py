@@ -35,6 +35,7 @@ from .types import Activity, Foot, Packet, Phase, Sample, Site, Support
 from .wearer import Wearer, in_order
 
 SNAPSHOT_VERSION = 1
+A_NUMBER = (float, int)
 
 
 @define
@@ -203,12 +204,12 @@ class Session:
 
     def _sample(self, sample: Sample) -> list[Event]:
         state, t = self._state, sample.t
-        if not isinstance(sample.site, Site) or not isinstance(t, float | int):
+        if not isinstance(sample.site, Site) or not isinstance(t, A_NUMBER):
             raise TypeError("a sample holds a time and a Site")
         events = state.wearer.feed(sample, sample.site in state.decoders, self._plan)
-        if (state.now is None or t > state.now) and not (
-            events and any([isinstance(event, SampleRejected) for event in events])
-        ):
+        if events and any([isinstance(event, SampleRejected) for event in events]):
+            return events
+        if state.now is None or t > state.now:
             state.now = t
         return events
 

@@ -163,20 +163,23 @@ class Rest:
         """One raw sample; True when a span of rest was learnt from."""
         if self.span_start is None:
             self.span_start = t
-        self.span.add(acc, gyro)
+        span = self.span
+        span.add(acc, gyro)
         # between two neighbouring counts a steady reading flickers, on any axis, with a variance of up to a quarter
         x, y, z = acc
         lx, ly, lz = self.last
         self.last = acc
+        x -= lx
+        y -= ly
+        z -= lz
         finest = self.grain
-        if EQUAL < abs(x - lx) < finest:
-            finest = abs(x - lx)
-        if EQUAL < abs(y - ly) < finest:
-            finest = abs(y - ly)
-        if EQUAL < abs(z - lz) < finest:
-            finest = abs(z - lz)
-        self.grain = finest
-        if t - self.span_start < self.length - TIE or self.span.count < 4:
+        if -finest < x < finest and not -EQUAL <= x <= EQUAL:
+            self.grain = finest = x if x > 0.0 else -x
+        if -finest < y < finest and not -EQUAL <= y <= EQUAL:
+            self.grain = finest = y if y > 0.0 else -y
+        if -finest < z < finest and not -EQUAL <= z <= EQUAL:
+            self.grain = z if z > 0.0 else -z
+        if t - self.span_start < self.length - TIE or span.count < 4:
             return False
         (ax, ay, az), (gx, gy, gz) = self.span.means()
         acc_variance, gyro_variance = self.span.variances()

@@ -96,7 +96,7 @@ class CopCues:
     @property
     def sagittal(self) -> float:
         """As in `Cues`."""
-        return self.inertial.sagittal
+        return 0.0 if self.inertial.axis is None else self.inertial.sagittal
 
     def wear(self, layout: Layout) -> None:
         """The device said where its cells are."""

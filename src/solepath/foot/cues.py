@@ -96,12 +96,12 @@ class InertialCues:
     ) -> Seen | None:
         """`acc` in m/s^2, `gyro` in rad/s without bias, `still`: the evidence of zero velocity was believed, `speed` in
         m/s."""
-        before = self.sagittal
+        before, axis = self.sagittal, self.axis
         gx, gy, gz = gyro
-        if self.axis is None:
+        if axis is None:
             now = sqrt(gx * gx + gy * gy + gz * gz)
         else:
-            x, y, z = self.axis
+            x, y, z = axis
             now = x * gx + y * gy + z * gz
         self.sagittal = now
         was, self.force = self.force, acc
@@ -115,7 +115,7 @@ class InertialCues:
                 self.moving_since = t
                 self.turned = ZERO
                 self.peak = 0.0
-            if speed < self.shuffle_speed + self.reach * abs(now):
+            if speed < self.shuffle_speed + self.reach * (now if now > 0.0 else -now):
                 self.fast_since = None
             elif self.fast_since is None:
                 self.fast_since = t
@@ -131,7 +131,8 @@ class InertialCues:
         x, y, z = self.turned
         self.turned = (x + gx * dt, y + gy * dt, z + gz * dt)
         if phase is Phase.STATIONARY:
-            self.peak = max(self.peak, now)
+            if now > self.peak:
+                self.peak = now
             if self.moving_since is not None and t - self.moving_since >= self.settle - TIE:
                 return Seen(Cue.LIFT, self.moving_since if self.calm is None else min(self.calm, self.moving_since))
             return None
@@ -154,11 +155,12 @@ class InertialCues:
         if now < self.trough:
             self.trough = now
         impact = self.impact
+        struck = self.struck
         if was is not None and self.force is not None:
-            impact.feel(t, dt, was, self.force, speed, self.struck is not None)
-        if self.struck is not None:
-            middle = max(self.struck, impact.middle)
-            over = t - middle >= self.hear_out - TIE or t - self.struck >= self.longest_impact - TIE
+            impact.feel(t, dt, was, self.force, speed, struck is not None)
+        if struck is not None:
+            middle = max(struck, impact.middle)
+            over = t - middle >= self.hear_out - TIE or t - struck >= self.longest_impact - TIE
             return self._landed(middle) if over or self.still_since is not None else None
         if self.still_since is not None:
             if t - self.still_since >= self.settle - TIE:

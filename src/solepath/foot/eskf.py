@@ -11,12 +11,13 @@ fast stance; but a filter that has refused everything for a while is lost and ta
 
 from __future__ import annotations
 
-from math import inf
+from math import cos, inf, sin, sqrt
 
 from attrs import define, field
 
 from ..types import Phase, Quat, Vec3
 from ..vector import GRAVITY, TIE, ZERO, normalise
+from .clipping import Missed
 from .covariance import (
     HEIGHT,
     TILT_X,
@@ -32,7 +33,7 @@ from .covariance import (
     update,
 )
 from .level import Level
-from .navigate import LONGEST_BRIDGE, Strapdown
+from .navigate import LONGEST_BRIDGE, WIDEST_SERIES, Strapdown
 from .recovery import Recovery
 from .stance import Stance
 
@@ -117,35 +118,97 @@ class ErrorStateFilter(Strapdown):
         self.quietest = 1e12
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
-        before, rate = self.force or ZERO, self.rate or gyro
+        """As in `Corrector`: `Strapdown.integrate` and the noise that it adds, in one stroke."""
         gx, gy, gz = gyro
+        fx, fy, fz = acc
+        rate, was, attitude = self.rate or gyro, self.force, self.attitude
         rx, ry, rz = rate
         turning = gx * gx + gy * gy + gz * gz
+        # what the sensors may miss at the ends of their ranges
         recovery = self.recovery
-        missed, lost = recovery.watch(dt, acc, gyro, rate, self.attitude, saturated)
-        ax, ay, az = self.integrate(dt, acc, gyro)
-        fx, fy, fz = before
-        x, y, z = self.force or ZERO
-        x, y, z, rx, ry, rz = x - fx, y - fy, z - fz, gx - rx, gy - ry, gz - rz
+        turns, blows = recovery.turns, recovery.blows
+        missed = lost = None
+        if (
+            turning > turns.watch
+            or fx * fx + fy * fy + fz * fz > blows.watch
+            or turns.busy
+            or blows.busy
+            or recovery.swing.rows
+        ):
+            missed, lost = recovery.watch(dt, acc, gyro, rate, attitude, saturated)
+        else:
+            recovery.pass_by(dt, acc, rate)
+        # half the turn by the mean rate, and its sin and cos by their series
+        k = 0.25 * dt
+        hx, hy, hz = k * (gx + rx), k * (gy + ry), k * (gz + rz)
+        n = hx * hx + hy * hy + hz * hz
+        if n < WIDEST_SERIES:
+            c = 1.0 - n * (0.5 - n * (1.0 / 24.0 - n * (1.0 / 720.0 - n / 40320.0)))
+            s = 1.0 - n * (1.0 / 6.0 - n * (1.0 / 120.0 - n * (1.0 / 5040.0 - n / 362880.0)))
+        else:
+            angle = sqrt(n)
+            c, s = cos(angle), sin(angle) / angle
+        hx *= s
+        hy *= s
+        hz *= s
+        # q <- q (c, h), one Newton step towards length 1
+        w, x, y, z = attitude
+        qw = w * c - x * hx - y * hy - z * hz
+        qx = w * hx + x * c + y * hz - z * hy
+        qy = w * hy - x * hz + y * c + z * hx
+        qz = w * hz + x * hy - y * hx + z * c
+        k = 1.5 - 0.5 * (qw * qw + qx * qx + qy * qy + qz * qz)
+        w = qw * k
+        x = qx * k
+        y = qy * k
+        z = qz * k
+        self.attitude = (w, x, y, z)
+        # the specific force in this frame, q f q*
+        tx = 2.0 * (y * fz - z * fy)
+        ty = 2.0 * (z * fx - x * fz)
+        tz = 2.0 * (x * fy - y * fx)
+        fx = fx + w * tx + y * tz - z * ty
+        fy = fy + w * ty + z * tx - x * tz
+        fz = fz + w * tz + x * ty - y * tx
+        self.rate, self.force = gyro, (fx, fy, fz)
+        # trapezoidal rule: a = (f + f before) / 2 - g, v <- v + a dt, p <- p + (v + v before) dt / 2
+        if was is None:
+            ax, ay, az, x, y, z = fx, fy, fz - GRAVITY, fx, fy, fz
+        else:
+            px, py, pz = was
+            ax, ay, az = 0.5 * (fx + px), 0.5 * (fy + py), 0.5 * (fz + pz) - GRAVITY
+            x, y, z = fx - px, fy - py, fz - pz
+        vx, vy, vz = self.velocity
+        ux, uy, uz = vx + ax * dt, vy + ay * dt, vz + az * dt
+        px, py, pz = self.position
+        k = 0.5 * dt
+        self.position = (px + (vx + ux) * k, py + (vy + uy) * k, pz + (vz + uz) * k)
+        self.velocity = (ux, uy, uz)
+        # noise: the sensor's own, a share of the motion, and of what neighbouring samples differ by
+        rx, ry, rz = gx - rx, gy - ry, gz - rz
         share, unknown = self.in_motion * self.in_motion, self.between * self.between * dt
         self.acc_variance += (
             self.acc_noise * self.acc_noise + share * (ax * ax + ay * ay + az * az) + unknown * (x * x + y * y + z * z)
         ) * dt
         noise = self.gyro_noise * self.gyro_noise + share * turning + unknown * (rx * rx + ry * ry + rz * rz)
-        if turning > self.suspect * self.suspect and not (recovery.turns.busy and self.recover):
+        if turning > self.suspect * self.suspect and not (turns.busy and self.recover):
             noise += self.suspect_noise * self.suspect_noise
         self.gyro_variance += noise * dt
         self.since += dt
         self.stretch += dt
         if (missed or lost) and self.recover:
-            self._carry()
-            state = (self.attitude, self.velocity, self.position, self.uncertainty)
-            if missed:
-                state = recovery.turned(missed, state)
-            if lost:
-                state = recovery.struck(lost, state)
-            self.attitude, self.velocity, self.position, self.uncertainty = state
-            self._here()
+            self._make_up(missed, lost)
+
+    def _make_up(self, missed: tuple[Missed, ...] | None, lost: tuple[Missed, ...] | None) -> None:
+        """What gyroscope and accelerometer turned out to have missed."""
+        self._carry()
+        state = (self.attitude, self.velocity, self.position, self.uncertainty)
+        if missed:
+            state = self.recovery.turned(missed, state)
+        if lost:
+            state = self.recovery.struck(lost, state)
+        self.attitude, self.velocity, self.position, self.uncertainty = state
+        self._here()
 
     def correct(self, t: float, stance: Stance) -> bool:
         sigma = stance.sigma

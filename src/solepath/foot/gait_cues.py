@@ -7,7 +7,7 @@ flat and lift the inertial sensor's, and the heel dates the lift.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 from attrs import define, evolve, field
 
@@ -27,7 +27,7 @@ class Cues(Protocol):
 
     @property
     def sagittal(self) -> float:
-        """Rate about that axis in the last sample, positive toe down, rad/s."""
+        """Rate about that axis in the last sample, positive toe down, rad/s; 0 while it is not known."""
 
     @property
     def mark(self) -> Cue | None:
@@ -70,6 +70,8 @@ class GaitCues:
     pressure: PressureCues = field(factory=PressureCues)
     touch: Touch = field(factory=Touch)
     """For insoles of few cells."""
+    mark: ClassVar[Cue | None] = None
+    """No corrector is told: cues here are never taken back."""
 
     def wear(self, layout: Layout) -> None:
         """The device said where its cells are."""
@@ -83,12 +85,8 @@ class GaitCues:
     @property
     def sagittal(self) -> float:
         """As in `Cues`."""
-        return self.inertial.sagittal
-
-    @property
-    def mark(self) -> Cue | None:
-        """No corrector is told: cues here are never taken back."""
-        return None
+        inertial = self.inertial
+        return 0.0 if inertial.axis is None else inertial.sagittal
 
     def update(
         self,
@@ -104,6 +102,8 @@ class GaitCues:
     ) -> Sequence[Seen]:
         """As in `Cues`; at most one."""
         seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)
+        if load is None and seen is None:
+            return ()
         if load is not None:
             pressed = self.pressure.update(t, dt, load, phase)
             if len(load.cells) <= FEW:

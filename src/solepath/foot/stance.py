@@ -114,7 +114,7 @@ class Shoe:
         entries = self.entries
         entries.append((t, ax, ay, az, a2, w2))
         oldest = t - self.window + 1e-9
-        while len(entries) > 1 and entries[0][0] < oldest:
+        while entries[0][0] < oldest and len(entries) > 1:
             _, ax, ay, az, a2, w2 = entries.popleft()
             sx -= ax
             sy -= ay

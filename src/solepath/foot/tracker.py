@@ -260,7 +260,11 @@ class FootTracker:
             scaled = getattr(self.detector, "scaled", None)
             if scaled is not None:
                 scaled(rest.scale)
-        acc, gyro = self._calibrated(acc, gyro)
+        k, (bx, by, bz) = rest.scale, rest.bias
+        x, y, z = acc
+        acc = (x * k, y * k, z * k)
+        x, y, z = gyro
+        gyro = (x - bx, y - by, z - bz)
         if self.levelled:
             corrector.predict(dt, acc, gyro, saturated)
         stance = self.detector.update(t, dt, acc, gyro, load, corrector.attitude)
@@ -280,15 +284,15 @@ class FootTracker:
         seen = cues.update(t, dt, acc, gyro, believed and speed < STILL, speed, gait.phase, load, stance)
         if cues.mark is not None:
             corrector.mark(t, cues.mark)
-        habit = gait.habit
+        habit, position = gait.habit, corrector.position
         if habit.lifted is not None and t >= habit.due:
-            habit.keep(t, corrector.attitude, corrector.velocity, corrector.position, acc, gyro)
-        gait.step.moved(t, dt, corrector.position[2], speed, cues.sagittal if cues.axis is not None else 0.0)
+            habit.keep(t, corrector.attitude, corrector.velocity, position, acc, gyro)
+        gait.step.moved(t, dt, position[2], speed, cues.sagittal)
         if seen:
             for one in seen:
                 self._see(one, known_at, events)
         elif not gait.headed:
-            gait.world.find(corrector.position)
+            gait.world.find(position)
         if self.poses:
             self._say_where(t, known_at, events)
 
