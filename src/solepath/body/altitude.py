@@ -198,7 +198,7 @@ class Altitude:
     # --- what came ---
 
     def _stepped(self, step: StepTaken) -> None:
-        self.strides.append((step.t_start, step.t_end))
+        self.strides.append((round(step.t_start, 2), round(step.t_end, 2)))
         if step.stride_length < STRODE:
             self.strides.pop()
         elif len(self.strides) > STRIDES:
@@ -250,6 +250,8 @@ class Altitude:
     # --- the filter ---
 
     def _keep(self, one: tuple[float, int, float, float]) -> None:
+        t, which, value, variance = one
+        one = (round(t, 3), which, round(value, 4), round(variance, 6))  # small to keep, and no less exact
         self._use(self.now, one)
         self.kept.append(one)
         while len(self.kept) > 1 and one[0] - self.kept[0][0] > KEPT or len(self.kept) > 8.0 * KEPT:
