@@ -31,7 +31,7 @@ from solepath import (
 from solepath.link.decoder import Decoder
 from solepath.sim.radio import CLEAN
 from solepath.sim.route import Route
-from walks import NAMES, SHORT, Machine, insoles, machines, of, pieces, samples
+from walks import NAMES, SHORT, Machine, insoles, machines, of, pieces, samples, told
 
 QUICK = settings(max_examples=3, deadline=None, phases=[Phase.generate])
 """A walk an example: few of them, and no shrinking."""
@@ -40,9 +40,7 @@ QUICK = settings(max_examples=3, deadline=None, phases=[Phase.generate])
 @cache
 def fed_singly(name: str) -> tuple[Any, ...]:
     """What comes out item by item, without the end."""
-    machine = machines()[name]
-    one = machine.begin()
-    return tuple(event for item in machine.items for event in one.feed(item))
+    return tuple(event for events in told(name)[:-1] for event in events)
 
 
 # --- 3: causal --------------------------------------------------------------------------------------------------------
@@ -51,12 +49,11 @@ def fed_singly(name: str) -> tuple[Any, ...]:
 @pytest.mark.parametrize("name", NAMES)
 def test_nothing_is_known_before_it_was_or_after_the_item_that_settled_it(name: str) -> None:
     machine = machines()[name]
-    one, decoders = machine.begin(), {site: Decoder(site) for site in Site}
-    for item in machine.items:
-        told = one.feed(item)
+    decoders = {site: Decoder(site) for site in Site}
+    for item, events in zip(machine.items, told(name), strict=False):
         sampled = [s.t for s in of(Sample, decoders[item.site].feed(item))] if isinstance(item, Packet) else []
         newest = max([item.t, *sampled])
-        for event in told:
+        for event in events:
             # a sample's own time may lie a little after its arrival while the clock's fit is young
             assert event.t <= event.known_at <= max(newest, event.t), event
             assert event.known_at == event.t or event.known_at in (item.t, *sampled), event
@@ -67,15 +64,15 @@ def test_nothing_is_known_before_it_was_or_after_the_item_that_settled_it(name: 
 @QUICK
 def test_what_was_final_stays_when_more_comes(name: str, data: st.DataObject) -> None:
     machine = machines()[name]
-    whole = fed_singly(name)
+    everything = fed_singly(name)
     one = machine.begin()
     some = machine.items[: data.draw(st.integers(1, len(machine.items)))]
-    told = [event for item in some for event in one.feed(item)]
-    assert tuple(told) == whole[: len(told)]
+    early = [event for item in some for event in one.feed(item)]
+    assert tuple(early) == everything[: len(early)]
     # live positions and places are never final, a touchdown not before the wearer's first heading is settled, an
     # activity as long as it may turn out to be another
     live = FootMoved | Placed | TouchedDown | ActivityChanged | Sample
-    assert all(event.final for event in told if not isinstance(event, live))
+    assert all(event.final for event in early if not isinstance(event, live))
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])
@@ -153,9 +150,9 @@ def test_live_position_comes_with_the_sample() -> None:
 def test_any_chunking_gives_the_same_events_bit_for_bit(name: str, sizes: list[int], form: Any) -> None:
     machine: Machine = machines()[name]
     session = machine.begin()
-    told = [event for piece in pieces(machine.items, sizes) for event in session.feed(form(piece))]
-    assert exactly(told) == exactly(fed_singly(name))
-    assert machine.save(session) == machine.save(whole(machine))
+    found = [event for piece in pieces(machine.items, sizes) for event in session.feed(form(piece))]
+    assert exactly(found) == exactly(fed_singly(name))
+    assert machine.save(session) == whole(name)
 
 
 def exactly(told: Any) -> list[str]:
@@ -163,11 +160,13 @@ def exactly(told: Any) -> list[str]:
     return [repr(event) for event in told]
 
 
-def whole(machine: Machine) -> Session:
-    """A session that was fed everything as one generator."""
+@cache
+def whole(name: str) -> Any:
+    """The snapshot of a session that was fed everything as one generator."""
+    machine = machines()[name]
     session = machine.begin()
     session.feed(item for item in machine.items)
-    return session
+    return machine.save(session)
 
 
 def test_packets_and_samples_may_come_mixed() -> None:

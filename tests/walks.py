@@ -84,9 +84,11 @@ class Machine:
 
     def events(self, items: tuple[Item, ...] | None = None) -> list[Any]:
         """All that comes out when it is fed one item at a time and then finished."""
+        if items is None:
+            return [event for events in told(self.name) for event in events]
         one = self.begin()
-        told = [event for item in (self.items if items is None else items) for event in one.feed(item)]
-        return told + one.finish()
+        events = [event for item in items for event in one.feed(item)]
+        return events + one.finish()
 
 
 def _session(name: str, items: tuple[Item, ...], recipe: Recipe = DEFAULT) -> Machine:
@@ -156,6 +158,14 @@ def machines() -> dict[str, Machine]:
     found.append(_placed("particles", plain, DEFAULT))
     found.append(_placed("Snake game", plain, recipes.FOOTSTEP_TRACKER))
     return {one.name: one for one in found}
+
+
+@cache
+def told(name: str) -> tuple[tuple[Any, ...], ...]:
+    """What a machine says to each of its items, and at the end: found out once, for all that compare with it."""
+    known = machines()[name]
+    one = known.begin()
+    return (*(tuple(one.feed(item)) for item in known.items), tuple(one.finish()))
 
 
 RECIPES = (
