@@ -217,7 +217,7 @@ class ErrorStateFilter(Strapdown):
             return False
         if self.quiet_since is None:
             self.quiet_since = t
-        if self.since < (SHORTEST_INTERVAL if t - self.quiet_since < SETTLED else SETTLED_INTERVAL):
+        if self.since < (SHORTEST_INTERVAL if t - self.quiet_since < SETTLED - TIE else SETTLED_INTERVAL):
             return self.accepted is not None and self.quietest >= 1e12  # as the sample before was judged
         share = self.tilt_rate * min(self.since, SETTLED_INTERVAL)
         r = sigma * sigma * REFERENCE_INTERVAL / self.since
