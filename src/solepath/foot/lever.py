@@ -18,6 +18,7 @@ from __future__ import annotations
 from attrs import define, field
 
 from ..types import Quat, Vec3
+from ..vector import TIE
 
 EMPTY = (0.0,) * 18
 
@@ -75,7 +76,7 @@ class Lever:
             n + 1.0, t, ax, ay, ux, uy, st + t, stt + t * t, scc + cx * cx + cy * cy, suc + ux * cx + uy * cy,
             sux + ux, suy + uy, stux + t * ux, stuy + t * uy, scx + cx, scy + cy, stcx + t * cx, stcy + t * cy,
         )  # fmt: skip
-        if t > self.longest:
+        if t > self.longest + TIE:
             self.lift()
         return self.height * cx, self.height * cy
 
@@ -84,7 +85,7 @@ class Lever:
         n, t, _, _, _, _, st, stt, scc, suc, sux, suy, stux, stuy, scx, scy, stcx, stcy = self.sums
         self.sums = EMPTY
         d = n * stt - st * st
-        if t < self.shortest or n < 5.0 or d <= 0.0:
+        if t < self.shortest - TIE or n < 5.0 or d <= 0.0:
             return
         # what is left of u c and c c when the best a + b t is taken out of both, axis by axis
         square = scc - (
