@@ -122,7 +122,7 @@ class MeanOfFeet:
             back = this.absent
         elif t > this.t and other.t is not None:
             other.alone += t - this.t
-        this.t, this.alone, this.here = t, 0.0, foot.position
+        this.t, this.alone, this.here = t, 0.0, foot.gait.world.vector(foot.corrector.position)
         if back:
             self._came_back(this, other)
         if events and any([isinstance(event, StepTaken) for event in events]):

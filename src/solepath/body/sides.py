@@ -121,12 +121,7 @@ class Sides:
         """`foot` has used `sample` and said `events`; True once both feet look like the other."""
         is_left = foot.foot is Foot.LEFT
         side = self.left if is_left else self.right
-        if sample.gyro is not None:
-            dt = sample.t - side.times[-1] if side.times else HIDDEN
-            if not 0.0 <= dt < RARELY:
-                _turn(side, sample.t, dt, sample.gyro)
-        elif foot.moved_at is None and sample.pressure:
-            _press(side, sample.t, foot)
+        self.keep(side, foot, sample)
         if not events:
             return False
         judged = False
@@ -143,6 +138,18 @@ class Sides:
         layout = foot.insole.layout
         side.mirrored = layout is not None and layout.foot is not foot.foot
         return self._agree()
+
+    def keep(self, side: Side, foot: FootTracker, sample: Sample) -> None:
+        """What `sample` of the foot on that side adds to the evidence."""
+        gyro = sample.gyro
+        if gyro is None:
+            if foot.moved_at is None and sample.pressure:
+                _press(side, sample.t, foot)
+            return
+        t, times = sample.t, side.times
+        dt = t - times[-1] if times else HIDDEN
+        if not 0.0 <= dt < RARELY:
+            _turn(side, t, dt, gyro)
 
     def told(self, foot: Foot, layout: Layout) -> None:
         """The device on `foot` has said where its cells are, and with it whose insole it is."""
@@ -164,9 +171,10 @@ def _turn(side: Side, t: float, dt: float, gyro: Vec3) -> None:
     """One sample of the angular rate, rad/s, `dt` s after the last one that was used."""
     times = side.times
     if 0.0 < dt < HIDDEN:
-        x, y, z = side.turns[-1]
+        turns = side.turns
+        x, y, z = turns[-1]
         gx, gy, gz = gyro
-        side.turns.append((x + dt * gx, y + dt * gy, z + dt * gz))
+        turns.append((x + dt * gx, y + dt * gy, z + dt * gz))
     else:
         side.times = times = []
         side.turns = [ZERO]

@@ -50,6 +50,11 @@ class Wear:
         t = sample.t
         is_left = foot.foot is Foot.LEFT
         this, other = (self.left, self.right) if is_left else (self.right, self.left)
+        if not (events or this.said or other.missing):
+            this.t, this.missing = t, 0
+            if not self.swapped:
+                self.sides.keep(self.sides.left if is_left else self.sides.right, foot, sample)
+            return []
         found: list[Event] = []
         if this.said:
             this.said = False

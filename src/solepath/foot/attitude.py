@@ -163,10 +163,18 @@ class Rest:
         """One raw sample; True when a span of rest was learnt from."""
         if self.span_start is None:
             self.span_start = t
+        # as Span.add
         span = self.span
-        span.add(acc, gyro)
-        # between two neighbouring counts a steady reading flickers, on any axis, with a variance of up to a quarter
+        gx, gy, gz = gyro
+        lx, ly, lz = span.gyro
+        span.gyro = (lx + gx, ly + gy, lz + gz)
+        span.gyro_squares += gx * gx + gy * gy + gz * gz
         x, y, z = acc
+        lx, ly, lz = span.acc
+        span.acc = (lx + x, ly + y, lz + z)
+        span.acc_squares += x * x + y * y + z * z
+        span.count += 1
+        # between two neighbouring counts a steady reading flickers, on any axis, with a variance of up to a quarter
         lx, ly, lz = self.last
         self.last = acc
         x -= lx

@@ -15,7 +15,7 @@ from math import exp, inf, log, sqrt
 from attrs import define, field
 
 from ..types import Phase, Quat, Vec3
-from ..vector import IDENTITY, TIE, ZERO
+from ..vector import GRAVITY, IDENTITY, TIE, ZERO
 from .lever import EMPTY, Lever
 from .stance import SIGMA_ACC, SIGMA_GYRO, Load, Shoe, Stance
 
@@ -68,7 +68,31 @@ class Cycle:
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
-        force, rate = self.shoe.parts(t, acc, gyro)
+        # SHOE's sums, as Shoe.parts
+        ax, ay, az = acc
+        wx, wy, wz = gyro
+        a2, w2 = ax * ax + ay * ay + az * az, wx * wx + wy * wy + wz * wz
+        shoe = self.shoe
+        entries = shoe.entries
+        sx, sy, sz, s2, sw = shoe.sums
+        sx += ax
+        sy += ay
+        sz += az
+        s2 += a2
+        sw += w2
+        entries.append((t, ax, ay, az, a2, w2))
+        oldest = t - shoe.window + 1e-9
+        while entries[0][0] < oldest and len(entries) > 1:
+            _, ax, ay, az, a2, w2 = entries.popleft()
+            sx -= ax
+            sy -= ay
+            sz -= az
+            s2 -= a2
+            sw -= w2
+        shoe.sums = (sx, sy, sz, s2, sw)
+        n = len(entries)
+        force = s2 - 2.0 * GRAVITY * sqrt(sx * sx + sy * sy + sz * sz) + n * GRAVITY * GRAVITY
+        force, rate = (force / n if force > 0.0 else 0.0), (sw / n if sw > 0.0 else 0.0)
         statistic = force / ACC_SQUARE + rate / GYRO_SQUARE
         # the extremes of the last cycle
         if self.bucket_end is None or t >= self.bucket_end - TIE:

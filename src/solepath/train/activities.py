@@ -141,9 +141,7 @@ def _features(
                 yield from _judged(window, window.index - REACH, begin)
             window.begin(index, tracker)
         if sample.acc is not None:
-            window.add(sample.acc, sample.gyro)
-            if sample.gyro is not None and tracker.levelled:
-                window.track(tracker.corrector.position[2], tracker.corrector.velocity)
+            window.add(sample.acc, sample.gyro, tracker.corrector if tracker.levelled else None)
         if events:
             window.heard(events, tracker.corrector.position[2])
 

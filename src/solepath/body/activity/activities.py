@@ -101,13 +101,13 @@ class Activities:
 
     def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
         """A foot has used `sample`, and `events` are what came of it."""
-        acc, t = sample.acc, sample.t
+        acc, t, origin = sample.acc, sample.t, self.origin
         side = self.left if foot.foot is Foot.LEFT else self.right
-        if self.origin is None:
+        if origin is None:
             if acc is None:
                 return []
-            self.origin = t
-        since = (t - self.origin + TIE) / BLOCK
+            self.origin = origin = t
+        since = (t - origin + TIE) / BLOCK
         told: list[Event] = []
         if sample.air_pressure is not None and side.index is not None:
             self.air.add(foot.foot, floor(since), sample.air_pressure)
@@ -116,11 +116,7 @@ class Activities:
                 side.close()
                 side.begin(floor(since), foot)
                 told = self._judge(sample)
-            gyro = sample.gyro
-            side.add(acc, gyro)
-            if gyro is not None and foot.levelled:
-                corrector = foot.corrector
-                side.track(corrector.position[2], corrector.velocity)
+            side.add(acc, sample.gyro, foot.corrector if foot.levelled else None)
         if events:
             side.heard(events, foot.corrector.position[2])
             for event in events:

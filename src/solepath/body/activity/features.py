@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import deque
 from math import log, sqrt
+from typing import Protocol
 
 from attrs import define, field
 
@@ -25,6 +26,8 @@ KEPT = 2 * REACH + 1
 """Blocks that are kept."""
 BINS = 10
 """Of |acc|, 2 m/s^2 each, and of |gyro|, 1 rad/s each; the last one is open."""
+BEYOND, BEYOND_RATE = 2.0 * BINS, BINS * BINS
+"""|acc| and the square of |gyro| of the last bins and more."""
 STEPS = 3
 """Steps that are kept: as many as a window holds of a runner."""
 LONGEST = 1.6
@@ -40,6 +43,13 @@ TRACK = GYRO + 5 + THIRDS * BINS
 STEP = TRACK + 6
 """Index of the first feature of a step."""
 COUNT = STEP + 11
+
+
+class Track(Protocol):
+    """Where a foot is: position in m and velocity in m/s, z up."""
+
+    position: Vec3
+    velocity: Vec3
 
 
 @define
@@ -83,39 +93,40 @@ class FootWindow:
         self.tracked = False
         self.climb = self.sink = self.speed = 0.0
 
-    def add(self, acc: Vec3, gyro: Vec3 | None) -> None:
-        """A sample of the block under way."""
+    def add(self, acc: Vec3, gyro: Vec3 | None, track: Track | None) -> None:
+        """A sample of the block under way. `track`: where the foot is after it; None when nobody knows."""
         x, y, z = acc
         square = x * x + y * y + z * z
         length = sqrt(square)
         self.force += length
         self.squares += square
-        self.acc_bins[int(length * 0.5) if length < 2.0 * BINS else BINS - 1] += 1
-        if gyro is not None:
-            x, y, z = gyro
-            bx, by, bz = self.bias
-            x -= bx
-            y -= by
-            z -= bz
-            square = x * x + y * y + z * z
-            self.rate_squares += square
-            self.gyro_bins[int(sqrt(square)) if square < BINS * BINS else BINS - 1] += 1
-
-    def track(self, height: float, velocity: Vec3) -> None:
-        """Where the foot is after the sample: m above anything, and m/s, z up."""
+        self.acc_bins[int(length * 0.5) if length < BEYOND else BINS - 1] += 1
+        if gyro is None:
+            return
+        x, y, z = gyro
+        bx, by, bz = self.bias
+        x -= bx
+        y -= by
+        z -= bz
+        square = x * x + y * y + z * z
+        self.rate_squares += square
+        self.gyro_bins[int(sqrt(square)) if square < BEYOND_RATE else BINS - 1] += 1
+        if track is None:
+            return
         self.tracked = True
-        vx, vy, vz = velocity
-        if vz > self.climb:
-            self.climb = vz
-        elif vz < self.sink:
-            self.sink = vz
-        speed = vx * vx + vy * vy
-        if speed > self.speed:
-            self.speed = speed
-        if height > self.top:
-            self.top = height
-        elif height < self.bottom:
-            self.bottom = height
+        x, y, z = track.velocity
+        if z > self.climb:
+            self.climb = z
+        elif z < self.sink:
+            self.sink = z
+        square = x * x + y * y
+        if square > self.speed:
+            self.speed = square
+        z = track.position[2]
+        if z > self.top:
+            self.top = z
+        elif z < self.bottom:
+            self.bottom = z
 
     def heard(self, events: list[Event], height: float) -> None:
         """What came of the sample, and how high the foot is, m."""
@@ -196,36 +207,62 @@ class FootWindow:
         here = self.block(index)
         if here is None:
             return None
-        near = [block for block in self.blocks if abs(block.index - index) <= REACH]
+        near = [block for block in self.blocks if -REACH <= block.index - index <= REACH]
         told = [0.0] * COUNT
-        whole = sum([block.count for block in near])
+        earlier, later, turned, tracked = list[Block](), list[Block](), list[Block](), list[Block]()
+        whole, forces, squares = 0, 0.0, 0.0
+        least = most = here.variance
+        for block in near:
+            if block.index < index:
+                earlier.append(block)
+            elif block.index > index:
+                later.append(block)
+            if block.rates:
+                turned.append(block)
+            if block.tracked:
+                tracked.append(block)
+            n, force, variance = block.count, block.force, block.variance
+            whole += n
+            forces += force * n
+            squares += (variance + force * force) * n
+            if variance < least:
+                least = variance
+            elif variance > most:
+                most = variance
         told[0] = _logarithm(here.variance)
-        told[1] = _logarithm(min([block.variance for block in near]))
-        told[2] = _logarithm(max([block.variance for block in near]))
-        mean = sum([block.force * block.count for block in near]) / whole
-        squares = sum([(block.variance + block.force * block.force) * block.count for block in near]) / whole
-        told[3] = _logarithm(max(0.0, squares - mean * mean))
-        thirds = (
-            [block for block in near if block.index < index],
-            [here],
-            [block for block in near if block.index > index],
-        )
-        for at, third in enumerate(thirds):
-            first = 4 + at * BINS
-            told[first : first + BINS] = _shares([b.acc_bins for b in third], [b.count for b in third])
-        turned = [block for block in near if block.rates]
+        told[1] = _logarithm(least)
+        told[2] = _logarithm(most)
+        mean = forces / whole
+        told[3] = _logarithm(max(0.0, squares / whole - mean * mean))
+        thirds = (earlier, [here], later)
+        at = 4
+        for third in thirds:
+            if third:
+                told[at : at + BINS] = _shares([b.acc_bins for b in third], [b.count for b in third])
+            at += BINS
         if turned:
-            rates = sum([block.rates for block in turned])
+            rates, squares = 0, 0.0
+            least = most = turned[0].rate
+            for block in turned:
+                n, rate = block.rates, block.rate
+                rates += n
+                squares += rate * n
+                if rate < least:
+                    least = rate
+                elif rate > most:
+                    most = rate
             told[GYRO] = 1.0
             told[GYRO + 1] = _logarithm(here.rate if here.rates else turned[0].rate)
-            told[GYRO + 2] = _logarithm(min([block.rate for block in turned]))
-            told[GYRO + 3] = _logarithm(max([block.rate for block in turned]))
-            told[GYRO + 4] = _logarithm(sum([block.rate * block.rates for block in turned]) / rates)
-            for at, third in enumerate(thirds):
-                third = [block for block in third if block.rates]
-                first = GYRO + 5 + at * BINS
-                told[first : first + BINS] = _shares([b.gyro_bins for b in third], [b.rates for b in third])
-        tracked = [block for block in near if block.tracked]
+            told[GYRO + 2] = _logarithm(least)
+            told[GYRO + 3] = _logarithm(most)
+            told[GYRO + 4] = _logarithm(squares / rates)
+            at = GYRO + 5
+            for third in thirds:
+                if len(turned) < len(near):
+                    third = [block for block in third if block.rates]
+                if third:
+                    told[at : at + BINS] = _shares([b.gyro_bins for b in third], [b.rates for b in third])
+                at += BINS
         if tracked:
             told[TRACK] = 1.0
             told[TRACK + 1] = min(max([block.climb for block in tracked]), 3.0)
@@ -262,17 +299,15 @@ class FootWindow:
 
 def _logarithm(variance: float) -> float:
     """Of a variance: about -1 at rest and 1 in a run."""
-    return 0.25 * log(min(max(variance, 1e-4), 1e4))
+    return 0.25 * log(1e-4 if variance < 1e-4 else 1e4 if variance > 1e4 else variance)
 
 
 def _packed(bins: list[int]) -> bytes:
-    return bytes([min(n, 255) for n in bins])
+    return bytes(bins) if max(bins) < 256 else bytes([min(n, 255) for n in bins])
 
 
 def _shares(bins: list[bytes], counts: list[int]) -> list[float]:
     """Shares of each bin among the samples of the blocks of one third of a window."""
-    if not bins:
-        return [0.0] * BINS
     whole = sum(counts)
     if len(bins) == 1:
         return [n / whole for n in bins[0]]

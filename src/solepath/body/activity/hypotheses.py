@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from math import exp, inf, log
 
-from attrs import define, field, frozen
+from attrs import define, field
 
 from ...types import Activity
 from ...vector import TIE
@@ -33,10 +33,10 @@ LONGEST = 8
 """Changes of activity that may be unsettled."""
 
 
-@frozen
+@define
 class Segment:
-    """From `t` s on the wearer does `activity`. Of a ride: when its pulses were felt, s, and its height, m,
-    as far as it is known."""
+    """From `t` s on the wearer does `activity`; never changed. Of a ride: when its pulses were felt, s, and its height,
+    m, as far as it is known."""
 
     t: float
     activity: Activity
@@ -56,7 +56,7 @@ class Token:
     ride: Ride
 
 
-@frozen
+@define
 class Evidence:
     """What half a second from `t` s on looks like."""
 
@@ -97,6 +97,7 @@ class Hypotheses:
                 stops[state] = token.ride.stopped()
         beside = Beside(seen.felt)
         found: list[tuple[float, int, Token, Levels, float]] = []
+        newest = -inf
         for state, before in enumerate(chain.before):
             # the best course that goes on to the state
             best, highest = -1, -inf
@@ -114,11 +115,13 @@ class Hypotheses:
                         best, highest = i, score
             arrived = (held[best] if self.tokens else BEGUN[state]) if best >= 0 else None
             if arrived is not None:
-                found.append(_scored(arrived, highest, state, seen, beside))
-        highest = max([score for score, *_ in found])
+                one = _scored(arrived, highest, state, seen, beside)
+                found.append(one)
+                if one[0] > newest:
+                    newest = one[0]
         self.tokens = []
         for likely, state, token, levels, taken in found:
-            score = round(likely - highest, 4)
+            score = round(likely - newest, 4)
             if score >= -FORGOTTEN:
                 path, ride = _gone_on(token, state, seen, chain, levels, taken)
                 self.tokens.append(Token(state, score, path, ride))
@@ -212,25 +215,24 @@ def _gone_on(
 ) -> tuple[tuple[Segment, ...], Ride]:
     """The course of the token and its ride after half a second in the state."""
     ride, path, activity = token.ride, token.path, ACTIVITIES[state]
-    rides = state in RIDES
-    if not path:
-        path = (Segment(seen.t, activity, seen.t if rides else None),)
-        if rides:
-            ride = ride.begun(False, seen.before)
-    elif path[-1].activity is not activity:
+    if path and path[-1].activity is activity:
+        if state in RIDES:
+            return path, ride.goes(levels, taken, BLOCK)
+        if state == STAND:
+            return path, ride.stands(levels, BLOCK)
+        return path, Ride(levels, stood=ride.stood).stands(levels, BLOCK)
+    t = seen.t
+    if path:
         last = path[-1]
-        t = max(seen.t + chain.late[token.state][state], last.t + TIE)
-        if rides:
-            ride = ride.begun(state in PULSES, seen.before)
-            path = (*path, Segment(t, activity, seen.t))
-        else:
-            if token.state in RIDES:
-                ended = Segment(last.t, last.activity, last.from_, seen.t, ride.risen(seen.after))
-                path = (*path[:-1], ended)
-                ride = ride.over()
-            path = (*path, Segment(t, activity))
-    if rides:
-        return path, ride.goes(levels, taken, BLOCK)
+        if token.state in RIDES and state not in RIDES:
+            ended = Segment(last.t, last.activity, last.from_, t, ride.risen(seen.after))
+            path = (*path[:-1], ended)
+            ride = ride.over()
+        t = max(t + chain.late[token.state][state], last.t + TIE)
+    if state in RIDES:
+        whole = state in PULSES and bool(path)
+        return (*path, Segment(t, activity, seen.t)), ride.begins(whole, seen.before, levels, taken, BLOCK)
+    path = (*path, Segment(t, activity))
     if state == STAND:
         return path, ride.stands(levels, BLOCK)
     return path, Ride(levels, stood=ride.stood).stands(levels, BLOCK)

@@ -12,7 +12,7 @@ from __future__ import annotations
 from math import exp, log, pi, sqrt
 from operator import is_
 
-from attrs import define, frozen
+from attrs import define
 
 from ...vector import GRAVITY
 
@@ -52,7 +52,7 @@ SLOWEST = 0.4
 """No lift is slower, m/s."""
 
 
-@frozen
+@define
 class Felt:
     """Half a second of one foot: mean |acc|, m/s^2, the variance of that mean, and whether the foot moved."""
 
@@ -208,9 +208,14 @@ class Ride:
     stood: float = 1e3
     """Since the last ride ended, s."""
 
-    def begun(self, whole: bool, air: float | None) -> Ride:
-        """A ride begins, `whole` when with its first pulse, at the height `air` in m."""
-        return Ride(self.levels, 0.0, 0.0, 0.0, 0.0, whole, air)
+    @staticmethod
+    def begins(whole: bool, air: float | None, levels: Levels, acceleration: float, block: float) -> Ride:
+        """The first `block` s of a ride, `whole` when with its first pulse, at the height `air` in m; the others as in
+        `goes`."""
+        velocity = round(0.0 + acceleration * block, 6)
+        return Ride(
+            levels, velocity, abs(velocity), round(0.0 + 0.5 * velocity * block, 6), block, whole, air
+        )
 
     def goes(self, levels: Levels, acceleration: float, block: float) -> Ride:
         """`block` s more with this acceleration, m/s^2, and the levels after it."""
