@@ -460,10 +460,11 @@ def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path):
 def test_evaluate_in_short_is_a_markdown_table(data):
     done = solepath("evaluate", data, "--markdown", "--recipe", "default")
     assert done.returncode == 0 and "not scored: " in done.stderr and "broken.npz: is empty" in done.stderr
-    head, rule, first, second = done.stdout.splitlines()
+    head, rule, first, second, third = done.stdout.splitlines()
     assert (head, rule) == ("| data | measured | came to |", "|---|---|---|")
     assert first.startswith("| a closed loop, one shoe: `xio_closed_walks`, 1 recording | from end to start, in space ")
     assert second.startswith("|  | from end to start, horizontal | 0.") and second.endswith(" m |")
+    assert third.startswith("|  | from end to start, in height | 0.") and third.endswith(" m |")
 
 
 def test_evaluate_says_what_figures_were(data, tmp_path):

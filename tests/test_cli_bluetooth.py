@@ -64,6 +64,19 @@ def wait_for(path: Path, what: str) -> None:
         time.sleep(0.05)
 
 
+def wait_for_sockets(process: subprocess.Popen[str]) -> None:
+    """Until a program that says nothing is connected: it has one socket more than the two of its event loop."""
+    files = Path(f"/proc/{process.pid}/fd")
+    if not files.exists():  # not Linux
+        time.sleep(3.0)
+        return
+    end = time.monotonic() + TAKES
+    while sum(os.readlink(file).startswith("socket:") for file in files.iterdir()) < 3:
+        assert time.monotonic() < end, "nothing was connected"
+        time.sleep(0.05)
+    time.sleep(0.3)
+
+
 @pytest.fixture(scope="module")
 def insoles() -> Iterator[str]:
     with emulator("--distance", 20) as (_, where):
@@ -317,7 +330,7 @@ def test_ctrl_c_during_the_search_ends_at_once_and_without_a_summary(
     more += ["--seconds", 60] if command == "scan" else ["--duration", 60]
     with started(command, "--via", insoles, *more) as process:
         if begun is None:
-            time.sleep(2.0)
+            wait_for_sockets(process)
         else:
             assert process.stdout is not None
             while begun not in process.stdout.readline():
