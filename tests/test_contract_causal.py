@@ -33,7 +33,7 @@ from solepath.sim.radio import CLEAN
 from solepath.sim.route import Route
 from walks import NAMES, SHORT, Machine, insoles, machines, of, pieces, samples, told
 
-QUICK = settings(max_examples=3, deadline=None, phases=[Phase.generate])
+QUICK = settings(max_examples=2, deadline=None, phases=[Phase.generate])
 """A walk an example: few of them, and no shrinking."""
 
 

@@ -22,7 +22,7 @@ from solepath.sim.building import BUILDING
 from walks import NAMES, PACKET_NAMES, machines, of, told
 
 SESSIONS = [name for name in NAMES if name.startswith("session")]
-QUICK = settings(max_examples=3, deadline=None, phases=[Phase.generate])
+QUICK = settings(max_examples=2, deadline=None, phases=[Phase.generate])
 """A walk an example: few of them, and no shrinking."""
 
 
@@ -146,8 +146,9 @@ def test_the_same_packets_say_the_same_in_every_process_whatever_its_hashes(name
 def test_two_sessions_of_one_recipe_share_nothing(name: str) -> None:
     machine = machines()[name]
     one, other = machine.begin(), machine.begin()
-    events = [event for item in machine.items for event in one.feed(item)]
-    assert [event for item in machine.items for event in other.feed(item)] == events
+    half = len(machine.items) // 2
+    events = [event for item in machine.items[:half] for event in one.feed(item)]
+    assert [event for item in machine.items[:half] for event in other.feed(item)] == events
     assert asdict(machine.begin().recipe) == asdict(one.recipe)
 
 

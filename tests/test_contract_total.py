@@ -64,7 +64,7 @@ def strict(events: list[Any]) -> None:
 
 @pytest.mark.parametrize("name", PACKET_NAMES)
 @given(st.data())
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=12, deadline=None)
 def test_any_bytes_anywhere_give_events_and_a_rejected_packet_changes_nothing(name: str, data: st.DataObject) -> None:
     machine = machines()[name]
     k, saved = data.draw(st.sampled_from(cuts(name)))
@@ -110,7 +110,7 @@ def certainly_bad(packet: Packet, kind: str, number: int, when: float) -> Packet
     return evolve(packet, channel=channel, data=data + bytes(number + 30))
 
 
-QUICK = settings(max_examples=4, deadline=None, phases=[Phase.generate])
+QUICK = settings(max_examples=3, deadline=None, phases=[Phase.generate])
 """A walk an example: few of them, and no shrinking."""
 KINDS = ("unknown channel", "another device", "no time", "earlier", "site without a sensor", "too long", "nonsense")
 
