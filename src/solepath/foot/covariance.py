@@ -168,108 +168,74 @@ def update(
     wz = ixz * zx + iyz * zy + izz * zz
     if zx * wx + zy * wy + zz * wz > limit:
         return None
-    # the rows of P H', kept before P changes; corrections P H' w; gains K = P H' S^-1
-    hpxx, hpxy, hpxz = pvxx, pvxy, pvxz
-    hpyx, hpyy, hpyz = pvyx, pvyy, pvyz
-    hpzx, hpzy, hpzz = pvzx, pvzy, pvzz
-    hvxx, hvxy, hvxz = vvxx, vvxy, vvxz
-    hvyx, hvyy, hvyz = vvxy, vvyy, vvyz
-    hvzx, hvzy, hvzz = vvxz, vvyz, vvzz
-    htxx, htxy, htxz = vtxx, vtyx, vtzx
-    htyx, htyy, htyz = vtxy, vtyy, vtzy
-    htzx, htzy, htzz = vtxz, vtyz, vtzz
-    kpxx = hpxx * ixx + hpxy * ixy + hpxz * ixz
-    kpxy = hpxx * ixy + hpxy * iyy + hpxz * iyz
-    kpxz = hpxx * ixz + hpxy * iyz + hpxz * izz
-    kpyx = hpyx * ixx + hpyy * ixy + hpyz * ixz
-    kpyy = hpyx * ixy + hpyy * iyy + hpyz * iyz
-    kpyz = hpyx * ixz + hpyy * iyz + hpyz * izz
-    kpzx = hpzx * ixx + hpzy * ixy + hpzz * ixz
-    kpzy = hpzx * ixy + hpzy * iyy + hpzz * iyz
-    kpzz = hpzx * ixz + hpzy * iyz + hpzz * izz
-    kvxx = hvxx * ixx + hvxy * ixy + hvxz * ixz
-    kvxy = hvxx * ixy + hvxy * iyy + hvxz * iyz
-    kvxz = hvxx * ixz + hvxy * iyz + hvxz * izz
-    kvyx = hvyx * ixx + hvyy * ixy + hvyz * ixz
-    kvyy = hvyx * ixy + hvyy * iyy + hvyz * iyz
-    kvyz = hvyx * ixz + hvyy * iyz + hvyz * izz
-    kvzx = hvzx * ixx + hvzy * ixy + hvzz * ixz
-    kvzy = hvzx * ixy + hvzy * iyy + hvzz * iyz
-    kvzz = hvzx * ixz + hvzy * iyz + hvzz * izz
-    ktxx = htxx * ixx + htxy * ixy + htxz * ixz
-    ktxy = htxx * ixy + htxy * iyy + htxz * iyz
-    ktxz = htxx * ixz + htxy * iyz + htxz * izz
-    ktyx = htyx * ixx + htyy * ixy + htyz * ixz
-    ktyy = htyx * ixy + htyy * iyy + htyz * iyz
-    ktyz = htyx * ixz + htyy * iyz + htyz * izz
-    ktzx = htzx * ixx + htzy * ixy + htzz * ixz
-    ktzy = htzx * ixy + htzy * iyy + htzz * iyz
-    ktzz = htzx * ixz + htzy * iyz + htzz * izz
-    # P <- P - K H P
-    ppxx -= kpxx * hpxx + kpxy * hpxy + kpxz * hpxz
-    ppxy -= kpxx * hpyx + kpxy * hpyy + kpxz * hpyz
-    ppxz -= kpxx * hpzx + kpxy * hpzy + kpxz * hpzz
-    pvxx -= kpxx * hvxx + kpxy * hvxy + kpxz * hvxz
-    pvxy -= kpxx * hvyx + kpxy * hvyy + kpxz * hvyz
-    pvxz -= kpxx * hvzx + kpxy * hvzy + kpxz * hvzz
-    ptxx -= kpxx * htxx + kpxy * htxy + kpxz * htxz
-    ptxy -= kpxx * htyx + kpxy * htyy + kpxz * htyz
-    ptxz -= kpxx * htzx + kpxy * htzy + kpxz * htzz
-    ppyy -= kpyx * hpyx + kpyy * hpyy + kpyz * hpyz
-    ppyz -= kpyx * hpzx + kpyy * hpzy + kpyz * hpzz
-    pvyx -= kpyx * hvxx + kpyy * hvxy + kpyz * hvxz
-    pvyy -= kpyx * hvyx + kpyy * hvyy + kpyz * hvyz
-    pvyz -= kpyx * hvzx + kpyy * hvzy + kpyz * hvzz
-    ptyx -= kpyx * htxx + kpyy * htxy + kpyz * htxz
-    ptyy -= kpyx * htyx + kpyy * htyy + kpyz * htyz
-    ptyz -= kpyx * htzx + kpyy * htzy + kpyz * htzz
-    ppzz -= kpzx * hpzx + kpzy * hpzy + kpzz * hpzz
-    pvzx -= kpzx * hvxx + kpzy * hvxy + kpzz * hvxz
-    pvzy -= kpzx * hvyx + kpzy * hvyy + kpzz * hvyz
-    pvzz -= kpzx * hvzx + kpzy * hvzy + kpzz * hvzz
-    ptzx -= kpzx * htxx + kpzy * htxy + kpzz * htxz
-    ptzy -= kpzx * htyx + kpzy * htyy + kpzz * htyz
-    ptzz -= kpzx * htzx + kpzy * htzy + kpzz * htzz
-    vvxx -= kvxx * hvxx + kvxy * hvxy + kvxz * hvxz
-    vvxy -= kvxx * hvyx + kvxy * hvyy + kvxz * hvyz
-    vvxz -= kvxx * hvzx + kvxy * hvzy + kvxz * hvzz
-    vtxx -= kvxx * htxx + kvxy * htxy + kvxz * htxz
-    vtxy -= kvxx * htyx + kvxy * htyy + kvxz * htyz
-    vtxz -= kvxx * htzx + kvxy * htzy + kvxz * htzz
-    vvyy -= kvyx * hvyx + kvyy * hvyy + kvyz * hvyz
-    vvyz -= kvyx * hvzx + kvyy * hvzy + kvyz * hvzz
-    vtyx -= kvyx * htxx + kvyy * htxy + kvyz * htxz
-    vtyy -= kvyx * htyx + kvyy * htyy + kvyz * htyz
-    vtyz -= kvyx * htzx + kvyy * htzy + kvyz * htzz
-    vvzz -= kvzx * hvzx + kvzy * hvzy + kvzz * hvzz
-    vtzx -= kvzx * htxx + kvzy * htxy + kvzz * htxz
-    vtzy -= kvzx * htyx + kvzy * htyy + kvzz * htyz
-    vtzz -= kvzx * htzx + kvzy * htzy + kvzz * htzz
-    ttxx -= ktxx * htxx + ktxy * htxy + ktxz * htxz
-    ttxy -= ktxx * htyx + ktxy * htyy + ktxz * htyz
-    ttxz -= ktxx * htzx + ktxy * htzy + ktxz * htzz
-    ttyy -= ktyx * htyx + ktyy * htyy + ktyz * htyz
-    ttyz -= ktyx * htzx + ktyy * htzy + ktyz * htzz
-    ttzz -= ktzx * htzx + ktzy * htzy + ktzz * htzz
+    # gains K = P H' S^-1; of P H' the rows are pv, vv and vt transposed
+    kpxx = pvxx * ixx + pvxy * ixy + pvxz * ixz
+    kpxy = pvxx * ixy + pvxy * iyy + pvxz * iyz
+    kpxz = pvxx * ixz + pvxy * iyz + pvxz * izz
+    kpyx = pvyx * ixx + pvyy * ixy + pvyz * ixz
+    kpyy = pvyx * ixy + pvyy * iyy + pvyz * iyz
+    kpyz = pvyx * ixz + pvyy * iyz + pvyz * izz
+    kpzx = pvzx * ixx + pvzy * ixy + pvzz * ixz
+    kpzy = pvzx * ixy + pvzy * iyy + pvzz * iyz
+    kpzz = pvzx * ixz + pvzy * iyz + pvzz * izz
+    kvxx = vvxx * ixx + vvxy * ixy + vvxz * ixz
+    kvxy = vvxx * ixy + vvxy * iyy + vvxz * iyz
+    kvxz = vvxx * ixz + vvxy * iyz + vvxz * izz
+    kvyy = vvxy * ixy + vvyy * iyy + vvyz * iyz
+    kvyz = vvxy * ixz + vvyy * iyz + vvyz * izz
+    kvzz = vvxz * ixz + vvyz * iyz + vvzz * izz
+    ktxx = vtxx * ixx + vtyx * ixy + vtzx * ixz
+    ktxy = vtxx * ixy + vtyx * iyy + vtzx * iyz
+    ktxz = vtxx * ixz + vtyx * iyz + vtzx * izz
+    ktyx = vtxy * ixx + vtyy * ixy + vtzy * ixz
+    ktyy = vtxy * ixy + vtyy * iyy + vtzy * iyz
+    ktyz = vtxy * ixz + vtyy * iyz + vtzy * izz
+    ktzx = vtxz * ixx + vtyz * ixy + vtzz * ixz
+    ktzy = vtxz * ixy + vtyz * iyy + vtzz * iyz
+    ktzz = vtxz * ixz + vtyz * iyz + vtzz * izz
+    # P <- P - K H P where neither state is a velocity
+    ppxx -= kpxx * pvxx + kpxy * pvxy + kpxz * pvxz
+    ppxy -= kpxx * pvyx + kpxy * pvyy + kpxz * pvyz
+    ppxz -= kpxx * pvzx + kpxy * pvzy + kpxz * pvzz
+    ppyy -= kpyx * pvyx + kpyy * pvyy + kpyz * pvyz
+    ppyz -= kpyx * pvzx + kpyy * pvzy + kpyz * pvzz
+    ppzz -= kpzx * pvzx + kpzy * pvzy + kpzz * pvzz
+    ptxx -= kpxx * vtxx + kpxy * vtyx + kpxz * vtzx
+    ptxy -= kpxx * vtxy + kpxy * vtyy + kpxz * vtzy
+    ptxz -= kpxx * vtxz + kpxy * vtyz + kpxz * vtzz
+    ptyx -= kpyx * vtxx + kpyy * vtyx + kpyz * vtzx
+    ptyy -= kpyx * vtxy + kpyy * vtyy + kpyz * vtzy
+    ptyz -= kpyx * vtxz + kpyy * vtyz + kpyz * vtzz
+    ptzx -= kpzx * vtxx + kpzy * vtyx + kpzz * vtzx
+    ptzy -= kpzx * vtxy + kpzy * vtyy + kpzz * vtzy
+    ptzz -= kpzx * vtxz + kpzy * vtyz + kpzz * vtzz
+    ttxx -= ktxx * vtxx + ktxy * vtyx + ktxz * vtzx
+    ttxy -= ktxx * vtxy + ktxy * vtyy + ktxz * vtzy
+    ttxz -= ktxx * vtxz + ktxy * vtyz + ktxz * vtzz
+    ttyy -= ktyx * vtxy + ktyy * vtyy + ktyz * vtzy
+    ttyz -= ktyx * vtxz + ktyy * vtyz + ktyz * vtzz
+    ttzz -= ktzx * vtxz + ktzy * vtyz + ktzz * vtzz
     return (
         (
             ppxx, ppxy, ppxz, ppyy, ppyz, ppzz,
-            pvxx, pvxy, pvxz, pvyx, pvyy, pvyz, pvzx, pvzy, pvzz,
+            # P H' - K H P H' = K (S - H P H') = K r: of the velocity's columns r K is left
+            r * kpxx, r * kpxy, r * kpxz, r * kpyx, r * kpyy, r * kpyz, r * kpzx, r * kpzy, r * kpzz,
             ptxx, ptxy, ptxz, ptyx, ptyy, ptyz, ptzx, ptzy, ptzz,
-            vvxx, vvxy, vvxz, vvyy, vvyz, vvzz,
-            vtxx, vtxy, vtxz, vtyx, vtyy, vtyz, vtzx, vtzy, vtzz,
+            r * kvxx, r * kvxy, r * kvxz, r * kvyy, r * kvyz, r * kvzz,
+            r * ktxx, r * ktyx, r * ktzx, r * ktxy, r * ktyy, r * ktzy, r * ktxz, r * ktyz, r * ktzz,
             ttxx, ttxy, ttxz, ttyy, ttyz, ttzz,
         ),
+        # P H' w
         (
-            hpxx * wx + hpxy * wy + hpxz * wz,
-            hpyx * wx + hpyy * wy + hpyz * wz,
-            hpzx * wx + hpzy * wy + hpzz * wz,
-            hvxx * wx + hvxy * wy + hvxz * wz,
-            hvyx * wx + hvyy * wy + hvyz * wz,
-            hvzx * wx + hvzy * wy + hvzz * wz,
-            htxx * wx + htxy * wy + htxz * wz,
-            htyx * wx + htyy * wy + htyz * wz,
-            htzx * wx + htzy * wy + htzz * wz,
+            pvxx * wx + pvxy * wy + pvxz * wz,
+            pvyx * wx + pvyy * wy + pvyz * wz,
+            pvzx * wx + pvzy * wy + pvzz * wz,
+            vvxx * wx + vvxy * wy + vvxz * wz,
+            vvxy * wx + vvyy * wy + vvyz * wz,
+            vvxz * wx + vvyz * wy + vvzz * wz,
+            vtxx * wx + vtyx * wy + vtzx * wz,
+            vtxy * wx + vtyy * wy + vtzy * wz,
+            vtxz * wx + vtyz * wy + vtzz * wz,
         ),
     )
 
