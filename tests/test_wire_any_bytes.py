@@ -102,7 +102,7 @@ def test_any_bytes_are_a_record_or_a_wire_error(name: str, data: bytes) -> None:
 
 
 @pytest.mark.parametrize("name", CODECS)
-@UNHURRIED
+@settings(UNHURRIED, max_examples=40)
 @given(data=st.data())
 def test_any_damaged_packet_is_a_record_or_a_wire_error(name: str, data: st.DataObject) -> None:
     read(name, data.draw(damaged(SEEDS[name], resealed=False)))
