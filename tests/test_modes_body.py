@@ -183,7 +183,7 @@ SITES = st.sampled_from(list(Site))
 NUMBERS = st.floats() | st.sampled_from((0.0, 1.0, -9.8, 1e300))
 
 
-@settings(max_examples=60)
+@settings(max_examples=30, deadline=None)
 @given(
     st.lists(
         st.tuples(
