@@ -114,10 +114,11 @@ class Session:
 
         TypeError for an item that is neither; what came before it in `data` has been used by then.
         """
-        if self._state.finished:
+        state = self._state
+        if state.finished:
             raise ValueError("this session is finished")
         if isinstance(data, Sample):
-            return self._sample(data)
+            return self._sample(state, data)
         if isinstance(data, Packet):
             return self._packet(data)
         if not isinstance(data, Iterable) or isinstance(data, str | bytes):
@@ -127,7 +128,7 @@ class Session:
             if isinstance(item, Packet):
                 events += self._packet(item)
             elif isinstance(item, Sample):
-                events += self._sample(item)
+                events += self._sample(state, item)
             else:
                 raise TypeError(f"feed takes packets or samples, not {type(item).__name__}")
         return events
@@ -202,11 +203,11 @@ class Session:
         self._take(packet.site, items, events)
         return events
 
-    def _sample(self, sample: Sample) -> list[Event]:
-        state, t = self._state, sample.t
-        if not isinstance(sample.site, Site) or not isinstance(t, A_NUMBER):
+    def _sample(self, state: _State, sample: Sample) -> list[Event]:
+        t, site = sample.t, sample.site
+        if not isinstance(site, Site) or not isinstance(t, A_NUMBER):
             raise TypeError("a sample holds a time and a Site")
-        events = state.wearer.feed(sample, sample.site in state.decoders, self._plan)
+        events = state.wearer.feed(sample, site in state.decoders, self._plan)
         if events and any([isinstance(event, SampleRejected) for event in events]):
             return events
         if state.now is None or t > state.now:

@@ -156,8 +156,9 @@ class InertialCues:
             self.trough = now
         impact = self.impact
         struck = self.struck
-        if was is not None and self.force is not None:
-            impact.feel(t, dt, was, self.force, speed, struck is not None)
+        force = self.force
+        if was is not None and force is not None:
+            impact.feel(t, dt, was, force, speed, struck is not None)
         if struck is not None:
             middle = max(struck, impact.middle)
             over = t - middle >= self.hear_out - TIE or t - struck >= self.longest_impact - TIE

@@ -4,7 +4,7 @@ After Foxlin, "Pedestrian tracking with shoe-mounted inertial sensors" (2005) an
 error-state Kalman filter" (arXiv:1711.02508, 2017, section 7 with global angular errors). Gyroscope bias is not a
 state: it is learnt at rest (attitude.py), which costs less and, on short walks, errs less than a 15-state filter.
 
-Between corrections the covariance is carried in one stroke (covariance.py), so a swing costs no more than its
+Between corrections the covariance is carried in one stroke (carried.py), so a swing costs no more than its
 integration. Evidence that the motion so far makes too unlikely is refused, since a slow swing can look as still as a
 fast stance; but a filter that has refused everything for a while is lost and takes the quietest moment there is.
 """
@@ -16,7 +16,8 @@ from math import cos, inf, sin, sqrt
 from attrs import define, field
 
 from ..types import Phase, Quat, Vec3
-from ..vector import GRAVITY, TIE, ZERO, normalise
+from ..vector import GRAVITY, TIE, ZERO
+from .carried import Carried
 from .clipping import Missed
 from .covariance import (
     HEIGHT,
@@ -26,10 +27,8 @@ from .covariance import (
     VELOCITY_Y,
     VELOCITY_Z,
     YAW,
-    Correction,
     Covariance,
     believed_height,
-    propagate,
     update,
 )
 from .level import Level
@@ -48,7 +47,7 @@ SETTLED_INTERVAL = 0.0385
 
 
 @define
-class ErrorStateFilter(Strapdown):
+class ErrorStateFilter(Carried):
     """Strapdown navigation corrected by stance evidence, weighted by what the motion so far makes likely.
 
     Frame, units and latency as in `Corrector`: live position and velocity with every sample, corrected with the sample
@@ -89,15 +88,8 @@ class ErrorStateFilter(Strapdown):
     level: Level = field(factory=Level)
     """What keeps level walking level."""
     # state
-    uncertainty: Covariance = field(default=(0.0,) * 45, init=False)
     stretch: float = field(default=0.0, init=False)
     """Time since the last anchor, s."""
-    since: float = field(default=0.0, init=False)
-    """Time since the covariance was last carried forward, s."""
-    start_velocity: Vec3 = field(default=ZERO, init=False)
-    start_position: Vec3 = field(default=ZERO, init=False)
-    acc_variance: float = field(default=0.0, init=False)
-    gyro_variance: float = field(default=0.0, init=False)
     accepted: float | None = field(default=None, init=False)
     quietest: float = field(default=1e12, init=False)
     quiet_since: float | None = field(default=None, init=False)
@@ -136,8 +128,9 @@ class ErrorStateFilter(Strapdown):
             or recovery.swing.rows
         ):
             missed, lost = recovery.watch(dt, acc, gyro, rate, attitude, saturated)
-        else:
-            recovery.pass_by(dt, acc, rate)
+        else:  # far from them: what `watch` keeps
+            recovery.felt_before, recovery.felt = recovery.felt, acc
+            recovery.earlier, recovery.earlier_dt = rate, dt
         # half the turn by the mean rate, and its sin and cos by their series
         k = 0.25 * dt
         hx, hy, hz = k * (gx + rx), k * (gy + ry), k * (gz + rz)
@@ -322,37 +315,6 @@ class ErrorStateFilter(Strapdown):
     def _stretch(self, covariance: Covariance) -> tuple[float, ...]:
         return (*covariance[:6], self.heading_drift * self.heading_drift * self.stretch)
 
-    def _carried(self) -> Covariance:
-        t = self.since
-        vx, vy, vz = self.velocity
-        ux, uy, uz = self.start_velocity
-        x, y, z = self.position
-        ox, oy, oz = self.start_position
-        # S = dv + g T, D = dp - v0 T + g T^2 / 2: the integrals of the specific force, out of what it did
-        s = (vx - ux, vy - uy, vz - uz + GRAVITY * t)
-        d = (x - ox - ux * t, y - oy - uy * t, z - oz - uz * t + 0.5 * GRAVITY * t * t)
-        q = self.acc_variance
-        return propagate(self.uncertainty, t, s, d, q * t * t / 3.0, q * t / 2.0, q, self.gyro_variance)
-
-    def _carry(self) -> None:
-        if self.since > 0.0:
-            self.uncertainty = self._carried()
-            self._here()
-
-    def _here(self) -> None:
-        self.since = self.acc_variance = self.gyro_variance = 0.0
-        self.start_velocity = self.velocity
-        self.start_position = self.position
-
-    def _doubt(self, velocity: float, tilt: float) -> None:
-        """Add these standard deviations, m/s and rad, to what is known."""
-        covariance = list(self.uncertainty)
-        for i in (VELOCITY_X, VELOCITY_Y, VELOCITY_Z):
-            covariance[i] += velocity * velocity
-        for i in (TILT_X, TILT_Y):
-            covariance[i] += tilt * tilt
-        self.uncertainty = tuple(covariance)
-
     def _off_plumb(self, share: float) -> tuple[float, float]:
         """Tilt aiding: this share of the turn, f x up / g, that would make the measured force point up, rad.
 
@@ -363,19 +325,3 @@ class ErrorStateFilter(Strapdown):
             return 0.0, 0.0
         fx, fy, _ = self.force
         return share * fy / GRAVITY, -share * fx / GRAVITY
-
-    def _inject(self, error: Correction, tilt_x: float, tilt_y: float) -> None:
-        px, py, pz, vx, vy, vz, tx, ty, tz = error
-        tx += tilt_x
-        ty += tilt_y
-        x, y, z = self.position
-        self.position = self.start_position = (x + px, y + py, z + pz)
-        x, y, z = self.velocity
-        self.velocity = self.start_velocity = (x + vx, y + vy, z + vz)
-        # q <- dq(theta) * q with a global attitude error (Sola 2017, section 7)
-        w, x, y, z = self.attitude
-        tx, ty, tz = 0.5 * tx, 0.5 * ty, 0.5 * tz
-        self.attitude = normalise(
-            (w - tx * x - ty * y - tz * z, x + tx * w + ty * z - tz * y,
-             y + ty * w + tz * x - tx * z, z + tz * w + tx * y - ty * x)
-        )  # fmt: skip

@@ -52,11 +52,6 @@ class Recovery:
         self.earlier, self.earlier_dt = before, dt
         return missed, lost
 
-    def pass_by(self, dt: float, acc: Vec3, before: Vec3) -> None:
-        """As `watch`, of a sample that is far from the ends of both ranges, as none before it is at one."""
-        self.felt_before, self.felt = self.felt, acc
-        self.earlier, self.earlier_dt = before, dt
-
     def interrupt(self) -> None:
         """There was a gap."""
         self.turns.interrupt()

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from math import floor
 from typing import Protocol
 
-from attrs import define, evolve, field
+from attrs import define, field
 
 from ...events import ActivityChanged, Event, LiftRidden, StepFeatures, StepTaken
 from ...foot.tracker import FootTracker
@@ -121,7 +121,7 @@ class Activities:
             side.heard(events, foot.corrector.position[2])
             for event in events:
                 if isinstance(event, StepTaken):
-                    self.steps.append(_slimmed(event))
+                    self.steps.append(_slimmed(event, event.known_at))
                     if len(self.steps) > WAITING:
                         self.steps.popleft()
         return told
@@ -256,13 +256,32 @@ class Activities:
             for segment in path:
                 if segment.t <= middle:
                     doing = segment.activity
-            known = evolve(step, known_at=max(known_at, step.known_at))
+            known = _slimmed(step, max(known_at, step.known_at))
             events += self.flights.stepped(known, AFOOT.get(doing, 0))
         events += self.flights.waited(t, known_at)
 
 
-def _slimmed(step: StepTaken) -> StepTaken:
-    return evolve(step, displacement=ZERO, position=ZERO, covariance=NOWHERE, features=NO_MORE)
+def _slimmed(step: StepTaken, known_at: float) -> StepTaken:
+    """What flights ask for: times and heights."""
+    return StepTaken(
+        t=step.t,
+        known_at=known_at,
+        final=step.final,
+        foot=step.foot,
+        number=step.number,
+        t_start=step.t_start,
+        t_end=step.t_end,
+        displacement=ZERO,
+        position=ZERO,
+        stride_length=step.stride_length,
+        heading_change=step.heading_change,
+        height_change=step.height_change,
+        covariance=NOWHERE,
+        t_toe_off=step.t_toe_off,
+        t_heel_strike=step.t_heel_strike,
+        degraded=step.degraded,
+        features=NO_MORE,
+    )
 
 
 def _ridden(ride: Segment, over: float, known_at: float) -> LiftRidden:
