@@ -12,7 +12,8 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import Session, machine
+from solepath import Recipe, Session, machine, recipes
+from solepath.body.position import MeanOfFeet
 from solepath.body.sides import Average
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.events import FeetSwapped, FootHeard, FootSilent, StepTaken
@@ -26,6 +27,8 @@ from walks import LEFT, RIGHT, SHORT, of, samples
 
 WALK = Route().stand(1.5).walk(16.0, 1.2).turn(radians(90), radius=1.5).walk(6.0).stop(1.0)
 OTHER = {LEFT: RIGHT, RIGHT: LEFT}
+MEAN = evolve(recipes.DEFAULT, body=MeanOfFeet())
+"""The feet's own tracks, and their mean."""
 
 
 def exchanged(walk: tuple[Sample, ...]) -> tuple[Sample, ...]:
@@ -62,8 +65,14 @@ def test_a_foot_that_gives_no_samples_while_the_other_walks_on_is_silent_until_i
 
 
 def test_the_foot_that_is_left_takes_its_steps_as_before() -> None:
-    alone = [s for s in said(StepTaken, without(RIGHT, 6.0, 1e9)) if s.foot is Foot.LEFT]
-    assert alone == [s for s in said(StepTaken, walk()) if s.foot is Foot.LEFT]
+    left = without(RIGHT, 6.0, 1e9)
+    alone, both = ([s for s in said(StepTaken, items, Session(MEAN)) if s.foot is Foot.LEFT] for items in (left, walk()))
+    assert alone == both
+    # where feet hold each other's heading its steps are as long
+    alone, both = ([s for s in said(StepTaken, items) if s.foot is Foot.LEFT] for items in (left, walk()))
+    assert [step.t_end for step in alone] == [step.t_end for step in both]
+    lengths = [step.stride_length for step in both]
+    assert [step.stride_length for step in alone] == pytest.approx(lengths, abs=0.01)
 
 
 def test_a_short_silence_and_a_foot_that_was_never_heard_are_not_told() -> None:
@@ -86,9 +95,9 @@ FAR = Route().stand(1.5).walk(40.0, 1.2).stop(1.5)
 ROUND = Route().stand(1.5).walk(16.0, 1.2).turn(radians(90), radius=1.5).walk(22.0).stop(1.5)
 
 
-def place(walk: tuple[Sample, ...]) -> tuple[float, float, float, float]:
+def place(walk: tuple[Sample, ...], recipe: Recipe = recipes.DEFAULT) -> tuple[float, float, float, float]:
     """Where the wearer is at its end: x, y, and their standard deviations, m."""
-    session = Session()
+    session = Session(recipe)
     session.feed(walk)
     where = session.position
     assert where is not None
@@ -102,19 +111,22 @@ def both(route: Route) -> tuple[Sample, ...]:
 
 @pytest.mark.parametrize("foot", [LEFT, RIGHT])
 def test_a_silent_foot_does_not_hold_the_wearer_back(foot: Site) -> None:
-    x, y, across, along = place(tuple(silent(both(FAR), foot, 12.0)))
-    whole = place(both(FAR))
-    assert x == pytest.approx(40.0, abs=0.8)
-    assert abs(y) < 3.0 * along, "its heading is its own, but no worse than it says"
-    assert across > 1.2 * whole[2] and along > 1.2 * whole[3], "one foot alone is known less well than the mean of two"
+    alone = tuple(silent(both(FAR), foot, 12.0))
+    for recipe, least in ((recipes.DEFAULT, 1.0), (MEAN, 1.2)):
+        x, y, across, along = place(alone, recipe)
+        whole = place(both(FAR), recipe)
+        assert x == pytest.approx(40.0, abs=0.8)
+        assert abs(y) < 3.0 * along, "its heading is its own, but no worse than it says"
+        assert across > least * whole[2] and along > least * whole[3], "one foot is known less well than two"
 
 
 @pytest.mark.parametrize("foot", [LEFT, RIGHT])
 def test_a_foot_that_comes_back_is_set_beside_the_other(foot: Site) -> None:
-    x, _, across, _ = place(tuple(silent(both(FAR), foot, 8.0, 20.0)))
-    whole = place(both(FAR))
-    assert x == pytest.approx(40.0, abs=0.8)
-    assert across > 1.2 * whole[2]
+    away = tuple(silent(both(FAR), foot, 8.0, 20.0))
+    for recipe, least in ((recipes.DEFAULT, 1.0), (MEAN, 1.2)):
+        x, _, across, _ = place(away, recipe)
+        assert x == pytest.approx(40.0, abs=0.8)
+        assert across > least * place(both(FAR), recipe)[2]
 
 
 @pytest.mark.parametrize("foot", [LEFT, RIGHT])
@@ -156,7 +168,7 @@ def test_while_both_feet_are_heard_the_place_is_their_mean_to_the_last_digit(who
     feet = both(SHORT)
     # or first all samples of the one foot and then all of the other: neither was away
     items = feet if whole else tuple(s for foot in (LEFT, RIGHT) for s in feet if s.site is foot)
-    session = Session()
+    session = Session(MEAN)
     for k, sample in enumerate(items):
         session.feed(sample)
         where = session.position

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 
 from .body.activity.activities import Activities
 from .body.activity.footstep_activity import TwoSecondWindows
@@ -27,6 +27,7 @@ from .foot.eskf import ErrorStateFilter
 from .foot.gait_cues import GaitCues
 from .foot.gated_tilt import ShoeSensing
 from .foot.known_velocity import KnownVelocity
+from .foot.level import Level
 from .foot.pressure import Insole
 from .foot.projection import Projection
 from .foot.short_time_energy import AccelerationMagnitude, ShortTimeEnergy
@@ -62,8 +63,11 @@ class Recipe:
     altitude: Altitude | None = None
 
 
-DEFAULT = Recipe("default", Cycle(), ErrorStateFilter(), altitude=Altitude())
-"""Stance judged within each gait cycle, nine-state error-state filter."""
+DEFAULT = Recipe("default", Cycle(), ErrorStateFilter(), body=BothFeet(), altitude=Altitude())
+"""Stance judged within each gait cycle, nine-state error-state filter, both feet in one frame."""
+
+STRAIGHT_CORRIDORS = evolve(DEFAULT, name="straight-corridors", body=BothFeet(straight_corridors=True))
+"""The same for a wearer who walks straight corridors: the heading is held to them."""
 
 BOARD = 0.44
 """Where the circuit board parts an insole into two areas, as a share of its length: 12.5 cm of a shoe of 28.5 cm."""
@@ -87,10 +91,13 @@ PRESSURE_CONTOUR = Recipe("pressure-contour", ContourVelocity(), BiasZupt(), nee
 GYROSCOPE = Recipe("gyroscope", GyroscopeMagnitude(), BiasZupt())
 """The same with zero velocity where the gyroscope is quiet: what Bebek et al. compare with."""
 
+_OWN_HEIGHTS = ErrorStateFilter(level=Level(gate=False))
+"""Method I goes by the height of the feet, so nothing is done about it."""
+
 WALKING_MODES = Recipe(
     "walking-modes",
     Cycle(),
-    ErrorStateFilter(),
+    _OWN_HEIGHTS,
     body=Modes(MaximumPressure(), TABLE_1),
     needs_pressure=True,
 )
@@ -98,14 +105,14 @@ WALKING_MODES = Recipe(
 1, which holds for the paper's wearers: on emulated ones it does worse than what their own marked walks teach
 (`solepath calibrate modes`)."""
 
-TOUCHDOWN_HEIGHT = Recipe("touchdown-height", Cycle(), ErrorStateFilter(), body=Modes(Height()))
+TOUCHDOWN_HEIGHT = Recipe("touchdown-height", Cycle(), _OWN_HEIGHTS, body=Modes(Height()))
 """Their method I: the lower foot carries."""
 
-TOUCHDOWN_ACCELERATION = Recipe("touchdown-acceleration", Cycle(), ErrorStateFilter(), body=Modes(NetAcceleration()))
+TOUCHDOWN_ACCELERATION = Recipe("touchdown-acceleration", Cycle(), _OWN_HEIGHTS, body=Modes(NetAcceleration()))
 """Their method II: the foot with little net acceleration carries."""
 
 TOUCHDOWN_PRESSURE = Recipe(
-    "touchdown-pressure", Cycle(), ErrorStateFilter(), body=Modes(MaximumPressure()), needs_pressure=True
+    "touchdown-pressure", Cycle(), _OWN_HEIGHTS, body=Modes(MaximumPressure()), needs_pressure=True
 )
 """Their method III: touchdowns by maximum pressure."""
 
@@ -132,6 +139,7 @@ BY_NAME: dict[str, Recipe] = {
     recipe.name: recipe
     for recipe in (
         DEFAULT,
+        STRAIGHT_CORRIDORS,
         KUPT_DFPC,
         KUPT,
         ZUPT,
