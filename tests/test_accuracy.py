@@ -1,7 +1,10 @@
 """How accurate the default recipe is on recorded data: the figures that the README quotes, with their bounds."""
 
-from solepath.evaluate.report import Result
+import figures
+from quoted import below, in_short, nearly_the_same
+from solepath.evaluate.report import Result, as_json
 from solepath.evaluate.score import Scored, Summary
+from solepath.view.markdown import accuracy_table
 
 
 def scores(results: list[Result], data_set: str) -> tuple[dict[str, Scored], Summary]:
@@ -63,3 +66,13 @@ def test_initial_contacts_are_those_of_motion_capture(results):
     walks, summary = scores(results, "gaitmap_examples")
     assert summary.together["heel_strike_f1"] >= 0.97
     assert abs(walks["walk_4x10m_ic"].events["heel_strike"].bias) <= 0.015
+
+
+def test_the_readme_s_accuracy_is_what_evaluate_prints(results):
+    """solepath evaluate DIR --markdown prints the table to paste."""
+    nearly_the_same(below("accuracy"), accuracy_table(results).splitlines())
+
+
+def test_the_readme_s_short_table_quotes_what_evaluate_scores(results):
+    fresh = figures.evaluated(as_json(results)["default"])
+    nearly_the_same(in_short("solepath evaluate"), figures.lines(fresh)[2:])

@@ -8,15 +8,15 @@ import sys
 from argparse import ArgumentParser
 from contextlib import redirect_stdout
 from importlib import import_module
-from pathlib import Path
 from typing import get_args
 
 import pytest
 
 import figures
+from quoted import NUMBER, README, ROOT, below, in_short, nearly_the_same
 from solepath import Event, LiftRidden
+from solepath.body.altitude import Altitude
 from solepath.cli.main import parser
-from solepath.evaluate.report import as_json
 from solepath.foot.pressure import Insole
 from solepath.foot.tracker import AnyCorrector, AnyCues, AnyDetector
 from solepath.output import STEP_COLUMNS, TRACK_COLUMNS
@@ -24,21 +24,8 @@ from solepath.recipes import BY_NAME, AnyActivity, AnyBody, AnyPlace
 from solepath.recording import PacketWriter
 from solepath.sim import Radio, Route, emulate
 from solepath.types import Foot
-from solepath.view.markdown import accuracy_table
 
-ROOT = Path(__file__).resolve().parents[1]
-README = (ROOT / "README.md").read_text(encoding="utf-8")
 PROGRAMS = re.findall(r"^```python\n(.*?)^```", README, re.DOTALL | re.MULTILINE)
-NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
-
-
-def below(mark: str) -> list[str]:
-    """The lines of the first block or table below the comment <!-- mark -->."""
-    lines = README.split(f"<!-- {mark} -->\n", 1)[1].splitlines()
-    if lines[0].startswith("```"):
-        return lines[1 : lines.index("```", 1)]
-    end = next(n for n, line in enumerate(lines) if not line.startswith("|"))
-    return lines[:end]
 
 
 def first_cells(table: list[str]) -> list[str]:
@@ -120,7 +107,7 @@ def test_columns_parts_and_recipes_are_those_of_the_library():
     parts = re.findall(r"^\| (`[A-Z].*?) \| `(solepath[\w.]+)` \|", README, re.MULTILINE)
     told = {getattr(import_module(module), name) for names, module in parts for name in re.findall(r"`(\w+)`", names)}
     kinds = (AnyDetector, AnyCorrector, AnyCues, AnyBody, AnyActivity, AnyPlace)
-    assert told == {Insole, *(part for kind in kinds for part in get_args(kind))}
+    assert told == {Insole, Altitude, *(part for kind in kinds for part in get_args(kind))}
     table = README.split("| recipe | what it is |", 1)[1].split("\n\n", 1)[0]
     names = [name for line in table.splitlines()[2:] for name in re.findall(r"`([\w-]+)`", line.split("|")[1])]
     assert names == list(BY_NAME)
@@ -138,21 +125,6 @@ def test_its_demonstration_is_the_one_that_the_command_gives():
     assert shown == given
     counted = [line for line in below("demo") if line.startswith("steps ")]
     assert counted == [line for line in done.stdout.splitlines() if line.startswith("steps ")]
-
-
-def test_its_accuracy_is_what_evaluate_prints(results):
-    """solepath evaluate DIR --markdown prints the table to paste."""
-    nearly_the_same(below("accuracy"), accuracy_table(results).splitlines())
-
-
-def in_short(command: str) -> list[str]:
-    """The rows of the short table whose figures that command gives."""
-    return [line for line in below("figures")[2:] if line.split("|")[3].strip().startswith(f"`{command} ")]
-
-
-def test_its_short_table_quotes_what_evaluate_scores(results):
-    fresh = figures.evaluated(as_json(results)["default"])
-    nearly_the_same(in_short("solepath evaluate"), figures.lines(fresh)[2:])
 
 
 def test_its_short_table_quotes_the_demonstration_of_100_m():
@@ -188,16 +160,6 @@ def test_its_short_table_has_no_other_rows():
     commands = ("solepath evaluate", "solepath demo", "python")
     assert table == [*figures.HEADER, *(line for command in commands for line in in_short(command))]
     assert [len(in_short(command)) for command in commands] == [5, 4, 4]
-
-
-def nearly_the_same(quoted: list[str], fresh: list[str]) -> None:
-    """The same lines but for the last digits of their figures."""
-    assert [NUMBER.sub("#", line) for line in quoted] == [NUMBER.sub("#", line) for line in fresh]
-    for old, new in zip(quoted, fresh, strict=True):
-        for a, b in zip(NUMBER.findall(old), NUMBER.findall(new), strict=True):
-            # another machine's rounding may move the last digit by one
-            last = 10.0 ** -len(a.partition(".")[2])
-            assert float(a) == pytest.approx(float(b), abs=1.01 * last), f"quoted: {old}\nprinted: {new}"
 
 
 @pytest.mark.parametrize(

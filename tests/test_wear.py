@@ -66,10 +66,13 @@ def test_a_foot_that_gives_no_samples_while_the_other_walks_on_is_silent_until_i
 
 def test_the_foot_that_is_left_takes_its_steps_as_before() -> None:
     left = without(RIGHT, 6.0, 1e9)
-    alone, both = ([s for s in said(StepTaken, items, Session(MEAN)) if s.foot is Foot.LEFT] for items in (left, walk()))
-    assert alone == both
+
+    def steps(items: tuple[Sample, ...], recipe: Recipe) -> list[StepTaken]:
+        return [step for step in said(StepTaken, items, Session(recipe)) if step.foot is Foot.LEFT]
+
+    assert steps(left, MEAN) == steps(walk(), MEAN)
     # where feet hold each other's heading its steps are as long
-    alone, both = ([s for s in said(StepTaken, items) if s.foot is Foot.LEFT] for items in (left, walk()))
+    alone, both = steps(left, recipes.DEFAULT), steps(walk(), recipes.DEFAULT)
     assert [step.t_end for step in alone] == [step.t_end for step in both]
     lengths = [step.stride_length for step in both]
     assert [step.stride_length for step in alone] == pytest.approx(lengths, abs=0.01)
