@@ -12,6 +12,7 @@ from typing import Any
 import attrs
 from attrs import frozen
 
+from ..body.position import MeanOfFeet
 from ..foot.level import Level
 from ..recipes import DEFAULT, Recipe
 from .report import Result
@@ -34,9 +35,10 @@ WITHOUT: dict[str, Recipe] = {
         DEFAULT, detector=_with(_DETECTOR, floor=FIXED, ceiling=FIXED)
     ),
     "evidence of one noise, whatever the motion": attrs.evolve(
-        DEFAULT, detector=_with(_DETECTOR, arm=0.0, arm2=0.0, off_gravity=0.0)
+        DEFAULT, detector=_with(_DETECTOR, arm=0.0, arm2=0.0, off_gravity=0.0, off_gravity2=0.0)
     ),
     "zero velocity, no rolling foot": attrs.evolve(DEFAULT, detector=_with(_DETECTOR, rolls=False)),
+    "no extra noise of a foot that is braked": attrs.evolve(DEFAULT, detector=_with(_DETECTOR, off_gravity2=0.0)),
     "no refusal of unlikely evidence": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, refuse=NEVER)),
     "no recovery of what was refused": attrs.evolve(
         DEFAULT, corrector=_with(_CORRECTOR, patience=NEVER, lasting=NEVER)
@@ -45,6 +47,8 @@ WITHOUT: dict[str, Recipe] = {
     "no tilt aiding": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, tilt_rate=0.0)),
     "no noise of what lies between samples": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, between=0.0)),
     "no recovery of a clipped gyroscope": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, recover=False)),
+    "each foot by itself": attrs.evolve(DEFAULT, body=MeanOfFeet()),
+    "no heights of lifts and of the air": attrs.evolve(DEFAULT, altitude=None),
 }
 """By what is missing."""
 
