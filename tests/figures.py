@@ -31,6 +31,10 @@ ACTIVITIES = [
     *(word for name in ("default", "footstep-tracker") for word in ("--recipe", name)),
     "--markdown",
 ]
+LONG_WAYS = [
+    *("--emulated", "--walks", "3", "--recipe", "default", "--recipe", "straight-corridors"),
+    "--markdown",
+]
 EXPERIMENTS = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
 SURVEYED = ("exp31", "exp33", "exp37")
 EVENTS = ("heel-strike", "foot-flat", "heel-off", "toe-off")
