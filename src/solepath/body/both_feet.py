@@ -126,12 +126,12 @@ class BothFeet(MeanOfFeet):
         """As for `MeanOfFeet`; at a step, what it says of both."""
         waited = self.left.waits or self.right.waits
         MeanOfFeet.foot_moved(self, foot, sample, events)
-        if not events:
-            return []
         if not self.met:
             if self.left.t is None or self.right.t is None:
                 return []
             self._meet()
+        if not events:
+            return []
         if self.left.waits or self.right.waits:
             return []
         if waited:
@@ -156,8 +156,8 @@ class BothFeet(MeanOfFeet):
         if found is None or not self.met or left.waits or right.waits or left.absent or right.absent:
             return found
         xx, xy, yy = self.agreement.mean()
-        _, _, xz, _, yz, zz = found.covariance
-        return Position(found.t, found.position, (xx, xy, xz, yy, yz, zz))
+        # what heights have in common with places that were corrected here is not known: nothing is claimed of it
+        return Position(found.t, found.position, (xx, xy, 0.0, yy, 0.0, found.covariance[5]))
 
     # --- at a step ---
 
