@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import atan2, cos, hypot, sin
+from typing import Final
 
 from attrs import define, field, frozen
 
@@ -19,6 +20,9 @@ from ..foot.tracker import FootTracker
 from ..foot.world import Covariance3
 from ..types import Foot, Sample, Site, Vec3
 from ..vector import ZERO, sub
+
+LEFT: Final = Foot.LEFT
+"""Looked up once: a word of an enum costs as much as five multiplications."""
 
 ABSENT = 1.0
 """A foot that was last heard this long before the other is absent, s."""
@@ -111,7 +115,7 @@ class MeanOfFeet:
         """Nothing follows, but it is seen who is absent and who has come back."""
         if sample.acc is None or sample.gyro is None:
             return []
-        t, is_left = sample.t, foot.foot is Foot.LEFT
+        t, is_left = sample.t, foot.foot is LEFT
         this, other = (self.left, self.right) if is_left else (self.right, self.left)
         back = False
         if this.t is None:
@@ -184,7 +188,7 @@ class MeanOfFeet:
         return [foot for foot in there if not self._placed(foot.foot).waits] or there or moving
 
     def _placed(self, foot: Foot) -> Placed:
-        return self.left if foot is Foot.LEFT else self.right
+        return self.left if foot is LEFT else self.right
 
     def _place(self, foot: FootTracker) -> Vec3:
         return self._placed(foot.foot).place(foot.position)
@@ -194,14 +198,14 @@ class MeanOfFeet:
         one, two = self.left.beside, self.right.beside
         if one is None or two is None:
             return ZERO
-        k = -0.25 if foot is Foot.LEFT else 0.25
+        k = -0.25 if foot is LEFT else 0.25
         return (k * (one[0] + two[0]), k * (one[1] + two[1]), k * (one[2] + two[2]))
 
     # --- who comes back ---
 
     def _came_back(self, this: Placed, other: Placed) -> None:
         """It waits. Should the other fall silent meanwhile, it goes on from where that one is now."""
-        lx, ly, lz = self._lean(Foot.LEFT if other is self.left else Foot.RIGHT)
+        lx, ly, lz = self._lean(LEFT if other is self.left else Foot.RIGHT)
         x, y, z = other.offset
         other.offset = (x + lx, y + ly, z + lz)
         self.left.beside = self.right.beside = None
@@ -231,7 +235,7 @@ class MeanOfFeet:
         waiting.offset = sub(_mean([beside for _, beside in (*lefts, *rights)]), stood)
         self._doubt(waiting, other)
         waiting.waits = False
-        self.newest = Foot.LEFT if waiting is left else Foot.RIGHT
+        self.newest = LEFT if waiting is left else Foot.RIGHT
         self.steps = []
 
     @staticmethod

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from attrs import define, field
 
 from ..events import Event, FeetSwapped, FootHeard, FootSilent, StepTaken
 from ..foot.tracker import FootTracker
 from ..types import Foot, Layout, Sample
 from .sides import Sides
+
+LEFT: Final = Foot.LEFT
+"""Looked up once: a word of an enum costs as much as five multiplications."""
 
 
 @define
@@ -48,7 +53,7 @@ class Wear:
     def heard(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
         """`foot` has used `sample`, and `events` are what came of it."""
         t = sample.t
-        is_left = foot.foot is Foot.LEFT
+        is_left = foot.foot is LEFT
         this, other = (self.left, self.right) if is_left else (self.right, self.left)
         if not (events or this.said or other.missing):
             this.t, this.missing = t, 0
@@ -69,7 +74,7 @@ class Wear:
                 other.missing = 0  # this foot lags behind the other on the way here, or its times began anew
             elif other.missing >= self.steps and t - other.t >= self.seconds:
                 other.said = True
-                silent = Foot.RIGHT if is_left else Foot.LEFT
+                silent = Foot.RIGHT if is_left else LEFT
                 found.append(FootSilent(t=t, known_at=_known_at(sample), foot=silent, silent_for=t - other.t))
         if not self.swapped and self.sides.swapped(foot, sample, events):
             self.swapped = True

@@ -13,7 +13,7 @@ The ground may stop the foot later than that, or earlier: heel-strike is the mid
 from __future__ import annotations
 
 from math import sqrt
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from attrs import define, field
 
@@ -22,6 +22,12 @@ from ..vector import TIE, ZERO
 from .impact import Impact
 from .phase import Cue
 from .stance import Load
+
+SWING: Final = Phase.SWING
+STATIONARY: Final = Phase.STATIONARY
+PUSH_OFF: Final = Phase.PUSH_OFF
+LOADING: Final = Phase.LOADING
+"""Looked up once: a word of an enum costs as much as five multiplications."""
 
 MISFITS = 3
 """Push-offs in a row about another axis after which that one is believed."""
@@ -119,18 +125,18 @@ class InertialCues:
                 self.fast_since = None
             elif self.fast_since is None:
                 self.fast_since = t
-        if phase is Phase.SWING:
+        if phase is SWING:
             self.calm = None
             return self._in_swing(t, dt, speed, before, now, was)
         if now < self.rolling and (still or self.calm is None):
             self.calm = t
         if self.still_since is not None:
-            if phase is not Phase.STATIONARY and t - self.still_since >= self.settle - TIE:
+            if phase is not STATIONARY and t - self.still_since >= self.settle - TIE:
                 return Seen(Cue.FLAT, self.still_since - self.lookback)
             return None
         x, y, z = self.turned
         self.turned = (x + gx * dt, y + gy * dt, z + gz * dt)
-        if phase is Phase.STATIONARY:
+        if phase is STATIONARY:
             if now > self.peak:
                 self.peak = now
             if self.moving_since is not None and t - self.moving_since >= self.settle - TIE:
@@ -142,11 +148,11 @@ class InertialCues:
         if now > self.peak:
             self.peak = now
         limit = self.past_peak * self.peak
-        if phase is Phase.PUSH_OFF and self.peak > self.push and now < limit and self._learn_axis():
+        if phase is PUSH_OFF and self.peak > self.push and now < limit and self._learn_axis():
             # between the last two samples, where a straight line meets the limit
             share = (before - limit) / (before - now) if before > limit > now else 1.0
             return self._clear(t - dt * (1.0 - share))
-        patience = self.loading_time if phase is Phase.LOADING else self.shuffle_time
+        patience = self.loading_time if phase is LOADING else self.shuffle_time
         if self.fast_since is not None and t - self.fast_since >= patience - TIE:
             return self._clear(self.fast_since)
         return None
@@ -201,7 +207,7 @@ class InertialCues:
     def pushed_off(self, phase: Phase) -> None:
         """The load says that the toe has left the ground, in `phase`: how the foot has turned shows the axis all the
         same."""
-        if phase is Phase.PUSH_OFF and self.peak > self.push:
+        if phase is PUSH_OFF and self.peak > self.push:
             self._learn_axis()
 
     def _learn_axis(self) -> bool:
@@ -251,7 +257,7 @@ class PressureCues:
         self.before = now
         if load.heel is not None and load.heel > self.area_off:
             self.heel_loaded = t
-        if phase is Phase.SWING:
+        if phase is SWING:
             return Seen(Cue.CONTACT, _crossing(t, dt, before, now, self.on)) if now > self.on else None
         if now < self.off:
             return Seen(Cue.CLEAR, _crossing(t, dt, before, now, self.off))
@@ -267,11 +273,11 @@ class PressureCues:
         """For an insole without an inertial sensor: heel and forefoot say what stillness would have said."""
         if load.heel is None or load.forefoot is None:
             return None
-        if phase is Phase.LOADING and load.heel > self.area_off and load.forefoot > self.area_on:
+        if phase is LOADING and load.heel > self.area_off and load.forefoot > self.area_on:
             return Seen(Cue.FLAT, t)
-        if phase is Phase.STATIONARY and load.heel < self.area_off and load.forefoot > self.area_on:
+        if phase is STATIONARY and load.heel < self.area_off and load.forefoot > self.area_on:
             return Seen(Cue.LIFT, t)
-        if phase is Phase.PUSH_OFF and load.heel > self.area_on and load.forefoot > self.area_on:
+        if phase is PUSH_OFF and load.heel > self.area_on and load.forefoot > self.area_on:
             return Seen(Cue.FLAT, t)
         return None
 

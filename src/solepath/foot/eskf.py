@@ -12,6 +12,7 @@ fast stance; but a filter that has refused everything for a while is lost and ta
 from __future__ import annotations
 
 from math import cos, inf, sin, sqrt
+from typing import Final
 
 from attrs import define, field
 
@@ -35,6 +36,9 @@ from .level import Level
 from .navigate import LONGEST_BRIDGE, WIDEST_SERIES, Strapdown
 from .recovery import Recovery
 from .stance import Stance
+
+STATIONARY: Final = Phase.STATIONARY
+"""Looked up once: a word of an enum costs as much as five multiplications."""
 
 REFERENCE_INTERVAL = 0.005
 """The spacing of updates that a Stance's sigma is meant for, s; other spacings scale its variance."""
@@ -215,7 +219,7 @@ class ErrorStateFilter(Carried):
         share = self.tilt_rate * min(self.since, SETTLED_INTERVAL)
         r = sigma * sigma * REFERENCE_INTERVAL / self.since
         self._carry()
-        certain = stance.hint is Phase.STATIONARY
+        certain = stance.hint is STATIONARY
         if self.accepted is None:
             self.accepted = t
         rx, ry, rz = stance.v_ref

@@ -19,6 +19,8 @@ ABSURD_TOTAL = 1e7
 ABSURD_TIME = 1e11
 """s; a time beyond this (or before minus this) is no time."""
 
+LEAST_ACC, LEAST_GYRO, LEAST_TOTAL, LEAST_TIME = -ABSURD_ACC, -ABSURD_GYRO, -ABSURD_TOTAL, -ABSURD_TIME
+
 SHORTEST_QUAT = 1e-12
 """Square of the least length of an attitude."""
 
@@ -29,23 +31,23 @@ def refusal(sample: Sample, newest: float | None) -> Refusal | None:
     """Why `sample` cannot be used after one of `newest` s; None when it can."""
     t, known_at = sample.t, sample.known_at
     if (
-        not -ABSURD_TIME <= t <= ABSURD_TIME
-        or (known_at is not None and not -ABSURD_TIME <= known_at <= ABSURD_TIME)
+        not LEAST_TIME <= t <= ABSURD_TIME
+        or (known_at is not None and not LEAST_TIME <= known_at <= ABSURD_TIME)
         or (newest is not None and t <= newest)
     ):
         return wrong_time(sample) or _wrong_order(t, t if newest is None else newest)
     acc, gyro = sample.acc, sample.gyro
     if acc is not None:
         x, y, z = acc
-        if not (-ABSURD_ACC < x < ABSURD_ACC and -ABSURD_ACC < y < ABSURD_ACC and -ABSURD_ACC < z < ABSURD_ACC):
+        if not (LEAST_ACC < x < ABSURD_ACC and LEAST_ACC < y < ABSURD_ACC and LEAST_ACC < z < ABSURD_ACC):
             return _wrong_vector("acc", acc, ABSURD_ACC)
     if gyro is not None:
         x, y, z = gyro
-        if not (-ABSURD_GYRO < x < ABSURD_GYRO and -ABSURD_GYRO < y < ABSURD_GYRO and -ABSURD_GYRO < z < ABSURD_GYRO):
+        if not (LEAST_GYRO < x < ABSURD_GYRO and LEAST_GYRO < y < ABSURD_GYRO and LEAST_GYRO < z < ABSURD_GYRO):
             return _wrong_vector("gyro", gyro, ABSURD_GYRO)
     if sample.pressure:
         total = _total(sample.pressure)
-        if not -ABSURD_TOTAL < total < ABSURD_TOTAL:
+        if not LEAST_TOTAL < total < ABSURD_TOTAL:
             return Rejection.ABSURD, "pressure of hundreds of digits" if abs(total) == inf else (
                 f"pressure of {_shown(total)} in all"
             )
