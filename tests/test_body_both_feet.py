@@ -59,6 +59,18 @@ def test_feet_that_drift_apart_are_held_together() -> None:
     assert hypot(both.position.position[0] - 40.0, both.position.position[1]) < 0.1 * 40.0
 
 
+def test_what_is_unsure_of_the_place_of_both_feet_is_so_in_every_direction() -> None:
+    session = Session()
+    for sample in _samples(102)[:1500]:
+        session.feed(sample)
+        here = session.position
+        if here is not None:
+            xx, xy, xz, yy, yz, zz = here.covariance
+            assert min(xx, yy, zz) >= 0.0
+            for one, other, both in ((xx, yy, xy), (xx, zz, xz), (yy, zz, yz)):
+                assert both * both <= one * other * (1.0 + 1e-9)
+
+
 def test_corrections_make_no_stride_longer() -> None:
     _, events = _walked("both")
     _, without = _walked("mean")

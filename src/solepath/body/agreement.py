@@ -19,7 +19,7 @@ each foot is, so that nothing comes of it for both alike; for such a gain P foll
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import exp
+from math import exp, sqrt
 
 from attrs import define, field
 
@@ -187,7 +187,9 @@ class Agreement:
         xx = p[X][X] + p[X + r][X + r] + 2.0 * p[X][X + r]
         yy = p[Y][Y] + p[Y + r][Y + r] + 2.0 * p[Y][Y + r]
         xy = p[X][Y] + p[X + r][Y + r] + p[X][Y + r] + p[X + r][Y]
-        return (0.25 * max(0.0, xx), 0.25 * xy, 0.25 * max(0.0, yy))
+        xx, yy = max(0.0, xx), max(0.0, yy)
+        most = sqrt(xx * yy)  # but for rounding it is less
+        return (0.25 * xx, 0.25 * min(max(xy, -most), most), 0.25 * yy)
 
     def _joseph(self, gains: list[float], ph: list[float], s: float) -> None:
         """P <- (1 - K H) P (1 - K H)' + K R K', with P H' and S = H P H' + R."""
