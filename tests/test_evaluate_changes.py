@@ -89,7 +89,12 @@ def test_a_recipe_that_is_on_one_side_only_is_said():
 
 @pytest.mark.parametrize(
     "text",
-    ["", "[1, 2]", '{"default": 3}', '{"default": {"loops": {}}}', '{"default": {"loops": {"recordings": {"a": 1}}}}'],
+    [
+        "", "[1, 2]", '{"default": 3}', '{"default": {"loops": {}}}',
+        '{"default": {"loops": {"recordings": {"a": 1}}}}',
+        "[" * 100_000, json.dumps(OLD).replace("60.0", "1" + "0" * 400),
+    ],  # fmt: skip
+    ids=range(7),
 )
 def test_a_file_that_holds_no_scores_is_refused_in_one_sentence(text, tmp_path):
     file = tmp_path / "old.json"

@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping
 from enum import Enum
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -110,15 +111,15 @@ def read_scores(path: Path) -> Scores:
         told = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise RecordingError(path, error.strerror or "cannot be read") from None
-    except ValueError:
+    except (ValueError, RecursionError):
         raise RecordingError(path, "is not JSON") from None
     try:
         for data_sets in told.values():
             for part in data_sets.values():
                 for _, figures in _rows(part):
-                    if not all(value is None or isinstance(value, float | int) for value in figures.values()):
+                    if not all(value is None or isfinite(value) for value in figures.values()):
                         raise TypeError
-    except (AttributeError, KeyError, TypeError):
+    except (AttributeError, KeyError, OverflowError, TypeError):
         raise RecordingError(path, "does not hold the scores of an evaluation") from None
     scores: Scores = told
     return scores
