@@ -20,7 +20,7 @@ from walks import LEFT, RIGHT, insoles, of, samples
 
 LOOP = Route().stand(1.0).walk(30.0, 1.3).turn(6.0, radius=2.0).walk(20.0).stop(1.0)
 """About a minute, walked again and again."""
-LARGEST = 120_000
+LARGEST = 130_000
 """Characters of a snapshot: a tenth of it are the wearer's gait, heights, and the ends of the sensors' ranges."""
 INTERVAL = 328
 """Ticks of the emulated insoles between two samples."""
