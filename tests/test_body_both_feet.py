@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from math import cos, hypot, pi, radians, sin
+from math import atan2, cos, hypot, pi, radians, remainder, sin
 
 import pytest
 from attrs import evolve
@@ -69,6 +69,25 @@ def test_what_is_unsure_of_the_place_of_both_feet_is_so_in_every_direction() -> 
             assert min(xx, yy, zz) >= 0.0
             for one, other, both in ((xx, yy, xy), (xx, zz, xz), (yy, zz, yz)):
                 assert both * both <= one * other * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize("askew", [-1.0, 2.0, 3.1])
+def test_a_foot_that_first_steps_aside_does_not_bend_either_track(askew: float) -> None:
+    session = Session()
+    steps: list[StepTaken] = []
+    for sample in _samples(102):
+        for event in session.feed(sample):
+            if isinstance(event, StepTaken):
+                steps.append(event)
+                if event.foot is Foot.LEFT and event.number == 1:
+                    # as if its first step, which its world frame begins along, had led there
+                    session.feet[Foot.LEFT].gait.world.north = (cos(askew), sin(askew))
+    assert _apart(session) < 0.5
+    for foot in Foot:
+        own = [step.displacement for step in steps if step.foot is foot][2:-1]
+        first = atan2(own[0][1], own[0][0])
+        # 40 m of this gyroscope turn a track by some degrees
+        assert max(abs(remainder(atan2(y, x) - first, 2.0 * pi)) for x, y, _ in own) < 0.3
 
 
 def test_corrections_make_no_stride_longer() -> None:

@@ -5,9 +5,9 @@ feet set out. At each step the foot that swung is compared with the one that sto
 middle of the stride, to the side by the walking width, which is learnt. In a bend of `turn` rad the chord of a stride L
 m long lies L turn / 8 inside the way. Feet that are further apart than legs spread are pulled together in any case.
 
-In the first metres this places the two tracks beside one another and changes neither. From then on what is found is
-handed back to the feet, each at its own foot-flat (foot/shifted.py): both hold the heading that they agree on, live
-and in their later steps. A step that was taken stays as it was told.
+In the first metres this places the two tracks beside one another, whatever way the first steps led (facing.py), and
+changes neither. From then on what is found is handed back to the feet, each at its own foot-flat (foot/shifted.py):
+both hold the heading that they agree on, live and in their later steps. A step that was taken stays as it was told.
 
 With the feet held together their mean does not shrink as they drift apart, and neither is better than the other: each
 has been given its share by how unsure it was. A foot that falls silent and comes back is treated as by `MeanOfFeet`.
@@ -27,7 +27,8 @@ from ..foot.tracker import FootTracker
 from ..types import Foot, Sample, Site, Vec3
 from ..vector import ZERO, sub
 from .agreement import HEADING, RATE, STATES, WIDTH, Agreement, Term, X, Y
-from .corridor import Corridor, wrapped
+from .corridor import Corridor
+from .facing import Askew, Facing, Stride, lay_alongside
 from .position import MeanOfFeet, Position
 
 FARTHEST = 1e6
@@ -38,37 +39,6 @@ UNEVEN = 1e-4
 """What a footprint differs by from a point, m^2."""
 BESIDE = (0.15, 0.05)
 """How well a foot that came back is set beside the other, m and rad."""
-
-
-@define
-class Stride:
-    """The newest one of a foot."""
-
-    t_end: float
-    end: Vec3
-    """On its own track, m."""
-
-
-@define
-class Facing:
-    """Which way a foot walks, seen from itself: who walks backwards or sideways has the other foot elsewhere."""
-
-    share: float = 0.1
-    """How much a stride says of it."""
-    turned: float = field(default=0.0, init=False)
-    """Sum of the foot's turns, rad."""
-    ahead: float | None = field(default=None, init=False)
-    """The direction of its strides less that, rad."""
-
-    def off(self, direction: float, turn: float) -> float:
-        """By how much a stride in this direction leads elsewhere than those before, rad; the foot turned by `turn`."""
-        middle = self.turned + 0.5 * turn
-        self.turned = wrapped(self.turned + turn)
-        if self.ahead is None:
-            self.ahead = wrapped(direction - middle)
-        off = wrapped(direction - middle - self.ahead)
-        self.ahead = wrapped(self.ahead + self.share * off)
-        return off
 
 
 @define
@@ -118,6 +88,7 @@ class BothFeet(MeanOfFeet):
     """Walking width, m."""
     strides: list[Stride | None] = field(factory=lambda: [None, None], init=False)
     """Left and right."""
+    askew: Askew = field(factory=Askew, init=False)
     facing: list[Facing] = field(factory=lambda: [Facing(), Facing()], init=False)
     bases: list[tuple[float, Vec3]] = field(factory=lambda: [(0.0, ZERO), (0.0, ZERO)], init=False)
     """Turn and offset at which the tracks were placed; what has come since is the feet's own to take."""
@@ -204,12 +175,31 @@ class BothFeet(MeanOfFeet):
         self.agreement.advance(index, stood, swung, (x, y), (dx, dy), variance, taken.degraded or wild > 0.0)
         self.agreement.doubt(index, wild)
         self.way = min(self.settles, self.way + 0.5 * taken.stride_length)
-        self.strides[index] = Stride(taken.t_end, own)
-        self._compare(index, taken, dx, dy, stood, swung)
-        if self.straight_corridors:
-            x, y, z = this.place(own)
-            self._hold(index, taken, (x - dx, y - dy, z), (x, y, z))
+        x, y, _ = taken.displacement
+        straight = hypot(x, y) > self.shortest and abs(taken.heading_change) < self.corner and not taken.degraded
+        self.strides[index] = Stride(taken.t_end, own, atan2(y, x) if straight else None)
+        if not self._lined_up(index, taken):
+            self._compare(index, taken, dx, dy, stood, swung)
+            if self.straight_corridors:
+                x, y, z = this.place(own)
+                self._hold(index, taken, (x - dx, y - dy, z), (x, y, z))
         self._hand_back(index, foot)
+
+    def _lined_up(self, index: int, taken: StepTaken) -> bool:
+        """Whether the tracks of both feet had to be laid beside one another anew, within the first metres."""
+        this, beside = self.strides[index], self.strides[1 - index]
+        if self.way >= self.settles or this is None or beside is None or not taken.t_start < beside.t_end < taken.t_end:
+            return False
+        own, other, side = (self.left, self.right, 1.0) if index == 0 else (self.right, self.left, -1.0)
+        angle = self.askew.between(this, own.turn, beside, other.turn, side)
+        if angle is None:
+            return False
+        lay_alongside(own, this, other, beside, angle, 0.5 * taken.stride_length, side * self.walking)
+        self.agreement.begin()
+        self.corridor.end()
+        self.way, self.facing = 0.0, [Facing(), Facing()]
+        self._placed_anew()
+        return True
 
     def _compare(self, index: int, taken: StepTaken, dx: float, dy: float, stood: float, swung: float) -> None:
         """This foot's stride (dx, dy) with where the other one stood."""
