@@ -78,7 +78,8 @@ class StepTaken(Happening):
     displacement: Vec3
     """From the first to the second foot-flat, m."""
     position: Vec3
-    """Where the foot stands after the step, m."""
+    """Where the foot stands after the step, m. A body that hands corrections back to the feet (BothFeet) moves a track
+    between two steps: where this step began is `position` - `displacement`, and not always where the last one ended."""
     stride_length: float
     """Horizontal length of `displacement`, m."""
     heading_change: float
