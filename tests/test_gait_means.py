@@ -121,6 +121,17 @@ def test_step_length_and_width_are_measured_along_the_stride_and_across_it() -> 
     assert widths == pytest.approx([0.15] * len(widths))
 
 
+def test_no_foot_is_cleared_by_less_than_nothing() -> None:
+    """Its height was corrected at the foot-flat to above what the swing was seen to reach."""
+    on, step = walked(L), taken(L, 0.6, 1.0, (0.0, 0.0, 0.0), (1.4, 0.0, 0.27))
+    step = attrs.evolve(step, features=StepFeatures(-0.02, 4.0, 1.0))
+    on.told(L, 0.0, HeelStrike(t=0.0, known_at=0.0, foot=L))
+    on.told(L, 0.6, ToeOff(t=0.6, known_at=0.6, foot=L))
+    on.told(L, 1.0, HeelStrike(t=1.0, known_at=1.0, foot=L))
+    found = on.told(L, 1.1, FootFlat(t=1.1, known_at=1.1, foot=L), step)
+    assert [stride.clearance for stride in found] == [0.0]
+
+
 def test_a_stand_of_more_than_two_seconds_is_no_stride() -> None:
     on = walked(L, R)
     gone(on, 6)

@@ -87,7 +87,8 @@ def measured(
         speed=None if length is None else length / time,
         step_length=along,
         step_width=across,
-        clearance=None if step is None else _sound(step.features.clearance),
+        # a height that was corrected at the foot-flat may be above all that the swing was seen to reach
+        clearance=None if step is None else _sound(max(0.0, step.features.clearance)),
         toe_off_angle=None if step is None else _sound(step.features.toe_off_angle),
         heel_strike_angle=None if step is None else _sound(step.features.heel_strike_angle),
         turning_angle=None if step is None else _sound(step.heading_change),
