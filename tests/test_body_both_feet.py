@@ -59,6 +59,18 @@ def test_feet_that_drift_apart_are_held_together() -> None:
     assert hypot(both.position.position[0] - 40.0, both.position.position[1]) < 0.1 * 40.0
 
 
+def test_a_foot_whose_steps_are_not_seen_any_more_does_not_hold_the_other_one_back() -> None:
+    """Its sensor lies still, or always repeats one reading."""
+    session = Session()
+    for sample in _samples(102):
+        stuck = sample.site.foot is Foot.LEFT and sample.t > 15.0
+        session.feed(evolve(sample, acc=(0.0, 0.0, 9.81), gyro=(0.0, 0.0, 0.0)) if stuck else sample)
+    alone, _ = _walked("mean")
+    (x, y, _), (u, v, _) = session.feet[Foot.RIGHT].position, alone.feet[Foot.RIGHT].position
+    assert hypot(x, y) > 0.95 * hypot(u, v)
+    assert session.position is not None and session.position.position[0] > 0.9 * 40.0
+
+
 def test_what_is_unsure_of_the_place_of_both_feet_is_so_in_every_direction() -> None:
     session = Session()
     for sample in _samples(102)[:1500]:

@@ -249,6 +249,8 @@ class BothFeet(MeanOfFeet):
             # a foot that has gone far and took no step there has lost its way, and the other must not follow
             wx, wy, _ = sub(other.here, beside.end)
             self.agreement.doubt(1 - index, max(0.0, hypot(wx, wy) - self.longest))
+            if beside.t_end < taken.t_start:  # nor does one stand through strides of the other: its own were missed
+                self.agreement.doubt(1 - index, taken.stride_length)
             nx, ny = (qx - ex) / apart, (qy - ey) / apart
             terms = [(other_x, nx), (other_y, ny), (this_x, -nx), (this_y, -ny)]
             self._take(self.agreement.measure(terms, self.reach - apart, self.along**2, 1e12))
