@@ -192,7 +192,8 @@ def test_an_insole_without_an_inertial_sensor_tells_times_alone() -> None:
 
 
 def test_without_a_frame_for_both_feet_nobody_knows_the_length_of_a_step() -> None:
-    _, strides, _ = walked(LEVEL, 0, (Foot.LEFT,))
+    _, strides, _ = walked(LEVEL, 0)
+    assert {stride.foot for stride in strides} == set(Foot)
     assert all(stride.step_length is None and stride.step_width is None for stride in strides)
 
 

@@ -31,7 +31,8 @@ class Better(Enum):
 
 
 _LESS = (
-    "armse_2d", "rms_2d", "rms_3d", "rms_z", "relative", "position_mean", "position_max", "end_error", "end_error_2d",
+    "armse_2d", "rms_2d", "rms_3d", "rms_z", "relative", "position_mean", "position_end", "position_max",
+    "end_error", "end_error_2d",
     "end_height", "end_relative", "largest_relative", "height_end", "height_max", "strides_invented", "stride_error",
     "stride_error_median", "stride_error_track", "heel_strike_mad", "heel_strike_off", "toe_off_mad", "toe_off_off",
     "stride_time_error", "stride_time_error_median", "leg_error", "leg_error_median", "body_leg_error",

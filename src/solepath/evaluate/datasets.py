@@ -181,7 +181,7 @@ DATASETS = (
 )  # fmt: skip
 
 WALKED = (
-    "rms_2d", "end_error_2d", "end_relative", "position_max", "largest_relative", "height_end", "height_max", "path",
+    "rms_2d", "position_end", "end_relative", "position_max", "largest_relative", "height_end", "height_max", "path",
 )  # fmt: skip
 EMULATED = tuple(
     DataSet(name, (), title, _always, score, WALKED + STRIDES, pressed=True)

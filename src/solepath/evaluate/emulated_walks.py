@@ -6,7 +6,7 @@ devices. Score seeds from 1 to 50; whatever is tuned is tuned on seeds from 101 
 
 The position is `session.position`, twice a second, against the mean of where both sensors truly are. The heading and
 the origin of a track are its own choice: one turn about the vertical and one shift, by least squares over the first
-ALIGNED m of the way, lay it over the truth. Then `end_error_2d` is the horizontal distance at the end and
+ALIGNED m of the way, lay it over the truth. Then `position_end` is the horizontal distance at the end and
 `position_max` the largest on the way, in m, and `end_relative` and `largest_relative` the same as shares of the length
 of the way. So what the heading is off by after ALIGNED m counts over all that follows; `rms_2d` is what the best turn
 and shift over the whole way leave, as of a VICON track. Heights are compared as they
@@ -193,7 +193,7 @@ def place_figures(t: Floats, positions: Floats, truth: Floats) -> Figures:
     path = float(along[-1])
     return {
         "rms_2d": track_error(positions, truth).rms_2d,
-        "end_error_2d": float(off[-1]),
+        "position_end": float(off[-1]),
         "end_relative": float(off[-1]) / path,
         "position_max": float(np.max(off)),
         "largest_relative": float(np.max(off)) / path,

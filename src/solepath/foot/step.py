@@ -17,6 +17,12 @@ RECENT = 32
 """Samples of which the pitch is kept: a toe-off or heel-strike is dated back by less."""
 
 
+LONGEST_SWING = 3.0
+"""A foot that was away for longer did more than a step, s."""
+FASTEST = 10.0
+"""Nor does anybody run faster than this, m/s."""
+
+
 @define
 class Way:
     """Covariance of position and heading along a chain of stretches, by dead-reckoning's rule.
@@ -201,7 +207,7 @@ class StepBuilder:
             covariance=world.covariance(stretch[:6]),
             t_toe_off=self.t_toe_off,
             t_heel_strike=self.t_heel_strike,
-            degraded=self.degraded,
+            degraded=self.degraded or t - self.t_toe_off > LONGEST_SWING or length > FASTEST * (t - self.t_start),
             features=StepFeatures(
                 clearance=self.highest - max(position[2], self.start[2]),
                 peak_speed=self.fastest,

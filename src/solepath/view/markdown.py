@@ -15,6 +15,7 @@ PLACES = {
     "rms_3d": "position error RMS, in space",
     "rms_z": "height error RMS",
     "position_mean": "position error at the footprints",
+    "position_end": "off at the end, horizontal",
     "end_error": "from end to start, in space",
     "end_error_2d": "from end to start, horizontal",
     "end_height": "from end to start, in height",

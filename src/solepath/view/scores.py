@@ -56,6 +56,7 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "end_error": ("end error m", _metres),
     "end_error_2d": ("in 2D m", _metres),
     "end_height": ("in height m", _metres),
+    "position_end": ("at the end m", _metres),
     "end_relative": ("of path %", _hundredths),
     "height_end": ("height at end m", _metres),
     "height_max": ("height, largest m", _metres),
