@@ -9,9 +9,10 @@ from math import hypot, pi
 import pytest
 from attrs import evolve
 
+from solepath.body.position import MeanOfFeet
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.events import Event, Limitation, SampleRejected, TouchedDown, WalkingModeChanged
-from solepath.recipes import BY_NAME
+from solepath.recipes import BY_NAME, DEFAULT, Recipe
 from solepath.session import Session
 from solepath.sim import faults
 from solepath.sim.insoles import layout
@@ -25,6 +26,8 @@ from walks import of
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(96, foot)) for foot in Foot})
 FAR = 25.0
+TRACKS = evolve(DEFAULT, body=MeanOfFeet())
+"""The feet's own tracks, and their mean."""
 RECIPES = ("walking-modes", "touchdown-height", "touchdown-acceleration", "touchdown-pressure")
 
 
@@ -55,9 +58,11 @@ def without_numbers(samples: Sequence[Sample], since: float) -> list[Sample]:
     return faults.missing(samples, LEFT, range(96), since)
 
 
-def told(recipe: str, samples: Sequence[Sample], known: Calibration = KNOWN) -> tuple[tuple[float, float], list[Event]]:
+def told(
+    recipe: str | Recipe, samples: Sequence[Sample], known: Calibration = KNOWN
+) -> tuple[tuple[float, float], list[Event]]:
     """Where the walk ends, x and y, and what was said."""
-    session = Session(BY_NAME[recipe], calibration=known)
+    session = Session(BY_NAME[recipe] if isinstance(recipe, str) else recipe, calibration=known)
     events = [*session.feed(samples), *session.finish()]
     assert session.position is not None
     x, y, _ = session.position.position
@@ -128,7 +133,7 @@ SUITS = {
 def test_whoever_loses_the_chain_goes_on_by_the_tracks_and_says_why_once(recipe: str, how: str) -> None:
     samples, named = SUITS[how]
     (x, y), events = told(recipe, samples)
-    (by_feet, _), _ = told("default", samples)
+    (by_feet, _), _ = told(TRACKS, samples)
     assert hypot(x - by_feet, y) < 2.3
     (said,) = [what for what in sentences(events) if "own inertial tracks" in what]
     assert named in said
