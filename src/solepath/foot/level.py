@@ -178,7 +178,6 @@ class Level:
             ux, uy, uz = up
             self.upright = (x + k * (ux - x), y + k * (uy - y), z + k * (uz - z))
 
-
     def _go_on(self, slope: float, grade: float, up: Vec3) -> None:
         """A step of `grade`, rise for each metre, that was on a slope with that probability.
 
