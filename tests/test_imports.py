@@ -52,7 +52,9 @@ ALLOWED: dict[str, set[str]] = {
     "loopback": CORE | {"recording", "sim", "ble"},
     "view": CORE | {"sim", "recording", "samples", "source", "output", "tally", "demo", "evaluate", "monitor",
              "calibrate", "reproduce"},
-    "cli": CORE | {"sim", "recording", "samples", "source", "output", "tally", "demo", "evaluate", "view", "ble",
+    "page": CORE | {"source", "output", "tally", "view"},
+    "report": CORE | {"source", "output", "tally", "timeline", "view"},
+    "cli": CORE | {"page", "report", "sim", "recording", "samples", "source", "output", "tally", "demo", "evaluate", "view", "ble",
                    "loopback", "monitor", "btsnoop", "mcap", "calibrate", "reproduce", "__init__"},
     "__main__": {"cli"},
 }  # fmt: skip

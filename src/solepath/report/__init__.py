@@ -1,0 +1,1 @@
+"""A walk as one file that can be mailed: figures and the gait table."""
