@@ -54,8 +54,8 @@ ALLOWED: dict[str, set[str]] = {
              "calibrate", "reproduce"},
     "page": CORE | {"source", "output", "tally", "view"},
     "report": CORE | {"source", "output", "tally", "timeline", "view"},
-    "cli": CORE | {"page", "report", "sim", "recording", "samples", "source", "output", "tally", "demo", "evaluate", "view", "ble",
-                   "loopback", "monitor", "btsnoop", "mcap", "calibrate", "reproduce", "__init__"},
+    "cli": CORE | {"sim", "recording", "samples", "source", "output", "tally", "demo", "evaluate", "view", "ble",
+                   "page", "report", "loopback", "monitor", "btsnoop", "mcap", "calibrate", "reproduce", "__init__"},
     "__main__": {"cli"},
 }  # fmt: skip
 """Room (a module or a folder of src/solepath) -> the rooms that it may import."""
