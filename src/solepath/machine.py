@@ -2,8 +2,9 @@
 
 A machine is an attrs class whose fields are floats, ints, strings, booleans, None, bytes, enums, tuples, lists, deques,
 dicts with string or enum keys, and other such records. `save` turns it into a JSON-able value, `load` builds it again
-from the type annotations; a field typed as a union of records carries the class name. Nothing else may be held across
-two samples: no generators, closures, rebound methods or arrays.
+from the type annotations; a field typed as a union of records carries the class name. A union with a Protocol in it is
+open: it also takes records of an app's own, whose classes are to be named again to load them. Nothing else may be held
+across two samples: no generators, closures, rebound methods or arrays.
 
     feed(...) -> list of what came out     advance(now) -> the same     finish() -> the same
 """
@@ -17,7 +18,7 @@ import typing
 from base64 import b64decode, b64encode
 from binascii import crc32
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from enum import Enum
 from math import isfinite
 from typing import Any, TypeVar
@@ -40,10 +41,13 @@ def save(record: object) -> Json:
     return _codec(type(record))[0](record)
 
 
-def load(cls: type[T], value: Json) -> T:
-    """The record of class `cls` that `save` turned into `value`. SnapshotError when it does not fit."""
+def load(cls: type[T], value: Json, own: Iterable[type] = ()) -> T:
+    """The record of class `cls` that `save` turned into `value`. `own`: classes that an open union may hold besides
+    those that it names. SnapshotError when it does not fit; TypeError for what is no attrs class, ValueError for two of
+    one name."""
+    codec = _codec(cls, _distinct(own))
     try:
-        loaded: T = _codec(cls)[1](value)
+        loaded: T = codec[1](value)
     except SnapshotError:
         raise
     except (TypeError, ValueError, KeyError, IndexError, AttributeError, OverflowError, RecursionError) as error:
@@ -59,17 +63,31 @@ def checksum(value: Json) -> int:
 
 _MINUS_ZERO = re.compile(r"-0\.0(?=[],}])")
 
-_CODECS: dict[Any, tuple[_Saver, _Loader]] = {}
+_Own = frozenset[type]
+"""What open unions may hold besides what they name."""
 
 
-def _codec(annotation: Any) -> tuple[_Saver, _Loader]:
-    codec = _CODECS.get(annotation)
+def _distinct(own: Iterable[type]) -> _Own:
+    classes = frozenset(own)
+    for cls in classes:
+        if not (isinstance(cls, type) and attrs.has(cls)):
+            raise TypeError(f"a part is an attrs class, and {cls!r} is none")
+    if len({cls.__name__ for cls in classes}) != len(classes):
+        raise ValueError("two parts have one name")
+    return classes
+
+
+_CODECS: dict[tuple[Any, _Own], tuple[_Saver, _Loader]] = {}
+
+
+def _codec(annotation: Any, own: _Own = frozenset()) -> tuple[_Saver, _Loader]:
+    codec = _CODECS.get((annotation, own))
     if codec is None:
-        codec = _CODECS[annotation] = _make_codec(annotation)
+        codec = _CODECS[annotation, own] = _make_codec(annotation, own)
     return codec
 
 
-def _make_codec(annotation: Any) -> tuple[_Saver, _Loader]:
+def _make_codec(annotation: Any, own: _Own) -> tuple[_Saver, _Loader]:
     origin, arguments = typing.get_origin(annotation), typing.get_args(annotation)
     if annotation is float:
         return _save_float, _load_float
@@ -82,22 +100,22 @@ def _make_codec(annotation: Any) -> tuple[_Saver, _Loader]:
     if isinstance(annotation, type) and issubclass(annotation, Enum):
         return (lambda member: member.value), annotation
     if isinstance(annotation, type) and attrs.has(annotation):
-        return _record_codec(annotation)
+        return _record_codec(annotation, own)
     if origin in (typing.Union, types.UnionType):
-        return _union_codec(arguments)
+        return _union_codec(arguments, own)
     if origin is tuple and len(arguments) == 2 and arguments[1] is Ellipsis:
-        save_item, load_item = _codec(arguments[0])
+        save_item, load_item = _codec(arguments[0], own)
         return (lambda v: [save_item(i) for i in v]), (lambda v: tuple([load_item(i) for i in _list(v)]))
     if origin is tuple:
-        return _fixed_tuple_codec(arguments)
+        return _fixed_tuple_codec(arguments, own)
     if origin is list:
-        save_item, load_item = _codec(arguments[0])
+        save_item, load_item = _codec(arguments[0], own)
         return (lambda v: [save_item(i) for i in v]), (lambda v: [load_item(i) for i in _list(v)])
     if origin is deque:
-        save_item, load_item = _codec(arguments[0])
+        save_item, load_item = _codec(arguments[0], own)
         return (lambda v: [save_item(i) for i in v]), (lambda v: deque([load_item(i) for i in _list(v)]))
     if origin is dict:
-        (save_key, load_key), (save_item, load_item) = _codec(arguments[0]), _codec(arguments[1])
+        (save_key, load_key), (save_item, load_item) = _codec(arguments[0], own), _codec(arguments[1], own)
         return (
             lambda v: {typing.cast(str, save_key(k)): save_item(i) for k, i in v.items()},
             lambda v: {load_key(k): load_item(i) for k, i in v.items()},
@@ -133,8 +151,8 @@ def _load_float(value: Any) -> float:
     return float(value)
 
 
-def _fixed_tuple_codec(arguments: tuple[Any, ...]) -> tuple[_Saver, _Loader]:
-    codecs = [_codec(a) for a in arguments]
+def _fixed_tuple_codec(arguments: tuple[Any, ...], own: _Own) -> tuple[_Saver, _Loader]:
+    codecs = [_codec(a, own) for a in arguments]
 
     def load_tuple(value: Any) -> tuple[Any, ...]:
         if len(_list(value)) != len(codecs):
@@ -144,9 +162,9 @@ def _fixed_tuple_codec(arguments: tuple[Any, ...]) -> tuple[_Saver, _Loader]:
     return (lambda value: [save_item(i) for (save_item, _), i in zip(codecs, value, strict=True)]), load_tuple
 
 
-def _record_codec(cls: type) -> tuple[_Saver, _Loader]:
+def _record_codec(cls: type, own: _Own) -> tuple[_Saver, _Loader]:
     hints = typing.get_type_hints(cls)
-    fields = [(f.name, f.alias, *_codec(hints[f.name])) for f in attrs.fields(cls)]
+    fields = [(f.name, f.alias, *_codec(hints[f.name], own)) for f in attrs.fields(cls)]
 
     def save_record(record: Any) -> Json:
         return {name: save_field(getattr(record, name)) for name, _, save_field, _ in fields}
@@ -166,10 +184,12 @@ def _record_codec(cls: type) -> tuple[_Saver, _Loader]:
     return save_record, load_record
 
 
-def _union_codec(arguments: tuple[Any, ...]) -> tuple[_Saver, _Loader]:
+def _union_codec(arguments: tuple[Any, ...], own: _Own) -> tuple[_Saver, _Loader]:
     """None | float and the like are told apart by their JSON type, records by the name of their class."""
     records = {a.__name__: a for a in arguments if isinstance(a, type) and attrs.has(a)}
-    others = [a for a in arguments if a is not type(None) and not (isinstance(a, type) and attrs.has(a))]
+    others = [a for a in arguments if a is not type(None) and a not in records.values()]
+    if any([getattr(a, "_is_protocol", False) for a in others]):
+        return _open_codec(records, own)
     if len(others) > 1 or (others and records):
         raise TypeError(f"a snapshot cannot tell apart {arguments!r}")
 
@@ -187,9 +207,30 @@ def _union_codec(arguments: tuple[Any, ...]) -> tuple[_Saver, _Loader]:
         if value is None:
             return None
         if others:
-            return _codec(others[0])[1](value)
+            return _codec(others[0], own)[1](value)
         if len(records) == 1:
-            return _codec(next(iter(records.values())))[1](value)
-        return _codec(records[value["kind"]])[1](value["is"])
+            return _codec(next(iter(records.values())), own)[1](value)
+        return _codec(records[value["kind"]], own)[1](value["is"])
 
     return save_union, load_union
+
+
+def _open_codec(records: dict[str, type], own: _Own) -> tuple[_Saver, _Loader]:
+    """A union with a Protocol in it: what an app has made may stand where ours do, under a name that is not ours."""
+    known = {cls.__name__: cls for cls in own} | records
+
+    def save_open(value: Any) -> Json:
+        cls = type(value)
+        if not attrs.has(cls):
+            raise TypeError(f"a snapshot cannot hold a {cls.__name__}: it is no attrs class")
+        if records.get(cls.__name__, cls) is not cls:
+            raise TypeError(f"a snapshot cannot tell this {cls.__name__} from solepath's own: give it another name")
+        return {"kind": cls.__name__, "is": _codec(cls)[0](value)}
+
+    def load_open(value: Any) -> Any:
+        kind = value["kind"]
+        if kind not in known:
+            raise SnapshotError(f"a snapshot of a part {kind!r} that is not known here")
+        return _codec(known[kind], own)[1](value["is"])
+
+    return save_open, load_open

@@ -50,7 +50,7 @@ class Stance(NamedTuple):
     sigma: float
     """How far to trust it, m/s an axis, for one update every 5 ms; infinite where the detector has nothing to say."""
     statistic: float
-    """The detector's own statistic; its unit is the detector's."""
+    """The detector's own statistic, in its own unit; where the hint is None, ErrorStateFilter takes less for stiller."""
     hint: Phase | None
     """STATIONARY where the detector is certain, SWING where it is certain of the opposite, otherwise None."""
     segment: Segment | None = None
@@ -58,12 +58,26 @@ class Stance(NamedTuple):
 
 
 class Detector(Protocol):
-    """`acc` in m/s^2 and `gyro` in rad/s, sensor frame; `load` None without pressure cells; `t` and `dt` in s;
-    `attitude` sensor to navigation frame, predicted to this sample (of no meaning before the foot was levelled)."""
+    """What says that a foot stands still, or how fast it rolls. An app's own may stand in a Recipe beside ours, if it
+    keeps this; promises.py tries that, docs/extending.md shows one.
+
+    An attrs class (`@define`), whose settings are the fields of its `__init__`, and whose state is fields with
+    `init=False`, of kinds that machine.py can save: `evolve(detector)` is one that was never fed. It reads no clock
+    and no random numbers, costs the same at every sample, remembers no more the longer it is fed, and never raises:
+    samples are finite, but otherwise of any size and at any distance in time.
+
+    It may have, besides: `wear(layout: Layout) -> None`, told once it is known where the cells are; `lacking: str |
+    None`, read after that: what it must do without, a sentence that becomes a Limitation; `scaled(scale: float) ->
+    None`, told what acc is multiplied by from now on; `calibrated(foot: Foot, calibration: Calibration)`, which returns
+    the detector to be used for that foot.
+    """
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
-    ) -> Stance: ...
+    ) -> Stance:
+        """What this sample says. `t`: its time, `dt`: since the one before, s; `acc` in m/s^2 and `gyro` in rad/s,
+        sensor frame, scale and bias of the gyroscope seen to; `load` None without pressure cells; `attitude`: sensor to
+        navigation frame, predicted to this sample (of no meaning before the foot was levelled)."""
 
 
 SIGMA_ACC = 0.01

@@ -7,7 +7,7 @@ Everything that happens is an event; the live position is read from `position` a
 from __future__ import annotations
 
 from math import inf, sqrt
-from typing import Final
+from typing import Any, Final
 
 from attrs import define, evolve, field
 
@@ -38,7 +38,7 @@ from .refusal import refusal, rejected
 from .rhythm import Rhythm
 from .short_time_energy import AccelerationMagnitude, ShortTimeEnergy
 from .sole import Sole
-from .stance import AngularRate, Graph, Load, MovingVariance, Shoe
+from .stance import AngularRate, Detector, Graph, Load, MovingVariance, Shoe
 from .static_zones import StaticZones
 from .swing_dedrift import SwingDedrift
 from .world import Covariance3
@@ -57,7 +57,9 @@ AnyDetector = (
     | StaticZones
     | ShortTimeEnergy
     | AccelerationMagnitude
+    | Detector
 )
+"""Ours, and what an app makes (docs/extending.md)."""
 AnyCorrector = ErrorStateFilter | LinearDedrift | SwingDedrift | BiasZupt | ShoeSensing | Projection
 AnyCues = GaitCues | CopCues | CriticalCues
 
@@ -166,7 +168,8 @@ class FootTracker:
         self.limits.odd_since = None
         self.gait.interrupt()
         # Windows over the old times would wait for the new ones to catch up. What was learnt stays.
-        self.detector = evolve(self.detector)
+        settings: Any = self.detector
+        self.detector = evolve(settings)
         self.cues.anew()
         if self.insole.layout is not None:
             self._wear_parts(self.insole.layout)
