@@ -28,6 +28,7 @@ from solepath import (
     ToeOff,
     TouchedDown,
 )
+from solepath.events import LiveEvent
 from solepath.link.decoder import Decoder
 from solepath.sim.radio import CLEAN
 from solepath.sim.route import Route
@@ -71,7 +72,7 @@ def test_what_was_final_stays_when_more_comes(name: str, data: st.DataObject) ->
     assert tuple(early) == everything[: len(early)]
     # live positions and places are never final, a touchdown not before the wearer's first heading is settled, an
     # activity as long as it may turn out to be another
-    live = FootMoved | Placed | TouchedDown | ActivityChanged | Sample
+    live = LiveEvent | Placed | TouchedDown | ActivityChanged | Sample
     assert all(event.final for event in early if not isinstance(event, live))
 
 

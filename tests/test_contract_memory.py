@@ -78,7 +78,7 @@ def check(sizes: list[int], steps: list[int]) -> None:
 
 
 def test_a_session_of_two_insoles_is_as_large_after_three_minutes_as_after_one() -> None:
-    check(*walk_on(Session(poses=True), 3))
+    check(*walk_on(Session(poses=True, pressures=True), 3))
 
 
 @pytest.mark.soak

@@ -92,8 +92,10 @@ class Machine:
 
 
 def _session(name: str, items: tuple[Item, ...], recipe: Recipe = DEFAULT) -> Machine:
+    pressures = name in ("fragments", "samples with pressure")  # in a few: it makes most of what is said
+
     def begin() -> Session:
-        return Session(recipe, poses=True)
+        return Session(recipe, poses=True, pressures=pressures)
 
     return Machine(f"session, {name}", items, begin, Session.restore)
 

@@ -19,6 +19,7 @@ from .events import (
     FootFlat,
     FootHeard,
     FootMoved,
+    FootPressed,
     FootSilent,
     HeelOff,
     HeelStrike,
@@ -48,6 +49,7 @@ from .events import (
     TouchedDown,
     TurnMade,
     WalkingModeChanged,
+    WearerMoved,
 )
 from .floorplan.index import IndexedPlan
 from .floorplan.plan import FloorPlan, FloorPlanError, Start
@@ -94,6 +96,7 @@ __all__ = [
     "FootFlat",
     "FootHeard",
     "FootMoved",
+    "FootPressed",
     "FootSilent",
     "GaitParameters",
     "HeelOff",
@@ -141,6 +144,7 @@ __all__ = [
     "Vec3",
     "WalkingMode",
     "WalkingModeChanged",
+    "WearerMoved",
     "read_calibration",
     "read_floorplan",
     "recipes",

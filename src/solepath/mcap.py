@@ -9,7 +9,7 @@ Every message is JSON with a JSON schema, and has `t`, the exact time in s on th
 | `/SITE/pose` | live position and velocity, world frame, phase by name and number | when measured |
 | `/SITE/gait` | heel-strikes, foot-flats, heel-offs, toe-offs | when it happened |
 | `/SITE/steps` | final steps | when the step ended |
-| `/events` | every event as in `events.jsonl`, but poses | when it happened |
+| `/events` | every event as in `events.jsonl` | when it happened |
 
 The publish time is when it was known. Log times count from 1970 where the recording says when it began, from the zero
 of the receiver's clock otherwise. The metadata record `solepath` holds the keys of the recording's header.
@@ -30,7 +30,7 @@ from typing import Any
 
 from mcap.writer import CompressionType, Writer
 
-from .events import Event, FootFlat, FootMoved, HeelOff, HeelStrike, StepTaken, ToeOff
+from .events import Event, FootFlat, FootMoved, HeelOff, HeelStrike, LiveEvent, StepTaken, ToeOff
 from .link.driver import Driver
 from .output import event_record, plain
 from .recording import FORMAT, VERSION, RecordingError, began, why
@@ -203,7 +203,7 @@ class McapWriter:
 
     def _event(self, event: Event) -> None:
         name, data = type(event).__name__, dict[str, Any](t=event.t)
-        if not isinstance(event, FootMoved):
+        if not isinstance(event, LiveEvent):
             self._put("/events", "solepath.Event", event.t, event.known_at, event_record(event))
         match event:
             case FootMoved(phase=phase):

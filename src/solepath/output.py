@@ -17,7 +17,7 @@ from typing import Any, TextIO
 import attrs
 from attrs import define, field
 
-from .events import Event, FootMoved, Placed, StepTaken, StrideMeasured
+from .events import Event, FootMoved, LiveEvent, Placed, StepTaken, StrideMeasured
 from .types import Site
 
 EVENTS, TRACK, STEPS, GAIT = "events.jsonl", "track.csv", "steps.csv", "gait.csv"
@@ -89,9 +89,9 @@ class TrackFiles:
     """The files in `directory`, which is made when there is none. Files of an earlier run are replaced.
 
     A FootMoved is a row of track.csv, a final StepTaken one of steps.csv, a StrideMeasured one of gait.csv, a Placed
-    one of places.csv (its heaviest candidate's, and how many there are), and every event but FootMoved a line of
-    events.jsonl. `places`: of a session with a floor plan; without one there is no places.csv. OSError, naming the
-    directory, when they cannot be made or written (the disk is full).
+    one of places.csv (its heaviest candidate's, and how many there are), and every event but the live ones
+    (LiveEvent) a line of events.jsonl. `places`: of a session with a floor plan; without one there is no places.csv.
+    OSError, naming the directory, when they cannot be made or written (the disk is full).
     """
 
     directory: Path
@@ -131,6 +131,7 @@ class TrackFiles:
         if isinstance(event, FootMoved):
             x, y, z = event.position
             self._track.write(f"{event.t!r},{event.foot.value},{x:.6f},{y:.6f},{z:.6f},{event.phase.value}\n")
+        if isinstance(event, LiveEvent):
             return
         self._events.write(json.dumps(event_record(event), allow_nan=False) + "\n")
         if isinstance(event, StepTaken) and event.final:

@@ -53,7 +53,8 @@ class _State:
 
 class Session:
     """One wearer. `recipe`: which parts to use. `calibration`: what is known of wearer, shoes and insoles. `poses`:
-    also emit FootMoved, the live position at every sample. `devices`: the address of the device at a site
+    also emit FootMoved, the live position at every sample, and WearerMoved after every step; `pressures`: FootPressed,
+    what an insole's cells show, at every sample that has any. `devices`: the address of the device at a site
     (`Packet.device`, in upper or lower case); packets of other devices are rejected there. A site that is not named is
     bound to the first device that it hears. `profiles`: devices of the app's own (link/driver.py), beside those that
     are known. `floorplan`: of the building, from a file (read_floorplan) or made by a program, and made ready once
@@ -80,6 +81,7 @@ class Session:
         *,
         calibration: Calibration | None = None,
         poses: bool = False,
+        pressures: bool = False,
         devices: Mapping[Site, str] | None = None,
         profiles: Iterable[Driver] = (),
         floorplan: FloorPlan | IndexedPlan | None = None,
@@ -95,7 +97,7 @@ class Session:
         if why_not is not None:
             raise CalibrationError(f"calibration: {why_not}")
         self._plan = _indexed(floorplan)
-        wearer = Wearer(deepcopy(recipe), deepcopy(known), poses)
+        wearer = Wearer(deepcopy(recipe), deepcopy(known), poses, pressures)
         if start is not None:
             if not isinstance(start, Start) or self._plan is None:
                 raise TypeError("start must be a Start, on a floor plan")
@@ -288,20 +290,23 @@ class Session:
         saved: Any,
         *,
         profiles: Iterable[Driver] = (),
+        parts: Iterable[type] = (),
         floorplan: FloorPlan | IndexedPlan | None = None,
     ) -> Session:
         """A session that goes on where `saved` was taken. A snapshot holds no functions and no floor plan: `profiles`
-        and `floorplan` are to be given again. SnapshotError when it is not a snapshot of this version, was damaged, was
-        taken with another floor plan, or is of a device that is not among the profiles, or is there with other
-        counters, rates or ranges, or stands in the place of a device of ours then and not now. Whether its functions
-        are the same cannot be seen: that is for the app to keep."""
+        and `floorplan` are to be given again, and `parts`, the classes of stance detectors of the app's own.
+        SnapshotError when it is not a snapshot of this version, was damaged, was taken with another floor plan, or is
+        of a device that is not among the profiles, or is there with other counters, rates or ranges, or stands in the
+        place of a device of ours then and not now, or of a detector that is not among the parts. Whether its functions
+        are the same cannot be seen: that is for the app to keep. TypeError and ValueError for profiles and parts that
+        are none, or two of one name."""
         if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
             raise SnapshotError("not a snapshot of a session")
         if saved["solepath"] != SNAPSHOT_VERSION:
             raise SnapshotError(f"snapshot version {saved['solepath']!r}; this release reads {SNAPSHOT_VERSION}")
         session = cls.__new__(cls)
         session._kinds = kinds(profiles)
-        session._state = load(_State, saved["state"])
+        session._state = load(_State, saved["state"], parts)
         session._plan = _indexed(floorplan)
         if session._state.plan != (None if session._plan is None else session._plan.fingerprint):
             with_one = "with the floor plan that it had" if session._state.plan is not None else "without a floor plan"

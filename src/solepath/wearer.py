@@ -25,6 +25,7 @@ from .events import (
     SampleRejected,
     StepTaken,
     TurnMade,
+    WearerMoved,
 )
 from .floorplan.index import IndexedPlan
 from .foot.refusal import rejected, with_sound_attitude, wrong_time
@@ -48,7 +49,9 @@ class Wearer:
     recipe: Recipe
     calibration: Calibration
     poses: bool
-    """The feet emit FootMoved."""
+    """The feet emit FootMoved; WearerMoved after a step."""
+    pressures: bool = False
+    """FootPressed with every sample of cells."""
     # state
     body: AnyBody = field(init=False)
     activity: AnyActivity = field(init=False)
@@ -104,6 +107,8 @@ class Wearer:
             events += self.strides.foot_moved(tracker, self.feet, known_at, events, self.body)
         if plan is not None and events:
             self._follow(plan, events)
+        if self.poses or self.pressures:
+            self._show(tracker, sample, events)
         return events
 
     def hear(self, site: Site, event: Event) -> None:
@@ -140,6 +145,19 @@ class Wearer:
             here = self.position
             if here is not None:
                 events += self.place.follow(plan, events, here)
+
+    def _show(self, tracker: FootTracker, sample: Sample, events: list[Event]) -> None:
+        """What is there to be drawn; last of all, since no part has a use for it."""
+        known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
+        if self.poses and any([isinstance(event, StepTaken) for event in events]):
+            here = self.position
+            if here is not None:
+                t, place, covariance = here.t, here.position, here.covariance
+                events.append(WearerMoved(t=t, known_at=max(t, known_at), position=place, covariance=covariance))
+        if self.pressures and sample.pressure:
+            pressed = tracker.sole.pressed_by(sample.t, known_at, sample.pressure)
+            if pressed is not None:
+                events.append(pressed)
 
     def _interrupt_parts(self, site: Site) -> None:
         self.body.interrupt(site)

@@ -20,7 +20,6 @@ from .body import (
 )
 from .gait import (
     FootFlat,
-    FootMoved,
     HeelOff,
     HeelStrike,
     StepFeatures,
@@ -46,6 +45,11 @@ from .link import (
     StreamRestarted,
     StreamResumed,
     StreamStale,
+)
+from .live import (
+    FootMoved,
+    FootPressed,
+    WearerMoved,
 )
 from .place import (
     Candidate,
@@ -79,6 +83,7 @@ __all__ = [
     "FootFlat",
     "FootHeard",
     "FootMoved",
+    "FootPressed",
     "FootSilent",
     "GaitEvent",
     "HeelOff",
@@ -90,6 +95,7 @@ __all__ = [
     "Limitation",
     "LinkEvent",
     "LinkTrouble",
+    "LiveEvent",
     "PacketRejected",
     "PacketsDropped",
     "PacketsLost",
@@ -112,9 +118,10 @@ __all__ = [
     "TurnMade",
     "WalkingModeChanged",
     "WearEvent",
+    "WearerMoved",
 ]
 
-GaitEvent = HeelStrike | FootFlat | HeelOff | ToeOff | StepTaken | FootMoved
+GaitEvent = HeelStrike | FootFlat | HeelOff | ToeOff | StepTaken
 LinkEvent = (
     PacketRejected
     | SampleRejected
@@ -138,5 +145,7 @@ BodyEvent = StrideMeasured | StrideFused | TouchedDown | WalkingModeChanged
 ActivityEvent = ActivityChanged | LiftRidden | FlightClimbed | TurnMade
 PlaceEvent = Placed | PlaceLost
 WearEvent = CellsFailed | InsoleNeverUnloads | FeetSwapped | FootSilent | FootHeard
-Event = GaitEvent | LinkEvent | BodyEvent | ActivityEvent | PlaceEvent | WearEvent
+LiveEvent = FootMoved | FootPressed | WearerMoved
+"""Only for those who ask, at every sample or step: what is drawn, and not kept."""
+Event = GaitEvent | LinkEvent | BodyEvent | ActivityEvent | PlaceEvent | WearEvent | LiveEvent
 """All of them."""

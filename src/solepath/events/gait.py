@@ -1,10 +1,10 @@
-"""What one foot did: phases, steps, live positions."""
+"""What one foot did: phases and steps."""
 
 from __future__ import annotations
 
 from attrs import frozen
 
-from ..types import Foot, Phase, Vec3
+from ..types import Foot, Vec3
 from .happening import Happening
 
 
@@ -93,17 +93,3 @@ class StepTaken(Happening):
     degraded: bool = False
     """True when samples were missing or saturated within the step."""
     features: StepFeatures
-
-
-@frozen(kw_only=True)
-class FootMoved(Happening):
-    """Where a foot is after one sample; only from a session made with `poses=True`.
-
-    Live, so never final: the step that it belongs to says where the foot really went. World frame, m and m/s.
-    """
-
-    foot: Foot
-    position: Vec3
-    velocity: Vec3
-    phase: Phase
-    final: bool = False

@@ -147,7 +147,7 @@ class ScaleSuspect(Happening):
 
 @frozen(kw_only=True)
 class LayoutKnown(Happening):
-    """The device said how its pressure cells are laid out."""
+    """The device said how its pressure cells are laid out; or the calibration did, and samples have as many cells."""
 
     site: Site
     layout: Layout

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from operator import mul
+
 from attrs import define, evolve, field
 
-from ..events import Event
+from ..events import Event, FootPressed, LayoutKnown
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Sample
 from .cell_health import CellHealth
 from .guess import LayoutGuess
@@ -73,11 +75,30 @@ class Sole:
             self._guess_layout(t, known_at, load, limits, events)
         return load
 
+    def pressed_by(self, t: float, known_at: float, pressure: tuple[float, ...]) -> FootPressed | None:
+        """What the cells of the sample that was just pressed show; None when there was nothing that could be used."""
+        insole, health = self.insole, self.health
+        if not health.usable(pressure):
+            return None
+        values = insole.above_tare(insole.cells)
+        if health.out or health.numberless:  # a cubic may make something of their 0
+            silent = {*health.out, *[i for i, _ in health.numberless]}
+            values = tuple([0.0 if i in silent else value for i, value in enumerate(values)])
+        force = sum(values)
+        centre = None
+        if insole.layout is not None and not self.guessed and len(values) == len(insole.xs):
+            # a foot in the air for long has a small reach of loads; its cells are less than what they have carried
+            least = insole.least * max(insole.total.high - insole.total.low, insole.highest)
+            if force > least:
+                centre = (sum(map(mul, insole.xs, values)) / force, sum(map(mul, insole.ys, values)) / force)
+        return FootPressed(t=t, known_at=known_at, foot=self.foot, values=values, force=force, centre=centre)
+
     def _compare(self, count: int, t: float, known_at: float, limits: Limits, events: list[Event]) -> None:
         """A sample has `count` cells: whether the calibration is of this insole."""
         layout, noise = self.supposed, self.insole.noise
         if layout is not None and len(layout.cells) == count:
             self.wear(layout, limits)
+            events.append(LayoutKnown(t=t, known_at=known_at, site=SITE_OF_FOOT[self.foot], layout=layout))
             layout = None
         odd = layout is not None or (bool(noise) and len(noise) != count)
         self.compared = not odd or limits.misfit(layout, noise, count, t, known_at, events)
