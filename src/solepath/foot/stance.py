@@ -50,9 +50,10 @@ class Stance(NamedTuple):
     sigma: float
     """How far to trust it, m/s an axis, for one update every 5 ms; infinite where the detector has nothing to say."""
     statistic: float
-    """The detector's own statistic, in its own unit; where the hint is None, ErrorStateFilter takes less for stiller."""
+    """The detector's own, in its own unit; where the hint is None, ErrorStateFilter takes less for stiller."""
     hint: Phase | None
-    """STATIONARY where the detector is certain, SWING where it is certain of the opposite, otherwise None."""
+    """STATIONARY where the detector is certain, SWING where it is certain of the opposite, LOADING or PUSH_OFF where
+    v_ref is that of a shoe that rolls over heel or forefoot, otherwise None."""
     segment: Segment | None = None
     """The step that ends with this sample, from a detector that cuts the samples into steps."""
 
@@ -61,10 +62,11 @@ class Detector(Protocol):
     """What says that a foot stands still, or how fast it rolls. An app's own may stand in a Recipe beside ours, if it
     keeps this; promises.py tries that, docs/extending.md shows one.
 
-    An attrs class (`@define`), whose settings are the fields of its `__init__`, and whose state is fields with
-    `init=False`, of kinds that machine.py can save: `evolve(detector)` is one that was never fed. It reads no clock
-    and no random numbers, costs the same at every sample, remembers no more the longer it is fed, and never raises:
-    samples are finite, but otherwise of any size and at any distance in time.
+    An attrs class (`@define`) with fields of kinds that machine.py can save. When times begin anew, after a restart of
+    the device, the session goes on with `evolve(detector)`: fields with `init=False` are then as at first, settings and
+    whatever else `__init__` takes stay. A detector reads no clock and no random numbers, costs the same at every
+    sample, remembers no more the longer it is fed, and never raises: samples are finite, but otherwise of any size (up
+    to 500 m/s^2, 100 rad/s) and at any distance in time.
 
     It may have, besides: `wear(layout: Layout) -> None`, told once it is known where the cells are; `lacking: str |
     None`, read after that: what it must do without, a sentence that becomes a Limitation; `scaled(scale: float) ->
