@@ -221,8 +221,8 @@ def main() -> None:
         session.feed(told)
         return session
 
-    def knowing_poses() -> Session:
-        session = Session(poses=True)
+    def knowing_poses(pressures: bool = False) -> Session:
+        session = Session(poses=True, pressures=pressures)
         session.feed(told)
         return session
 
@@ -233,6 +233,7 @@ def main() -> None:
     add("foot sample, inertial, FootMoved", each(bare, lambda: Session(poses=True)))
     add("foot sample, 96 cells", each(pressed, knowing))
     add("foot sample, 96 cells, FootMoved", each(pressed, knowing_poses))
+    add("foot sample, 96 cells, FootMoved and FootPressed", each(pressed, partial(knowing_poses, True)))
     add("foot sample, inertial, linear dedrift", each(bare, lambda: Session(linear)))
     infos = [packet for packet in walk.packets if packet.channel == "insole/info"]
     two_feet = walker.samples(Foot.RIGHT, 100.0, LSM6DSOX, layout=layout(96, Foot.RIGHT)) + pressed
