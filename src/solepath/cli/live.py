@@ -54,7 +54,7 @@ def run(options: argparse.Namespace) -> int:
     calibration = calibration_of(options)
     plan, start = floorplan_of(options)
     need_bleak()
+    from .air import listen_to_end
     from .live_run import listen
-    from .loop import run_to_end
 
-    return run_to_end(partial(listen, options, recipe, calibration, plan, start))
+    return listen_to_end(partial(listen, options, recipe, calibration, plan, start))

@@ -23,9 +23,10 @@ from ..session import Session
 from ..types import Packet
 from ..view.placed import Places
 from ..view.summary import summary
+from .air import air, until
 from .choosing import LISTENED, chosen, how_long, wanted
 from .failure import Failure, note
-from .loop import air, unless_told, until
+from .loop import unless_told
 from .showing import shown
 
 

@@ -34,7 +34,8 @@ def run(options: argparse.Namespace) -> int:
     import asyncio
 
     from ..ble import scan
-    from .loop import air, run_to_end, unless_told
+    from .air import air, listen_to_end
+    from .loop import unless_told
 
     async def listen(stop: asyncio.Event) -> int:
         async with unless_told(stop), air(options.via) as backend:
@@ -42,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
         _tell(found, options.all)
         return 0
 
-    return run_to_end(listen)
+    return listen_to_end(listen)
 
 
 def _tell(found: list[Found], strangers: bool) -> None:
