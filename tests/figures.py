@@ -1,20 +1,16 @@
-"""The README's short table: a row a figure, from what the commands print or write.
+"""The tables in short, README.md's and docs/accuracy.md's: made of the long tables and of what commands print.
 
-A row is (what, came to, command). Rows are made of the scores of `evaluate --json`, of what `demo` prints and of what
-the benchmark prints, each by itself, so that those can be refreshed that can be computed.
+A row is (what, came to). Each table is made by itself, so that those can be refreshed that can be computed.
 """
 
 from __future__ import annotations
 
 import re
-from typing import Any
 
 from solepath.evaluate.datasets import DATASETS
 
-Row = tuple[str, str, str]
+Row = tuple[str, str]
 
-MARK = "<!-- figures -->\n"
-HEADER = ["| figure | came to | command |", "|---|---|---|"]
 LONG_DEMO = ["demo", "--distance", "100", "--loss", "0.05", "--jitter", "0.05"]
 BENCH = "tests/bench/bench.py"
 BLUETOOTH = "tests/bench/bluetooth.py"
@@ -36,26 +32,49 @@ LONG_WAYS = [
     "--markdown",
 ]
 EXPERIMENTS = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
-SURVEYED = ("exp31", "exp33", "exp37")
 EVENTS = ("heel-strike", "foot-flat", "heel-off", "toe-off")
+IN_SHORT = {
+    "pyshoe_vicon": ("the same / sqrt 2 (ARMSE2d)", "strides", "stride length error"),
+    "gumushane_surveyed": ("position error at the footprints", "strides", "stride length error"),
+    "gumushane_counted": ("from end to start, horizontal", "strides", "length of a leg, by each foot's track"),
+    "xio_closed_walks": ("from end to start, in space",),
+    "smart_insole_35": ("position error RMS, horizontal", "strides", "stride length error"),
+    "ipol_10m_uturn": ("length of a leg, by each foot's track", "heel-strikes", "toe-offs"),
+    "tripod_treadmill": ("stride length error", "heel-strikes", "toe-offs"),
+    "gaitmap_examples": ("length of a leg, by each foot's track", "heel-strikes"),
+    "marpino_heel_toe": ("heel-strikes", "toe-offs"),
+    "marpino_pressed": ("heel-strikes", "toe-offs"),
+    "gaitpdb_vgrf": ("heel-strikes", "toe-offs"),
+    "hugadb": ("labelled time told right", "lift rides, with their direction"),
+    "stairs": ("time on stairs that was called stairs", "time on the level that was called stairs"),
+    "emulated_long_way": ("off at the end, horizontal", "stride length error"),
+    "emulated_half_hour": ("off at the end, horizontal",),
+}
+"""What of each data set is told in short: what was measured, without its count."""
+SHORTER = {"the same / sqrt 2 (ARMSE2d)": "position error, ARMSE2d"}
 
 
-def evaluated(scores: dict[str, Any]) -> list[Row]:
-    """`scores`: the default recipe's part of the JSON."""
-    vicon = scores["pyshoe_vicon"]["summary"]["all"]
-    mean, median = (vicon[part]["armse_2d"] for part in ("mean", "median"))
-    command = "solepath evaluate DIR --only pyshoe_vicon"
-    title = f"`pyshoe_vicon`, {vicon['count']} recordings: ARMSE2d"
-    rows = [(title, f"mean {mean:.3f} m, median {median:.3f} m", command)]
-    for name in SURVEYED:
-        one = scores["gumushane_surveyed"]["recordings"][name]
-        strides = f"{one['strides_found']} of {one['strides_true']} strides found, {one['strides_invented']} invented"
-        came_to = f"{strides}; stride length error mean {100 * one['stride_error']:.1f} %"
-        rows.append((f"`gumushane_gcp/{name}`", came_to, "solepath evaluate DIR --only gumushane_surveyed"))
-    end = scores["xio_closed_walks"]["recordings"]["long_walk"]["end_error"]
-    command = "solepath evaluate DIR --only xio_closed_walks"
-    rows.append(("`xio_closed_walks/long_walk`: end error", f"{end:.3f} m", command))
+def in_short(*tables: list[str]) -> list[Row]:
+    """A row for each data set, of the lines of tables as `evaluate --markdown` prints them; the first figure is the
+    default recipe's."""
+    found: dict[str, tuple[str, dict[str, str]]] = {}
+    for line in (line for table in tables for line in table[2:]):
+        title, what, came_to = (cell.strip() for cell in line.split("|")[1:4])
+        if title:
+            told: dict[str, str] = {}
+            found.setdefault(title.split("`")[1], (title, told))
+        told[re.sub(r"^\d+ | \(\d+\)$", "", what)] = came_to
+    rows = []
+    for name, wanted in IN_SHORT.items():
+        title, told = found[name]
+        rows.append((title, "; ".join(f"{SHORTER.get(what, what)}: {told[what]}" for what in wanted)))
     return rows
+
+
+def compared(printed: str) -> str:
+    """Of what `solepath demo` prints: how its table against the truth begins."""
+    _, title, rest = printed.partition("against the truth")
+    return "\n".join((title + rest).splitlines()[:7])
 
 
 def walked(printed: str) -> list[Row]:
@@ -67,8 +86,6 @@ def walked(printed: str) -> list[Row]:
         match re.split(r"\s{2,}", line.strip()):
             case [what, ours, theirs]:
                 left[what], right[what] = ours, theirs
-    command = " ".join(["solepath", *LONG_DEMO])
-    title = "emulated 100 m, both insoles, 5 % loss, 50 ms jitter"
     steps = (
         f"{name} {foot['steps found']} of {foot['steps walked']} found, {foot['steps invented']} invented"
         for name, foot in (("left", left), ("right", right))
@@ -79,10 +96,10 @@ def walked(printed: str) -> list[Row]:
 
     offsets = (f"{event} {both(f'{event}, median offset', 'ms')}" for event in EVENTS)
     return [
-        (f"{title}: steps", "; ".join(steps), command),
-        ("the same: median offsets, left and right", "; ".join(offsets), command),
-        ("the same: stride length error, mean", both("stride length, mean error", "%"), command),
-        ("the same: end position, error", both("end position, error", "m"), command),
+        ("steps", "; ".join(steps)),
+        ("median offsets, left and right", "; ".join(offsets)),
+        ("stride length error, mean, left and right", both("stride length, mean error", "%")),
+        ("end position, error, left and right", both("end position, error", "m")),
     ]
 
 
@@ -101,15 +118,15 @@ def measured(printed: str) -> list[Row]:
     )
     python, cores = found(r"^Python ([\d.]+)"), found(r"(\d+) cores")
     factor, memory = found(r"^real-time factor.*: (.+)$"), found(r"^memory of a session: (.+)$")
-    command = f"python {BENCH}"
     return [
-        (f"default recipe (one of {cores} cores, Python {python})", f"{sample} us a foot sample", command),
-        ("the same: insole frame of 96 cells, decoded", f"{decode} us a packet", command),
-        ("the same: both feet with 96 cells at 100 Hz", f"{factor} times real time", command),
-        ("the same: memory of a session", memory, command),
+        ("machine", f"one of {cores} cores, Python {python}"),
+        ("a sample of a foot, recipe `default`", f"{sample} us"),
+        ("an insole frame of 96 cells, decoded", f"{decode} us"),
+        ("both feet with 96 cells at 100 Hz", f"{factor} times real time"),
+        ("memory of a session", memory),
     ]
 
 
-def lines(rows: list[Row]) -> list[str]:
-    """The table in Markdown."""
-    return [*HEADER, *(f"| {what} | {came_to} | `{command}` |" for what, came_to, command in rows)]
+def lines(what: str, rows: list[Row]) -> list[str]:
+    """A table in Markdown; `what`: the head of its first column."""
+    return [f"| {what} | came to |", "|---|---|", *(f"| {first} | {came_to} |" for first, came_to in rows)]

@@ -1,4 +1,4 @@
-"""What README.md quotes: blocks and tables below their marks, and how exactly they must hold."""
+"""What README.md and docs/ quote: blocks and tables below their marks, and how exactly they must hold."""
 
 import re
 from pathlib import Path
@@ -6,22 +6,33 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-README = (ROOT / "README.md").read_text(encoding="utf-8")
+PAGES = {
+    path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8")
+    for path in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
+}
+"""What a newcomer reads, by its path."""
+README = PAGES["README.md"]
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 
 
+def blocks(text: str, language: str) -> list[str]:
+    """The blocks of code in that language."""
+    return re.findall(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
+
+
+def page_of(mark: str) -> str:
+    """The path of the one page that holds the comment <!-- mark -->."""
+    (path,) = (path for path, text in PAGES.items() if f"<!-- {mark} -->\n" in text)
+    return path
+
+
 def below(mark: str) -> list[str]:
-    """The lines of the first block or table below the comment <!-- mark -->."""
-    lines = README.split(f"<!-- {mark} -->\n", 1)[1].splitlines()
+    """The lines of the first block or table below the comment <!-- mark -->, on whichever page."""
+    lines = PAGES[page_of(mark)].split(f"<!-- {mark} -->\n", 1)[1].splitlines()
     if lines[0].startswith("```"):
         return lines[1 : lines.index("```", 1)]
-    end = next(n for n, line in enumerate(lines) if not line.startswith("|"))
+    end = next((n for n, line in enumerate(lines) if not line.startswith("|")), len(lines))
     return lines[:end]
-
-
-def in_short(command: str) -> list[str]:
-    """The rows of the short table whose figures that command gives."""
-    return [line for line in below("figures")[2:] if line.split("|")[3].strip().startswith(f"`{command} ")]
 
 
 def nearly_the_same(quoted: list[str], fresh: list[str]) -> None:

@@ -1,8 +1,7 @@
-"""How accurate the default recipe is on recorded data: the figures that the README quotes, with their bounds."""
+"""How accurate the default recipe is on recorded data: the figures that docs/accuracy.md quotes, with their bounds."""
 
-import figures
-from quoted import below, in_short, nearly_the_same
-from solepath.evaluate.report import Result, as_json
+from quoted import below, nearly_the_same
+from solepath.evaluate.report import Result
 from solepath.evaluate.score import Scored, Summary
 from solepath.view.markdown import accuracy_table
 
@@ -68,11 +67,6 @@ def test_initial_contacts_are_those_of_motion_capture(results):
     assert abs(walks["walk_4x10m_ic"].events["heel_strike"].bias) <= 0.015
 
 
-def test_the_readme_s_accuracy_is_what_evaluate_prints(results):
-    """solepath evaluate DIR --markdown prints the table to paste."""
+def test_the_accuracy_that_is_quoted_is_what_evaluate_prints(results):
+    """solepath evaluate DIR --markdown prints the table."""
     nearly_the_same(below("accuracy"), accuracy_table(results).splitlines())
-
-
-def test_the_readme_s_short_table_quotes_what_evaluate_scores(results):
-    fresh = figures.evaluated(as_json(results)["default"])
-    nearly_the_same(in_short("solepath evaluate"), figures.lines(fresh)[2:])

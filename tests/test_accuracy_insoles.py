@@ -1,4 +1,4 @@
-"""How the recipes of pressure do on recorded insoles: the figures that the README quotes, with their bounds."""
+"""How the recipes of pressure do on recorded insoles: the figures that docs/recipes.md quotes, with their bounds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the README says of places on a plan: walks through the emulator's building, from sensor to place."""
+"""What docs/accuracy.md says of places on a plan: walks through the emulator's building, from sensor to place."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the README says came of the papers' claims, walked in full.
+"""What docs/papers.md says came of the papers' claims, walked in full.
 
     python -m pytest -m soak tests/test_reproduce_claims.py
 

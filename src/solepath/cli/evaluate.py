@@ -50,7 +50,7 @@ def add_to(commands: Any) -> None:
         help="the default recipe with one part at a time switched off, and what becomes of its main figures",
     )
     command.add_argument(
-        "--markdown", action="store_true", help="print one table of the averages only, as the README quotes it"
+        "--markdown", action="store_true", help="print one table of the averages only, as docs/accuracy.md quotes it"
     )
     command.add_argument("--json", metavar="FILE", type=Path, help="write the scores as JSON too")
     command.add_argument(

@@ -1,4 +1,4 @@
-"""Scores in short, as the Markdown table that the README quotes."""
+"""Scores in short, as the Markdown table that docs/accuracy.md quotes."""
 
 from __future__ import annotations
 

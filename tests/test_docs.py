@@ -1,0 +1,200 @@
+"""README.md and docs/ are true: programs run, commands and options exist, links lead somewhere, figures are printed."""
+
+import io
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from argparse import ArgumentParser
+from contextlib import redirect_stdout
+from importlib import import_module
+from pathlib import Path
+from typing import Any, get_args
+
+import pytest
+
+import figures
+from quoted import NUMBER, PAGES, ROOT, below, blocks, nearly_the_same
+from solepath import LiftRidden
+from solepath.body.altitude import Altitude
+from solepath.cli.main import parser
+from solepath.foot.pressure import Insole
+from solepath.foot.stance import Detector
+from solepath.foot.tracker import AnyCorrector, AnyCues, AnyDetector
+from solepath.output import STEP_COLUMNS, TRACK_COLUMNS
+from solepath.recipes import AnyActivity, AnyBody, AnyPlace
+from solepath.sim import Route, emulate
+
+MARKDOWN = {**PAGES, **{f"protocol/{path.name}": path.read_text() for path in (ROOT / "protocol").glob("*.md")}}
+WALK = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), seed=1)
+
+
+@pytest.fixture
+def played(tmp_path, monkeypatch):
+    """Runs the programs of a page one after the other: (what they printed, the names that they made)."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copytree(ROOT / "examples", "examples")
+
+    def play(page: str) -> tuple[list[str], dict[str, Any]]:
+        names: dict[str, Any] = {"__name__": "page"}
+        printed = []
+        for program in blocks(PAGES[page], "python"):
+            with redirect_stdout(io.StringIO()) as out:
+                exec(compile(program, page, "exec"), names)
+            printed.append(out.getvalue())
+        return printed, names
+
+    return play
+
+
+def test_every_program_is_run_by_a_test():
+    tests = "".join(path.read_text() for path in Path(__file__).parent.glob("test_*.py"))
+    for page, text in PAGES.items():
+        if blocks(text, "python") and page != "README.md":
+            assert f'"{page}"' in tests, page
+
+
+def test_a_live_source_samples_and_a_saved_session(played):
+    (_, _, saved), names = played("docs/session.md")
+    assert saved.startswith("Position(t=")
+    with redirect_stdout(io.StringIO()) as out:
+        names["notified"](bytearray())
+        names["every_second"]()
+    assert out.getvalue().startswith("PacketRejected(")
+
+
+def test_what_the_wearer_did_is_told(played):
+    _, names = played("docs/activities.md")
+    with redirect_stdout(io.StringIO()) as out:
+        names["did"](LiftRidden(t=9.0, known_at=9.5, t_start=2.0, up=False, height=-3.0))
+    assert out.getvalue() == "down -3.0\n"
+
+
+def test_gait_parameters_are_printed(played):
+    _, names = played("docs/gait.md")
+    with redirect_stdout(io.StringIO()) as out:
+        for event in names["session"].feed(emulate(Route().stand(2).walk(15).stop(2), seed=1).packets):
+            names["measured"](event)
+    assert out.getvalue().splitlines()[0].split()[0] in ("left", "right")
+
+
+def test_a_session_with_a_floor_plan_says_where(played):
+    _, names = played("docs/floorplans.md")
+    names["indoors"].feed(WALK.packets)
+    assert names["indoors"].place.level == "0"
+
+
+def test_the_loop_over_bluetooth_is_a_program(played):
+    """It runs in examples/bluetooth.py, against emulated insoles."""
+    _, names = played("docs/bluetooth.md")
+    assert names["listen"].__name__ == "listen"
+
+
+def commands() -> dict[str, ArgumentParser]:
+    (subparsers,) = (action for action in parser()._actions if isinstance(action.choices, dict))
+    return dict(subparsers.choices)
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_its_commands_can_be_typed(page):
+    lines = [line for block in blocks(PAGES[page], "sh") for line in block.splitlines()]
+    for line in lines:
+        for part in line.split(" && "):
+            program, *arguments = shlex.split(part, comments=True)
+            if program.removeprefix(".venv/bin/") == "solepath":
+                parser().parse_args(arguments)  # exits where they are wrong
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_its_options_are_those_of_the_command_line(page):
+    """Of every command that is quoted within a line, also those with words to be filled in."""
+    for quoted in re.findall(r"`solepath ([^`]+)`", PAGES[page]):
+        name, *words = quoted.split()
+        assert name in commands(), quoted
+        known = "".join(_options(commands()[name]))
+        assert all(word.split("=")[0] in known for word in words if word.startswith("--")), quoted
+
+
+def _options(command: ArgumentParser) -> list[str]:
+    """Its options, and those of its own commands."""
+    inner = [one for a in command._actions if isinstance(a.choices, dict) for one in a.choices.values()]
+    return [f"{option} " for option in command._option_string_actions] + [o for one in inner for o in _options(one)]
+
+
+def test_all_options_of_the_table_of_commands_exist():
+    table = PAGES["docs/commands.md"].split("| command | what it does |\n", 1)[1].split("\n\n", 1)[0]
+    told = {re.split(r"[ `]", line)[3]: set(re.findall(r"--[a-z-]+", line)) for line in table.splitlines()[1:]}
+    assert told.keys() == commands().keys()
+    for name, options in told.items():
+        known = commands()[name]._option_string_actions.keys()
+        assert options <= known, name
+        missing = {option for option in known if option.startswith("--")} - options - {"--help"}
+        assert name == "calibrate" or not missing, f"{name} has {missing} as well"
+
+
+def anchors(text: str) -> set[str]:
+    """Of its headings, as a forge makes them."""
+    prose = re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
+    titles = re.findall(r"^#+ (.+)$", prose, re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", title).lower().replace(" ", "-") for title in titles}
+
+
+@pytest.mark.parametrize("page", MARKDOWN)
+def test_its_links_lead_somewhere(page):
+    for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`\n]*`", "", MARKDOWN[page])):
+        path, _, anchor = target.partition("#")
+        if path.startswith("https:"):
+            continue
+        whole = ((ROOT / page).parent / path).resolve() if path else ROOT / page
+        assert whole.exists() and whole.is_relative_to(ROOT), target
+        if anchor and whole.suffix == ".md":
+            assert anchor in anchors(whole.read_text()), target
+
+
+def test_every_page_can_be_reached_from_the_readme():
+    reached, new = set(), {"README.md"}
+    while new:
+        reached |= new
+        found = {
+            (ROOT / page).parent.joinpath(target).resolve().relative_to(ROOT).as_posix()
+            for page in new
+            for target in re.findall(r"\]\(([^)#]+\.md)[)#]", PAGES[page])
+        }
+        new = {page for page in found if page in PAGES} - reached
+    assert reached == PAGES.keys()
+
+
+def test_columns_are_those_that_are_written():
+    assert f"`{','.join(TRACK_COLUMNS)}`" in PAGES["docs/commands.md"]
+    assert f"`{','.join(STEP_COLUMNS)}`" in PAGES["docs/commands.md"]
+
+
+def test_the_table_of_parts_has_them_all():
+    parts = re.findall(r"^\| (`[A-Z].*?) \| `(solepath[\w.]+)` \|", PAGES["docs/parts.md"], re.MULTILINE)
+    told = {getattr(import_module(module), name) for names, module in parts for name in re.findall(r"`(\w+)`", names)}
+    kinds = (AnyDetector, AnyCorrector, AnyCues, AnyBody, AnyActivity, AnyPlace)
+    assert told == {Insole, Altitude, *(part for kind in kinds for part in get_args(kind))} - {Detector}
+
+
+def test_the_demonstration_of_100_m_comes_to_what_is_quoted():
+    done = subprocess.run(
+        [sys.executable, "-m", "solepath", *figures.LONG_DEMO],
+        capture_output=True,
+        stdin=subprocess.DEVNULL,
+        text=True,
+        check=True,
+    )
+    *fresh, fresh_end = figures.lines("figure", figures.walked(done.stdout))
+    *quoted, end = below("hundred")
+    nearly_the_same(quoted, fresh)
+    # rounding that differs from one machine to the next is turned into heading, and 100 m makes metres of it
+    assert NUMBER.sub("#", end) == NUMBER.sub("#", fresh_end)
+
+
+def test_what_bluetooth_adds_is_told_on_both_tiers():
+    """The figures are those of some machine; that there are any is tested."""
+    told = "\n".join(below("bluetooth"))
+    assert re.search(r"the adapter's own +\d+\.\d us", told)
+    for tier in ("memory", "bumble"):
+        assert re.search(rf"{tier}: from notification to event +median +\d+\.\d+ ms, p99 +\d+\.\d+ ms", told)
