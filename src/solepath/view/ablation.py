@@ -1,4 +1,4 @@
-"""What each part of the default recipe is worth, as a text table or as the Markdown table that docs/accuracy.md quotes."""
+"""What each part of the default recipe is worth, as a text table or as the Markdown table of docs/accuracy.md."""
 
 from __future__ import annotations
 
