@@ -1,0 +1,139 @@
+"""How the link of one site does, from its events: rate, loss, battery, silence."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import Any
+
+from attrs import define, field
+
+from ..events import (
+    Connected,
+    Disconnected,
+    Event,
+    PacketRejected,
+    SampleGap,
+    SampleRejected,
+    StreamResumed,
+    StreamStale,
+)
+from ..monitor import LinkHealth
+from .rounding import shown
+
+WINDOW = 2.0
+"""s over which a rate is counted."""
+MOST = 1000
+"""Samples that are counted in it: 500 a second."""
+SILENT = 1.5
+"""s without a sample after which a link is silent, whether or not it was told."""
+STRAY = 1.0
+"""s after a connection broke in which what still comes is no sign of a new one."""
+
+
+@define
+class Beat:
+    """Samples a second of late."""
+
+    times: deque[float] = field(factory=lambda: deque(maxlen=MOST))
+    since: float | None = None
+    """When counting began, s: a stream that has just begun is not slow."""
+
+    def rate(self, now: float) -> float:
+        """At `now` s, 1/s."""
+        times = self.times
+        while times and times[0] <= now - WINDOW:
+            times.popleft()
+        if not times:
+            self.since = None
+            return 0.0
+        if self.since is None:
+            self.since = times[0]
+        return len(times) / min(WINDOW, max(now - self.since, 0.5 * WINDOW))
+
+
+@define
+class Link:
+    """One site's. Times are arrivals, s."""
+
+    health: LinkHealth = field(factory=LinkHealth)
+    moves: Beat = field(factory=Beat)
+    """Samples of the inertial sensor."""
+    presses: Beat = field(factory=Beat)
+    """Samples of the cells."""
+    heard: float | None = None
+    """The newest sample."""
+    fresh: bool = False
+    """Samples have come over this connection."""
+    lost_at: float | None = None
+    """When the connection broke; None while there is one."""
+    stale: bool = False
+    gaps: int = 0
+    rejected: int = 0
+    counted: bool = False
+    """Samples come in packets, which can get lost."""
+
+    def sampled(self, t: float, known_at: float, beat: Beat) -> None:
+        """A sample of `t` s came at `known_at`; `beat`: `moves` or `presses`."""
+        beat.times.append(known_at)
+        if known_at != self.heard:
+            # the samples of one packet become known together
+            self.health.came += 1
+            self.heard = known_at
+            if known_at > t:
+                self.counted = True
+            if self.lost_at is None or known_at > self.lost_at + STRAY:
+                self.lost_at, self.fresh, self.stale = None, True, False
+
+    def take(self, event: Event) -> None:
+        """What the link itself says."""
+        match event:
+            case PacketRejected() | SampleRejected():
+                self.rejected += 1
+                return
+            case SampleGap():
+                self.gaps += 1
+            case StreamStale():
+                self.stale = True
+            case StreamResumed():
+                self.stale = False
+            case Connected():
+                self.lost_at, self.fresh, self.stale = None, False, False
+            case Disconnected():
+                self.lost_at, self.fresh = event.known_at, False
+            case _:
+                pass
+        self.health.heard(event)
+
+    def state(self, now: float) -> str:
+        """In a word: whether data come, have not yet, come no more, or cannot come."""
+        if self.lost_at is not None:
+            return "lost"
+        if self.stale:
+            return "silent"
+        if not self.fresh:
+            return "waiting"
+        return "ok" if self.heard is None or now - self.heard <= SILENT else "silent"
+
+    def rate(self, now: float) -> float:
+        """Samples a second of late, in the digits that are shown."""
+        moves, presses = self.moves.rate(now), self.presses.rate(now)
+        rate = moves if moves > 0.0 else presses
+        return round(rate) if rate >= 20.0 else round(rate, 1)
+
+    def frame(self, now: float) -> dict[str, Any]:
+        """As one of "links" of a frame."""
+        health, state = self.health, self.state(now)
+        silent = state in ("silent", "lost") and self.heard is not None
+        return {
+            "state": state,
+            "rate": self.rate(now),
+            "lost": health.lost,
+            "loss": shown(health.loss, 4) if self.counted else None,
+            "rejected": self.rejected,
+            "gaps": self.gaps,
+            "battery": shown(health.battery),
+            "name": health.name,
+            "signal": health.signal,
+            "silent_for": shown(max(now - (self.heard or 0.0), 0.0), 1) if silent else None,
+            "trouble": health.trouble,
+        }

@@ -1,0 +1,53 @@
+"""Gait parameters of steady strides as a page shows them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from attrs import asdict, define, field
+
+from ..body.gait_means import GaitMeans
+from ..events import StrideMeasured
+from ..types import Foot
+from ..view.gait_rows import GaitRow, gait_rows
+from .rounding import shown
+
+
+@define
+class Measured:
+    """Running means over the newest strides, of walking or of running as the newest was."""
+
+    means: GaitMeans = field(factory=GaitMeans)
+    _told: dict[str, Any] | None = None
+
+    def take(self, stride: StrideMeasured) -> None:
+        """One more stride."""
+        self.means.hear(stride)
+        self._told = None
+
+    def interrupt(self, foot: Foot) -> None:
+        """The foot's times begin anew."""
+        self.means.interrupt(foot)
+
+    def frame(self) -> dict[str, Any] | None:
+        """As "gait" of a frame; None before any steady stride."""
+        parameters = self.means.parameters
+        if parameters is None:
+            return None
+        if self._told is None:
+            self._told = {
+                "running": parameters.running,
+                "cadence": shown(parameters.cadence, 1),
+                "coordination": shown(parameters.coordination, 4),
+                "rows": [_row(row) for row in gait_rows(parameters)],
+            }
+        return self._told
+
+
+def _row(row: GaitRow) -> dict[str, Any]:
+    told = asdict(row)
+    for name in ("left", "right", "both", "sd"):
+        told[name] = shown(told[name], row.digits)
+    for name in ("cv", "asymmetry"):
+        told[name] = shown(told[name], 4)
+    return told

@@ -1,0 +1,81 @@
+"""Messages between server and page as text: JSON, strict both ways (protocol/page.md)."""
+
+from __future__ import annotations
+
+import json
+from math import isfinite
+from typing import Any
+
+from attrs import frozen
+
+VALUED = {"play": False, "pause": False, "speed": True, "seek": True}
+"""Command -> whether it has a value."""
+SLOWEST, FASTEST = 0.1, 100.0
+"""Times real time."""
+LONGEST = 4096
+"""Bytes of a message from a page."""
+
+
+class CommandError(ValueError):
+    """A text is no command; a sentence says why. `is_json`: it is JSON at least."""
+
+    def __init__(self, why: str, *, is_json: bool = True) -> None:
+        super().__init__(why)
+        self.is_json = is_json
+
+
+@frozen
+class Command:
+    """What a page asks for. `do`: "play", "pause", "speed" (`value` times real time) or "seek" (to `value` s of the
+    recording's time); `value` is None of the first two."""
+
+    do: str
+    value: float | None = None
+
+
+def parse_command(text: str) -> Command:
+    """The command that a text is; CommandError when it is none, whatever it is."""
+    try:
+        told = json.loads(text, parse_constant=_no_number, object_pairs_hook=_once)
+    except CommandError:
+        raise
+    except (ValueError, RecursionError):
+        raise CommandError("a message is not JSON", is_json=False) from None
+    if not isinstance(told, dict):
+        raise CommandError("a message is no JSON object")
+    do = told.get("do")
+    if not isinstance(do, str) or do not in VALUED:
+        raise CommandError("a message asks for nothing that there is")
+    if told.keys() != ({"do", "value"} if VALUED[do] else {"do"}):
+        raise CommandError(f"a message to {do} has other members than it should")
+    if not VALUED[do]:
+        return Command(do)
+    value = told["value"]
+    if isinstance(value, bool) or not isinstance(value, int | float) or not _is_finite(value):
+        raise CommandError(f"a message to {do} has a value that is no number")
+    if do == "speed" and not SLOWEST <= value <= FASTEST:
+        raise CommandError(f"a message asks for another speed than {SLOWEST:g} to {FASTEST:g}")
+    return Command(do, float(value))
+
+
+def encode(message: dict[str, Any]) -> str:
+    """A message of the server as text. ValueError for one with a number that is none."""
+    return json.dumps(message, allow_nan=False, separators=(",", ":"))
+
+
+def _no_number(text: str) -> None:
+    raise CommandError(f"a message holds {text}, which is not JSON", is_json=False)
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    told = dict(pairs)
+    if len(told) != len(pairs):
+        raise CommandError("a message has a member twice")
+    return told
+
+
+def _is_finite(value: float) -> bool:
+    try:
+        return isfinite(value)
+    except OverflowError:
+        return False

@@ -1,0 +1,37 @@
+"""What clients do wrong, as lines of the log: one for each, but not as many as somebody likes to cause."""
+
+from __future__ import annotations
+
+from logging import Logger
+from time import monotonic
+
+from attrs import define, field
+
+AT_ONCE = 10
+"""Lines that may come together."""
+EVERY = 30.0
+"""s after which there may be one more."""
+
+
+@define
+class Offences:
+    """`tell` writes a line, or counts it where there were too many of late; the next line says how many."""
+
+    logger: Logger
+    # state
+    _left: float = field(default=float(AT_ONCE), init=False)
+    _at: float = field(factory=monotonic, init=False)
+    _unsaid: int = field(default=0, init=False)
+
+    def tell(self, what: str) -> None:
+        """Somebody did this, in a sentence that holds nothing of what a client sent."""
+        now = monotonic()
+        self._left = min(self._left + (now - self._at) / EVERY, float(AT_ONCE))
+        self._at = now
+        if self._left < 1.0:
+            self._unsaid += 1
+            return
+        self._left -= 1.0
+        more = f" ({self._unsaid} more were not told)" if self._unsaid else ""
+        self._unsaid = 0
+        self.logger.warning("%s%s", what, more)

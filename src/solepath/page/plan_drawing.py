@@ -1,0 +1,40 @@
+"""A floor plan as a page draws it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..floorplan.plan import Connector, Door, FloorPlan, Level, Wall
+from .rounding import placed, shown
+
+
+def drawn(plan: FloorPlan) -> dict[str, Any]:
+    """As "plan" of a scene: lines and outlines of each level, and where stairs and lifts stop; plan frame, m."""
+    return {
+        "name": plan.name,
+        "levels": [_level(level) for level in plan.levels],
+        "connectors": [_connector(one) for one in plan.connectors],
+    }
+
+
+def _level(level: Level) -> dict[str, Any]:
+    return {
+        "id": level.id,
+        "name": level.name,
+        "elevation": shown(level.elevation),
+        "walls": [_line(wall) for wall in level.walls],
+        "doors": [_line(door) for door in level.doors],
+        "rooms": [[placed(point) for point in room] for room in level.rooms],
+    }
+
+
+def _line(one: Wall | Door) -> list[float | None]:
+    return placed((*one.start, *one.end))
+
+
+def _connector(one: Connector) -> dict[str, Any]:
+    stops = [
+        {"level": stop.level, "place": placed(stop.place), "outline": [placed(point) for point in stop.outline]}
+        for stop in one.stops
+    ]
+    return {"kind": one.kind.value, "name": one.name, "stops": stops}
