@@ -58,6 +58,8 @@ EVER = 10**9
 """More strides than anybody takes."""
 NAMED = 8
 """Cells that are named one by one."""
+MOST_DELAYS = 10_000
+"""Of one kind: later ones are not kept."""
 
 
 def streamed(channel: str) -> bool:
@@ -142,7 +144,7 @@ class Tally:
     restarts: int = 0
     troubles: list[str] = field(factory=list)
     delays: dict[str, list[float]] = field(factory=dict)
-    """By gait event: how long after it happened each one was known, s."""
+    """By gait event: how long after it happened each one was known, s; of the first `MOST_DELAYS`."""
     limitations: list[str] = field(factory=list)
     suspects: list[str] = field(factory=list)
     fused: StrideFused | None = None
@@ -186,8 +188,8 @@ class Tally:
 
     def add(self, event: Event) -> None:
         name = DATED.get(type(event))
-        if name is not None and event.final:
-            self.delays.setdefault(name, []).append(event.known_at - event.t)
+        if name is not None and event.final and len(known := self.delays.setdefault(name, [])) < MOST_DELAYS:
+            known.append(event.known_at - event.t)
         match event:
             case FootMoved():
                 one = self.foot(event.foot)

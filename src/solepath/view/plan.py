@@ -16,7 +16,7 @@ from ..events import Event, Placed, PlaceLost
 from ..floorplan.plan import FloorPlan, Kind, Level, Point
 
 WIDTH = 720.0
-"""Of the drawing of a level, px, at the most ..."""
+"""Of the drawing of a level, px, at the most, where nothing else is said ..."""
 HEIGHT = 640.0
 """... and its height."""
 MARGIN, GAP, HEAD, FOOT = 24.0, 36.0, 64.0, 64.0
@@ -35,9 +35,14 @@ COLOURS = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (240, 180,
 
 @define
 class PlanPicture:
-    """Gathers what a session says of the place, then draws it. `plan`: in whose frame it is."""
+    """Gathers what a session says of the place, then draws it. `plan`: in whose frame it is. `width`, `height`: of the
+    drawing of a level at the most, px. `columns`: how many panels stand side by side; None for as suits their number.
+    """
 
     plan: FloorPlan
+    width: float = WIDTH
+    height: float = HEIGHT
+    columns: int | None = None
     places: list[Placed] = field(factory=list, init=False)
     breaks: set[int] = field(factory=set, init=False)
     """Where the place was lost: before the place with this number."""
@@ -59,9 +64,9 @@ class PlanPicture:
 
     def drawn(self, title: str) -> Element:
         """The picture as an <svg> element."""
-        frame = _Frame.around(self.plan, self.places)
+        frame = _Frame.around(self.plan, self.places, self.width, self.height)
         count = max(len(self.plan.levels), 1)
-        columns = count if count <= 3 else 3 if count > 4 else 2
+        columns = self.columns or (count if count <= 3 else 3 if count > 4 else 2)
         rows = -(-count // columns)
         width = 2.0 * MARGIN + columns * frame.width + (columns - 1) * GAP
         height = HEAD + rows * (frame.height + GAP) + FOOT
@@ -174,8 +179,8 @@ class _Frame:
     height: float
 
     @classmethod
-    def around(cls, plan: FloorPlan, places: list[Placed]) -> _Frame:
-        """Around all levels and the whole track, with room beside them."""
+    def around(cls, plan: FloorPlan, places: list[Placed], width: float, height: float) -> _Frame:
+        """Around all levels and the whole track, with room beside them, in no more than `width` and `height` px."""
         corners = [end for level in plan.levels for wall in level.walls for end in (wall.start, wall.end)]
         corners += [point for level in plan.levels for room in level.rooms for point in room]
         corners += [stop.place for connector in plan.connectors for stop in connector.stops]
@@ -183,7 +188,7 @@ class _Frame:
         xs, ys = [x for x, _ in corners] or [0.0], [y for _, y in corners] or [0.0]
         across, up = max(max(xs) - min(xs), 1.0), max(max(ys) - min(ys), 1.0)
         room = 0.02 * max(across, up) + 0.5
-        scale = min(WIDTH / (across + 2.0 * room), HEIGHT / (up + 2.0 * room))
+        scale = min(width / (across + 2.0 * room), height / (up + 2.0 * room))
         size = ((across + 2.0 * room) * scale, (up + 2.0 * room) * scale)
         return cls(min(xs) - room, max(ys) + room, scale, *size)
 

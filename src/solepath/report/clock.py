@@ -1,0 +1,60 @@
+"""How the report tells times: those of the recording, or, where its clock counts from long ago, from its beginning."""
+
+from __future__ import annotations
+
+from attrs import frozen
+
+LONG = 300.0
+"""s: a longer recording is drawn in minutes."""
+FAR = 1e5
+"""s: no clock that starts with the recording shows as much."""
+
+
+@frozen
+class Clock:
+    """Of one recording, from `begin` to `end`, s."""
+
+    begin: float
+    end: float
+
+    @property
+    def origin(self) -> float:
+        """What the report's times count from, s."""
+        return self.begin if abs(self.begin) >= FAR else 0.0
+
+    @property
+    def per_unit(self) -> float:
+        """Seconds of the unit on axes."""
+        return 60.0 if self.end - self.begin > LONG else 1.0
+
+    @property
+    def label(self) -> str:
+        """Of a time axis."""
+        unit = "min" if self.per_unit > 1.0 else "s"
+        return f"time from the beginning, {unit}" if self.origin else f"time, {unit}"
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Of a time axis, in its unit."""
+        low, high = self.of(self.begin), self.of(self.end)
+        return (low, high) if high > low else (low - 0.5, low + 0.5)
+
+    def of(self, t: float) -> float:
+        """On a time axis."""
+        return (t - self.origin) / self.per_unit
+
+    def said(self, t: float) -> str:
+        """In a sentence."""
+        return f"{t - self.origin:.1f} s"
+
+
+def lasted(seconds: float) -> str:
+    """A duration in words."""
+    if seconds < 9.95:
+        return f"{seconds:.1f} s"
+    whole = round(seconds)
+    minutes, rest = divmod(whole, 60)
+    hours, minutes = divmod(minutes, 60)
+    if hours:
+        return f"{hours} h {minutes} min"
+    return f"{minutes} min {rest} s" if minutes else f"{rest} s"
