@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Iterable
 from pathlib import Path
 
 from attrs import define, field
+
+from solepath import Packet, Site
 
 EPOCH = 0x00DCDDB30F2F8000
 BEGAN = 1_790_000_000_250_000
@@ -103,3 +106,18 @@ def insole_uuid(short: int) -> str:
 
 INSOLE = {0x12: insole_uuid(2), 0x15: insole_uuid(3), 0x17: insole_uuid(4), 0x1A: "2a19"}
 """Value handle -> UUID: frame, INFO, control, battery."""
+
+
+def insoles_log(packets: Iterable[Packet]) -> Log:
+    """What a phone writes down of two insoles: it finds them, asks what they have, and hears their frames."""
+    log = Log()
+    handles = {Site.LEFT_FOOT: 0x40, Site.RIGHT_FOOT: 0x41}
+    for handle, address in zip(handles.values(), (LEFT, RIGHT), strict=True):
+        log.connect(handle, address)
+        log.mtu(handle, 247)
+        log.discover(handle, INSOLE)
+    frame = next(iter(INSOLE))
+    for packet in packets:
+        if packet.channel == "insole/frame":
+            log.notify(handles[packet.site], frame, packet.data, t=BEGAN + 1_000_000 + round(packet.t * 1e6))
+    return log

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import walks
-from snooped import BEGAN, INSOLE, LEFT, RIGHT, TAG, Log
+from snooped import INSOLE, LEFT, RIGHT, TAG, Log, insoles_log
 from solepath import Session, Site
 from solepath.cli import main
 from solepath.recording import PacketWriter, read_header, read_packets
@@ -38,22 +38,9 @@ def complaint(*arguments: object) -> str:
     return line.removeprefix("solepath: ")
 
 
-def phone() -> Log:
-    log = Log()
-    for handle, address in ((0x40, LEFT), (0x41, RIGHT)):
-        log.connect(handle, address)
-        log.mtu(handle, 247)
-        log.discover(handle, INSOLE)
-    handles = {Site.LEFT_FOOT: 0x40, Site.RIGHT_FOOT: 0x41}
-    for packet in walks.insoles().packets:
-        if packet.channel == "insole/frame":
-            log.notify(handles[packet.site], FRAME, packet.data, t=BEGAN + 1_000_000 + round(packet.t * 1e6))
-    return log
-
-
 @pytest.fixture(scope="module")
 def log(tmp_path_factory) -> Path:
-    return phone().save(tmp_path_factory.mktemp("phone") / "btsnoop_hci.log")
+    return insoles_log(walks.insoles().packets).save(tmp_path_factory.mktemp("phone") / "btsnoop_hci.log")
 
 
 def recording(path: Path, count: int = 100) -> Path:
