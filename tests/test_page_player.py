@@ -1,0 +1,259 @@
+"""Playing a recording for somebody who pauses, seeks and hurries: it shows what a straight run shows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath import Event, Packet, Sample, Session, Site
+from solepath.page import player as playing
+from solepath.page.kept import CHUNK, Kept
+from solepath.page.messages import Command
+from solepath.page.player import FASTEST, SLOWEST, Player
+from solepath.page.scene import Scene
+from solepath.sim.radio import Radio
+from solepath.sim.route import Route
+from solepath.sim.walk import emulate, sampled
+
+ROUTE = Route().stand(0.5).walk(2.0, speed=1.3).stop(0.5)
+BAD_RADIO = Radio(loss=0.05, duplicate=0.01, corrupt=0.01, jitter=0.03)
+PACKETS = emulate(ROUTE, radio=BAD_RADIO, seed=5).packets
+WALL = 0.05
+"""s between two looks at the clock."""
+
+
+def slices(items: int) -> Callable[[], bool]:
+    """Enough after so many items."""
+    left = [items]
+
+    def enough() -> bool:
+        left[0] -= 1
+        return left[0] <= 0
+
+    return enough
+
+
+def never() -> bool:
+    return False
+
+
+def player(items: Kept | None = None, **given: object) -> Player:
+    session = Session(poses=True, pressures=True)
+    return Player(Kept(PACKETS) if items is None else items, session, Scene("a walk", "default", "recording"), **given)
+
+
+def play_until(one: Player, t: float) -> None:
+    """In real time, and on to the moment `t` itself."""
+    one.play()
+    while one.playback.t + WALL * one.playback.speed < t:
+        one.passed(WALL)
+        one.work(never)
+    one.passed((t - one.playback.t) / one.playback.speed)
+    one.work(never)
+
+
+def settle(one: Player, items: int = 300) -> None:
+    while one.work(slices(items)):
+        pass
+
+
+def shown(one: Player) -> dict:
+    """What somebody sees who begins to watch; how it came there is not a part of it."""
+    message, _ = one.scene.whole()
+    message["frame"]["playback"] = (one.playback.t, one.playback.seeking)
+    return message
+
+
+END = Kept(PACKETS).end
+BEGIN = Kept(PACKETS).begin
+STRAIGHT: dict[float, tuple[dict, dict]] = {}
+
+
+def straight(t: float) -> tuple[dict, dict]:
+    """Scene and snapshot at `t` of a run that nobody touched."""
+    if t not in STRAIGHT:
+        one = player()
+        if t > BEGIN:
+            one.speed(8.0)
+            play_until(one, t)
+        else:
+            one.work(never)
+        assert one.playback.t == pytest.approx(t, abs=1e-9)
+        STRAIGHT[t] = shown(one), one.session.snapshot()
+    return STRAIGHT[t]
+
+
+TIMES = st.sampled_from([BEGIN, *(round(BEGIN + share * (END - BEGIN), 3) for share in (0.1, 0.3, 0.5, 0.7, 0.9)), END])
+DOINGS = st.one_of(
+    st.just(Command("play")),
+    st.just(Command("pause")),
+    st.builds(Command, st.just("speed"), st.sampled_from([0.5, 1.0, 4.0, 32.0])),
+    st.builds(Command, st.just("seek"), TIMES),
+    st.floats(0.01, 0.2),
+    st.integers(1, 400),
+)
+"""A command, so many s on the wall, or a slice of so many items."""
+
+
+@settings(deadline=None, max_examples=10)
+@given(doings=st.lists(DOINGS, max_size=8), end=TIMES)
+def test_what_is_shown_at_a_time_is_the_same_whatever_was_played_before(doings, end):
+    one = player(spacing=0.7)  # a walk of four seconds has one moment otherwise
+    for doing in doings:
+        if isinstance(doing, Command):
+            one.command(doing)
+        elif isinstance(doing, float):
+            one.passed(doing)
+            settle(one)
+        else:
+            one.work(slices(doing))
+    one.pause()
+    one.seek(end)
+    settle(one)
+    assert one.playback.t == end and one.playback.seeking is None
+    assert (shown(one), one.session.snapshot()) == straight(end)
+
+
+@settings(deadline=None, max_examples=5)
+@given(doings=st.lists(DOINGS, max_size=6))
+def test_what_comes_of_a_recording_is_told_once_and_in_order_whatever_is_done_on_the_page(doings):
+    told: list[tuple[Packet | Sample | None, list[Event]]] = []
+    one = player(spacing=0.7, told=lambda item, events: told.append((item, events)))
+    for doing in doings:
+        if isinstance(doing, Command):
+            one.command(doing)
+        else:
+            one.passed(5.0 * doing)
+            one.work(slices(200))
+    while one.run_through(slices(500)):
+        assert one.done < len(PACKETS) or one.playback.state != "ended"
+    assert one.done == len(PACKETS)
+    assert [item for item, _ in told] == [*PACKETS, None]
+    session = Session(poses=True, pressures=True)
+    assert [events for _, events in told] == [*(session.feed(packet) for packet in PACKETS), session.finish()]
+
+
+def test_a_recording_plays_at_the_speed_that_was_asked_for_and_stops_at_its_end():
+    one = player()
+    assert (one.playback.state, one.playback.speed, one.playback.t) == ("playing", 1.0, BEGIN)
+    one.work(never)
+    one.passed(0.1)
+    one.work(never)
+    assert one.playback.t == pytest.approx(BEGIN + 0.1)
+    one.speed(10.0)
+    one.passed(0.1)
+    one.work(never)
+    assert one.playback.t == pytest.approx(BEGIN + 1.1)
+    one.pause()
+    one.passed(0.1)
+    assert not one.work(never) and one.playback.t == pytest.approx(BEGIN + 1.1)
+    one.play()
+    for _ in range(100):
+        one.passed(0.1)
+        one.work(never)
+    assert (one.playback.state, one.playback.t) == ("ended", END)
+    one.play()
+    assert one.playback.state == "playing" and one.playback.t == BEGIN
+    one.passed(0.1)
+    settle(one)
+    assert one.playback.t == pytest.approx(BEGIN + 1.0)
+
+
+def test_going_back_from_the_end_plays_on_and_the_pace_has_bounds():
+    one = player()
+    while one.run_through(slices(1000)):
+        pass
+    assert one.playback.state == "ended"
+    one.seek(END - 1.0)
+    settle(one)
+    assert one.playback.state == "playing" and one.playback.t == END - 1.0
+    one.speed(1000.0)
+    assert one.playback.speed == FASTEST
+    one.speed(0.0)
+    assert one.playback.speed == SLOWEST
+    one.pause()
+    one.seek(-1e9)
+    settle(one)
+    assert one.playback.state == "paused" and one.playback.t == BEGIN
+
+
+def test_a_seek_tells_how_far_it_is_and_goes_on_in_slices():
+    one = player()
+    one.pause()
+    one.seek(END - 0.5)
+    reached = [one.playback.t]
+    while one.work(slices(60)):
+        assert one.playback.seeking == END - 0.5
+        reached.append(one.playback.t)
+    assert len(reached) > 5 and reached == sorted(reached)
+    assert one.playback.seeking is None and one.playback.t == END - 0.5
+    one.passed(10.0)  # it is still paused
+    assert not one.work(never) and one.playback.t == END - 0.5
+
+
+def test_a_computer_that_slept_plays_on_where_it_was():
+    one = player()
+    one.passed(3600.0)
+    settle(one)
+    assert one.playback.t < BEGIN + 1.0
+
+
+def test_saved_moments_are_few_however_long_the_recording_is():
+    one = player(spacing=0.04)
+    while one.run_through(slices(1000)):
+        pass
+    assert len(one._moments) <= playing.MOMENTS and one.spacing > 0.04
+    times = [moment.t for moment in one._moments]
+    assert times == sorted(times) and times[0] == BEGIN
+    between = [after - before for before, after in zip(times, times[1:], strict=False)]
+    assert max(between) < 3.0 * one.spacing  # wherever one seeks to, little is to be computed
+
+
+def test_a_damaged_recording_plays_up_to_the_damage_and_says_so():
+    half = PACKETS[: len(PACKETS) // 2]
+    one = player(Kept(half), fault="walk.jsonl: line 500: is not JSON")
+    assert all("line 500" not in line[2] for line in shown(one)["log"])
+    while one.run_through(slices(1000)):
+        pass
+    assert one.playback.t == half[-1].t and one.playback.state == "ended"
+    assert shown(one)["log"][-1][1:] == ("link", "walk.jsonl: line 500: is not JSON")
+    one.seek(BEGIN)
+    one.pause()
+    settle(one)
+    assert all("line 500" not in line[2] for line in shown(one)["log"])
+
+
+def test_a_recording_of_nothing_is_at_its_end_at_once():
+    one = player(Kept())
+    assert not one.work(never)
+    assert one.playback.state == "ended"
+    one.play()
+    one.seek(3.0)
+    settle(one)
+    assert (one.playback.state, one.playback.t) == ("ended", 0.0)
+
+
+def test_samples_play_like_packets():
+    samples = sampled(ROUTE, seed=5).samples
+    one = player(Kept(samples))
+    one.seek(samples[-1].t - 0.3)
+    settle(one)
+    session = Session(poses=True, pressures=True)
+    session.feed(sample for sample in samples if sample.t <= samples[-1].t - 0.3)
+    assert one.session.snapshot() == session.snapshot()
+    assert shown(one)["frame"]["feet"]["left"]["steps"] > 0
+
+
+@given(st.lists(st.floats(-1e6, 1e6), max_size=3 * CHUNK), st.integers(0, 2**32))
+def test_what_is_kept_comes_out_as_it_was_and_is_due_in_order(times, seed):
+    packets = [Packet(t, Site.LEFT_FOOT, "insole/frame", bytes([k % 256]), str(seed)) for k, t in enumerate(times)]
+    kept = Kept(packets)
+    assert [kept[k] for k in range(len(kept))] == packets
+    assert [kept[k] for k in reversed(range(len(kept)))] == packets[::-1]
+    due = [kept.t(k) for k in range(len(kept))]
+    assert due == sorted(due) and all(at >= packet.t for at, packet in zip(due, packets, strict=True))
+    if times:
+        assert (kept.begin, kept.end) == (times[0], max(times))
