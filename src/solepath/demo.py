@@ -8,14 +8,18 @@ from math import pi
 from attrs import define, evolve, field
 
 from .evaluate.emulated import FootComparison, compare
+from .evaluate.emulated_place import PlaceScore, score
 from .evaluate.gathered import Gathering
-from .events import Event
+from .events import Event, Placed, PlaceLost, TurnMade
+from .floorplan.index import IndexedPlan
 from .monitor import Monitor
 from .session import Session
+from .sim.building import BUILDING
 from .sim.radio import Radio
 from .sim.route import Route
 from .sim.walk import EmulatedWalk, emulate
-from .types import Foot, Packet
+from .sim.ways import Way, wandering
+from .types import Foot, Packet, Sample
 
 RADIO = Radio(loss=0.03, duplicate=0.005, corrupt=0.005, latency=0.015, jitter=0.030)
 """A busy 2.4 GHz band: 3 in 100 notifications never arrive, the others 15 to 45 ms late."""
@@ -38,13 +42,23 @@ ROUTE = (
 """About 40 m: a U, a halt, a turn on the spot, and away again."""
 
 
+WAY = 8
+"""Of the ways through the emulated building: down by one of four lifts, 130 m along corridors, and up the stairs."""
+
+
 @define
 class Demo:
-    """A walk on its way through a session. `play` goes on packet by packet, so that whoever shows it sets the pace."""
+    """A walk on its way through a session. `play` goes on packet by packet, so that whoever shows it sets the pace;
+    `told` is for whoever feeds `monitor.session`, or one like it, himself."""
 
     walk: EmulatedWalk
     monitor: Monitor
+    way: Way | None = None
+    """Through the emulated building; None where there is none."""
+    plan: IndexedPlan | None = None
+    """Of that building."""
     gathering: Gathering = field(factory=Gathering)
+    _placed: list[Event] = field(factory=list)
 
     @property
     def duration(self) -> float:
@@ -57,13 +71,23 @@ class Demo:
             yield packet
         self._gather(self.monitor.finish())
 
+    def told(self, packet: Packet | Sample | None, events: list[Event]) -> None:
+        """What a session said of a packet; of none, at the end."""
+        self._gather(self.monitor.heard(packet, events) if isinstance(packet, Packet) else self.monitor.count(events))
+
     def _gather(self, events: list[Event]) -> None:
         for event in events:
             self.gathering.add(event)
+            if isinstance(event, Placed | PlaceLost | TurnMade):
+                self._placed.append(event)
 
     def comparison(self) -> list[FootComparison]:
         """The session against the truth; once `play` is through."""
         return compare(self.walk.truth, {foot: self.gathering.foot(foot) for foot in Foot})
+
+    def place(self) -> PlaceScore | None:
+        """The same of the place on the floor plan; None without one."""
+        return None if self.way is None else score(self.way, self.walk.walker, self.walk.truth, self._placed)
 
 
 def straight(distance: float) -> Route:
@@ -76,6 +100,14 @@ def radio(loss: float | None = None, jitter: float | None = None) -> Radio:
     return evolve(RADIO, loss=RADIO.loss if loss is None else loss, jitter=RADIO.jitter if jitter is None else jitter)
 
 
-def make_demo(seed: int, route: Route = ROUTE, radio: Radio = RADIO) -> Demo:
-    """The walk of this seed, not yet played."""
-    return Demo(walk=emulate(route, radio=radio, seed=seed), monitor=Monitor(Session(poses=True)))
+def make_demo(seed: int, route: Route = ROUTE, radio: Radio = RADIO, *, pressures: bool = False) -> Demo:
+    """The walk of this seed, not yet played. `pressures`: its session emits FootPressed."""
+    return Demo(emulate(route, radio=radio, seed=seed), Monitor(Session(poses=True, pressures=pressures)))
+
+
+def make_indoors(seed: int, radio: Radio = RADIO, *, pressures: bool = False) -> Demo:
+    """The same in the emulated building, whose plan the session has; nobody tells it where on it the wearer sets
+    out."""
+    way, plan = wandering(WAY), IndexedPlan(BUILDING)
+    session = Session(poses=True, pressures=pressures, floorplan=plan)
+    return Demo(emulate(way.route, radio=radio, seed=seed), Monitor(session), way, plan)

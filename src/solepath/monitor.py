@@ -100,6 +100,10 @@ class Monitor:
 
     def take(self, packet: Packet) -> list[Event]:
         """What `Session.feed` says of it."""
+        return self.heard(packet, self.session.feed(packet))
+
+    def heard(self, packet: Packet, events: list[Event]) -> list[Event]:
+        """A packet, and what a session said of it."""
         self.now = packet.t
         self.tally.fed_packet(packet)
         if whole(packet):
@@ -109,16 +113,17 @@ class Monitor:
             for item in decoder.feed(packet):
                 if isinstance(item, Sample):
                     self.link(packet.site).sampled(item.t)
-        return self._count(self.session.feed(packet))
+        return self.count(events)
 
     def finish(self) -> list[Event]:
         """What `Session.finish` says."""
-        return self._count(self.session.finish())
+        return self.count(self.session.finish())
 
     def link(self, site: Site) -> LinkHealth:
         return self.links.setdefault(site, LinkHealth())
 
-    def _count(self, events: list[Event]) -> list[Event]:
+    def count(self, events: list[Event]) -> list[Event]:
+        """What a session said, of a packet or not."""
         for event in events:
             self.tally.add(event)
             if isinstance(event, FootMoved):

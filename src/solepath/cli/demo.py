@@ -8,62 +8,110 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .failure import Failure, note, positive, seconds, seed, share
+from .view import View, add_speed, add_view, aiohttp_is_there, attended, pace_of, view_of
 
 if TYPE_CHECKING:
     from ..demo import Demo
 
 REPORT_EVERY = 10.0
 """s of the walk between two lines where there is no terminal."""
+PACE = 2.0
+"""Times real time in a terminal: there is less to see than on a page."""
 
 
 def add_to(commands: Any) -> None:
     command: argparse.ArgumentParser = commands.add_parser(
         "demo",
         help="walk an emulated route and compare with the truth",
-        description="An emulated wearer walks a route with both insoles over a lossy radio; shown live in a "
-        "terminal, and as fast as it can be computed where there is none.",
+        description="An emulated wearer walks a route with both insoles over a lossy radio. In a terminal it is shown "
+        "live, on a page in the browser where aiohttp is installed; without a terminal it is computed as fast as it "
+        "can be.",
     )
     command.add_argument("--seed", metavar="N", type=seed, default=1, help="another walk of this route (default: 1)")
-    command.add_argument(
+    route = command.add_mutually_exclusive_group()
+    route.add_argument(
         "--distance", metavar="M", type=positive, help="walk so many metres straight on instead of the scripted route"
+    )
+    route.add_argument(
+        "--building",
+        action="store_true",
+        help="walk through an emulated building, with its floor plan: a lift, corridors, stairs",
     )
     command.add_argument("--loss", metavar="SHARE", type=share, help="share of packets lost, 0 to 1 (default: 0.03)")
     command.add_argument(
         "--jitter", metavar="S", type=seconds, help="how much later than others a packet may come (default: 0.03)"
     )
-    command.add_argument(
-        "--speed", metavar="X", type=positive, default=2.0, help="times real time in a terminal (default: 2)"
-    )
+    shown = command.add_mutually_exclusive_group()
+    add_view(command, shown, "show it")
+    shown.add_argument("--terminal", action="store_true", help="show it in the terminal, not in the browser")
+    add_speed(command, f"1 on the page, {PACE:g} in the terminal")
     command.add_argument("--record", metavar="FILE", type=Path, help="write the packets as a recording for `track`")
     command.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
-    from ..demo import ROUTE, make_demo, radio, straight
-    from ..view.comparison import comparison_table
+    from ..demo import ROUTE, make_demo, make_indoors, radio, straight
+    from ..view.comparison import comparison_table, place_table
     from ..view.gait import gait_lines
     from ..view.summary import latency
 
-    route = ROUTE if options.distance is None else straight(options.distance)
+    view = _view(options)
+    pace = 1.0 if view is None else pace_of(options, 1.0)
     air = radio(options.loss, options.jitter)
-    demo = make_demo(options.seed, route, air)
+    if options.building:
+        demo = make_indoors(options.seed, air, pressures=view is not None)
+    else:
+        route = ROUTE if options.distance is None else straight(options.distance)
+        demo = make_demo(options.seed, route, air, pressures=view is not None)
+    far = f"{demo.walk.walker.route.length:.0f} m{' through a building' if options.building else ''}"
     print(
-        f"An emulated wearer walks {route.length:.0f} m in {demo.duration:.0f} s with an insole in each shoe; "
+        f"An emulated wearer walks {far} in {demo.duration:.0f} s with an insole in each shoe; "
         f"{100 * air.loss:.3g} % of the packets get lost.",
         flush=True,
     )
     if options.record:
         _record(demo, options.record)
-    if sys.stdout.isatty() and _rich_is_there():
+    if view is not None:
+        _show(demo, view, pace)
+    elif sys.stdout.isatty() and _rich_is_there():
         from ..view.terminal import play
 
-        play(demo, options.speed)
+        play(demo, PACE if options.speed is None else options.speed)
     else:
         _tell(demo)
     print()
     tally = demo.monitor.tally
-    print("\n".join([*gait_lines(tally.gait), comparison_table(demo.comparison()), "", *latency(tally)]))
+    told = [*gait_lines(tally.gait), comparison_table(demo.comparison()), ""]
+    if (place := demo.place()) is not None:
+        told += [place_table(place), ""]
+    print("\n".join([*told, *latency(tally)]))
     return 0
+
+
+def _view(options: argparse.Namespace) -> View | None:
+    """Where the page is to be served; None where it is to be shown otherwise."""
+    view = view_of(options)
+    if view is not None or options.terminal or not sys.stdout.isatty():
+        return view
+    if aiohttp_is_there():
+        return View(browser=not options.no_browser)
+    note("the page in the browser needs aiohttp (pip install 'solepath[view]')")
+    return None
+
+
+def _show(demo: Demo, view: View, pace: float) -> None:
+    """On a page. Whatever was looked at there, the walk is heard to its end."""
+    from ..page.kept import Kept
+    from ..page.player import Player
+    from ..page.scene import Scene
+    from .view import play
+
+    scene = Scene("An emulated walk", "default", "demo", plan=None if demo.plan is None else demo.plan.plan)
+    player = Player(Kept(demo.walk.packets), demo.monitor.session, scene, demo.plan, told=demo.told)
+    player.speed(pace)
+    play(player, view, once=not attended())
+    while player.run_through(lambda: False):
+        pass
 
 
 def _record(demo: Demo, path: Path) -> None:
