@@ -1,0 +1,48 @@
+// What a screen reader says by itself: activity, links lost and found, the level, and the page's own connection.
+
+import { nameOf } from "./track.js";
+import { ACTIVITIES, capital, say } from "./words.js";
+
+const APART = 1500; // ms: what comes meanwhile is said together
+
+export class Announcer {
+  #waiting = [];
+  #timer = 0;
+  #lost = new Set();
+  #activity = null;
+  #level = null;
+  #decided = false;
+
+  constructor() {
+    this.element = document.getElementById("announcer");
+  }
+
+  say(words) {
+    this.#waiting.push(words);
+    if (this.#timer) return;
+    this.#timer = setTimeout(() => {
+      this.#timer = 0;
+      this.element.textContent = this.#waiting.splice(0).join(". ");
+    }, APART);
+  }
+
+  hear(state, changed) {
+    if (changed.has("activity") && state.activity && state.activity.now !== this.#activity) {
+      this.#activity = state.activity.now;
+      this.say(say(ACTIVITIES, this.#activity));
+    }
+    if (changed.has("links")) {
+      for (const [site, { state: how }] of Object.entries(state.links)) {
+        if (how === "lost" && !this.#lost.has(site)) this.say(`${capital(site)} lost`);
+        if (how === "ok" && this.#lost.has(site)) this.say(`${capital(site)} heard again`);
+        if (how === "lost") this.#lost.add(site);
+        if (how === "ok") this.#lost.delete(site);
+      }
+    }
+    if (changed.has("place") && state.place) {
+      const decided = state.place.candidates.length < 2;
+      if (decided && (state.place.level !== this.#level || !this.#decided)) this.say(`On ${nameOf(state.plan, state.place.level)}`);
+      [this.#level, this.#decided] = [state.place.level, decided];
+    }
+  }
+}

@@ -1,0 +1,70 @@
+// A canvas that always has as many pixels as the screen shows of it.
+
+const SHARPEST = 2; // more pixels cost time and show nothing
+
+export class Surface {
+  width = 0; // CSS px
+  height = 0;
+  ratio = 1;
+
+  // resized() is called when it has another size, and is blank.
+  constructor(canvas, resized) {
+    this.canvas = canvas;
+    this.context = canvas.getContext("2d");
+    this.resized = resized;
+    new ResizeObserver(() => this.fit()).observe(canvas);
+    this.#watchRatio();
+    this.fit();
+  }
+
+  fit() {
+    const { clientWidth, clientHeight } = this.canvas;
+    const ratio = Math.min(SHARPEST, devicePixelRatio || 1);
+    if (clientWidth === this.width && clientHeight === this.height && ratio === this.ratio) return;
+    Object.assign(this, { width: clientWidth, height: clientHeight, ratio });
+    this.canvas.width = Math.round(clientWidth * ratio);
+    this.canvas.height = Math.round(clientHeight * ratio);
+    this.resized();
+  }
+
+  // Blank, in CSS px.
+  begin() {
+    this.context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    this.context.clearRect(0, 0, this.width, this.height);
+    return this.context;
+  }
+
+  // Zooming the page or moving it to another screen changes the ratio and maybe not the size.
+  #watchRatio() {
+    matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener("change", () => {
+      this.fit();
+      this.#watchRatio();
+    }, { once: true });
+  }
+}
+
+// A text alternative, no more than once a second, so that a screen reader is not talked over.
+export class Alternative {
+  #said = -Infinity;
+
+  constructor(canvas) {
+    this.canvas = canvas;
+  }
+
+  say(words) {
+    const now = performance.now();
+    if (now - this.#said < 1000) return;
+    this.#said = now;
+    const label = words();
+    if (label !== this.canvas.getAttribute("aria-label")) this.canvas.setAttribute("aria-label", label);
+  }
+}
+
+// The round number (1, 2 or 5 times a power of ten) next above.
+export function round(value) {
+  const power = 10 ** Math.floor(Math.log10(Math.max(value, 1e-6)));
+  return [1, 2, 5, 10].find((step) => step * power >= value * 0.999) * power;
+}
+
+export const FONT = '11px system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", sans-serif';
+export const calm = matchMedia("(prefers-reduced-motion: reduce)");

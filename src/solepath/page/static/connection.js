@@ -1,0 +1,95 @@
+// One WebSocket to the server that this page came from, made anew whenever it breaks.
+
+const FIRST_WAIT = 0.5; // s
+const LONGEST_WAIT = 10; // s
+const QUIET = 6; // s without a message, though one comes at least every second: the connection is dead
+const KEY = "solepath-token";
+
+export class Connection {
+  #socket = null;
+  #failures = 0;
+  #timer = 0;
+  #quiet = 0;
+  #token = claimToken();
+  #withToken = true;
+
+  // take(message), changed(state, s until the next try): state is "connecting" | "open" | "closed"
+  constructor(take, changed) {
+    this.take = take;
+    this.changed = changed;
+    // Ticks, not times: a page that slept finds its messages still queued behind the timer.
+    setInterval(() => this.#listen(), 1000);
+    addEventListener("online", () => this.retry());
+    document.addEventListener("visibilitychange", () => document.hidden || this.retry());
+    this.#open();
+  }
+
+  send(command) {
+    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(command));
+  }
+
+  // Now, where it would have been later.
+  retry() {
+    if (this.#socket !== null) return;
+    clearTimeout(this.#timer);
+    this.#open();
+  }
+
+  #open() {
+    const address = new URL("ws", location.href);
+    address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+    address.hash = "";
+    address.search = "";
+    if (this.#token && this.#withToken) address.searchParams.set("token", this.#token);
+    this.changed("connecting", 0);
+    const socket = new WebSocket(address);
+    this.#socket = socket;
+    this.#quiet = 0;
+    socket.onmessage = ({ data }) => {
+      this.#quiet = 0;
+      let message;
+      try {
+        message = JSON.parse(data);
+      } catch {
+        return;
+      }
+      this.#failures = 0;
+      this.take(message);
+    };
+    socket.onopen = () => this.changed("open", 0);
+    socket.onclose = () => this.#closed(socket);
+  }
+
+  #closed(socket) {
+    if (socket !== this.#socket) return;
+    this.#socket = null;
+    this.#failures += 1;
+    // A token of a program that ended is refused by the one that took its place, which may let this page watch.
+    if (this.#token) this.#withToken = this.#failures < 3 || this.#failures % 2 === 0;
+    const wait = Math.min(LONGEST_WAIT, FIRST_WAIT * 2 ** Math.min(this.#failures - 1, 6)) * (0.8 + 0.4 * Math.random());
+    this.changed("closed", wait);
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#open(), 1000 * wait);
+  }
+
+  #listen() {
+    if (this.#socket === null) return;
+    this.#quiet += 1;
+    if (this.#quiet < QUIET) return;
+    const dead = this.#socket;
+    dead.close();
+    this.#closed(dead);
+  }
+}
+
+// From the address (#token=...), which then no longer shows it, or from before in this tab.
+function claimToken() {
+  const given = new URLSearchParams(location.hash.slice(1)).get("token");
+  try {
+    if (given) sessionStorage.setItem(KEY, given);
+    if (location.hash) history.replaceState(null, "", location.pathname + location.search);
+    return given ?? sessionStorage.getItem(KEY);
+  } catch {
+    return given; // storage may be forbidden
+  }
+}

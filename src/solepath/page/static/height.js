@@ -1,0 +1,98 @@
+// How high the wearer is over time, between the levels of the plan where there is one.
+
+import { Alternative, FONT, Surface, round } from "./canvas.js";
+import { theme } from "./theme.js";
+import { clock, fixed, signed, write } from "./words.js";
+
+const LEAST = 1; // m that are seen at least
+const NAMES = 44; // px for the names of the heights
+const OFTEN = 250; // ms
+
+export class Height {
+  constructor(redraw) {
+    const canvas = document.getElementById("height");
+    this.surface = new Surface(canvas, redraw);
+    this.alternative = new Alternative(canvas);
+    this.now = document.getElementById("height-now");
+    this.drawn = 0;
+  }
+
+  wants(changed) {
+    return ["tracks", "places", "scene", "theme"].some((name) => changed.has(name));
+  }
+
+  draw(state, now, changed) {
+    if (now - this.drawn < OFTEN && !changed.has("theme") && !changed.has("scene")) return "later";
+    this.drawn = now;
+    const context = this.surface.begin();
+    const { width, height } = this.surface;
+    const { points, lines } = series(state);
+    const last = points.at(-1);
+    write(this.now, last ? `${lines.length > 0 ? fixed(last[1], 1) : signed(last[1], 1)} m` : "");
+    this.alternative.say(() => (last ? `Height over time: now ${fixed(last[1], 1)} m ${lines.length > 0 ? "above the plan's zero" : "against the start"}` : "Height: no step yet"));
+    let [low, high] = points.reduce(([a, b], [, z]) => [Math.min(a, z), Math.max(b, z)], [Infinity, -Infinity]);
+    if (!last) [low, high] = [0, 0];
+    for (const { z } of lines) if (z > low - 5 && z < high + 5) [low, high] = [Math.min(low, z), Math.max(high, z)];
+    const lacks = Math.max(0, LEAST - (high - low)) / 2;
+    [low, high] = [low - lacks, high + lacks];
+    const [top, bottom] = [10, height - 20];
+    const y = (z) => bottom - ((z - low) / (high - low)) * (bottom - top);
+    const [from, to] = last ? [points[0][0], Math.max(last[0], points[0][0] + 10)] : [0, 10];
+    const x = (t) => NAMES + ((t - from) / (to - from)) * (width - NAMES - 6);
+
+    context.font = FONT;
+    context.textAlign = "right";
+    const step = round((high - low) / 2.5);
+    const marks = lines.length > 0 ? lines : Array.from({ length: 5 }, (_, i) => (Math.ceil(low / step) + i) * step)
+      .filter((z) => z <= high).map((z) => ({ z, name: `${fixed(z, step < 1 ? 1 : 0)} m` }));
+    for (const { z, name } of marks) {
+      if (y(z) < 2 || y(z) > height - 14) continue;
+      context.strokeStyle = lines.length > 0 ? theme.colours["sole-line"] : theme.colours.grid;
+      context.lineWidth = 1;
+      context.beginPath();
+      context.moveTo(NAMES, Math.round(y(z)) + 0.5);
+      context.lineTo(width, Math.round(y(z)) + 0.5);
+      context.stroke();
+      context.fillStyle = theme.colours.muted;
+      context.fillText(name.length > 8 ? `${name.slice(0, 7)}…` : name, NAMES - 6, y(z) + 4);
+    }
+    this.#times(context, from, to, x, state.begin);
+    if (!last) return "done";
+    context.beginPath();
+    let shown = -Infinity;
+    points.forEach(([t, z], i) => {
+      if (x(t) - shown < 0.5 && i < points.length - 1) return;
+      shown = x(t);
+      context.lineTo(shown, y(z));
+    });
+    context.lineWidth = 2;
+    context.lineJoin = "round";
+    context.strokeStyle = theme.colours.wearer;
+    context.stroke();
+    context.beginPath();
+    context.arc(x(last[0]), y(last[1]), 3.5, 0, 2 * Math.PI);
+    context.fillStyle = theme.colours.wearer;
+    context.fill();
+    return "done";
+  }
+
+  #times(context, from, to, x, begin) {
+    const step = [5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200].find((s) => ((to - from) / s) * 52 < this.surface.width - NAMES) ?? 14400;
+    context.textAlign = "center";
+    context.fillStyle = theme.colours.muted;
+    for (let t = Math.ceil((from - begin) / step) * step; t <= to - begin; t += step) {
+      const at = x(begin + t);
+      if (at > NAMES + 12 && at < this.surface.width - 14) context.fillText(clock(t), at, this.surface.height - 4);
+    }
+  }
+}
+
+// [t, z] of what there is, and the levels' elevations where it is in the plan's frame.
+function series({ plan, places, tracks }) {
+  if (plan && places.length > 1) {
+    const lines = plan.levels.filter((level) => level.elevation !== null).map(({ elevation, name }) => ({ z: elevation, name }));
+    return { points: places.map(([t, , , , z]) => [t, z]), lines };
+  }
+  const track = [tracks.wearer, tracks.left, tracks.right].find((points) => points.length > 1) ?? [];
+  return { points: track.map(([t, , , z]) => [t, z]), lines: [] };
+}

@@ -1,0 +1,78 @@
+// How each sensor is heard. One that is lost is said at the top of the page as well.
+
+import { LINKS, capital, fixed, percent, say, span, write } from "./words.js";
+
+export class Links {
+  constructor() {
+    this.list = document.getElementById("links");
+    this.waiting = document.getElementById("links-waiting");
+    this.banner = document.getElementById("link-banner");
+    this.sites = new Map();
+  }
+
+  wants(changed) {
+    return changed.has("links") || changed.has("scene");
+  }
+
+  draw({ links }) {
+    const names = Object.keys(links).sort();
+    this.waiting.hidden = names.length > 0;
+    if (names.join("\n") !== [...this.sites.keys()].join("\n")) {
+      this.sites = new Map(names.map((name) => [name, new Link(name)]));
+      this.list.replaceChildren(...[...this.sites.values()].map((link) => link.element));
+    }
+    for (const [name, link] of this.sites) link.show(links[name]);
+    const lost = names.filter((name) => links[name].state === "lost");
+    this.banner.hidden = lost.length === 0;
+    const since = (name) => (Number.isFinite(links[name].silent_for) ? ` for ${span(links[name].silent_for)}` : "");
+    write(this.banner, lost.map((name) => `${capital(name)} lost: nothing heard${since(name)}.`).join(" "));
+    return "done";
+  }
+}
+
+class Link {
+  constructor(name) {
+    this.element = document.createElement("li");
+    this.element.dataset.site = name;
+    const head = this.#add(this.element, "p", "link-name");
+    this.#add(head, "b").textContent = capital(name);
+    this.state = this.#add(head, "span", "link-state");
+    this.device = this.#add(head, "span", "link-device");
+    const figures = this.#add(this.element, "dl", "link-figures");
+    this.figures = Object.fromEntries(["rate", "loss", "battery", "signal", "gaps", "rejected"].map((title) => {
+      const pair = this.#add(figures, "div");
+      this.#add(pair, "dt").textContent = title;
+      return [title, { pair, value: this.#add(pair, "dd") }];
+    }));
+    this.trouble = this.#add(this.element, "p", "trouble");
+  }
+
+  show(link) {
+    this.element.dataset.state = String(link.state ?? "waiting");
+    const silent = Number.isFinite(link.silent_for) && link.state !== "ok" ? `, ${span(link.silent_for)}` : "";
+    write(this.state, say(LINKS, link.state ?? "waiting") + silent);
+    write(this.device, typeof link.name === "string" ? link.name : "");
+    this.#figure("rate", `${fixed(link.rate)} Hz`, Number.isFinite(link.rate));
+    this.#figure("loss", `${percent(link.loss, 1)} (${fixed(link.lost)})`, Number.isFinite(link.loss));
+    this.#figure("battery", percent(link.battery), Number.isFinite(link.battery));
+    this.#figure("signal", `${fixed(link.signal)} dBm`, Number.isFinite(link.signal));
+    this.#figure("gaps", fixed(link.gaps), link.gaps > 0);
+    this.#figure("rejected", fixed(link.rejected), link.rejected > 0);
+    write(this.trouble, typeof link.trouble === "string" ? link.trouble : "");
+    this.trouble.hidden = this.trouble.textContent === "";
+  }
+
+  #figure(title, words, known) {
+    const { pair, value } = this.figures[title];
+    pair.hidden = !known;
+    pair.dataset.figure = title;
+    write(value, words);
+  }
+
+  #add(parent, name, kind) {
+    const element = document.createElement(name);
+    if (kind) element.className = kind;
+    parent.append(element);
+    return element;
+  }
+}

@@ -1,0 +1,129 @@
+// Messages in, pictures out: what a message changes is drawn with the browser's next frame, and only that.
+//
+// For tests and the curious: window.solepath = {frames, messages, state}: frames drawn, messages taken, and what they
+// add up to (state.js).
+
+import { Doing } from "./activity.js";
+import { Announcer } from "./announce.js";
+import { Connection } from "./connection.js";
+import { Gait } from "./gait.js";
+import { Height } from "./height.js";
+import { Links } from "./links.js";
+import { Log } from "./log.js";
+import { Looking } from "./looking.js";
+import { Pace } from "./pace.js";
+import { Playback } from "./playback.js";
+import { Ribbon } from "./ribbon.js";
+import { Soles } from "./soles.js";
+import { State } from "./state.js";
+import { startTheme } from "./theme.js";
+import { Track } from "./track.js";
+import { write } from "./words.js";
+
+const element = (id) => document.getElementById(id);
+const state = new State();
+const seen = { frames: 0, messages: 0, state };
+window.solepath = seen;
+
+let changed = new Set();
+let asked = false;
+let ready = false;
+const redraw = () => mark("theme");
+
+const pace = new Pace();
+const announcer = new Announcer();
+const track = new Track(redraw);
+const ribbon = new Ribbon(redraw);
+const playback = new Playback((command) => connection.send(command));
+const looking = new Looking(track, redraw);
+const panels = [new Soles(redraw), ribbon, track, new Height(redraw), new Doing(), new Gait(), new Links(), new Log(), playback];
+
+function mark(...names) {
+  for (const name of names) changed.add(name);
+  if (asked || !ready || document.hidden) return;
+  asked = true;
+  requestAnimationFrame(draw);
+}
+
+function draw(now) {
+  asked = false;
+  const news = changed;
+  changed = new Set();
+  const t = pace.at(state, now);
+  let drew = false;
+  for (const panel of panels) {
+    const wanted = panel.wants(news) || (panel === ribbon && pace.moving) || (panel === track && track.moving);
+    if (!wanted) continue;
+    if (panel.draw(state, now, news, t) === "done") drew = true;
+    else for (const name of news) if (panel.wants(new Set([name]))) changed.add(name); // it wants to see it another time
+  }
+  looking.draw(state);
+  if (news.has("scene")) heading();
+  if (drew) seen.frames += 1;
+  if (pace.moving || track.moving || changed.size > 0) mark();
+}
+
+function heading() {
+  write(element("title"), state.title);
+  document.title = state.title ? `${state.title} – solepath` : "solepath";
+  for (const name of ["source", "recipe"]) {
+    write(element(name), state[name]);
+    element(name).hidden = state[name] === "";
+  }
+}
+
+const connection = new Connection(
+  (message) => {
+    const news = state.take(message);
+    seen.messages += 1;
+    if (news.size === 0 && message?.type !== "frame") return;
+    pace.heard(state, performance.now());
+    announcer.hear(state, news);
+    mark(...news);
+  },
+  (() => {
+    let timer = 0;
+    let was = "";
+    return (how, wait) => {
+      clearInterval(timer);
+      const at = performance.now() + 1000 * wait;
+      const show = () => {
+        element("connection").dataset.state = how;
+        write(element("connection-word"), { open: "connected", connecting: "connecting", closed: "not connected" }[how]);
+        // only what was open can be missed; a first try needs no alarm
+        element("offline").hidden = how === "open" || (how === "connecting" && was === "");
+        const left = Math.ceil((at - performance.now()) / 1000);
+        const next = how === "connecting" || left < 1 ? "trying now" : `trying again in ${left} s`;
+        write(element("offline-words"), `solepath is not to be reached: ${next}. ${state.known ? "What you see is old." : ""}`);
+      };
+      show();
+      if (how === "closed") {
+        timer = setInterval(show, 1000);
+        if (was !== "closed") announcer.say("The connection to solepath is lost");
+        was = "closed";
+      }
+      if (how === "open") {
+        if (was === "closed") announcer.say("Connected again");
+        was = "open";
+      }
+      document.body.classList.toggle("old", how !== "open" && state.known);
+    };
+  })(),
+);
+
+element("retry").addEventListener("click", () => connection.retry());
+document.addEventListener("visibilitychange", () => {
+  asked = false; // a frame that was asked for before may never have come
+  if (!document.hidden) mark("scene", "theme", "feet", "links", "gait", "activity");
+});
+document.addEventListener("keydown", (event) => {
+  if (event.ctrlKey || event.altKey || event.metaKey || event.defaultPrevented) return;
+  const { target, key } = event;
+  if (target.matches("select, textarea, input:not([type=range])")) return;
+  if (key === " " && target.closest("button, summary")) return; // there it presses
+  if (playback.key(key, event.shiftKey) || looking.key(key)) event.preventDefault();
+});
+setInterval(() => mark("second"), 1000);
+startTheme(element("theme"), () => mark("theme"));
+ready = true;
+mark("scene");

@@ -1,0 +1,77 @@
+// The outline of a sole, as a ring of [x, y] in the foot frame (x to the toe, y to the left, m).
+
+// A left shoe's: x, and how far it reaches outwards and inwards there, in shares of the length. Drawn by eye.
+const SOLE = [[0, 0, 0], [0.012, 0.045, -0.045], [0.05, 0.09, -0.088], [0.12, 0.116, -0.108], [0.24, 0.116, -0.094],
+  [0.38, 0.118, -0.066], [0.5, 0.128, -0.068], [0.62, 0.148, -0.102], [0.72, 0.156, -0.134], [0.8, 0.144, -0.147],
+  [0.88, 0.11, -0.14], [0.94, 0.062, -0.122], [0.98, 0.008, -0.092], [1, -0.04, -0.045]];
+const STATIONS = 44;
+const DENSE = 16; // cells that show the outline of a sole by themselves
+const COVERED = 0.75; // of the length
+
+// Of a shoe of `length` m that nobody described.
+export function shoe(foot, length) {
+  const side = foot === "left" ? 1 : -1;
+  const ring = (edge) => SOLE.map((row) => [row[0] * length, side * row[edge] * length]);
+  return rounded([...ring(1), ...ring(2).reverse().slice(1, -1)]);
+}
+
+// Around the cells; where they are few, or cover a part only, a shoe's that is wide enough for them.
+export function around(cells, length, foot, spacing) {
+  const xs = cells.map((cell) => cell[0]);
+  const [back, front] = [Math.min(...xs), Math.max(...xs)];
+  if (cells.length >= DENSE && front - back > COVERED * length) return hull(cells, back, front, spacing);
+  const ring = shoe(foot, length);
+  const wide = Math.max(...ring.map((point) => Math.abs(point[1])));
+  const wanted = Math.max(...cells.map((cell) => Math.abs(cell[1]))) + 0.008;
+  return wanted > wide ? ring.map(([x, y]) => [x, (y * wanted) / wide]) : ring;
+}
+
+// Of the cells' distances to the nearest other one, the middle one.
+export function spacing(cells) {
+  const nearest = cells.map((one) => Math.min(...cells.map((other) => (other === one ? Infinity : Math.hypot(one[0] - other[0], one[1] - other[1])))));
+  const middle = nearest.sort((a, b) => a - b)[Math.floor(nearest.length / 2)];
+  return middle > 0 && middle < 1 ? middle : 0.02;
+}
+
+// How far the cells reach to both sides, station by station from heel to toe, smoothed and closed by round ends.
+function hull(cells, back, front, spacing) {
+  const margin = Math.min(0.012, Math.max(0.006, 0.75 * spacing));
+  const [begin, end] = [back - margin, front + margin];
+  const stations = Array.from({ length: STATIONS }, (_, i) => begin + ((end - begin) * i) / (STATIONS - 1));
+  const reach = stations.map((x) => {
+    const off = Math.max(1.1 * spacing, Math.min(...cells.map((cell) => Math.abs(cell[0] - x))) + 1e-6);
+    const ys = cells.filter((cell) => Math.abs(cell[0] - x) <= off).map((cell) => cell[1]);
+    return [Math.max(...ys) + margin, Math.min(...ys) - margin];
+  });
+  const smooth = stations.map((x) => {
+    let [sum, left, right] = [0, 0, 0];
+    stations.forEach((other, i) => {
+      const weight = Math.exp(-0.5 * ((x - other) / spacing) ** 2);
+      sum += weight;
+      left += weight * reach[i][0];
+      right += weight * reach[i][1];
+    });
+    return [left / sum, right / sum];
+  });
+  const cap = Math.min(0.16 * (end - begin), 3 * margin);
+  const ring = (edge) => stations.map((x, i) => {
+    const middle = 0.5 * (smooth[i][0] + smooth[i][1]);
+    const off = Math.min(1, (x - begin) / cap, (end - x) / cap);
+    return [x, middle + (smooth[i][edge] - middle) * Math.sqrt(Math.max(0, 1 - (1 - off) ** 2))];
+  });
+  return rounded([...ring(0), ...ring(1).reverse().slice(1, -1)]);
+}
+
+// Catmull-Rom through a closed ring.
+function rounded(ring) {
+  const fine = [];
+  ring.forEach((b, i) => {
+    const [a, c, d] = [-1, 1, 2].map((k) => ring[(i + k + ring.length) % ring.length]);
+    for (let k = 0; k < 4; k++) {
+      const u = k / 4;
+      fine.push([0, 1].map((j) => 0.5 * (2 * b[j] + (c[j] - a[j]) * u + (2 * a[j] - 5 * b[j] + 4 * c[j] - d[j]) * u * u
+        + (3 * b[j] - a[j] - 3 * c[j] + d[j]) * u ** 3)));
+    }
+  });
+  return fine;
+}

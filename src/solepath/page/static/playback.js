@@ -1,0 +1,107 @@
+// Pause, speed and seek of a recording; who may only watch sees where it is.
+
+import { clock, write } from "./words.js";
+
+const STEP = 5; // s
+const LONG_STEP = 30; // s, with Shift
+const PATIENCE = 1500; // ms in which what was asked for is shown, until it is so
+const OFTEN = 150; // ms between seeks while the bar is dragged
+
+export class Playback {
+  #asked = null; // {t, at} of the newest seek
+  #sent = 0;
+  #dragged = false;
+
+  constructor(send) {
+    this.send = send;
+    for (const id of ["playback", "play", "seek", "speed-choice", "time-now", "time-end", "playback-note"]) this[id] = document.getElementById(id);
+    this.play.addEventListener("click", () => this.toggle());
+    this["speed-choice"].addEventListener("change", () => this.send({ do: "speed", value: Number(this["speed-choice"].value) }));
+    this.seek.addEventListener("input", () => {
+      this.#dragged = true;
+      this.#ask(Number(this.seek.value), false);
+    });
+    this.seek.addEventListener("change", () => {
+      this.#dragged = false;
+      this.#ask(Number(this.seek.value), true);
+    });
+  }
+
+  wants(changed) {
+    return changed.has("playback") || changed.has("scene") || changed.has("connection");
+  }
+
+  draw(state) {
+    const { playback, control } = state;
+    this.state = state;
+    this.playback.hidden = playback === null;
+    if (playback === null) return "done";
+    const { begin, end, t, state: how, speed, seeking } = playback;
+    const asked = this.#asked && performance.now() - this.#asked.at < PATIENCE ? this.#asked.t : null;
+    const shown = this.#dragged ? Number(this.seek.value) : seeking ?? asked ?? t;
+    this.playback.dataset.state = how;
+    this.play.setAttribute("aria-label", how === "playing" ? "Pause" : how === "ended" ? "Play again" : "Play");
+    Object.assign(this.seek, { min: begin, max: Math.max(end, begin + 0.1) });
+    if (!this.#dragged) this.seek.value = shown;
+    this.seek.setAttribute("aria-valuetext", `${clock(shown - begin)} of ${clock(end - begin)}`);
+    write(this["time-now"], clock(shown - begin));
+    write(this["time-end"], clock(end - begin));
+    this.#speed(speed);
+    for (const part of [this.play, this.seek, this["speed-choice"]]) part.disabled = !control;
+    this["playback-note"].hidden = control;
+    if (!control) write(this["playback-note"], "This page may watch only. To pause and seek, open the whole address that solepath printed: it holds the key.");
+    return "done";
+  }
+
+  toggle() {
+    if (!this.#mayControl()) return;
+    const { state, begin } = this.state.playback;
+    if (state === "ended") this.#ask(begin, true);
+    this.send({ do: state === "playing" ? "pause" : "play" });
+  }
+
+  // True when it was one of its keys.
+  key(key, shift) {
+    if (!this.#mayControl()) return false;
+    if (key === " ") this.toggle();
+    else if (key === "ArrowLeft" || key === "ArrowRight") {
+      const step = (shift ? LONG_STEP : STEP) * (key === "ArrowLeft" ? -1 : 1);
+      this.#ask(this.#here() + step, true);
+    } else return false;
+    return true;
+  }
+
+  #mayControl() {
+    return Boolean(this.state?.playback && this.state.control);
+  }
+
+  #here() {
+    const fresh = this.#asked && performance.now() - this.#asked.at < PATIENCE;
+    return fresh ? this.#asked.t : this.state.playback.seeking ?? this.state.playback.t;
+  }
+
+  #ask(t, surely) {
+    const { begin, end } = this.state.playback;
+    const now = performance.now();
+    const value = Math.min(end, Math.max(begin, t));
+    this.#asked = { t: value, at: now };
+    if (surely || now - this.#sent > OFTEN) {
+      this.#sent = now;
+      this.send({ do: "seek", value });
+    }
+    this.draw(this.state);
+  }
+
+  // A speed that is not among the choices, from a command line perhaps, becomes one.
+  #speed(speed) {
+    const choice = this["speed-choice"];
+    if (Number(choice.value) === speed || document.activeElement === choice && choice.matches(":open")) return;
+    if (![...choice.options].some((option) => Number(option.value) === speed)) {
+      const option = document.createElement("option");
+      option.value = speed;
+      option.textContent = `${speed}×`;
+      choice.append(option);
+    }
+    choice.value = speed;
+  }
+}

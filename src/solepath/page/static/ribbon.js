@@ -1,0 +1,113 @@
+// The phases of both feet over the last seconds: a ramp up while the foot is loaded, level while it is flat, a ramp down
+// while it pushes off, a line while it swings. Between the feet: when both were on the ground.
+
+import { Alternative, FONT, Surface, calm } from "./canvas.js";
+import { FEET } from "./state.js";
+import { theme } from "./theme.js";
+import { PHASES, SUPPORTS, clock, say } from "./words.js";
+
+const WINDOW = 8; // s
+const NAMES = 20; // px for the names of the rows
+const RAMPS = { LOADING: [0.32, 1], STATIONARY: [1, 1], PUSH_OFF: [1, 0.32], SWING: [0.08, 0.08] }; // height at begin, end
+const SHADES = { LOADING: "-soft", STATIONARY: "", PUSH_OFF: "-soft", SWING: "" };
+const CALM = 500; // ms between pictures for who wants less motion
+
+export class Ribbon {
+  constructor(redraw) {
+    const canvas = document.getElementById("ribbon");
+    this.surface = new Surface(canvas, redraw);
+    this.alternative = new Alternative(canvas);
+    this.drawn = 0;
+  }
+
+  wants(changed) {
+    return ["phases", "scene", "theme", "playback"].some((name) => changed.has(name));
+  }
+
+  draw(state, now, changed, t) {
+    if (calm.matches && now - this.drawn < CALM && !changed.has("theme")) return "later";
+    this.drawn = now;
+    const context = this.surface.begin();
+    const { width, height } = this.surface;
+    const scale = (width - NAMES) / WINDOW;
+    const x = (when) => NAMES + Math.max(0, (when - t + WINDOW) * scale);
+    const band = Math.floor((height - 18 - 16) / 2);
+    const rows = { left: [2, band], right: [band + 18, band] };
+    this.#seconds(context, x, t, height, state);
+    const spans = {};
+    for (const foot of FEET) spans[foot] = this.#row(context, state.phases[foot], foot, rows[foot], x, t);
+    context.fillStyle = theme.colours.both;
+    for (const [from, to] of overlaps(spans.left, spans.right)) {
+      context.fillRect(x(from), band + 6, Math.max(1, x(to) - x(from)), 8);
+    }
+    context.font = `700 12px ${FONT.slice(5)}`;
+    context.textAlign = "left";
+    for (const foot of FEET) {
+      context.fillStyle = theme.colours[foot];
+      context.fillText(foot === "left" ? "L" : "R", 2, rows[foot][0] + band / 2 + 4);
+    }
+    this.alternative.say(() => {
+      const words = FEET.map((foot) => `${foot} ${say(PHASES, state.phases[foot].at(-1)?.[1]) || "not heard yet"}`);
+      return `Phases of both feet over the last ${WINDOW} seconds. Now: ${words.join(", ")}; on the ground: ${say(SUPPORTS, state.support) || "not known"}`;
+    });
+    return "done";
+  }
+
+  #seconds(context, x, t, height, state) {
+    context.font = FONT;
+    context.textAlign = "center";
+    context.lineWidth = 1;
+    const begin = state.begin;
+    for (let second = Math.ceil(t - begin - WINDOW); second <= t - begin; second++) {
+      const at = Math.round(x(begin + second)) + 0.5;
+      if (second < 0 || at < NAMES + 1) continue;
+      context.strokeStyle = theme.colours.grid;
+      context.beginPath();
+      context.moveTo(at, 0);
+      context.lineTo(at, height - 15);
+      context.stroke();
+      context.fillStyle = theme.colours.muted;
+      if (second % 2 === 0 && at > NAMES + 14 && at < this.surface.width - 16) context.fillText(clock(second), at, height - 3);
+    }
+  }
+
+  // Draws a row; the spans on the ground come back.
+  #row(context, phases, foot, [y, band], x, t) {
+    const ground = [];
+    const paths = { "": new Path2D(), "-soft": new Path2D() };
+    for (let i = 0; i < phases.length; i++) {
+      const [from, phase] = phases[i];
+      const to = Math.min(t, phases[i + 1]?.[0] ?? t);
+      if (to <= t - WINDOW || to <= from) continue;
+      if (phase !== "SWING") ground.push([from, to]);
+      const [rise, fall] = RAMPS[phase] ?? [0.5, 0.5];
+      const path = paths[SHADES[phase] ?? "-soft"];
+      // a ramp that the window cuts begins where the window does
+      const share = Math.max(0, (t - WINDOW - from) / (to - from));
+      const top = rise + (fall - rise) * share;
+      path.moveTo(x(from), y + band);
+      path.lineTo(x(from), y + band * (1 - top));
+      path.lineTo(x(to), y + band * (1 - fall));
+      path.lineTo(x(to), y + band);
+      path.closePath();
+    }
+    for (const [shade, path] of Object.entries(paths)) {
+      context.fillStyle = theme.colours[foot + shade];
+      context.fill(path);
+    }
+    return ground;
+  }
+}
+
+// Of two lists of [from, to] in order of time, where both are.
+function overlaps(one, other) {
+  const found = [];
+  let [i, j] = [0, 0];
+  while (i < one.length && j < other.length) {
+    const [from, to] = [Math.max(one[i][0], other[j][0]), Math.min(one[i][1], other[j][1])];
+    if (to > from) found.push([from, to]);
+    if (one[i][1] < other[j][1]) i += 1;
+    else j += 1;
+  }
+  return found;
+}

@@ -1,0 +1,238 @@
+// Both soles from above: pressure over the cells where their places are known, else what is known.
+
+import { Alternative, FONT, Surface, calm } from "./canvas.js";
+import { Field } from "./field.js";
+import { around, shoe, spacing } from "./outline.js";
+import { FEET } from "./state.js";
+import { theme } from "./theme.js";
+import { PHASES, capital, fixed, say, write } from "./words.js";
+
+const TOPS = [1, 2, 3, 4, 6, 8]; // times powers of ten: the scale's upper end
+const LENGTH = 0.27; // m, of a shoe that nobody described
+const PAD = 8; // px
+const READABLE = 200; // ms between numbers that change
+
+export class Soles {
+  constructor(redraw) {
+    this.soles = FEET.map((foot) => new Sole(foot, redraw));
+    this.scale = document.getElementById("scale");
+    this.bar = document.getElementById("scale-bar");
+    this.top = document.getElementById("scale-top");
+    this.note = document.getElementById("soles-note");
+    this.drawn = 0;
+  }
+
+  wants(changed) {
+    return ["feet", "links", "theme", "scene"].some((name) => changed.has(name));
+  }
+
+  // Whether it drew; who wants less motion sees ten pictures a second.
+  draw(state, now, changed) {
+    if (calm.matches && now - this.drawn < 100 && !changed.has("theme")) return "later";
+    this.drawn = now;
+    const tops = { N: top(state.scale.N), counts: top(state.scale.counts) };
+    for (const sole of this.soles) sole.draw(state, tops, now);
+    this.#legend(state, tops);
+    return "done";
+  }
+
+  #legend(state, tops) {
+    const shapes = FEET.filter((foot) => this.soles.some((sole) => sole.foot === foot && sole.shows === "pressure"))
+      .map((foot) => state.layouts[foot]);
+    this.scale.hidden = shapes.length === 0;
+    const ends = shapes.map((shape) => `${fixed(tops[shape.unit])} ${shape.word}`);
+    write(this.top, [...new Set(ends)].join(", "));
+    const gradient = `linear-gradient(to right, ${theme.stops.map((stop) => `rgb(${stop})`).join(", ")})`;
+    if (this.gradient !== gradient) this.bar.style.background = this.gradient = gradient;
+    const shown = this.soles.map((sole) => sole.shows);
+    const words = shown.includes("bars") ? "Where the cells sit is not known: one bar each, in their order."
+      : shown.includes("contact") ? "No pressure is measured: filled is what touches the ground." : "";
+    write(this.note, words);
+    this.note.hidden = words === "";
+  }
+}
+
+function top(highest) {
+  if (!(highest > 0)) return 1;
+  const power = 10 ** Math.floor(Math.log10(highest));
+  return (TOPS.find((step) => step * power >= highest * 0.999) ?? 10) * power;
+}
+
+class Sole {
+  shows = "outline"; // "pressure" | "bars" | "contact" | "outline"
+
+  constructor(foot, redraw) {
+    this.foot = foot;
+    this.figure = document.getElementById(`foot-${foot}`);
+    this.phase = document.getElementById(`phase-${foot}`);
+    this.force = document.getElementById(`force-${foot}`);
+    const canvas = document.getElementById(`sole-${foot}`);
+    this.surface = new Surface(canvas, redraw);
+    this.alternative = new Alternative(canvas);
+    this.written = 0;
+    this.#shape(null);
+  }
+
+  // Once for a layout: outline, and the field within it.
+  #shape(layout) {
+    this.layout = layout;
+    const apart = layout && spacing(layout.cells);
+    this.ring = layout ? around(layout.cells, layout.length, this.foot, apart) : shoe(this.foot, LENGTH);
+    const [xs, ys] = [0, 1].map((k) => this.ring.map((point) => point[k]));
+    this.box = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
+    this.field = layout && new Field(layout.cells, apart, this.box);
+  }
+
+  draw(state, tops, now) {
+    const layout = state.layouts[this.foot];
+    if (layout !== this.layout) this.#shape(layout);
+    const foot = state.feet[this.foot];
+    const link = state.links[`${this.foot} foot`]?.state ?? "waiting";
+    const lost = link === "lost";
+    this.shows = !foot ? "outline" : foot.cells ? (layout ? "pressure" : "bars") : foot.phase ? "contact" : "outline";
+    Object.assign(this.figure.dataset, { link, shows: this.shows, phase: foot?.phase ?? "" });
+    this.#words(foot, layout, lost, now);
+
+    const context = this.surface.begin();
+    const place = this.#placed();
+    const outline = this.#path(this.ring.map(place));
+    context.globalAlpha = lost ? 0.3 : 1;
+    context.fillStyle = theme.colours.sole;
+    context.fill(outline);
+    if (this.shows === "pressure") this.#pressure(context, outline, place, foot, tops[layout.unit]);
+    if (this.shows === "bars") this.#bars(context, place, foot);
+    if (this.shows === "contact") this.#contact(context, outline, place, foot.phase);
+    context.lineWidth = 1.5;
+    context.strokeStyle = foot?.phase && foot.phase !== "SWING" ? theme.colours[this.foot] : theme.colours["sole-line"];
+    context.setLineDash(foot?.phase === "SWING" ? [4, 4] : []);
+    context.stroke(outline);
+    context.setLineDash([]);
+    if (this.shows === "pressure") this.#centre(context, place, state.trails[this.foot], foot.centre);
+    context.globalAlpha = 1;
+  }
+
+  #words(foot, layout, lost, now) {
+    const phase = foot?.phase ? say(PHASES, foot.phase) : "–";
+    write(this.phase, lost ? "lost" : phase);
+    if (now - this.written >= READABLE) {
+      this.written = now;
+      const known = foot && foot.force !== null && !lost;
+      write(this.force, known ? `${fixed(foot.force)} ${layout?.forces ? "N" : "counts"}` : "");
+    }
+    this.alternative.say(() => {
+      const side = capital(this.foot);
+      if (lost) return `${side} sole: no signal`;
+      if (!foot) return `${side} sole: nothing heard yet`;
+      const force = foot.force === null ? "" : `, ${fixed(foot.force)} ${layout?.forces ? "newton" : "counts"}`;
+      return `${side} sole: ${phase}${force}${this.#where(foot)}`;
+    });
+  }
+
+  #where(foot) {
+    if (foot.centre === null) return "";
+    const share = (foot.centre[0] - this.box[0]) / (this.box[1] - this.box[0]);
+    return `, pressure centred on the ${share < 0.35 ? "heel" : share < 0.62 ? "midfoot" : "forefoot"}`;
+  }
+
+  // From the foot frame to px: toes up, the wearer's left on the left.
+  #placed() {
+    const { width, height } = this.surface;
+    const [back, front, right, left] = this.box;
+    const scale = Math.max(1, Math.min((width - 2 * PAD) / (left - right), (height - 2 * PAD) / (front - back)));
+    const [cx, cy] = [0.5 * (back + front), 0.5 * (left + right)];
+    return ([x, y]) => [0.5 * width - scale * (y - cy), 0.5 * height - scale * (x - cx)];
+  }
+
+  #path(points) {
+    const path = new Path2D();
+    points.forEach(([x, y]) => path.lineTo(x, y));
+    path.closePath();
+    return path;
+  }
+
+  #pressure(context, outline, place, foot, highest) {
+    const { cells } = this.layout;
+    const { values } = this.field;
+    const unit = foot.peak / 255 / (this.layout.unit === "N" ? 1000 : 1) / highest;
+    for (let i = 0; i < values.length; i++) {
+      const value = (foot.cells[i] ?? 0) * unit;
+      values[i] = this.layout.unit === "N" ? value / cells[i][2] : value;
+    }
+    const [x0, y0] = place([this.box[1], this.box[3]]);
+    const [x1, y1] = place([this.box[0], this.box[2]]);
+    context.save();
+    context.clip(outline);
+    context.drawImage(this.field.paint(values, theme.pressure), x0, y0, x1 - x0, y1 - y0);
+    context.fillStyle = theme.colours["sole-line"];
+    context.globalAlpha *= 0.5;
+    for (const cell of cells) {
+      const [x, y] = place(cell);
+      context.fillRect(x - 0.75, y - 0.75, 1.5, 1.5);
+    }
+    context.restore();
+  }
+
+  #bars(context, place, foot) {
+    const [back, front, right, left] = this.box;
+    const [x0, y0] = place([back + 0.9 * (front - back), left - 0.2 * (left - right)]);
+    const [x1, y1] = place([back + 0.1 * (front - back), right + 0.2 * (left - right)]);
+    const step = (y1 - y0) / foot.cells.length;
+    foot.cells.forEach((value, i) => {
+      const y = y0 + i * step;
+      const colour = 3 * value;
+      context.fillStyle = theme.colours.grid;
+      context.fillRect(x0, y, x1 - x0, Math.max(1, step - 2));
+      context.fillStyle = `rgb(${theme.pressure.subarray(colour, colour + 3).join()})`;
+      context.fillRect(x0, y, ((x1 - x0) * value) / 255, Math.max(1, step - 2));
+    });
+  }
+
+  // Heel, all of it, or forefoot; nothing in the air.
+  #contact(context, outline, place, phase) {
+    const part = { LOADING: [0, 0.42], STATIONARY: [0, 1], PUSH_OFF: [0.56, 1] }[phase];
+    context.font = `600 12px ${FONT.slice(5)}`;
+    context.textAlign = "center";
+    const [back, front, right, left] = this.box;
+    if (part) {
+      const [x0, y0] = place([back + part[1] * (front - back), left]);
+      const [x1, y1] = place([back + part[0] * (front - back), right]);
+      context.save();
+      context.clip(outline);
+      context.fillStyle = theme.colours[`${this.foot}-soft`];
+      context.fillRect(x0, y0, x1 - x0, y1 - y0);
+      context.restore();
+    }
+    const [x, y] = place([0.5 * (back + front), 0.5 * (left + right)]);
+    context.fillStyle = theme.colours.ink;
+    context.fillText(say(PHASES, phase), x, y + 4);
+  }
+
+  // A white line on a dark one is seen on every colour of the scale.
+  #centre(context, place, trail, centre) {
+    context.lineJoin = context.lineCap = "round";
+    const points = trail.map(place);
+    const parts = 6; // older parts are fainter
+    for (let part = 0; part < parts; part++) {
+      const [from, to] = [part, part + 1].map((k) => Math.floor((k * (points.length - 1)) / parts));
+      if (to <= from) continue;
+      const path = new Path2D();
+      for (let i = from; i <= to; i++) path.lineTo(...points[i]);
+      const alpha = ((part + 1) / parts) * (centre ? 1 : 0.4);
+      context.lineWidth = 3.5;
+      context.strokeStyle = `rgba(10, 20, 30, ${0.65 * alpha})`;
+      context.stroke(path);
+      context.lineWidth = 1.75;
+      context.strokeStyle = `rgba(255, 255, 255, ${alpha})`;
+      context.stroke(path);
+    }
+    if (!centre) return;
+    const [x, y] = place(centre);
+    context.beginPath();
+    context.arc(x, y, 6, 0, 2 * Math.PI);
+    context.fillStyle = "#ffffff";
+    context.fill();
+    context.lineWidth = 2.5;
+    context.strokeStyle = "#0a141e";
+    context.stroke();
+  }
+}

@@ -1,0 +1,259 @@
+// What the messages of protocol/page.md add up to. Nothing here draws, and nothing from outside gets past it unchecked:
+// a panel may take for granted that a point is made of numbers.
+
+const LONGEST = 2000; // points of a track
+const REMEMBERED = 20; // s of phases
+const SAID = 50; // sentences of the log
+const TRAIL = 240; // points of a centre of pressure's path
+export const FEET = ["left", "right"];
+
+export const number = (value) => (Number.isFinite(value) ? value : null);
+const text = (value) => (typeof value === "string" ? value : "");
+const list = (value) => (Array.isArray(value) ? value : []);
+const record = (value) => (value !== null && typeof value === "object" && !Array.isArray(value) ? value : {});
+const numbers = (value, least) => Array.isArray(value) && value.length >= least && value.every(Number.isFinite);
+
+export class State {
+  constructor() {
+    this.clear();
+  }
+
+  clear() {
+    this.known = false; // a scene came
+    this.generation = (this.generation ?? 0) + 1;
+    this.title = this.recipe = this.source = "";
+    this.control = false;
+    this.plan = null;
+    this.layouts = { left: null, right: null };
+    this.t = 0;
+    this.begin = 0; // the session's time that is shown as 0:00
+    this.heard = false; // anything of a sensor
+    this.feet = { left: null, right: null };
+    this.trails = { left: [], right: [] };
+    this.phases = { left: [], right: [] };
+    this.tracks = { left: [], right: [], wearer: [] };
+    this.thinned = 0; // how often a track lost points, so that who drew them knows to draw anew
+    this.places = [];
+    this.log = [];
+    this.wearer = null;
+    this.place = null;
+    this.activity = null;
+    this.support = null;
+    this.gait = null;
+    this.links = {};
+    this.playback = null;
+    this.scale = { N: 0, counts: 0 }; // highest pressure of a cell so far: kPa, and counts
+  }
+
+  // The names of what changed; a message of an unknown type changes nothing.
+  take(message) {
+    const { type } = record(message);
+    if (type === "scene") return this.#scene(message);
+    if (type === "frame" && this.known) return this.#frame(message);
+    return new Set();
+  }
+
+  #scene(message) {
+    this.clear();
+    this.known = true;
+    for (const name of ["title", "recipe", "source"]) this[name] = text(message[name]);
+    this.control = message.control === true;
+    this.plan = plan(message.plan);
+    for (const foot of FEET) this.layouts[foot] = layout(record(message.layouts)[foot]);
+    const rest = record(message.frame);
+    const { tracks, places, phases, log } = message;
+    this.#frame({ tracks, places, phases, log });
+    const { tracks: _, places: __, phases: ___, log: ____, ...now } = rest; // the scene's own lists are whole
+    this.#frame(now);
+    return new Set(["scene", "feet", "phases", "tracks", "places", "log", "wearer", "place", "activity", "support",
+      "gait", "links", "playback"]);
+  }
+
+  #frame(message) {
+    const changed = new Set();
+    if (number(message.t) !== null) this.t = message.t;
+    this.#begins(message);
+    for (const foot of FEET) {
+      const news = record(message.feet)[foot];
+      if (news !== undefined && news !== null) this.#foot(foot, record(news), changed);
+      for (const [t, phase] of list(record(message.phases)[foot]).filter((one) => numbers([one?.[0]], 1))) {
+        insert(this.phases[foot], [t, text(phase)]);
+        changed.add("phases");
+      }
+      const recent = this.phases[foot].findIndex(([t]) => t > this.t - REMEMBERED);
+      if (recent > 1) this.phases[foot].splice(0, recent - 1); // the one before still lasts into the window
+    }
+    for (const [name, kept] of Object.entries(this.tracks)) {
+      for (const point of list(record(message.tracks)[name])) {
+        if (!numbers(point, 4)) continue;
+        kept.push(point.slice(0, 4));
+        if (kept.length > LONGEST) this.#thin(kept);
+        changed.add("tracks");
+      }
+    }
+    for (const point of list(message.places)) {
+      if (!Array.isArray(point) || !numbers(point.slice(2), 2) || number(point[0]) === null) continue;
+      this.places.push([point[0], text(point[1]), point[2], point[3], number(point[4]) ?? 0]);
+      if (this.places.length > LONGEST) this.#thin(this.places);
+      changed.add("places");
+    }
+    for (const [t, kind, words] of list(message.log).filter(Array.isArray)) {
+      this.log.push([number(t) ?? this.t, text(kind), text(words)]);
+      if (this.log.length > SAID) this.log.shift();
+      changed.add("log");
+    }
+    if ("wearer" in message) this.#set("wearer", wearer(message.wearer), changed);
+    if ("place" in message) this.#set("place", place(message.place), changed);
+    if ("activity" in message) this.#set("activity", activity(message.activity), changed);
+    if ("support" in message) this.#set("support", text(message.support) || null, changed);
+    if ("gait" in message) this.#set("gait", gait(message.gait), changed);
+    if ("playback" in message) this.#set("playback", playback(message.playback), changed);
+    for (const [site, link] of Object.entries(record(message.links))) {
+      this.links[site] = { ...this.links[site], ...record(link) };
+      changed.add("links");
+    }
+    return changed;
+  }
+
+  // A recording says when it begins. Live it is the first time that is known of, on a clock that may read anything.
+  #begins({ playback, tracks, phases, log, feet, links }) {
+    if (number(playback?.begin) !== null) this.begin = playback.begin;
+    else if (this.playback === null && !this.heard) {
+      const firsts = [...Object.values(record(tracks)), ...Object.values(record(phases)), log].map((some) => number(list(some)[0]?.[0]));
+      this.heard = [feet, links].some((one) => Object.keys(record(one)).length > 0) || firsts.some((t) => t !== null);
+      if (this.heard) this.begin = Math.min(...firsts.filter((t) => t !== null), this.t || Infinity);
+      if (!Number.isFinite(this.begin)) this.begin = 0;
+    }
+  }
+
+  #set(name, value, changed) {
+    this[name] = value;
+    changed.add(name);
+  }
+
+  #foot(foot, news, changed) {
+    const old = this.feet[foot] ?? { steps: 0, distance: 0, cells: null };
+    const one = { ...old, ...news };
+    if ("cells" in news) one.cells = bytes(news.cells);
+    if (!numbers(one.position, 3)) one.position = null;
+    if (!numbers(one.centre, 2)) one.centre = null;
+    one.phase = text(one.phase);
+    one.peak = number(one.peak) ?? 0;
+    one.force = number(one.force);
+    this.feet[foot] = one;
+    changed.add("feet");
+    this.#scaled(foot, one);
+    const trail = this.trails[foot];
+    if (one.centre === null) return; // in the air the last stance's path stays
+    if (old.centre === null || old.centre === undefined) trail.length = 0;
+    trail.push(one.centre);
+    if (trail.length > TRAIL) trail.shift();
+  }
+
+  // Cells differ in area, so the largest value need not be the highest pressure. What was before this page connected
+  // is not known cell by cell: it was at least the highest value on the largest cell.
+  #scaled(foot, one) {
+    const shape = this.layouts[foot];
+    if (shape === null || one.cells === null) return;
+    if (shape.unit !== "N") {
+      this.scale.counts = Math.max(this.scale.counts, one.peak);
+      return;
+    }
+    let highest = one.peak / shape.largest;
+    const count = Math.min(one.cells.length, shape.cells.length);
+    for (let i = 0; i < count; i++) highest = Math.max(highest, (one.cells[i] / 255) * one.peak / shape.cells[i][2]);
+    this.scale.N = Math.max(this.scale.N, highest / 1000);
+  }
+
+  #thin(points) {
+    const last = points.length - 1;
+    let kept = 0;
+    for (let i = 0; i <= last; i++) if (i % 2 === 0 || i === last) points[kept++] = points[i];
+    points.length = kept;
+    this.thinned += 1;
+  }
+}
+
+// By time: a phase may become known after one that began later.
+function insert(phases, one) {
+  let at = phases.length;
+  while (at > 0 && phases[at - 1][0] > one[0]) at -= 1;
+  if (at > 0 && phases[at - 1][0] === one[0]) phases[at - 1] = one;
+  else phases.splice(at, 0, one);
+}
+
+function bytes(encoded) {
+  if (typeof encoded !== "string") return null;
+  try {
+    return Uint8Array.from(atob(encoded), (letter) => letter.charCodeAt(0));
+  } catch {
+    return null;
+  }
+}
+
+function layout(value) {
+  const cells = list(value?.cells).filter((cell) => numbers(cell, 2)).map(([x, y, area]) => [x, y, area > 0 ? area : 0]);
+  if (cells.length === 0) return null;
+  const areas = cells.every((cell) => cell[2] > 0);
+  return {
+    cells,
+    length: value.length > 0 ? value.length : 0.27,
+    // without areas newtons are no pressure, and are shown as what they are
+    unit: value.unit === "N" && areas ? "N" : "counts",
+    word: value.unit === "N" ? (areas ? "kPa" : "N a cell") : "counts a cell",
+    forces: value.unit === "N",
+    largest: Math.max(...cells.map((cell) => cell[2])),
+  };
+}
+
+function wearer(value) {
+  if (!numbers(value?.position, 3)) return null;
+  return { position: value.position, covariance: numbers(value.covariance, 6) ? value.covariance : null };
+}
+
+function place(value) {
+  if (!numbers(value?.position, 2)) return null;
+  const candidates = list(value.candidates).filter((one) => numbers([one?.x, one?.y], 2))
+    .map((one) => ({ level: text(one.level), x: one.x, y: one.y, heading: number(one.heading), weight: number(one.weight) ?? 0 }));
+  return { level: text(value.level), position: value.position, spread: number(value.spread), candidates };
+}
+
+function activity(value) {
+  return typeof value?.now === "string" ? { now: value.now, since: number(value.since) } : null;
+}
+
+function gait(value) {
+  if (value === null || typeof value !== "object") return null;
+  const rows = list(value.rows).filter((row) => typeof row?.name === "string");
+  return { running: value.running === true, cadence: number(value.cadence), coordination: number(value.coordination), rows };
+}
+
+function playback(value) {
+  if (!numbers([value?.begin, value?.end, value?.t], 3)) return null;
+  const { begin, end, t } = value;
+  return { begin, end, t, state: text(value.state), speed: number(value.speed) ?? 1, seeking: number(value.seeking) };
+}
+
+function plan(value) {
+  if (value === null || typeof value !== "object") return null;
+  const ring = (points) => list(points).filter((point) => numbers(point, 2));
+  const lines = (some) => list(some).filter((line) => numbers(line, 4));
+  const levels = list(value.levels).map((level) => ({
+    id: text(level?.id),
+    name: text(level?.name) || text(level?.id),
+    elevation: number(level?.elevation),
+    walls: lines(level?.walls),
+    doors: lines(level?.doors),
+    rooms: list(level?.rooms).map(ring).filter((room) => room.length > 2),
+  }));
+  const connectors = list(value.connectors).map((one) => ({
+    kind: text(one?.kind),
+    name: text(one?.name),
+    stops: list(one?.stops).map((stop) => ({
+      level: text(stop?.level),
+      place: numbers(stop?.place, 2) ? stop.place : null,
+      outline: ring(stop?.outline),
+    })),
+  }));
+  return levels.length > 0 ? { name: text(value.name), levels, connectors } : null;
+}

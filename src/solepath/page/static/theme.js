@@ -1,0 +1,79 @@
+// Dark or light, and the colours of style.css for what is drawn on canvases.
+
+const KEY = "solepath-theme";
+const NAMES = ["ground", "card", "inset", "ink", "muted", "line", "strong-line", "grid", "left", "right", "left-soft",
+  "right-soft", "both", "wearer", "candidate", "sole", "sole-line", "wall", "room", "bad"];
+
+// Low to high: viridis (matplotlib, CC0). On a dark page it rises to bright yellow, on a light one it falls to dark
+// violet, so that what is loaded stands out against the sole and lightness alone tells the order.
+const VIRIDIS = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129],
+  [92, 200, 99], [170, 220, 50], [253, 231, 37]];
+const DARK = [[28, 38, 48], [46, 42, 96], ...VIRIDIS.slice(2)];
+const LIGHT = [[237, 241, 244], [196, 228, 196], [112, 205, 138], ...VIRIDIS.slice(0, 6).reverse()];
+
+export const theme = { version: 0, dark: false, colours: {}, pressure: new Uint8Array(0), stops: [] };
+
+const system = matchMedia("(prefers-color-scheme: dark)");
+
+// changed() is called whenever the colours are other ones.
+export function startTheme(button, changed) {
+  const read = () => {
+    const chosen = recall();
+    if (chosen) document.documentElement.dataset.theme = chosen;
+    theme.dark = chosen ? chosen === "dark" : system.matches;
+    document.documentElement.dataset.shown = theme.dark ? "dark" : "light";
+    button.setAttribute("aria-label", theme.dark ? "Switch to light colours" : "Switch to dark colours");
+    for (const name of NAMES) theme.colours[name] = resolved(name);
+    theme.stops = theme.dark ? DARK : LIGHT;
+    theme.pressure = ramp(theme.stops);
+    theme.version += 1;
+    changed();
+  };
+  system.addEventListener("change", read);
+  matchMedia("(prefers-contrast: more)").addEventListener("change", read);
+  button.addEventListener("click", () => {
+    remember(theme.dark ? "light" : "dark");
+    read();
+  });
+  read();
+}
+
+let chosenHere = null; // where storage is forbidden
+
+function recall() {
+  try {
+    const kept = localStorage.getItem(KEY);
+    return kept === "dark" || kept === "light" ? kept : chosenHere;
+  } catch {
+    return chosenHere;
+  }
+}
+
+function remember(which) {
+  chosenHere = which;
+  try {
+    localStorage.setItem(KEY, which);
+  } catch {
+    // then it holds until the page is left
+  }
+}
+
+// light-dark() is settled in a computed colour only.
+function resolved(name) {
+  const probe = document.createElement("i");
+  probe.style.color = `var(--${name})`;
+  document.body.append(probe);
+  const { color } = getComputedStyle(probe);
+  probe.remove();
+  return color;
+}
+
+function ramp(stops) {
+  const table = new Uint8Array(256 * 3);
+  for (let i = 0; i < 256; i++) {
+    const at = (i / 255) * (stops.length - 1);
+    const k = Math.min(Math.floor(at), stops.length - 2);
+    for (let c = 0; c < 3; c++) table[3 * i + c] = stops[k][c] + (at - k) * (stops[k + 1][c] - stops[k][c]);
+  }
+  return table;
+}

@@ -1,0 +1,313 @@
+// The way walked, seen from above: by itself, or on the floor plan. What does not move is kept as a picture, to which
+// only new points are added as long as nobody looks elsewhere.
+
+import { Alternative, Surface, round } from "./canvas.js";
+import { drawLevel, extent, label } from "./plan.js";
+import { FEET } from "./state.js";
+import { theme } from "./theme.js";
+import { View } from "./view.js";
+import { fixed, percent, write } from "./words.js";
+
+const SURE = Math.sqrt(5.991); // 95 % of two dimensions: chi squared, 2 degrees of freedom
+const LEAST = 3; // m that are seen at least
+const MARGIN = 34; // px
+const JUMP = 5; // m between two places: another candidate became the best, nobody walked there
+const WIDTHS = { left: 1.25, right: 1.25, wearer: 3.25 };
+
+export class Track {
+  level = null; // chosen by hand; null follows the wearer
+  byItself = false;
+
+  constructor(redraw) {
+    const canvas = document.getElementById("track");
+    this.canvas = canvas;
+    this.layer = document.createElement("canvas");
+    this.surface = new Surface(canvas, () => {
+      this.view?.resized();
+      redraw();
+    });
+    this.view = new View(canvas, redraw);
+    this.alternative = new Alternative(canvas);
+    this.note = document.getElementById("track-note");
+    this.section = document.getElementById("track-section");
+    this.key = "";
+  }
+
+  wants(changed) {
+    return ["tracks", "places", "feet", "wearer", "place", "scene", "theme"].some((name) => changed.has(name));
+  }
+
+  get moving() {
+    return !this.view.rests;
+  }
+
+  draw(state, now, changed) {
+    if (changed.has("scene") && state.generation !== this.generation) this.#scene(state);
+    const onPlan = state.plan !== null && !this.byItself;
+    const level = onPlan ? this.shown(state) : null;
+    const { width, height } = this.surface;
+    const box = onPlan && this.extent ? this.extent : this.#box(state);
+    this.view.fit(box, width - 2 * MARGIN, height - 2 * MARGIN, onPlan ? 0 : 0.14);
+    const { x, y, scale } = this.view.at(now);
+    const px = ([mx, my]) => [width / 2 + (mx - x) * scale, height / 2 - (my - y) * scale];
+
+    this.#still(state, level, px, scale, `${x} ${y}`);
+    const context = this.surface.begin();
+    if (this.layer.width > 0 && this.layer.height > 0) context.drawImage(this.layer, 0, 0, width, height);
+    if (onPlan) this.#place(context, state, level, px, scale);
+    else this.#now(context, state, px, scale);
+    this.#ruler(context, scale);
+
+    const view = onPlan ? "plan" : "track";
+    const points = onPlan ? state.places.length : Object.values(state.tracks).reduce((sum, one) => sum + one.length, 0);
+    Object.assign(this.canvas.dataset, { view, points, level: level?.id ?? "" });
+    this.section.dataset.view = view;
+    this.#words(state, onPlan, level);
+    return "done";
+  }
+
+  // The level to be seen: the chosen one, or where the wearer is.
+  shown({ plan, place, places }) {
+    const id = this.level ?? place?.level ?? places.at(-1)?.[1];
+    return plan.levels.find((level) => level.id === id) ?? plan.levels[0];
+  }
+
+  #scene(state) {
+    this.generation = state.generation;
+    const drawn = JSON.stringify(state.plan);
+    if (drawn === this.plan) return; // the same building after a seek: who looks around goes on
+    this.plan = drawn;
+    this.extent = state.plan && extent(state.plan);
+    this.level = null;
+    this.view.all();
+  }
+
+  #box({ tracks, feet }) {
+    const box = [0, 0, 0, 0];
+    const hold = (x, y) => {
+      if (x < box[0]) box[0] = x;
+      if (y < box[1]) box[1] = y;
+      if (x > box[2]) box[2] = x;
+      if (y > box[3]) box[3] = y;
+    };
+    for (const points of Object.values(tracks)) for (const point of points) hold(point[1], point[2]);
+    for (const foot of FEET) if (feet[foot]?.position) hold(feet[foot].position[0], feet[foot].position[1]);
+    for (const k of [0, 1]) {
+      const lacks = Math.max(0, LEAST - (box[k + 2] - box[k])) / 2;
+      box[k] -= lacks;
+      box[k + 2] += lacks;
+    }
+    return box;
+  }
+
+  #still(state, level, px, scale, where) {
+    const { width, height, ratio } = this.surface;
+    const key = [where, scale, width, height, ratio, theme.version, state.generation, state.thinned, level?.id].join(" ");
+    const context = this.layer.getContext("2d");
+    if (key !== this.key) {
+      this.key = key;
+      [this.layer.width, this.layer.height] = [Math.round(width * ratio), Math.round(height * ratio)];
+      this.drawn = { left: 0, right: 0, wearer: 0, places: 0 };
+    }
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const anew = Object.values(this.drawn).every((count) => count === 0);
+    if (level) {
+      if (anew) drawLevel(context, state.plan, level, px, scale);
+      this.#walked(context, state.places, level.id, px);
+      return;
+    }
+    if (anew) {
+      this.#grid(context, px, scale);
+      this.#start(context, px);
+    }
+    for (const [name, points] of Object.entries(state.tracks)) {
+      const from = Math.max(0, this.drawn[name] - 1);
+      if (points.length > from + 1) line(context, points.slice(from), px, WIDTHS[name], theme.colours[name]);
+      this.drawn[name] = points.length;
+    }
+  }
+
+  // Between two places of which one is elsewhere nothing is drawn solid.
+  #walked(context, places, level, px) {
+    const from = Math.max(1, this.drawn.places);
+    for (const here of [false, true]) {
+      const path = new Path2D();
+      for (let i = from; i < places.length; i++) {
+        const [[, a, x1, y1], [, b, x2, y2]] = [places[i - 1], places[i]];
+        if ((a === level && b === level) !== here || Math.hypot(x2 - x1, y2 - y1) > JUMP) continue;
+        path.moveTo(...px([x1, y1]));
+        path.lineTo(...px([x2, y2]));
+      }
+      stroke(context, path, here ? WIDTHS.wearer : 1.5, here ? theme.colours.wearer : theme.colours["sole-line"]);
+    }
+    this.drawn.places = places.length;
+  }
+
+  #grid(context, px, scale) {
+    const { width, height } = this.surface;
+    const step = round(48 / scale);
+    const [ox, oy] = px([0, 0]);
+    const path = new Path2D();
+    const first = (origin) => ((origin % (step * scale)) + step * scale) % (step * scale);
+    for (let at = first(ox); at < width; at += step * scale) lineFrom(path, Math.round(at) + 0.5, 0, Math.round(at) + 0.5, height);
+    for (let at = first(oy); at < height; at += step * scale) lineFrom(path, 0, Math.round(at) + 0.5, width, Math.round(at) + 0.5);
+    context.lineWidth = 1;
+    context.strokeStyle = theme.colours.grid;
+    context.stroke(path);
+  }
+
+  #start(context, px) {
+    const [x, y] = px([0, 0]);
+    context.beginPath();
+    context.arc(x, y, 6, 0, 2 * Math.PI);
+    context.lineWidth = 2;
+    context.strokeStyle = theme.colours.muted;
+    context.stroke();
+    context.textAlign = "center";
+    label(context, "start", x, y + 20, theme.colours.muted);
+  }
+
+  #now(context, { feet, wearer }, px, scale) {
+    if (wearer?.covariance) this.#ellipse(context, wearer, px, scale);
+    for (const foot of FEET) {
+      const place = feet[foot]?.position;
+      if (!place) continue;
+      const [x, y] = px(place);
+      context.beginPath();
+      if (foot === "left") context.arc(x, y, 7, 0, 2 * Math.PI);
+      else context.rect(x - 6.5, y - 6.5, 13, 13);
+      context.fillStyle = theme.colours[foot];
+      context.fill();
+      context.fillStyle = theme.colours.card;
+      context.font = "700 10px system-ui, sans-serif";
+      context.textAlign = "center";
+      context.fillText(foot === "left" ? "L" : "R", x, y + 3.5);
+    }
+    if (wearer) this.#dot(context, px(wearer.position));
+  }
+
+  #dot(context, [x, y]) {
+    context.beginPath();
+    context.arc(x, y, 5.5, 0, 2 * Math.PI);
+    context.fillStyle = theme.colours.wearer;
+    context.fill();
+    context.lineWidth = 2.5;
+    context.strokeStyle = theme.colours.inset;
+    context.stroke();
+  }
+
+  #ellipse(context, { position, covariance: [xx, xy, , yy] }, px, scale) {
+    const { long, wide, angle } = axes(xx, xy, yy);
+    const [x, y] = px(position);
+    context.beginPath();
+    context.ellipse(x, y, Math.min(4000, long * scale), Math.min(4000, wide * scale), -angle, 0, 2 * Math.PI);
+    this.#veil(context);
+  }
+
+  #veil(context) {
+    context.fillStyle = theme.colours.wearer;
+    context.globalAlpha = 0.13;
+    context.fill();
+    context.globalAlpha = 0.75;
+    context.lineWidth = 1;
+    context.strokeStyle = theme.colours.wearer;
+    context.stroke();
+    context.globalAlpha = 1;
+  }
+
+  #place(context, { place }, level, px, scale) {
+    if (!place) return;
+    if (place.level === level.id && place.spread !== null) {
+      context.beginPath();
+      context.arc(...px(place.position), Math.min(4000, place.spread * scale), 0, 2 * Math.PI);
+      this.#veil(context);
+    }
+    context.fillStyle = theme.colours.candidate;
+    context.strokeStyle = theme.colours.candidate;
+    context.lineWidth = 2;
+    for (const { level: of, x, y, heading, weight } of place.candidates.length > 1 ? place.candidates : []) {
+      context.globalAlpha = of === level.id ? 0.8 : 0.2;
+      const [at, up] = px([x, y]);
+      const size = 2.5 + 9 * Math.sqrt(Math.min(1, Math.max(0, weight)));
+      context.beginPath();
+      context.arc(at, up, size, 0, 2 * Math.PI);
+      context.fill();
+    }
+    context.globalAlpha = 1;
+    if (place.level === level.id) this.#dot(context, px(place.position));
+  }
+
+  #ruler(context, scale) {
+    const metres = round(56 / scale);
+    const [x, y, length] = [12, this.surface.height - 12, metres * scale];
+    const path = new Path2D();
+    path.moveTo(x, y - 4);
+    path.lineTo(x, y);
+    path.lineTo(x + length, y);
+    path.lineTo(x + length, y - 4);
+    stroke(context, path, 1.5, theme.colours.muted);
+    context.textAlign = "left";
+    label(context, metres < 1 ? `${fixed(100 * metres)} cm` : `${fixed(metres)} m`, x + 4, y - 6, theme.colours.muted);
+  }
+
+  #words(state, onPlan, level) {
+    const { place, places, wearer, plan } = state;
+    let words = "";
+    if (onPlan && !place) words = places.length > 0 ? "The place was lost; the track by itself goes on." : "Where on the plan is not known yet.";
+    else if (onPlan && place.level !== level.id) words = `The wearer is on ${nameOf(plan, place.level)}.`;
+    else if (onPlan && place.candidates.length > 1) words = `${place.candidates.length} possible places; the likeliest has ${percent(Math.max(...place.candidates.map((one) => one.weight)))}.`;
+    write(this.note, words);
+    this.note.hidden = words === "";
+    this.alternative.say(() => {
+      if (onPlan && place) {
+        const [x, y] = place.position;
+        return `Floor plan, ${level.name}. The wearer is on ${nameOf(plan, place.level)} at ${fixed(x, 1)} m, ${fixed(y, 1)} m, within about ${fixed(place.spread, 1)} m`;
+      }
+      if (onPlan) return `Floor plan, ${level.name}. ${words}`;
+      if (!wearer) return "Track: no step yet";
+      const [x, y] = wearer.position;
+      const sure = wearer.covariance ? `, 95 % sure within ${fixed(axes(...pick(wearer.covariance)).long, 1)} m` : "";
+      return `Track: the wearer is ${fixed(Math.abs(x), 1)} m ${x < 0 ? "behind" : "ahead of"} the start and ${fixed(Math.abs(y), 1)} m to the ${y < 0 ? "right" : "left"}${sure}`;
+    });
+  }
+}
+
+export function nameOf(plan, id) {
+  return plan?.levels.find((level) => level.id === id)?.name ?? id;
+}
+
+const pick = ([xx, xy, , yy]) => [xx, xy, yy];
+
+// Half axes of the ellipse that holds the place in 95 of 100 cases, m, and the angle of the long one, rad.
+function axes(xx, xy, yy) {
+  const middle = 0.5 * (xx + yy);
+  const off = Math.hypot(0.5 * (xx - yy), xy);
+  const half = (variance) => SURE * Math.sqrt(Math.max(0, variance));
+  return { long: half(middle + off), wide: half(middle - off), angle: 0.5 * Math.atan2(2 * xy, xx - yy) };
+}
+
+// Points that fall on the same pixel are one.
+function line(context, points, px, width, colour) {
+  const path = new Path2D();
+  let [lastX, lastY] = [Infinity, Infinity];
+  points.forEach(([, mx, my], i) => {
+    const [x, y] = px([mx, my]);
+    if (i < points.length - 1 && Math.abs(x - lastX) < 0.8 && Math.abs(y - lastY) < 0.8) return;
+    if (lastX === Infinity) path.moveTo(x, y);
+    else path.lineTo(x, y);
+    [lastX, lastY] = [x, y];
+  });
+  stroke(context, path, width, colour);
+}
+
+function stroke(context, path, width, colour) {
+  context.lineWidth = width;
+  context.lineCap = context.lineJoin = "round";
+  context.strokeStyle = colour;
+  context.stroke(path);
+}
+
+function lineFrom(path, x1, y1, x2, y2) {
+  path.moveTo(x1, y1);
+  path.lineTo(x2, y2);
+}

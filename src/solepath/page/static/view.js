@@ -1,0 +1,140 @@
+// Where one looks at the plane from: the middle and px per metre; to all of it by itself, or as a person likes.
+
+import { calm } from "./canvas.js";
+
+const EASE = 220; // ms to come about two thirds nearer
+const [LEAST, MOST] = [0.2, 400]; // px per metre
+const STEP = 1.4;
+const PUSH = 48; // px
+
+export class View {
+  follows = true; // shows all of it by itself
+  #goal = null;
+  #now = null;
+  #fingers = new Map();
+  #last = 0;
+
+  // moved() is called when a person looked elsewhere
+  constructor(canvas, moved) {
+    this.canvas = canvas;
+    this.moved = moved;
+    canvas.addEventListener("pointerdown", (event) => this.#down(event));
+    canvas.addEventListener("pointermove", (event) => this.#move(event));
+    for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => this.#up(event));
+    canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
+  }
+
+  // box: [x least, y least, x most, y most] that is to be seen, m; spare: the share of the picture left for what comes.
+  // It looks again only when something gets near the edge. Looking around ends with `all`.
+  fit(box, width, height, spare) {
+    if (!this.follows || width < 1 || height < 1) return;
+    const [x, y] = [0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3])];
+    const fits = Math.min(width / Math.max(1e-3, box[2] - box[0]), height / Math.max(1e-3, box[3] - box[1]));
+    const scale = Math.min(MOST, Math.max(LEAST, fits));
+    if (this.#goal !== null && this.#suits(box, width, height, scale)) return;
+    const first = this.#goal === null;
+    this.#goal = { x, y, scale: scale * (1 - spare) };
+    if (first || calm.matches || this.#now === null) this.#now = { ...this.#goal };
+  }
+
+  // Nothing is near the edge, and it is not all in a small heap.
+  #suits(box, width, height, scale) {
+    const { x, y, scale: shown } = this.#goal;
+    const [w, h] = [(0.5 * width) / shown, (0.5 * height) / shown];
+    const inside = box[0] >= x - w && box[2] <= x + w && box[1] >= y - h && box[3] <= y + h;
+    return inside && shown > 0.45 * scale;
+  }
+
+  // {x, y, scale} for now; `rests` when it is there.
+  at(now) {
+    if (this.#now === null) return { x: 0, y: 0, scale: 30 };
+    const passed = Math.min(100, now - this.#last);
+    this.#last = now;
+    const share = this.rests ? 0 : 1 - Math.exp(-passed / EASE);
+    for (const key of ["x", "y"]) this.#now[key] += share * (this.#goal[key] - this.#now[key]);
+    this.#now.scale *= (this.#goal.scale / this.#now.scale) ** share;
+    const off = Math.hypot(this.#goal.x - this.#now.x, this.#goal.y - this.#now.y) * this.#now.scale;
+    if (off < 0.3 && Math.abs(Math.log(this.#goal.scale / this.#now.scale)) < 0.002) this.#now = { ...this.#goal };
+    return this.#now;
+  }
+
+  get rests() {
+    return this.#now === null || ["x", "y", "scale"].every((key) => this.#now[key] === this.#goal[key]);
+  }
+
+  all() {
+    this.follows = true;
+    this.#goal = null;
+    this.moved();
+  }
+
+  // The canvas has another size.
+  resized() {
+    if (this.follows) this.#goal = null;
+  }
+
+  zoom(nearer) {
+    this.#take({ ...this.#here(), scale: this.#here().scale * (nearer ? STEP : 1 / STEP) });
+  }
+
+  push(right, up) {
+    const { x, y, scale } = this.#here();
+    this.#take({ x: x + (right * PUSH) / scale, y: y + (up * PUSH) / scale, scale }, true);
+  }
+
+  #here() {
+    return this.#goal ?? { x: 0, y: 0, scale: 30 };
+  }
+
+  #take(view, atOnce) {
+    this.follows = false;
+    this.#goal = { ...view, scale: Math.min(MOST, Math.max(LEAST, view.scale)) };
+    if (atOnce || calm.matches || this.#now === null) this.#now = { ...this.#goal };
+    this.moved();
+  }
+
+  // The same metres stay under the point (px from the canvas's middle).
+  #about(px, py, factor) {
+    const { x, y, scale } = this.#here();
+    const next = Math.min(MOST, Math.max(LEAST, scale * factor));
+    this.#take({ x: x + px / scale - px / next, y: y - py / scale + py / next, scale: next }, true);
+  }
+
+  #down(event) {
+    if (event.pointerType === "mouse" && event.button !== 0) return;
+    this.#fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    this.canvas.setPointerCapture(event.pointerId);
+    this.canvas.classList.add("dragged");
+  }
+
+  #move(event) {
+    const before = this.#fingers.get(event.pointerId);
+    if (before === undefined) return;
+    const old = [...this.#fingers.values()];
+    this.#fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    const now = [...this.#fingers.values()];
+    if (now.length > 2) return;
+    const middle = (points, k) => points.reduce((sum, point) => sum + point[k], 0) / points.length;
+    const [dx, dy] = [middle(now, 0) - middle(old, 0), middle(now, 1) - middle(old, 1)];
+    const { x, y, scale } = this.#here();
+    this.#take({ x: x - dx / scale, y: y + dy / scale, scale }, true);
+    if (now.length === 2) {
+      const apart = ([a, b]) => Math.max(10, Math.hypot(a[0] - b[0], a[1] - b[1]));
+      const frame = this.canvas.getBoundingClientRect();
+      this.#about(middle(now, 0) - frame.x - frame.width / 2, middle(now, 1) - frame.y - frame.height / 2, apart(now) / apart(old));
+    }
+  }
+
+  #up(event) {
+    this.#fingers.delete(event.pointerId);
+    if (this.#fingers.size === 0) this.canvas.classList.remove("dragged");
+  }
+
+  // A bare wheel scrolls the page; with Ctrl, as touchpads send for a pinch, it zooms.
+  #wheel(event) {
+    if (!event.ctrlKey) return;
+    event.preventDefault();
+    const frame = this.canvas.getBoundingClientRect();
+    this.#about(event.clientX - frame.x - frame.width / 2, event.clientY - frame.y - frame.height / 2, Math.exp(-event.deltaY * 0.004));
+  }
+}

@@ -1,0 +1,39 @@
+// How what comes is said.
+
+export const PHASES = { LOADING: "loading", STATIONARY: "flat", PUSH_OFF: "push-off", SWING: "swing" };
+export const ACTIVITIES = {
+  STANDING: "Standing", WALKING: "Walking", RUNNING: "Running", STAIRS_UP: "Stairs up", STAIRS_DOWN: "Stairs down",
+  ELEVATOR_UP: "Lift up", ELEVATOR_DOWN: "Lift down", UNKNOWN: "Not clear",
+};
+export const SUPPORTS = { DOUBLE: "both feet", LEFT: "left foot", RIGHT: "right foot", FLIGHT: "in the air" };
+export const LINKS = { ok: "connected", silent: "silent", lost: "lost", waiting: "waiting" };
+
+// A word of a newer version is shown as it comes.
+export const say = (words, key) => (Object.hasOwn(words, key) ? words[key] : String(key ?? "").toLowerCase().replaceAll("_", " "));
+export const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
+
+export const fixed = (value, digits = 0) => {
+  if (!Number.isFinite(value)) return "–";
+  const shown = value.toFixed(Math.min(6, Math.max(0, digits)));
+  return Number(shown) === 0 ? shown.replace("-", "") : shown.replace("-", "−");
+};
+export const percent = (share, digits = 0) => (Number.isFinite(share) ? `${fixed(100 * share, digits)} %` : "–");
+export const signed = (value, digits) => (Number(value.toFixed(digits)) > 0 ? "+" : "") + fixed(value, digits);
+
+// 83.2 s is 1:23.
+export function clock(seconds) {
+  const whole = Math.max(0, Math.floor(Number.isFinite(seconds) ? seconds : 0));
+  const two = (value) => String(value).padStart(2, "0");
+  const [hours, minutes] = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60];
+  return (hours ? `${hours}:${two(minutes)}` : String(minutes)) + `:${two(whole % 60)}`;
+}
+
+export function span(seconds) {
+  if (!Number.isFinite(seconds)) return "";
+  return seconds < 60 ? `${Math.max(0, Math.floor(seconds))} s` : `${clock(seconds)} min`;
+}
+
+// Only where it is another text: the browser lays out what is written.
+export function write(element, words) {
+  if (element.textContent !== words) element.textContent = words;
+}
