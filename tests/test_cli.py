@@ -407,7 +407,7 @@ def test_in_a_terminal_the_demo_is_drawn_as_it_goes_and_ends_with_the_same_table
     pty = pytest.importorskip("pty")
     pytest.importorskip("rich")
     ours, theirs = pty.openpty()
-    command = [sys.executable, "-m", "solepath", "demo", "--speed", "200"]
+    command = [sys.executable, "-m", "solepath", "demo", "--terminal", "--speed", "200"]
     terminal = {"TERM": "xterm", "COLUMNS": "100", "LINES": "60"}
     with subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs, env=os.environ | terminal) as process:
         os.close(theirs)
