@@ -137,7 +137,7 @@ class FootScene:
             return None
         if self._map[0] is not cells or self._map[1] != peak:
             scale = 255.0 / peak if peak > 0.0 else 0.0
-            shades = bytes([int(min(value * scale, 255.0) + 0.5) if value > 0.0 else 0 for value in cells])
+            shades = bytes([int(min(255.0, value * scale) + 0.5) if value > 0.0 else 0 for value in cells])
             self._map = (cells, peak, b64encode(shades).decode())
         return self._map[2]
 

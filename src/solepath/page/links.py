@@ -35,19 +35,20 @@ class Beat:
     """Samples a second of late."""
 
     times: deque[float] = field(factory=lambda: deque(maxlen=MOST))
-    since: float | None = None
-    """When counting began, s: a stream that has just begun is not slow."""
+    since: float = 0.0
+    """When this stream began, s: one that has just begun is not slow."""
+
+    def add(self, t: float) -> None:
+        """One of them came at `t` s."""
+        if not self.times:
+            self.since = t
+        self.times.append(t)
 
     def rate(self, now: float) -> float:
         """At `now` s, 1/s."""
         times = self.times
         while times and times[0] <= now - WINDOW:
             times.popleft()
-        if not times:
-            self.since = None
-            return 0.0
-        if self.since is None:
-            self.since = times[0]
         return len(times) / min(WINDOW, max(now - self.since, 0.5 * WINDOW))
 
 
@@ -74,7 +75,7 @@ class Link:
 
     def sampled(self, t: float, known_at: float, beat: Beat) -> None:
         """A sample of `t` s came at `known_at`; `beat`: `moves` or `presses`."""
-        beat.times.append(known_at)
+        beat.add(known_at)
         if known_at != self.heard:
             # the samples of one packet become known together
             self.health.came += 1

@@ -132,15 +132,18 @@ class Scene:
     def _moved(self, event: FootMoved) -> None:
         link = self._link(SITE_OF_FOOT[event.foot])
         link.sampled(event.t, event.known_at, link.moves)
-        self.feet[event.foot].moved(event)
+        if link.lost_at is None:
+            self.feet[event.foot].moved(event)
 
     def _pressed(self, event: FootPressed) -> None:
         link = self._link(SITE_OF_FOOT[event.foot])
         link.sampled(event.t, event.known_at, link.presses)
-        self.feet[event.foot].pressed(event)
+        if link.lost_at is None:
+            self.feet[event.foot].pressed(event)
 
     def _began(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
-        self.feet[event.foot].begin(event.t, PHASES[type(event)])
+        if self._link(SITE_OF_FOOT[event.foot]).lost_at is None:
+            self.feet[event.foot].begin(event.t, PHASES[type(event)])
 
     def _stepped(self, event: StepTaken) -> None:
         self.feet[event.foot].stepped(event)
