@@ -36,7 +36,7 @@ export class Looking {
     const levels = state.plan !== null && !track.byItself && state.plan.levels.length > 1 ? state.plan.levels : [];
     this.levels.hidden = levels.length === 0;
     const key = JSON.stringify(levels.map(({ id, name }) => [id, name]));
-    if (key !== this.key) this.#list(levels, key);
+    if (key !== this.listed) this.#list(levels, key);
     if (levels.length === 0) return;
     const shown = track.shown(state).id;
     press(this.levels.firstChild, track.level === null);
@@ -44,7 +44,7 @@ export class Looking {
   }
 
   #list(levels, key) {
-    this.key = key;
+    this.listed = key;
     this.levels.replaceChildren();
     for (const [id, name] of [[null, "Follow"], ...levels.map((level) => [level.id, level.name])]) {
       const button = document.createElement("button");
