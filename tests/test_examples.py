@@ -1,5 +1,6 @@
 """Every program in examples/ runs as its first lines say, and tells what they promise."""
 
+import ast
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +13,8 @@ from solepath.sim import Radio, Route, Walker, emulate
 from solepath.types import Foot
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
+APPS = ("thread_and_queue", "toga_app")
+"""Whole apps; the others are short programs."""
 ROUTE = Route().stand(2.0).walk(6.0, speed=1.3).stop(1.5)
 
 
@@ -27,7 +30,9 @@ def test_every_example_is_run_here_and_is_short():
     here = Path(__file__).read_text()
     for path in EXAMPLES.glob("*.py"):
         assert f'run("{path.stem}"' in here, path.name
-        assert len(path.read_text().splitlines()) < 80, path.name
+        assert len(path.read_text().splitlines()) < (150 if path.stem in APPS else 80), path.name
+        docstring = ast.get_docstring(ast.parse(path.read_text())) or ""
+        assert docstring and f"{path.name}" in docstring, "what it shows, and how it is run"
 
 
 def test_an_emulated_walk_ends_where_its_route_ends():
@@ -105,3 +110,25 @@ def test_in_a_building_walls_leave_one_place_of_many():
     did = [line.split()[2] for line in told if line.split()[1:2] == ["s"] and line.split()[2].isupper()]
     assert did[:2] == ["STANDING", "ELEVATOR_DOWN"] and "WALKING" in did and "ELEVATOR_UP" in did
     assert float(told[-1].split()[-4]) < 3.0
+
+
+def test_an_app_of_a_thread_and_a_queue_loses_nothing_unsaid_and_ends():
+    told = run("thread_and_queue").splitlines()
+    for foot in Foot:
+        steps = [line for line in told if f" {foot.value} step of " in line]
+        assert len(steps) >= 8 and "with a gap" not in steps[0], "a walk of 16 m, in spite of it all"
+        assert any(f"{foot.value}_foot: nothing comes" in line for line in told)
+        assert any(f"{foot.value}_foot: heard again" in line for line in told)
+    dropped = [int(line.split()[3]) for line in told if "packets dropped, the screen was too slow" in line]
+    assert sum(dropped) > 20, "the screen hangs longer than the queue can hold"
+    assert sum("paused" in line for line in told) == 1
+    assert told[-1].endswith("closed")
+
+
+def test_an_app_of_a_thread_and_a_queue_plays_a_recording(tmp_path):
+    walk = emulate(ROUTE, seed=2)
+    with PacketWriter(tmp_path / "walk.jsonl") as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    told = run("thread_and_queue", tmp_path / "walk.jsonl", 20)
+    assert "left step of" in told and "right step of" in told
