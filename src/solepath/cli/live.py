@@ -11,6 +11,7 @@ from .calibrated import add_calibration, calibration_of
 from .choosing import add_devices, need_bleak
 from .failure import known_recipe
 from .floorplan import add_floorplan, floorplan_of
+from .view import add_view, view_of
 
 
 def add_to(commands: Any) -> None:
@@ -22,6 +23,7 @@ def add_to(commands: Any) -> None:
         epilog="example: solepath live --left F0:5E:00:00:00:01 --right F0:5E:00:00:00:02 --record walk.jsonl",
     )
     add_devices(live)
+    add_view(live, live, "show it")
     live.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
     add_calibration(live)
     add_floorplan(live)
@@ -44,7 +46,7 @@ def add_to(commands: Any) -> None:
     )
     add_devices(record)
     record.add_argument("--out", metavar="FILE", dest="record", type=Path, required=True, help="the recording")
-    record.set_defaults(run=run, recipe="default", calibration=None, out=None, floorplan=None, start=None)
+    record.set_defaults(run=run, recipe="default", calibration=None, out=None, floorplan=None, start=None, view=None)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -52,9 +54,10 @@ def run(options: argparse.Namespace) -> int:
 
     recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
     calibration = calibration_of(options)
+    view = view_of(options)
     plan, start = floorplan_of(options)
     need_bleak()
     from .air import listen_to_end
     from .live_run import listen
 
-    return listen_to_end(partial(listen, options, recipe, calibration, plan, start))
+    return listen_to_end(partial(listen, options, recipe, calibration, plan, start, view))

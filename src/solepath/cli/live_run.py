@@ -17,6 +17,7 @@ from ..floorplan.index import IndexedPlan
 from ..floorplan.plan import Start
 from ..monitor import Monitor
 from ..output import EVENTS, PLACES, STEPS, TRACK, TrackFiles
+from ..page.scene import Scene
 from ..recipes import Recipe
 from ..recording import PacketWriter, RecordingError, printable, why
 from ..session import Session
@@ -28,6 +29,7 @@ from .choosing import LISTENED, chosen, how_long, wanted
 from .failure import Failure, note
 from .loop import unless_told
 from .showing import shown
+from .view import View, newtons_of, page_of
 
 
 async def listen(
@@ -36,15 +38,24 @@ async def listen(
     calibration: Calibration | None,
     plan: IndexedPlan | None,
     start: Start | None,
+    view: View | None,
     stop: asyncio.Event,
 ) -> int:
     """Until it is told to stop; the exit status."""
     devices = wanted(options)
     check_writable(options.record, options.out, plan is not None)
     seconds = how_long(options)
-    monitor = Monitor(Session(recipe, calibration=calibration, poses=True, floorplan=plan, start=start))
+    session = Session(
+        recipe, calibration=calibration, poses=True, pressures=view is not None, floorplan=plan, start=start
+    )
+    monitor = Monitor(session)
     places = None if plan is None else Places()
+    scene: Scene | None = None
     async with AsyncExitStack() as stack:
+        if view is not None:
+            drawn = None if plan is None else plan.plan
+            scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration))
+            await stack.enter_async_context(page_of(scene, view))
         async with unless_told(stop):
             backend = await stack.enter_async_context(air(options.via))
             if not devices:
@@ -61,6 +72,10 @@ async def listen(
                         files.event(event)
                         if places is not None:
                             places.add(event)
+                        if scene is not None:
+                            scene.take(event)
+                    if scene is not None:
+                        scene.tick(packet.t)  # when nothing comes, there is a packet that says so
                     report()
                     if files.failure is not None:
                         break

@@ -3,21 +3,30 @@
 from __future__ import annotations
 
 import argparse
-from contextlib import ExitStack
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .calibrated import add_calibration, calibration_of, check_pressure
-from .failure import Failure, check_writable, known_recipe, note
+from .failure import Failure, known_recipe, note
 from .floorplan import add_floorplan, floorplan_of
+from .view import add_speed, add_view, attended, newtons_of, pace_of, play, view_of
 
 if TYPE_CHECKING:
-    from ..events import Event
+    from ..calibration import Calibration
+    from ..floorplan.index import IndexedPlan
+    from ..page.player import Player
+    from ..session import Session
+    from ..source import Source
+    from ..types import Packet, Sample
+    from .results import Results
 
 LONG = 4_000_000
 """Bytes of packets from which on there is a progress bar ..."""
 LONG_SAMPLES = 40_000
 """... or samples: a second or so of computing."""
+ITEMS = 1000
+"""That are computed between two steps of it."""
 
 
 def add_to(commands: Any) -> None:
@@ -42,84 +51,156 @@ def add_to(commands: Any) -> None:
         help="write events.jsonl, track.csv, steps.csv and gait.csv into it, with a floor plan places.csv and "
         "plan.svg too",
     )
+    command.add_argument(
+        "--report", metavar="FILE", type=Path, help="write figures and the gait table into one HTML file, to be mailed"
+    )
+    add_view(command, command, "play it")
+    add_speed(command, "1, on the page")
     command.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
-    from time import perf_counter
-
     from .. import recipes
-    from ..output import PLAN, TrackFiles
     from ..recording import RecordingError
     from ..session import Session
     from ..source import open_source
-    from ..tally import Tally
-    from ..types import Foot, Sample
-    from ..view.placed import Places
-    from ..view.plan import PlanPicture
-    from ..view.progress import progress_bar
-    from ..view.summary import summary
+    from ..types import Foot
+    from .results import Results
 
     recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
     calibration = calibration_of(options)
+    view = view_of(options)
+    pace = 1.0 if view is None else pace_of(options, 1.0)
     try:
         source = open_source(options.file, Foot(options.foot) if options.foot else None, report=note)
     except RecordingError as error:
         raise Failure(str(error)) from None
     check_pressure(recipe, source)
     plan, start = floorplan_of(options)
-    session = Session(recipe, calibration=calibration, poses=True, floorplan=plan, start=start)
-    tally, places = Tally(), Places()
-    picture = None if plan is None else PlanPicture(plan.plan)
-    failure: Failure | None = None
-    began = perf_counter()
-    with ExitStack() as stack:
-        files: TrackFiles | None = None
-
-        def opened() -> TrackFiles:
-            made = stack.enter_context(TrackFiles(options.out, places=plan is not None))
-            if plan is not None:
-                check_writable(options.out / PLAN)  # it is written last
-            return made
-
-        def told(event: Event) -> None:
-            tally.add(event)
-            if files is not None:
-                files.write(event)
-            if picture is not None:
-                places.add(event)
-                picture.add(event)
-
-        long = source.total > (LONG if source.samples is None else LONG_SAMPLES)
-        show = stack.enter_context(progress_bar(options.file.name, source.total, wanted=long))
-        try:
-            for item in source:
-                # not before: a file that cannot be used must not replace what an earlier run wrote
-                if files is None and options.out:
-                    files = opened()
-                if isinstance(item, Sample):
-                    tally.fed_sample(item)
-                else:
-                    tally.fed_packet(item)
-                for event in session.feed(item):
-                    told(event)
-                show(source.done)
-        except RecordingError as error:
-            failure = Failure(str(error))
-        if files is None and options.out and failure is None:
-            files = opened()  # of a recording of nothing
-        # what came before a fault in the file is a walk of its own: it is finished and written like any other
-        for event in session.finish():
-            told(event)
-    if failure is None or tally.first is not None:
-        title = f"{options.file.name}, recipe {recipe.name}"
-        print(summary(tally, title=title, seconds=perf_counter() - began))
-        if picture is not None:
-            print("\n".join(places.lines()))
-            if options.out:
-                picture.write(options.out / PLAN, title)
-        if options.out:
-            print(f"written to {options.out}")
-    if failure is not None:
-        raise failure
+    session = Session(
+        recipe,
+        calibration=calibration,
+        poses=True,
+        pressures=view is not None or options.report is not None,
+        floorplan=plan,
+        start=start,
+    )
+    reading = _Reading(source)
+    results = Results(
+        f"{options.file.name}, recipe {recipe.name}",
+        options.out,
+        options.report,
+        plan=None if plan is None else plan.plan,
+        recipe=recipe.name,
+        when=_when(source),
+    )
+    with results:
+        if view is None:
+            seconds = _straight(reading, session, results)
+            player = None
+        else:
+            player, seconds = _kept(reading, session, results, plan, calibration), 0.0
+    if reading.failure is None or results.tally.first is not None:
+        results.print(seconds)
+    if player is not None and view is not None and len(player.items):
+        if reading.failure is not None:
+            note(str(reading.failure))
+        player.seek(player.playback.begin)
+        player.speed(pace)
+        play(player, view, once=not attended())
+        return 0 if reading.failure is None else 2
+    if reading.failure is not None:
+        raise reading.failure
     return 0
+
+
+def _when(source: Source) -> str:
+    """When the recording began, to be read; "" where it does not say."""
+    from ..recording import RecordingError, began, read_header
+
+    if source.samples is not None:
+        return ""
+    try:
+        moment = began(read_header(source.path))
+    except RecordingError:
+        return ""  # whatever is wrong with it is said when it is run
+    return "" if moment is None else f"{moment[0]:%Y-%m-%d %H:%M} UTC"
+
+
+class _Reading:
+    """The items of a recording up to a fault in it, with a progress bar where it is long. `failure`: the fault."""
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self.failure: Failure | None = None
+
+    def __iter__(self) -> Iterator[Packet | Sample]:
+        from ..recording import RecordingError
+        from ..view.progress import progress_bar
+
+        source = self.source
+        long = source.total > (LONG if source.samples is None else LONG_SAMPLES)
+        with progress_bar(source.path.name, source.total, wanted=long) as show:
+            try:
+                for item in source:
+                    yield item
+                    show(source.done)
+            except RecordingError as error:
+                self.failure = Failure(str(error))
+
+
+def _straight(reading: _Reading, session: Session, results: Results) -> float:
+    """The recording through the session, item by item; how long that took, s."""
+    from time import perf_counter
+
+    began = perf_counter()
+    for item in reading:
+        results.begin()
+        results.told(item, session.feed(item))
+    if reading.failure is None:
+        results.begin()  # of a recording of nothing
+    # what came before a fault in the file is a walk of its own: it is finished and written like any other
+    results.told(None, session.finish())
+    return perf_counter() - began
+
+
+def _kept(
+    reading: _Reading, session: Session, results: Results, plan: IndexedPlan | None, calibration: Calibration | None
+) -> Player:
+    """The same, by a player that can play all of it afterwards, and knows moments of it to go to.
+
+    It runs before anybody sees the page: what is done there then cannot change what comes of the recording."""
+    from ..page.kept import Kept
+    from ..page.player import Player
+    from ..page.scene import Scene
+    from ..recording import printable
+    from ..view.progress import progress_bar
+
+    items = Kept(reading)
+    if len(items) or reading.failure is None:
+        results.begin()
+    scene = Scene(
+        printable(reading.source.path.name),
+        session.recipe.name,
+        "recording",
+        plan=None if plan is None else plan.plan,
+        newtons=newtons_of(calibration),
+    )
+    fault = "" if reading.failure is None else str(reading.failure)
+    player = Player(items, session, scene, plan, fault=fault, told=results.told)
+    long = len(items) > LONG_SAMPLES
+    with progress_bar("computing", len(items), wanted=long) as show:
+        while player.run_through(_After(ITEMS)):
+            show(player.done)
+    return player
+
+
+class _After:
+    """Enough after so many items."""
+
+    def __init__(self, items: int) -> None:
+        self._left = items
+
+    def __call__(self) -> bool:
+        self._left -= 1
+        return self._left <= 0

@@ -15,10 +15,12 @@ from ..recording import printable
 from .failure import Failure, note, positive
 
 if TYPE_CHECKING:
+    from ..calibration import Calibration
     from ..page.messages import Command
     from ..page.player import Player
     from ..page.scene import Scene
     from ..page.server import Page
+    from ..types import Foot
 
 HERE = "127.0.0.1:8765"
 
@@ -86,6 +88,13 @@ def pace_of(options: argparse.Namespace, default: float) -> float:
     if not SLOWEST <= options.speed <= FASTEST:
         raise Failure(f"--speed {options.speed:g}: on the page it is from {SLOWEST:g} to {FASTEST:g}")
     return float(options.speed)
+
+
+def newtons_of(calibration: Calibration | None) -> tuple[Foot, ...]:
+    """The feet whose calibration turns counts into N."""
+    from ..types import Foot
+
+    return tuple(foot for foot in Foot if calibration is not None and calibration.insole(foot).newtons is not None)
 
 
 @asynccontextmanager
