@@ -148,8 +148,9 @@ class Watcher:
             elif message.type is WSMsgType.BINARY:
                 wrong = WSCloseCode.UNSUPPORTED_DATA, "a browser sent bytes instead of text"
             else:
-                if self._socket.close_code in REFUSED_BY_LIBRARY:
-                    offences.tell(REFUSED_BY_LIBRARY[self._socket.close_code])
+                code = getattr(message.data, "code", None)  # the library has closed the connection with it
+                if code in REFUSED_BY_LIBRARY:
+                    offences.tell(REFUSED_BY_LIBRARY[code])
                 return
             if wrong is not None:
                 code, why = wrong
