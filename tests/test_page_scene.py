@@ -5,9 +5,11 @@ from __future__ import annotations
 import base64
 import json
 import pickle
+import re
 from collections.abc import Iterable
 from functools import cache
 from math import inf, nan, pi
+from pathlib import Path
 from typing import Any
 
 from attrs import evolve
@@ -48,7 +50,7 @@ from solepath import (
     WearerMoved,
 )
 from solepath.page.lists import MOST_POINTS, RECENT
-from solepath.page.messages import encode
+from solepath.page.messages import encode, parse_command
 from solepath.page.playback import Playback
 from solepath.page.scene import MOST_LINES, Scene
 from solepath.page.sentences import sentence
@@ -496,3 +498,50 @@ def test_a_name_from_the_air_cannot_break_a_line() -> None:
     named = Connected(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, device="", name="a\nb\x1b[2J" + 999 * "x", signal=None)
     _, text = sentence(named) or ("", "")
     assert "\n" not in text and "\x1b" not in text and len(text) <= 300
+
+
+# --- protocol/page.md -------------------------------------------------------------------------------------------------
+
+PROTOCOL = (Path(__file__).parents[1] / "protocol" / "page.md").read_text()
+
+
+def keys(title: str) -> set[str]:
+    """The first column of the table below this heading."""
+    table = PROTOCOL.split(f"### {title}\n", 1)[1].split("|---|---|\n", 1)[1].split("\n\n", 1)[0]
+    return {name for row in table.splitlines() for name in re.findall(r"`([^`]+)`", row.split("|")[1])}
+
+
+def test_messages_are_made_of_the_keys_that_the_protocol_names() -> None:
+    events = [event for event in eventful() if not isinstance(event, PlaceLost)]
+    scene = shown(events, Scene("a walk", "default", "recording", BUILDING, Playback(0.0, 1.0, 0.0)))
+    for event in fed(insoles(Route().stand(1.5).walk(14.0, 1.3).stop(1.0)).packets)[1]:
+        scene.take(later(event, 100.0))
+    message = json.loads(encode(scene.whole()[0]))
+    told = message["frame"]
+    assert message.keys() == keys("`scene`")
+    assert told.keys() == keys("`frame`")
+    assert told["feet"]["left"].keys() == told["feet"]["right"].keys() == keys("foot")
+    assert told["gait"].keys() == keys("gait")
+    assert all(row.keys() == keys("row") for row in told["gait"]["rows"])
+    assert all(link.keys() == keys("link") for link in told["links"].values())
+    for name in ("wearer", "place", "activity", "playback"):
+        (row,) = re.findall(rf"^\| `{name}` \| (.*) \|$", PROTOCOL, re.MULTILINE)
+        assert told[name].keys() <= set(re.findall(r"`([a-z]+)`", row)), name
+    prose = PROTOCOL.replace("\n", " ")
+    level, stop = message["plan"]["levels"][0], message["plan"]["connectors"][0]["stops"][0]
+    known = {*level, *stop, *message["plan"], *message["plan"]["connectors"][0], *message["layouts"]["left"]}
+    assert all(f"`{name}`" in prose for name in known)
+
+
+def test_the_examples_of_the_protocol_are_what_is_sent() -> None:
+    news, before = [json.loads(text) for text in re.findall(r"^```json\n(.*?)^```", PROTOCOL, re.MULTILINE | re.DOTALL)]
+    assert json.loads(encode(Scene("left and right insole", "default").whole()[0])) == before
+    assert news.keys() <= keys("`frame`")
+    assert news["feet"]["left"].keys() == keys("foot")
+    assert news["links"]["left foot"].keys() == keys("link")
+
+
+def test_the_commands_of_the_protocol_are_commands() -> None:
+    table = PROTOCOL.split("| message | meaning |\n", 1)[1].split("\n\n", 1)[0]
+    commands = [parse_command(text) for text in re.findall(r"^\| `(.*?)` \|", table, re.MULTILINE)]
+    assert [command.do for command in commands] == ["play", "pause", "speed", "seek"]
