@@ -15,7 +15,9 @@ from typing import Any, get_args
 import pytest
 
 import figures
+from commands import run
 from quoted import NUMBER, PAGES, ROOT, below, blocks, nearly_the_same
+from snooped import insoles_log
 from solepath import LiftRidden
 from solepath.body.altitude import Altitude
 from solepath.cli.main import parser
@@ -25,6 +27,7 @@ from solepath.foot.tracker import AnyCorrector, AnyCues, AnyDetector
 from solepath.output import STEP_COLUMNS, TRACK_COLUMNS
 from solepath.recipes import AnyActivity, AnyBody, AnyPlace
 from solepath.sim import Route, emulate
+from solepath.types import Foot
 
 MARKDOWN = {**PAGES, **{f"protocol/{path.name}": path.read_text() for path in (ROOT / "protocol").glob("*.md")}}
 WALK = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), seed=1)
@@ -64,6 +67,14 @@ def test_a_live_source_samples_and_a_saved_session(played):
     assert out.getvalue().startswith("PacketRejected(")
 
 
+def test_the_line_for_the_phases_prints_both_tables():
+    (program,) = re.findall(r'^python -c "(.*)"$', PAGES["docs/session.md"], re.MULTILINE)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    rows = [line.split() for line in done.stdout.splitlines()]
+    assert ["SWING", "LOADING", "STATIONARY", "SWING", "SWING"] in rows
+    assert ["SWING", "RIGHT", "RIGHT", "RIGHT", "FLIGHT"] in rows
+
+
 def test_what_the_wearer_did_is_told(played):
     _, names = played("docs/activities.md")
     with redirect_stdout(io.StringIO()) as out:
@@ -89,6 +100,19 @@ def test_the_loop_over_bluetooth_is_a_program(played):
     """It runs in examples/bluetooth.py, against emulated insoles."""
     _, names = played("docs/bluetooth.md")
     assert names["listen"].__name__ == "listen"
+
+
+def test_three_commands_make_a_report_of_a_phones_log(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    insoles_log(WALK.packets).save(tmp_path / "btsnoop_hci.log")
+    install, *lines = below("phone")
+    assert "pip install ." in install and len(lines) == 2
+    for line in lines:
+        program, *arguments = shlex.split(line)
+        done = run(*arguments)
+        assert (program, done.returncode, done.stderr) == (".venv/bin/solepath", 0, "")
+    steps = len(WALK.truth.steps(Foot.LEFT))
+    assert f"left foot took {steps} strides" in (tmp_path / "report.html").read_text()
 
 
 def commands() -> dict[str, ArgumentParser]:

@@ -60,14 +60,6 @@ def test_its_table_names_every_event():
     assert sorted(first_cells(below("events"))) == sorted(f"`{event.__name__}`" for event in get_args(Event))
 
 
-def test_its_line_for_the_phases_prints_both_tables():
-    (program,) = re.findall(r'^python -c "(.*)"$', README, re.MULTILINE)
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    rows = [line.split() for line in done.stdout.splitlines()]
-    assert ["SWING", "LOADING", "STATIONARY", "SWING", "SWING"] in rows
-    assert ["SWING", "RIGHT", "RIGHT", "RIGHT", "FLIGHT"] in rows
-
-
 def test_its_table_names_every_command():
     (subparsers,) = (a for a in parser()._actions if isinstance(a.choices, dict))
     told = [re.split(r"[ `]", line)[3] for line in README.splitlines() if line.startswith("| `solepath ")]
