@@ -20,7 +20,7 @@ export class Doing {
     this.activity.dataset.activity = name;
     const icon = `#icon-${Object.hasOwn(ACTIVITIES, name) ? name : "UNKNOWN"}`;
     if (this.icon.getAttribute("href") !== icon) this.icon.setAttribute("href", icon);
-    write(this.since, activity?.since != null ? `for ${span(state.t - activity.since)}` : "");
+    write(this.since, activity?.since != null && activity.since >= state.begin ? `for ${span(state.t - activity.since)}` : "");
     this.support.dataset.support = support ?? "";
     write(this.supportWord, support ? say(SUPPORTS, support) : "");
     write(this.cadence, fixed(gait?.cadence ?? NaN));

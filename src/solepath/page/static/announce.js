@@ -8,7 +8,7 @@ const APART = 1500; // ms: what comes meanwhile is said together
 export class Announcer {
   #waiting = [];
   #timer = 0;
-  #lost = new Set();
+  #missed = new Set();
   #activity = null;
   #level = null;
   #decided = false;
@@ -33,10 +33,11 @@ export class Announcer {
     }
     if (changed.has("links")) {
       for (const [site, { state: how }] of Object.entries(state.links)) {
-        if (how === "lost" && !this.#lost.has(site)) this.say(`${capital(site)} lost`);
-        if (how === "ok" && this.#lost.has(site)) this.say(`${capital(site)} heard again`);
-        if (how === "lost") this.#lost.add(site);
-        if (how === "ok") this.#lost.delete(site);
+        const missed = how === "lost" || how === "silent";
+        if (missed && !this.#missed.has(site)) this.say(`Nothing heard of the ${site}`);
+        if (how === "ok" && this.#missed.has(site)) this.say(`${capital(site)} heard again`);
+        if (missed) this.#missed.add(site);
+        if (how === "ok") this.#missed.delete(site);
       }
     }
     if (changed.has("place") && state.place) {

@@ -5,7 +5,7 @@ import { theme } from "./theme.js";
 import { clock, fixed, signed, write } from "./words.js";
 
 const LEAST = 1; // m that are seen at least
-const NAMES = 44; // px for the names of the heights
+const NAMES = 44; // px for heights in figures; names of levels stand on their lines
 const OFTEN = 250; // ms
 
 export class Height {
@@ -35,13 +35,14 @@ export class Height {
     for (const { z } of lines) if (z > low - 5 && z < high + 5) [low, high] = [Math.min(low, z), Math.max(high, z)];
     const lacks = Math.max(0, LEAST - (high - low)) / 2;
     [low, high] = [low - lacks, high + lacks];
-    const [top, bottom] = [10, height - 20];
+    const [top, bottom] = [lines.length > 0 ? 16 : 10, height - 20];
     const y = (z) => bottom - ((z - low) / (high - low)) * (bottom - top);
     const [from, to] = last ? [points[0][0], Math.max(last[0], points[0][0] + 10)] : [0, 10];
-    const x = (t) => NAMES + ((t - from) / (to - from)) * (width - NAMES - 6);
+    const side = lines.length > 0 ? 0 : NAMES;
+    const x = (t) => side + ((t - from) / (to - from)) * (width - side - 6);
 
     context.font = FONT;
-    context.textAlign = "right";
+    context.textAlign = lines.length > 0 ? "left" : "right";
     const step = round((high - low) / 2.5);
     const marks = lines.length > 0 ? lines : Array.from({ length: 5 }, (_, i) => (Math.ceil(low / step) + i) * step)
       .filter((z) => z <= high).map((z) => ({ z, name: `${fixed(z, step < 1 ? 1 : 0)} m` }));
@@ -50,13 +51,14 @@ export class Height {
       context.strokeStyle = lines.length > 0 ? theme.colours["sole-line"] : theme.colours.grid;
       context.lineWidth = 1;
       context.beginPath();
-      context.moveTo(NAMES, Math.round(y(z)) + 0.5);
+      context.moveTo(side, Math.round(y(z)) + 0.5);
       context.lineTo(width, Math.round(y(z)) + 0.5);
       context.stroke();
       context.fillStyle = theme.colours.muted;
-      context.fillText(name.length > 8 ? `${name.slice(0, 7)}…` : name, NAMES - 6, y(z) + 4);
+      if (lines.length > 0) context.fillText(name, 2, y(z) - 4);
+      else context.fillText(name, side - 6, y(z) + 4);
     }
-    this.#times(context, from, to, x, state.begin);
+    this.#times(context, from, to, x, side, state.begin);
     if (!last) return "done";
     context.beginPath();
     let shown = -Infinity;
@@ -76,13 +78,13 @@ export class Height {
     return "done";
   }
 
-  #times(context, from, to, x, begin) {
-    const step = [5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200].find((s) => ((to - from) / s) * 52 < this.surface.width - NAMES) ?? 14400;
+  #times(context, from, to, x, side, begin) {
+    const step = [5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200].find((s) => ((to - from) / s) * 52 < this.surface.width - side) ?? 14400;
     context.textAlign = "center";
     context.fillStyle = theme.colours.muted;
     for (let t = Math.ceil((from - begin) / step) * step; t <= to - begin; t += step) {
       const at = x(begin + t);
-      if (at > NAMES + 12 && at < this.surface.width - 14) context.fillText(clock(t), at, this.surface.height - 4);
+      if (at > side + 12 && at < this.surface.width - 14) context.fillText(clock(t), at, this.surface.height - 4);
     }
   }
 }

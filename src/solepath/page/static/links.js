@@ -22,10 +22,13 @@ export class Links {
       this.list.replaceChildren(...[...this.sites.values()].map((link) => link.element));
     }
     for (const [name, link] of this.sites) link.show(links[name]);
-    const lost = names.filter((name) => links[name].state === "lost");
-    this.banner.hidden = lost.length === 0;
-    const since = (name) => (Number.isFinite(links[name].silent_for) ? ` for ${span(links[name].silent_for)}` : "");
-    write(this.banner, lost.map((name) => `${capital(name)} lost: nothing heard${since(name)}.`).join(" "));
+    const missed = names.filter((name) => ["lost", "silent"].includes(links[name].state));
+    this.banner.hidden = missed.length === 0;
+    write(this.banner, missed.map((name) => {
+      const { state, silent_for } = links[name];
+      const since = Number.isFinite(silent_for) ? ` for ${span(silent_for)}` : "";
+      return `${capital(name)} ${say(LINKS, state)}: nothing heard${since}.`;
+    }).join(" "));
     return "done";
   }
 }

@@ -78,7 +78,7 @@ export class Ribbon {
     for (let i = 0; i < phases.length; i++) {
       const [from, phase] = phases[i];
       const to = Math.min(t, phases[i + 1]?.[0] ?? t);
-      if (to <= t - WINDOW || to <= from) continue;
+      if (to <= t - WINDOW || to <= from || phase === "") continue; // "": the foot is not heard
       if (phase !== "SWING") ground.push([from, to]);
       const [rise, fall] = RAMPS[phase] ?? [0.5, 0.5];
       const path = paths[SHADES[phase] ?? "-soft"];

@@ -1,15 +1,15 @@
 // Both soles from above: pressure over the cells where their places are known, else what is known.
 
-import { Alternative, FONT, Surface, calm } from "./canvas.js";
+import { Alternative, Surface, calm } from "./canvas.js";
 import { Field } from "./field.js";
 import { around, shoe, spacing } from "./outline.js";
+import { pressure } from "./scales.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
-import { PHASES, capital, fixed, say, write } from "./words.js";
+import { LINKS, PHASES, capital, fixed, say, write } from "./words.js";
 
-const TOPS = [1, 2, 3, 4, 6, 8]; // times powers of ten: the scale's upper end
 const LENGTH = 0.27; // m, of a shoe that nobody described
-const PAD = 8; // px
+const PAD = 6; // px
 const READABLE = 200; // ms between numbers that change
 
 export class Soles {
@@ -30,17 +30,16 @@ export class Soles {
   draw(state, now, changed) {
     if (calm.matches && now - this.drawn < 100 && !changed.has("theme")) return "later";
     this.drawn = now;
-    const tops = { N: top(state.scale.N), counts: top(state.scale.counts) };
-    for (const sole of this.soles) sole.draw(state, tops, now);
-    this.#legend(state, tops);
+    for (const sole of this.soles) sole.draw(state, now);
+    this.#legend(state);
     return "done";
   }
 
-  #legend(state, tops) {
+  #legend({ layouts, scale }) {
     const shapes = FEET.filter((foot) => this.soles.some((sole) => sole.foot === foot && sole.shows === "pressure"))
-      .map((foot) => state.layouts[foot]);
+      .map((foot) => layouts[foot]);
     this.scale.hidden = shapes.length === 0;
-    const ends = shapes.map((shape) => `${fixed(tops[shape.unit])} ${shape.word}`);
+    const ends = shapes.map((shape) => `${scale.beyond[shape.unit] ? "≥ " : ""}${fixed(scale.tops[shape.unit])} ${shape.word}`);
     write(this.top, [...new Set(ends)].join(", "));
     const gradient = `linear-gradient(to right, ${theme.stops.map((stop) => `rgb(${stop})`).join(", ")})`;
     if (this.gradient !== gradient) this.bar.style.background = this.gradient = gradient;
@@ -52,10 +51,11 @@ export class Soles {
   }
 }
 
-function top(highest) {
-  if (!(highest > 0)) return 1;
-  const power = 10 ** Math.floor(Math.log10(highest));
-  return (TOPS.find((step) => step * power >= highest * 0.999) ?? 10) * power;
+function shown(foot, layout) {
+  if (!foot) return "outline";
+  if (foot.cells) return layout ? "pressure" : "bars";
+  if (foot.phase) return "contact";
+  return layout ? "pressure" : "outline"; // unheard for a while, and unloaded therefore
 }
 
 class Sole {
@@ -83,15 +83,15 @@ class Sole {
     this.field = layout && new Field(layout.cells, apart, this.box);
   }
 
-  draw(state, tops, now) {
+  draw(state, now) {
     const layout = state.layouts[this.foot];
     if (layout !== this.layout) this.#shape(layout);
     const foot = state.feet[this.foot];
     const link = state.links[`${this.foot} foot`]?.state ?? "waiting";
-    const lost = link === "lost";
-    this.shows = !foot ? "outline" : foot.cells ? (layout ? "pressure" : "bars") : foot.phase ? "contact" : "outline";
+    const lost = link === "lost" || link === "silent";
+    this.shows = shown(foot, layout);
     Object.assign(this.figure.dataset, { link, shows: this.shows, phase: foot?.phase ?? "" });
-    this.#words(foot, layout, lost, now);
+    this.#words(foot, layout, lost, link, now);
 
     const context = this.surface.begin();
     const place = this.#placed();
@@ -99,7 +99,7 @@ class Sole {
     context.globalAlpha = lost ? 0.3 : 1;
     context.fillStyle = theme.colours.sole;
     context.fill(outline);
-    if (this.shows === "pressure") this.#pressure(context, outline, place, foot, tops[layout.unit]);
+    if (this.shows === "pressure") this.#pressure(context, outline, place, foot, state.scale.tops[layout.unit]);
     if (this.shows === "bars") this.#bars(context, place, foot);
     if (this.shows === "contact") this.#contact(context, outline, place, foot.phase);
     context.lineWidth = 1.5;
@@ -111,9 +111,9 @@ class Sole {
     context.globalAlpha = 1;
   }
 
-  #words(foot, layout, lost, now) {
+  #words(foot, layout, lost, link, now) {
     const phase = foot?.phase ? say(PHASES, foot.phase) : "–";
-    write(this.phase, lost ? "lost" : phase);
+    write(this.phase, lost ? say(LINKS, link) : phase);
     if (now - this.written >= READABLE) {
       this.written = now;
       const known = foot && foot.force !== null && !lost;
@@ -153,10 +153,8 @@ class Sole {
   #pressure(context, outline, place, foot, highest) {
     const { cells } = this.layout;
     const { values } = this.field;
-    const unit = foot.peak / 255 / (this.layout.unit === "N" ? 1000 : 1) / highest;
     for (let i = 0; i < values.length; i++) {
-      const value = (foot.cells[i] ?? 0) * unit;
-      values[i] = this.layout.unit === "N" ? value / cells[i][2] : value;
+      values[i] = pressure(this.layout, i, ((foot.cells?.[i] ?? 0) / 255) * foot.peak) / highest;
     }
     const [x0, y0] = place([this.box[1], this.box[3]]);
     const [x1, y1] = place([this.box[0], this.box[2]]);
@@ -190,26 +188,21 @@ class Sole {
   // Heel, all of it, or forefoot; nothing in the air.
   #contact(context, outline, place, phase) {
     const part = { LOADING: [0, 0.42], STATIONARY: [0, 1], PUSH_OFF: [0.56, 1] }[phase];
-    context.font = `600 12px ${FONT.slice(5)}`;
-    context.textAlign = "center";
+    if (!part) return;
     const [back, front, right, left] = this.box;
-    if (part) {
-      const [x0, y0] = place([back + part[1] * (front - back), left]);
-      const [x1, y1] = place([back + part[0] * (front - back), right]);
-      context.save();
-      context.clip(outline);
-      context.fillStyle = theme.colours[`${this.foot}-soft`];
-      context.fillRect(x0, y0, x1 - x0, y1 - y0);
-      context.restore();
-    }
-    const [x, y] = place([0.5 * (back + front), 0.5 * (left + right)]);
-    context.fillStyle = theme.colours.ink;
-    context.fillText(say(PHASES, phase), x, y + 4);
+    const [x0, y0] = place([back + part[1] * (front - back), left]);
+    const [x1, y1] = place([back + part[0] * (front - back), right]);
+    context.save();
+    context.clip(outline);
+    context.fillStyle = theme.colours[`${this.foot}-soft`];
+    context.fillRect(x0, y0, x1 - x0, y1 - y0);
+    context.restore();
   }
 
   // A white line on a dark one is seen on every colour of the scale.
   #centre(context, place, trail, centre) {
-    context.lineJoin = context.lineCap = "round";
+    context.lineJoin = "round";
+    context.lineCap = "butt";
     const points = trail.map(place);
     const parts = 6; // older parts are fainter
     for (let part = 0; part < parts; part++) {

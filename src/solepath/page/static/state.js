@@ -1,6 +1,8 @@
 // What the messages of protocol/page.md add up to. Nothing here draws, and nothing from outside gets past it unchecked:
 // a panel may take for granted that a point is made of numbers.
 
+import { Scales } from "./scales.js";
+
 const LONGEST = 2000; // points of a track
 const REMEMBERED = 20; // s of phases
 const SAID = 50; // sentences of the log
@@ -42,7 +44,7 @@ export class State {
     this.gait = null;
     this.links = {};
     this.playback = null;
-    this.scale = { N: 0, counts: 0 }; // highest pressure of a cell so far: kPa, and counts
+    this.scale ??= new Scales();
   }
 
   // The names of what changed; a message of an unknown type changes nothing.
@@ -61,6 +63,7 @@ export class State {
     this.plan = plan(message.plan);
     for (const foot of FEET) this.layouts[foot] = layout(record(message.layouts)[foot]);
     const rest = record(message.frame);
+    this.scale.wear(JSON.stringify(message.layouts));
     const { tracks, places, phases, log } = message;
     this.#frame({ tracks, places, phases, log });
     const { tracks: _, places: __, phases: ___, log: ____, ...now } = rest; // the scene's own lists are whole
@@ -142,27 +145,12 @@ export class State {
     one.force = number(one.force);
     this.feet[foot] = one;
     changed.add("feet");
-    this.#scaled(foot, one);
+    if ("cells" in news && one.cells !== null) this.scale.hear(this.layouts[foot], one);
     const trail = this.trails[foot];
     if (one.centre === null) return; // in the air the last stance's path stays
     if (old.centre === null || old.centre === undefined) trail.length = 0;
     trail.push(one.centre);
     if (trail.length > TRAIL) trail.shift();
-  }
-
-  // Cells differ in area, so the largest value need not be the highest pressure. What was before this page connected
-  // is not known cell by cell: it was at least the highest value on the largest cell.
-  #scaled(foot, one) {
-    const shape = this.layouts[foot];
-    if (shape === null || one.cells === null) return;
-    if (shape.unit !== "N") {
-      this.scale.counts = Math.max(this.scale.counts, one.peak);
-      return;
-    }
-    let highest = one.peak / shape.largest;
-    const count = Math.min(one.cells.length, shape.cells.length);
-    for (let i = 0; i < count; i++) highest = Math.max(highest, (one.cells[i] / 255) * one.peak / shape.cells[i][2]);
-    this.scale.N = Math.max(this.scale.N, highest / 1000);
   }
 
   #thin(points) {
@@ -202,7 +190,6 @@ function layout(value) {
     unit: value.unit === "N" && areas ? "N" : "counts",
     word: value.unit === "N" ? (areas ? "kPa" : "N a cell") : "counts a cell",
     forces: value.unit === "N",
-    largest: Math.max(...cells.map((cell) => cell[2])),
   };
 }
 

@@ -10,7 +10,7 @@ import { fixed, percent, write } from "./words.js";
 
 const SURE = Math.sqrt(5.991); // 95 % of two dimensions: chi squared, 2 degrees of freedom
 const LEAST = 3; // m that are seen at least
-const MARGIN = 34; // px
+const [TOP, SIDE, BOTTOM] = [20, 18, 58]; // px around what is fitted: names, and the buttons below
 const JUMP = 5; // m between two places: another candidate became the best, nobody walked there
 const WIDTHS = { left: 1.25, right: 1.25, wearer: 3.25 };
 
@@ -27,6 +27,7 @@ export class Track {
       redraw();
     });
     this.view = new View(canvas, redraw);
+    this.view.above = (BOTTOM - TOP) / 2;
     this.alternative = new Alternative(canvas);
     this.note = document.getElementById("track-note");
     this.section = document.getElementById("track-section");
@@ -47,9 +48,9 @@ export class Track {
     const level = onPlan ? this.shown(state) : null;
     const { width, height } = this.surface;
     const box = onPlan && this.extent ? this.extent : this.#box(state);
-    this.view.fit(box, width - 2 * MARGIN, height - 2 * MARGIN, onPlan ? 0 : 0.14);
+    this.view.fit(box, width - 2 * SIDE, height - TOP - BOTTOM, onPlan ? 0 : 0.14);
     const { x, y, scale } = this.view.at(now);
-    const px = ([mx, my]) => [width / 2 + (mx - x) * scale, height / 2 - (my - y) * scale];
+    const px = ([mx, my]) => [width / 2 + (mx - x) * scale, height / 2 - this.view.above - (my - y) * scale];
 
     this.#still(state, level, px, scale, `${x} ${y}`);
     const context = this.surface.begin();
@@ -82,7 +83,7 @@ export class Track {
     this.view.all();
   }
 
-  #box({ tracks, feet }) {
+  #box({ tracks, feet, wearer }) {
     const box = [0, 0, 0, 0];
     const hold = (x, y) => {
       if (x < box[0]) box[0] = x;
@@ -92,6 +93,13 @@ export class Track {
     };
     for (const points of Object.values(tracks)) for (const point of points) hold(point[1], point[2]);
     for (const foot of FEET) if (feet[foot]?.position) hold(feet[foot].position[0], feet[foot].position[1]);
+    if (wearer?.covariance) { // as much of the uncertainty as leaves the way large enough to see
+      const most = 0.25 * Math.max(LEAST, box[2] - box[0], box[3] - box[1]);
+      const [x, y] = wearer.position;
+      const [dx, dy] = [0, 3].map((k) => Math.min(most, SURE * Math.sqrt(Math.max(0, wearer.covariance[k]))));
+      hold(x - dx, y - dy);
+      hold(x + dx, y + dy);
+    }
     for (const k of [0, 1]) {
       const lacks = Math.max(0, LEAST - (box[k + 2] - box[k])) / 2;
       box[k] -= lacks;
@@ -167,23 +175,37 @@ export class Track {
     label(context, "start", x, y + 20, theme.colours.muted);
   }
 
-  #now(context, { feet, wearer }, px, scale) {
+  #now(context, { feet, wearer, tracks }, px, scale) {
     if (wearer?.covariance) this.#ellipse(context, wearer, px, scale);
     for (const foot of FEET) {
       const place = feet[foot]?.position;
       if (!place) continue;
+      const last = tracks[foot].at(-1); // a track has the steps that ended, this one has not
+      if (last) line(context, [last, [0, ...place]], px, WIDTHS[foot], theme.colours[foot]);
       const [x, y] = px(place);
       context.beginPath();
-      if (foot === "left") context.arc(x, y, 7, 0, 2 * Math.PI);
-      else context.rect(x - 6.5, y - 6.5, 13, 13);
+      context.lineWidth = 1.5;
+      if (foot === "left") context.arc(x, y, 6, 0, 2 * Math.PI);
+      else context.rect(x - 5.5, y - 5.5, 11, 11);
       context.fillStyle = theme.colours[foot];
       context.fill();
+      context.strokeStyle = theme.colours.inset;
+      context.stroke();
       context.fillStyle = theme.colours.card;
-      context.font = "700 10px system-ui, sans-serif";
+      context.font = "700 9px system-ui, sans-serif";
       context.textAlign = "center";
-      context.fillText(foot === "left" ? "L" : "R", x, y + 3.5);
+      context.fillText(foot === "left" ? "L" : "R", x, y + 3.25);
     }
-    if (wearer) this.#dot(context, px(wearer.position));
+    if (wearer) this.#ring(context, px(wearer.position));
+  }
+
+  // Around both feet where they are too near to one another to be told apart.
+  #ring(context, [x, y]) {
+    context.beginPath();
+    context.arc(x, y, 11, 0, 2 * Math.PI);
+    context.lineWidth = 2.5;
+    context.strokeStyle = theme.colours.wearer;
+    context.stroke();
   }
 
   #dot(context, [x, y]) {
