@@ -9,9 +9,11 @@ from ..types import Foot
 from .axes import Scale, drawing, px, write
 from .markup import add, figure
 
-BARS = {Foot.LEFT: 30.0, Foot.RIGHT: 66.0}
+BARS = (30.0, 66.0)
 """Upper edges, px."""
 THICK = 24.0
+LEAST = 0.005
+"""Of the cycle: what is shorter is not told."""
 
 
 def spans(begin: float, share: float) -> list[tuple[float, float]]:
@@ -40,7 +42,7 @@ def contacts(parameters: GaitParameters) -> dict[Foot, list[tuple[float, float]]
 def overlaps(one: list[tuple[float, float]], other: list[tuple[float, float]]) -> list[tuple[float, float]]:
     """What both have in common."""
     both = [(max(a, c), min(b, d)) for a, b in one for c, d in other]
-    return sorted([(a, b) for a, b in both if b > a])
+    return sorted([(a, b) for a, b in both if b - a > LEAST])
 
 
 def neither(one: list[tuple[float, float]], other: list[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -50,7 +52,7 @@ def neither(one: list[tuple[float, float]], other: list[tuple[float, float]]) ->
         if a > last:
             free.append((last, a))
         last = max(last, b)
-    return free
+    return [(a, b) for a, b in free if b - a > LEAST]
 
 
 def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
@@ -65,9 +67,11 @@ def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
     flights = neither(*[known[foot] for foot in feet]) if len(feet) == 2 else []
     parts += [f"double support {100.0 * sum([b - a for a, b in both]):.0f} %"] if len(feet) == 2 and both else []
     parts += [f"flight {100.0 * sum([b - a for a, b in flights]):.0f} %"] if flights else []
-    svg = drawing(f"cycle-{how}", f"Mean gait cycle, {how}", f"Shares of the cycle: {', '.join(parts)}.", 136.0)
+    bars = dict(zip(feet, BARS, strict=False))
     x = Scale(0.0, 1.0, 44.0, 388.0)
-    top, bottom = BARS[feet[0]] - 8.0, BARS[feet[-1]] + THICK + 8.0
+    top, bottom = bars[feet[0]] - 8.0, bars[feet[-1]] + THICK + 8.0
+    what = f"Shares of the cycle: {', '.join(parts)}."
+    svg = drawing(f"cycle-{how}", f"Mean gait cycle, {how}", what, bottom + 38.0)
     for shaded, kind, word in ((both, "double", "double"), (flights, "flight", "flight")):
         for a, b in shaded:
             size = {"x": px(x.at(a)), "width": px(x.at(b) - x.at(a)), "y": px(top), "height": px(bottom - top)}
@@ -75,7 +79,7 @@ def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
             if b - a > 0.05:
                 write(svg, 0.5 * (x.at(a) + x.at(b)), top - 4.0, word if b - a > 0.09 else word[0], "tick", "middle")
     for foot in feet:
-        y = BARS[foot]
+        y = bars[foot]
         add(svg, "rect", class_="swing", x=px(x.start), y=px(y), width=px(x.end - x.start), height=px(THICK))
         write(svg, x.start - 6.0, y + 16.0, foot.value, "tick", "end")
         stood = known[foot]

@@ -30,9 +30,9 @@ def sentences(parent: Element, told: Sequence[str], most: int = 40) -> None:
             add(listed, "li", f"and {len(told) - most} more")
 
 
-def figure(parent: Element, svg: Element, caption: str, *notes: str, wide: bool = False) -> Element:
+def figure(parent: Element, svg: Element, caption: str, *notes: str) -> Element:
     """A drawing with what is to be seen on it: a caption, and notes in smaller words below."""
-    made = add(parent, "figure", **({"class": "wide"} if wide else {}))
+    made = add(parent, "figure")
     made.append(svg)
     told = add(made, "figcaption")
     add(told, "strong", caption)

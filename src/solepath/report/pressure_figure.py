@@ -47,9 +47,11 @@ def pressure_figures(parent: Element, soles: dict[Foot, Sole]) -> bool:
         add(parent, "p", "No whole stride was walked: the loads are means over the whole recording.")
     if maps:
         _thirds(parent, maps, means)
+    unknown = [foot.value for foot in pressed if foot not in maps and (not walked or foot in walked)]
+    if unknown:
+        words = f"{' and '.join(unknown)} sole{'s' * (len(unknown) > 1)}"
+        add(parent, "p", f"Where the cells of the {words} lie is not known, so that no map can be drawn.")
     for foot in pressed:
-        if foot not in maps and (not walked or foot in walked):
-            add(parent, "p", f"Where the cells of the {foot.value} sole lie is not known, so that no map can be drawn.")
         if walked and foot not in walked:
             add(parent, "p", f"No whole stride of the {foot.value} foot was measured with its pressure.")
     return True
@@ -165,4 +167,5 @@ def _thirds(parent: Element, soles: dict[Foot, Sole], loads: dict[Foot, list[flo
             ]
             row.append(f"{100.0 * sum(inside) / sum(loads[foot]):.0f}")
         rows.append(row)
-    table(parent, "Share of the mean load, by thirds of the insole's length", ("part", "left", "right"), rows)
+    caption = "Share of the mean load, by thirds of the insole's length"
+    table(parent, caption, ("part", "left", "right"), rows, "numbers thirds")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
@@ -23,7 +24,7 @@ from ..floorplan.plan import FloorPlan
 from ..tally import Tally
 from ..types import Foot, Phase
 from .activity_figure import activity_figure
-from .bounded import Thinned, coarser, finite
+from .bounded import Thinned, coarser, sound
 from .clock import Clock
 from .cycle_figure import cycle_figure
 from .gait_table import gait_tables
@@ -46,6 +47,20 @@ OFTEN = 0.5
 """s: the height of a foot that stands is not looked at more often."""
 
 
+NO_STRIDE = "No stride was measured, so that there are no gait parameters."
+NO_STEADY = (
+    "No stride was steady, so that there are no means: steady strides are neither first nor last of a walk, nor in a "
+    "turn, on stairs or with samples missing."
+)
+
+
+def _installed() -> str:
+    try:
+        return version("solepath")
+    except PackageNotFoundError:  # run from a folder of its own
+        return ""
+
+
 def _points() -> dict[Foot, Thinned[Stood]]:
     return {foot: Thinned(POINTS) for foot in Foot}
 
@@ -55,7 +70,7 @@ class Report:
     """Gathers what a session with `poses` and `pressures` says, in bounded memory; then writes it down.
 
     `title`: what the page is called, such as the recording's name. `plan`: that the session had. `recipe`: its name.
-    `when`: of the walk, `version`: of solepath, both as they shall be read: nothing in here looks at a clock.
+    `when`: of the walk, as it shall be read: nothing in here looks at a clock. `version`: of solepath.
     An event with a number that is none is left out.
     """
 
@@ -63,7 +78,7 @@ class Report:
     plan: FloorPlan | None = None
     recipe: str = ""
     when: str = ""
-    version: str = ""
+    version: str = field(factory=_installed)
     # state
     tally: Tally = field(factory=Tally, init=False)
     links: Links = field(factory=Links, init=False)
@@ -87,7 +102,7 @@ class Report:
 
     def add(self, event: Event) -> None:
         """One event, in the order in which the session told them."""
-        if not finite(event):
+        if not sound(event):
             return
         self.links.hear(event)
         self.spanned = _wider(self.spanned, event.t)
@@ -155,19 +170,17 @@ class Report:
         add(main, "h1", self.title)
         self._facts(main, clock)
         part = section(main, "summary", "Summary")
-        sentences(part, overview(self.tally, clock, self.spanned is not None))
+        measured = {foot: some.count for foot, some in self.strides.items()}
+        sentences(part, overview(self.tally, clock, self.spanned is not None, measured))
         part = section(main, "gait", "Gait")
         if not gait_tables(part, self.tally.gait):
-            add(part, "p", "There are no steady strides: no gait parameters can be told.")
+            add(part, "p", NO_STRIDE if not any(measured.values()) else NO_STEADY)
         shown = add(part, "div", class_="figures")
         for running in (False, True):
             parameters = self.tally.gait.of(running)
             if parameters is not None:
                 cycle_figure(shown, parameters)
-        strides = {foot: list(some) for foot, some in self.strides.items()}
-        part = section(main, "strides", "Stride by stride")
-        if not stride_figures(add(part, "div", class_="figures"), strides, clock):
-            add(part, "p", "No stride was measured.")
+        stride_figures(shown, {foot: list(some) for foot, some in self.strides.items()}, clock)
         self._track(section(main, "track-part", "Track"), clock)
         part = section(main, "pressure", "Pressure")
         if not pressure_figures(add(part, "div", class_="figures"), self.soles):

@@ -17,6 +17,8 @@ HEIGHT = 190.0
 DISC, CROSS = "h0", "m-2.6-2.6l5.2 5.2m0-5.2l-5.2 5.2"
 """The left foot's mark and the right one's: told apart without colours too."""
 SHAPES = {Foot.LEFT: DISC, Foot.RIGHT: CROSS}
+DENSE = 240
+"""Strides of a foot."""
 TURNED = 0.35
 """rad: a stride that turns by more is marked as one in a turn (20 degrees)."""
 
@@ -55,7 +57,26 @@ def stride_figures(parent: Element, strides: dict[Foot, list[Stride]], clock: Cl
         }
         if any(known.values()):
             _panel(parent, name, title, unit, least, known, clock)
+    every = [one for some in strides.values() for one in some]
+    notes = ["faint, strides that do not count in the table"] if any(not one.steady for one in every) else []
+    notes += ["ticks at the bottom, strides in a turn"] if any(one.turns for one in every) else []
+    notes += ["ticks at the top, strides with missing or saturated samples"] if any(one.degraded for one in every) else []
+    notes += ["lines, means"] if any(map(dense, strides.values())) else []
+    if notes:
+        add(parent, "p", f"In the figures of strides: {'; '.join(notes)}.", class_="note")
     return True
+
+
+def dense(some: Sequence[object]) -> bool:
+    """Whether the marks of so many strides would hide one another."""
+    return len(some) > DENSE
+
+
+def means(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Of as many neighbours in a row as make some 60 points of all."""
+    count = max(len(points) // 60, 1)
+    groups = [points[k : k + count] for k in range(0, len(points), count)]
+    return [(sum([x for x, _ in one]) / len(one), sum([y for _, y in one]) / len(one)) for one in groups]
 
 
 def _panel(
@@ -70,11 +91,15 @@ def _panel(
     values = [value for some in known.values() for _, value in some]
     what = f"{title} of every stride over time: {len(values)} strides, {min(values):.2f} to {max(values):.2f} {unit}."
     svg = drawing(f"stride-{name}", f"{title} over time", what, HEIGHT)
+    if any(map(dense, known.values())):
+        svg.set("class", "dense")
     chart = Chart.of(svg, clock.span, around(values, least=least), (clock.label, f"{title.lower()}, {unit}"), HEIGHT)
     for foot, some in known.items():
         for counted in (False, True):
             points = [(clock.of(one.t), value) for one, value in some if one.steady is counted]
             chart.marks(points, SHAPES[foot], f"mark {foot.value}{'' if counted else ' faint'}")
+        if dense(some):
+            chart.path(means([(clock.of(one.t), value) for one, value in some if one.steady]), f"line {foot.value}")
     every = [pair for some in known.values() for pair in some]
     turning = [clock.of(one.t) for one, _ in every if one.turns]
     if turning:
@@ -83,22 +108,15 @@ def _panel(
     degraded = [clock.of(one.t) for one, _ in every if one.degraded]
     if degraded:
         add(svg, "path", class_="missing", d="".join([f"M{px(chart.x.at(t))} {px(chart.y.end)}v5" for t in degraded]))
-    legend(svg, [foot for foot in Foot if known.get(foot)], bool(turning), bool(degraded))
-    notes = ["Faint: strides that do not count in the table."]
-    figure(parent, svg, f"{title} over time", *notes)
+    legend(svg, [foot for foot in Foot if known.get(foot)])
+    figure(parent, svg, f"{title} over time")
 
 
-def legend(svg: Element, feet: Sequence[Foot], turning: bool = False, degraded: bool = False) -> None:
-    """What the marks mean, at the right above a chart."""
+def legend(svg: Element, feet: Sequence[Foot]) -> None:
+    """Which mark is whose, at the right above a chart."""
     x, y = 390.0, TOP - 12.0
-    entries: list[tuple[str, str, str]] = []
-    if turning:
-        entries.append(("in a turn (below)", "m0 3.5v-7", "turn"))
-    if degraded:
-        entries.append(("samples missing (above)", "m0 2.5v-5", "missing"))
-    entries += [(foot.value, SHAPES[foot], f"mark {foot.value}") for foot in reversed(feet)]
-    for words, shape, kind in entries:
-        write(svg, x, y, words, "tick", "end")
-        x -= 5.6 * len(words) + 9.0
-        add(svg, "path", class_=kind, d=f"M{px(x)} {px(y - 4.0)}{shape}")
-        x -= 9.0
+    for foot in reversed(feet):
+        write(svg, x, y, foot.value, "tick", "end")
+        x -= 5.6 * len(foot.value) + 8.0
+        add(svg, "path", class_=f"mark {foot.value}", d=f"M{px(x)} {px(y - 4.0)}{SHAPES[foot]}")
+        x -= 12.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
@@ -20,6 +21,8 @@ PRINTS = 160
 """Footprints: more of them would hide the way."""
 TALLEST = 420.0
 """Of the drawing of a track, px."""
+BESIDE = 1.2
+"""m: farther from the wearer's way no foot of a stride is; who has two tracks that are has tracks that drift apart."""
 SMALLEST = 4.0
 """m that the longer side shows at least, so that standing still is not magnified."""
 
@@ -35,8 +38,11 @@ class Stood:
 def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[Stood]], clock: Clock) -> bool:
     """The way from above, x to the right and y up; False where there is none. `way`: the wearer's, or a foot's where
     only feet are known; `prints`: where the feet stood."""
-    every = [*way, *(one for some in prints.values() for one in some)]
-    if len(every) < 2:
+    few = sum([len(some) for some in prints.values()]) <= PRINTS
+    off = _astray(way, prints)
+    beside = few and off <= BESIDE
+    every = [*way, *(one for some in prints.values() for one in some if beside)]
+    if len(way) < 2:
         return False
     xs, ys = [one.position[0] for one in every], [one.position[1] for one in every]
     across, up = max(xs) - min(xs), max(ys) - min(ys)
@@ -59,8 +65,7 @@ def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[
         return x.at(one.position[0]), y.at(one.position[1])
 
     add(svg, "path", d=line([at(one) for one in way]), class_="way")
-    few = sum([len(some) for some in prints.values()]) <= PRINTS
-    if few:
+    if beside:
         for foot, some in prints.items():
             if d := marks([at(one) for one in some], SHAPES[foot]):
                 add(svg, "path", d=d, class_=f"mark {foot.value}")
@@ -73,10 +78,21 @@ def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[
             write(svg, a - 8.0 if late else a + 8.0, b + (13.0 if word == "end" else -6.0), word, "halo strong",
                   "end" if late else "start")
     notes = ["x along the first heading; the numbers along the way are times."]
-    if few and any(prints.values()):
+    if beside and any(prints.values()):
         notes.append("\N{BLACK CIRCLE} where the left foot stood, \N{MULTIPLICATION SIGN} the right one.")
+    if off > BESIDE:
+        notes.append(f"The tracks of the single feet come to lie up to {off:.1f} m off it and are not shown.")
     figure(parent, svg, "Track from above", *notes)
     return True
+
+
+def _astray(way: Sequence[Stood], prints: dict[Foot, list[Stood]]) -> float:
+    """How far a print lies from where the wearer was then, at the most, m."""
+    times, farthest = [one.t for one in way], 0.0
+    for one in [one for some in prints.values() for one in some] if way else []:
+        k = bisect_left(times, one.t)
+        farthest = max(farthest, min([_apart(one, other) for other in way[max(k - 1, 0) : k + 1]], default=0.0))
+    return farthest
 
 
 def _apart(a: Stood, b: Stood) -> float:
@@ -153,15 +169,15 @@ def plan_figure(parent: Element, plan: FloorPlan, told_of: Sequence[Placed | Pla
     visited = {one.level for one in places}
     levels = tuple([level for level in plan.levels if level.id in visited])
     shown = evolve(plan, levels=levels) if levels else plan
-    picture = PlanPicture(shown, width=560.0, height=420.0, columns=1)
+    picture = PlanPicture(shown, width=380.0, height=420.0, columns=1)
     for one in told_of:
         picture.add(one)
-    svg = picture.drawn("Track on the floor plan")
+    svg = picture.drawn(plan.name or "Floor plan")
     svg.set("role", "img")
     svg.set("class", "plan")
     del svg.attrib["xmlns"], svg.attrib["width"], svg.attrib["height"], svg.attrib["font-family"]
     notes = ["Colours go from the start to the end; dots are candidates, the fainter the less they are believed."]
     if len(levels) < len(plan.levels):
         notes.append("Levels where the wearer was not are left out.")
-    figure(parent, svg, f"Track on the floor plan {plan.name}".rstrip(), *notes, wide=True)
+    figure(parent, svg, "Track on the floor plan", *notes)
     return True

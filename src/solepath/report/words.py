@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ..tally import Tally
-from ..types import Foot
-from ..view.summary import did, link_health, worn
+from ..types import Foot, Turn
+from ..view.summary import link_health, worn
 from ..view.table import number
 from .activity_figure import named
 from .clock import Clock, lasted
@@ -15,33 +15,53 @@ CAUTION = (
     "from no medical device."
 )
 
+TURNS = {Turn.LEFT: "to the left", Turn.RIGHT: "to the right", Turn.ABOUT: "about"}
 
-def overview(tally: Tally, clock: Clock, begun: bool) -> list[str]:
-    """The walk in sentences. `begun`: something was heard at all."""
+
+def overview(tally: Tally, clock: Clock, begun: bool, measured: dict[Foot, int]) -> list[str]:
+    """The walk in sentences. `begun`: something was heard at all; `measured`: gait cycles of each foot, for a foot
+    without a track."""
     if not begun:
         return ["Nothing was heard of either foot."]
     told = [f"The recording lasts {lasted(clock.end - clock.begin)}."]
     stepped = {foot: tally.feet[foot] for foot in Foot if foot in tally.feet and tally.feet[foot].steps}
     for foot, one in stepped.items():
-        degraded = f", in {one.degraded} of them samples are missing or saturated" if one.degraded else ""
         far = f" over {number(one.distance, 1)} m" if one.distance > 0.0 else ""
-        told.append(f"The {foot.value} foot took {one.steps} stride{'s' * (one.steps != 1)}{far}{degraded}.")
-    if not stepped:
+        told.append(f"The {foot.value} foot took {one.steps} stride{'s' * (one.steps != 1)}{far}.")
+    for foot, count in measured.items():
+        if count and foot not in stepped:
+            told.append(f"The {foot.value} foot took {count} stride{'s' * (count != 1)}; how far is not known.")
+    if not stepped and not any(measured.values()):
         told.append("No foot took a step.")
     if tally.fused is not None:
         told.append(f"Both feet together went {number(tally.fused.distance, 1)} m.")
     spans = tally.timeline.lasted(clock.end)
     if spans:
         told.append(f"Activities: {', '.join([f'{named(what)} {lasted(t)}' for what, t in spans.items()])}.")
-    told += [f"{one[0].upper()}{one[1:]}." for one in did(tally) if not one.startswith("activities")]
+    for counted, what in ((tally.flights, "Flights of stairs"), (tally.rides, "Lift rides")):
+        ways = [f"{counted[up]} {'up' if up else 'down'}" for up in (True, False) if counted[up]]
+        if ways:
+            told.append(f"{what}: {', '.join(ways)}.")
+    turns = [f"{tally.turns[turn]} {words}" for turn, words in TURNS.items() if tally.turns[turn]]
+    if turns:
+        told.append(f"Turns: {', '.join(turns)}.")
     return told
 
 
 def wrong(tally: Tally) -> list[str]:
     """What was wrong with sensors, their wearing and their links; nothing when all is well."""
     found = [*worn(tally), *link_health(tally)]
-    found += [f"{foot.value} foot: {one.gaps} gaps in the samples, {number(one.gap_time)} s in all"
-              for foot, one in tally.feet.items() if one.gaps]  # fmt: skip
+    feet = [(foot, tally.feet[foot]) for foot in Foot if foot in tally.feet]
+    found += [
+        f"{foot.value} foot: in {one.degraded} of {one.steps} strides samples are missing or saturated"
+        for foot, one in feet
+        if one.degraded
+    ]
+    found += [
+        f"{foot.value} foot: {one.gaps} gaps in the samples, {number(one.gap_time)} s in all"
+        for foot, one in feet
+        if one.gaps
+    ]
     found += [f"suspect scale, {what}" for what in tally.suspects]
     return [f"{one[0].upper()}{one[1:]}." for one in found if one]
 

@@ -21,6 +21,8 @@ HEIGHT = 640.0
 """... and its height."""
 MARGIN, GAP, HEAD, FOOT = 24.0, 36.0, 64.0, 64.0
 """Around everything, between panels, above them and below, px."""
+NARROW = 640.0
+"""A narrower picture has a legend of two lines, px."""
 PIECE = 12
 """Steps of the track that share a colour."""
 DOTS = 4000
@@ -69,7 +71,8 @@ class PlanPicture:
         columns = self.columns or (count if count <= 3 else 3 if count > 4 else 2)
         rows = -(-count // columns)
         width = 2.0 * MARGIN + columns * frame.width + (columns - 1) * GAP
-        height = HEAD + rows * (frame.height + GAP) + FOOT
+        lines = 2 if width < NARROW else 1
+        height = HEAD + rows * (frame.height + GAP) + lines * FOOT
         size = {"width": _px(width), "height": _px(height), "viewBox": f"0 0 {_px(width)} {_px(height)}"}
         svg = Element("svg", {"xmlns": "http://www.w3.org/2000/svg", **size, "font-family": "system-ui, sans-serif"})
         SubElement(svg, "title").text = _plain(title)
@@ -83,7 +86,7 @@ class PlanPicture:
             move = {"transform": f"translate({_px(left)} {_px(top)})"}
             panel = SubElement(svg, "g", move)
             self._level(panel, level, frame)
-        self._legend(svg, frame, width, height - FOOT + 14.0)
+        self._legend(svg, frame, width, height - lines * FOOT + 14.0)
         return svg
 
     def _level(self, panel: Element, level: Level, frame: _Frame) -> None:
@@ -159,6 +162,8 @@ class PlanPicture:
             _text(svg, left, top + 28.0, f"{first:.0f} s", size=12.0)
             _text(svg, left + 120.0, top + 28.0, f"{last:.0f} s", size=12.0, anchor="end")
             left += 160.0
+        if width < NARROW:
+            left, top = MARGIN + 5.0, top + 0.8 * FOOT
         for fill, opacity, word in ((CANDIDATE, "0.4", "candidate"), (STAIRS, "1", "stairs"), (LIFT, "1", "lift")):
             dot = {"cx": _px(left), "cy": _px(top + 6.0), "r": "5", "fill": fill, "fill-opacity": opacity}
             SubElement(svg, "circle", dot)
