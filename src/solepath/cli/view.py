@@ -63,7 +63,7 @@ def attended() -> bool:
 
 
 def view_of(options: argparse.Namespace) -> View | None:
-    """What --view names; None without it. Failure for what is no address, and where there is no aiohttp."""
+    """What --view names; None without it. Failure for what is no address or is taken, and where there is no aiohttp."""
     if options.view is None:
         return None
     browser = sys.stdout.isatty() and not options.no_browser
@@ -76,6 +76,7 @@ def view_of(options: argparse.Namespace) -> View | None:
         view = View(host.removeprefix("[").removesuffix("]"), int(port), browser)
     if not aiohttp_is_there():
         raise Failure("--view needs aiohttp: pip install 'solepath[view]'")
+    _check_free(view)
     return view
 
 
@@ -110,8 +111,7 @@ async def page_of(scene: Scene, view: View, commands: Callable[[Command], None] 
     try:
         await page.__aenter__()
     except (OSError, UnicodeError) as error:
-        at = f"--view {printable(view.host, 80)}:{view.port or 0}"
-        raise Failure(f"{at}: {_words(error)}") from None
+        raise _taken(view, error) from None
     try:
         print(f"the page: {page.url}", flush=True)
         if not on_loopback(view.host):
@@ -155,9 +155,22 @@ def _open(url: str) -> None:
         note("no browser could be opened: the address is for one of your own")
 
 
-def _words(error: OSError | UnicodeError) -> str:
-    """Why nothing can be served there; without a number, as errors of name servers have it, in their own words."""
+def _check_free(view: View) -> None:
+    """Failure now when nothing will be served there later, after a long recording was read."""
+    from ..page.address import listen
+
+    try:
+        listen(view.host, view.port).close()
+    except (OSError, UnicodeError) as error:
+        raise _taken(view, error) from None
+
+
+def _taken(view: View, error: OSError | UnicodeError) -> Failure:
+    """Why nothing can be served there; where there is no number, as errors of name servers have none, in their own
+    words."""
+    at = f"--view {printable(view.host, 80)}:{view.port or 0}"
     if isinstance(error, UnicodeError):
-        return "there is no such host"
-    number = error.errno
-    return os.strerror(number).lower() if number is not None and number > 0 else str(error.strerror or error).lower()
+        return Failure(f"{at}: there is no such host")
+    known = error.errno is not None and error.errno > 0
+    why = os.strerror(error.errno or 0) if known else error.strerror or str(error)
+    return Failure(f"{at}: {why.lower()}")

@@ -1,0 +1,266 @@
+"""demo, track and live on the page: what a browser hears, what it may ask for, and how the commands end."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
+from contextlib import asynccontextmanager, contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from commands import refused, run
+from solepath.recording import PacketWriter
+from solepath.sim.route import Route
+from solepath.sim.walk import emulate
+
+aiohttp = pytest.importorskip("aiohttp")
+
+TAKES = 30.0
+"""s that a program may take to say or do something before the test gives up."""
+ANYWHERE = ("--view", "127.0.0.1:0")
+ALONE = "import sys; sys.modules.update(dict.fromkeys(['bleak', 'bumble', 'rich', 'mcap', 'matplotlib'])); "
+"""Nothing but the extra `view`."""
+
+
+@pytest.fixture(autouse=True)
+def nobody_at_a_terminal(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    with open(os.devnull) as nothing:
+        monkeypatch.setattr(sys, "stdin", nothing)
+        yield
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Some steps in two insoles."""
+    file = tmp_path_factory.mktemp("view") / "walk.jsonl"
+    with PacketWriter(file) as writer:
+        for packet in emulate(Route().stand(0.5).walk(2.5, speed=1.3).stop(0.5), seed=4).packets:
+            writer.write(packet)
+    return file
+
+
+@contextmanager
+def started(*arguments: object, code: str = "", **options: Any) -> Iterator[subprocess.Popen[str]]:
+    """A command as a program of its own, until the test is through with it."""
+    program = f"{code}from solepath.cli import main; raise SystemExit(main({[str(one) for one in arguments]!r}))"
+    piped = dict.fromkeys(("stdout", "stderr"), subprocess.PIPE) | {"stdin": subprocess.DEVNULL}
+    process = subprocess.Popen([sys.executable, "-c", program], text=True, **(piped | options))
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def address(process: subprocess.Popen[str]) -> str:
+    """Of the page, as the command says it."""
+    assert process.stdout is not None
+    for line in process.stdout:
+        if found := re.search(r"the page: (http://\S+#token=\S+)$", line):
+            return found[1]
+    raise AssertionError("no page was served")
+
+
+class Watcher:
+    """What a browser knows of a page, and asks for."""
+
+    def __init__(self, socket: aiohttp.ClientWebSocketResponse) -> None:
+        self.socket = socket
+        self.scene: dict[str, Any] = {}
+        self.frame: dict[str, Any] = {}
+        self.scenes = 0
+
+    async def until(self, holds: Callable[[dict[str, Any]], bool]) -> None:
+        """Until that holds of the frame as it is now."""
+        async with asyncio.timeout(TAKES):
+            while not self.scene or not holds(self.frame):
+                message = json.loads(await self.socket.receive_str())
+                if message["type"] == "scene":
+                    self.scene, self.frame, self.scenes = message, message["frame"], self.scenes + 1
+                else:
+                    self.frame |= message
+
+    async def ask(self, do: str, *value: float) -> None:
+        await self.socket.send_str(json.dumps({"do": do} | ({"value": value[0]} if value else {})))
+
+
+@asynccontextmanager
+async def watching(url: str) -> AsyncIterator[Watcher]:
+    page, _, token = url.partition("/#token=")
+    async with aiohttp.ClientSession() as client, client.ws_connect(f"{page}/ws?token={token}") as socket:
+        yield Watcher(socket)
+
+
+def watch(url: str, what: Callable[[Watcher], Awaitable[None]]) -> None:
+    async def main() -> None:
+        async with watching(url) as watcher:
+            await what(watcher)
+
+    asyncio.run(main())
+
+
+def test_in_a_terminal_the_demo_opens_a_browser_is_steered_there_and_ends_with_the_same_table_at_ctrl_c(tmp_path: Path):
+    pty = pytest.importorskip("pty")
+    browser, opened = tmp_path / "browser", tmp_path / "opened"
+    browser.write_text(f'#!/bin/sh\nprintf %s "$1" > {opened}.new && mv {opened}.new {opened}\n')
+    browser.chmod(0o755)
+
+    async def steer(page: Watcher) -> None:
+        await page.until(lambda frame: frame["t"] > 0.3 and frame["feet"]["left"] is not None)
+        assert (page.scene["source"], page.scene["control"]) == ("demo", True)
+        assert len(page.scene["layouts"]["left"]["cells"]) == 96
+        assert page.frame["feet"]["left"]["cells"] is not None
+        end = page.frame["playback"]["end"]
+        await page.ask("pause")
+        await page.until(lambda frame: frame["playback"]["state"] == "paused")
+        await page.ask("seek", end - 1.0)
+        await page.until(lambda frame: frame["playback"]["t"] == round(end - 1.0, 3))
+        scenes = page.scenes
+        assert page.frame["feet"]["left"]["steps"] >= 2
+        await page.ask("seek", 1.0)
+        await page.until(lambda frame: frame["playback"]["t"] == 1.0)
+        assert page.frame["feet"]["left"]["steps"] == 0 and page.scenes > scenes
+        assert page.frame["playback"]["seeking"] is None
+        await page.ask("speed", 32)
+        await page.ask("play")
+        await page.until(lambda frame: frame["playback"]["state"] == "ended")
+        assert page.frame["playback"]["t"] == end
+
+    ours, theirs = pty.openpty()
+    environment = os.environ | {"BROWSER": str(browser), "TERM": "xterm"}
+    terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs) | {"env": environment}
+    with started("demo", "--distance", 3, code=ALONE, **terminal) as process:
+        os.close(theirs)
+        seen = ""
+        while "Ctrl-C ends it" not in seen:
+            seen += os.read(ours, 65536).decode()
+        url = re.search(r"the page: (\S+)", seen)
+        assert url is not None and opened.read_text() == url[1]
+        watch(url[1], steer)
+        assert process.poll() is None
+        process.send_signal(signal.SIGINT)
+        try:
+            while part := os.read(ours, 65536):
+                seen += part.decode()
+        except OSError:  # how Linux says that the other end of a terminal was closed
+            pass
+        assert process.wait(TAKES) == 0
+    os.close(ours)
+    table = "against the truth"
+    assert table in seen and "\x1b[" not in seen
+    straight = run("demo", "--distance", 3).stdout
+    assert seen.replace("\r\n", "\n").partition(table)[2] == straight.partition(table)[2]
+
+
+def test_without_a_terminal_the_demo_plays_to_its_end_by_itself_at_a_port_that_is_free():
+    with socket.socket() as taken:
+        try:
+            taken.bind(("127.0.0.1", 8765))
+            taken.listen()
+        except OSError:
+            pass  # somebody else has it
+        done = run("demo", "--distance", 2, "--view", "--speed", 32)
+    assert (done.returncode, done.stderr) == (0, "")
+    found = re.search(r"\nthe page: http://127.0.0.1:(\d+)/", done.stdout)
+    assert found is not None and found[1] != "8765" and "\nagainst the truth" in done.stdout
+
+
+def test_a_port_that_was_named_and_is_taken_is_said_before_anything_is_computed(recording: Path):
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        for command in (("demo",), ("track", recording), ("live",)):
+            line = refused(*command, "--view", f"127.0.0.1:{port}")
+            assert line == f"solepath: --view 127.0.0.1:{port}: address already in use\n"
+
+
+def test_what_track_writes_does_not_depend_on_the_page(recording: Path, tmp_path: Path):
+    plain, viewed = tmp_path / "plain", tmp_path / "viewed"
+    said = run("track", recording, "--out", plain, "--report", tmp_path / "plain.html")
+
+    async def steer(page: Watcher) -> None:
+        await page.until(lambda frame: True)
+        assert (page.scene["title"], page.scene["source"]) == ("walk.jsonl", "recording")
+        await page.ask("seek", 3.0)
+        await page.until(lambda frame: frame["playback"]["t"] >= 3.0)
+        await page.ask("seek", 1.0)
+        await page.until(lambda frame: 1.0 <= frame["playback"]["t"] < 3.0)
+
+    with started("track", recording, *ANYWHERE, "--out", viewed, "--report", tmp_path / "viewed.html") as process:
+        assert process.stdout is not None
+        summed_up = ""
+        while "report in " not in summed_up:
+            summed_up += process.stdout.readline()
+        watch(address(process), steer)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=TAKES)
+    assert (process.returncode, err) == (0, "")
+    for name in ("events.jsonl", "track.csv", "steps.csv", "gait.csv"):
+        assert (plain / name).read_bytes() == (viewed / name).read_bytes()
+    assert (tmp_path / "plain.html").read_bytes() == (tmp_path / "viewed.html").read_bytes()
+    assert summed_up.partition("written to")[0] == said.stdout.partition("computed in")[0]
+
+
+def test_a_damaged_recording_is_played_up_to_the_damage_and_a_page_for_other_machines_is_said_to_be_one(
+    recording: Path, tmp_path: Path
+):
+    lines = recording.read_text().splitlines()
+    torn = tmp_path / "torn.jsonl"
+    torn.write_text("\n".join([*lines[: len(lines) // 2], "what?", *lines[len(lines) // 2 :]]))
+    done = run("track", torn, "--view", "0.0.0.0:0", "--speed", 32)
+    damage, warning = done.stderr.splitlines()
+    assert done.returncode == 2 and f"torn.jsonl: line {len(lines) // 2 + 1}: is not JSON" in damage
+    assert "can be reached from other machines" in warning
+    assert re.search(r"\nthe page: http://[^/]+:\d+/#token=\S{16,}\n", done.stdout)
+
+
+@pytest.mark.parametrize("where", ["8765", "here", ":80", "127.0.0.1:", "127.0.0.1:70000", "127.0.0.1:-1"])
+def test_what_is_no_address_is_refused(where: str, recording: Path):
+    for command in (("demo",), ("track", recording), ("live",)):
+        assert "that is not HOST:PORT, as in 127.0.0.1:8765" in refused(*command, f"--view={where}")
+
+
+def test_a_pace_that_no_page_has_is_refused(recording: Path):
+    assert "on the page it is from 0.1 to 32" in refused("track", recording, *ANYWHERE, "--speed", "33")
+    assert "on the page it is from 0.1 to 32" in refused("demo", *ANYWHERE, "--speed", "0.01")
+
+
+def test_without_aiohttp_the_page_is_refused_with_how_to_install_it(recording: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setitem(sys.modules, "aiohttp", None)
+    for command in (("demo",), ("track", recording), ("live",)):
+        assert refused(*command, "--view") == "solepath: --view needs aiohttp: pip install 'solepath[view]'\n"
+
+
+def test_a_report_that_cannot_be_written_is_refused_before_anything_is_computed(recording: Path, tmp_path: Path):
+    assert "no such file or directory" in refused("track", recording, "--report", tmp_path / "none" / "r.html").lower()
+
+
+def test_live_sensors_are_seen_on_the_page_as_they_are_worn(tmp_path: Path):
+    pytest.importorskip("bumble")
+
+    async def look(page: Watcher) -> None:
+        await page.until(lambda frame: len(frame["links"]) == 2 and frame["feet"]["left"] is not None)
+        assert (page.scene["source"], page.scene["control"]) == ("live", False)
+        await page.until(lambda frame: all(link["state"] == "ok" for link in frame["links"].values()))
+        await page.until(lambda frame: frame["feet"]["right"] is not None and frame["feet"]["right"]["force"] > 100.0)
+
+    with started("emulate", "--listen", "127.0.0.1:0", "--distance", 5) as emulator:
+        assert emulator.stdout is not None
+        where = emulator.stdout.readline().split()[-1]
+        named = ("--left", "solepath L", "--right", "solepath R", "--via", where)
+        with started("live", *named, *ANYWHERE, "--out", tmp_path, "--duration", 60) as process:
+            watch(address(process), look)
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=TAKES)
+    assert (process.returncode, err) == (0, "") and f"written to {tmp_path}" in out
+    assert "FootPressed" not in (tmp_path / "events.jsonl").read_text()
