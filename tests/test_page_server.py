@@ -441,6 +441,26 @@ def test_somebody_who_repeats_an_offence_does_not_fill_the_log(caplog: pytest.Lo
     run(main())
 
 
+def test_no_part_of_the_library_logs_what_a_client_sends(caplog: pytest.LogCaptureFixture) -> None:
+    odd = (b"GET /ws", b"\x16\x03\x01\x02", b"POST / HTTP/1.1\r\nContent-Length: x\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n")
+
+    async def main() -> None:
+        async with served() as (page, client, url):
+            for sent in (*odd, handshake("localhost", "Sec-WebSocket-Protocol: EVIL\r\n")):
+                reader, writer = await raw(page)
+                writer.write(sent)
+                writer.write_eof()
+                await reader.read()
+                writer.close()
+            assert await refused(client.ws_connect(f"{url}ws", protocols=["EVIL"])) == 400
+            async with client.get(f"{url}ws") as answer:
+                assert answer.status == 400
+        assert {one.name for one in caplog.records} == {LOGGER}
+        assert "EVIL" not in caplog.text
+
+    run(main())
+
+
 def test_what_was_not_told_is_counted(caplog: pytest.LogCaptureFixture) -> None:
     told = offences.Offences(logging.getLogger(LOGGER))
     for _ in range(offences.AT_ONCE + 5):

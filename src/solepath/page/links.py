@@ -54,8 +54,9 @@ class Beat:
 
 @define
 class Link:
-    """One site's. Times are arrivals, s."""
+    """One site's. Times are arrivals, s. `counts`: a session tells of its samples, as it does of those of feet."""
 
+    counts: bool = True
     health: LinkHealth = field(factory=LinkHealth)
     moves: Beat = field(factory=Beat)
     """Samples of the inertial sensor."""
@@ -111,12 +112,16 @@ class Link:
             return "lost"
         if self.stale:
             return "silent"
+        if not self.counts:
+            return "ok"
         if not self.fresh:
             return "waiting"
         return "ok" if self.heard is None or now - self.heard <= SILENT else "silent"
 
-    def rate(self, now: float) -> float:
-        """Samples a second of late, in the digits that are shown."""
+    def rate(self, now: float) -> float | None:
+        """Samples a second of late, in the digits that are shown; None where nobody counts."""
+        if not self.counts:
+            return None
         moves, presses = self.moves.rate(now), self.presses.rate(now)
         rate = moves if moves > 0.0 else presses
         return round(rate) if rate >= 20.0 else round(rate, 1)

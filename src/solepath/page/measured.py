@@ -6,7 +6,7 @@ from typing import Any
 
 from attrs import asdict, define, field
 
-from ..body.gait_means import GaitMeans
+from ..body.gait_means import GaitMeans, GaitParameters
 from ..events import StrideMeasured
 from ..types import Foot
 from ..view.gait_rows import GaitRow, gait_rows
@@ -19,11 +19,13 @@ class Measured:
 
     means: GaitMeans = field(factory=GaitMeans)
     _told: dict[str, Any] | None = None
+    _new: bool = False
+    """A stride came since it was told."""
 
     def take(self, stride: StrideMeasured) -> None:
         """One more stride."""
         self.means.hear(stride)
-        self._told = None
+        self._new = True
 
     def interrupt(self, foot: Foot) -> None:
         """The foot's times begin anew."""
@@ -31,17 +33,20 @@ class Measured:
 
     def frame(self) -> dict[str, Any] | None:
         """As "gait" of a frame; None before any steady stride."""
-        parameters = self.means.parameters
-        if parameters is None:
-            return None
-        if self._told is None:
-            self._told = {
-                "running": parameters.running,
-                "cadence": shown(parameters.cadence, 1),
-                "coordination": shown(parameters.coordination, 4),
-                "rows": [_row(row) for row in gait_rows(parameters)],
-            }
+        if self._new:
+            self._new = False
+            parameters = self.means.parameters
+            self._told = None if parameters is None else _told(parameters)
         return self._told
+
+
+def _told(parameters: GaitParameters) -> dict[str, Any]:
+    return {
+        "running": parameters.running,
+        "cadence": shown(parameters.cadence, 1),
+        "coordination": shown(parameters.coordination, 4),
+        "rows": [_row(row) for row in gait_rows(parameters)],
+    }
 
 
 def _row(row: GaitRow) -> dict[str, Any]:

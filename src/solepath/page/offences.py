@@ -9,7 +9,7 @@ from attrs import define, field
 
 AT_ONCE = 10
 """Lines that may come together."""
-EVERY = 30.0
+EVERY = 60.0
 """s after which there may be one more."""
 
 

@@ -126,7 +126,7 @@ class Scene:
     def _link(self, site: Site) -> Link:
         link = self.links.get(site)
         if link is None:
-            link = self.links[site] = Link()
+            link = self.links[site] = Link(site.foot is not None)
         return link
 
     def _moved(self, event: FootMoved) -> None:

@@ -144,6 +144,8 @@ class Page:
         return web.Response(body=body, content_type=kind, charset="utf-8", headers=HEADERS)
 
     async def _watched(self, request: web.BaseRequest, host: str) -> web.StreamResponse:
+        if "Sec-WebSocket-Protocol" in request.headers:
+            raise Refused("somebody wants to speak another protocol", 400)
         self._access.check_origin(request.headers.getall("Origin", []), host)
         steers = self._access.may_steer(request.query.getall("token", []))
         if len(self._watchers) >= MOST_WATCHERS:

@@ -8,6 +8,7 @@ from typing import Any
 from attrs import define, field
 
 from ..events import Candidate, Placed, PlaceLost, WearerMoved
+from ..types import Vec3
 from .feet import SPACING, Point
 from .lists import Track
 from .rounding import placed, shown
@@ -29,22 +30,24 @@ class Whereabouts:
     places: Track[PlacePoint] = field(factory=Track)
     level: str | None = None
     """The last one that there was no doubt of."""
+    _last: Vec3 | None = None
+    """The newest point of the track."""
     _told: tuple[Placed | None, dict[str, Any] | None] = (None, None)
 
     def stepped(self, event: WearerMoved) -> None:
         """Where the wearer is after a step."""
         self.moved = event
-        last = self.track.points[-1] if self.track.points else None
-        here = (shown(event.t), *placed(event.position))
-        if last is None or None in here or None in last or dist(last[1:], here[1:]) >= SPACING:  # type: ignore[arg-type]
-            self.track.add(here)
+        if self._last is None or dist(event.position, self._last) >= SPACING:
+            self._last = event.position
+            self.track.add((shown(event.t), *placed(event.position)))
 
     def found(self, event: Placed) -> str | None:
         """A place on the plan; the level where it is another one than before, and beyond doubt."""
         self.place = event
         if any([one.level != event.level for one in event.candidates]):
             return None
-        self.places.add((shown(event.t), event.level, *placed(event.position)))  # type: ignore[arg-type]
+        x, y, z = placed(event.position)
+        self.places.add((shown(event.t), event.level, x, y, z))
         if event.level == self.level:
             return None
         self.level = event.level
