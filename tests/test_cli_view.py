@@ -11,7 +11,7 @@ import socket
 import subprocess
 import sys
 from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
-from contextlib import asynccontextmanager, contextmanager
+from contextlib import ExitStack, asynccontextmanager, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -162,12 +162,9 @@ def test_in_a_terminal_the_demo_opens_a_browser_is_steered_there_and_ends_with_t
 
 
 def test_without_a_terminal_the_demo_plays_to_its_end_by_itself_at_a_port_that_is_free():
-    with socket.socket() as taken:
-        try:
-            taken.bind(("127.0.0.1", 8765))
-            taken.listen()
-        except OSError:
-            pass  # somebody else has it
+    with ExitStack() as stack:
+        with suppress(OSError):  # somebody else has it
+            stack.enter_context(socket.create_server(("127.0.0.1", 8765)))
         done = run("demo", "--distance", 2, "--view", "--speed", 32)
     assert (done.returncode, done.stderr) == (0, "")
     found = re.search(r"\nthe page: http://127.0.0.1:(\d+)/", done.stdout)
@@ -175,9 +172,7 @@ def test_without_a_terminal_the_demo_plays_to_its_end_by_itself_at_a_port_that_i
 
 
 def test_a_port_that_was_named_and_is_taken_is_said_before_anything_is_computed(recording: Path):
-    with socket.socket() as taken:
-        taken.bind(("127.0.0.1", 0))
-        taken.listen()
+    with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         for command in (("demo",), ("track", recording), ("live",)):
             line = refused(*command, "--view", f"127.0.0.1:{port}")
