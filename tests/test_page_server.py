@@ -526,23 +526,51 @@ def walked(watch: Callable[[Page], Awaitable[None]] | None) -> list[Any]:
     return events
 
 
-async def hold(page: Page) -> None:
+async def hold(page: Page, room: int = 4096) -> None:
     """Connects and never reads."""
-    _, writer = await raw(page)
-    writer.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    reader, writer = await raw(page)
+    writer.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, room)
     writer.transport.pause_reading()
     writer.write(handshake("localhost"))
     await asyncio.sleep(0.1)
-    HELD.append(writer)
+    HELD.append((reader, writer))
 
 
-HELD: list[asyncio.StreamWriter] = []
+HELD: list[tuple[asyncio.StreamReader, asyncio.StreamWriter]] = []
 
 
 def test_a_session_says_the_same_whoever_watches() -> None:
     alone = walked(None)
     assert walked(hold) == alone
     HELD.clear()
+
+
+def test_a_browser_that_reads_slowly_is_shown_less_and_the_newest(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(watcher, "INTERVAL", 0.001)
+
+    async def main() -> None:
+        async with served() as (page, _, _):
+            await hold(page, 65_536)
+            (slow,) = page._watchers
+            shown = 0
+            while not slow._unread():
+                shown += 1
+                page.scene = Scene(f"{shown} {'x' * 20_000}", "default")
+                await asyncio.sleep(0.002)
+            for _ in range(50):
+                page.scene = Scene(f"{shown} {'x' * 20_000}", "default")
+                shown += 1
+                await asyncio.sleep(0.002)
+            page.scene = Scene("the newest", "default")
+            reader, writer = HELD.pop()
+            writer.transport.resume_reading()
+            told = b""
+            while b"the newest" not in told:
+                told += await reader.read(65536)
+            assert told.count(b'"type":"scene"') < shown
+            writer.close()
+
+    run(main())
 
 
 def test_a_browser_that_reads_nothing_gets_nothing_more_and_is_let_go(
