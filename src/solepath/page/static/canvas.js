@@ -43,20 +43,30 @@ export class Surface {
   }
 }
 
-// A text alternative, no more than once a second, so that a screen reader is not talked over.
+// A text alternative, no more than once a second, so that a screen reader is not talked over. What is said in between
+// waits its turn, and the last of it is heard.
 export class Alternative {
-  #said = -Infinity;
+  #waiting = null;
+  #silent = false;
 
   constructor(canvas) {
     this.canvas = canvas;
   }
 
   say(words) {
-    const now = performance.now();
-    if (now - this.#said < 1000) return;
-    this.#said = now;
-    const label = words();
+    this.#waiting = words;
+    if (!this.#silent) this.#speak();
+  }
+
+  #speak() {
+    const label = this.#waiting();
+    this.#waiting = null;
     if (label !== this.canvas.getAttribute("aria-label")) this.canvas.setAttribute("aria-label", label);
+    this.#silent = true;
+    setTimeout(() => {
+      this.#silent = false;
+      if (this.#waiting !== null) this.#speak();
+    }, 1000);
   }
 }
 
