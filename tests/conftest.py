@@ -1,12 +1,19 @@
 """What tests share: where the recorded data are, and what the default recipe makes of them."""
 
+from __future__ import annotations
+
 import os
+from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 from solepath.evaluate.jobs import evaluate, find
 from solepath.evaluate.report import Result
+
+if TYPE_CHECKING:
+    from browsers import Browsing
 
 
 @pytest.fixture(scope="session")
@@ -25,3 +32,15 @@ def results(data_dir: Path) -> list[Result]:
     that takes minutes."""
     quick = [data_set.name for data_set in find(data_dir) if not data_set.folds]
     return list(evaluate(data_dir, ["default"], only=quick, processes=2))
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browsing]:
+    """The browser that all tests of the page share; a skip where there can be none."""
+    from browsers import browsing, why_not
+
+    reason = why_not()
+    if reason is not None:
+        pytest.skip(reason)
+    with browsing() as found:
+        yield found

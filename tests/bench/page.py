@@ -1,0 +1,219 @@
+"""What the page costs: `python tests/bench/page.py [--minutes 10]`. Prints tables; asserts nothing.
+
+A process of its own feeds a session with two insoles of 96 cells at 100 Hz, in real time: without a page, with a page
+that nobody watches, with one in a browser (Chromium, 1280 x 900), and with one whose watcher has stopped reading. Each
+takes so many minutes. The share of a core is processor time of that process from the first packet to the last, the
+server's included and the browser's not.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import json
+import os
+import platform
+import resource
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import AsyncExitStack, contextmanager
+from pathlib import Path
+from statistics import median, quantiles
+from time import process_time
+from urllib.parse import urlsplit
+
+sys.path.insert(0, str(Path(__file__).parent.parent))
+
+from attrs import define, field  # noqa: E402
+
+from browsers import Browser, Browsing, Window, browsing, program, why_not, window  # noqa: E402
+from shown import squares, walked  # noqa: E402
+from solepath import Session  # noqa: E402
+from solepath.page.scene import Scene  # noqa: E402
+from solepath.page.server import Page  # noqa: E402
+
+WAYS = {
+    "without": "no page",
+    "alone": "a page, nobody watching",
+    "browser": "a browser",
+    "stalled": "a watcher that reads nothing",
+}
+MINUTE = 60.0
+ROUND = 40.0
+"""s that a square takes at the least."""
+SETTLED = 1.0
+"""Minutes after which the page's memory is taken first."""
+
+
+# --- the process that is measured -------------------------------------------------------------------------------------
+
+
+async def serve(way: str, seconds: float) -> None:
+    """Prints the page's address, waits for a line, feeds the session, prints the processor time in s."""
+    packets = [packet for packet in walked(squares(int(seconds / ROUND) + 1)) if packet.t <= seconds]
+    page = None if way == "without" else Page(Scene("a walk of the benchmark", "default", "live"), port=0)
+    session = Session(poses=True) if page is None else Session(poses=True, pressures=True)
+    loop = asyncio.get_running_loop()
+    async with AsyncExitStack() as stack:
+        if page is not None:
+            await stack.enter_async_context(page)
+        print("" if page is None else page.url, flush=True)
+        await loop.run_in_executor(None, sys.stdin.readline)
+        began, used = loop.time(), process_time()
+        for packet in packets:
+            wait = began + packet.t - loop.time()
+            if wait > 0.0:
+                await asyncio.sleep(wait)
+            for event in session.feed(packet):
+                if page is not None:
+                    page.scene.take(event)
+        print(json.dumps(process_time() - used), flush=True)
+
+
+@contextmanager
+def serving(way: str, seconds: float) -> Iterator[subprocess.Popen[str]]:
+    command = [sys.executable, __file__, "--serve", way, "--minutes", str(seconds / MINUTE)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
+
+
+# --- who watches ------------------------------------------------------------------------------------------------------
+
+
+@define
+class Watched:
+    """What a browser saw. `sizes`: bytes of the messages that came; `early`, `late`: bytes of the scripts' heap,
+    elements of the document, and bytes of the process, after SETTLED and at the end."""
+
+    sizes: list[int] = field(factory=list)
+    drawn: float = 0.0
+    """Frames a second."""
+    busy: float = 0.0
+    """Share of the time that the page's thread worked."""
+    early: tuple[int, int, int] | None = None
+    late: tuple[int, int, int] = (0, 0, 0)
+
+
+def watch(browser: Browsing, url: str, process: subprocess.Popen[str], seconds: float) -> Watched:
+    async def main(chromium: Browser) -> Watched:
+        found = Watched()
+        async with window(chromium, "about:blank") as view:
+            view.tab.on("websocket", lambda link: link.on("framereceived", lambda data: found.sizes.append(len(data))))
+            await view.devtools.send("Performance.enable")
+            await view.tab.goto(url)
+            await asyncio.sleep(1.0)
+            begin(process)
+            found.sizes.clear()
+            worked, drawn, spent = await busy(view), await frames(view), 0.0
+            if seconds > SETTLED * MINUTE:
+                spent = SETTLED * MINUTE
+                await asyncio.sleep(spent)
+                found.early = (*await view.memory(), await resident(chromium))
+            await asyncio.sleep(seconds - 1.0 - spent)
+            found.drawn = (await frames(view) - drawn) / (seconds - 1.0)
+            found.busy = (await busy(view) - worked) / (seconds - 1.0)
+            found.late = (*await view.memory(), await resident(chromium))
+            return found
+
+    return browser.run(main, longest=seconds + 2.0 * MINUTE)
+
+
+async def frames(view: Window) -> int:
+    """Pictures that the page has drawn."""
+    count: int = await view.tab.evaluate("solepath.frames")
+    return count
+
+
+async def busy(view: Window) -> float:
+    """s for which the page's thread has worked."""
+    metrics = (await view.devtools.send("Performance.getMetrics"))["metrics"]
+    return next(float(metric["value"]) for metric in metrics if metric["name"] == "TaskDuration")
+
+
+async def resident(browser: Browser) -> int:
+    """Bytes of memory of the processes that the browser draws its pages in; 0 where it cannot be told."""
+    devtools = await browser.new_browser_cdp_session()
+    processes = (await devtools.send("SystemInfo.getProcessInfo"))["processInfo"]
+    await devtools.detach()
+    files = [Path(f"/proc/{one['id']}/statm") for one in processes if one["type"] == "renderer"]
+    return sum(int(file.read_text().split()[1]) for file in files if file.exists()) * resource.getpagesize()
+
+
+def begin(process: subprocess.Popen[str]) -> None:
+    assert process.stdin is not None
+    print(file=process.stdin, flush=True)
+
+
+def stall(url: str) -> socket.socket:
+    """A watcher that has asked for everything and takes nothing."""
+    parts = urlsplit(url)
+    token = parts.fragment.removeprefix("token=")
+    link = socket.socket()
+    link.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    link.connect((parts.hostname, parts.port))
+    link.sendall(
+        f"GET /ws?token={token} HTTP/1.1\r\nHost: {parts.netloc}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: c29sZXBhdGggYmVuY2gxMg==\r\n\r\n".encode()
+    )
+    return link
+
+
+def spent(process: subprocess.Popen[str]) -> float:
+    assert process.stdout is not None
+    return float(json.loads(process.stdout.readline()))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--minutes", type=float, default=1.0, help="of each of the four (default: 1)")
+    parser.add_argument("--serve", choices=WAYS, help=argparse.SUPPRESS)
+    asked = parser.parse_args()
+    seconds = asked.minutes * MINUTE
+    if asked.serve is not None:
+        asyncio.run(serve(asked.serve, seconds))
+        return
+    reason = why_not()
+    if reason is not None:
+        sys.exit(reason)
+    print(f"Python {platform.python_version()}, {os.cpu_count()} cores, {program()}; {asked.minutes:g} min each\n")
+    print(f"{'the session, and':30} {'of a core':>10} {'more':>8}")
+    alone: float | None = None
+    watched = Watched()
+    for way, name in WAYS.items():
+        with serving(way, seconds) as process:
+            assert process.stdout is not None
+            url = process.stdout.readline().strip()
+            if way == "browser":
+                with browsing() as browser:
+                    watched = watch(browser, url, process, seconds)
+                    share = spent(process) / seconds
+            else:
+                held = stall(url) if way == "stalled" else None
+                begin(process)
+                share = spent(process) / seconds
+                if held is not None:
+                    held.close()
+        alone = share if alone is None else alone
+        print(f"{name:30} {100 * share:8.1f} % {100 * (share - alone):6.1f} %", flush=True)
+    sizes = watched.sizes
+    print(f"\nthe page draws {watched.drawn:.1f} frames a second; its thread works {100 * watched.busy:.0f} % of it")
+    print(
+        f"{len(sizes) / seconds:.1f} messages a second, {sum(sizes) / seconds / 1000:.1f} kB/s; "
+        f"bytes of one: median {median(sizes):.0f}, p99 {quantiles(sizes, n=100)[98]:.0f}, most {max(sizes)}"
+    )
+    for when, memory in ((SETTLED, watched.early), (asked.minutes, watched.late)):
+        if memory is not None:
+            heap, elements, process = memory
+            print(
+                f"after {when:g} min its scripts hold {heap / 1e6:.2f} MB, its document {elements} elements, "
+                f"its process {process / 1e6:.0f} MB"
+            )
+
+
+if __name__ == "__main__":
+    main()

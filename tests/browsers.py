@@ -1,0 +1,154 @@
+"""A real browser for the tests of the page: Chromium driven by Playwright, on a loop that the page's server shares.
+
+Nothing here waits without an end: a test that takes longer than LONGEST fails.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import re
+import shutil
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
+from contextlib import asynccontextmanager, contextmanager
+from typing import Any, TypeVar
+
+from attrs import define, field
+
+try:
+    from playwright.async_api import Browser, CDPSession, async_playwright
+    from playwright.async_api import Page as Tab
+except ImportError:  # the tests are skipped
+    Browser = CDPSession = Tab = Any  # type: ignore[assignment, misc]
+    async_playwright = None  # type: ignore[assignment]
+
+T = TypeVar("T")
+
+PROGRAMS = ("chromium", "chromium-browser", "google-chrome")
+FLAGS = (
+    "--no-sandbox",  # root may not have one; nothing but our own page is opened
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
+LONGEST = 60.0
+"""s that a test may take."""
+PATIENCE = 10.0
+"""s until what is waited for must be seen."""
+UNREACHABLE = re.compile(r"net::ERR_CONNECTION_REFUSED|net::ERR_CONNECTION_RESET|ERR_SOCKET_NOT_CONNECTED")
+"""What Chromium itself writes to the console while there is no server."""
+
+
+def why_not() -> str | None:
+    """Why there can be no browser here; None where there can."""
+    if async_playwright is None:
+        return "playwright is not installed"
+    if program() is None:
+        return f"no browser here: {', '.join(PROGRAMS)}"
+    return None
+
+
+def program() -> str | None:
+    return next(filter(None, map(shutil.which, PROGRAMS)), None)
+
+
+@define
+class Browsing:
+    """A browser, and the loop that it lives on between tests."""
+
+    runner: asyncio.Runner
+    browser: Browser
+
+    def run(self, main: Callable[[Browser], Awaitable[T]], longest: float = LONGEST) -> T:
+        async def timed() -> T:
+            async with asyncio.timeout(longest):
+                return await main(self.browser)
+
+        return self.runner.run(timed())
+
+
+@contextmanager
+def browsing() -> Iterator[Browsing]:
+    """A browser that has just been started."""
+    with asyncio.Runner() as runner:
+        driver = runner.run(_within(async_playwright().start()))
+        try:
+            browser = runner.run(_within(driver.chromium.launch(executable_path=program(), args=[*FLAGS])))
+            yield Browsing(runner, browser)
+            runner.run(_within(browser.close()))
+        finally:
+            runner.run(_within(driver.stop()))
+
+
+async def _within(work: Awaitable[T]) -> T:
+    async with asyncio.timeout(LONGEST):
+        return await work
+
+
+@define
+class Window:
+    """A page that is open. `complaints`: what it wrote to its console, and errors that it did not catch; `asked`: every
+    address that it asked for, those of its sockets too."""
+
+    tab: Tab
+    devtools: CDPSession
+    complaints: list[str] = field(factory=list)
+    asked: list[str] = field(factory=list)
+
+    async def memory(self) -> tuple[int, int]:
+        """Bytes of the heap of its scripts after everything that nobody holds was thrown away, and elements of its
+        document but for those of the log, which has as many sentences as there were, up to fifty."""
+        for _ in range(2):  # what has a finalizer goes at the second
+            await self.devtools.send("HeapProfiler.collectGarbage")
+        used = await self.devtools.send("Runtime.getHeapUsage")
+        elements = await self.tab.evaluate("document.querySelectorAll('*:not(#log *)').length")
+        return round(used["usedSize"]), elements
+
+    async def until(self, condition: str, argument: Any = None, patience: float = PATIENCE) -> None:
+        """Wait until this holds in the page, an expression or a function of `argument`; fails where it never does.
+        Playwright's own way of waiting is forbidden by the page, which allows no script of others."""
+        try:
+            async with asyncio.timeout(patience):
+                while not await self.tab.evaluate(condition, argument):
+                    await asyncio.sleep(0.05)
+        except TimeoutError:
+            raise AssertionError(f"not within {patience:g} s: {condition}") from None
+
+    async def names(self) -> list[tuple[str, str]]:
+        """Role and name of everything that is read out, in order."""
+        tree = await self.devtools.send("Accessibility.getFullAXTree")
+        return [
+            (node["role"]["value"], node.get("name", {}).get("value", ""))
+            for node in tree["nodes"]
+            if not node.get("ignored") and "role" in node
+        ]
+
+
+@asynccontextmanager
+async def window(
+    browser: Browser, url: str, *, width: int = 1280, height: int = 900, dark: bool = False, still: bool = False,
+    sharpness: float = 1.0,
+) -> AsyncIterator[Window]:
+    """The page at `url` in a window of its own. `still`: for those who would have nothing move; `sharpness`: pixels of
+    the device for one of the page."""
+    context = await browser.new_context(
+        viewport={"width": width, "height": height},
+        color_scheme="dark" if dark else "light",
+        reduced_motion="reduce" if still else "no-preference",
+        device_scale_factor=sharpness,
+        locale="en-GB",
+    )
+    try:
+        context.set_default_timeout(PATIENCE * 1000.0)
+        tab = await context.new_page()
+        found = Window(tab, await context.new_cdp_session(tab))
+        tab.on("console", lambda said: found.complaints.append(f"{said.type}: {said.text}"))
+        tab.on("pageerror", lambda error: found.complaints.append(str(error)))
+        context.on("request", lambda request: found.asked.append(request.url))
+        tab.on("websocket", lambda socket: found.asked.append(socket.url))
+        await tab.goto(url)
+        yield found
+    finally:
+        await context.close()

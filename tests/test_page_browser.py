@@ -1,0 +1,242 @@
+"""What the wearer sees: the page in a real browser, fed with the events of emulated walks."""
+
+from __future__ import annotations
+
+import asyncio
+from contextlib import AsyncExitStack
+from time import process_time
+from urllib.parse import urlsplit
+
+import pytest
+
+from airs import memory
+from benches import LEFT, RIGHT
+from browsers import PATIENCE, UNREACHABLE, Browser, Browsing, Window, window
+from shown import CONNECTED, after, again, between, fresh, opened, show, square, squares, walked
+from solepath import Connected, Session
+from solepath.ble import Devices, Wanted
+from solepath.loopback.bench import Bench
+from solepath.loopback.faults import parse_faults
+from solepath.page.server import Page
+from solepath.sim.insole_device import Insole
+from solepath.sim.route import Route
+from solepath.types import Foot
+
+MINUTE = 60.0
+MARGIN = 0.6e6
+"""Bytes; eight minutes more of tracks are 1800 points."""
+FEET = ("left", "right")
+
+
+async def text(view: Window, name: str) -> str:
+    return (await view.tab.locator(f"#{name}").inner_text()).strip()
+
+
+async def picture(view: Window, name: str) -> str:
+    """What is on a canvas, pixel by pixel."""
+    found: str = await view.tab.evaluate("name => document.getElementById(name).toDataURL()", name)
+    return found
+
+
+async def words(view: Window, name: str) -> str | None:
+    """What is read out in place of a canvas."""
+    return await view.tab.locator(f"#{name}").get_attribute("aria-label")
+
+
+def link(site: str, state: str) -> str:
+    return f"document.getElementById('foot-{site}').dataset.link === '{state}'"
+
+
+# --- what is seen -----------------------------------------------------------------------------------------------------
+
+
+def test_the_page_connects_and_names_what_it_shows(browser: Browsing) -> None:
+    async def main(chromium: Browser) -> None:
+        async with opened(chromium, fresh("Ward 3, corridor")) as view:
+            assert await text(view, "title") == "Ward 3, corridor"
+            assert await text(view, "recipe") == "default"
+            assert "Ward 3, corridor" in await view.tab.title()
+
+    browser.run(main)
+
+
+def test_both_soles_move_and_say_so(browser: Browsing) -> None:
+    async def main(chromium: Browser) -> None:
+        scene = after(6.0)
+        async with opened(chromium, scene) as view:
+            await view.until(f"{link('left', 'ok')} && {link('right', 'ok')}")
+            seen: dict[str, set[str]] = {foot: set() for foot in FEET}
+            heard: dict[str, set[str | None]] = {foot: set() for foot in FEET}
+            walking = asyncio.create_task(show(scene, between(6.0, 40.0)))
+            async with asyncio.timeout(PATIENCE):
+                while min(map(len, seen.values())) < 10 or min(map(len, heard.values())) < 3:
+                    for foot in FEET:
+                        seen[foot].add(await picture(view, f"sole-{foot}"))
+                        heard[foot].add(await words(view, f"sole-{foot}"))
+                    await asyncio.sleep(0.05)
+            walking.cancel()
+            for foot, sayings in heard.items():
+                assert all(said and said.startswith(f"{foot.capitalize()} sole: ") for said in sayings)
+
+    browser.run(main)
+
+
+def test_the_track_and_the_ribbon_grow_with_every_step(browser: Browsing) -> None:
+    async def main(chromium: Browser) -> None:
+        scene = after(6.0)
+        async with opened(chromium, scene) as view:
+            await view.until("Number(document.getElementById('track').dataset.points) > 0")
+            before = {name: await picture(view, name) for name in ("track", "ribbon")}
+            points = int(await view.tab.locator("#track").get_attribute("data-points"))
+            steps, said = int(await text(view, "steps")), await words(view, "track")
+            await show(scene, between(6.0, 12.0), speed=4.0)
+            await view.until(f"Number(document.getElementById('steps').textContent) >= {steps + 8}")
+            assert int(await view.tab.locator("#track").get_attribute("data-points")) > points
+            assert await words(view, "track") != said
+            for name, old in before.items():
+                assert await picture(view, name) != old
+
+    browser.run(main)
+
+
+def test_whoever_comes_late_sees_the_way_that_was_walked_before(browser: Browsing) -> None:
+    async def main(chromium: Browser) -> None:
+        async with opened(chromium, after(40.0)) as view:
+            await view.until("Number(document.getElementById('track').dataset.points) > 100")
+            await view.until("document.querySelectorAll('#gait-rows tr').length >= 8")
+            assert await text(view, "activity") == "Walking"
+            assert int(await text(view, "steps")) > 50
+
+    browser.run(main)
+
+
+def test_when_the_walk_stops_the_last_figures_stay(browser: Browsing) -> None:
+    async def main(chromium: Browser) -> None:
+        scene = after(6.0)
+        async with opened(chromium, scene) as view:
+            await show(scene, between(6.0, 6.5))
+            for foot in Foot:
+                force = scene.feet[foot].force
+                assert force > 0.0
+                await view.until(
+                    f"Math.abs(parseFloat(document.getElementById('force-{foot.value}').textContent) - {force}) <= 1 &&"
+                    f"document.getElementById('sole-{foot.value}').ariaLabel.includes(' newton')"
+                )
+
+    browser.run(main)
+
+
+# --- when something goes wrong ----------------------------------------------------------------------------------------
+
+
+def test_a_lost_link_shows_and_recovers(browser: Browsing) -> None:
+    """Emulated devices in real time; one of them is out of reach for 1.5 s."""
+
+    async def main(chromium: Browser) -> None:
+        scene, session = fresh(), Session(poses=True, pressures=True)
+        faults = parse_faults("1.5 left_foot vanish 1.5")
+        devices = dict.fromkeys((LEFT, RIGHT), Insole(cells=16))
+        bench = Bench(Route().stand(30.0), devices=devices, faults=faults)
+        bench.prepare()
+        wanted = [Wanted(one.site, one.address) for one in bench.peripherals]
+        async with (
+            opened(chromium, scene) as view,
+            memory(bench) as backend,
+            Devices(wanted, backend=backend) as found,
+        ):
+
+            async def listen() -> None:
+                async for packet in found:
+                    for event in session.feed(packet):
+                        scene.take(event)
+
+            bench.began = asyncio.get_running_loop().time()
+            listening = asyncio.create_task(listen())
+            for state in ("ok", "lost", "ok"):
+                await view.until(f"{link('left', state)}")
+                assert await view.tab.evaluate(link("right", "ok"))
+            listening.cancel()
+
+    browser.run(main)
+
+
+def test_the_page_finds_its_server_again(browser: Browsing) -> None:
+    async def main(chromium: Browser) -> None:
+        token = "the same as before"
+        first = Page(after(10.0, "before"), port=0, token=token)
+        async with AsyncExitStack() as stack:
+            async with first:
+                view = await stack.enter_async_context(window(chromium, first.url))
+                await view.until(CONNECTED)
+            await view.until(f"!({CONNECTED})")
+            await view.tab.locator("#offline").wait_for(state="visible")
+            port = urlsplit(first.url).port
+            async with Page(after(12.0, "after"), port=port, token=token):
+                await view.until(CONNECTED)
+                await view.until("document.getElementById('title').textContent === 'after'")
+                await view.tab.locator("#offline").wait_for(state="hidden")
+            assert all(UNREACHABLE.search(said) for said in view.complaints)
+
+    browser.run(main)
+
+
+def test_names_from_the_air_are_shown_as_text(browser: Browsing) -> None:
+    hostile = "<img src=x onerror=\"document.title='broken'\"><script>document.title='broken'</script>"
+
+    async def main(chromium: Browser) -> None:
+        scene = after(6.0, hostile)
+        scene.take(Connected(t=6.0, known_at=6.0, site=LEFT, device="F0:5E:00:00:00:01", name=hostile, signal=-50))
+        async with opened(chromium, scene) as view:
+            assert await text(view, "title") == hostile
+            await view.until("document.getElementById('links').textContent.includes('onerror')")
+            assert await view.tab.locator("main img, main script, header img, header script").count() == 0
+            assert await view.tab.title() != "broken"
+
+    browser.run(main)
+
+
+# --- as long as one likes ---------------------------------------------------------------------------------------------
+
+
+def test_ten_minutes_of_two_feet_leave_the_page_as_large_as_it_was(browser: Browsing) -> None:
+    async def main(chromium: Browser) -> None:
+        scene = fresh()
+        async with opened(chromium, scene) as view:
+            walk = again(square(), 10.0 * MINUTE)
+            await show(scene, walk, speed=60.0, until=2.0 * MINUTE)
+            heap, elements = await view.memory()
+            await show(scene, walk, speed=60.0, until=10.0 * MINUTE)
+            heap_after, elements_after = await view.memory()
+            print(f"after 2 min {heap} bytes and {elements} elements, after 10 {heap_after} and {elements_after}")
+            assert heap_after < heap + MARGIN
+            assert elements_after == elements
+            assert await view.tab.locator("#log > *").count() <= 50
+
+    browser.run(main)
+
+
+@pytest.mark.soak
+def test_ten_minutes_in_real_time_leave_the_page_as_large_as_it_was(browser: Browsing) -> None:
+    """With 96 cells; eighteen thousand messages. What the page draws, and what all this costs, is printed."""
+    packets = [packet for packet in walked(squares(15)) if packet.t <= 10.0 * MINUTE]
+
+    async def main(chromium: Browser) -> None:
+        scene, session = fresh(), Session(poses=True, pressures=True)
+        walk = ((packet.t, tuple(session.feed(packet))) for packet in packets)
+        async with opened(chromium, scene) as view:
+            clock = asyncio.get_running_loop().time
+            begun, used = clock(), process_time()
+            await show(scene, walk, until=2.0 * MINUTE)
+            heap, elements = await view.memory()
+            await show(scene, walk)
+            heap_after, elements_after = await view.memory()
+            seconds, frames = clock() - begun, await view.tab.evaluate("solepath.frames")
+            print(
+                f"{frames / seconds:.1f} frames a second; session, server and test {process_time() - used:.1f} s of "
+                f"{seconds:.0f}; after 2 min {heap} bytes and {elements} elements, after 10 {heap_after} and "
+                f"{elements_after}"
+            )
+            assert heap_after < heap + MARGIN
+            assert elements_after == elements
+
+    browser.run(main, longest=15.0 * MINUTE)
