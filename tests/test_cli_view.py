@@ -240,14 +240,23 @@ def test_a_report_that_cannot_be_written_is_refused_before_anything_is_computed(
     assert "no such file or directory" in refused("track", recording, "--report", tmp_path / "none" / "r.html").lower()
 
 
-def test_live_sensors_are_seen_on_the_page_as_they_are_worn(tmp_path: Path):
+def test_live_sensors_and_their_silence_are_seen_on_the_page(tmp_path: Path):
     pytest.importorskip("bumble")
+
+    def all_are(state: str) -> Callable[[dict[str, Any]], bool]:
+        return lambda frame: all(link["state"] == state for link in frame["links"].values())
 
     async def look(page: Watcher) -> None:
         await page.until(lambda frame: len(frame["links"]) == 2 and frame["feet"]["left"] is not None)
         assert (page.scene["source"], page.scene["control"]) == ("live", False)
-        await page.until(lambda frame: all(link["state"] == "ok" for link in frame["links"].values()))
+        await page.until(all_are("ok"))
         await page.until(lambda frame: frame["feet"]["right"] is not None and frame["feet"]["right"]["force"] > 100.0)
+        emulator.send_signal(signal.SIGSTOP)  # from nobody anything comes
+        await page.until(all_are("silent"))
+        assert page.frame["feet"]["left"]["cells"] is None
+        await page.until(lambda frame: all(link["silent_for"] > 1.6 for link in frame["links"].values()))
+        emulator.send_signal(signal.SIGCONT)
+        await page.until(all_are("ok"))
 
     with started("emulate", "--listen", "127.0.0.1:0", "--distance", 5) as emulator:
         assert emulator.stdout is not None
