@@ -2,72 +2,37 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
-from html.parser import HTMLParser
 from math import radians
 from pathlib import Path
+from random import Random
 
-from attrs import define, field
+import pytest
+from attrs import evolve
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
-from solepath import Session
+import happenings
+from pages import Node, parsed, read
+from solepath import Connected, LinkTrouble, PacketsLost, PlaceLost, Session, Site
 from solepath.body.gait_means import GaitMeans
-from solepath.events import Event, StrideMeasured
+from solepath.events import Event, FootMoved, FootPressed, LayoutKnown, StepTaken, StrideMeasured, WearerMoved
 from solepath.report import Report
+from solepath.report.page import text_of
+from solepath.sim.building import BUILDING
 from solepath.sim.route import Route
+from solepath.tally import Tally
+from solepath.types import Foot
 from solepath.view.gait_rows import gait_rows
-from solepath.view.table import number
+from solepath.view.table import number, percent
 from walks import insoles
+from walks import told as said
 
 CORNER = Route().stand(1.5).walk(12.0, 1.3).turn(radians(90), radius=1.5).walk(3.0).stop(1.0)
-VOID = {"meta", "br", "hr", "img", "input", "link", "base"}
-LEADS = {"src", "href", "action", "data", "poster", "srcset", "xlink:href", "xmlns", "background", "formaction"}
+LEADS = {"src", "href", "action", "data", "poster", "srcset", "xlink:href", "background", "formaction", "ping", "style"}
 """Attributes that fetch something or lead elsewhere."""
-
-
-@define
-class Node:
-    tag: str
-    attributes: dict[str, str]
-    words: list[str] = field(factory=list)
-    children: list[Node] = field(factory=list)
-
-    def all(self, tag: str) -> list[Node]:
-        found = [self] if self.tag == tag else []
-        return found + [one for child in self.children for one in child.all(tag)]
-
-    @property
-    def text(self) -> str:
-        """In the order of reading, but for what stands after a child."""
-        return " ".join([*self.words, *(child.text for child in self.children)]).strip()
-
-
-class Reader(HTMLParser):
-    """The page as a tree; a tag that is not closed in its turn is an error."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.open = [Node("", {})]
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        node = Node(tag, {name: value or "" for name, value in attrs})
-        self.open[-1].children.append(node)
-        if tag not in VOID:
-            self.open.append(node)
-
-    def handle_endtag(self, tag: str) -> None:
-        assert self.open.pop().tag == tag.lower()
-
-    def handle_data(self, data: str) -> None:
-        if data.strip():
-            self.open[-1].words.append(data.strip())
-
-
-def page(report: Report, path: Path) -> Node:
-    report.write(path)
-    reader = Reader()
-    reader.feed(path.read_text(encoding="utf-8"))
-    assert [one.tag for one in reader.open] == [""], "every tag is closed"
-    return reader.open[0]
+NO_NUMBER = re.compile(r"\b(nan|inf)\b", re.IGNORECASE)
 
 
 @cache
@@ -77,23 +42,246 @@ def walked() -> tuple[Event, ...]:
     return (*session.feed(insoles(CORNER, cells=24).packets), *session.finish())
 
 
-def told(*events: Event, title: str = "a walk") -> Report:
-    report = Report(title, recipe="default", version="1.0")
+def told(*events: Event, title: str = "a walk", **more: str) -> Report:
+    report = Report(title, recipe="default", version="1.0", **more)
     for event in events:
         report.add(event)
     return report
 
 
-def test_the_report_of_a_walk_has_its_gait_table_with_the_numbers_of_the_session(tmp_path: Path) -> None:
+def shown(report: Report) -> Node:
+    return parsed(text_of(report.drawn()))
+
+
+def headings(page: Node) -> list[str]:
+    return [one.text for tag in ("h1", "h2") for one in page.all(tag)]
+
+
+def captions(page: Node) -> list[str]:
+    return [one.first("strong").text for one in page.all("figcaption")]
+
+
+# --- what it says -----------------------------------------------------------------------------------------------------
+
+
+def rows_of(page: Node) -> dict[str, list[str]]:
+    """The gait table: a row's name -> its cells."""
+    table = page.named("gait")
+    return {row.first("th").text: [cell.text for cell in row.all("td")] for row in table.all("tr")}
+
+
+def test_the_gait_table_has_the_numbers_of_the_session() -> None:
     means = GaitMeans(memory=10**9)
     for event in walked():
         if isinstance(event, StrideMeasured):
             means.hear(event)
     parameters = means.of(False)
     assert parameters is not None
-    read = page(told(*walked()), tmp_path / "r.html")
-    table = next(one for one in read.all("table") if "gait" in one.attributes["class"])
-    rows = {row.all("th")[0].text: [cell.all("span")[0].text for cell in row.all("td")] for row in table.all("tr")}
+    rows = rows_of(shown(told(*walked())))
     for row in gait_rows(parameters):
-        expected = [number(one, row.digits) for one in (row.left, row.right, row.both)]
-        assert rows[f"{row.label}, {row.unit}"][:3] == expected
+        spread = "" if row.sd is None else f" \N{PLUS-MINUS SIGN} {number(row.sd, row.digits)}"
+        both = f"{number(row.both, row.digits)}{spread}"
+        feet = [number(one, row.digits) for one in (row.left, row.right)]
+        assert rows[f"{row.label}, {row.unit}"] == [*feet, both, percent(row.cv), percent(row.asymmetry)]
+    assert rows["cadence, steps/min"][2] == number(parameters.cadence, 1)
+    assert len(rows) > 10
+
+
+def test_the_summary_says_how_long_how_far_and_what_was_done() -> None:
+    tally = Tally()
+    for event in walked():
+        tally.add(event)
+    page = shown(told(*walked(), when="on Monday"))
+    sentences = [one.text for one in page.first("ul").all("li")]
+    for foot in Foot:
+        one = tally.feet[foot]
+        assert f"The {foot.value} foot took {one.steps} strides over {one.distance:.1f} m." in sentences
+    assert any(one.startswith("Activities: standing ") and " walking " in one for one in sentences)
+    assert "Turns: 1 to the left." in sentences
+    samples = [event.t for event in walked() if isinstance(event, FootMoved)]
+    facts = page.named("facts").text
+    assert "on Monday" in facts and "default" in facts and "solepath 1.0" in facts
+    assert f"{min(samples):.1f} to {max(samples):.1f} s" in facts
+    assert "motion and pressure" in facts
+    assert "no diagnosis" in page.text
+
+
+def test_runs_and_walks_have_a_table_each() -> None:
+    strides = [event for event in walked() if isinstance(event, StrideMeasured)]
+    later = [
+        evolve(one, t=one.t + 60.0, t_start=one.t_start + 60.0, t_toe_off=one.t_toe_off + 60.0, stance_time=0.3)
+        for one in strides
+    ]
+    told_of = [one.first("caption").text for one in shown(told(*strides, *later)).all("table")]
+    assert [one.partition(":")[0] for one in told_of if "steady" in one] == ["Walking", "Running"]
+
+
+def test_a_recording_whose_clock_began_long_ago_is_told_from_its_beginning() -> None:
+    moved = [evolve(event, t=event.t + 1.7e9) for event in walked() if isinstance(event, FootMoved)]
+    assert "time from the beginning, s" in shown(told(*moved)).text
+
+
+def test_what_was_wrong_is_said_in_words_and_in_the_table_of_links() -> None:
+    link = [
+        Connected(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, device="a", name="sole 7", signal=-50),
+        PacketsLost(t=3.0, known_at=3.0, site=Site.LEFT_FOOT, channel="insole/frame", count=11),
+        LinkTrouble(t=4.0, known_at=4.0, site=Site.LEFT_FOOT, what="the battery is nearly empty"),
+    ]
+    page = shown(told(*link, *walked()))
+    health = next(one for one in page.all("section") if one.attributes["aria-labelledby"] == "health")
+    assert "11" in health.text and "the battery is nearly empty" in health.text
+    assert "left foot (sole 7)" in page.named("facts").text
+    assert "Nothing was wrong" not in health.text
+    quiet = Report("quiet")
+    assert "Nothing was wrong" in shown(quiet).text
+
+
+# --- a file by itself -------------------------------------------------------------------------------------------------
+
+
+def test_the_file_leads_nowhere_and_runs_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "report.html"
+    report = told(*walked())
+    report.write(path)
+    text = path.read_text(encoding="utf-8")
+    assert text.startswith("<!DOCTYPE html>\n<html lang=\"en\">")
+    page = read(path)
+    for one in page.all():
+        assert one.tag not in {"script", "link", "iframe", "object", "embed", "img", "image", "use", "a", "base"}
+        assert not LEADS & one.attributes.keys()
+        assert not any(name.startswith("on") for name in one.attributes)
+    assert not re.search(r"url\(|@import|https?:|//[a-z]", text)
+    assert page.first("meta").attributes == {"charset": "utf-8"}
+    assert len(text) < 200_000
+
+
+def test_names_from_outside_stay_text() -> None:
+    bad = '</title><script>alert("1")</script> & <b onload=x>\x00\ud800'
+    events = [
+        PlaceLost(t=1.0, known_at=1.0, what=bad),
+        LinkTrouble(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, what=bad),
+        Connected(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, device=bad, name=bad, signal=None),
+    ]
+    report = told(*events, title=bad, when=bad)
+    report.recipe = bad
+    report.plan = evolve(BUILDING, name=bad)
+    page = shown(report)
+    assert not page.all("script") and not page.all("b")
+    assert page.first("h1").text.startswith('</title><script>alert("1")</script> & <b onload=x>')
+    assert page.text.count("<script>") >= 5
+
+
+def test_a_file_that_cannot_be_written_is_named(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="report.html"):
+        Report("a walk").write(tmp_path / "no" / "report.html")
+
+
+def test_a_screen_reader_finds_its_way() -> None:
+    page = shown(told(*walked()))
+    assert page.first("html").attributes["lang"] == "en"
+    assert headings(page)[0] == "a walk"
+    assert {"Summary", "Gait", "Track", "Pressure", "Activities", "Sensors and links"} < set(headings(page))
+    ids = [one.attributes["id"] for one in page.all() if "id" in one.attributes]
+    assert len(ids) == len(set(ids))
+    named = [name for one in page.all() for name in one.attributes.get("aria-labelledby", "").split()]
+    assert set(named) <= set(ids)
+    for svg in page.all("svg"):
+        assert svg.attributes["role"] == "img"
+        assert svg.first("title").text and svg.first("desc").text
+    for table in page.all("table"):
+        assert table.first("caption").text
+        assert {one.attributes["scope"] for one in table.all("th")} == {"row", "col"}
+
+
+# --- whatever there is ------------------------------------------------------------------------------------------------
+
+
+def test_there_is_a_figure_for_what_there_is() -> None:
+    assert captions(shown(told(*walked()))) == [
+        "Mean gait cycle, walking",
+        "Stride length over time",
+        "Stride time over time",
+        "Speed over time",
+        "Track from above",
+        "Height of the feet over time",
+        "Mean load of a contact",
+        "Peak load of a contact",
+        "Mean force over a contact",
+        "Activities over time",
+    ]
+
+
+def test_there_is_a_sentence_for_what_there_is_not() -> None:
+    page = shown(Report("nothing"))
+    assert not page.all("svg") and not page.all("table")
+    for sentence in (
+        "Nothing was heard of either foot.",
+        "No stride was measured",
+        "There is no track",
+        "There is no pressure",
+        "No activity was told",
+    ):
+        assert sentence in page.text
+    planned = Report("nothing", BUILDING)
+    assert "Where on the floor plan the wearer was is not known." in shown(planned).text
+
+
+def test_one_foot_alone_has_its_own_report() -> None:
+    mine = [event for event in walked() if getattr(event, "foot", Foot.LEFT) is Foot.LEFT]
+    page = shown(told(*[event for event in mine if not isinstance(event, WearerMoved)]))
+    assert {"Mean gait cycle, walking", "Track from above", "Mean load of a contact"} <= set(captions(page))
+    assert all(cells[1] == "-" for name, cells in rows_of(page).items() if name != "parameter")
+
+
+def test_pressure_alone_has_times_and_no_track() -> None:
+    only = (StrideMeasured, FootPressed, LayoutKnown)
+    lost = {"stride_length": None, "speed": None, "clearance": None, "turning_angle": None, "rise": None}
+    events = [
+        evolve(event, **lost) if isinstance(event, StrideMeasured) else event
+        for event in walked()
+        if isinstance(event, only)
+    ]
+    page = shown(told(*events))
+    assert "Stride time over time" in captions(page) and "Stride length over time" not in captions(page)
+    assert "There is no track" in page.text and "how far is not known" in page.text
+    assert "stance, %" in rows_of(page)
+
+
+def test_on_a_floor_plan_the_track_is_drawn_on_it() -> None:
+    report = Report("indoors", BUILDING)
+    for events in said("session, Snake game"):
+        for event in events:
+            report.add(event)
+    page = shown(report)
+    assert "Track on the floor plan" in captions(page)
+    assert page.named("plan").all("polyline") or page.named("plan").all("circle")
+
+
+@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+@given(events=st.lists(happenings.events(), max_size=10), seed=st.integers(0, 999), count=st.integers(0, 60))
+def test_any_events_in_any_order_make_a_page_without_a_number_that_is_none(
+    events: list[Event], seed: int, count: int
+) -> None:
+    report = Report("any", BUILDING)
+    for event in [*events, *Random(seed).sample(walked(), count), *events]:
+        report.add(event)
+    for svg in shown(report).all("svg"):
+        for one in svg.all():
+            coordinates = {k: v for k, v in one.attributes.items() if k not in ("id", "class", "aria-labelledby")}
+            assert not any(NO_NUMBER.search(value) for value in coordinates.values())
+
+
+def test_memory_does_not_grow_with_the_time_walked() -> None:
+    events = [
+        event
+        for kind in (StrideMeasured, StepTaken, WearerMoved)
+        for event in [event for event in walked() if isinstance(event, kind)][-4:]
+    ]
+    report, sizes = told(*walked()), []
+    for k in range(1, 801):
+        for event in events:
+            report.add(evolve(event, t=event.t + 20.0 * k))
+        if k in (400, 800):
+            sizes.append(len(repr(report)))
+    assert report.strides[Foot.LEFT].count > 1500 and report.way.count > 3000
+    assert sizes[1] < 1.3 * sizes[0]

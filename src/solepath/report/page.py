@@ -28,10 +28,14 @@ def section(parent: Element, name: str, title: str) -> Element:
     return made
 
 
+def text_of(html: Element) -> str:
+    """The whole file."""
+    return "<!DOCTYPE html>\n" + tostring(html, encoding="unicode", method="html") + "\n"
+
+
 def save(html: Element, path: Path) -> None:
     """UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
-    text = "<!DOCTYPE html>\n" + tostring(html, encoding="unicode", method="html") + "\n"
     try:
-        path.write_bytes(text.encode("utf-8"))
+        path.write_bytes(text_of(html).encode("utf-8"))
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(path)) from None

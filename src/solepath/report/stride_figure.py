@@ -60,7 +60,7 @@ def stride_figures(parent: Element, strides: dict[Foot, list[Stride]], clock: Cl
     every = [one for some in strides.values() for one in some]
     notes = ["faint, strides that do not count in the table"] if any(not one.steady for one in every) else []
     notes += ["ticks at the bottom, strides in a turn"] if any(one.turns for one in every) else []
-    notes += ["ticks at the top, strides with missing or saturated samples"] if any(one.degraded for one in every) else []
+    notes += ["ticks at the top, samples missing or saturated"] if any(one.degraded for one in every) else []
     notes += ["lines, means"] if any(map(dense, strides.values())) else []
     if notes:
         add(parent, "p", f"In the figures of strides: {'; '.join(notes)}.", class_="note")

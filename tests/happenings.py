@@ -1,0 +1,43 @@
+"""Any events at all, as hypothesis makes them from their classes."""
+
+from __future__ import annotations
+
+from types import UnionType
+from typing import Any, Union, get_args, get_origin, get_type_hints
+
+import attrs
+from hypothesis import strategies as st
+
+from solepath.events import Event
+
+KINDS = get_args(Event)
+TAME = st.floats(0.0, 100.0)
+WIDE = st.floats(-1e11, 1e11)
+WILD = st.floats()
+"""None of them is ruled out, those that are no numbers neither."""
+
+
+def _value(hint: Any, number: st.SearchStrategy[float]) -> st.SearchStrategy[Any]:
+    """Of an annotation, all its floats drawn from `number`."""
+    arguments = get_args(hint)
+    if hint is float:
+        return number
+    if get_origin(hint) in (Union, UnionType):
+        return st.one_of([_value(one, number) for one in arguments])
+    if get_origin(hint) is tuple and arguments[-1:] == (Ellipsis,):
+        return st.lists(_value(arguments[0], number), max_size=12).map(tuple)
+    if get_origin(hint) is tuple:
+        return st.tuples(*[_value(one, number) for one in arguments])
+    if attrs.has(hint):
+        return _record(hint, number)
+    return st.from_type(hint)
+
+
+def _record(kind: Any, number: st.SearchStrategy[float]) -> st.SearchStrategy[Any]:
+    hints = get_type_hints(kind)
+    return st.builds(kind, **{one.name: _value(hints[one.name], number) for one in attrs.fields(kind)})
+
+
+def events() -> st.SearchStrategy[Any]:
+    """One event of any kind: with numbers that might be measured, with large ones, or with whatever a float holds."""
+    return st.one_of([_record(kind, number) for number in (TAME, WIDE, WILD) for kind in KINDS])

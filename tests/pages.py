@@ -1,0 +1,69 @@
+"""An HTML page as a tree, read by nothing that the report is written with."""
+
+from __future__ import annotations
+
+from html.parser import HTMLParser
+from pathlib import Path
+
+from attrs import define, field
+
+VOID = {"meta", "br", "hr", "img", "input", "link", "base"}
+
+
+@define
+class Node:
+    tag: str
+    attributes: dict[str, str]
+    words: list[str] = field(factory=list)
+    children: list[Node] = field(factory=list)
+
+    def all(self, tag: str = "") -> list[Node]:
+        """Itself and what is below, of one tag or of any, in the order of the page."""
+        found = [self] if tag in ("", self.tag) else []
+        return found + [one for child in self.children for one in child.all(tag)]
+
+    def first(self, tag: str) -> Node:
+        return self.all(tag)[0]
+
+    def named(self, name: str) -> Node:
+        """The element with this class."""
+        return next(one for one in self.all() if name in one.attributes.get("class", "").split())
+
+    @property
+    def text(self) -> str:
+        """Its words, then those of what is below."""
+        return " ".join([one for one in [*self.words, *(child.text for child in self.children)] if one])
+
+
+class Reader(HTMLParser):
+    """The page as a tree; a tag that is not closed in its turn fails."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open = [Node("", {})]
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        node = Node(tag, {name: value or "" for name, value in attrs})
+        self.open[-1].children.append(node)
+        if tag not in VOID:
+            self.open.append(node)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop().tag == tag
+
+    def handle_data(self, data: str) -> None:
+        if data.strip():
+            self.open[-1].words.append(data.strip())
+
+
+def read(path: Path) -> Node:
+    """The whole page."""
+    return parsed(path.read_text(encoding="utf-8"))
+
+
+def parsed(text: str) -> Node:
+    reader = Reader()
+    reader.feed(text)
+    reader.close()
+    assert [one.tag for one in reader.open] == [""], "every tag is closed"
+    return reader.open[0]
