@@ -128,16 +128,12 @@ class Window:
 
 @asynccontextmanager
 async def window(
-    browser: Browser, url: str, *, width: int = 1280, height: int = 900, dark: bool = False, still: bool = False,
-    sharpness: float = 1.0,
+    browser: Browser, url: str, *, width: int = 1280, height: int = 900, dark: bool = False
 ) -> AsyncIterator[Window]:
-    """The page at `url` in a window of its own. `still`: for those who would have nothing move; `sharpness`: pixels of
-    the device for one of the page."""
+    """The page at `url` in a window of its own, as large as this in px."""
     context = await browser.new_context(
         viewport={"width": width, "height": height},
         color_scheme="dark" if dark else "light",
-        reduced_motion="reduce" if still else "no-preference",
-        device_scale_factor=sharpness,
         locale="en-GB",
     )
     try:

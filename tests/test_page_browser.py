@@ -203,9 +203,9 @@ def test_ten_minutes_of_two_feet_leave_the_page_as_large_as_it_was(browser: Brow
         scene = fresh()
         async with opened(chromium, scene) as view:
             walk = again(square(), 10.0 * MINUTE)
-            await show(scene, walk, speed=60.0, until=2.0 * MINUTE)
+            await show(scene, walk, speed=100.0, until=2.0 * MINUTE)
             heap, elements = await view.memory()
-            await show(scene, walk, speed=60.0, until=10.0 * MINUTE)
+            await show(scene, walk, speed=100.0, until=10.0 * MINUTE)
             heap_after, elements_after = await view.memory()
             print(f"after 2 min {heap} bytes and {elements} elements, after 10 {heap_after} and {elements_after}")
             assert heap_after < heap + MARGIN

@@ -13,6 +13,32 @@ from solepath.page.scene import Playback
 
 NARROW = 360
 """px."""
+FAINT = """() => {
+    const pen = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
+    const luminance = (colours) => {
+        for (const colour of ["#fff", ...colours]) {
+            pen.fillStyle = colour;
+            pen.fillRect(0, 0, 1, 1);
+        }
+        const linear = (value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
+        const [r, g, b] = [...pen.getImageData(0, 0, 1, 1).data].map((value) => linear(value / 255));
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const faint = [];
+    const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    for (let text = texts.nextNode(); text; text = texts.nextNode()) {
+        const one = text.parentElement, style = getComputedStyle(one), grounds = [];
+        const seen = one.checkVisibility({ opacityProperty: true, visibilityProperty: true });
+        if (!seen || text.data.trim() === "" || one.closest(".unseen, option")) continue;
+        for (let at = one; at; at = at.parentElement) grounds.unshift(getComputedStyle(at).backgroundColor);
+        const [dark, bright] = [luminance(grounds), luminance([...grounds, style.color])].sort((a, b) => a - b);
+        const contrast = (bright + 0.05) / (dark + 0.05), size = parseFloat(style.fontSize);
+        const large = size >= 24 || (size >= 18.66 && Number(style.fontWeight) >= 700);
+        if (contrast < (large ? 3 : 4.5)) faint.push(`${text.data.trim()}: ${contrast.toFixed(2)}`);
+    }
+    return faint;
+}"""
+"""Texts with less contrast than WCAG 2.2 asks for at level AA (1.4.3)."""
 
 
 class Tape:
@@ -65,6 +91,19 @@ def test_the_space_bar_pauses_and_the_arrows_seek(browser: Browsing) -> None:
             await view.tab.locator("#speed-choice").select_option("4")
             await view.until("document.getElementById('speed-choice').value === '4'")
             assert tape.asked[-1] == Command("speed", 4.0)
+
+    browser.run(main)
+
+
+def test_plus_minus_and_nought_look_nearer_and_farther_on_the_track(browser: Browsing) -> None:
+    async def main(chromium: Browser) -> None:
+        async with opened(chromium, after(20.0)) as view:
+            await view.until("Number(document.getElementById('track').dataset.points) > 0")
+            for key in "+-":
+                await view.tab.keyboard.press(key)
+                await view.until("document.getElementById('zoom-fit').ariaPressed === 'false'")
+                await view.tab.keyboard.press("0")
+                await view.until("document.getElementById('zoom-fit').ariaPressed === 'true'")
 
     browser.run(main)
 
@@ -146,5 +185,16 @@ def test_a_phone_has_nothing_to_scroll_sideways_light_and_dark(browser: Browsing
                     ground = await view.tab.evaluate("getComputedStyle(document.body).backgroundColor")
                     grounds.append(sum(map(int, re.findall(r"\d+", ground)[:3])))
                 assert grounds[0] > 3 * 200 and grounds[1] < 3 * 55
+
+    browser.run(main)
+
+
+def test_every_text_stands_out_from_its_ground_light_and_dark(browser: Browsing) -> None:
+    async def main(chromium: Browser) -> None:
+        for dark in (False, True):
+            async with opened(chromium, after(40.0), dark=dark) as view:
+                await view.until("document.querySelectorAll('#gait-rows tr').length > 0")
+                await view.tab.locator("summary").click()
+                assert await view.tab.evaluate(FAINT) == []
 
     browser.run(main)
