@@ -73,6 +73,8 @@ class Page:
         self._access = Access(self._host, secrets.token_urlsafe(16) if token is None else token)
         self._files = _files(files(__package__) / "static")
         self._watchers: set[Watcher] = set()
+        self._asked: set[web.RequestHandler] = set()
+        """Connections on which somebody has asked for something."""
         self._server: web.Server | None = None
         self._listening: asyncio.Server | None = None
 
@@ -118,9 +120,19 @@ class Page:
         if self._server is None or len(self._server.connections) >= MOST_CONNECTIONS:
             self.offences.tell(f"more than {MOST_CONNECTIONS} connections at once: one is refused")
             return _NoRoom()
-        return self._server()
+        one = self._server()
+        asyncio.get_running_loop().call_later(IDLE, self._hang_up, one)
+        return one
+
+    def _hang_up(self, one: web.RequestHandler) -> None:
+        """It has had its time; the library sees to those only that have asked for something once."""
+        connections = [] if self._server is None else self._server.connections
+        if one in connections and one not in self._asked:
+            one.force_close()
+        self._asked.intersection_update(connections)
 
     async def _answer(self, request: web.BaseRequest) -> web.StreamResponse:
+        self._asked.add(request.protocol)
         try:
             host = request.headers.get("Host")
             self._access.check_host(host)
