@@ -1,6 +1,6 @@
 // What the wearer does, and the few figures that everybody asks for first.
 
-import { ACTIVITIES, SUPPORTS, fixed, say, span, write } from "./words.js";
+import { ACTIVITIES, SUPPORTS, describe, fixed, say, span, tell, write } from "./words.js";
 
 export class Doing {
   constructor() {
@@ -17,11 +17,11 @@ export class Doing {
     const { activity, support, gait, feet } = state;
     const name = activity?.now ?? "UNKNOWN";
     write(this.activity, activity ? say(ACTIVITIES, name) : "Waiting");
-    this.activity.dataset.activity = name;
+    tell(this.activity, { activity: name });
     const icon = `#icon-${Object.hasOwn(ACTIVITIES, name) ? name : "UNKNOWN"}`;
-    if (this.icon.getAttribute("href") !== icon) this.icon.setAttribute("href", icon);
+    describe(this.icon, "href", icon);
     write(this.since, activity?.since != null && activity.since >= state.begin ? `for ${span(state.t - activity.since)}` : "");
-    this.support.dataset.support = support ?? "";
+    tell(this.support, { support: support ?? "" });
     write(this.supportWord, support ? say(SUPPORTS, support) : "");
     write(this.cadence, fixed(gait?.cadence ?? NaN));
     write(this.speed, fixed(gait?.rows.find((row) => row.name === "speed")?.both ?? NaN, 2));

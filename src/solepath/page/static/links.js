@@ -1,6 +1,6 @@
 // How each sensor is heard. One that is lost is said at the top of the page as well.
 
-import { LINKS, capital, fixed, percent, say, span, write } from "./words.js";
+import { LINKS, capital, fixed, percent, say, show, span, tell, write } from "./words.js";
 
 export class Links {
   constructor() {
@@ -16,14 +16,14 @@ export class Links {
 
   draw({ links }) {
     const names = Object.keys(links).sort();
-    this.waiting.hidden = names.length > 0;
+    show(this.waiting, names.length === 0);
     if (names.join("\n") !== [...this.sites.keys()].join("\n")) {
       this.sites = new Map(names.map((name) => [name, new Link(name)]));
       this.list.replaceChildren(...[...this.sites.values()].map((link) => link.element));
     }
     for (const [name, link] of this.sites) link.show(links[name]);
     const missed = names.filter((name) => ["lost", "silent"].includes(links[name].state));
-    this.banner.hidden = missed.length === 0;
+    show(this.banner, missed.length > 0);
     write(this.banner, missed.map((name) => {
       const { state, silent_for } = links[name];
       const since = Number.isFinite(silent_for) ? ` for ${span(silent_for)}` : "";
@@ -45,13 +45,14 @@ class Link {
     this.figures = Object.fromEntries(["rate", "loss", "battery", "signal", "gaps", "rejected"].map((title) => {
       const pair = this.#add(figures, "div");
       this.#add(pair, "dt").textContent = title;
+      pair.dataset.figure = title;
       return [title, { pair, value: this.#add(pair, "dd") }];
     }));
     this.trouble = this.#add(this.element, "p", "trouble");
   }
 
   show(link) {
-    this.element.dataset.state = String(link.state ?? "waiting");
+    tell(this.element, { state: link.state ?? "waiting" });
     const silent = Number.isFinite(link.silent_for) && link.state !== "ok" ? `, ${span(link.silent_for)}` : "";
     write(this.state, say(LINKS, link.state ?? "waiting") + silent);
     write(this.device, typeof link.name === "string" ? link.name : "");
@@ -62,13 +63,12 @@ class Link {
     this.#figure("gaps", fixed(link.gaps), link.gaps > 0);
     this.#figure("rejected", fixed(link.rejected), link.rejected > 0);
     write(this.trouble, typeof link.trouble === "string" ? link.trouble : "");
-    this.trouble.hidden = this.trouble.textContent === "";
+    show(this.trouble, this.trouble.textContent !== "");
   }
 
   #figure(title, words, known) {
     const { pair, value } = this.figures[title];
-    pair.hidden = !known;
-    pair.dataset.figure = title;
+    show(pair, known);
     write(value, words);
   }
 

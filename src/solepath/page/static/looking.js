@@ -1,5 +1,7 @@
 // The buttons and keys with which one looks around on the track: nearer, farther, another level, plan or track alone.
 
+import { describe, show } from "./words.js";
+
 export class Looking {
   constructor(track, redraw) {
     this.track = track;
@@ -30,11 +32,11 @@ export class Looking {
   draw(state) {
     const { track } = this;
     press(this.fit, track.view.follows);
-    this.choice.hidden = state.plan === null;
+    show(this.choice, state.plan !== null);
     press(this.onPlan, !track.byItself);
     press(this.alone, track.byItself);
     const levels = state.plan !== null && !track.byItself && state.plan.levels.length > 1 ? state.plan.levels : [];
-    this.levels.hidden = levels.length === 0;
+    show(this.levels, levels.length > 0);
     const key = JSON.stringify(levels.map(({ id, name }) => [id, name]));
     if (key !== this.listed) this.#list(levels, key);
     if (levels.length === 0) return;
@@ -72,7 +74,4 @@ export class Looking {
   }
 }
 
-function press(button, pressed) {
-  const words = String(pressed);
-  if (button.getAttribute("aria-pressed") !== words) button.setAttribute("aria-pressed", words);
-}
+const press = (button, pressed) => describe(button, "aria-pressed", String(pressed));

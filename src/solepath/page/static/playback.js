@@ -1,6 +1,6 @@
 // Pause, speed and seek of a recording; who may only watch sees where it is.
 
-import { clock, write } from "./words.js";
+import { clock, describe, show, tell, write } from "./words.js";
 
 const STEP = 5; // s
 const LONG_STEP = 30; // s, with Shift
@@ -34,21 +34,22 @@ export class Playback {
   draw(state) {
     const { playback, control } = state;
     this.state = state;
-    this.playback.hidden = playback === null;
+    show(this.playback, playback !== null);
     if (playback === null) return "done";
     const { begin, end, t, state: how, speed, seeking } = playback;
     const asked = this.#asked && performance.now() - this.#asked.at < PATIENCE ? this.#asked.t : null;
     const shown = this.#dragged ? Number(this.seek.value) : seeking ?? asked ?? t;
-    this.playback.dataset.state = how;
-    this.play.setAttribute("aria-label", how === "playing" ? "Pause" : how === "ended" ? "Play again" : "Play");
-    Object.assign(this.seek, { min: begin, max: Math.max(end, begin + 0.1) });
+    tell(this.playback, { state: how });
+    describe(this.play, "aria-label", how === "playing" ? "Pause" : how === "ended" ? "Play again" : "Play");
+    describe(this.seek, "min", String(begin));
+    describe(this.seek, "max", String(Math.max(end, begin + 0.1)));
     if (!this.#dragged) this.seek.value = shown;
-    this.seek.setAttribute("aria-valuetext", `${clock(shown - begin)} of ${clock(end - begin)}`);
+    describe(this.seek, "aria-valuetext", `${clock(shown - begin)} of ${clock(end - begin)}`);
     write(this["time-now"], clock(shown - begin));
     write(this["time-end"], clock(end - begin));
     this.#speed(speed);
-    for (const part of [this.play, this.seek, this["speed-choice"]]) part.disabled = !control;
-    this["playback-note"].hidden = control;
+    for (const part of [this.play, this.seek, this["speed-choice"]]) if (part.disabled === control) part.disabled = !control;
+    show(this["playback-note"], !control);
     if (!control) write(this["playback-note"], "This page may watch only. To pause and seek, open the whole address that solepath printed: it holds the key.");
     return "done";
   }

@@ -6,7 +6,7 @@ import { around, shoe, spacing } from "./outline.js";
 import { pressure } from "./scales.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
-import { LINKS, PHASES, capital, fixed, say, write } from "./words.js";
+import { LINKS, PHASES, capital, fixed, say, show, tell, write } from "./words.js";
 
 const LENGTH = 0.27; // m, of a shoe that nobody described
 const PAD = 6; // px
@@ -23,7 +23,8 @@ export class Soles {
   }
 
   wants(changed) {
-    return ["feet", "links", "theme", "scene"].some((name) => changed.has(name));
+    // each second as well: a number that was written a moment ago may not have been the last
+    return ["feet", "links", "theme", "scene", "second"].some((name) => changed.has(name));
   }
 
   // Whether it drew; who wants less motion sees ten pictures a second.
@@ -38,7 +39,7 @@ export class Soles {
   #legend({ layouts, scale }) {
     const shapes = FEET.filter((foot) => this.soles.some((sole) => sole.foot === foot && sole.shows === "pressure"))
       .map((foot) => layouts[foot]);
-    this.scale.hidden = shapes.length === 0;
+    show(this.scale, shapes.length > 0);
     const ends = shapes.map((shape) => `${scale.beyond[shape.unit] ? "≥ " : ""}${fixed(scale.tops[shape.unit])} ${shape.word}`);
     write(this.top, [...new Set(ends)].join(", "));
     const gradient = `linear-gradient(to right, ${theme.stops.map((stop) => `rgb(${stop})`).join(", ")})`;
@@ -47,7 +48,7 @@ export class Soles {
     const words = shown.includes("bars") ? "Where the cells sit is not known: one bar each, in their order."
       : shown.includes("contact") ? "No pressure is measured: filled is what touches the ground." : "";
     write(this.note, words);
-    this.note.hidden = words === "";
+    show(this.note, words !== "");
   }
 }
 
@@ -90,7 +91,7 @@ class Sole {
     const link = state.links[`${this.foot} foot`]?.state ?? "waiting";
     const lost = link === "lost" || link === "silent";
     this.shows = shown(foot, layout);
-    Object.assign(this.figure.dataset, { link, shows: this.shows, phase: foot?.phase ?? "" });
+    tell(this.figure, { link, shows: this.shows, phase: foot?.phase ?? "" });
     this.#words(foot, layout, lost, link, now);
 
     const context = this.surface.begin();

@@ -6,11 +6,11 @@ import { drawLevel, extent, label } from "./plan.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
 import { View } from "./view.js";
-import { fixed, percent, write } from "./words.js";
+import { fixed, percent, show, tell, write } from "./words.js";
 
 const SURE = Math.sqrt(5.991); // 95 % of two dimensions: chi squared, 2 degrees of freedom
 const LEAST = 3; // m that are seen at least
-const [TOP, SIDE, BOTTOM] = [20, 18, 58]; // px around what is fitted: names, and the buttons below
+const [EDGE, BUTTONS] = [20, 56]; // px around what is fitted, and where the buttons are
 const JUMP = 5; // m between two places: another candidate became the best, nobody walked there
 const WIDTHS = { left: 1.25, right: 1.25, wearer: 3.25 };
 
@@ -22,16 +22,23 @@ export class Track {
     const canvas = document.getElementById("track");
     this.canvas = canvas;
     this.layer = document.createElement("canvas");
+    this.view = new View(canvas, redraw);
     this.surface = new Surface(canvas, () => {
-      this.view?.resized();
+      this.#room();
+      this.view.resized();
       redraw();
     });
-    this.view = new View(canvas, redraw);
-    this.view.above = (BOTTOM - TOP) / 2;
     this.alternative = new Alternative(canvas);
     this.note = document.getElementById("track-note");
     this.section = document.getElementById("track-section");
     this.key = "";
+  }
+
+  // What is fitted leaves out the buttons: below, or at the right where there is more room.
+  #room() {
+    const upright = getComputedStyle(document.getElementById("zoom")).flexDirection === "column";
+    this.margins = upright ? [EDGE + BUTTONS, 2 * EDGE] : [2 * EDGE, EDGE + BUTTONS];
+    [this.view.aside, this.view.above] = upright ? [(BUTTONS - EDGE) / 2, 0] : [0, (BUTTONS - EDGE) / 2];
   }
 
   wants(changed) {
@@ -48,9 +55,9 @@ export class Track {
     const level = onPlan ? this.shown(state) : null;
     const { width, height } = this.surface;
     const box = onPlan && this.extent ? this.extent : this.#box(state);
-    this.view.fit(box, width - 2 * SIDE, height - TOP - BOTTOM, onPlan ? 0 : 0.14);
+    this.view.fit(box, width - this.margins[0], height - this.margins[1], onPlan ? 0 : 0.14);
     const { x, y, scale } = this.view.at(now);
-    const px = ([mx, my]) => [width / 2 + (mx - x) * scale, height / 2 - this.view.above - (my - y) * scale];
+    const px = ([mx, my]) => [width / 2 - this.view.aside + (mx - x) * scale, height / 2 - this.view.above - (my - y) * scale];
 
     this.#still(state, level, px, scale, `${x} ${y}`);
     const context = this.surface.begin();
@@ -61,8 +68,8 @@ export class Track {
 
     const view = onPlan ? "plan" : "track";
     const points = onPlan ? state.places.length : Object.values(state.tracks).reduce((sum, one) => sum + one.length, 0);
-    Object.assign(this.canvas.dataset, { view, points, level: level?.id ?? "" });
-    this.section.dataset.view = view;
+    tell(this.canvas, { view, points, level: level?.id ?? "" });
+    tell(this.section, { view });
     this.#words(state, onPlan, level);
     return "done";
   }
@@ -279,7 +286,7 @@ export class Track {
     else if (onPlan && place.level !== level.id) words = `The wearer is on ${nameOf(plan, place.level)}.`;
     else if (onPlan && place.candidates.length > 1) words = `${place.candidates.length} possible places; the likeliest has ${percent(Math.max(...place.candidates.map((one) => one.weight)))}.`;
     write(this.note, words);
-    this.note.hidden = words === "";
+    show(this.note, words !== "");
     this.alternative.say(() => {
       if (onPlan && place) {
         const [x, y] = place.position;

@@ -9,7 +9,8 @@ const PUSH = 48; // px
 
 export class View {
   follows = true; // shows all of it by itself
-  above = 0; // px that its middle is above the canvas's
+  above = 0; // px that its middle is above the canvas's, and left of it
+  aside = 0;
   #goal = null;
   #now = null;
   #fingers = new Map();
@@ -122,7 +123,7 @@ export class View {
     if (now.length === 2) {
       const apart = ([a, b]) => Math.max(10, Math.hypot(a[0] - b[0], a[1] - b[1]));
       const frame = this.canvas.getBoundingClientRect();
-      this.#about(middle(now, 0) - frame.x - frame.width / 2, middle(now, 1) - frame.y - frame.height / 2 + this.above, apart(now) / apart(old));
+      this.#about(middle(now, 0) - frame.x - frame.width / 2 + this.aside, middle(now, 1) - frame.y - frame.height / 2 + this.above, apart(now) / apart(old));
     }
   }
 
@@ -136,6 +137,6 @@ export class View {
     if (!event.ctrlKey) return;
     event.preventDefault();
     const frame = this.canvas.getBoundingClientRect();
-    this.#about(event.clientX - frame.x - frame.width / 2, event.clientY - frame.y - frame.height / 2 + this.above, Math.exp(-event.deltaY * 0.004));
+    this.#about(event.clientX - frame.x - frame.width / 2 + this.aside, event.clientY - frame.y - frame.height / 2 + this.above, Math.exp(-event.deltaY * 0.004));
   }
 }

@@ -33,7 +33,22 @@ export function span(seconds) {
   return seconds < 60 ? `${Math.max(0, Math.floor(seconds))} s` : `${clock(seconds)} min`;
 }
 
-// Only where it is another text: the browser lays out what is written.
+// Only where it is another one: the browser works out anew what is written, thirty times a second.
 export function write(element, words) {
   if (element.textContent !== words) element.textContent = words;
+}
+
+export function show(element, shown) {
+  if (element.hidden === shown) element.hidden = !shown;
+}
+
+// As data-..., for style.css and tests.
+export function tell(element, data) {
+  for (const [name, value] of Object.entries(data)) {
+    if (element.dataset[name] !== String(value)) element.dataset[name] = value;
+  }
+}
+
+export function describe(element, name, words) {
+  if (element.getAttribute(name) !== words) element.setAttribute(name, words);
 }
