@@ -1,6 +1,6 @@
 """An app's loop without asyncio: a thread that receives, a bounded queue, and one thread that holds the session.
 
-    python examples/thread_and_queue.py                     an emulated walk, four times as fast as life
+    python examples/thread_and_queue.py                     an emulated walk, eight times as fast as life
     python examples/thread_and_queue.py walk.jsonl [SPEED]  a recording (solepath demo --record walk.jsonl)
 
 What one learns: a session belongs to one thread; a Bluetooth library's callback only puts packets into a queue. What
@@ -119,7 +119,7 @@ def show(event: Event) -> None:
         case StepTaken(t=t, foot=foot, stride_length=length, degraded=degraded, number=number):
             print(f"{t:6.2f} s  {foot.value} step of {length:.2f} m{', with a gap in it' if degraded else ''}")
             if number == 2 and foot is Foot.LEFT:
-                time.sleep(0.4)  # the screen hangs
+                time.sleep(0.2)  # the screen hangs
         case PacketsDropped(t=t, site=site, count=count):
             print(f"{t:6.2f} s  {site.value}: {count} packets dropped, the screen was too slow")
         case StreamStale(t=t, site=site):
@@ -132,7 +132,7 @@ if len(sys.argv) > 1:
     sent, speed = list(read_packets(sys.argv[1])), float(sys.argv[2]) if len(sys.argv) > 2 else 1.0
 else:
     walk = emulate(Route().stand(2).walk(16, speed=1.3).stop(2), seed=5)
-    sent, speed = [packet for packet in walk.packets if not 7.5 < packet.t < 9.5], 4.0  # the radio falls silent
+    sent, speed = [packet for packet in walk.packets if not 7.5 < packet.t < 9.5], 8.0  # the radio falls silent
 app = App(iter(sent), Clock(speed, sent[0].t), show)
 background = sent[0].t + 11.0
 try:
@@ -140,7 +140,7 @@ try:
         if app.clock.now() > background:
             background, text = float("inf"), app.pause()
             print(f"{app.clock.now():6.2f} s  paused, {len(text) / 1000:.0f} kB of state")
-            time.sleep(0.5)
+            time.sleep(0.3)
             app.resume(text)
 except KeyboardInterrupt:
     pass

@@ -1,0 +1,149 @@
+"""An app for a phone or a desk: what the wearer does, steps, gait, both soles and the track, live, with BeeWare Toga.
+
+    pip install '.[ble]' 'toga>=0.5.7'      (on Linux, for Qt instead of GTK: toga-qt[pyside6-essentials])
+    python examples/toga_app.py             one button for two insoles nearby, one for an emulated wearer
+
+What one learns: Toga runs an asyncio loop, and `solepath.ble.Devices` runs in it; widgets are told ten times a second.
+On a phone (not tried yet) Briefcase packs it, with the permission to use Bluetooth. Listening needs attrs, construct
+and bleak, no numpy: the package asks for it, but only the emulated wearer uses it; where it has no wheel, leave it out
+with pip's `--no-deps`. bleak has a backend for Briefcase's Android and none for iOS: there the system's own Bluetooth
+has to put packets into a queue, as in thread_and_queue.py.
+"""
+
+import asyncio
+from collections import deque
+from collections.abc import AsyncIterator, Iterator
+
+import toga
+from toga.colors import rgb
+from toga.constants import CENTER, COLUMN, ROW
+from toga.widgets.canvas import Arc, DrawingAction, Fill, LineTo, Rect, Stroke
+
+from solepath import Event, Foot, FootPressed, Layout, LayoutKnown, LinkTrouble, Packet, Session, StepTaken, StreamStale
+from solepath.link.profile import INSOLE
+
+COLOURS = {Foot.LEFT: "#1f77b4", Foot.RIGHT: "#d95f02"}
+FIGURES = {"steps": "steps", "cadence": "steps a minute", "length": "stride, m", "asymmetry": "asymmetry of swing"}
+
+
+async def sensors() -> AsyncIterator[Packet]:
+    from solepath.ble import Devices, Wanted
+
+    async with Devices([Wanted(None, profile=INSOLE), Wanted(None, profile=INSOLE)]) as devices:
+        async for packet in devices:
+            yield packet
+
+
+async def emulated(speed: float = 1.0) -> AsyncIterator[Packet]:
+    from solepath.sim import Route, emulate
+
+    loop = asyncio.get_running_loop()
+    began = loop.time()
+    for packet in emulate(Route().stand(2).walk(12, speed=1.3).turn(1.6, radius=1.5).walk(8).stop(2), seed=1).packets:
+        await asyncio.sleep(max(0.0, began + packet.t / speed - loop.time()))
+        yield packet
+
+
+class GaitApp(toga.App):
+    def startup(self) -> None:
+        self.listening: asyncio.Task[None] | None = None
+        self.activity = toga.Label("", font_size=26, text_align=CENTER)
+        self.figures = {name: toga.Label("", font_size=24, text_align=CENTER) for name in FIGURES}
+        self.soles = toga.Canvas(height=190, margin=6, background_color="white")
+        self.map = toga.Canvas(flex=1, margin=6, background_color="white")
+        self.status = toga.Label("", font_size=11, margin=6)
+        big = {"font_size": 16, "height": 48, "flex": 1, "margin": 4}
+        self.start = toga.Button("Insoles", on_press=lambda _: self.begin(sensors()), **big)
+        self.show = toga.Button("Emulated", on_press=lambda _: self.begin(emulated()), **big)
+        below = {name: toga.Label(text, font_size=11, text_align=CENTER) for name, text in FIGURES.items()}
+        tiles = [toga.Box(children=[self.figures[n], below[n]], direction=COLUMN, flex=1) for n in FIGURES]
+        rows = [toga.Box(children=row, direction=ROW) for row in (tiles[:2], tiles[2:], [self.start, self.show])]
+        column = [self.activity, rows[0], rows[1], self.soles, self.map, self.status, rows[2]]
+        self.main_window = toga.MainWindow(size=(360, 740), content=toga.Box(children=column, direction=COLUMN))
+        self.main_window.show()
+        self.anew()
+
+    def anew(self) -> None:
+        self.session, self.steps, self.peak, self.due = Session(pressures=True), 0, 1.0, 0.0
+        self.layouts, self.load = dict[Foot, Layout](), dict[Foot, FootPressed]()
+        self.track = {foot: deque([(0.0, 0.0)], maxlen=1000) for foot in Foot}
+        self.draw()
+
+    def begin(self, packets: AsyncIterator[Packet]) -> None:
+        if self.listening is not None:
+            self.listening.cancel()  # the button says Stop
+            return
+        self.anew()
+        self.status.text, self.start.text, self.show.enabled = "waiting for the first packet", "Stop", False
+        self.listening = self.loop.create_task(self.listen(packets))
+
+    async def listen(self, packets: AsyncIterator[Packet]) -> None:
+        why = "ended"
+        try:
+            async for packet in packets:
+                self.take(self.session.feed(packet))
+        except asyncio.CancelledError:
+            why = "stopped"
+        except Exception as error:  # no Bluetooth, no permission, a package that is missing: for the user to read
+            why = str(error)
+        self.take(self.session.finish())
+        self.draw()
+        self.status.text, self.start.text, self.show.enabled, self.listening = why, "Insoles", True, None
+
+    def take(self, events: list[Event]) -> None:
+        for event in events:
+            match event:
+                case StepTaken(foot=foot, position=(x, y, _)):
+                    self.steps += 1
+                    self.track[foot].append((x, y))
+                case FootPressed(foot=foot, values=values):
+                    self.load[foot], self.peak = event, max(self.peak, *values)
+                case LayoutKnown(layout=layout):
+                    self.layouts[layout.foot], self.status.text = layout, f"{layout.foot.value} insole heard"
+                case LinkTrouble() | StreamStale():
+                    self.status.text = event.what if isinstance(event, LinkTrouble) else f"{event.site.value} is silent"
+        if self.loop.time() >= self.due:
+            self.due = self.loop.time() + 0.1
+            self.draw()
+
+    def draw(self) -> None:
+        gait = self.session.gait
+        length, uneven = (gait.both.stride_length, gait.asymmetry("swing_time")) if gait else (None, None)
+        self.figures["steps"].text = f"{self.steps}"
+        self.figures["cadence"].text = f"{gait.cadence:.0f}" if gait and gait.cadence else "–"
+        self.figures["length"].text = f"{length.mean:.2f}" if length else "–"
+        self.figures["asymmetry"].text = f"{uneven:+.1%}" if uneven is not None else "–"
+        self.activity.text = self.session.activity.value.replace("_", " ").lower()
+        for canvas, drawn in ((self.soles, self.drawn_soles), (self.map, self.drawn_track)):
+            canvas.root_state.drawing_actions[:] = drawn(canvas.layout.content_width, canvas.layout.content_height)
+            canvas.redraw()
+
+    def drawn_soles(self, width: float, height: float) -> Iterator[Fill]:
+        for foot in self.load.keys() & self.layouts.keys():
+            load, layout = self.load[foot], self.layouts[foot]
+            scale, middle, heel = (height - 16) / layout.length, width * (0.3 if foot is Foot.LEFT else 0.7), height - 8
+            for cell, value in zip(layout.cells, load.values, strict=False):
+                side, share = scale * cell.area**0.5 - 1, (value / self.peak) ** 0.5
+                place = Rect(middle - scale * cell.y - side / 2, heel - scale * cell.x - side / 2, side, side)
+                yield filled(rgb(220, 220 - round(200 * share), 220 - round(210 * share)), place)
+            if load.centre is not None:
+                yield filled(COLOURS[foot], Arc(middle - scale * load.centre[1], heel - scale * load.centre[0], 6))
+
+    def drawn_track(self, width: float, height: float) -> Iterator[Stroke]:
+        xs, ys = zip(*(place for places in self.track.values() for place in places), strict=True)
+        scale = min((height - 30) / max(max(xs) - min(xs), 2.0), (width - 30) / max(max(ys) - min(ys), 2.0))
+        across, up = width / 2 + scale * (max(ys) + min(ys)) / 2, height / 2 + scale * (max(xs) + min(xs)) / 2
+        for foot, places in self.track.items():
+            line = Stroke(stroke_style=COLOURS[foot], line_width=3)
+            line.drawing_actions[:] = [LineTo(across - scale * y, up - scale * x) for x, y in places]
+            yield line
+
+
+def filled(colour: str | rgb, shape: DrawingAction) -> Fill:
+    fill = Fill(fill_style=colour)
+    fill.drawing_actions.append(shape)
+    return fill
+
+
+if __name__ == "__main__":
+    GaitApp("solepath", "org.example.solepath").main_loop()
