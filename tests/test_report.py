@@ -14,10 +14,13 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import happenings
+from floors import LOW, OFFICE, Pedestrian, office
 from pages import Node, parsed, read
 from solepath import Connected, LinkTrouble, PacketsLost, PlaceLost, Session, Site
 from solepath.body.gait_means import GaitMeans
+from solepath.body.place.particles import Particles
 from solepath.events import Event, FootMoved, FootPressed, LayoutKnown, StepTaken, StrideMeasured, WearerMoved
+from solepath.floorplan.plan import Start
 from solepath.report import Report
 from solepath.report.page import text_of
 from solepath.sim.building import BUILDING
@@ -27,7 +30,6 @@ from solepath.types import Foot
 from solepath.view.gait_rows import gait_rows
 from solepath.view.table import number, percent
 from walks import insoles
-from walks import told as said
 
 CORNER = Route().stand(1.5).walk(12.0, 1.3).turn(radians(90), radius=1.5).walk(3.0).stop(1.0)
 LEADS = {"src", "href", "action", "data", "poster", "srcset", "xlink:href", "background", "formaction", "ping", "style"}
@@ -248,13 +250,16 @@ def test_pressure_alone_has_times_and_no_track() -> None:
 
 
 def test_on_a_floor_plan_the_track_is_drawn_on_it() -> None:
-    report = Report("indoors", BUILDING)
-    for events in said("session, Snake game"):
-        for event in events:
+    report, part, one = Report("indoors", office()), Particles(), Pedestrian(32, "0", (12.0, LOW))
+    one.walk((24.0, LOW))
+    part.set_out(Start("0", (12.0, LOW), -one.turned))
+    for told_of in one.told:
+        for event in part.follow(OFFICE, told_of.events, told_of.here):
             report.add(event)
     page = shown(report)
     assert "Track on the floor plan" in captions(page)
-    assert page.named("plan").all("polyline") or page.named("plan").all("circle")
+    assert page.named("plan").all("polyline")
+    assert "Levels where the wearer was not are left out." in page.text
 
 
 @settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
@@ -278,10 +283,10 @@ def test_memory_does_not_grow_with_the_time_walked() -> None:
         for event in [event for event in walked() if isinstance(event, kind)][-4:]
     ]
     report, sizes = told(*walked()), []
-    for k in range(1, 801):
+    for k in range(1, 501):
         for event in events:
             report.add(evolve(event, t=event.t + 20.0 * k))
-        if k in (400, 800):
+        if k in (250, 500):
             sizes.append(len(repr(report)))
-    assert report.strides[Foot.LEFT].count > 1500 and report.way.count > 3000
+    assert report.strides[Foot.LEFT].count > 1500 and report.way.count > 2000
     assert sizes[1] < 1.3 * sizes[0]
