@@ -1,4 +1,4 @@
-"""Whole walks through true ATT: two insoles for a minute, and SensorTags at the rates that they have."""
+"""Whole walks through true ATT: two insoles, and SensorTags at the rates that they have."""
 
 from __future__ import annotations
 
@@ -35,6 +35,10 @@ from solepath.wire.fragment import is_fragment, parse_fragment
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 MINUTE = Route().stand(3.0).walk(20.0).turn(1.5, radius=1.5).walk(40.0, speed=1.2).stop(7.0)
 SOME = Route().stand(3.0).walk(8.0).turn(1.5, radius=1.5).walk(4.0, speed=1.2).stop(3.0)
+LITTLE = Route().stand(3.0).walk(4.0).stop(2.0)
+"""What is sent in pieces costs as much for each piece."""
+LASTS = {MINUTE: 60.0, SOME: 15.0, LITTLE: 7.5}
+"""s."""
 
 
 def heard(
@@ -75,7 +79,15 @@ def events_of(packets: list[Packet]) -> list[Event]:
     return [*session.feed(packets), *session.finish()]
 
 
-@pytest.mark.parametrize(("mtu", "route"), [(247, MINUTE), (185, SOME), (23, SOME)], ids=["247", "185", "23"])
+@pytest.mark.parametrize(
+    ("mtu", "route"),
+    [
+        pytest.param(247, MINUTE, marks=pytest.mark.soak, id="247, a minute"),
+        pytest.param(247, SOME, id="247"),
+        pytest.param(185, LITTLE, id="185"),
+        pytest.param(23, LITTLE, id="23"),
+    ],
+)
 def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_the_walk_fed_directly(
     mtu: int, route: Route
 ) -> None:
@@ -86,7 +98,7 @@ def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_
     """
     bench = Bench(route, mtu=mtu)
     duration = bench.truth().duration
-    assert duration > (60.0 if route is MINUTE else 15.0)
+    assert duration > LASTS[route]
     packets, began = heard(bench, [Wanted(None, profile=INSOLE)] * 2, duration)
     arrived = whole(packets)
 

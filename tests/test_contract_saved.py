@@ -19,22 +19,11 @@ from hypothesis import strategies as st
 from solepath import Packet, Session, SnapshotError, StepTaken
 from solepath.machine import checksum
 from solepath.sim.building import BUILDING
-from walks import NAMES, PACKET_NAMES, machines, of, told
+from walks import NAMES, PACKET_NAMES, gone, machines, of, told
 
 SESSIONS = [name for name in NAMES if name.startswith("session")]
 QUICK = settings(max_examples=2, deadline=None, phases=[Phase.generate])
 """A walk an example: few of them, and no shrinking."""
-
-
-@cache
-def ended(name: str) -> Any:
-    """The snapshot of a machine that was fed everything, and finished."""
-    machine = machines()[name]
-    one = machine.begin()
-    for item in machine.items:
-        one.feed(item)
-    one.finish()
-    return machine.save(one)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -43,15 +32,18 @@ def ended(name: str) -> Any:
 def test_a_machine_saved_at_any_moment_goes_on_as_if_nothing_had_happened(name: str, data: st.DataObject) -> None:
     machine = machines()[name]
     cut = data.draw(st.integers(0, len(machine.items)))
+    # a machine that remembers nothing yet, which is always tried, need not go all the way
+    end = len(machine.items) if cut else min(100, len(machine.items))
     straight = machine.begin()
     for item in machine.items[:cut]:
         straight.feed(item)
     restored = machine.load(machine.save(straight))
     assert machine.save(restored) == machine.save(straight)
-    for item, events in zip(machine.items[cut:], told(name)[cut:], strict=False):
+    for item, events in zip(machine.items[cut:end], told(name)[cut:end], strict=True):
         assert repr(restored.feed(item)) == repr([*events])
-    assert repr(restored.finish()) == repr([*told(name)[-1]])
-    assert machine.save(restored) == ended(name)
+    if cut:
+        assert repr(restored.finish()) == repr([*told(name)[-1]])
+        assert machine.save(restored) == gone(name).ended
 
 
 @pytest.mark.parametrize("name", ["session, whole frames", "session, cc2541", "decoder, fragments"])
@@ -146,9 +138,9 @@ def test_the_same_packets_say_the_same_in_every_process_whatever_its_hashes(name
 def test_two_sessions_of_one_recipe_share_nothing(name: str) -> None:
     machine = machines()[name]
     one, other = machine.begin(), machine.begin()
-    half = len(machine.items) // 2
-    events = [event for item in machine.items[:half] for event in one.feed(item)]
-    assert [event for item in machine.items[:half] for event in other.feed(item)] == events
+    some = machine.items[: len(machine.items) // 3]
+    events = [event for item in some for event in one.feed(item)]
+    assert [event for item in some for event in other.feed(item)] == events
     assert asdict(machine.begin().recipe) == asdict(one.recipe)
 
 

@@ -41,6 +41,8 @@ def moved(item: Any, by: float) -> Any:
     return evolve(item, t=item.t + by)
 
 
+EARLIER = ("decoder", "session, whole frames", "session, cc2541", "session, samples")
+"""Where clocks and sessions differ; a recipe's parts are no other before zero than after it."""
 TIMES = ("t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike")
 
 
@@ -51,8 +53,10 @@ def split(event: Any) -> tuple[list[float], dict[str, Any]]:
     return times, values
 
 
-@pytest.mark.parametrize("by", [-3600.0, 1e6])
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(
+    ("name", "by"),
+    [(name, 1e6) for name in NAMES] + [(name, -3600.0) for name in NAMES if name.startswith(EARLIER)],
+)
 def test_the_same_walk_at_another_time_gives_the_same_events_at_that_time(name: str, by: float) -> None:
     machine = machines()[name]
     here = machine.events()

@@ -144,10 +144,10 @@ def packets() -> dict[str, tuple[Packet, ...]]:
 @cache
 def machines() -> dict[str, Machine]:
     """Every machine that there is, by name."""
-    plain, pressed = samples(cells=0), samples()
+    plain, pressed = samples(cells=0, rate=50.0), samples(rate=50.0)
     found = [_session(name, items) for name, items in packets().items()]
     found += [_decoder(name, items) for name, items in packets().items()]
-    found += [_session("samples", plain), _session("samples with pressure", pressed)]
+    found += [_session("samples", samples(cells=0)), _session("samples with pressure", samples())]
     for detector in (Shoe(), AngularRate(), MovingVariance(), Graph(), TwoArea(), MaximumPressure()):
         name = type(detector).__name__
         items = pressed if isinstance(detector, TwoArea | MaximumPressure) else plain
@@ -162,12 +162,32 @@ def machines() -> dict[str, Machine]:
     return {one.name: one for one in found}
 
 
+@frozen
+class Gone:
+    """What became of a machine that was fed its items one by one, and then finished."""
+
+    told: tuple[tuple[Any, ...], ...]
+    """What it said to each item, and at the end."""
+    fed: Any
+    """Its snapshot after the last item."""
+    ended: Any
+    """And after the end."""
+
+
 @cache
-def told(name: str) -> tuple[tuple[Any, ...], ...]:
-    """What a machine says to each of its items, and at the end: found out once, for all that compare with it."""
+def gone(name: str) -> Gone:
+    """Found out once, for all that compare with it."""
     known = machines()[name]
     one = known.begin()
-    return (*(tuple(one.feed(item)) for item in known.items), tuple(one.finish()))
+    events = [tuple(one.feed(item)) for item in known.items]
+    fed = known.save(one)
+    events.append(tuple(one.finish()))
+    return Gone(tuple(events), fed, known.save(one))
+
+
+def told(name: str) -> tuple[tuple[Any, ...], ...]:
+    """What a machine says to each of its items, and at the end."""
+    return gone(name).told
 
 
 RECIPES = (
