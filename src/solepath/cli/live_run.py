@@ -52,16 +52,16 @@ async def listen(
     places = None if plan is None else Places()
     scene: Scene | None = None
     async with AsyncExitStack() as stack:
-        if view is not None:
-            drawn = None if plan is None else plan.plan
-            scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration))
-            await stack.enter_async_context(page_of(scene, view))
         async with unless_told(stop):
             backend = await stack.enter_async_context(air(options.via))
             if not devices:
                 print(f"looking for sensors for {LISTENED:g} s ...", flush=True)
                 devices = chosen(await scan(LISTENED, backend=backend), options.profile)
             heard = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
+        if view is not None:
+            drawn = None if plan is None else plan.plan
+            scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration))
+            await stack.enter_async_context(page_of(scene, view))
         # not before: a search in vain replaces nothing of an earlier run
         files = Files(options.record, options.out, plan is not None)
         try:

@@ -189,6 +189,8 @@ def _kept(
     fault = "" if reading.failure is None else str(reading.failure)
     player = Player(items, session, scene, plan, fault=fault, told=results.told)
     long = len(items) > LONG_SAMPLES
+    if long:
+        print("it is worked through once before the page opens ...", flush=True)
     with progress_bar("computing", len(items), wanted=long) as show:
         while player.run_through(_After(ITEMS)):
             show(player.done)
