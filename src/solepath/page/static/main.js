@@ -93,8 +93,8 @@ const connection = new Connection(
         // only what was open can be missed; a first try needs no alarm
         element("offline").hidden = how === "open" || (how === "connecting" && was === "");
         const left = Math.ceil((at - performance.now()) / 1000);
-        const next = how === "connecting" || left < 1 ? "trying now" : `trying again in ${left} s`;
-        write(element("offline-words"), `solepath is not to be reached: ${next}. ${state.known ? "What you see is old." : ""}`);
+        const next = how === "connecting" || left < 1 ? "Trying now" : `Trying again in ${left} s`;
+        write(element("offline-words"), `solepath cannot be reached${state.known ? "; what you see is old" : ""}. ${next}.`);
       };
       show();
       if (how === "closed") {

@@ -10,7 +10,7 @@ import { LINKS, PHASES, capital, fixed, say, show, tell, write } from "./words.j
 
 const LENGTH = 0.27; // m, of a shoe that nobody described
 const PAD = 6; // px
-const READABLE = 200; // ms between numbers that change
+const READABLE = 120; // ms between numbers that change
 
 export class Soles {
   constructor(redraw) {
@@ -115,8 +115,9 @@ class Sole {
   #words(foot, layout, lost, link, now) {
     const phase = foot?.phase ? say(PHASES, foot.phase) : "–";
     write(this.phase, lost ? say(LINKS, link) : phase);
-    if (now - this.written >= READABLE) {
+    if (now - this.written >= READABLE || phase !== this.said) {
       this.written = now;
+      this.said = phase;
       const known = foot && foot.force !== null && !lost;
       write(this.force, known ? `${fixed(foot.force)} ${layout?.forces ? "N" : "counts"}` : "");
     }

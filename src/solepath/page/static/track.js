@@ -1,7 +1,7 @@
 // The way walked, seen from above: by itself, or on the floor plan. What does not move is kept as a picture, to which
 // only new points are added as long as nobody looks elsewhere.
 
-import { Alternative, Surface, round } from "./canvas.js";
+import { Alternative, Surface, calm, round } from "./canvas.js";
 import { drawLevel, extent, label } from "./plan.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
@@ -12,6 +12,7 @@ const SURE = Math.sqrt(5.991); // 95 % of two dimensions: chi squared, 2 degrees
 const LEAST = 3; // m that are seen at least
 const [EDGE, BUTTONS] = [20, 56]; // px around what is fitted, and where the buttons are
 const JUMP = 5; // m between two places: another candidate became the best, nobody walked there
+const CALM = 200; // ms between pictures for who wants less motion
 const WIDTHS = { left: 1.25, right: 1.25, wearer: 3.25 };
 
 export class Track {
@@ -32,6 +33,7 @@ export class Track {
     this.note = document.getElementById("track-note");
     this.section = document.getElementById("track-section");
     this.key = "";
+    this.drawnAt = 0;
   }
 
   // What is fitted leaves out the buttons: below, or at the right where there is more room.
@@ -50,6 +52,8 @@ export class Track {
   }
 
   draw(state, now, changed) {
+    if (calm.matches && now - this.drawnAt < CALM && !changed.has("theme")) return "later";
+    this.drawnAt = now;
     if (changed.has("scene") && state.generation !== this.generation) this.#scene(state);
     const onPlan = state.plan !== null && !this.byItself;
     const level = onPlan ? this.shown(state) : null;
