@@ -28,6 +28,7 @@ from solepath.types import SITE_OF_FOOT, Foot
 
 REFRESH = 1.0 / 60.0
 """s between two parts of what is shown."""
+LONGEST_PART = 2.0 * REFRESH
 TIMES = frozenset({"t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike", "revises"})
 """Fields of events that are moments, s."""
 CONNECTED = "document.getElementById('connection').dataset.state === 'open'"
@@ -120,18 +121,20 @@ def later(event: Event, by: float) -> Event:
 
 
 async def show(scene: Scene, walk: Iterable[Told], speed: float = 1.0, until: float | None = None) -> None:
-    """The scene takes what is told when it is due, at so many times real time; until so many s of the walk."""
+    """The scene takes what is told when it is due, at so many times real time; until so many s of the walk. Slower
+    where that is too fast for the machine: the page has its turn after every part."""
     clock = asyncio.get_running_loop().time
-    first: float | None = None
-    began = due = 0.0
+    due: float | None = None
+    last = clock()
     for t, events in walk:
         if until is not None and t > until:
             break
-        if first is None:
-            first, began = t, clock()
-        while t > first + due:
+        due = t if due is None else due
+        while t > due:
             await asyncio.sleep(REFRESH)
-            due = (clock() - began) * speed
+            now = clock()
+            due += speed * min(now - last, LONGEST_PART)
+            last = now
         for event in events:
             scene.take(event)
 

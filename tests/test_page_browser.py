@@ -23,7 +23,7 @@ from solepath.sim.route import Route
 from solepath.types import Foot
 
 MINUTE = 60.0
-MARGIN = 0.6e6
+MARGIN = 0.7e6
 """Bytes; eight minutes more of tracks are 1800 points."""
 FEET = ("left", "right")
 
@@ -199,13 +199,14 @@ def test_names_from_the_air_are_shown_as_text(browser: Browsing) -> None:
 
 
 def test_ten_minutes_of_two_feet_leave_the_page_as_large_as_it_was(browser: Browsing) -> None:
+    walk = again(square(), 10.0 * MINUTE)
+
     async def main(chromium: Browser) -> None:
         scene = fresh()
         async with opened(chromium, scene) as view:
-            walk = again(square(), 10.0 * MINUTE)
-            await show(scene, walk, speed=100.0, until=2.0 * MINUTE)
+            await show(scene, walk, speed=40.0, until=2.0 * MINUTE)
             heap, elements = await view.memory()
-            await show(scene, walk, speed=100.0, until=10.0 * MINUTE)
+            await show(scene, walk, speed=80.0, until=10.0 * MINUTE)
             heap_after, elements_after = await view.memory()
             print(f"after 2 min {heap} bytes and {elements} elements, after 10 {heap_after} and {elements_after}")
             assert heap_after < heap + MARGIN
