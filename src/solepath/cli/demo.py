@@ -110,6 +110,8 @@ def _show(demo: Demo, view: View, pace: float) -> None:
     player = Player(Kept(demo.walk.packets), demo.monitor.session, scene, demo.plan, told=demo.told)
     player.speed(pace)
     play(player, view, once=not attended())
+    if player.done < len(player.items):
+        print("the rest of the walk, as fast as it can be computed ...", flush=True)
     while player.run_through(lambda: False):
         pass
 
