@@ -63,9 +63,9 @@ class Session:
     ValueError, for such a floor plan or start (protocol/floorplan.md).
 
     `feed`, `advance` and `finish` return the events that became known, in the order in which they did. `feed` is
-    total: any bytes give events, never an exception, unless a reader of the app's own is itself wrong. TypeError for
-    what is neither a packet nor a sample, ValueError for a time that is not finite in `advance` and for feeding after
-    `finish`.
+    total: any bytes give events, never an exception, unless a reader or a detector of the app's own is itself wrong.
+    TypeError for what is neither a packet nor a sample, ValueError for a time that is not finite in `advance` and for
+    feeding after `finish`.
 
     Latency: zero velocity and live position with the sample. Heel-strike and toe-off one sample once a foot has pushed
     off the first time; a foot that leaves the ground without pushing off is known to swing after 0.15 s (0.4 s right

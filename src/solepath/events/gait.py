@@ -17,22 +17,29 @@ class _Phase(Happening):
 
 @frozen(kw_only=True)
 class HeelStrike(_Phase):
-    """The foot touched the ground; LOADING begins."""
+    """The foot touched the ground; LOADING begins. `t` is the middle of the impact, or when cells feel load.
+
+    Latency with the default cues: one sample with pressure cells, some 40 ms without; until the foot is still where no
+    impact shows.
+    """
 
 
 @frozen(kw_only=True)
 class FootFlat(_Phase):
-    """The whole sole is on the ground and still; STATIONARY begins and a step may end."""
+    """The whole sole is on the ground and still; STATIONARY begins and a step may end. Latency: about 40 ms."""
 
 
 @frozen(kw_only=True)
 class HeelOff(_Phase):
-    """The heel lifted; PUSH_OFF begins."""
+    """The heel lifted; PUSH_OFF begins. It comes off slowly and is dated back.
+
+    Latency: 40 to 140 ms, in slow walking up to 320 ms.
+    """
 
 
 @frozen(kw_only=True)
 class ToeOff(_Phase):
-    """The toe left the ground; SWING begins."""
+    """The toe left the ground; SWING begins. Latency: one sample, once this foot has pushed off the first time."""
 
 
 @frozen
