@@ -8,6 +8,7 @@ import json
 import logging
 import os
 import socket
+import struct
 from collections.abc import AsyncIterator, Awaitable, Callable, Coroutine
 from contextlib import asynccontextmanager
 from importlib.resources import files
@@ -427,6 +428,24 @@ def test_any_bytes_end_one_connection_at_the_most(sent: list[bytes]) -> None:
             async with client.ws_connect(f"{url}ws") as watching:
                 await scene_of(watching)
         assert problems == []
+
+    run(main())
+
+
+def test_who_is_gone_before_the_handshake_ends_is_no_trouble(caplog: pytest.LogCaptureFixture) -> None:
+    async def main() -> None:
+        async with served() as (page, client, url):
+            host = f"127.0.0.1:{page.port}"
+            for _ in range(20):
+                somebody = socket.create_connection(("127.0.0.1", page.port))
+                await asyncio.sleep(0.01)  # accepted
+                somebody.sendall(handshake(host))
+                somebody.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+                somebody.close()
+                await asyncio.sleep(0.01)
+            async with client.ws_connect(f"{url}ws") as watching:
+                await scene_of(watching)
+        assert not caplog.records
 
     run(main())
 

@@ -142,6 +142,8 @@ class Page:
         except Refused as refused:
             self.offences.tell(f"{refused}: refused")
             return web.Response(status=refused.status, text=f"{refused}\n", headers=HEADERS)
+        except ConnectionError:
+            return web.Response(headers=HEADERS)  # to nobody: who asked is gone
         except Exception:
             logging.getLogger("solepath.page").exception("the page could not answer")
             return web.Response(status=500, headers=HEADERS)
