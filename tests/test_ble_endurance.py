@@ -1,4 +1,4 @@
-"""Two hundred forced disconnections in one walk, through true ATT."""
+"""Forced disconnections all along a walk, through true ATT: sixty of them, and two hundred in a soak."""
 
 from __future__ import annotations
 
@@ -29,7 +29,9 @@ from solepath.types import Foot, Site
 
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 ROUTE = Route().stand(3.0).walk(90.0).turn(1.5, radius=2.0).walk(60.0).turn(-1.5, radius=2.0).walk(60.0).stop(3.0)
-CUTS = 200
+SHORTER = Route().stand(3.0).walk(40.0).turn(1.5, radius=2.0).walk(24.0).stop(3.0)
+ROUTES = {200: ROUTE, 60: SHORTER}
+"""By how often the links are cut."""
 FIRST, APART = 3.2, 0.81
 """s: of the walk, and from one cut to the next; the feet take turns, and strides of 1.1 s are cut anywhere."""
 
@@ -109,11 +111,11 @@ def advertises(task: asyncio.Task[Any]) -> bool:
 
 
 @cache
-def walk(seed: int) -> Walked:
-    faults = [Fault(FIRST + APART * k, FEET[k % 2], What.DISCONNECT) for k in range(CUTS)]
-    bench = Bench(ROUTE, devices=worn(), seed=seed, faults=faults)
+def walk(seed: int, cuts: int = 200) -> Walked:
+    faults = [Fault(FIRST + APART * k, FEET[k % 2], What.DISCONNECT) for k in range(cuts)]
+    bench = Bench(ROUTES[cuts], devices=worn(), seed=seed, faults=faults)
     truth = bench.truth()
-    assert truth.duration - 2.0 > FIRST + APART * CUTS
+    assert truth.duration - 2.0 > FIRST + APART * cuts
     walked = Walked(truth)
 
     async def listen() -> None:
@@ -136,25 +138,35 @@ def walk(seed: int) -> Walked:
     return walked
 
 
-def test_a_session_goes_on_through_two_hundred_disconnections_and_every_gap_is_an_event() -> None:
-    walked = walk(1)
-    assert walked.disconnected == CUTS
-    assert walked.connected == CUTS + 2
+OFTEN = pytest.mark.parametrize("cuts", [60, pytest.param(200, marks=pytest.mark.soak)])
+
+
+@OFTEN
+def test_a_session_goes_on_through_any_number_of_disconnections_and_every_gap_is_an_event(cuts: int) -> None:
+    walked = walk(1, cuts)
+    assert walked.disconnected == cuts
+    assert walked.connected == cuts + 2
     assert walked.rejected == 0
     true = sum(len(walked.truth.steps(foot)) for foot in Foot)
-    assert true > 300
+    assert true > 1.5 * cuts
     assert abs(walked.steps - true) <= 0.02 * true
     # each cut costs samples, so each is a gap; none is longer than it takes to find and set up a device again
     cut = [duration for duration in walked.gaps if duration > 0.05]
-    assert len(cut) == CUTS
+    assert len(cut) == cuts
     assert max(cut) < 0.5
 
 
-def test_nothing_is_left_behind_by_two_hundred_connections() -> None:
-    walked = walk(1)
+@OFTEN
+def test_no_task_and_no_thread_is_left_behind_by_so_many_connections(cuts: int) -> None:
+    walked = walk(1, cuts)
     assert walked.left == 0
-    assert max(walked.tasks[-50:]) <= max(walked.tasks[:50])
+    assert max(walked.tasks[-cuts // 4 :]) <= max(walked.tasks[: cuts // 4])
     assert set(walked.threads) == {walked.threads_before}
+
+
+@pytest.mark.soak
+def test_no_memory_is_left_behind_by_two_hundred_connections() -> None:
+    walked = walk(1)
     early, late = walked.blocks[2], walked.blocks[-1]  # the 60th connection, the 200th
     assert late - early <= 10 * 140, walked.blocks
 
@@ -175,5 +187,5 @@ def undisturbed(seed: int) -> float:
 def test_tracks_stay_on_average_within_twice_the_error_of_the_walks_without_disconnections(seeds: tuple[int]) -> None:
     """On average: a single walk may by luck have hardly any error of its own to be compared with."""
     cut, whole = [walk(seed).error() for seed in seeds], [undisturbed(seed) for seed in seeds]
-    print(f"m, with {CUTS} disconnections {np.round(cut, 1)}, without {np.round(whole, 1)}")
+    print(f"m, with 200 disconnections {np.round(cut, 1)}, without {np.round(whole, 1)}")
     assert sum(cut) <= 2.0 * sum(whole)

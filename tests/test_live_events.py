@@ -59,8 +59,9 @@ def shown(session: Session, items: list[Sample]) -> list[FootPressed]:
 # --- who asks ---------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("fed", [insoles().packets, samples()], ids=["packets", "samples"])
-def test_nothing_else_is_said_to_those_who_ask_for_what_is_drawn(fed: Any) -> None:
+@pytest.mark.parametrize("kind", ["packets", "samples"])
+def test_nothing_else_is_said_to_those_who_ask_for_what_is_drawn(kind: str) -> None:
+    fed = insoles().packets if kind == "packets" else samples()
     plain, asked = Session(), Session(**BOTH)
     said = plain.feed(fed) + plain.finish()
     told = asked.feed(fed) + asked.finish()
