@@ -166,7 +166,8 @@ def anchors(text: str) -> set[str]:
 
 @pytest.mark.parametrize("page", MARKDOWN)
 def test_its_links_lead_somewhere(page):
-    for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`\n]*`", "", MARKDOWN[page])):
+    text = re.sub(r"`[^`\n]*`", "", MARKDOWN[page])
+    for target in re.findall(r"\]\(([^)\s]+)\)", text) + re.findall(r'<img src="([^"]+)"', text):
         path, _, anchor = target.partition("#")
         if path.startswith("https:"):
             continue
@@ -174,6 +175,11 @@ def test_its_links_lead_somewhere(page):
         assert whole.exists() and whole.is_relative_to(ROOT), target
         if anchor and whole.suffix == ".md":
             assert anchor in anchors(whole.read_text()), target
+
+
+def test_pictures_are_small():
+    pictures = [*(ROOT / "docs").glob("*.png")]
+    assert len(pictures) == 2 and all(picture.stat().st_size < 200_000 for picture in pictures)
 
 
 def test_every_page_can_be_reached_from_the_readme():
