@@ -16,7 +16,7 @@ from .offences import Offences
 from .scene import Cursor, Scene
 
 INTERVAL = 1.0 / 30.0
-"""s from one frame to the next, at least."""
+"""s from one frame to the next, in the mean."""
 HEARTBEAT = 1.0
 """s; a frame comes at least this often, so that a page knows that it is still heard."""
 PATIENCE = 10.0
@@ -97,7 +97,7 @@ class Watcher:
         loop = asyncio.get_running_loop()
         scene: Scene | None = None
         cursor: Cursor | None = None
-        sent = loop.time()
+        sent = due = loop.time()
         while not self._socket.closed:
             now = loop.time()
             if self._unread():
@@ -111,7 +111,8 @@ class Watcher:
                     async with asyncio.timeout(PATIENCE):
                         await self._socket.send_str(encode(message))
                     sent = loop.time()
-            await asyncio.sleep(max(INTERVAL - (loop.time() - now), 0.0))
+            due = max(due + INTERVAL, loop.time())  # what a sleep oversleeps does not add up
+            await asyncio.sleep(due - loop.time())
 
     def _next(
         self, scene: Scene | None, cursor: Cursor | None
