@@ -13,7 +13,7 @@ import asyncio
 import json
 import os
 import platform
-import resource
+import re
 import socket
 import subprocess
 import sys
@@ -136,12 +136,14 @@ async def busy(view: Window) -> float:
 
 
 async def resident(browser: Browser) -> int:
-    """Bytes of memory of the processes that the browser draws its pages in; 0 where it cannot be told."""
+    """Bytes of memory of the processes that the browser runs its pages in, what they share with others in part; 0
+    where it cannot be told."""
     devtools = await browser.new_browser_cdp_session()
     processes = (await devtools.send("SystemInfo.getProcessInfo"))["processInfo"]
     await devtools.detach()
-    files = [Path(f"/proc/{one['id']}/statm") for one in processes if one["type"] == "renderer"]
-    return sum(int(file.read_text().split()[1]) for file in files if file.exists()) * resource.getpagesize()
+    files = [Path(f"/proc/{one['id']}/smaps_rollup") for one in processes if one["type"] == "renderer"]
+    shares = [re.search(r"^Pss: +(\d+) kB", file.read_text(), re.MULTILINE) for file in files if file.exists()]
+    return 1024 * sum(int(share[1]) for share in shares if share)
 
 
 def begin(process: subprocess.Popen[str]) -> None:
