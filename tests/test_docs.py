@@ -228,3 +228,10 @@ def test_what_bluetooth_adds_is_told_on_both_tiers():
     assert re.search(r"the adapter's own +\d+\.\d us", told)
     for tier in ("memory", "bumble"):
         assert re.search(rf"{tier}: from notification to event +median +\d+\.\d+ ms, p99 +\d+\.\d+ ms", told)
+
+
+def test_what_the_page_costs_is_told():
+    """Likewise."""
+    told = "\n".join(below("page"))
+    for name in ("no page", "a browser", "a watcher that reads nothing"):
+        assert re.search(rf"^{name} +\d+\.\d % +-?\d+\.\d %$", told, re.MULTILINE), name
