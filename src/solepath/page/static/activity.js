@@ -4,7 +4,8 @@ import { ACTIVITIES, SUPPORTS, describe, fixed, say, span, tell, write } from ".
 
 export class Doing {
   constructor() {
-    for (const id of ["activity", "since", "support", "cadence", "speed", "steps", "distance"]) this[id] = document.getElementById(id);
+    for (const id of ["activity", "since", "support", "cadence", "speed", "steps", "distance"])
+      this[id] = document.getElementById(id);
     this.icon = document.getElementById("activity-icon");
     this.supportWord = document.getElementById("support-word");
   }
@@ -20,7 +21,10 @@ export class Doing {
     tell(this.activity, { activity: name });
     const icon = `#icon-${Object.hasOwn(ACTIVITIES, name) ? name : "UNKNOWN"}`;
     describe(this.icon, "href", icon);
-    write(this.since, activity?.since != null && activity.since >= state.begin ? `for ${span(state.t - activity.since)}` : "");
+    write(
+      this.since,
+      activity?.since != null && activity.since >= state.begin ? `for ${span(state.t - activity.since)}` : "",
+    );
     tell(this.support, { support: support ?? "" });
     write(this.supportWord, support ? say(SUPPORTS, support) : "");
     write(this.cadence, fixed(gait?.cadence ?? NaN));

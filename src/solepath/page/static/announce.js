@@ -1,6 +1,6 @@
 // What a screen reader says by itself: activity, links lost and found, the level, and the page's own connection.
 
-import { nameOf } from "./track.js";
+import { nameOf } from "./saying.js";
 import { ACTIVITIES, capital, say } from "./words.js";
 
 const APART = 1500; // ms: what comes meanwhile is said together
@@ -42,7 +42,8 @@ export class Announcer {
     }
     if (changed.has("place") && state.place) {
       const decided = state.place.candidates.length < 2;
-      if (decided && (state.place.level !== this.#level || !this.#decided)) this.say(`On ${nameOf(state.plan, state.place.level)}`);
+      if (decided && (state.place.level !== this.#level || !this.#decided))
+        this.say(`On ${nameOf(state.plan, state.place.level)}`);
       [this.#level, this.#decided] = [state.place.level, decided];
     }
   }

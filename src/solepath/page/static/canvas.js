@@ -36,10 +36,14 @@ export class Surface {
 
   // Zooming the page or moving it to another screen changes the ratio and maybe not the size.
   #watchRatio() {
-    matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener("change", () => {
-      this.fit();
-      this.#watchRatio();
-    }, { once: true });
+    matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener(
+      "change",
+      () => {
+        this.fit();
+        this.#watchRatio();
+      },
+      { once: true },
+    );
   }
 }
 

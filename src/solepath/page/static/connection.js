@@ -66,7 +66,8 @@ export class Connection {
     this.#failures += 1;
     // A token of a program that ended is refused by the one that took its place, which may let this page watch.
     if (this.#token) this.#withToken = this.#failures < 3 || this.#failures % 2 === 0;
-    const wait = Math.min(LONGEST_WAIT, FIRST_WAIT * 2 ** Math.min(this.#failures - 1, 6)) * (0.8 + 0.4 * Math.random());
+    const wait =
+      Math.min(LONGEST_WAIT, FIRST_WAIT * 2 ** Math.min(this.#failures - 1, 6)) * (0.8 + 0.4 * Math.random());
     this.changed("closed", wait);
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => this.#open(), 1000 * wait);

@@ -7,7 +7,8 @@ const UNITS = { deg: "°" };
 
 export class Gait {
   constructor() {
-    for (const id of ["gait-rows", "gait-scroll", "gait-waiting", "gait-kind", "gait-note"]) this[id] = document.getElementById(id);
+    for (const id of ["gait-rows", "gait-scroll", "gait-waiting", "gait-kind", "gait-note"])
+      this[id] = document.getElementById(id);
     this.rows = new Map();
   }
 
@@ -48,7 +49,7 @@ class Row {
     this.sd = child(both, "span", "sd");
     const bar = child(lean, "span", "lean");
     bar.setAttribute("aria-hidden", "true");
-    this.share = child(lean, "span");
+    this.share = child(lean, "span", "share");
     this.bar = child(bar, "i");
     this.track = bar;
     Object.assign(this, { left, right, cv });

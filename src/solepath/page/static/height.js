@@ -29,7 +29,10 @@ export class Height {
     const { points, lines } = series(state);
     const last = points.at(-1);
     write(this.now, last ? `${lines.length > 0 ? fixed(last[1], 1) : signed(last[1], 1)} m` : "");
-    this.alternative.say(() => (last ? `Height over time: now ${fixed(last[1], 1)} m ${lines.length > 0 ? "above the plan's zero" : "against the start"}` : "Height: no step yet"));
+    const against = lines.length > 0 ? "above the plan's zero" : "against the start";
+    this.alternative.say(() =>
+      last ? `Height over time: now ${fixed(last[1], 1)} m ${against}` : "Height: no step yet",
+    );
     let [low, high] = points.reduce(([a, b], [, z]) => [Math.min(a, z), Math.max(b, z)], [Infinity, -Infinity]);
     if (!last) [low, high] = [0, 0];
     for (const { z } of lines) if (z > low - 5 && z < high + 5) [low, high] = [Math.min(low, z), Math.max(high, z)];
@@ -44,8 +47,12 @@ export class Height {
     context.font = FONT;
     context.textAlign = lines.length > 0 ? "left" : "right";
     const step = round((high - low) / 2.5);
-    const marks = lines.length > 0 ? lines : Array.from({ length: 5 }, (_, i) => (Math.ceil(low / step) + i) * step)
-      .filter((z) => z <= high).map((z) => ({ z, name: `${fixed(z, step < 1 ? 1 : 0)} m` }));
+    const marks =
+      lines.length > 0
+        ? lines
+        : Array.from({ length: 5 }, (_, i) => (Math.ceil(low / step) + i) * step)
+            .filter((z) => z <= high)
+            .map((z) => ({ z, name: `${fixed(z, step < 1 ? 1 : 0)} m` }));
     for (const { z, name } of marks) {
       if (y(z) < 2 || y(z) > height - 14) continue;
       context.strokeStyle = lines.length > 0 ? theme.colours["sole-line"] : theme.colours.grid;
@@ -79,7 +86,10 @@ export class Height {
   }
 
   #times(context, from, to, x, side, begin) {
-    const step = [5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200].find((s) => ((to - from) / s) * 52 < this.surface.width - side) ?? 14400;
+    const step =
+      [5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200].find(
+        (s) => ((to - from) / s) * 52 < this.surface.width - side,
+      ) ?? round((to - from) / 4);
     context.textAlign = "center";
     context.fillStyle = theme.colours.muted;
     for (let t = Math.ceil((from - begin) / step) * step; t <= to - begin; t += step) {
@@ -92,7 +102,9 @@ export class Height {
 // [t, z] of what there is, and the levels' elevations where it is in the plan's frame.
 function series({ plan, places, tracks }) {
   if (plan && places.length > 1) {
-    const lines = plan.levels.filter((level) => level.elevation !== null).map(({ elevation, name }) => ({ z: elevation, name }));
+    const lines = plan.levels
+      .filter((level) => level.elevation !== null)
+      .map(({ elevation, name }) => ({ z: elevation, name }));
     return { points: places.map(([t, , , , z]) => [t, z]), lines };
   }
   const track = [tracks.wearer, tracks.left, tracks.right].find((points) => points.length > 1) ?? [];

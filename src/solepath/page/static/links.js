@@ -24,11 +24,16 @@ export class Links {
     for (const [name, link] of this.sites) link.show(links[name]);
     const missed = names.filter((name) => ["lost", "silent"].includes(links[name].state));
     show(this.banner, missed.length > 0);
-    write(this.banner, missed.map((name) => {
-      const { state, silent_for } = links[name];
-      const since = Number.isFinite(silent_for) ? ` for ${span(silent_for)}` : "";
-      return `${capital(name)} ${say(LINKS, state)}: nothing heard${since}.`;
-    }).join(" "));
+    write(
+      this.banner,
+      missed
+        .map((name) => {
+          const { state, silent_for } = links[name];
+          const since = Number.isFinite(silent_for) ? ` for ${span(silent_for)}` : "";
+          return `${capital(name)} ${say(LINKS, state)}: nothing heard${since}.`;
+        })
+        .join(" "),
+    );
     return "done";
   }
 }
@@ -42,12 +47,14 @@ class Link {
     this.state = this.#add(head, "span", "link-state");
     this.device = this.#add(head, "span", "link-device");
     const figures = this.#add(this.element, "dl", "link-figures");
-    this.figures = Object.fromEntries(["rate", "loss", "battery", "signal", "gaps", "rejected"].map((title) => {
-      const pair = this.#add(figures, "div");
-      this.#add(pair, "dt").textContent = title;
-      pair.dataset.figure = title;
-      return [title, { pair, value: this.#add(pair, "dd") }];
-    }));
+    this.figures = Object.fromEntries(
+      ["rate", "loss", "battery", "signal", "gaps", "rejected"].map((title) => {
+        const pair = this.#add(figures, "div");
+        this.#add(pair, "dt").textContent = title;
+        pair.dataset.figure = title;
+        return [title, { pair, value: this.#add(pair, "dd") }];
+      }),
+    );
     this.trouble = this.#add(this.element, "p", "trouble");
   }
 

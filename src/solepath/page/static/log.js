@@ -16,16 +16,20 @@ export class Log {
   draw({ log, begin }) {
     this.waiting.hidden = log.length > 0;
     this.scroll.hidden = log.length === 0;
-    this.list.replaceChildren(...log.map(([t, kind, words]) => {
-      const item = document.createElement("li");
-      item.dataset.kind = kind;
-      const time = document.createElement("time");
-      time.textContent = clock(t - begin);
-      const sentence = document.createElement("span");
-      sentence.textContent = words;
-      item.append(time, sentence);
-      return item;
-    }).reverse());
+    this.list.replaceChildren(
+      ...log
+        .map(([t, kind, words]) => {
+          const item = document.createElement("li");
+          item.dataset.kind = kind;
+          const time = document.createElement("time");
+          time.textContent = clock(t - begin);
+          const sentence = document.createElement("span");
+          sentence.textContent = words;
+          item.append(time, sentence);
+          return item;
+        })
+        .reverse(),
+    );
     return "done";
   }
 }

@@ -36,7 +36,17 @@ const track = new Track(redraw);
 const ribbon = new Ribbon(redraw);
 const playback = new Playback((command) => connection.send(command));
 const looking = new Looking(track, redraw);
-const panels = [new Soles(redraw), ribbon, track, new Height(redraw), new Doing(), new Gait(), new Links(), new Log(), playback];
+const panels = [
+  new Soles(redraw),
+  ribbon,
+  track,
+  new Height(redraw),
+  new Doing(),
+  new Gait(),
+  new Links(),
+  new Log(),
+  playback,
+];
 
 function mark(...names) {
   for (const name of names) changed.add(name);
@@ -55,12 +65,17 @@ function draw(now) {
     const wanted = panel.wants(news) || (panel === ribbon && pace.moving) || (panel === track && track.moving);
     if (!wanted) continue;
     if (panel.draw(state, now, news, t) === "done") drew = true;
-    else for (const name of news) if (panel.wants(new Set([name]))) changed.add(name); // it wants to see it another time
+    else later(panel, news);
   }
   looking.draw(state);
   if (news.has("scene")) heading();
   if (drew) seen.frames += 1;
   if (pace.moving || track.moving || changed.size > 0) mark();
+}
+
+// What it will want to see another time.
+function later(panel, news) {
+  for (const name of news) if (panel.wants(new Set([name]))) changed.add(name);
 }
 
 function heading() {
@@ -89,12 +104,18 @@ const connection = new Connection(
       const at = performance.now() + 1000 * wait;
       const show = () => {
         element("connection").dataset.state = how;
-        write(element("connection-word"), { open: "connected", connecting: "connecting", closed: "not connected" }[how]);
+        write(
+          element("connection-word"),
+          { open: "connected", connecting: "connecting", closed: "not connected" }[how],
+        );
         // only what was open can be missed; a first try needs no alarm
         element("offline").hidden = how === "open" || (how === "connecting" && was === "");
         const left = Math.ceil((at - performance.now()) / 1000);
         const next = how === "connecting" || left < 1 ? "Trying now" : `Trying again in ${left} s`;
-        write(element("offline-words"), `solepath cannot be reached${state.known ? "; what you see is old" : ""}. ${next}.`);
+        write(
+          element("offline-words"),
+          `solepath cannot be reached${state.known ? "; what you see is old" : ""}. ${next}.`,
+        );
       };
       show();
       if (how === "closed") {

@@ -1,9 +1,22 @@
 // The outline of a sole, as a ring of [x, y] in the foot frame (x to the toe, y to the left, m).
 
 // A left shoe's: x, and how far it reaches outwards and inwards there, in shares of the length. Drawn by eye.
-const SOLE = [[0, 0, 0], [0.012, 0.045, -0.045], [0.05, 0.09, -0.088], [0.12, 0.116, -0.108], [0.24, 0.116, -0.094],
-  [0.38, 0.118, -0.066], [0.5, 0.128, -0.068], [0.62, 0.148, -0.102], [0.72, 0.156, -0.134], [0.8, 0.144, -0.147],
-  [0.88, 0.11, -0.14], [0.94, 0.062, -0.122], [0.98, 0.008, -0.092], [1, -0.04, -0.045]];
+const SOLE = [
+  [0, 0, 0],
+  [0.012, 0.045, -0.045],
+  [0.05, 0.09, -0.088],
+  [0.12, 0.116, -0.108],
+  [0.24, 0.116, -0.094],
+  [0.38, 0.118, -0.066],
+  [0.5, 0.128, -0.068],
+  [0.62, 0.148, -0.102],
+  [0.72, 0.156, -0.134],
+  [0.8, 0.144, -0.147],
+  [0.88, 0.11, -0.14],
+  [0.94, 0.062, -0.122],
+  [0.98, 0.008, -0.092],
+  [1, -0.04, -0.045],
+];
 const STATIONS = 44;
 const DENSE = 16; // cells that show the outline of a sole by themselves
 const COVERED = 0.75; // of the length
@@ -28,7 +41,9 @@ export function around(cells, length, foot, spacing) {
 
 // Of the cells' distances to the nearest other one, the middle one.
 export function spacing(cells) {
-  const nearest = cells.map((one) => Math.min(...cells.map((other) => (other === one ? Infinity : Math.hypot(one[0] - other[0], one[1] - other[1])))));
+  const nearest = cells.map((one) =>
+    Math.min(...cells.map((other) => (other === one ? Infinity : Math.hypot(one[0] - other[0], one[1] - other[1])))),
+  );
   const middle = nearest.sort((a, b) => a - b)[Math.floor(nearest.length / 2)];
   return middle > 0 && middle < 1 ? middle : 0.02;
 }
@@ -54,11 +69,12 @@ function hull(cells, back, front, spacing) {
     return [left / sum, right / sum];
   });
   const cap = Math.min(0.16 * (end - begin), 3 * margin);
-  const ring = (edge) => stations.map((x, i) => {
-    const middle = 0.5 * (smooth[i][0] + smooth[i][1]);
-    const off = Math.min(1, (x - begin) / cap, (end - x) / cap);
-    return [x, middle + (smooth[i][edge] - middle) * Math.sqrt(Math.max(0, 1 - (1 - off) ** 2))];
-  });
+  const ring = (edge) =>
+    stations.map((x, i) => {
+      const middle = 0.5 * (smooth[i][0] + smooth[i][1]);
+      const off = Math.min(1, (x - begin) / cap, (end - x) / cap);
+      return [x, middle + (smooth[i][edge] - middle) * Math.sqrt(Math.max(0, 1 - (1 - off) ** 2))];
+    });
   return rounded([...ring(0), ...ring(1).reverse().slice(1, -1)]);
 }
 
@@ -69,8 +85,16 @@ function rounded(ring) {
     const [a, c, d] = [-1, 1, 2].map((k) => ring[(i + k + ring.length) % ring.length]);
     for (let k = 0; k < 4; k++) {
       const u = k / 4;
-      fine.push([0, 1].map((j) => 0.5 * (2 * b[j] + (c[j] - a[j]) * u + (2 * a[j] - 5 * b[j] + 4 * c[j] - d[j]) * u * u
-        + (3 * b[j] - a[j] - 3 * c[j] + d[j]) * u ** 3)));
+      fine.push(
+        [0, 1].map(
+          (j) =>
+            0.5 *
+            (2 * b[j] +
+              (c[j] - a[j]) * u +
+              (2 * a[j] - 5 * b[j] + 4 * c[j] - d[j]) * u * u +
+              (3 * b[j] - a[j] - 3 * c[j] + d[j]) * u ** 3),
+        ),
+      );
     }
   });
   return fine;

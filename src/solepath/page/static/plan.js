@@ -5,12 +5,20 @@ import { theme } from "./theme.js";
 
 // [x least, y least, x most, y most] of all levels, m; null of a plan without anything.
 export function extent(plan) {
-  const points = plan.levels.flatMap((level) => [
-    ...level.walls.flatMap(([x1, y1, x2, y2]) => [[x1, y1], [x2, y2]]), ...level.rooms.flat(),
-  ]).concat(plan.connectors.flatMap((one) => one.stops.flatMap((stop) => stop.outline)));
+  const points = plan.levels
+    .flatMap((level) => [
+      ...level.walls.flatMap(([x1, y1, x2, y2]) => [
+        [x1, y1],
+        [x2, y2],
+      ]),
+      ...level.rooms.flat(),
+    ])
+    .concat(plan.connectors.flatMap((one) => one.stops.flatMap((stop) => stop.outline)));
   if (points.length === 0) return null;
-  return points.reduce(([a, b, c, d], [x, y]) => [Math.min(a, x), Math.min(b, y), Math.max(c, x), Math.max(d, y)],
-    [Infinity, Infinity, -Infinity, -Infinity]);
+  return points.reduce(
+    ([a, b, c, d], [x, y]) => [Math.min(a, x), Math.min(b, y), Math.max(c, x), Math.max(d, y)],
+    [Infinity, Infinity, -Infinity, -Infinity],
+  );
 }
 
 // px: ([x, y]) => [px, px]; scale: px per m
@@ -38,7 +46,8 @@ function drawStop(context, kind, { place, outline }, px, scale) {
     context.strokeStyle = colours["sole-line"];
     context.stroke(shape);
   }
-  const middle = outline.length > 2 ? [0, 1].map((k) => outline.reduce((sum, point) => sum + point[k], 0) / outline.length) : place;
+  const middle =
+    outline.length > 2 ? [0, 1].map((k) => outline.reduce((sum, point) => sum + point[k], 0) / outline.length) : place;
   if (middle === null) return;
   const [x, y] = px(middle);
   const size = Math.min(9, Math.max(3.5, 0.7 * scale));

@@ -14,9 +14,12 @@ export class Playback {
 
   constructor(send) {
     this.send = send;
-    for (const id of ["playback", "play", "seek", "speed-choice", "time-now", "time-end", "playback-note"]) this[id] = document.getElementById(id);
+    for (const id of ["playback", "play", "seek", "speed-choice", "time-now", "time-end", "playback-note"])
+      this[id] = document.getElementById(id);
     this.play.addEventListener("click", () => this.toggle());
-    this["speed-choice"].addEventListener("change", () => this.send({ do: "speed", value: Number(this["speed-choice"].value) }));
+    this["speed-choice"].addEventListener("change", () =>
+      this.send({ do: "speed", value: Number(this["speed-choice"].value) }),
+    );
     this.seek.addEventListener("input", () => {
       this.#dragged = true;
       this.#ask(Number(this.seek.value), false);
@@ -38,7 +41,7 @@ export class Playback {
     if (playback === null) return "done";
     const { begin, end, t, state: how, speed, seeking } = playback;
     const asked = this.#asked && performance.now() - this.#asked.at < PATIENCE ? this.#asked.t : null;
-    const shown = this.#dragged ? Number(this.seek.value) : seeking ?? asked ?? t;
+    const shown = this.#dragged ? Number(this.seek.value) : (seeking ?? asked ?? t);
     tell(this.playback, { state: how });
     describe(this.play, "aria-label", how === "playing" ? "Pause" : how === "ended" ? "Play again" : "Play");
     describe(this.seek, "min", String(begin));
@@ -48,9 +51,14 @@ export class Playback {
     write(this["time-now"], clock(shown - begin));
     write(this["time-end"], clock(end - begin));
     this.#speed(speed);
-    for (const part of [this.play, this.seek, this["speed-choice"]]) if (part.disabled === control) part.disabled = !control;
+    for (const part of [this.play, this.seek, this["speed-choice"]])
+      if (part.disabled === control) part.disabled = !control;
     show(this["playback-note"], !control);
-    if (!control) write(this["playback-note"], "This page may watch only. To pause and seek, open the whole address that solepath printed: it holds the key.");
+    if (!control)
+      write(
+        this["playback-note"],
+        "This page may watch only. To pause and seek, open the whole address that solepath printed: it holds the key.",
+      );
     return "done";
   }
 
@@ -78,7 +86,7 @@ export class Playback {
 
   #here() {
     const fresh = this.#asked && performance.now() - this.#asked.at < PATIENCE;
-    return fresh ? this.#asked.t : this.state.playback.seeking ?? this.state.playback.t;
+    return fresh ? this.#asked.t : (this.state.playback.seeking ?? this.state.playback.t);
   }
 
   #ask(t, surely) {
@@ -96,7 +104,7 @@ export class Playback {
   // A speed that is not among the choices, from a command line perhaps, becomes one.
   #speed(speed) {
     const choice = this["speed-choice"];
-    if (Number(choice.value) === speed || document.activeElement === choice && choice.matches(":open")) return;
+    if (Number(choice.value) === speed || (document.activeElement === choice && choice.matches(":open"))) return;
     if (![...choice.options].some((option) => Number(option.value) === speed)) {
       const option = document.createElement("option");
       option.value = speed;

@@ -1,5 +1,5 @@
-// The phases of both feet over the last seconds: a ramp up while the foot is loaded, level while it is flat, a ramp down
-// while it pushes off, a line while it swings. Between the feet: when both were on the ground.
+// The phases of both feet over the last seconds: a ramp up while the foot is loaded, level while it is flat, a ramp
+// down while it pushes off, a line while it swings. Between the feet: when both were on the ground.
 
 import { Alternative, FONT, Surface, calm } from "./canvas.js";
 import { FEET } from "./state.js";
@@ -8,7 +8,8 @@ import { PHASES, SUPPORTS, clock, say } from "./words.js";
 
 const WINDOW = 8; // s
 const NAMES = 20; // px for the names of the rows
-const RAMPS = { LOADING: [0.32, 1], STATIONARY: [1, 1], PUSH_OFF: [1, 0.32], SWING: [0.08, 0.08] }; // height at begin, end
+// Height at the beginning and at the end.
+const RAMPS = { LOADING: [0.32, 1], STATIONARY: [1, 1], PUSH_OFF: [1, 0.32], SWING: [0.08, 0.08] };
 const SHADES = { LOADING: "-soft", STATIONARY: "", PUSH_OFF: "-soft", SWING: "" };
 const CALM = 500; // ms between pictures for who wants less motion
 
@@ -48,7 +49,8 @@ export class Ribbon {
     }
     this.alternative.say(() => {
       const words = FEET.map((foot) => `${foot} ${say(PHASES, state.phases[foot].at(-1)?.[1]) || "not heard yet"}`);
-      return `Phases of both feet over the last ${WINDOW} seconds. Now: ${words.join(", ")}; on the ground: ${say(SUPPORTS, state.support) || "not known"}`;
+      const ground = say(SUPPORTS, state.support) || "not known";
+      return `Phases of both feet over the last ${WINDOW} seconds. Now: ${words.join(", ")}; on the ground: ${ground}`;
     });
     return "done";
   }
@@ -67,7 +69,8 @@ export class Ribbon {
       context.lineTo(at, height - 15);
       context.stroke();
       context.fillStyle = theme.colours.muted;
-      if (second % 2 === 0 && at > NAMES + 14 && at < this.surface.width - 16) context.fillText(clock(second), at, height - 3);
+      if (second % 2 === 0 && at > NAMES + 14 && at < this.surface.width - 16)
+        context.fillText(clock(second), at, height - 3);
     }
   }
 

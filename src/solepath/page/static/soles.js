@@ -37,16 +37,22 @@ export class Soles {
   }
 
   #legend({ layouts, scale }) {
-    const shapes = FEET.filter((foot) => this.soles.some((sole) => sole.foot === foot && sole.shows === "pressure"))
-      .map((foot) => layouts[foot]);
+    const shapes = FEET.filter((foot) =>
+      this.soles.some((sole) => sole.foot === foot && sole.shows === "pressure"),
+    ).map((foot) => layouts[foot]);
     show(this.scale, shapes.length > 0);
-    const ends = shapes.map((shape) => `${scale.beyond[shape.unit] ? "≥ " : ""}${fixed(scale.tops[shape.unit])} ${shape.word}`);
+    const ends = shapes.map(
+      (shape) => `${scale.beyond[shape.unit] ? "≥ " : ""}${fixed(scale.tops[shape.unit])} ${shape.word}`,
+    );
     write(this.top, [...new Set(ends)].join(", "));
     const gradient = `linear-gradient(to right, ${theme.stops.map((stop) => `rgb(${stop})`).join(", ")})`;
     if (this.gradient !== gradient) this.bar.style.background = this.gradient = gradient;
     const shown = this.soles.map((sole) => sole.shows);
-    const words = shown.includes("bars") ? "Where the cells sit is not known: one bar each, in their order."
-      : shown.includes("contact") ? "No pressure is measured: filled is what touches the ground." : "";
+    const words = shown.includes("bars")
+      ? "Where the cells sit is not known: one bar each, in their order."
+      : shown.includes("contact")
+        ? "No pressure is measured: filled is what touches the ground."
+        : "";
     write(this.note, words);
     show(this.note, words !== "");
   }
@@ -115,12 +121,8 @@ class Sole {
   #words(foot, layout, lost, link, now) {
     const phase = foot?.phase ? say(PHASES, foot.phase) : "–";
     write(this.phase, lost ? say(LINKS, link) : phase);
-    if (now - this.written >= READABLE || phase !== this.said) {
-      this.written = now;
-      this.said = phase;
-      const known = foot && foot.force !== null && !lost;
-      write(this.force, known ? `${fixed(foot.force)} ${layout?.forces ? "N" : "counts"}` : "");
-    }
+    const known = foot && foot.force !== null && !lost;
+    this.#number(known ? `${fixed(foot.force)} ${layout?.forces ? "N" : "counts"}` : "", phase, now);
     this.alternative.say(() => {
       const side = capital(this.foot);
       if (lost) return `${side} sole: no signal`;
@@ -128,6 +130,19 @@ class Sole {
       const force = foot.force === null ? "" : `, ${fixed(foot.force)} ${layout?.forces ? "newton" : "counts"}`;
       return `${side} sole: ${phase}${force}${this.#where(foot)}`;
     });
+  }
+
+  // No more often than one can read it, but with each phase; the last one is written in any case.
+  #number(words, phase, now) {
+    clearTimeout(this.timer);
+    const wait = phase === this.said ? READABLE - (now - this.written) : 0;
+    this.said = phase;
+    const put = () => {
+      this.written = performance.now();
+      write(this.force, words);
+    };
+    if (wait > 0) this.timer = setTimeout(put, wait);
+    else put();
   }
 
   #where(foot) {

@@ -9,11 +9,15 @@ const SAID = 50; // sentences of the log
 const TRAIL = 240; // points of a centre of pressure's path
 export const FEET = ["left", "right"];
 
-export const number = (value) => (Number.isFinite(value) ? value : null);
+const LARGEST = 1e12; // of any number: farther and later nothing happens, and seconds can still be counted
+const MOST = 500; // cells, candidates, rows of the table: more are nobody's, and would take their time
+
+const sound = (value) => Number.isFinite(value) && Math.abs(value) < LARGEST;
+const number = (value) => (sound(value) ? value : null);
 const text = (value) => (typeof value === "string" ? value : "");
 const list = (value) => (Array.isArray(value) ? value : []);
 const record = (value) => (value !== null && typeof value === "object" && !Array.isArray(value) ? value : {});
-const numbers = (value, least) => Array.isArray(value) && value.length >= least && value.every(Number.isFinite);
+const numbers = (value, least) => Array.isArray(value) && value.length >= least && value.every(sound);
 
 export class State {
   constructor() {
@@ -62,14 +66,24 @@ export class State {
     this.control = message.control === true;
     this.plan = plan(message.plan);
     for (const foot of FEET) this.layouts[foot] = layout(record(message.layouts)[foot]);
-    const rest = record(message.frame);
     this.scale.wear(JSON.stringify(message.layouts));
     const { tracks, places, phases, log } = message;
-    this.#frame({ tracks, places, phases, log });
-    const { tracks: _, places: __, phases: ___, log: ____, ...now } = rest; // the scene's own lists are whole
-    this.#frame(now);
-    return new Set(["scene", "feet", "phases", "tracks", "places", "log", "wearer", "place", "activity", "support",
-      "gait", "links", "playback"]);
+    this.#frame({ ...record(message.frame), tracks, places, phases, log }); // the scene's own lists are whole
+    return new Set([
+      "scene",
+      "feet",
+      "phases",
+      "tracks",
+      "places",
+      "log",
+      "wearer",
+      "place",
+      "activity",
+      "support",
+      "gait",
+      "links",
+      "playback",
+    ]);
   }
 
   #frame(message) {
@@ -122,7 +136,9 @@ export class State {
   #begins({ playback, tracks, phases, log, feet, links }) {
     if (number(playback?.begin) !== null) this.begin = playback.begin;
     else if (this.playback === null && !this.heard) {
-      const firsts = [...Object.values(record(tracks)), ...Object.values(record(phases)), log].map((some) => number(list(some)[0]?.[0]));
+      const firsts = [...Object.values(record(tracks)), ...Object.values(record(phases)), log].map((some) =>
+        number(list(some)[0]?.[0]),
+      );
       this.heard = [feet, links].some((one) => Object.keys(record(one)).length > 0) || firsts.some((t) => t !== null);
       if (this.heard) this.begin = Math.min(...firsts.filter((t) => t !== null), this.t || Infinity);
       if (!Number.isFinite(this.begin)) this.begin = 0;
@@ -180,7 +196,10 @@ function bytes(encoded) {
 }
 
 function layout(value) {
-  const cells = list(value?.cells).filter((cell) => numbers(cell, 2)).map(([x, y, area]) => [x, y, area > 0 ? area : 0]);
+  const cells = list(value?.cells)
+    .slice(0, MOST)
+    .filter((cell) => numbers(cell, 2))
+    .map(([x, y, area]) => [x, y, area > 0 ? area : 0]);
   if (cells.length === 0) return null;
   const areas = cells.every((cell) => cell[2] > 0);
   return {
@@ -200,8 +219,16 @@ function wearer(value) {
 
 function place(value) {
   if (!numbers(value?.position, 2)) return null;
-  const candidates = list(value.candidates).filter((one) => numbers([one?.x, one?.y], 2))
-    .map((one) => ({ level: text(one.level), x: one.x, y: one.y, heading: number(one.heading), weight: number(one.weight) ?? 0 }));
+  const candidates = list(value.candidates)
+    .slice(0, MOST)
+    .filter((one) => numbers([one?.x, one?.y], 2))
+    .map((one) => ({
+      level: text(one.level),
+      x: one.x,
+      y: one.y,
+      heading: number(one.heading),
+      weight: number(one.weight) ?? 0,
+    }));
   return { level: text(value.level), position: value.position, spread: number(value.spread), candidates };
 }
 
@@ -211,8 +238,15 @@ function activity(value) {
 
 function gait(value) {
   if (value === null || typeof value !== "object") return null;
-  const rows = list(value.rows).filter((row) => typeof row?.name === "string");
-  return { running: value.running === true, cadence: number(value.cadence), coordination: number(value.coordination), rows };
+  const rows = list(value.rows)
+    .slice(0, MOST)
+    .filter((row) => typeof row?.name === "string");
+  return {
+    running: value.running === true,
+    cadence: number(value.cadence),
+    coordination: number(value.coordination),
+    rows,
+  };
 }
 
 function playback(value) {
@@ -231,7 +265,9 @@ function plan(value) {
     elevation: number(level?.elevation),
     walls: lines(level?.walls),
     doors: lines(level?.doors),
-    rooms: list(level?.rooms).map(ring).filter((room) => room.length > 2),
+    rooms: list(level?.rooms)
+      .map(ring)
+      .filter((room) => room.length > 2),
   }));
   const connectors = list(value.connectors).map((one) => ({
     kind: text(one?.kind),

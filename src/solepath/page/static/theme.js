@@ -1,13 +1,42 @@
 // Dark or light, and the colours of style.css for what is drawn on canvases.
 
 const KEY = "solepath-theme";
-const NAMES = ["ground", "card", "inset", "ink", "muted", "line", "strong-line", "grid", "left", "right", "left-soft",
-  "right-soft", "both", "wearer", "candidate", "sole", "sole-line", "wall", "room", "bad"];
+const NAMES = [
+  "ground",
+  "card",
+  "inset",
+  "ink",
+  "muted",
+  "line",
+  "strong-line",
+  "grid",
+  "left",
+  "right",
+  "left-soft",
+  "right-soft",
+  "both",
+  "wearer",
+  "candidate",
+  "sole",
+  "sole-line",
+  "wall",
+  "room",
+  "bad",
+];
 
 // Low to high: viridis (matplotlib, CC0). On a dark page it rises to bright yellow, on a light one it falls to dark
 // violet, so that what is loaded stands out against the sole and lightness alone tells the order.
-const VIRIDIS = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129],
-  [92, 200, 99], [170, 220, 50], [253, 231, 37]];
+const VIRIDIS = [
+  [68, 1, 84],
+  [71, 44, 122],
+  [59, 81, 139],
+  [44, 113, 142],
+  [33, 144, 141],
+  [39, 173, 129],
+  [92, 200, 99],
+  [170, 220, 50],
+  [253, 231, 37],
+];
 const DARK = [[28, 38, 48], [46, 42, 96], ...VIRIDIS.slice(2)];
 const LIGHT = [[237, 241, 244], [196, 228, 196], [112, 205, 138], ...VIRIDIS.slice(0, 6).reverse()];
 

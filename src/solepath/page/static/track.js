@@ -1,14 +1,28 @@
 // The way walked, seen from above: by itself, or on the floor plan. What does not move is kept as a picture, to which
 // only new points are added as long as nobody looks elsewhere.
 
-import { Alternative, Surface, calm, round } from "./canvas.js";
-import { drawLevel, extent, label } from "./plan.js";
+import { Alternative, Surface, calm } from "./canvas.js";
+import {
+  axes,
+  drawCandidates,
+  drawDot,
+  drawEllipse,
+  drawFoot,
+  drawGrid,
+  drawRing,
+  drawRuler,
+  drawSpread,
+  drawStart,
+  stroke,
+  sure,
+} from "./marks.js";
+import { drawLevel, extent } from "./plan.js";
+import { noteOnPlan, spokenOnPlan, spokenTrack } from "./saying.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
 import { View } from "./view.js";
-import { fixed, percent, show, tell, write } from "./words.js";
+import { show, tell, write } from "./words.js";
 
-const SURE = Math.sqrt(5.991); // 95 % of two dimensions: chi squared, 2 degrees of freedom
 const LEAST = 3; // m that are seen at least
 const [EDGE, BUTTONS] = [20, 56]; // px around what is fitted, and where the buttons are
 const JUMP = 5; // m between two places: another candidate became the best, nobody walked there
@@ -61,14 +75,17 @@ export class Track {
     const box = onPlan && this.extent ? this.extent : this.#box(state);
     this.view.fit(box, width - this.margins[0], height - this.margins[1], onPlan ? 0 : 0.14);
     const { x, y, scale } = this.view.at(now);
-    const px = ([mx, my]) => [width / 2 - this.view.aside + (mx - x) * scale, height / 2 - this.view.above - (my - y) * scale];
+    const px = ([mx, my]) => [
+      width / 2 - this.view.aside + (mx - x) * scale,
+      height / 2 - this.view.above - (my - y) * scale,
+    ];
 
     this.#still(state, level, px, scale, `${x} ${y}`);
     const context = this.surface.begin();
     if (this.layer.width > 0 && this.layer.height > 0) context.drawImage(this.layer, 0, 0, width, height);
     if (onPlan) this.#place(context, state, level, px, scale);
     else this.#now(context, state, px, scale);
-    this.#ruler(context, scale);
+    drawRuler(context, this.surface, scale);
 
     const view = onPlan ? "plan" : "track";
     const points = onPlan ? state.places.length : Object.values(state.tracks).reduce((sum, one) => sum + one.length, 0);
@@ -104,10 +121,11 @@ export class Track {
     };
     for (const points of Object.values(tracks)) for (const point of points) hold(point[1], point[2]);
     for (const foot of FEET) if (feet[foot]?.position) hold(feet[foot].position[0], feet[foot].position[1]);
-    if (wearer?.covariance) { // as much of the uncertainty as leaves the way large enough to see
+    if (wearer?.covariance) {
+      // as much of the uncertainty as leaves the way large enough to see
       const most = 0.25 * Math.max(LEAST, box[2] - box[0], box[3] - box[1]);
       const [x, y] = wearer.position;
-      const [dx, dy] = [0, 3].map((k) => Math.min(most, SURE * Math.sqrt(Math.max(0, wearer.covariance[k]))));
+      const [dx, dy] = [0, 3].map((k) => Math.min(most, sure(wearer.covariance[k])));
       hold(x - dx, y - dy);
       hold(x + dx, y + dy);
     }
@@ -121,7 +139,9 @@ export class Track {
 
   #still(state, level, px, scale, where) {
     const { width, height, ratio } = this.surface;
-    const key = [where, scale, width, height, ratio, theme.version, state.generation, state.thinned, level?.id].join(" ");
+    const key = [where, scale, width, height, ratio, theme.version, state.generation, state.thinned, level?.id].join(
+      " ",
+    );
     const context = this.layer.getContext("2d");
     if (key !== this.key) {
       this.key = key;
@@ -136,8 +156,8 @@ export class Track {
       return;
     }
     if (anew) {
-      this.#grid(context, px, scale);
-      this.#start(context, px);
+      drawGrid(context, this.surface, px([0, 0]), scale);
+      drawStart(context, px([0, 0]));
     }
     for (const [name, points] of Object.entries(state.tracks)) {
       const from = Math.max(0, this.drawn[name] - 1);
@@ -162,161 +182,32 @@ export class Track {
     this.drawn.places = places.length;
   }
 
-  #grid(context, px, scale) {
-    const { width, height } = this.surface;
-    const step = round(48 / scale);
-    const [ox, oy] = px([0, 0]);
-    const path = new Path2D();
-    const first = (origin) => ((origin % (step * scale)) + step * scale) % (step * scale);
-    for (let at = first(ox); at < width; at += step * scale) lineFrom(path, Math.round(at) + 0.5, 0, Math.round(at) + 0.5, height);
-    for (let at = first(oy); at < height; at += step * scale) lineFrom(path, 0, Math.round(at) + 0.5, width, Math.round(at) + 0.5);
-    context.lineWidth = 1;
-    context.strokeStyle = theme.colours.grid;
-    context.stroke(path);
-  }
-
-  #start(context, px) {
-    const [x, y] = px([0, 0]);
-    context.beginPath();
-    context.arc(x, y, 6, 0, 2 * Math.PI);
-    context.lineWidth = 2;
-    context.strokeStyle = theme.colours.muted;
-    context.stroke();
-    context.textAlign = "center";
-    label(context, "start", x, y + 20, theme.colours.muted);
-  }
-
   #now(context, { feet, wearer, tracks }, px, scale) {
-    if (wearer?.covariance) this.#ellipse(context, wearer, px, scale);
+    if (wearer?.covariance) drawEllipse(context, px(wearer.position), axes(wearer.covariance), scale);
     for (const foot of FEET) {
       const place = feet[foot]?.position;
       if (!place) continue;
       const last = tracks[foot].at(-1); // a track has the steps that ended, this one has not
       if (last) line(context, [last, [0, ...place]], px, WIDTHS[foot], theme.colours[foot]);
-      const [x, y] = px(place);
-      context.beginPath();
-      context.lineWidth = 1.5;
-      if (foot === "left") context.arc(x, y, 6, 0, 2 * Math.PI);
-      else context.rect(x - 5.5, y - 5.5, 11, 11);
-      context.fillStyle = theme.colours[foot];
-      context.fill();
-      context.strokeStyle = theme.colours.inset;
-      context.stroke();
-      context.fillStyle = theme.colours.card;
-      context.font = "700 9px system-ui, sans-serif";
-      context.textAlign = "center";
-      context.fillText(foot === "left" ? "L" : "R", x, y + 3.25);
+      drawFoot(context, foot, px(place));
     }
-    if (wearer) this.#ring(context, px(wearer.position));
-  }
-
-  // Around both feet where they are too near to one another to be told apart.
-  #ring(context, [x, y]) {
-    context.beginPath();
-    context.arc(x, y, 11, 0, 2 * Math.PI);
-    context.lineWidth = 2.5;
-    context.strokeStyle = theme.colours.wearer;
-    context.stroke();
-  }
-
-  #dot(context, [x, y]) {
-    context.beginPath();
-    context.arc(x, y, 5.5, 0, 2 * Math.PI);
-    context.fillStyle = theme.colours.wearer;
-    context.fill();
-    context.lineWidth = 2.5;
-    context.strokeStyle = theme.colours.inset;
-    context.stroke();
-  }
-
-  #ellipse(context, { position, covariance: [xx, xy, , yy] }, px, scale) {
-    const { long, wide, angle } = axes(xx, xy, yy);
-    const [x, y] = px(position);
-    context.beginPath();
-    context.ellipse(x, y, Math.min(4000, long * scale), Math.min(4000, wide * scale), -angle, 0, 2 * Math.PI);
-    this.#veil(context);
-  }
-
-  #veil(context) {
-    context.fillStyle = theme.colours.wearer;
-    context.globalAlpha = 0.13;
-    context.fill();
-    context.globalAlpha = 0.75;
-    context.lineWidth = 1;
-    context.strokeStyle = theme.colours.wearer;
-    context.stroke();
-    context.globalAlpha = 1;
+    if (wearer) drawRing(context, px(wearer.position));
   }
 
   #place(context, { place }, level, px, scale) {
     if (!place) return;
-    if (place.level === level.id && place.spread !== null) {
-      context.beginPath();
-      context.arc(...px(place.position), Math.min(4000, place.spread * scale), 0, 2 * Math.PI);
-      this.#veil(context);
-    }
-    context.fillStyle = theme.colours.candidate;
-    context.strokeStyle = theme.colours.candidate;
-    context.lineWidth = 2;
-    for (const { level: of, x, y, heading, weight } of place.candidates.length > 1 ? place.candidates : []) {
-      context.globalAlpha = of === level.id ? 0.8 : 0.2;
-      const [at, up] = px([x, y]);
-      const size = 2.5 + 9 * Math.sqrt(Math.min(1, Math.max(0, weight)));
-      context.beginPath();
-      context.arc(at, up, size, 0, 2 * Math.PI);
-      context.fill();
-    }
-    context.globalAlpha = 1;
-    if (place.level === level.id) this.#dot(context, px(place.position));
-  }
-
-  #ruler(context, scale) {
-    const metres = round(56 / scale);
-    const [x, y, length] = [12, this.surface.height - 12, metres * scale];
-    const path = new Path2D();
-    path.moveTo(x, y - 4);
-    path.lineTo(x, y);
-    path.lineTo(x + length, y);
-    path.lineTo(x + length, y - 4);
-    stroke(context, path, 1.5, theme.colours.muted);
-    context.textAlign = "left";
-    label(context, metres < 1 ? `${fixed(100 * metres)} cm` : `${fixed(metres)} m`, x + 4, y - 6, theme.colours.muted);
+    const here = place.level === level.id;
+    if (here && place.spread !== null) drawSpread(context, px(place.position), place.spread * scale);
+    if (place.candidates.length > 1) drawCandidates(context, place.candidates, level.id, px);
+    if (here) drawDot(context, px(place.position));
   }
 
   #words(state, onPlan, level) {
-    const { place, places, wearer, plan } = state;
-    let words = "";
-    if (onPlan && !place) words = places.length > 0 ? "The place was lost; the track by itself goes on." : "Where on the plan is not known yet.";
-    else if (onPlan && place.level !== level.id) words = `The wearer is on ${nameOf(plan, place.level)}.`;
-    else if (onPlan && place.candidates.length > 1) words = `${place.candidates.length} possible places; the likeliest has ${percent(Math.max(...place.candidates.map((one) => one.weight)))}.`;
+    const words = onPlan ? noteOnPlan(state, level) : "";
     write(this.note, words);
     show(this.note, words !== "");
-    this.alternative.say(() => {
-      if (onPlan && place) {
-        const [x, y] = place.position;
-        return `Floor plan, ${level.name}. The wearer is on ${nameOf(plan, place.level)} at ${fixed(x, 1)} m, ${fixed(y, 1)} m, within about ${fixed(place.spread, 1)} m`;
-      }
-      if (onPlan) return `Floor plan, ${level.name}. ${words}`;
-      if (!wearer) return "Track: no step yet";
-      const [x, y] = wearer.position;
-      const sure = wearer.covariance ? `, 95 % sure within ${fixed(axes(...pick(wearer.covariance)).long, 1)} m` : "";
-      return `Track: the wearer is ${fixed(Math.abs(x), 1)} m ${x < 0 ? "behind" : "ahead of"} the start and ${fixed(Math.abs(y), 1)} m to the ${y < 0 ? "right" : "left"}${sure}`;
-    });
+    this.alternative.say(() => (onPlan ? spokenOnPlan(state, level) : spokenTrack(state)));
   }
-}
-
-export function nameOf(plan, id) {
-  return plan?.levels.find((level) => level.id === id)?.name ?? id;
-}
-
-const pick = ([xx, xy, , yy]) => [xx, xy, yy];
-
-// Half axes of the ellipse that holds the place in 95 of 100 cases, m, and the angle of the long one, rad.
-function axes(xx, xy, yy) {
-  const middle = 0.5 * (xx + yy);
-  const off = Math.hypot(0.5 * (xx - yy), xy);
-  const half = (variance) => SURE * Math.sqrt(Math.max(0, variance));
-  return { long: half(middle + off), wide: half(middle - off), angle: 0.5 * Math.atan2(2 * xy, xx - yy) };
 }
 
 // Points that fall on the same pixel are one.
@@ -331,16 +222,4 @@ function line(context, points, px, width, colour) {
     [lastX, lastY] = [x, y];
   });
   stroke(context, path, width, colour);
-}
-
-function stroke(context, path, width, colour) {
-  context.lineWidth = width;
-  context.lineCap = context.lineJoin = "round";
-  context.strokeStyle = colour;
-  context.stroke(path);
-}
-
-function lineFrom(path, x1, y1, x2, y2) {
-  path.moveTo(x1, y1);
-  path.lineTo(x2, y2);
 }

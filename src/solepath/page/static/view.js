@@ -123,7 +123,11 @@ export class View {
     if (now.length === 2) {
       const apart = ([a, b]) => Math.max(10, Math.hypot(a[0] - b[0], a[1] - b[1]));
       const frame = this.canvas.getBoundingClientRect();
-      this.#about(middle(now, 0) - frame.x - frame.width / 2 + this.aside, middle(now, 1) - frame.y - frame.height / 2 + this.above, apart(now) / apart(old));
+      this.#about(
+        middle(now, 0) - frame.x - frame.width / 2 + this.aside,
+        middle(now, 1) - frame.y - frame.height / 2 + this.above,
+        apart(now) / apart(old),
+      );
     }
   }
 
@@ -137,6 +141,10 @@ export class View {
     if (!event.ctrlKey) return;
     event.preventDefault();
     const frame = this.canvas.getBoundingClientRect();
-    this.#about(event.clientX - frame.x - frame.width / 2 + this.aside, event.clientY - frame.y - frame.height / 2 + this.above, Math.exp(-event.deltaY * 0.004));
+    this.#about(
+      event.clientX - frame.x - frame.width / 2 + this.aside,
+      event.clientY - frame.y - frame.height / 2 + this.above,
+      Math.exp(-event.deltaY * 0.004),
+    );
   }
 }

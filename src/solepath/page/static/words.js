@@ -2,14 +2,25 @@
 
 export const PHASES = { LOADING: "loading", STATIONARY: "flat", PUSH_OFF: "push-off", SWING: "swing" };
 export const ACTIVITIES = {
-  STANDING: "Standing", WALKING: "Walking", RUNNING: "Running", STAIRS_UP: "Stairs up", STAIRS_DOWN: "Stairs down",
-  ELEVATOR_UP: "Lift up", ELEVATOR_DOWN: "Lift down", UNKNOWN: "Not clear",
+  STANDING: "Standing",
+  WALKING: "Walking",
+  RUNNING: "Running",
+  STAIRS_UP: "Stairs up",
+  STAIRS_DOWN: "Stairs down",
+  ELEVATOR_UP: "Lift up",
+  ELEVATOR_DOWN: "Lift down",
+  UNKNOWN: "Not clear",
 };
 export const SUPPORTS = { DOUBLE: "both feet", LEFT: "left foot", RIGHT: "right foot", FLIGHT: "in the air" };
 export const LINKS = { ok: "connected", silent: "silent", lost: "lost", waiting: "waiting" };
 
 // A word of a newer version is shown as it comes.
-export const say = (words, key) => (Object.hasOwn(words, key) ? words[key] : String(key ?? "").toLowerCase().replaceAll("_", " "));
+export const say = (words, key) =>
+  Object.hasOwn(words, key)
+    ? words[key]
+    : String(key ?? "")
+        .toLowerCase()
+        .replaceAll("_", " ");
 export const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
 export const fixed = (value, digits = 0) => {

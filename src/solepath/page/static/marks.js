@@ -1,0 +1,138 @@
+// What is drawn on the plane of the track: grid, ruler, feet, the wearer, and how sure that is. Places are in px.
+
+import { round } from "./canvas.js";
+import { label } from "./plan.js";
+import { theme } from "./theme.js";
+import { fixed } from "./words.js";
+
+const SURE = Math.sqrt(5.991); // 95 % of two dimensions: chi squared, 2 degrees of freedom
+const LARGEST = 4000; // px; nothing larger is seen anyhow
+
+// m, of a variance.
+export const sure = (variance) => SURE * Math.sqrt(Math.max(0, variance));
+
+// Half axes of the ellipse that holds the place in 95 of 100 cases, m, and the angle of the long one, rad.
+export function axes([xx, xy, , yy]) {
+  const middle = 0.5 * (xx + yy);
+  const off = Math.hypot(0.5 * (xx - yy), xy);
+  return { long: sure(middle + off), wide: sure(middle - off), angle: 0.5 * Math.atan2(2 * xy, xx - yy) };
+}
+
+// scale: px per m; the lines go through the start
+export function drawGrid(context, { width, height }, [startX, startY], scale) {
+  const step = round(48 / scale) * scale;
+  const path = new Path2D();
+  const first = (origin) => ((origin % step) + step) % step;
+  const sharp = (at) => Math.round(at) + 0.5;
+  for (let at = first(startX); at < width; at += step) segment(path, sharp(at), 0, sharp(at), height);
+  for (let at = first(startY); at < height; at += step) segment(path, 0, sharp(at), width, sharp(at));
+  context.lineWidth = 1;
+  context.strokeStyle = theme.colours.grid;
+  context.stroke(path);
+}
+
+function segment(path, x1, y1, x2, y2) {
+  path.moveTo(x1, y1);
+  path.lineTo(x2, y2);
+}
+
+export function drawStart(context, [x, y]) {
+  circle(context, x, y, 6);
+  context.lineWidth = 2;
+  context.strokeStyle = theme.colours.muted;
+  context.stroke();
+  context.textAlign = "center";
+  label(context, "start", x, y + 20, theme.colours.muted);
+}
+
+export function drawRuler(context, { height }, scale) {
+  const metres = round(56 / scale);
+  const [x, y, length] = [12, height - 12, metres * scale];
+  const path = new Path2D();
+  path.moveTo(x, y - 4);
+  path.lineTo(x, y);
+  path.lineTo(x + length, y);
+  path.lineTo(x + length, y - 4);
+  stroke(context, path, 1.5, theme.colours.muted);
+  context.textAlign = "left";
+  const words = metres < 1 ? `${fixed(100 * metres)} cm` : `${fixed(metres)} m`;
+  label(context, words, x + 4, y - 6, theme.colours.muted);
+}
+
+// The left one is round and the right one square, whoever sees which colours.
+export function drawFoot(context, foot, [x, y]) {
+  context.beginPath();
+  if (foot === "left") context.arc(x, y, 6, 0, 2 * Math.PI);
+  else context.rect(x - 5.5, y - 5.5, 11, 11);
+  context.fillStyle = theme.colours[foot];
+  context.fill();
+  context.lineWidth = 1.5;
+  context.strokeStyle = theme.colours.inset;
+  context.stroke();
+  context.fillStyle = theme.colours.card;
+  context.font = "700 9px system-ui, sans-serif";
+  context.textAlign = "center";
+  context.fillText(foot === "left" ? "L" : "R", x, y + 3.25);
+}
+
+// The wearer, around both feet where they are too near to one another to be told apart.
+export function drawRing(context, [x, y]) {
+  circle(context, x, y, 11);
+  context.lineWidth = 2.5;
+  context.strokeStyle = theme.colours.wearer;
+  context.stroke();
+}
+
+// The wearer, where no feet are drawn.
+export function drawDot(context, [x, y]) {
+  circle(context, x, y, 5.5);
+  context.fillStyle = theme.colours.wearer;
+  context.fill();
+  context.lineWidth = 2.5;
+  context.strokeStyle = theme.colours.inset;
+  context.stroke();
+}
+
+export function drawEllipse(context, [x, y], { long, wide, angle }, scale) {
+  context.beginPath();
+  context.ellipse(x, y, Math.min(LARGEST, long * scale), Math.min(LARGEST, wide * scale), -angle, 0, 2 * Math.PI);
+  veil(context);
+}
+
+export function drawSpread(context, [x, y], radius) {
+  circle(context, x, y, Math.min(LARGEST, Math.max(0, radius)));
+  veil(context);
+}
+
+// The larger, the likelier; those of other levels are faint.
+export function drawCandidates(context, candidates, level, px) {
+  context.fillStyle = theme.colours.candidate;
+  for (const { level: of, x, y, weight } of candidates) {
+    context.globalAlpha = of === level ? 0.8 : 0.2;
+    circle(context, ...px([x, y]), 2.5 + 9 * Math.sqrt(Math.min(1, Math.max(0, weight))));
+    context.fill();
+  }
+  context.globalAlpha = 1;
+}
+
+export function stroke(context, path, width, colour) {
+  context.lineWidth = width;
+  context.lineCap = context.lineJoin = "round";
+  context.strokeStyle = colour;
+  context.stroke(path);
+}
+
+function circle(context, x, y, radius) {
+  context.beginPath();
+  context.arc(x, y, radius, 0, 2 * Math.PI);
+}
+
+function veil(context) {
+  context.fillStyle = context.strokeStyle = theme.colours.wearer;
+  context.globalAlpha = 0.13;
+  context.fill();
+  context.globalAlpha = 0.75;
+  context.lineWidth = 1;
+  context.stroke();
+  context.globalAlpha = 1;
+}

@@ -1,0 +1,35 @@
+// Where the wearer is, in words.
+
+import { axes } from "./marks.js";
+import { fixed, percent } from "./words.js";
+
+export function nameOf(plan, id) {
+  return plan?.levels.find((level) => level.id === id)?.name ?? id;
+}
+
+// What one must know who sees this level; "" when there is nothing to say.
+export function noteOnPlan({ place, places, plan }, level) {
+  if (!place && places.length > 0) return "The place was lost; the track by itself goes on.";
+  if (!place) return "Where on the plan is not known yet.";
+  if (place.level !== level.id) return `The wearer is on ${nameOf(plan, place.level)}.`;
+  if (place.candidates.length < 2) return "";
+  const best = Math.max(...place.candidates.map((one) => one.weight));
+  return `${place.candidates.length} possible places; the likeliest has ${percent(best)}.`;
+}
+
+export function spokenOnPlan(state, level) {
+  const { place, plan } = state;
+  if (!place) return `Floor plan, ${level.name}. ${noteOnPlan(state, level)}`;
+  const [x, y] = place.position.map((metres) => `${fixed(metres, 1)} m`);
+  const within = place.spread === null ? "" : `, within about ${fixed(place.spread, 1)} m`;
+  return `Floor plan, ${level.name}. The wearer is on ${nameOf(plan, place.level)} at ${x}, ${y}${within}`;
+}
+
+export function spokenTrack({ wearer }) {
+  if (!wearer) return "Track: no step yet";
+  const [x, y] = wearer.position;
+  const ahead = `${fixed(Math.abs(x), 1)} m ${x < 0 ? "behind" : "ahead of"} the start`;
+  const aside = `${fixed(Math.abs(y), 1)} m to the ${y < 0 ? "right" : "left"}`;
+  const within = wearer.covariance ? `, 95 % sure within ${fixed(axes(wearer.covariance).long, 1)} m` : "";
+  return `Track: the wearer is ${ahead} and ${aside}${within}`;
+}
