@@ -18,7 +18,7 @@ export class Height {
   }
 
   wants(changed) {
-    return ["tracks", "places", "scene", "theme"].some((name) => changed.has(name));
+    return ["tracks", "places", "place", "scene", "theme"].some((name) => changed.has(name));
   }
 
   draw(state, now, changed) {
@@ -100,12 +100,15 @@ export class Height {
 }
 
 // [t, z] of what there is, and the levels' elevations where it is in the plan's frame.
-function series({ plan, places, tracks }) {
+function series({ plan, place, places, tracks, t }) {
   if (plan && places.length > 1) {
     const lines = plan.levels
       .filter((level) => level.elevation !== null)
       .map(({ elevation, name }) => ({ z: elevation, name }));
-    return { points: places.map(([t, , , , z]) => [t, z]), lines };
+    const points = places.map(([t, , , , z]) => [t, z]);
+    const now = place?.position[2]; // the places are those whose level is decided
+    if (Number.isFinite(now) && t > points.at(-1)[0]) points.push([t, now]);
+    return { points, lines };
   }
   const track = [tracks.wearer, tracks.left, tracks.right].find((points) => points.length > 1) ?? [];
   return { points: track.map(([t, , , z]) => [t, z]), lines: [] };
