@@ -33,9 +33,9 @@ FLAGS = (
     "--disable-component-update",
     "--disable-sync",
 )
-LONGEST = 60.0
+LONGEST = 120.0
 """s that a test may take."""
-PATIENCE = 10.0
+PATIENCE = 20.0
 """s until what is waited for must be seen."""
 UNREACHABLE = re.compile(r"net::ERR_CONNECTION_REFUSED|net::ERR_CONNECTION_RESET|ERR_SOCKET_NOT_CONNECTED")
 """What Chromium itself writes to the console while there is no server."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Callable, Iterable, Iterator
+from collections.abc import AsyncIterator, Callable, Coroutine, Iterable, Iterator
 from contextlib import asynccontextmanager
 from functools import cache
 from itertools import chain
@@ -147,13 +147,26 @@ async def opened(
     *,
     token: bool = True,
     **given: Any,
-) -> AsyncIterator[Window]:
-    """The scene's page in a window, connected. At the end it has complained of nothing and asked nobody else for
-    anything. `token`: whether it may ask for what changes something; `given`: to `window`."""
+) -> AsyncIterator[tuple[Window, Page]]:
+    """The scene's page in a window, connected, and its server. At the end it has complained of nothing and asked nobody
+    else for anything. `token`: whether it may ask for what changes something; `given`: to `window`."""
     async with Page(scene, port=0, commands=commands) as page:
         url = page.url if token else page.url.partition("#")[0]
         async with window(chromium, url, **given) as view:
             await view.until(CONNECTED)
-            yield view
+            yield view, page
         assert not view.complaints, view.complaints
         assert {urlsplit(one).netloc for one in view.asked} == {urlsplit(url).netloc}
+
+
+@asynccontextmanager
+async def meanwhile(work: Coroutine[Any, Any, None]) -> AsyncIterator[None]:
+    """While this goes on; what is left of it in the end is left undone."""
+    going_on = asyncio.create_task(work)
+    try:
+        yield
+    finally:
+        going_on.cancel()
+        await asyncio.wait([going_on])
+    if not going_on.cancelled():
+        going_on.result()

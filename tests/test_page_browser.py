@@ -12,7 +12,7 @@ import pytest
 from airs import memory
 from benches import LEFT, RIGHT
 from browsers import PATIENCE, UNREACHABLE, Browser, Browsing, Window, window
-from shown import CONNECTED, after, again, between, fresh, opened, show, square, squares, walked
+from shown import CONNECTED, after, again, between, fresh, meanwhile, opened, show, square, squares, walked
 from solepath import Connected, Session
 from solepath.ble import Devices, Wanted
 from solepath.loopback.bench import Bench
@@ -52,7 +52,7 @@ def link(site: str, state: str) -> str:
 
 def test_the_page_connects_and_names_what_it_shows(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
-        async with opened(chromium, fresh("Ward 3, corridor")) as view:
+        async with opened(chromium, fresh("Ward 3, corridor")) as (view, _):
             assert await text(view, "title") == "Ward 3, corridor"
             assert await text(view, "recipe") == "default"
             assert "Ward 3, corridor" in await view.tab.title()
@@ -63,18 +63,16 @@ def test_the_page_connects_and_names_what_it_shows(browser: Browsing) -> None:
 def test_both_soles_move_and_say_so(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
         scene = after(6.0)
-        async with opened(chromium, scene) as view:
+        async with opened(chromium, scene) as (view, _):
             await view.until(f"{link('left', 'ok')} && {link('right', 'ok')}")
             seen: dict[str, set[str]] = {foot: set() for foot in FEET}
             heard: dict[str, set[str | None]] = {foot: set() for foot in FEET}
-            walking = asyncio.create_task(show(scene, between(6.0, 40.0)))
-            async with asyncio.timeout(PATIENCE):
+            async with meanwhile(show(scene, between(6.0, 40.0))), asyncio.timeout(PATIENCE):
                 while min(map(len, seen.values())) < 10 or min(map(len, heard.values())) < 3:
                     for foot in FEET:
                         seen[foot].add(await picture(view, f"sole-{foot}"))
                         heard[foot].add(await words(view, f"sole-{foot}"))
                     await asyncio.sleep(0.05)
-            walking.cancel()
             for foot, sayings in heard.items():
                 assert all(said and said.startswith(f"{foot.capitalize()} sole: ") for said in sayings)
 
@@ -84,7 +82,7 @@ def test_both_soles_move_and_say_so(browser: Browsing) -> None:
 def test_the_track_and_the_ribbon_grow_with_every_step(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
         scene = after(6.0)
-        async with opened(chromium, scene) as view:
+        async with opened(chromium, scene) as (view, _):
             await view.until("Number(document.getElementById('track').dataset.points) > 0")
             before = {name: await picture(view, name) for name in ("track", "ribbon")}
             points = int(await view.tab.locator("#track").get_attribute("data-points"))
@@ -101,7 +99,7 @@ def test_the_track_and_the_ribbon_grow_with_every_step(browser: Browsing) -> Non
 
 def test_whoever_comes_late_sees_the_way_that_was_walked_before(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
-        async with opened(chromium, after(40.0)) as view:
+        async with opened(chromium, after(40.0)) as (view, _):
             await view.until("Number(document.getElementById('track').dataset.points) > 100")
             await view.until("document.querySelectorAll('#gait-rows tr').length >= 8")
             assert await text(view, "activity") == "Walking"
@@ -113,7 +111,7 @@ def test_whoever_comes_late_sees_the_way_that_was_walked_before(browser: Browsin
 def test_when_the_walk_stops_the_last_figures_stay(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
         scene = after(6.0)
-        async with opened(chromium, scene) as view:
+        async with opened(chromium, scene) as (view, _):
             await show(scene, between(6.0, 6.5))
             for foot in Foot:
                 force = scene.feet[foot].force
@@ -140,7 +138,7 @@ def test_a_lost_link_shows_and_recovers(browser: Browsing) -> None:
         bench.prepare()
         wanted = [Wanted(one.site, one.address) for one in bench.peripherals]
         async with (
-            opened(chromium, scene) as view,
+            opened(chromium, scene) as (view, _),
             memory(bench) as backend,
             Devices(wanted, backend=backend) as found,
         ):
@@ -151,11 +149,10 @@ def test_a_lost_link_shows_and_recovers(browser: Browsing) -> None:
                         scene.take(event)
 
             bench.began = asyncio.get_running_loop().time()
-            listening = asyncio.create_task(listen())
-            for state in ("ok", "lost", "ok"):
-                await view.until(f"{link('left', state)}")
-                assert await view.tab.evaluate(link("right", "ok"))
-            listening.cancel()
+            async with meanwhile(listen()):
+                for state in ("ok", "lost", "ok"):
+                    await view.until(link("left", state))
+                    await view.until(link("right", "ok"))
 
     browser.run(main)
 
@@ -186,7 +183,7 @@ def test_names_from_the_air_are_shown_as_text(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
         scene = after(6.0, hostile)
         scene.take(Connected(t=6.0, known_at=6.0, site=LEFT, device="F0:5E:00:00:00:01", name=hostile, signal=-50))
-        async with opened(chromium, scene) as view:
+        async with opened(chromium, scene) as (view, _):
             assert await text(view, "title") == hostile
             await view.until("document.getElementById('links').textContent.includes('onerror')")
             assert await view.tab.locator("main img, main script, header img, header script").count() == 0
@@ -203,7 +200,7 @@ def test_ten_minutes_of_two_feet_leave_the_page_as_large_as_it_was(browser: Brow
 
     async def main(chromium: Browser) -> None:
         scene = fresh()
-        async with opened(chromium, scene) as view:
+        async with opened(chromium, scene) as (view, _):
             await show(scene, walk, speed=40.0, until=2.0 * MINUTE)
             heap, elements = await view.memory()
             await show(scene, walk, speed=80.0, until=10.0 * MINUTE)
@@ -224,7 +221,7 @@ def test_ten_minutes_in_real_time_leave_the_page_as_large_as_it_was(browser: Bro
     async def main(chromium: Browser) -> None:
         scene, session = fresh(), Session(poses=True, pressures=True)
         walk = ((packet.t, tuple(session.feed(packet))) for packet in packets)
-        async with opened(chromium, scene) as view:
+        async with opened(chromium, scene) as (view, _):
             clock = asyncio.get_running_loop().time
             begun, used = clock(), process_time()
             await show(scene, walk, until=2.0 * MINUTE)

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
 import re
-
-import pytest
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from typing import Any
 
 from browsers import Browser, Browsing, Window
-from shown import CONNECTED, after, between, opened, placed, show
-from solepath.page.messages import Command
-from solepath.page.scene import Playback
+from shown import CONNECTED, after, meanwhile, opened, placed, walked
+from solepath import Session
+from solepath.page.kept import Kept
+from solepath.page.player import Player
+from solepath.page.playing import Playing
+from solepath.page.scene import Playback, Scene
+from solepath.sim.route import Route
 
 NARROW = 360
 """px."""
@@ -41,28 +47,22 @@ FAINT = """() => {
 """Texts with less contrast than WCAG 2.2 asks for at level AA (1.4.3)."""
 
 
-class Tape:
-    """A recording that does what the page asks for. `asked`: what it asked for."""
+WALK = Route().stand(1.0).walk(16.0, 1.3).stop(2.0)
+"""About 16 s."""
 
-    def __init__(self) -> None:
-        self.asked: list[Command] = []
-        self.scene = after(20.0)
-        self.scene.source = "recording"
-        self.scene.playback = Playback(begin=0.0, end=43.0, t=20.0, state="playing", speed=1.0, seeking=None)
 
-    def take(self, command: Command) -> None:
-        self.asked.append(command)
-        playback = self.scene.playback
-        assert playback is not None
-        match command:
-            case Command("pause"):
-                playback.state = "paused"
-            case Command("play"):
-                playback.state = "playing"
-            case Command("speed", speed) if speed is not None:
-                playback.speed = speed
-            case Command("seek", t) if t is not None:
-                playback.t = t
+@asynccontextmanager
+async def played(chromium: Browser, **given: Any) -> AsyncIterator[tuple[Window, Playback]]:
+    """A recording of WALK on the page, and where its player stands. `given`: to `opened`."""
+    packets = Kept(walked(WALK, cells=16))
+    player = Player(packets, Session(poses=True, pressures=True), Scene("a recording", "default", "recording"))
+    playing = Playing(player)
+    async with (
+        opened(chromium, player.scene, playing.command, **given) as (view, page),
+        meanwhile(playing.run(page, asyncio.Event())),
+    ):
+        await view.tab.locator("#playback").wait_for(state="visible")
+        yield view, player.playback
 
 
 async def focused(view: Window) -> str:
@@ -73,31 +73,39 @@ async def focused(view: Window) -> str:
 # --- keys -------------------------------------------------------------------------------------------------------------
 
 
-def test_the_space_bar_pauses_and_the_arrows_seek(browser: Browsing) -> None:
+def test_the_space_bar_pauses_and_goes_on_and_the_arrows_seek(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
-        tape = Tape()
-        async with opened(chromium, tape.scene, tape.take) as view:
-            keys = view.tab.keyboard
-            await view.tab.locator("#playback").wait_for(state="visible")
-            for state, name in (("paused", "Play"), ("playing", "Pause")):
-                await keys.press("Space")
-                await view.until("(name) => document.getElementById('play').getAttribute('aria-label') === name", name)
-                assert tape.scene.playback.state == state
-            await keys.press("Space")
-            for key, t in (("ArrowRight", 25.0), ("ArrowLeft", 20.0), ("Shift+ArrowLeft", 0.0)):
-                await keys.press(key)
-                await view.until("(t) => Math.abs(Number(document.getElementById('seek').value) - t) < 0.2", t)
-                assert tape.asked[-1] == Command("seek", pytest.approx(t, abs=0.2))
+        async with played(chromium) as (view, playback):
+            for state, name in (("paused", "Play"), ("playing", "Pause"), ("paused", "Play")):
+                await view.tab.keyboard.press("Space")
+                await view.until("(name) => document.getElementById('play').ariaLabel === name", name)
+                assert playback.state == state
+            t = playback.t
+            for key, there in (("ArrowRight", t + 5.0), ("ArrowLeft", t), ("Shift+ArrowRight", playback.end)):
+                await view.tab.keyboard.press(key)
+                await view.until("(t) => Math.abs(document.getElementById('seek').value - t) < 0.3", there)
+            await view.until("Number(document.getElementById('steps').textContent) > 15")
+            await view.tab.keyboard.press("Shift+ArrowLeft")
+            await view.until("Number(document.getElementById('seek').value) < 0.3")
+            await view.until("!(Number(document.getElementById('steps').textContent) > 0)")
+
+    browser.run(main)
+
+
+def test_the_speed_is_chosen_from_a_list(browser: Browsing) -> None:
+    async def main(chromium: Browser) -> None:
+        async with played(chromium) as (view, playback):
             await view.tab.locator("#speed-choice").select_option("4")
             await view.until("document.getElementById('speed-choice').value === '4'")
-            assert tape.asked[-1] == Command("speed", 4.0)
+            await view.until("solepath.state.playback.speed === 4")
+            assert playback.speed == 4.0
 
     browser.run(main)
 
 
 def test_plus_minus_and_nought_look_nearer_and_farther_on_the_track(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
-        async with opened(chromium, after(20.0)) as view:
+        async with opened(chromium, after(20.0)) as (view, _):
             await view.until("Number(document.getElementById('track').dataset.points) > 0")
             for key in "+-":
                 await view.tab.keyboard.press(key)
@@ -110,10 +118,9 @@ def test_plus_minus_and_nought_look_nearer_and_farther_on_the_track(browser: Bro
 
 def test_the_tab_key_reaches_every_control_in_the_order_of_the_page(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
-        tape = Tape()
-        async with opened(chromium, tape.scene, tape.take) as view:
-            await view.tab.locator("#playback").wait_for(state="visible")
+        async with played(chromium) as (view, _):
             await view.tab.keyboard.press("Space")
+            await view.until("document.getElementById('play').ariaLabel === 'Play'")
             controls = await view.tab.evaluate(
                 """() => [...document.querySelectorAll("a[href], button, input, select, summary, [tabindex]")]
                     .filter((one) => one.checkVisibility() && !one.disabled && one.tabIndex >= 0)
@@ -133,15 +140,15 @@ def test_the_tab_key_reaches_every_control_in_the_order_of_the_page(browser: Bro
     browser.run(main)
 
 
-def test_a_page_that_may_only_watch_has_nothing_to_press_for_playing(browser: Browsing) -> None:
+def test_a_page_that_may_only_watch_pauses_nothing(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
-        tape = Tape()
-        async with opened(chromium, tape.scene, tape.take, token=False) as view:
-            await view.tab.keyboard.press("Space")
-            await view.tab.keyboard.press("ArrowRight")
-            await show(tape.scene, between(20.0, 20.5))
+        async with played(chromium, token=False) as (view, playback):
+            for key in ("Space", "ArrowLeft"):
+                await view.tab.keyboard.press(key)
+            t = playback.t
+            await view.until("(t) => solepath.state.t > t", t + 0.5)
+            assert playback.state == "playing"
             assert await view.tab.evaluate(CONNECTED)
-            assert tape.asked == []
 
     browser.run(main)
 
@@ -151,7 +158,7 @@ def test_a_page_that_may_only_watch_has_nothing_to_press_for_playing(browser: Br
 
 def test_a_screen_reader_finds_landmarks_pictures_in_words_and_a_table(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
-        async with opened(chromium, after(40.0)) as view:
+        async with opened(chromium, after(40.0)) as (view, _):
             await view.until("[...document.querySelectorAll('canvas')].every((one) => !one.ariaLabel.includes('yet'))")
             names = await view.names()
             roles = [role for role, _ in names]
@@ -174,17 +181,22 @@ def test_a_screen_reader_finds_landmarks_pictures_in_words_and_a_table(browser: 
 
 
 def test_a_phone_has_nothing_to_scroll_sideways_light_and_dark(browser: Browsing) -> None:
+    async def narrow(view: Window) -> None:
+        grounds = []
+        for scheme in ("light", "dark"):
+            await view.tab.emulate_media(color_scheme=scheme)
+            assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= NARROW
+            ground = await view.tab.evaluate("getComputedStyle(document.body).backgroundColor")
+            grounds.append(sum(map(int, re.findall(r"\d+", ground)[:3])))
+        assert grounds[0] > 3 * 200 and grounds[1] < 3 * 55
+
     async def main(chromium: Browser) -> None:
-        for scene in (after(40.0), placed(29.0), Tape().scene):
-            async with opened(chromium, scene, width=NARROW, height=740) as view:
+        for scene in (after(40.0), placed(29.0)):
+            async with opened(chromium, scene, width=NARROW, height=740) as (view, _):
                 await view.until("document.querySelectorAll('#gait-rows tr').length > 0")
-                grounds = []
-                for scheme in ("light", "dark"):
-                    await view.tab.emulate_media(color_scheme=scheme)
-                    assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= NARROW
-                    ground = await view.tab.evaluate("getComputedStyle(document.body).backgroundColor")
-                    grounds.append(sum(map(int, re.findall(r"\d+", ground)[:3])))
-                assert grounds[0] > 3 * 200 and grounds[1] < 3 * 55
+                await narrow(view)
+        async with played(chromium, width=NARROW, height=740) as (view, _):
+            await narrow(view)
 
     browser.run(main)
 
@@ -192,7 +204,7 @@ def test_a_phone_has_nothing_to_scroll_sideways_light_and_dark(browser: Browsing
 def test_every_text_stands_out_from_its_ground_light_and_dark(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
         for dark in (False, True):
-            async with opened(chromium, after(40.0), dark=dark) as view:
+            async with opened(chromium, after(40.0), dark=dark) as (view, _):
                 await view.until("document.querySelectorAll('#gait-rows tr').length > 0")
                 await view.tab.locator("summary").click()
                 assert await view.tab.evaluate(FAINT) == []
