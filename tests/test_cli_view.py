@@ -48,6 +48,17 @@ def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return file
 
 
+@pytest.fixture(scope="module")
+def long_recording(recording: Path) -> Path:
+    """The same over and over: some seconds of computing."""
+    header, *packets = map(json.loads, recording.read_text().splitlines())
+    length = packets[-1]["t"]
+    file = recording.parent / "long.jsonl"
+    again = [packet | {"t": packet["t"] + k * length} for k in range(30) for packet in packets]
+    file.write_text("".join(f"{json.dumps(line)}\n" for line in [header, *again]))
+    return file
+
+
 @contextmanager
 def started(*arguments: object, code: str = "", **options: Any) -> Iterator[subprocess.Popen[str]]:
     """A command as a program of its own, until the test is through with it."""
@@ -179,31 +190,50 @@ def test_a_port_that_was_named_and_is_taken_is_said_before_anything_is_computed(
             assert line == f"solepath: --view 127.0.0.1:{port}: address already in use\n"
 
 
-def test_what_track_writes_does_not_depend_on_the_page(recording: Path, tmp_path: Path):
+def test_what_track_writes_does_not_depend_on_the_page_which_is_there_before_anything_is_computed(
+    recording: Path, tmp_path: Path
+):
     plain, viewed = tmp_path / "plain", tmp_path / "viewed"
     said = run("track", recording, "--out", plain, "--report", tmp_path / "plain.html")
 
     async def steer(page: Watcher) -> None:
         await page.until(lambda frame: True)
         assert (page.scene["title"], page.scene["source"]) == ("walk.jsonl", "recording")
+        assert page.frame["playback"]["t"] < 2.0
         await page.ask("seek", 3.0)
         await page.until(lambda frame: frame["playback"]["t"] >= 3.0)
         await page.ask("seek", 1.0)
         await page.until(lambda frame: 1.0 <= frame["playback"]["t"] < 3.0)
 
     with started("track", recording, *ANYWHERE, "--out", viewed, "--report", tmp_path / "viewed.html") as process:
-        assert process.stdout is not None
-        summed_up = ""
-        while "report in " not in summed_up:
-            summed_up += process.stdout.readline()
         watch(address(process), steer)
         process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=TAKES)
+        out, err = process.communicate(timeout=TAKES)
     assert (process.returncode, err) == (0, "")
     for name in ("events.jsonl", "track.csv", "steps.csv", "gait.csv"):
         assert (plain / name).read_bytes() == (viewed / name).read_bytes()
     assert (tmp_path / "plain.html").read_bytes() == (tmp_path / "viewed.html").read_bytes()
-    assert summed_up.partition("written to")[0] == said.stdout.partition("computed in")[0]
+    ended, rest, summed_up = out.partition("the rest of the recording")
+    assert "computed" not in ended and rest
+    assert summed_up.partition("\n")[2].partition("written to")[0] == said.stdout.partition("computed in")[0]
+
+
+def test_another_ctrl_c_gives_the_rest_up_and_whole_lines_are_written(long_recording: Path, tmp_path: Path):
+    with started("track", long_recording, *ANYWHERE, "--out", tmp_path / "out", "--report", tmp_path / "r") as process:
+        address(process)
+        assert process.stdout is not None
+        process.send_signal(signal.SIGINT)
+        while "Ctrl-C again gives it up" not in process.stdout.readline():
+            pass
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=TAKES)
+    assert process.returncode == 130 and out == "" and not (tmp_path / "r").exists()
+    given_up = re.fullmatch(r"solepath: given up after (\d+\.\d) of \d+\.\d s: nothing is summed up, .*\n", err)
+    assert given_up is not None
+    rows = (tmp_path / "out" / "track.csv").read_text()
+    assert rows.endswith("\n") and all(row.count(",") == 5 for row in rows.splitlines())
+    events = [json.loads(line) for line in (tmp_path / "out" / "events.jsonl").read_text().splitlines()]
+    assert all(event["known_at"] < float(given_up[1]) + 1.0 for event in events)
 
 
 def test_a_damaged_recording_is_played_up_to_the_damage_and_a_page_for_other_machines_is_said_to_be_one(
@@ -216,7 +246,7 @@ def test_a_damaged_recording_is_played_up_to_the_damage_and_a_page_for_other_mac
     damage, warning = done.stderr.splitlines()
     assert done.returncode == 2 and f"torn.jsonl: line {len(lines) // 2 + 1}: is not JSON" in damage
     assert "can be reached from other machines" in warning
-    assert re.search(r"\nthe page: http://[^/]+:\d+/#token=\S{16,}\n", done.stdout)
+    assert re.match(r"the page: http://[^/]+:\d+/#token=\S{16,}\n", done.stdout)
 
 
 @pytest.mark.parametrize("where", ["8765", "here", ":80", "127.0.0.1:", "127.0.0.1:70000", "127.0.0.1:-1"])
@@ -228,6 +258,14 @@ def test_what_is_no_address_is_refused(where: str, recording: Path):
 def test_a_pace_that_no_page_has_is_refused(recording: Path):
     assert "on the page it is from 0.1 to 32" in refused("track", recording, *ANYWHERE, "--speed", "33")
     assert "on the page it is from 0.1 to 32" in refused("demo", *ANYWHERE, "--speed", "0.01")
+
+
+def test_what_is_said_of_a_page_that_nobody_asks_for_is_refused(recording: Path):
+    for given in (("--speed", "4"), ("--no-browser",)):
+        line = refused("track", recording, *given)
+        assert line == f"solepath: {given[0]} is for the page: it goes with --view\n"
+    assert "--no-browser is for the page: it goes with --view" in refused("live", "--no-browser")
+    assert "--no-browser is for the page, and --terminal shows none" in refused("demo", "--terminal", "--no-browser")
 
 
 def test_without_aiohttp_the_page_is_refused_with_how_to_install_it(recording: Path, monkeypatch: pytest.MonkeyPatch):

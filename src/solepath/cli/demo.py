@@ -90,6 +90,8 @@ def run(options: argparse.Namespace) -> int:
 
 def _view(options: argparse.Namespace) -> View | None:
     """Where the page is to be served; None where it is to be shown otherwise."""
+    if options.terminal and options.no_browser:
+        raise Failure("--no-browser is for the page, and --terminal shows none")
     view = view_of(options)
     if view is not None or options.terminal or not sys.stdout.isatty():
         return view
@@ -104,16 +106,13 @@ def _show(demo: Demo, view: View, pace: float) -> None:
     from ..page.kept import Kept
     from ..page.player import Player
     from ..page.scene import Scene
-    from .view import play
+    from .view import play, run_rest
 
     scene = Scene("An emulated walk", "default", "demo", plan=None if demo.plan is None else demo.plan.plan)
     player = Player(Kept(demo.walk.packets), demo.monitor.session, scene, demo.plan, told=demo.told)
     player.speed(pace)
     play(player, view, once=not attended())
-    if player.done < len(player.items):
-        print("the rest of the walk, as fast as it can be computed ...", flush=True)
-    while player.run_through(lambda: False):
-        pass
+    run_rest(player, "walk")
 
 
 def _record(demo: Demo, path: Path) -> None:

@@ -11,7 +11,7 @@ from .calibrated import add_calibration, calibration_of
 from .choosing import add_devices, need_bleak
 from .failure import known_recipe
 from .floorplan import add_floorplan, floorplan_of
-from .view import add_view, view_of
+from .view import add_view, need_page, view_of
 
 
 def add_to(commands: Any) -> None:
@@ -54,6 +54,7 @@ def run(options: argparse.Namespace) -> int:
 
     recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
     calibration = calibration_of(options)
+    need_page(options, options.view is not None)
     view = view_of(options)
     plan, start = floorplan_of(options)
     need_bleak()

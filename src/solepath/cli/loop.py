@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import signal
-from collections.abc import AsyncIterator, Callable, Coroutine
-from contextlib import asynccontextmanager
+from collections.abc import AsyncIterator, Callable, Coroutine, Iterator
+from contextlib import asynccontextmanager, contextmanager
 from typing import Any
 
 INTERRUPTED = 130
@@ -36,6 +36,23 @@ def run_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int
             for number, handler in before.items():
                 # who was told already is on the way out
                 signal.signal(number, signal.SIG_IGN if stop.is_set() else handler)
+
+
+@contextmanager
+def listening() -> Iterator[Callable[[], bool]]:
+    """Whether Ctrl-C or SIGTERM came within, for work that ends at a good moment of its own."""
+    told = False
+
+    def hear(number: int, frame: object) -> None:
+        nonlocal told
+        told = True
+
+    before = {number: signal.signal(number, hear) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield lambda: told
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 @asynccontextmanager

@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, Any
 from .calibrated import add_calibration, calibration_of, check_pressure
 from .failure import Failure, known_recipe, note
 from .floorplan import add_floorplan, floorplan_of
-from .view import add_speed, add_view, attended, newtons_of, pace_of, play, view_of
+from .view import View, add_speed, add_view, attended, need_page, newtons_of, pace_of, play, run_rest, view_of
 
 if TYPE_CHECKING:
     from ..calibration import Calibration
     from ..floorplan.index import IndexedPlan
-    from ..page.player import Player
     from ..session import Session
     from ..source import Source
     from ..types import Packet, Sample
@@ -25,8 +24,6 @@ LONG = 4_000_000
 """Bytes of packets from which on there is a progress bar ..."""
 LONG_SAMPLES = 40_000
 """... or samples: a second or so of computing."""
-ITEMS = 1000
-"""That are computed between two steps of it."""
 
 
 def add_to(commands: Any) -> None:
@@ -69,6 +66,7 @@ def run(options: argparse.Namespace) -> int:
 
     recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
     calibration = calibration_of(options)
+    need_page(options, options.view is not None)
     view = view_of(options)
     pace = 1.0 if view is None else pace_of(options, 1.0)
     try:
@@ -94,24 +92,19 @@ def run(options: argparse.Namespace) -> int:
         recipe=recipe.name,
         when=_when(source),
     )
+    seconds, shown = 0.0, False
     with results:
         if view is None:
             seconds = _straight(reading, session, results)
-            player = None
         else:
-            player, seconds = _kept(reading, session, results, plan, calibration), 0.0
+            shown = _played(reading, session, results, plan, calibration, view, pace)
     if reading.failure is None or results.tally.first is not None:
         results.print(seconds)
-    if player is not None and view is not None and len(player.items):
-        if reading.failure is not None:
-            note(str(reading.failure))
-        player.seek(player.playback.begin)
-        player.speed(pace)
-        play(player, view, once=not attended())
-        return 0 if reading.failure is None else 2
-    if reading.failure is not None:
-        raise reading.failure
-    return 0
+    if reading.failure is None:
+        return 0
+    if shown:
+        return 2  # why was said before
+    raise reading.failure
 
 
 def _when(source: Source) -> str:
@@ -164,20 +157,27 @@ def _straight(reading: _Reading, session: Session, results: Results) -> float:
     return perf_counter() - began
 
 
-def _kept(
-    reading: _Reading, session: Session, results: Results, plan: IndexedPlan | None, calibration: Calibration | None
-) -> Player:
-    """The same, by a player that can play all of it afterwards, and knows moments of it to go to.
+def _played(
+    reading: _Reading,
+    session: Session,
+    results: Results,
+    plan: IndexedPlan | None,
+    calibration: Calibration | None,
+    view: View,
+    pace: float,
+) -> bool:
+    """The same, by a player on a page; whether there was anything to play.
 
-    It runs before anybody sees the page: what is done there then cannot change what comes of the recording."""
+    The player tells of every item once and in order, whatever is done on the page, and what nobody has watched is run
+    through at the end: what comes of the recording is the same."""
     from ..page.kept import Kept
     from ..page.player import Player
     from ..page.scene import Scene
     from ..recording import printable
-    from ..view.progress import progress_bar
 
     items = Kept(reading)
-    if len(items) or reading.failure is None:
+    shown, fault = len(items) > 0, "" if reading.failure is None else str(reading.failure)
+    if shown or not fault:
         results.begin()
     scene = Scene(
         printable(reading.source.path.name),
@@ -186,23 +186,11 @@ def _kept(
         plan=None if plan is None else plan.plan,
         newtons=newtons_of(calibration),
     )
-    fault = "" if reading.failure is None else str(reading.failure)
     player = Player(items, session, scene, plan, fault=fault, told=results.told)
-    long = len(items) > LONG_SAMPLES
-    if long:
-        print("it is worked through once before the page opens ...", flush=True)
-    with progress_bar("computing", len(items), wanted=long) as show:
-        while player.run_through(_After(ITEMS)):
-            show(player.done)
-    return player
-
-
-class _After:
-    """Enough after so many items."""
-
-    def __init__(self, items: int) -> None:
-        self._left = items
-
-    def __call__(self) -> bool:
-        self._left -= 1
-        return self._left <= 0
+    if shown:
+        if fault:
+            note(fault)
+        player.speed(pace)
+        play(player, view, once=not attended())
+    run_rest(player, "recording")
+    return shown

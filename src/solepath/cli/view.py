@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from ..types import Foot
 
 HERE = "127.0.0.1:8765"
+LONG = 40_000
+"""Items from which on there is a progress bar: some seconds of computing ..."""
+ITEMS = 1000
+"""... and that are computed between two steps of it."""
 
 
 @frozen
@@ -62,6 +66,13 @@ def attended() -> bool:
     return sys.stdin.isatty() or sys.stdout.isatty()
 
 
+def need_page(options: argparse.Namespace, page: bool) -> None:
+    """Failure for an option of the page's where there is none."""
+    for name in ("speed", "no_browser"):
+        if not page and getattr(options, name, None):
+            raise Failure(f"--{name.replace('_', '-')} is for the page: it goes with --view")
+
+
 def view_of(options: argparse.Namespace) -> View | None:
     """What --view names; None without it. Failure for what is no address or is taken, and where there is no aiohttp."""
     if options.view is None:
@@ -82,7 +93,7 @@ def view_of(options: argparse.Namespace) -> View | None:
 
 def pace_of(options: argparse.Namespace, default: float) -> float:
     """--speed, of the page. Failure where no player goes so fast or so slowly."""
-    from ..page.player import FASTEST, SLOWEST
+    from ..page.messages import FASTEST, SLOWEST
 
     if options.speed is None:
         return default
@@ -139,6 +150,40 @@ def play(player: Player, view: View, *, once: bool) -> int:
         return 0
 
     return run_to_end(played)
+
+
+def run_rest(player: Player, what: str) -> None:
+    """What nobody has watched of `what`, a word, so that `told` has heard all of it. KeyboardInterrupt at another
+    Ctrl-C, after an item that `told` has heard of."""
+    from ..view.progress import progress_bar
+    from .loop import listening
+
+    items = player.items
+    left = len(items) - player.done
+    with progress_bar("computing", len(items), wanted=left > LONG) as show, listening() as told_to_stop:
+        if left > 0:
+            print(f"the rest of the {what}, as fast as it can be computed; Ctrl-C again gives it up ...", flush=True)
+        while player.run_through(_After(ITEMS, told_to_stop)):
+            show(player.done)
+            if told_to_stop():
+                at = items.t(player.done - 1) if player.done else items.begin
+                note(
+                    f"given up after {at - items.begin:.1f} of {items.end - items.begin:.1f} s: nothing is summed up, "
+                    "and what is written ends there"
+                )
+                raise KeyboardInterrupt
+
+
+class _After:
+    """Enough after so many items, or when it is told to stop."""
+
+    def __init__(self, items: int, stop: Callable[[], bool]) -> None:
+        self._left = items
+        self._stop = stop
+
+    def __call__(self) -> bool:
+        self._left -= 1
+        return self._left <= 0 or self._stop()
 
 
 def _there_is_a_browser() -> bool:
