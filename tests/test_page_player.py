@@ -203,6 +203,40 @@ def test_a_seek_tells_how_far_it_is_and_goes_on_in_slices():
     assert not one.work(never) and one.playback.t == END - 0.5
 
 
+def test_the_page_is_told_the_time_up_to_which_the_session_was_fed_also_when_it_cannot_keep_up():
+    one = player()
+    one.speed(FASTEST)
+    slow = 0
+    while one.playback.state != "ended":
+        one.passed(WALL)
+        behind = one.work(slices(5))
+        slow += behind
+        fed = one.items.t(one._next - 1)
+        assert one.playback.t == fed if behind else fed <= one.playback.t <= one.items.end
+        message, _ = one.scene.whole()
+        # the newest sample's own time may be told a little later than its packet came
+        assert message["frame"]["playback"]["t"] <= message["frame"]["t"] < one.playback.t + 0.03
+    assert slow > 10
+
+
+def test_a_foot_is_shown_as_not_heard_from_when_it_fell_silent_whoever_looked_meanwhile():
+    def left(sample: Sample) -> bool:
+        return sample.site is Site.LEFT_FOOT and 0.6 < sample.t < 2.9
+
+    samples = Kept(sample for sample in sampled(ROUTE, seed=5).samples if not left(sample))
+    looks = []
+    for items in (1, 9, 1000):
+        one = player(samples)
+        one.pause()
+        one.seek(3.2)
+        settle(one, items)
+        looks.append(shown(one))
+    assert looks[0] == looks[1] == looks[2]
+    phases = looks[0]["phases"]["left"]
+    assert [t for t, phase in phases if phase is None] == [pytest.approx(2.1, abs=0.02)]
+    assert phases[-1][1] is not None
+
+
 def test_a_computer_that_slept_plays_on_where_it_was():
     one = player()
     one.passed(3600.0)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import base64
+import gc
 import json
 import pickle
 import re
 from collections.abc import Iterable
+from copy import deepcopy
 from functools import cache
 from math import inf, nan, pi
 from pathlib import Path
@@ -49,8 +51,9 @@ from solepath import (
     TurnMade,
     WearerMoved,
 )
+from solepath.page import plan_drawing
 from solepath.page.lists import MOST_POINTS, RECENT
-from solepath.page.messages import encode, parse_command
+from solepath.page.messages import FASTEST, SLOWEST, encode, parse_command
 from solepath.page.playback import Playback
 from solepath.page.scene import MOST_LINES, Scene
 from solepath.page.sentences import sentence
@@ -508,6 +511,23 @@ def test_a_name_from_the_air_cannot_break_a_line() -> None:
     assert "\n" not in text and "\x1b" not in text and len(text) <= 300
 
 
+def test_a_plan_is_drawn_and_written_once_whoever_watches_and_goes_with_the_last_scene() -> None:
+    plan = evolve(BUILDING, name="drawn once")
+    scene = Scene("along a corridor", "default", plan=plan)
+    first, _ = scene.whole()
+    copied = deepcopy(scene)
+    assert copied.plan is plan
+    for one in (scene, copied, Scene("another walk", "default", plan=plan)):
+        message, _ = one.whole()
+        assert message["plan"] is first["plan"]
+        assert json.loads(encode(message)) == json.loads(json.dumps(message))
+        assert message["plan"].text is first["plan"].text
+    drawings = len(plan_drawing._known)
+    del plan, scene, copied, one
+    gc.collect()
+    assert len(plan_drawing._known) == drawings - 1
+
+
 # --- protocol/page.md -------------------------------------------------------------------------------------------------
 
 PROTOCOL = (Path(__file__).parents[1] / "protocol" / "page.md").read_text()
@@ -547,6 +567,10 @@ def test_the_examples_of_the_protocol_are_what_is_sent() -> None:
     assert news.keys() <= keys("`frame`")
     assert news["feet"]["left"].keys() == keys("foot")
     assert news["links"]["left foot"].keys() == keys("link")
+
+
+def test_the_protocol_tells_the_bounds_of_the_speed() -> None:
+    assert f"so many times real time, {SLOWEST:g} to {FASTEST:g} |" in PROTOCOL
 
 
 def test_the_commands_of_the_protocol_are_commands() -> None:

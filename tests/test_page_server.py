@@ -360,7 +360,7 @@ def test_any_text_is_a_command_or_none(text: str) -> None:
         "", "{", "null", "[]", '"play"', "{}", '{"do":"stop"}', '{"do":["play"]}', '{"do":"play","value":1}',
         '{"do":"play","do":"play"}', '{"do":"seek"}', '{"do":"seek","value":null}', '{"do":"seek","value":true}',
         '{"do":"seek","value":"1"}', '{"do":"seek","value":NaN}', '{"do":"seek","value":1e999}',
-        '{"do":"speed","value":0}', '{"do":"seek","value":Infinity}',
+        '{"do":"speed","value":0}', '{"do":"speed","value":32.01}', '{"do":"seek","value":Infinity}',
         '{"do":"seek","value":1' + "0" * 999 + "}", '{"do":"speed","value":-1}', "[" * 5000,
     ],
 )  # fmt: skip

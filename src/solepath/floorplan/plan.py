@@ -106,6 +106,10 @@ class FloorPlan:
     heights_known: bool = True
     remarks: tuple[str, ...] = field(default=(), eq=False)
 
+    def __deepcopy__(self, memo: object) -> FloorPlan:
+        """Itself: nothing in it can change, and it may have 100,000 walls."""
+        return self
+
     @property
     def fingerprint(self) -> int:
         """The same for equal plans, on every machine; another, but for one chance in 2^32, for others. It is computed

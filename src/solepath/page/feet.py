@@ -101,6 +101,11 @@ class FootScene:
         self.peak = max(FAINT * layout.full_scale, 0.0) if layout.full_scale < inf else 0.0
         return True
 
+    def began_after(self, t: float) -> bool:
+        """Whether what it does now, or that it is not heard, began after `t` s."""
+        phases = self.phases.items
+        return bool(phases) and phases[-1][0] > t
+
     def fall_silent(self, t: float) -> None:
         """What it does now is not known."""
         self.begin(t, None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from math import inf
 from typing import Any
 
 from attrs import define, field
@@ -117,6 +118,11 @@ class Link:
         if not self.fresh:
             return "waiting"
         return "ok" if self.heard is None or now - self.heard <= SILENT else "silent"
+
+    @property
+    def silent_from(self) -> float:
+        """When it is silent if nothing comes any more, told or not, s."""
+        return inf if self.heard is None else self.heard + SILENT
 
     def rate(self, now: float) -> float | None:
         """Samples a second of late, in the digits that are shown; None where nobody counts."""

@@ -10,8 +10,8 @@ from attrs import frozen
 
 VALUED = {"play": False, "pause": False, "speed": True, "seek": True}
 """Command -> whether it has a value."""
-SLOWEST, FASTEST = 0.1, 100.0
-"""Times real time."""
+SLOWEST, FASTEST = 0.1, 32.0
+"""Times real time, that a recording is played at."""
 LONGEST = 4096
 """Bytes of a message from a page."""
 
@@ -59,8 +59,30 @@ def parse_command(text: str) -> Command:
 
 
 def encode(message: dict[str, Any]) -> str:
-    """A message of the server as text. ValueError for one with a number that is none."""
-    return json.dumps(message, allow_nan=False, separators=(",", ":"))
+    """A message of the server as text. ValueError for one with a number that is none. A member that knows its own text
+    (Written) is not written anew: a floor plan may be of megabytes, and is sent to each watcher and after each seek."""
+    written = {key: value for key, value in message.items() if isinstance(value, Written)}
+    text = _json({key: value for key, value in message.items() if key not in written} if written else message)
+    for key, value in written.items():
+        text = f"{text[:-1]}{',' if len(text) > 2 else ''}{_json(key)}:{value.text}}}"
+    return text
+
+
+class Written(dict[str, Any]):
+    """A part of messages that never changes, and is sent often: its text is made once, when it is first wanted."""
+
+    __slots__ = ("_text",)
+
+    @property
+    def text(self) -> str:
+        text: str | None = getattr(self, "_text", None)
+        if text is None:
+            text = self._text = _json(self)
+        return text
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, allow_nan=False, separators=(",", ":"))
 
 
 def _no_number(text: str) -> None:

@@ -23,13 +23,11 @@ from ..floorplan.index import IndexedPlan
 from ..session import Session
 from ..types import Packet, Sample
 from .kept import Kept
-from .messages import Command
+from .messages import FASTEST, SLOWEST, Command
 from .playback import Playback
 from .rounding import shown
 from .scene import Scene
 
-SLOWEST, FASTEST = 0.1, 32.0
-"""Times real time."""
 SPACING = 10.0
 """s of the recording between two saved moments, at first: as much is computed again in a fifth of a second."""
 MOMENTS = 60
@@ -147,6 +145,7 @@ class Player:
                 break
         if self._behind:
             now.t = max(now.t, min(self._due, self.items.t(self._next - 1)))
+            self.scene.tick(now.t)
             return True
         if self._next == len(self.items):
             self._finish()

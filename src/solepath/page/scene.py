@@ -121,7 +121,7 @@ class Scene:
         for foot, one in self.feet.items():
             link = self.links.get(SITE_OF_FOOT[foot])
             if one.phase is not None and link is not None and link.state(self.now) != "ok":
-                one.fall_silent(self.now)
+                one.fall_silent(min(self.now, link.silent_from))
 
     def _link(self, site: Site) -> Link:
         link = self.links.get(site)
@@ -129,20 +129,28 @@ class Scene:
             link = self.links[site] = Link(site.foot is not None)
         return link
 
-    def _moved(self, event: FootMoved) -> None:
+    def _heard_again(self, event: FootMoved | FootPressed | HeelStrike | FootFlat | HeelOff | ToeOff) -> Link:
+        """The link of a foot that something is told of. Where it was silent until now that is shown, whether or not
+        somebody has looked meanwhile; once, though the phase that ends it may come before the sample."""
         link = self._link(SITE_OF_FOOT[event.foot])
+        if event.known_at > link.silent_from and not self.feet[event.foot].began_after(link.silent_from):
+            self._hush()
+        return link
+
+    def _moved(self, event: FootMoved) -> None:
+        link = self._heard_again(event)
         link.sampled(event.t, event.known_at, link.moves)
         if link.lost_at is None:
             self.feet[event.foot].moved(event)
 
     def _pressed(self, event: FootPressed) -> None:
-        link = self._link(SITE_OF_FOOT[event.foot])
+        link = self._heard_again(event)
         link.sampled(event.t, event.known_at, link.presses)
         if link.lost_at is None:
             self.feet[event.foot].pressed(event)
 
     def _began(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
-        if self._link(SITE_OF_FOOT[event.foot]).lost_at is None:
+        if self._heard_again(event).lost_at is None:
             self.feet[event.foot].begin(event.t, PHASES[type(event)])
 
     def _stepped(self, event: StepTaken) -> None:
