@@ -2,25 +2,39 @@
 
 const AHEAD = 0.6; // s that it may go on without hearing anything
 const FAR = 0.7; // s off: jump
+const WINDOW = 1000; // ms over which it is seen how fast a recording really plays ...
+const SURE = 200; // ... and no shorter than this
+const ALMOST = 0.9; // of the speed that was asked for is that speed: messages do not come evenly
 
 export class Pace {
   #shown = null;
   #last = 0;
   #heard = 0;
   #t = 0;
+  #told = []; // [now, t] of late
+  #speed = 0; // at which that was to be played
+  #most = Infinity; // times real time: what was reached where that could not be kept up
   #generation = 0;
 
   heard(state, now) {
-    if (state.generation !== this.#generation) this.#shown = null;
+    if (state.generation !== this.#generation) {
+      this.#shown = null;
+      this.#told = [];
+    }
     this.#generation = state.generation;
-    if (state.t !== this.#t) this.#heard = now;
+    if (state.t !== this.#t) {
+      if (now - this.#heard > 1000 * AHEAD) this.#told = [];
+      this.#heard = now;
+      this.#told.push([now, state.t]);
+      while (this.#told.length > 2 && this.#told[1][0] <= now - WINDOW) this.#told.shift();
+    }
     this.#t = state.t;
   }
 
   // s; whether it moves on by itself is `moving`
   at(state, now) {
     const { playback } = state;
-    const speed = playback === null ? 1 : playback.state === "playing" ? playback.speed : 0;
+    const speed = playback === null ? 1 : this.#real(playback.state === "playing" ? playback.speed : 0);
     const since = (now - this.#heard) / 1000;
     this.moving = speed > 0 && since < AHEAD;
     const goal = this.#t + (this.moving ? since * speed : 0);
@@ -30,5 +44,17 @@ export class Pace {
     this.#shown += this.moving ? passed * speed : 0;
     this.#shown += (goal - this.#shown) * Math.min(1, 4 * passed);
     return this.#shown;
+  }
+
+  // A machine that cannot keep up plays slower than it was asked to; what scrolls must not run ahead of it.
+  #real(speed) {
+    if (speed !== this.#speed) this.#told = [];
+    this.#speed = speed;
+    const took = this.#told.length > 0 ? this.#heard - this.#told[0][0] : 0;
+    if (took >= SURE) {
+      const rate = (1000 * (this.#t - this.#told[0][1])) / took;
+      this.#most = rate > ALMOST * speed ? Infinity : Math.max(0, rate);
+    }
+    return Math.min(speed, this.#most);
   }
 }
