@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections import deque
+from collections import Counter, deque
 from itertools import count
 from math import inf, nan
 from typing import Any
@@ -14,6 +14,7 @@ from attrs import define, evolve, field
 from solepath import Foot, Phase, Session, SnapshotError, StepTaken, recipes
 from solepath.foot.promises import broken
 from solepath.foot.stance import Load, Stance
+from solepath.machine import load, save
 from solepath.recipes import BY_NAME
 from solepath.sim import Route, Walker
 from solepath.sim.insoles import layout
@@ -86,6 +87,60 @@ def test_classes_that_are_no_parts_or_share_a_name_are_refused() -> None:
         Session.restore(saved, parts=[other])
 
 
+@define
+class Usual(Quiet):
+    """Beside what was usual lately, by windows that forget by themselves."""
+
+    rates: deque[float] = field(factory=lambda: deque(maxlen=8), init=False)
+    by_kind: dict[str, deque[float]] = field(factory=dict, init=False)
+
+    def update(self, t: float, dt: float, acc: Vec3, gyro: Vec3, *rest: Any) -> Stance:
+        rate = sum([w * w for w in gyro]) ** 0.5
+        self.rates.append(rate)
+        self.by_kind.setdefault("all", deque(maxlen=5)).append(rate)
+        usual = sum(self.rates) / len(self.rates) + sum(self.by_kind["all"])
+        return Quiet.update(self, t, dt, acc, gyro, *rest)._replace(statistic=usual)
+
+
+def test_a_window_that_forgets_by_itself_still_does_after_it_was_saved() -> None:
+    assert broken(Usual(), WALKED) == []
+    one = Usual()
+    for sample in WALKED[:20]:
+        assert sample.acc is not None and sample.gyro is not None
+        one.update(sample.t, 0.01, sample.acc, sample.gyro, None)
+    saved: Any = json.loads(json.dumps(save(one)))
+    again = load(Usual, saved)
+    assert again == one and again.rates.maxlen == 8 and again.by_kind["all"].maxlen == 5
+    assert save(again) == saved
+    for most, items in ((8, None), (2, [1.0, 2.0, 3.0]), (-1, []), (True, [1.0]), ("8", [])):
+        with pytest.raises(SnapshotError):
+            load(Usual, saved | {"rates": {"maxlen": most, "is": items}})
+
+
+@define
+class Window:
+    recent: deque = field(factory=deque)  # type: ignore[type-arg]
+
+
+@define
+class Level:
+    highest: float = inf
+
+
+@define
+class Holder:
+    held: Window | Level | None
+
+
+def test_what_a_snapshot_cannot_hold_is_named_with_its_class_and_field() -> None:
+    with pytest.raises(TypeError, match=r"cannot hold Window\.recent: .* write deque\[float\]"):
+        save(Holder(Window()))
+    with pytest.raises(SnapshotError, match=r"cannot hold Level\.highest: inf"):
+        save(Holder(Level()))
+    with pytest.raises(TypeError, match=r"cannot hold Holder\.held: a Quiet where Window or Level is known"):
+        save(Holder(Quiet()))  # type: ignore[arg-type]
+
+
 def test_what_cannot_be_saved_says_so_when_it_is_to_be_saved() -> None:
     class Bare:
         update = Quiet.update
@@ -155,6 +210,15 @@ class Reckless(Quiet):
 
 
 @define
+class Altered(Quiet):
+    counts: dict[str, int] = field(factory=Counter, init=False)
+
+    def update(self, t: float, *rest: Any) -> Stance:
+        self.counts["still" if self.since else "moving"] += 1
+        return Quiet.update(self, t, *rest)._replace(statistic=float("missing" in self.counts))
+
+
+@define
 class Lost(Quiet):
     best: float = field(default=0.0, init=False)
 
@@ -170,7 +234,8 @@ class Lost(Quiet):
         (Restless(), "twice"),
         (Forgetful(), "in no field"),
         (Sharing(), "share"),
-        (Lost(), "cannot hold inf"),
+        (Altered(), "its field counts comes back as a dict and was a Counter"),
+        (Lost(), "cannot hold Lost.best: inf"),
         (Reckless(), "sigma is above 0"),
         (Reckless(), "v_ref"),
         (Reckless(), "statistic is finite"),

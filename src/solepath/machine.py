@@ -2,7 +2,8 @@
 
 A machine is an attrs class whose fields are floats, ints, strings, booleans, None, bytes, enums, tuples, lists, deques,
 dicts with string or enum keys, and other such records. `save` turns it into a JSON-able value, `load` builds it again
-from the type annotations; a field typed as a union of records carries the class name. A union with a Protocol in it is
+from the type annotations, which say what is in it (deque[float], not deque); a deque with a maxlen carries it; a field
+typed as a union of records carries the class name. A union with a Protocol in it is
 open: it also takes records of an app's own, whose classes are to be named again to load them. Nothing else may be held
 across two samples: no generators, closures, rebound methods or arrays.
 
@@ -37,7 +38,8 @@ class SnapshotError(ValueError):
 
 
 def save(record: object) -> Json:
-    """A JSON-able copy of `record`, an attrs instance. TypeError when a field holds what cannot be saved."""
+    """A JSON-able copy of `record`, an attrs instance. TypeError when a field is of a kind that cannot be saved,
+    SnapshotError when it holds a value that cannot; both name its class and the field."""
     return _codec(type(record))[0](record)
 
 
@@ -62,6 +64,17 @@ def checksum(value: Json) -> int:
 
 
 _MINUS_ZERO = re.compile(r"-0\.0(?=[],}])")
+
+_CANNOT = "a snapshot cannot hold "
+
+
+def _placed(error: Exception, cls: type, name: str) -> Exception:
+    """The same with the class and the field, once: those of the innermost record are what is to be mended."""
+    if str(error).startswith(_CANNOT):
+        return error
+    kind = TypeError if isinstance(error, TypeError) else SnapshotError
+    return kind(f"{_CANNOT}{cls.__name__}.{name}: {error}")
+
 
 _Own = frozenset[type]
 """What open unions may hold besides what they name."""
@@ -112,15 +125,17 @@ def _make_codec(annotation: Any, own: _Own) -> tuple[_Saver, _Loader]:
         save_item, load_item = _codec(arguments[0], own)
         return (lambda v: [save_item(i) for i in v]), (lambda v: [load_item(i) for i in _list(v)])
     if origin is deque:
-        save_item, load_item = _codec(arguments[0], own)
-        return (lambda v: [save_item(i) for i in v]), (lambda v: deque([load_item(i) for i in _list(v)]))
+        return _deque_codec(arguments[0], own)
     if origin is dict:
         (save_key, load_key), (save_item, load_item) = _codec(arguments[0], own), _codec(arguments[1], own)
         return (
             lambda v: {typing.cast(str, save_key(k)): save_item(i) for k, i in v.items()},
             lambda v: {load_key(k): load_item(i) for k, i in v.items()},
         )
-    raise TypeError(f"a snapshot cannot hold {annotation!r}")
+    if annotation in (tuple, list, deque, dict):
+        what = "dict[str, float]" if annotation is dict else f"{annotation.__name__}[float]"
+        raise TypeError(f"its type does not say what is in it; write {what}, or whatever it is")
+    raise TypeError(f"{annotation!r} is no number, string, enum, bytes, tuple, list, deque, dict or attrs class")
 
 
 def _list(value: Any) -> list[Any]:
@@ -141,7 +156,7 @@ def _exactly(kind: type) -> Callable[[Any], Any]:
 def _save_float(value: Any) -> Json:
     number = float(value)
     if not isfinite(number):
-        raise SnapshotError(f"a snapshot cannot hold {number}")
+        raise SnapshotError(f"{number}")
     return number
 
 
@@ -149,6 +164,26 @@ def _load_float(value: Any) -> float:
     if type(value) is not float and type(value) is not int:
         raise SnapshotError(f"expected a number, found {value!r}")
     return float(value)
+
+
+def _deque_codec(item: Any, own: _Own) -> tuple[_Saver, _Loader]:
+    """A list; where the deque has a maxlen, which the annotation does not tell, a dict with both."""
+    save_item, load_item = _codec(item, own)
+
+    def save_deque(value: Any) -> Json:
+        items: list[Json] = [save_item(i) for i in value]
+        most = getattr(value, "maxlen", None)
+        return items if most is None else {"maxlen": most, "is": items}
+
+    def load_deque(value: Any) -> deque[Any]:
+        if not isinstance(value, dict):
+            return deque([load_item(i) for i in _list(value)])
+        most, items = value["maxlen"], _list(value["is"])
+        if type(most) is not int or most < len(items) or value.keys() != {"maxlen", "is"}:
+            raise SnapshotError(f"not a deque: {value!r:.80}")
+        return deque([load_item(i) for i in items], most)
+
+    return save_deque, load_deque
 
 
 def _fixed_tuple_codec(arguments: tuple[Any, ...], own: _Own) -> tuple[_Saver, _Loader]:
@@ -164,10 +199,21 @@ def _fixed_tuple_codec(arguments: tuple[Any, ...], own: _Own) -> tuple[_Saver, _
 
 def _record_codec(cls: type, own: _Own) -> tuple[_Saver, _Loader]:
     hints = typing.get_type_hints(cls)
-    fields = [(f.name, f.alias, *_codec(hints[f.name], own)) for f in attrs.fields(cls)]
+    fields: list[tuple[str, _Saver, _Loader]] = []
+    for field in attrs.fields(cls):
+        try:
+            fields.append((field.name, *_codec(hints[field.name], own)))
+        except TypeError as error:
+            raise _placed(error, cls, field.name) from error
 
     def save_record(record: Any) -> Json:
-        return {name: save_field(getattr(record, name)) for name, _, save_field, _ in fields}
+        saved: dict[str, Json] = {}
+        for name, save_field, _ in fields:
+            try:
+                saved[name] = save_field(getattr(record, name))
+            except (TypeError, ValueError) as error:
+                raise _placed(error, cls, name) from error
+        return saved
 
     def load_record(value: Any) -> Any:
         if not isinstance(value, dict):
@@ -177,7 +223,7 @@ def _record_codec(cls: type, own: _Own) -> tuple[_Saver, _Loader]:
         if unknown or missing:
             raise SnapshotError(f"{cls.__name__} does not have the fields {sorted(unknown | missing)}")
         record: Any = object.__new__(cls)
-        for name, _, _, load_field in fields:
+        for name, _, load_field in fields:
             object.__setattr__(record, name, load_field(value[name]))
         return record
 
@@ -191,7 +237,7 @@ def _union_codec(arguments: tuple[Any, ...], own: _Own) -> tuple[_Saver, _Loader
     if any([getattr(a, "_is_protocol", False) for a in others]):
         return _open_codec(records, own)
     if len(others) > 1 or (others and records):
-        raise TypeError(f"a snapshot cannot tell apart {arguments!r}")
+        raise TypeError(f"it could not tell apart {arguments!r}")
 
     def save_union(value: Any) -> Json:
         if value is None:
@@ -199,7 +245,7 @@ def _union_codec(arguments: tuple[Any, ...], own: _Own) -> tuple[_Saver, _Loader
         if others:
             return _codec(others[0])[0](value)
         if type(value) not in records.values():
-            raise TypeError(f"a snapshot cannot hold a {type(value).__name__} where {' or '.join(records)} is known")
+            raise TypeError(f"a {type(value).__name__} where {' or '.join(records)} is known")
         saved = _codec(type(value))[0](value)
         return {"kind": type(value).__name__, "is": saved} if len(records) > 1 else saved
 
@@ -222,9 +268,9 @@ def _open_codec(records: dict[str, type], own: _Own) -> tuple[_Saver, _Loader]:
     def save_open(value: Any) -> Json:
         cls = type(value)
         if not attrs.has(cls):
-            raise TypeError(f"a snapshot cannot hold a {cls.__name__}: it is no attrs class")
+            raise TypeError(f"{cls.__name__} is no attrs class")
         if records.get(cls.__name__, cls) is not cls:
-            raise TypeError(f"a snapshot cannot tell this {cls.__name__} from solepath's own: give it another name")
+            raise TypeError(f"it could not tell this {cls.__name__} from solepath's own: give it another name")
         return {"kind": cls.__name__, "is": _codec(cls)[0](value)}
 
     def load_open(value: Any) -> Any:

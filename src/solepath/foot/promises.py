@@ -12,6 +12,7 @@ from copy import deepcopy
 from math import inf, isfinite
 from typing import Any
 
+import attrs
 from attrs import evolve
 
 from ..machine import Json, SnapshotError, load, save
@@ -44,9 +45,9 @@ def broken(detector: Detector, samples: Iterable[Sample], layout: Layout | None 
     one = deepcopy(worn)
     try:
         said, early = _sized(one, moments[:half])
-        saved = save(one)
+        restored: Any = load(type(worn), json.loads(json.dumps(save(one))))
+        altered = list(_altered(one, restored))
         after, late = _sized(one, moments[half:])
-        again = _said(load(type(worn), json.loads(json.dumps(saved))), moments[half:])
     except SnapshotError as error:
         return [f"its state cannot be saved and restored: {error}"]
     said += after
@@ -54,7 +55,8 @@ def broken(detector: Detector, samples: Iterable[Sample], layout: Layout | None 
         found.append("two copies of it share something: feeding one changes the other")
     if _said(deepcopy(worn), moments) != said:
         found.append("the same samples do not say the same twice")
-    if again != after:
+    found += [f"saved and restored, {what}" for what in altered]
+    if not altered and _said(restored, moments[half:]) != after:
         found.append("saved and restored, it does not go on as before: it remembers what is in no field")
     if late > GROWTH * early:
         found.append("it remembers more and more")
@@ -78,6 +80,16 @@ def _moments(samples: Iterable[Sample], layout: Layout | None) -> Iterator[Momen
 
 def _said(detector: Detector, moments: Iterable[Moment]) -> list[Stance]:
     return [detector.update(*moment) for moment in moments]
+
+
+def _altered(detector: Any, restored: Any) -> Iterator[str]:
+    """The fields that are not what they were: what restores them is their type annotation."""
+    for name in attrs.fields_dict(type(detector)):
+        was, comes = getattr(detector, name), getattr(restored, name)
+        if type(was) is not type(comes) and not isinstance(was, int | float):
+            yield f"its field {name} comes back as a {type(comes).__name__} and was a {type(was).__name__}"
+        elif save(was) != save(comes) if attrs.has(type(was)) else was != comes:
+            yield f"its field {name} comes back as {comes!r:.60} and was {was!r:.60}"
 
 
 def _sized(detector: Detector, moments: Sequence[Moment]) -> tuple[list[Stance], int]:
