@@ -87,11 +87,12 @@ def test_a_session_of_two_insoles_is_as_large_after_an_hour_as_after_a_minute() 
     check(*walk_on(Session(), 65))
 
 
-def test_an_hour_of_samples_leaves_nothing_behind() -> None:
+@pytest.mark.parametrize("seconds", [600.0, pytest.param(3600.0, marks=pytest.mark.soak)])
+def test_a_long_walk_in_samples_leaves_nothing_behind(seconds: float) -> None:
     fed = [sample for sample in samples(LOOP, cells=0, rate=25.0) if sample.site is LEFT]
     length = fed[-1].t + 0.04
     session, sizes, found = Session(), [], []
-    for k in range(int(3600 / length) + 1):
+    for k in range(int(seconds / length) + 1):
         told = session.feed([Sample(s.t + k * length, s.site, s.acc, s.gyro) for s in fed])
         sizes.append(size(session))
         found.append(len(of(StepTaken, told)))

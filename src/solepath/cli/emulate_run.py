@@ -27,6 +27,8 @@ RESTED = 10.0
 """s without a connection after which the next one finds the wearer at the beginning of his walk."""
 TOLD_EVERY, REDRAWN = 10.0, 1.0
 """s between two lines on how it goes, without a terminal and in one."""
+LONG = 500.0
+"""m from which on it takes some seconds to work out the walk."""
 HESITATES = 1.0
 """s from the first connection to the walk's beginning; it begins with standing."""
 
@@ -57,6 +59,8 @@ def prepared(options: argparse.Namespace) -> Bench:
         if options.faults is None:
             raise
         raise Failure(f"{options.faults}: {error}") from None
+    if options.distance > LONG:
+        print(f"working out a walk of {options.distance:g} m ...", flush=True)
     bench.prepare()
     return bench
 
