@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+import re
 import types
 from enum import Enum
 from pathlib import Path
@@ -35,6 +36,22 @@ def test_nothing_else_is_public() -> None:
 
 def test_every_event_is_public() -> None:
     assert {kind.__name__ for kind in Event.__args__} <= set(solepath.__all__)
+
+
+@pytest.mark.parametrize("kind", Event.__args__, ids=lambda kind: kind.__name__)
+def test_every_event_says_how_late_it_is_known(kind: type) -> None:
+    """In the text of its class, not of the one that all share."""
+    assert {"known", "latency"} & set(re.findall(r"[a-z]+", kind.__dict__["__doc__"].lower()))
+
+
+def test_every_number_of_an_event_says_its_unit_or_what_it_counts() -> None:
+    for kind in Event.__args__:
+        lines = inspect.getsource(kind).splitlines()
+        for line, after in zip(lines, [*lines[1:], ""], strict=True):
+            name, _, annotation = line.strip().partition(": ")
+            if name in {f.name for f in attrs.fields(kind)} and annotation.split(" ")[0] in ("float", "int"):
+                told = after.strip().startswith('"""') or f"`{name}`" in (kind.__doc__ or "")
+                assert told, f"{kind.__name__}.{name}"
 
 
 def documented(thing: Any) -> bool:

@@ -111,8 +111,8 @@ def scanner(backend: Backend, heard: Heard) -> BleakScanner:
 
 
 async def scan(seconds: float = 4.0, *, backend: Backend = NATIVE) -> list[Found]:
-    """The devices that advertise within so many seconds, strangers too, the strongest first. BluetoothError when there
-    is no Bluetooth to scan with."""
+    """The devices that advertise within so many seconds, strangers too, the strongest first; known when these are over.
+    BluetoothError when there is no Bluetooth to scan with."""
     found: dict[str, Found] = {}
 
     def heard(one: Found) -> None:

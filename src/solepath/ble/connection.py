@@ -43,7 +43,8 @@ RECONSIDER = 60.0
 
 
 class State(Enum):
-    """What a connection is at."""
+    """What a connection is at: it waits for the device's advertisement, connects to it, reads, subscribes and writes
+    what the profile says, or passes on what comes."""
 
     SEEKING = "seeking"
     CONNECTING = "connecting"
@@ -53,8 +54,11 @@ class State(Enum):
 
 @define(eq=False)
 class Connection:
-    """`run` is a task of its own, so no device waits for another. What it learns it says with its `voice`.
+    """One wanted device, as `Devices` has it; for an app to look at: `wanted`, `site`, `state`, `signal`, and `address`
+    and `name`, "" as long as they are not known. None of it raises; troubles become packets, and LinkTrouble of those.
 
+    `run` is a task of its own, so no device waits for another. What it learns it says with its `voice`. `pair`: pair
+    when connected. `patience`: s until a device that is not heard is complained of.
     `siblings`: all connections of the same owner, this one too; no two use one device or stand at one site.
     """
 
@@ -68,7 +72,7 @@ class Connection:
     state: State = field(default=State.SEEKING, init=False)
     name: str = field(default="", init=False)
     signal: int | None = field(default=None, init=False)
-    """With which it last advertised, dBm."""
+    """With which it last advertised, dBm; None when nobody knows."""
     _trying: str = field(default="", init=False)
     """The address in use just now."""
     _since: float = field(default=0.0, init=False)

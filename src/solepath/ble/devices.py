@@ -30,9 +30,10 @@ class Devices:
     """Any number of devices, found, connected, set up, and connected again whenever they are lost; iterate for packets.
 
     Every packet is stamped with the event loop's clock when it arrives (`loop.time()`, usually `time.monotonic()`), and
-    names its device. Besides what devices send there is what was read from and written to them, and what only the
-    receiver knows (protocol/receiver.md): connections, troubles in words, packets that were dropped, and the passing of
-    time while nothing comes. All of it is for `Session.feed`, which makes events of it, and for a recording.
+    names its device; it can be taken in the loop's next turn. Besides what devices send there is what was read from and
+    written to them, and what only the receiver knows (protocol/receiver.md): connections, troubles in words, packets
+    that were dropped, and the passing of time while nothing comes. All of it is for `Session.feed`, which makes events
+    of it, and for a recording.
 
     `capacity`: notifications that wait to be taken; beyond it the oldest are dropped, and a packet says how many.
     `pair`: pair with each device when it is connected. `patience`: s until a device that is not heard is complained of.

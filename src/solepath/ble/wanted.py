@@ -13,10 +13,11 @@ from ..types import SITE_OF_FOOT, Site
 
 @frozen
 class Wanted:
-    """One device. `site`: where it is worn; None for an insole, which says itself whose it is.
+    """One device that is looked for. `site`: where it is worn; None for an insole, which says itself whose it is.
 
     `which`: its address, or its name when no other device nearby has it; "" for any one of its kind. `profile`: its
     kind, where the advertisement does not tell (20 Hz firmware of a CC2541, a device of your own) or `which` is "".
+    ValueError when nothing tells which device is wanted, or when a device that cannot say where it is worn has no site.
     """
 
     site: Site | None

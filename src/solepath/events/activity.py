@@ -28,7 +28,11 @@ class ActivityChanged(Happening):
 
 @frozen(kw_only=True)
 class LiftRidden(Happening):
-    """A ride in a lift has ended; `t` is when the lift came to rest."""
+    """A ride in a lift has ended; `t` is when the lift came to rest.
+
+    Known with the default once it is settled that this was its end, mostly seconds after `t` and up to 12 s; with
+    `footstep-tracker` as soon as the jolt of its braking is over. Final.
+    """
 
     t_start: float
     """When it set off, s."""
@@ -39,7 +43,12 @@ class LiftRidden(Happening):
 
 @frozen(kw_only=True)
 class FlightClimbed(Happening):
-    """A flight of stairs was climbed or descended; `t` is the end of its last step."""
+    """A flight of stairs was climbed or descended; `t` is the end of its last step.
+
+    Known when as many level strides as feet are heard have followed it, about a second after `t`, with the first stride
+    the other way, or when both feet have stood at one height for 3 s; where activities are told later than steps (the
+    default: by 1 to 1.5 s), as much later. Final.
+    """
 
     t_start: float
     """The beginning of its first step, s."""
@@ -52,7 +61,12 @@ class FlightClimbed(Happening):
 
 @frozen(kw_only=True)
 class TurnMade(Happening):
-    """The wearer has turned, over one step or several that follow each other; `t` is the end of the last of them."""
+    """The wearer has turned, over one step or several that follow each other; `t` is the end of the last of them (Liu
+    et al. 2015, IEEE MASS, section IV.D).
+
+    Known when the feet have gone straight on for three steps (two where one foot is heard), or when none has come down
+    for 2 to 4 s. Final.
+    """
 
     t_start: float
     """The beginning of the first, s."""

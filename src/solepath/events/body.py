@@ -11,7 +11,9 @@ from .happening import Happening
 @frozen(kw_only=True)
 class StrideFused(Happening):
     """The stride of one foot, calibrated by the other's, and whose path the wearer's is now (Chen et al. 2019, IEEE
-    Internet of Things Journal, equations (9) to (13)). Known at the foot-flat that ends the stride, which is `t`.
+    Internet of Things Journal, equations (9) to (13)).
+
+    Known with the StepTaken of the stride; `t` is the same, the foot-flat that ends it.
     """
 
     foot: Foot
@@ -38,7 +40,9 @@ class StrideFused(Happening):
 @frozen(kw_only=True)
 class TouchedDown(Happening):
     """A foot came down and carries from now on; the other is measured from it (Gong et al. 2023, Sensors 23, 5417,
-    equations (1) to (3) and (8)). Not final before the wearer's first heading is settled; later ones are."""
+    equations (1) to (3) and (8)). Known with the sample that shows it, which is `t`; with sensors above the ankles up
+    to 0.06 s later, when their attitudes of that moment are there. Not final before the wearer's first heading is
+    settled, by 1.5 m of way; later ones are."""
 
     foot: Foot
     position: Vec3
@@ -51,7 +55,8 @@ class TouchedDown(Happening):
 
 @frozen(kw_only=True)
 class WalkingModeChanged(Happening):
-    """The wearer walks another way than before; known when the contact that shows it ends."""
+    """The wearer walks another way than before (Gong et al. 2023, section 3.3). Known with the sample that ends the
+    contact which shows it, which is `t`: most of a second after that foot came down. Final."""
 
     mode: WalkingMode
     foot: Foot

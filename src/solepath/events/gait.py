@@ -96,7 +96,9 @@ class StepTaken(Happening):
     covariance: tuple[float, float, float, float, float, float]
     """Of `displacement`: xx, xy, xz, yy, yz, zz in m^2."""
     t_toe_off: float | None = None
+    """Of this foot within it, s; None where none was seen."""
     t_heel_strike: float | None = None
+    """Likewise, s."""
     degraded: bool = False
     """True when samples were missing or saturated within the step."""
     features: StepFeatures

@@ -12,7 +12,8 @@ from .happening import Happening
 class FootMoved(Happening):
     """Where a foot is after one sample; only from a session made with `poses=True`.
 
-    Live, so never final: the step that it belongs to says where the foot really went. World frame, m and m/s.
+    Known with that sample. Live, so never final: the step that it belongs to says where the foot really went. World
+    frame, m and m/s.
     """
 
     foot: Foot
@@ -27,7 +28,7 @@ class WearerMoved(Happening):
     """Where the wearer is after a step, the same as `Session.position` then; only from a session made with
     `poses=True`. `t` is the newest sample of either foot.
 
-    Comes once with each sample that ends a step, after its StepTaken. Live, so never final: steps to come may move
+    Known once with each sample that ends a step, after its StepTaken. Live, so never final: steps to come may move
     what is behind as well. World frame.
     """
 
@@ -42,7 +43,7 @@ class WearerMoved(Happening):
 class FootPressed(Happening):
     """What the cells of an insole show in one sample; only from a session made with `pressures=True`.
 
-    One for each sample with cells that can be used, from the first on. Live, so never final.
+    One for each sample with cells that can be used, from the first on, and known with it. Live, so never final.
     """
 
     foot: Foot

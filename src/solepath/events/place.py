@@ -26,7 +26,9 @@ class Candidate:
 
 @frozen(kw_only=True)
 class Placed(Happening):
-    """Where the wearer is on the plan after a step. Live: more steps may show that it was somewhere else."""
+    """Where the wearer is on the plan after a step, or after stairs or a lift (Liu et al. 2015, IEEE MASS, section
+    IV.E). Known with the StepTaken, or the event that tells of the arrival; `t` is the newest sample then. Live:
+    more steps may show that it was somewhere else."""
 
     level: str
     """Of the best candidate."""
@@ -41,6 +43,7 @@ class Placed(Happening):
 
 @frozen(kw_only=True)
 class PlaceLost(Happening):
-    """The plan is of no use from here on; the track goes on without it. `what` says why, in a sentence."""
+    """The plan is of no use from here on; the track goes on without it. `what` says why, in a sentence. Known with the
+    sample or step that shows it; `t` is the newest sample then. A later Placed ends it."""
 
     what: str

@@ -21,7 +21,8 @@ class CellFault(Enum):
 
 @frozen(kw_only=True)
 class CellsFailed(Happening):
-    """These cells are left out from now on. Said once for each fault and set of cells."""
+    """These cells are left out from now on. Said once for each fault and set of cells. Known at the end of the second
+    window of walking in a row that shows it (four swings each and 3 s at least), which `t` is; MISSING after 1 s."""
 
     site: Site
     fault: CellFault
@@ -33,32 +34,36 @@ class CellsFailed(Happening):
 class InsoleNeverUnloads(Happening):
     """The foot walks and its insole shows load all the time: it is jammed, or the shoe presses on it too hard.
 
-    Phases come from the inertial sensor as long as that lasts.
+    Phases come from the inertial sensor as long as that lasts. Known at the end of the second window of walking in a
+    row in which the load never went (four swings each and 3 s at least), which `t` is.
     """
 
     site: Site
     seconds: float
-    """For how long already."""
+    """For how long already, s."""
 
 
 @frozen(kw_only=True)
 class FeetSwapped(Happening):
-    """What comes as the left foot looks like a right one, and the other way round. Nothing is changed by it."""
+    """What comes as the left foot looks like a right one, and the other way round. Said once; nothing is changed by it.
+    Known once the layouts of both insoles show it, else after 8 steps or more of each foot, by how they roll or how
+    load moves over them; late or never of who hardly rolls them. `t` is then."""
 
 
 @frozen(kw_only=True)
 class FootSilent(Happening):
-    """One foot walks on and nothing comes from this one."""
+    """One foot walks on and nothing comes from this one. Known with the other foot's sample by which it has taken three
+    steps and 3 s have passed since this one's last, which `t` is. `foot`: the silent one."""
 
     foot: Foot
     silent_for: float
-    """s."""
+    """Since its last sample, s."""
 
 
 @frozen(kw_only=True)
 class FootHeard(Happening):
-    """Samples of this foot came again after FootSilent."""
+    """Samples of this foot came again after FootSilent. Known with the first of them, which `t` is."""
 
     foot: Foot
     silent_for: float
-    """s."""
+    """From its last sample before to that one, s."""

@@ -26,8 +26,8 @@ class CommandError(ValueError):
 
 @frozen
 class Command:
-    """What a page asks for. `do`: "play", "pause", "speed" (`value` times real time) or "seek" (to `value` s of the
-    recording's time); `value` is None of the first two."""
+    """What a page asks for (protocol/page.md), checked: `parse_command` makes it. `do`: "play", "pause", "speed"
+    (`value` times real time) or "seek" (to `value` s of the recording's time); `value` is None of the first two."""
 
     do: str
     value: float | None = None
