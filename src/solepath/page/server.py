@@ -52,7 +52,7 @@ class Page:
     `port`: 0 for any free one, None for 8765 or, where that is taken, a free one. `token`: random when it is None.
     `commands`: called with what a watcher who has the token asks for; None where there is nothing to play.
 
-    A watcher gets what has changed at most 30 times a second, at least once, and less when it is slow to read;
+    A watcher gets what has changed 1 to 30 times a second, less often when it is slow to read;
     there are MOST_WATCHERS at most. `port` and `url` raise RuntimeError before it is entered. For one event loop:
     `scene` takes events from the same.
 
