@@ -409,9 +409,9 @@ def test_an_activity_that_was_taken_back_is_not_shown() -> None:
         return ActivityChanged(t=t, known_at=t + 1.0, activity=activity, probability=None, revises=revises, final=False)
 
     scene = shown([changed(1.0, Activity.WALKING), changed(5.0, Activity.ELEVATOR_UP)])
-    assert frame(scene)["activity"] == {"now": "ELEVATOR_UP", "since": 5.0}
+    assert frame(scene)["activity"] == {"now": "ELEVATOR_UP", "since": 5.0, "last": None}
     shown([changed(5.0, Activity.WALKING, revises=5.0)], scene)
-    assert frame(scene)["activity"] == {"now": "WALKING", "since": 1.0}
+    assert frame(scene)["activity"] == {"now": "WALKING", "since": 1.0, "last": None}
 
 
 def test_a_place_is_shown_until_it_is_lost() -> None:
@@ -552,7 +552,8 @@ def test_messages_are_made_of_the_keys_that_the_protocol_names() -> None:
     assert told["gait"].keys() == keys("gait")
     assert all(row.keys() == keys("row") for row in told["gait"]["rows"])
     assert all(link.keys() == keys("link") for link in told["links"].values())
-    for name in ("wearer", "place", "activity", "playback"):
+    assert all(scale.keys() == keys("scale") for scale in told["scales"].values()) and told["scales"]
+    for name in ("wearer", "place", "activity", "pace", "playback"):
         (row,) = re.findall(rf"^\| `{name}` \| (.*) \|$", PROTOCOL, re.MULTILINE)
         assert told[name].keys() <= set(re.findall(r"`([a-z]+)`", row)), name
     prose = PROTOCOL.replace("\n", " ")

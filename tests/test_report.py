@@ -84,7 +84,7 @@ def test_the_gait_table_has_the_numbers_of_the_session() -> None:
         spread = "" if row.sd is None else f" \N{PLUS-MINUS SIGN} {number(row.sd, row.digits)}"
         both = f"{number(row.both, row.digits)}{spread}"
         feet = [number(one, row.digits) for one in (row.left, row.right)]
-        assert rows[f"{row.label}, {row.unit}"] == [*feet, both, percent(row.cv), percent(row.asymmetry)]
+        assert rows[f"{row.label}, {row.unit}"] == [*feet, both, percent(row.cv), row.uneven]
     assert rows["cadence, steps/min"][2] == number(parameters.cadence, 1)
     assert len(rows) > 10
 

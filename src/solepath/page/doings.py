@@ -29,9 +29,16 @@ class Doings:
         if not self.changes or self.changes[-1][1] is not event.activity:
             self.changes.append((event.t, event.activity))
 
-    def frame(self) -> dict[str, Any]:
-        """As "activity" of a frame."""
-        if not self.changes:
-            return {"now": Activity.UNKNOWN.value, "since": 0.0}
-        t, activity = self.changes[-1]
-        return {"now": activity.value, "since": shown(t)}
+    @property
+    def last(self) -> tuple[float, Activity]:
+        """Since when, s, and what."""
+        return self.changes[-1] if self.changes else (0.0, Activity.UNKNOWN)
+
+    def frame(self, unheard_since: float | None) -> dict[str, Any]:
+        """As "activity" of a frame. `unheard_since`: when a foot was heard last, s, while none is; then what the wearer
+        does is not known."""
+        t, activity = self.last
+        if unheard_since is None:
+            return {"now": activity.value, "since": shown(t), "last": None}
+        last = None if activity is Activity.UNKNOWN else activity.value
+        return {"now": Activity.UNKNOWN.value, "since": shown(unheard_since), "last": last}

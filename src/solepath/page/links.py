@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from math import inf
+from math import floor, inf
 from typing import Any
 
 from attrs import define, field
@@ -27,6 +27,8 @@ MOST = 1000
 """Samples that are counted in it: 500 a second."""
 SILENT = 1.5
 """s without a sample after which a link is silent, whether or not it was told."""
+LOSS_OF = 10
+"""s over which the loss is counted, in whole ones: an outage is over when it is over."""
 STRAY = 1.0
 """s after a connection broke in which what still comes is no sign of a new one."""
 
@@ -54,6 +56,29 @@ class Beat:
 
 
 @define
+class Losses:
+    """Packets of samples of the last seconds: how many came, and how many are known to be lost."""
+
+    seconds: deque[list[int]] = field(factory=lambda: deque(maxlen=LOSS_OF + 1))
+    """[second, came, lost], of those in which there were any."""
+
+    def add(self, t: float, came: int, lost: int) -> None:
+        """At `t` s there were so many more."""
+        second = floor(t) if -inf < t < inf else 0
+        if not self.seconds or self.seconds[-1][0] < second:
+            self.seconds.append([second, 0, 0])
+        newest = self.seconds[-1]
+        newest[1] += came
+        newest[2] += lost
+
+    def share(self, now: float) -> float | None:
+        """Of those that were sent, lost; None where none came."""
+        kept = [one for one in self.seconds if one[0] > now - LOSS_OF - 1.0]
+        came, lost = max(0, sum([one[1] for one in kept])), sum([one[2] for one in kept])
+        return lost / (came + lost) if came else None
+
+
+@define
 class Link:
     """One site's. Times are arrivals, s. `counts`: a session tells of its samples, as it does of those of feet."""
 
@@ -63,6 +88,7 @@ class Link:
     """Samples of the inertial sensor."""
     presses: Beat = field(factory=Beat)
     """Samples of the cells."""
+    losses: Losses = field(factory=Losses)
     heard: float | None = None
     """The newest sample."""
     fresh: bool = False
@@ -81,6 +107,7 @@ class Link:
         if known_at != self.heard:
             # the samples of one packet become known together
             self.health.came += 1
+            self.losses.add(known_at, 1, 0)
             self.heard = known_at
             if known_at > t:
                 self.counted = True
@@ -105,7 +132,10 @@ class Link:
                 self.lost_at, self.fresh = event.known_at, False
             case _:
                 pass
+        came, lost = self.health.came, self.health.lost
         self.health.heard(event)
+        if self.health.lost != lost or self.health.came != came:
+            self.losses.add(event.known_at, self.health.came - came, self.health.lost - lost)
 
     def state(self, now: float) -> str:
         """In a word: whether data come, have not yet, come no more, or cannot come."""
@@ -135,12 +165,13 @@ class Link:
     def frame(self, now: float) -> dict[str, Any]:
         """As one of "links" of a frame."""
         health, state = self.health, self.state(now)
+        of_late = self.losses.share(now) if self.counted and state == "ok" else None
         silent = state in ("silent", "lost") and self.heard is not None
         return {
             "state": state,
             "rate": self.rate(now),
             "lost": health.lost,
-            "loss": shown(health.loss, 4) if self.counted else None,
+            "loss": shown(of_late, 4),
             "rejected": self.rejected,
             "gaps": self.gaps,
             "battery": shown(health.battery),

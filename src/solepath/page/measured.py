@@ -9,7 +9,7 @@ from attrs import asdict, define, field
 from ..body.gait_means import GaitMeans, GaitParameters
 from ..events import StrideMeasured
 from ..types import Foot
-from ..view.gait_rows import GaitRow, gait_rows
+from ..view.gait_rows import ENOUGH, GaitRow, gait_rows, strides_of
 from .rounding import shown
 
 
@@ -45,13 +45,15 @@ def _told(parameters: GaitParameters) -> dict[str, Any]:
         "running": parameters.running,
         "cadence": shown(parameters.cadence, 1),
         "coordination": shown(parameters.coordination, 4),
+        "strides": {foot.value: strides_of(parameters, foot) for foot in Foot},
+        "enough": ENOUGH,
         "rows": [_row(row) for row in gait_rows(parameters)],
     }
 
 
 def _row(row: GaitRow) -> dict[str, Any]:
     told = asdict(row)
-    for name in ("left", "right", "both", "sd"):
+    for name in ("left", "right", "both", "sd", "difference"):
         told[name] = shown(told[name], row.digits)
     for name in ("cv", "asymmetry"):
         told[name] = shown(told[name], 4)

@@ -38,9 +38,11 @@ from .feet import FootScene
 from .links import Link
 from .lists import Recent
 from .measured import Measured
+from .pace import Pace
 from .plan_drawing import drawn
 from .playback import Playback
 from .rounding import shown
+from .scales import Scales
 from .sentences import LOW, sentence
 from .whereabouts import Whereabouts
 
@@ -66,7 +68,8 @@ class Cursor:
 
 @define
 class Scene:
-    """One session, which is to be made with `poses=True` and `pressures=True`. `source`: "live", "demo" or "recording".
+    """One session, which is to be made with `poses=True` and `pressures=True`. Times in s on the session's clock;
+    lengths in m, world frame, or the plan's for what is on `plan`. `source`: "live", "demo" or "recording".
     `newtons`: the feet whose calibration turns counts into N. `playback`: the player writes it.
 
     `take` is cheap: it is called for every event of every sample. `since` costs some 0.1 ms, and is for 30 times a
@@ -87,6 +90,8 @@ class Scene:
     whereabouts: Whereabouts = field(factory=Whereabouts, init=False)
     doings: Doings = field(factory=Doings, init=False)
     measured: Measured = field(factory=Measured, init=False)
+    pace: Pace = field(factory=Pace, init=False)
+    scales: Scales = field(factory=Scales, init=False)
     log: Recent[LogLine] = field(factory=lambda: Recent(MOST_LINES), init=False)
     layouts: int = field(default=0, init=False)
     """How often one became known: a page that drew others needs the scene anew."""
@@ -148,6 +153,7 @@ class Scene:
         link.sampled(event.t, event.known_at, link.presses)
         if link.lost_at is None:
             self.feet[event.foot].pressed(event)
+            self.scales.press(event.foot, event.values)
 
     def _began(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
         if self._heard_again(event).lost_at is None:
@@ -160,10 +166,16 @@ class Scene:
         foot = event.site.foot
         if foot is not None and self.feet[foot].wear(event.layout):
             self.layouts += 1
+            self.scales.wear(foot, event.layout, foot in self.newtons or event.layout.scale is not None)
+
+    def _measured(self, event: StrideMeasured) -> None:
+        self.measured.take(event)
+        self.pace.take(event)
 
     def _reset(self, event: ClockReset) -> None:
         if event.site.foot is not None:
             self.measured.interrupt(event.site.foot)
+            self.pace.interrupt(event.site.foot)
 
     def _placed(self, event: Placed) -> None:
         level = self.whereabouts.found(event)
@@ -271,16 +283,27 @@ class Scene:
         for foot, one in self.feet.items():
             link = links.get(SITE_OF_FOOT[foot])
             feet[foot.value] = one.frame(0.0 if link is None else link["rate"])
+        unheard, (since, activity) = self._unheard_since(), self.doings.last
         return {
             "feet": feet,
             "wearer": self.whereabouts.wearer_frame(),
             "place": self.whereabouts.place_frame(),
-            "activity": self.doings.frame(),
+            "activity": self.doings.frame(unheard),
+            "pace": None if unheard is not None else self.pace.frame(now, activity, since),
             "support": self._support(),
+            "scales": self.scales.frame(),
             "gait": self.measured.frame(),
             "links": {site.words: link for site, link in links.items()},
             "playback": None if self.playback is None else self.playback.frame(),
         }
+
+    def _unheard_since(self) -> float | None:
+        """When any foot was heard last, s, while none is; None while one is, and before."""
+        links = [link for site, link in self.links.items() if site.foot is not None]
+        last = max([link.heard for link in links if link.heard is not None], default=None)
+        if last is None or any([link.state(self.now) == "ok" for link in links]):
+            return None
+        return last
 
     def _support(self) -> str | None:
         left, right = self.feet[Foot.LEFT].phase, self.feet[Foot.RIGHT].phase
@@ -297,7 +320,7 @@ TAKEN: dict[type, Callable[[Scene, Any], None]] = {
     HeelOff: Scene._began,
     ToeOff: Scene._began,
     StepTaken: Scene._stepped,
-    StrideMeasured: lambda scene, event: scene.measured.take(event),
+    StrideMeasured: Scene._measured,
     WearerMoved: lambda scene, event: scene.whereabouts.stepped(event),
     Placed: Scene._placed,
     PlaceLost: lambda scene, event: scene.whereabouts.lose(event),

@@ -76,6 +76,7 @@ def _place(place: Placed) -> dict[str, Any]:
     return {
         "level": place.level,
         "position": placed(place.position),
+        "decided": len(place.candidates) <= 1,
         "spread": shown(place.spread, 2),
         "candidates": [_candidate(one) for one in place.candidates[:MOST_CANDIDATES]],
     }

@@ -6,13 +6,11 @@ from xml.etree.ElementTree import Element
 
 from ..body.gait_means import GaitMeans, GaitParameters, StrideFigures
 from ..types import Foot
-from ..view.gait_rows import GaitRow, gait_rows
+from ..view.gait_rows import ENOUGH, GaitRow, gait_rows, strides_of
 from ..view.table import number, percent
 from .markup import add, table
 
-HEADER = ("parameter", "left", "right", "both", "CV %", "asymmetry %")
-FEW = 30
-"""Steps: of fewer, variability means little (Galna et al. 2013)."""
+HEADER = ("parameter", "left", "right", "both", "CV %", "asymmetry")
 
 DEFINITIONS = {
     "stride_time": "from a contact of a foot to its next one (Hollman et al. 2011)",
@@ -45,16 +43,19 @@ def gait_tables(parent: Element, means: GaitMeans) -> bool:
 def _table(parent: Element, parameters: GaitParameters) -> None:
     columns = [parameters.feet.get(foot) for foot in Foot]
     what = "Running" if parameters.running else "Walking"
-    counts = [_strides(one) for one in (*columns, parameters.both)]
-    rows = [["steady strides", *counts, "-", "-"]]
-    rows.append(["cadence, steps/min", *[_cadence(one) for one in (*columns, parameters.both)], "-", "-"])
+    strides = [strides_of(parameters, foot) for foot in Foot]
+    rows = [["steady strides", *[number(one, 0) for one in strides], "-", "-", "-"]]
+    together = parameters.both if None not in columns else None
+    rows.append(["cadence, steps/min", *[_cadence(one) for one in (*columns, together)], "-", "-"])
     rows += [_row(row) for row in gait_rows(parameters)]
     caption = f"{what}: means of steady strides, of both feet \N{PLUS-MINUS SIGN} standard deviation"
     table(parent, caption, HEADER, rows, "numbers gait")
     if parameters.coordination is not None:
         add(parent, "p", f"Phase coordination index: {percent(parameters.coordination)} % (Plotnik et al. 2007).")
-    if sum([one.stride_time.strides for one in columns if one is not None and one.stride_time is not None]) < FEW:
-        add(parent, "p", f"Fewer than {FEW} strides: standard deviation and CV say little here.", class_="note")
+    count = sum([one for one in strides if one is not None])
+    if count < ENOUGH:
+        said = f"Of {count} strides: figures settle with {ENOUGH} and more (Galna et al. 2013)."
+        add(parent, "p", said, class_="note")
 
 
 def _row(row: GaitRow) -> list[str]:
@@ -62,11 +63,7 @@ def _row(row: GaitRow) -> list[str]:
     spread = "" if row.sd is None else f"\n\N{PLUS-MINUS SIGN} {number(row.sd, row.digits)}"
     feet = [number(one, row.digits) for one in (row.left, row.right)]
     both = f"{number(row.both, row.digits)}{spread}"
-    return [f"{row.label}, {row.unit}", *feet, both, percent(row.cv), percent(row.asymmetry)]
-
-
-def _strides(figures: StrideFigures | None) -> str:
-    return "-" if figures is None or figures.stride_time is None else str(figures.stride_time.strides)
+    return [f"{row.label}, {row.unit}", *feet, both, percent(row.cv), row.uneven]
 
 
 def _cadence(figures: StrideFigures | None) -> str:
@@ -88,6 +85,7 @@ def _notes(parent: Element, known: list[GaitParameters]) -> None:
         ("both", "mean of the feet's means; SD from the mean of their variances (Galna et al. 2013)"),
         ("CV", "standard deviation / mean, of both feet (Hausdorff 2005)"),
         ("asymmetry", "(right - left) / their mean; 0 of equal feet (Robinson et al. 1987)"),
+        ("asymmetry of angles", "right - left, in degrees, and no CV: their zero is the flat sole, not nothing"),
     ):
         add(listed, "dt", word)
         add(listed, "dd", meaning)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ..body.gait_means import GaitMeans, GaitParameters, StrideFigures
+from ..body.gait_means import GaitMeans, GaitParameters
 from ..types import Foot
-from .gait_rows import gait_rows
+from .gait_rows import gait_rows, strides_of
 from .table import number, percent, table
 
 
@@ -20,21 +20,17 @@ def gait_lines(means: GaitMeans) -> list[str]:
 
 
 def _table(parameters: GaitParameters) -> list[str]:
-    columns = [parameters.feet.get(foot) for foot in Foot]
     what = "running" if parameters.running else "walking"
-    header = [f"{what}, steady strides", "left", "right", "both +- SD", "CV %", "asymmetry %"]
-    strides = [number(None if one is None else _strides(one), 0) for one in (*columns, parameters.both)]
-    rows = [["strides", *strides, "-", "-"], ["cadence steps/min", "-", "-", number(parameters.cadence, 1), "-", "-"]]
+    header = [f"{what}, steady strides", "left", "right", "both +- SD", "CV %", "asymmetry"]
+    strides = [number(strides_of(parameters, foot), 0) for foot in Foot]
+    rows = [["strides", *strides, "-", "-", "-"]]
+    rows.append(["cadence steps/min", "-", "-", number(parameters.cadence, 1), "-", "-"])
     for row in gait_rows(parameters):
         spread = "" if row.sd is None else f" +- {number(row.sd, row.digits)}"
         feet = [number(one, row.digits) for one in (row.left, row.right)]
         both = f"{number(row.both, row.digits)}{spread}"
-        rows.append([f"{row.label} {row.unit}", *feet, both, percent(row.cv), percent(row.asymmetry)])
+        rows.append([f"{row.label} {row.unit}", *feet, both, percent(row.cv), row.uneven])
     lines = table(header, rows).splitlines()
     if parameters.coordination is not None:
         lines.append(f"phase coordination index {percent(parameters.coordination)} %")
     return lines
-
-
-def _strides(figures: StrideFigures) -> float | None:
-    return None if figures.stride_time is None else figures.stride_time.strides

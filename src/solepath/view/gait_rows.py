@@ -10,6 +10,10 @@ from attrs import frozen
 from ..body.gait_means import Figure, GaitParameters
 from ..types import Foot
 
+DEGREES = "deg"
+ENOUGH = 30
+"""Strides of both feet together: of fewer, standard deviation and CV mean little (Galna et al. 2013, as in
+body/gait_means.py)."""
 ROWS: tuple[tuple[str, str, str, int, float], ...] = (
     ("stride_time", "stride time", "s", 3, 1.0),
     ("step_time", "step time", "s", 3, 1.0),
@@ -18,8 +22,8 @@ ROWS: tuple[tuple[str, str, str, int, float], ...] = (
     ("step_width", "step width", "m", 3, 1.0),
     ("speed", "speed", "m/s", 2, 1.0),
     ("clearance", "rise of the sensor", "m", 3, 1.0),
-    ("toe_off_angle", "toe-off angle", "deg", 1, degrees(1.0)),
-    ("heel_strike_angle", "heel-strike angle", "deg", 1, degrees(1.0)),
+    ("toe_off_angle", "toe-off angle", DEGREES, 1, degrees(1.0)),
+    ("heel_strike_angle", "heel-strike angle", DEGREES, 1, degrees(1.0)),
 )
 """Parameter of StrideFigures, what it is called, the unit that it is shown in, digits, and how many of that unit one of
 its own is."""
@@ -35,7 +39,11 @@ SHARES = (
 @frozen
 class GaitRow:
     """One parameter of steady strides. `left`, `right`, `both`, `sd`: in `unit`, None where it cannot be told (a share
-    of the stride has no `sd`). `cv`, `asymmetry`: shares (0.05 is 5 %), as in Figure and GaitParameters."""
+    of the stride has no `sd`; of one foot alone there is nothing of both). `cv`, `asymmetry`: shares (0.05 is 5 %), as
+    in Figure and GaitParameters; the `cv` of one foot alone is its own.
+
+    An angle is against the flat sole, and so its mean may be near zero or of another sign in each foot: a share of it
+    says nothing. It has a `difference`, right - left in `unit`, instead of `cv` and `asymmetry`."""
 
     name: str
     label: str
@@ -43,10 +51,18 @@ class GaitRow:
     digits: int
     left: float | None
     right: float | None
-    both: float
+    both: float | None
     sd: float | None
     cv: float | None
     asymmetry: float | None
+    difference: float | None
+
+    @property
+    def uneven(self) -> str:
+        """Asymmetry as it is written in a table, with its unit."""
+        if self.difference is not None:
+            return f"{self.difference:+.{self.digits}f} {self.unit}"
+        return "-" if self.asymmetry is None else f"{100.0 * self.asymmetry:+.1f} %"
 
 
 def gait_rows(parameters: GaitParameters) -> list[GaitRow]:
@@ -55,19 +71,29 @@ def gait_rows(parameters: GaitParameters) -> list[GaitRow]:
     rows = []
     for name, label, unit, digits, scale in ROWS:
         figure: Figure | None = getattr(parameters.both, name)
-        if figure is not None:
-            figures = [None if one is None else getattr(one, name) for one in feet]
-            left, right = [None if one is None else scale * one.mean for one in figures]
+        if figure is None:
+            continue
+        figures: list[Figure | None] = [None if one is None else getattr(one, name) for one in feet]
+        left, right = [None if one is None else scale * one.mean for one in figures]
+        both = sd = difference = None
+        if left is not None and right is not None:
+            both = scale * figure.mean
             sd = None if figure.sd is None else scale * figure.sd
-            asymmetry = parameters.asymmetry(name)
-            rows.append(
-                GaitRow(name, label, unit, digits, left, right, scale * figure.mean, sd, figure.cv, asymmetry)
-            )
+            difference = right - left if unit == DEGREES else None
+        cv, asymmetry = (None, None) if unit == DEGREES else (figure.cv, parameters.asymmetry(name))
+        rows.append(GaitRow(name, label, unit, digits, left, right, both, sd, cv, asymmetry, difference))
     for name, label in SHARES:
         share = parameters.both.share(name)
         if share is not None:
             shares = [None if one is None else one.share(name) for one in feet]
             left, right = [None if one is None else 100.0 * one for one in shares]
+            both = None if left is None or right is None else 100.0 * share
             asymmetry = parameters.asymmetry(name)
-            rows.append(GaitRow(name, label, "%", 1, left, right, 100.0 * share, None, None, asymmetry))
+            rows.append(GaitRow(name, label, "%", 1, left, right, both, None, None, asymmetry, None))
     return rows
+
+
+def strides_of(parameters: GaitParameters, foot: Foot) -> int | None:
+    """How many of a foot's strides the means are of; None where it took none."""
+    figures = parameters.feet.get(foot)
+    return None if figures is None or figures.stride_time is None else figures.stride_time.strides
