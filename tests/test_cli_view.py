@@ -13,6 +13,7 @@ import sys
 from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
 from contextlib import ExitStack, asynccontextmanager, contextmanager, suppress
 from pathlib import Path
+from time import sleep
 from typing import Any
 
 import pytest
@@ -218,22 +219,88 @@ def test_what_track_writes_does_not_depend_on_the_page_which_is_there_before_any
     assert summed_up.partition("\n")[2].partition("written to")[0] == said.stdout.partition("computed in")[0]
 
 
-def test_another_ctrl_c_gives_the_rest_up_and_whole_lines_are_written(long_recording: Path, tmp_path: Path):
-    with started("track", long_recording, *ANYWHERE, "--out", tmp_path / "out", "--report", tmp_path / "r") as process:
+def test_another_ctrl_c_gives_the_rest_up_and_what_an_earlier_run_wrote_stays(long_recording: Path, tmp_path: Path):
+    out, report = tmp_path / "out", tmp_path / "r.html"
+    out.mkdir()
+    earlier = {report: "a report", out / "events.jsonl": "events", out / "track.csv": "a track"}
+    for file, text in earlier.items():
+        file.write_text(text)
+    with started("track", long_recording, *ANYWHERE, "--out", out, "--report", report) as process:
         address(process)
         assert process.stdout is not None
         process.send_signal(signal.SIGINT)
         while "Ctrl-C again gives it up" not in process.stdout.readline():
             pass
         process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=TAKES)
-    assert process.returncode == 130 and out == "" and not (tmp_path / "r").exists()
-    given_up = re.fullmatch(r"solepath: given up after (\d+\.\d) of \d+\.\d s: of the rest nothing .*\n", err)
-    assert given_up is not None
-    rows = (tmp_path / "out" / "track.csv").read_text()
-    assert rows.endswith("\n") and all(row.count(",") == 5 for row in rows.splitlines())
-    events = [json.loads(line) for line in (tmp_path / "out" / "events.jsonl").read_text().splitlines()]
-    assert all(event["known_at"] < float(given_up[1]) + 1.0 for event in events)
+        said, err = process.communicate(timeout=TAKES)
+    assert process.returncode == 130 and said == ""
+    assert re.fullmatch(r"solepath: given up after \d+\.\d of \d+\.\d s: .* what was written before stays as it is\n", err)
+    assert {*out.iterdir(), report} == set(earlier)
+    assert {file: file.read_text() for file in earlier} == earlier
+
+
+def test_closing_the_terminal_ends_the_page_as_ctrl_c_does_and_all_is_written(recording: Path, tmp_path: Path):
+    pty = pytest.importorskip("pty")
+    plain, closed = tmp_path / "plain", tmp_path / "closed"
+    run("track", recording, "--out", plain, "--report", tmp_path / "plain.html")
+    ours, theirs = pty.openpty()
+    terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs) | {"start_new_session": True}
+    owned = f"import fcntl, termios; fcntl.ioctl({theirs}, termios.TIOCSCTTY, 0); "  # to be told when it is closed
+    terminal["pass_fds"] = (theirs,)
+    command = ("track", recording, *ANYWHERE, "--no-browser", "--out", closed, "--report", tmp_path / "closed.html")
+    with started(*command, code=owned, **terminal) as process:
+        os.close(theirs)
+        seen = ""
+        while "Ctrl-C ends it" not in seen:
+            seen += os.read(ours, 65536).decode()
+        os.close(ours)
+        assert process.wait(TAKES) == 0
+    for name in ("events.jsonl", "track.csv", "steps.csv", "gait.csv"):
+        assert (plain / name).read_bytes() == (closed / name).read_bytes()
+    assert (tmp_path / "plain.html").read_bytes() == (tmp_path / "closed.html").read_bytes()
+    assert len(list(closed.iterdir())) == 4
+
+
+@pytest.mark.parametrize("how", ["SIGHUP", "SIGTERM", "SIGINT"])
+def test_a_run_that_is_ended_leaves_what_an_earlier_one_wrote(how: str, long_recording: Path, tmp_path: Path):
+    out, report = tmp_path / "out", tmp_path / "r.html"
+    out.mkdir()
+    (out / "track.csv").write_text("a track")
+    report.write_text("a report")
+    with started("track", long_recording, "--out", out, "--report", report) as process:
+        while len(list(out.iterdir())) < 5 and process.poll() is None:
+            sleep(0.01)
+        process.send_signal(getattr(signal, how))
+        assert process.wait(TAKES) == 130
+    assert {*tmp_path.iterdir()} == {out, report} and [*out.iterdir()] == [out / "track.csv"]
+    assert (out / "track.csv").read_text() == "a track" and report.read_text() == "a report"
+
+
+def test_a_run_writes_through_links_and_into_pipes_and_leaves_who_may_read(recording: Path, tmp_path: Path):
+    kept, link, pipe = tmp_path / "kept.html", tmp_path / "link.html", tmp_path / "pipe"
+    kept.write_text("")
+    kept.chmod(0o600)
+    link.symlink_to(kept)
+    os.mkfifo(pipe)
+    assert run("track", recording, "--report", link).returncode == 0
+    assert link.is_symlink() and kept.stat().st_mode & 0o777 == 0o600
+    with subprocess.Popen(["cat", str(pipe)], stdout=subprocess.PIPE) as reader:
+        assert run("track", recording, "--report", pipe).returncode == 0
+        assert reader.communicate(timeout=TAKES)[0] == kept.read_bytes() != b""
+    assert pipe.is_fifo()
+
+
+def test_names_that_are_no_text_and_hold_control_codes_are_shown_without(recording: Path, tmp_path: Path):
+    here = Path(os.fsdecode(os.fsencode(tmp_path) + b"/\xff\x1b[31m"))
+    here.mkdir()
+    walk = here / recording.name.replace("walk", "\x1b]0;\udcff")
+    walk.write_bytes(recording.read_bytes())
+    done = run("track", walk, "--out", here / "out", "--report", here / "r.html")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "\x1b" not in done.stdout and done.stdout.encode("utf-8")
+    assert "\x1b" not in (here / "r.html").read_text(encoding="utf-8")
+    done = run("demo", "--terminal", "--distance", 1, "--record", here / "demo.jsonl")
+    assert done.returncode == 0 and "\x1b" not in done.stdout and done.stdout.encode("utf-8")
 
 
 def test_a_damaged_recording_is_played_up_to_the_damage_and_a_page_for_other_machines_is_said_to_be_one(

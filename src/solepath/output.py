@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Callable
 from contextlib import ExitStack
 from enum import Enum
 from math import isfinite
@@ -91,11 +92,13 @@ class TrackFiles:
     A FootMoved is a row of track.csv, a final StepTaken one of steps.csv, a StrideMeasured one of gait.csv, a Placed
     one of places.csv (its heaviest candidate's, and how many there are), and every event but the live ones
     (LiveEvent) a line of events.jsonl. `places`: of a session with a floor plan; without one there is no places.csv.
+    `beside`: where to write what is to be a file's, in place of the file itself, as one that is renamed in the end.
     OSError, naming the directory, when they cannot be made or written (the disk is full).
     """
 
     directory: Path
     places: bool = False
+    beside: Callable[[Path], Path] | None = None
     _stack: ExitStack = field(factory=ExitStack, init=False)
     _events: TextIO = field(init=False)
     _track: TextIO = field(init=False)
@@ -116,7 +119,10 @@ class TrackFiles:
             self._places.writerow(PLACE_COLUMNS)
 
     def _open(self, name: str) -> TextIO:
-        return self._stack.enter_context((self.directory / name).open("w", encoding="utf-8", newline=""))
+        path = self.directory / name
+        if self.beside is not None:
+            path = self.beside(path)
+        return self._stack.enter_context(path.open("w", encoding="utf-8", newline=""))
 
     def write(self, event: Event) -> None:
         try:

@@ -99,7 +99,7 @@ def run(options: argparse.Namespace) -> int:
     packets: Iterable[Packet]
     try:
         total = source.stat().st_size if source.is_file() else 0
-        with progress_bar(source.name, total, wanted=total > LONG) as show:
+        with progress_bar(printable(source.name), total, wanted=total > LONG) as show:
             if is_btsnoop(source):
                 log = _opened(options)
                 packets, header = _shown(log, show), log.header

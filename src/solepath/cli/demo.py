@@ -116,7 +116,7 @@ def _show(demo: Demo, view: View, pace: float) -> None:
 
 
 def _record(demo: Demo, path: Path) -> None:
-    from ..recording import PacketWriter, RecordingError
+    from ..recording import PacketWriter, RecordingError, printable
 
     try:
         with PacketWriter(path) as writer:
@@ -124,7 +124,7 @@ def _record(demo: Demo, path: Path) -> None:
                 writer.write(packet)
     except RecordingError as error:
         raise Failure(str(error)) from None
-    print(f"{len(demo.walk.packets)} packets recorded in {path}", flush=True)
+    print(f"{len(demo.walk.packets)} packets recorded in {printable(str(path))}", flush=True)
 
 
 def _rich_is_there() -> bool:

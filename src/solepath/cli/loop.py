@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import signal
+import threading
 from collections.abc import AsyncIterator, Callable, Coroutine, Iterator
 from contextlib import asynccontextmanager, contextmanager
 from typing import Any
 
+STOP = [signal.SIGINT, signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else [])]
+"""What tells a command to stop: Ctrl-C, being ended, and a terminal that was closed."""
 INTERRUPTED = 130
 """The exit status of what was told to stop before it had begun."""
 
@@ -17,9 +21,9 @@ class Interrupted(Exception):
 
 
 def run_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int:
-    """asyncio.run of `main`, whose event is set by Ctrl-C and by SIGTERM; the exit status.
+    """asyncio.run of `main`, whose event is set by what tells a command to stop (STOP); the exit status.
 
-    Neither ends the program on the spot, however often it comes: what was begun is ended in good order.
+    None of it ends the program on the spot, however often it comes: what was begun is ended in good order.
     """
     with asyncio.Runner() as runner:
         loop, stop = runner.get_loop(), asyncio.Event()
@@ -27,7 +31,7 @@ def run_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int
         def told(number: int, frame: object) -> None:
             loop.call_soon_threadsafe(stop.set)
 
-        before = {number: signal.signal(number, told) for number in (signal.SIGINT, signal.SIGTERM)}
+        before = _heard_by(told)
         try:
             return runner.run(main(stop))
         except Interrupted:
@@ -35,19 +39,66 @@ def run_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int
         finally:
             for number, handler in before.items():
                 # who was told already is on the way out
-                signal.signal(number, signal.SIG_IGN if stop.is_set() else handler)
+                signal.signal(number, _deaf if stop.is_set() else handler)
+
+
+@contextmanager
+def stopped_alike() -> Iterator[None]:
+    """Whatever tells the command to stop within is a KeyboardInterrupt, as Ctrl-C is, so that nothing half done stays;
+    it is told once, and what is cleared away then is cleared away in peace."""
+
+    def stopped(number: int, frame: object) -> None:
+        for one in before:
+            signal.signal(one, _deaf)
+        raise KeyboardInterrupt
+
+    if threading.current_thread() is not threading.main_thread():
+        yield  # others hear no signals
+        return
+    before = _heard_by(stopped)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _heard_by(handler: Callable[[int, object], None]) -> dict[signal.Signals, Any]:
+    """From now on `handler` hears what tells the command to stop; who heard it before. What is ignored (nohup) stays
+    ignored, and a terminal that was closed is not written to any more."""
+    terminals = [number for number in (1, 2) if os.isatty(number)]
+
+    def hear(number: int, frame: object) -> None:
+        if number != signal.SIGINT and number != signal.SIGTERM:
+            _leave(terminals)
+        handler(number, frame)
+
+    heard = [number for number in STOP if signal.getsignal(number) is not signal.SIG_IGN]
+    return {number: signal.signal(number, hear) for number in heard}
+
+
+def _deaf(number: int, frame: object) -> None:
+    """Whoever stops already need not be told again. Not SIG_IGN, which is of whoever started the command."""
+
+
+def _leave(terminals: list[int]) -> None:
+    """What is written there from now on is written to nobody: that it cannot be must not end what is being done."""
+    nobody = os.open(os.devnull, os.O_WRONLY)
+    for number in terminals:
+        os.dup2(nobody, number)
+    os.close(nobody)
 
 
 @contextmanager
 def listening() -> Iterator[Callable[[], bool]]:
-    """Whether Ctrl-C or SIGTERM came within, for work that ends at a good moment of its own."""
+    """Whether something told the command to stop within, for work that ends at a good moment of its own."""
     told = False
 
     def hear(number: int, frame: object) -> None:
         nonlocal told
         told = True
 
-    before = {number: signal.signal(number, hear) for number in (signal.SIGINT, signal.SIGTERM)}
+    before = _heard_by(hear)
     try:
         yield lambda: told
     finally:

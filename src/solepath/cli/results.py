@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from types import TracebackType
 
@@ -12,19 +13,23 @@ from ..events import Event
 from ..floorplan.plan import FloorPlan
 from ..output import PLAN, TrackFiles
 from ..report import Report
+from ..recording import printable
 from ..tally import Tally
 from ..types import Packet, Sample
 from ..view.placed import Places
 from ..view.plan import PlanPicture
 from ..view.summary import summary
 from .failure import check_writable
+from .replacing import Replacing
 
 
 @define
 class Results:
-    """`out`: the directory of the files; nothing in it is touched before the recording has given something, so that a
-    file that cannot be used replaces nothing of an earlier run. `report`: the file of the report. None: not wanted.
-    OSError from all of it when something cannot be written."""
+    """`out`: the directory of the files. `report`: the file of the report. None: not wanted. OSError from all of it when
+    something cannot be written.
+
+    What an earlier run wrote is replaced by what is whole, when the recording was heard to its end and is summed up:
+    whatever ends it before leaves all as it was."""
 
     title: str
     out: Path | None = None
@@ -39,6 +44,10 @@ class Results:
     _report: Report | None = field(init=False)
     _files: TrackFiles | None = field(default=None, init=False)
     _open: ExitStack = field(factory=ExitStack, init=False)
+    _replacing: Replacing = field(factory=Replacing, init=False)
+    _replacing_report: Replacing = field(factory=Replacing, init=False)
+    _picture_at: Path | None = field(default=None, init=False)
+    _report_at: Path | None = field(default=None, init=False)
 
     def __attrs_post_init__(self) -> None:
         self._picture = None if self.plan is None else PlanPicture(self.plan)
@@ -50,9 +59,12 @@ class Results:
     def begin(self) -> None:
         """There is something to write, or there will be nothing."""
         if self._files is None and self.out is not None:
-            self._files = self._open.enter_context(TrackFiles(self.out, places=self.plan is not None))
+            files = TrackFiles(self.out, places=self.plan is not None, beside=self._replacing.beside)
+            self._files = self._open.enter_context(files)
             if self.plan is not None:
-                check_writable(self.out / PLAN)  # it is written last
+                self._picture_at = self._replacing.beside(self.out / PLAN)
+        if self._report_at is None and self.report is not None:
+            self._report_at = self._replacing_report.beside(self.report)
 
     def told(self, item: Packet | Sample | None, events: list[Event]) -> None:
         """What the session said of an item; of none, at the end."""
@@ -71,17 +83,22 @@ class Results:
                 self._picture.add(event)
 
     def print(self, seconds: float) -> None:
-        """The summary, the picture and the report. `seconds` on the wall that it took."""
+        """The files and the report, whole, in their places; the summary. `seconds` on the wall that it took."""
+        self._open.close()
+        if self._picture is not None and self._picture_at is not None:
+            with _named(self._picture_at, self.out):
+                self._picture.write(self._picture_at, self.title)
+        self._replacing.keep()
         print(summary(self.tally, title=self.title, seconds=seconds))
         if self._picture is not None:
             print("\n".join(self.places.lines()))
-            if self.out is not None:
-                self._picture.write(self.out / PLAN, self.title)
         if self.out is not None:
-            print(f"written to {self.out}")
-        if self._report is not None and self.report is not None:
-            self._report.write(self.report)
-            print(f"report in {self.report}")
+            print(f"written to {printable(str(self.out))}")
+        if self._report is not None and self._report_at is not None:
+            with _named(self._report_at, self.report):
+                self._report.write(self._report_at)
+                self._replacing_report.keep()
+            print(f"report in {printable(str(self.report))}")
 
     def __enter__(self) -> Results:
         return self
@@ -89,8 +106,22 @@ class Results:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """The files are closed."""
-        self._open.__exit__(kind, error, trace)
+        """The files are closed, and those that are not in their places are thrown away."""
+        try:
+            self._open.__exit__(kind, error, trace)
+        finally:
+            self._replacing.drop()
+            self._replacing_report.drop()
+
+
+@contextmanager
+def _named(written: Path, wanted: Path | None) -> Iterator[None]:
+    """Errors name the file that was wanted."""
+    try:
+        yield
+    except OSError as error:
+        name = str(wanted) if error.filename == str(written) else error.filename
+        raise OSError(error.errno, error.strerror, name) from None
 
 
 def _version() -> str:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..recording import printable
 from .calibrated import add_calibration, calibration_of, check_pressure
 from .failure import Failure, known_recipe, note
 from .floorplan import add_floorplan, floorplan_of
@@ -46,7 +47,7 @@ def add_to(commands: Any) -> None:
         metavar="DIR",
         type=Path,
         help="write events.jsonl, track.csv, steps.csv and gait.csv into it, with a floor plan places.csv and "
-        "plan.svg too",
+        "plan.svg too, once they are whole",
     )
     command.add_argument(
         "--report", metavar="FILE", type=Path, help="write figures and the gait table into one HTML file, to be mailed"
@@ -62,6 +63,7 @@ def run(options: argparse.Namespace) -> int:
     from ..session import Session
     from ..source import open_source
     from ..types import Foot
+    from .loop import stopped_alike
     from .results import Results
 
     recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
@@ -85,7 +87,7 @@ def run(options: argparse.Namespace) -> int:
     )
     reading = _Reading(source)
     results = Results(
-        f"{options.file.name}, recipe {recipe.name}",
+        f"{printable(options.file.name)}, recipe {recipe.name}",
         options.out,
         options.report,
         plan=None if plan is None else plan.plan,
@@ -93,13 +95,13 @@ def run(options: argparse.Namespace) -> int:
         when=_when(source),
     )
     seconds, shown = 0.0, False
-    with results:
+    with stopped_alike(), results:
         if view is None:
             seconds = _straight(reading, session, results)
         else:
             shown = _played(reading, session, results, plan, calibration, view, pace)
-    if reading.failure is None or results.tally.first is not None:
-        results.print(seconds)
+        if reading.failure is None or results.tally.first is not None:
+            results.print(seconds)
     if reading.failure is None:
         return 0
     if shown:
@@ -133,7 +135,7 @@ class _Reading:
 
         source = self.source
         long = source.total > (LONG if source.samples is None else LONG_SAMPLES)
-        with progress_bar(source.path.name, source.total, wanted=long) as show:
+        with progress_bar(printable(source.path.name), source.total, wanted=long) as show:
             try:
                 for item in source:
                     yield item
@@ -173,7 +175,6 @@ def _played(
     from ..page.kept import Kept
     from ..page.player import Player
     from ..page.scene import Scene
-    from ..recording import printable
 
     items = Kept(reading)
     shown, fault = len(items) > 0, "" if reading.failure is None else str(reading.failure)

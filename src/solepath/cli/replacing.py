@@ -1,0 +1,56 @@
+"""Files that take the place of an earlier run's only once they are whole."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from contextlib import suppress
+from itertools import count
+from pathlib import Path
+
+from attrs import define, field
+
+_numbers = count()
+
+
+@define
+class Replacing:
+    """`beside` says where to write instead; `keep` puts what was written there into its place, `drop` throws it away.
+
+    Written in the same directory, so that a file is there as it was or as it is to be at any moment, whatever ends the
+    program. What is no file, as a pipe, is written in place: it holds nothing that could be kept."""
+
+    _places: dict[Path, Path] = field(factory=dict, init=False)
+    """What is written -> whose place it takes."""
+
+    def beside(self, path: Path) -> Path:
+        """An empty file in the directory of `path`. OSError, naming `path`, where that cannot be written."""
+        place = Path(os.path.realpath(path))  # of a link, what it leads to
+        there = place.exists()
+        if there and not place.is_file():
+            return path
+        if there:
+            place.open("ab").close()  # one that may not be written is not replaced either
+        written = place.with_name(f".solepath-{os.getpid()}-{next(_numbers)}.part")
+        try:
+            written.open("xb").close()
+            self._places[written] = place
+            if there:
+                shutil.copymode(place, written)  # whoever may not read the one may not read the other
+        except OSError as error:
+            raise OSError(error.errno, error.strerror, str(path)) from None
+        return written
+
+    def keep(self) -> None:
+        for written, place in list(self._places.items()):
+            try:
+                os.replace(written, place)
+            except OSError as error:
+                raise OSError(error.errno, error.strerror, str(place)) from None
+            del self._places[written]
+
+    def drop(self) -> None:
+        for written in self._places:
+            with suppress(OSError):
+                written.unlink()
+        self._places.clear()
