@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import asyncio
-from contextlib import AsyncExitStack
+from collections.abc import AsyncIterator
+from contextlib import AsyncExitStack, asynccontextmanager, suppress
 from time import process_time
-from urllib.parse import urlsplit
 
 import pytest
+from attrs import define, field
 
 from airs import memory
 from benches import LEFT, RIGHT
@@ -41,6 +42,52 @@ async def picture(view: Window, name: str) -> str:
 async def words(view: Window, name: str) -> str | None:
     """What is read out in place of a canvas."""
     return await view.tab.locator(f"#{name}").get_attribute("aria-label")
+
+
+def offline(words: str) -> str:
+    return f"document.getElementById('offline').innerText.includes('{words}')"
+
+
+@define
+class Line:
+    """Between a browser and whoever listens at `port`; it can be cut."""
+
+    port: int = 0
+    whole: bool = True
+    ends: list[asyncio.StreamWriter] = field(factory=list)
+
+    @asynccontextmanager
+    async def to(self, port: int) -> AsyncIterator[int]:
+        """The port that stands for this one."""
+        self.port = port
+        async with await asyncio.start_server(self._join, "127.0.0.1", 0) as server:
+            yield server.sockets[0].getsockname()[1]
+            self.cut()
+
+    def cut(self) -> None:
+        self.whole = False
+        for end in self.ends:
+            end.transport.abort()
+        self.ends.clear()
+
+    def mend(self) -> None:
+        self.whole = True
+
+    async def _join(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        if not self.whole:
+            writer.transport.abort()
+            return
+        far_reader, far_writer = await asyncio.open_connection("127.0.0.1", self.port)
+        self.ends += [writer, far_writer]
+        await asyncio.gather(_carry(reader, far_writer), _carry(far_reader, writer))
+
+
+async def _carry(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    with suppress(ConnectionError):
+        while some := await reader.read(65_536):
+            writer.write(some)
+            await writer.drain()
+    writer.close()
 
 
 def link(site: str, state: str) -> str:
@@ -157,22 +204,28 @@ def test_a_lost_link_shows_and_recovers(browser: Browsing) -> None:
     browser.run(main)
 
 
-def test_the_page_finds_its_server_again(browser: Browsing) -> None:
+def test_the_page_finds_its_server_again_by_itself_or_when_asked_where_that_had_ended(browser: Browsing) -> None:
+    """First the network between them fails; then the program ends, and another one takes its place."""
+
     async def main(chromium: Browser) -> None:
-        token = "the same as before"
-        first = Page(after(10.0, "before"), port=0, token=token)
+        scene, token, line = after(10.0, "before"), "the same as before", Line()
         async with AsyncExitStack() as stack:
-            async with first:
-                view = await stack.enter_async_context(window(chromium, first.url))
+            async with Page(scene, port=0, token=token) as first, line.to(first.port) as port:
+                view = await stack.enter_async_context(window(chromium, first.url.replace(str(first.port), str(port))))
                 await view.until(CONNECTED)
-            await view.until(f"!({CONNECTED})")
-            await view.tab.locator("#offline").wait_for(state="visible")
-            port = urlsplit(first.url).port
-            async with Page(after(12.0, "after"), port=port, token=token):
+                line.cut()
+                await view.until(offline("cannot be reached"))
+                line.mend()
                 await view.until(CONNECTED)
-                await view.until("document.getElementById('title').textContent === 'after'")
                 await view.tab.locator("#offline").wait_for(state="hidden")
-            assert all(UNREACHABLE.search(said) for said in view.complaints)
+                await first.__aexit__(None, None, None)
+                await view.until(offline("has ended"))
+                async with Page(after(12.0, "after"), port=0, token=token) as second:
+                    line.port = second.port
+                    await view.tab.locator("#retry").click()
+                    await view.until(f"{CONNECTED} && document.getElementById('title').textContent === 'after'")
+                    await view.tab.locator("#offline").wait_for(state="hidden")
+            assert all(UNREACHABLE.search(said) for said in view.complaints), view.complaints
 
     browser.run(main)
 

@@ -47,6 +47,16 @@ FAINT = """() => {
 """Texts with less contrast than WCAG 2.2 asks for at level AA (1.4.3)."""
 
 
+COVERED = """() => {
+    const at = document.activeElement, { x, y, width, height } = at.getBoundingClientRect();
+    for (const share of [0.1, 0.5, 0.9]) {
+        const on = document.elementFromPoint(x + width / 2, y + share * height);
+        if (on === null || !at.contains(on)) return `${at.outerHTML} is behind ${on?.outerHTML ?? "an edge"}`;
+    }
+    return null;
+}"""
+"""What hides a part of the control that has the focus, or null."""
+
 WALK = Route().stand(1.0).walk(16.0, 1.3).stop(2.0)
 """About 16 s."""
 
@@ -92,6 +102,23 @@ def test_the_space_bar_pauses_and_goes_on_and_the_arrows_seek(browser: Browsing)
     browser.run(main)
 
 
+def test_on_the_way_to_another_time_the_page_says_where_it_is_and_whither(browser: Browsing) -> None:
+    async def main(chromium: Browser) -> None:
+        scene = after(22.0)
+        scene.playback = Playback(begin=0.0, end=150.0, t=22.0, state="playing", seeking=115.0)
+        async with opened(chromium, scene, width=NARROW, height=740) as (view, _):
+            await view.until("document.getElementById('seeking').innerText === 'Going to 1:55, now at 0:22'")
+            await view.until("document.querySelector('main').ariaBusy === 'true'")
+            await view.until("document.getElementById('announcer').textContent.includes('Going to 1:55')")
+            assert await view.tab.locator("#time-now").inner_text() == "0:22"
+            scene.playback = Playback(begin=0.0, end=150.0, t=115.0, state="playing")
+            await view.tab.locator("#seeking").wait_for(state="hidden")
+            await view.until("document.querySelector('main').ariaBusy === 'false'")
+            assert await view.tab.locator("#seek").get_attribute("aria-valuetext") == "1:55 of 2:30"
+
+    browser.run(main)
+
+
 def test_the_speed_is_chosen_from_a_list(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
         async with played(chromium) as (view, playback):
@@ -118,9 +145,12 @@ def test_plus_minus_and_nought_look_nearer_and_farther_on_the_track(browser: Bro
 
 def test_the_tab_key_reaches_every_control_in_the_order_of_the_page(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
-        async with played(chromium) as (view, _):
+        async with played(chromium, width=NARROW, height=800) as (view, _):
             await view.tab.keyboard.press("Space")
             await view.until("document.getElementById('play').ariaLabel === 'Play'")
+            # so that some of them lie where the playback bar is
+            low = await view.tab.evaluate("document.getElementById('zoom').getBoundingClientRect().bottom")
+            await view.tab.set_viewport_size({"width": NARROW, "height": round(low) + 10})
             controls = await view.tab.evaluate(
                 """() => [...document.querySelectorAll("a[href], button, input, select, summary, [tabindex]")]
                     .filter((one) => one.checkVisibility() && !one.disabled && one.tabIndex >= 0)
@@ -135,6 +165,7 @@ def test_the_tab_key_reaches_every_control_in_the_order_of_the_page(browser: Bro
                     "() => { const at = document.activeElement, style = getComputedStyle(at);"
                     " return style.outlineStyle !== 'none' || style.boxShadow !== 'none'; }"
                 ), f"nothing shows where the focus is: {await view.tab.evaluate('document.activeElement.outerHTML')}"
+                assert await view.tab.evaluate(COVERED) is None
             assert reached == controls
 
     browser.run(main)

@@ -631,7 +631,7 @@ def test_a_page_that_ends_says_so_and_does_not_wait_for_who_reads_nothing() -> N
                 watching = await client.ws_connect(f"{page.url.partition('#')[0]}ws")
                 await scene_of(watching)
                 answering = asyncio.create_task(closed(watching))
-            assert await answering == 1001
+            assert await answering == 1001  # which the page takes for an end in order
             assert await idle[0].read() == b""
             HELD.clear()
 

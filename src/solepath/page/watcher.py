@@ -74,7 +74,7 @@ class Watcher:
                 if self._unread():
                     self._abort()
                 else:
-                    await self._socket.close(code=WSCloseCode.GOING_AWAY)
+                    await self._socket.close(code=WSCloseCode.GOING_AWAY, message=b"ended")
         except (TimeoutError, ConnectionError):
             self._abort()
 

@@ -2,18 +2,21 @@
 
 const FIRST_WAIT = 0.5; // s
 const LONGEST_WAIT = 10; // s
+const ENDED_WAIT = 30; // s, after a program that ended: nobody may ever be there again
+const ENDED = 1001; // close code (protocol/page.md)
 const QUIET = 6; // s without a message, though one comes at least every second: the connection is dead
 const KEY = "solepath-token";
 
 export class Connection {
   #socket = null;
   #failures = 0;
+  #ended = false;
   #timer = 0;
   #quiet = 0;
   #token = claimToken();
   #withToken = true;
 
-  // take(message), changed(state, s until the next try): state is "connecting" | "open" | "closed"
+  // take(message), changed(state, s until the next try): state is "connecting" | "open" | "closed" | "ended"
   constructor(take, changed) {
     this.take = take;
     this.changed = changed;
@@ -32,6 +35,7 @@ export class Connection {
   retry() {
     if (this.#socket !== null) return;
     clearTimeout(this.#timer);
+    if (this.#ended) [this.#failures, this.#withToken] = [0, true];
     this.#open();
   }
 
@@ -54,23 +58,31 @@ export class Connection {
         return;
       }
       this.#failures = 0;
+      this.#ended = false;
       this.take(message);
     };
     socket.onopen = () => this.changed("open", 0);
-    socket.onclose = () => this.#closed(socket);
+    socket.onclose = ({ code }) => this.#closed(socket, code);
   }
 
-  #closed(socket) {
+  #closed(socket, code) {
     if (socket !== this.#socket) return;
     this.#socket = null;
-    this.#failures += 1;
+    this.#failures = code === ENDED ? 0 : this.#failures + 1;
+    this.#ended ||= code === ENDED;
     // A token of a program that ended is refused by the one that took its place, which may let this page watch.
-    if (this.#token) this.#withToken = this.#failures < 3 || this.#failures % 2 === 0;
-    const wait =
-      Math.min(LONGEST_WAIT, FIRST_WAIT * 2 ** Math.min(this.#failures - 1, 6)) * (0.8 + 0.4 * Math.random());
-    this.changed("closed", wait);
+    const sure = this.#ended ? 1 : 3;
+    if (this.#token) this.#withToken = this.#failures < sure || (this.#failures - sure) % 2 === 1;
+    const wait = this.#wait() * (0.8 + 0.4 * Math.random());
+    this.changed(this.#ended ? "ended" : "closed", wait);
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => this.#open(), 1000 * wait);
+  }
+
+  // s
+  #wait() {
+    if (this.#ended && this.#withToken) return ENDED_WAIT;
+    return Math.min(LONGEST_WAIT, FIRST_WAIT * 2 ** Math.min(Math.max(0, this.#failures - 1), 6));
   }
 
   #listen() {

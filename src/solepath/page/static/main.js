@@ -5,6 +5,7 @@
 
 import { Doing } from "./activity.js";
 import { Announcer } from "./announce.js";
+import { keepClear } from "./clearance.js";
 import { Connection } from "./connection.js";
 import { Gait } from "./gait.js";
 import { Height } from "./height.js";
@@ -14,6 +15,7 @@ import { Looking } from "./looking.js";
 import { Pace } from "./pace.js";
 import { Playback } from "./playback.js";
 import { Ribbon } from "./ribbon.js";
+import { Seeking } from "./seeking.js";
 import { Soles } from "./soles.js";
 import { State } from "./state.js";
 import { startTheme } from "./theme.js";
@@ -46,6 +48,7 @@ const panels = [
   new Links(),
   new Log(),
   playback,
+  new Seeking((words) => announcer.say(words)),
 ];
 
 function mark(...names) {
@@ -106,25 +109,27 @@ const connection = new Connection(
         element("connection").dataset.state = how;
         write(
           element("connection-word"),
-          { open: "connected", connecting: "connecting", closed: "not connected" }[how],
+          { open: "connected", connecting: "connecting", closed: "not connected", ended: "ended" }[how],
         );
         // only what was open can be missed; a first try needs no alarm
         element("offline").hidden = how === "open" || (how === "connecting" && was === "");
         const left = Math.ceil((at - performance.now()) / 1000);
         const next = how === "connecting" || left < 1 ? "Trying now" : `Trying again in ${left} s`;
-        write(
-          element("offline-words"),
-          `solepath cannot be reached${state.known ? "; what you see is old" : ""}. ${next}.`,
-        );
+        const ended = how === "ended" || (how === "connecting" && was === "ended");
+        const why = ended
+          ? `solepath has ended${state.known ? "; what you see is the last of it" : ""}.`
+          : `solepath cannot be reached${state.known ? "; what you see is old" : ""}.`;
+        write(element("offline-words"), how === "ended" ? why : `${why} ${next}.`);
+        element("offline").dataset.why = ended ? "ended" : "closed";
       };
       show();
-      if (how === "closed") {
+      if (how === "closed" || how === "ended") {
         timer = setInterval(show, 1000);
-        if (was !== "closed") announcer.say("The connection to solepath is lost");
-        was = "closed";
+        if (was !== how) announcer.say(how === "ended" ? "solepath has ended" : "The connection to solepath is lost");
+        was = how;
       }
       if (how === "open") {
-        if (was === "closed") announcer.say("Connected again");
+        if (was === "closed" || was === "ended") announcer.say("Connected again");
         was = "open";
       }
       document.body.classList.toggle("old", how !== "open" && state.known);
@@ -145,6 +150,7 @@ document.addEventListener("keydown", (event) => {
   if (playback.key(key, event.shiftKey) || looking.key(key)) event.preventDefault();
 });
 setInterval(() => mark("second"), 1000);
+keepClear();
 startTheme(element("theme"), () => mark("theme"));
 ready = true;
 mark("scene");

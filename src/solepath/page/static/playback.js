@@ -47,8 +47,9 @@ export class Playback {
     describe(this.seek, "min", String(begin));
     describe(this.seek, "max", String(Math.max(end, begin + 0.1)));
     if (!this.#dragged) this.seek.value = shown;
-    describe(this.seek, "aria-valuetext", `${clock(shown - begin)} of ${clock(end - begin)}`);
-    write(this["time-now"], clock(shown - begin));
+    const whither = seeking === null ? "" : "on the way to ";
+    describe(this.seek, "aria-valuetext", `${whither}${clock(shown - begin)} of ${clock(end - begin)}`);
+    write(this["time-now"], clock((seeking === null ? shown : t) - begin)); // the bar is where it is going already
     write(this["time-end"], clock(end - begin));
     this.#speed(speed);
     for (const part of [this.play, this.seek, this["speed-choice"]])

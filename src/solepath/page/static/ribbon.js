@@ -4,7 +4,7 @@
 import { Alternative, FONT, Surface, calm } from "./canvas.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
-import { PHASES, SUPPORTS, clock, say } from "./words.js";
+import { LINKS, PHASES, SUPPORTS, clock, say } from "./words.js";
 
 const WINDOW = 8; // s
 const NAMES = 20; // px for the names of the rows
@@ -22,7 +22,7 @@ export class Ribbon {
   }
 
   wants(changed) {
-    return ["phases", "scene", "theme", "playback"].some((name) => changed.has(name));
+    return ["phases", "scene", "theme", "playback", "links"].some((name) => changed.has(name));
   }
 
   draw(state, now, changed, t) {
@@ -48,7 +48,7 @@ export class Ribbon {
       context.fillText(foot === "left" ? "L" : "R", 2, rows[foot][0] + band / 2 + 4);
     }
     this.alternative.say(() => {
-      const words = FEET.map((foot) => `${foot} ${say(PHASES, state.phases[foot].at(-1)?.[1]) || "not heard yet"}`);
+      const words = FEET.map((foot) => `${foot} ${heard(state, foot)}`);
       const ground = say(SUPPORTS, state.support) || "not known";
       return `Phases of both feet over the last ${WINDOW} seconds. Now: ${words.join(", ")}; on the ground: ${ground}`;
     });
@@ -100,6 +100,14 @@ export class Ribbon {
     }
     return ground;
   }
+}
+
+function heard({ phases, links }, foot) {
+  const phase = phases[foot].at(-1)?.[1];
+  if (phase) return say(PHASES, phase);
+  const link = links[`${foot} foot`]?.state;
+  if (link === "lost" || link === "silent") return say(LINKS, link);
+  return phases[foot].length > 0 ? "not heard any more" : "not heard yet";
 }
 
 // Of two lists of [from, to] in order of time, where both are.

@@ -1,0 +1,15 @@
+// What sticks to the window's edges must not hide what has the focus: the browser scrolls that clear of it.
+
+const SPARE = 12; // px, for the mark of the focus
+
+export function keepClear() {
+  const banners = document.getElementById("banners");
+  const playback = document.getElementById("playback");
+  const measure = () => {
+    const root = document.documentElement.style;
+    root.scrollPaddingTop = `${Math.round(banners.offsetHeight + SPARE)}px`;
+    root.scrollPaddingBottom = `${Math.round(playback.offsetHeight + SPARE)}px`;
+  };
+  const observer = new ResizeObserver(measure);
+  for (const one of [banners, playback]) observer.observe(one);
+}
