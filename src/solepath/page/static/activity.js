@@ -1,6 +1,6 @@
 // What the wearer does, and the few figures that everybody asks for first.
 
-import { ACTIVITIES, SUPPORTS, describe, fixed, say, span, tell, write } from "./words.js";
+import { ACTIVITIES, SUPPORTS, describe, doing, fixed, say, span, tell, write } from "./words.js";
 
 export class Doing {
   constructor() {
@@ -11,24 +11,24 @@ export class Doing {
   }
 
   wants(changed) {
-    return ["activity", "support", "gait", "feet", "scene", "second"].some((name) => changed.has(name));
+    return ["activity", "support", "pace", "feet", "scene", "second"].some((name) => changed.has(name));
   }
 
   draw(state) {
-    const { activity, support, gait, feet } = state;
+    const { activity, support, pace, feet } = state;
     const name = activity?.now ?? "UNKNOWN";
-    write(this.activity, activity ? say(ACTIVITIES, name) : "Waiting");
-    tell(this.activity, { activity: name });
+    const unheard = activity !== null && activity.last !== null;
+    write(this.activity, activity ? doing(activity) : "Waiting");
+    tell(this.activity, { activity: name, known: !unheard });
     const icon = `#icon-${Object.hasOwn(ACTIVITIES, name) ? name : "UNKNOWN"}`;
     describe(this.icon, "href", icon);
-    write(
-      this.since,
-      activity?.since != null && activity.since >= state.begin ? `for ${span(state.t - activity.since)}` : "",
-    );
+    const dated = activity?.since != null && activity.since >= state.begin;
+    const since = dated ? `for ${span(state.t - activity.since)}` : "";
+    write(this.since, unheard ? `no foot is heard ${since}` : since);
     tell(this.support, { support: support ?? "" });
     write(this.supportWord, support ? say(SUPPORTS, support) : "");
-    write(this.cadence, fixed(gait?.cadence ?? NaN));
-    write(this.speed, fixed(gait?.rows.find((row) => row.name === "speed")?.both ?? NaN, 2));
+    write(this.cadence, fixed(pace?.cadence ?? NaN));
+    write(this.speed, fixed(pace?.speed ?? NaN, 2));
     const heard = Object.values(feet).filter((foot) => foot !== null);
     write(this.steps, heard.length > 0 ? String(heard.reduce((sum, foot) => sum + (foot.steps || 0), 0)) : "–");
     // either foot goes about as far as the wearer

@@ -1,7 +1,7 @@
 // What a screen reader says by itself: activity, links lost and found, the level, and the page's own connection.
 
 import { nameOf } from "./saying.js";
-import { ACTIVITIES, capital, say } from "./words.js";
+import { capital, doing } from "./words.js";
 
 const APART = 1500; // ms: what comes meanwhile is said together
 
@@ -27,9 +27,10 @@ export class Announcer {
   }
 
   hear(state, changed) {
-    if (changed.has("activity") && state.activity && state.activity.now !== this.#activity) {
-      this.#activity = state.activity.now;
-      this.say(say(ACTIVITIES, this.#activity));
+    if (changed.has("activity") && state.activity) {
+      const words = doing(state.activity);
+      if (words !== this.#activity) this.say(words);
+      this.#activity = words;
     }
     if (changed.has("links")) {
       for (const [site, { state: how }] of Object.entries(state.links)) {

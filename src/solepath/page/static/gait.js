@@ -1,8 +1,9 @@
 // The gait table: means of steady strides.
 
-import { fixed, percent, signed, write } from "./words.js";
+import { fixed, percent, show, signed, write } from "./words.js";
 
 const WIDEST = 0.2; // asymmetry that fills half of its bar
+const STEEPEST = 10; // degrees that do
 const UNITS = { deg: "°" };
 
 export class Gait {
@@ -22,17 +23,25 @@ export class Gait {
     this["gait-waiting"].hidden = some;
     this["gait-scroll"].hidden = !some;
     write(this["gait-kind"], some ? (gait.running ? "running" : "walking") : "");
-    const coordinated = some && gait.coordination !== null;
-    this["gait-note"].hidden = !coordinated;
-    if (coordinated) write(this["gait-note"], `Phase coordination index ${percent(gait.coordination, 1)}`);
-    const names = rows.map((row) => row.name);
+    const notes = some ? said(gait) : "";
+    show(this["gait-note"], notes !== "");
+    write(this["gait-note"], notes);
+    const all = some ? [{ name: "strides", label: "strides", digits: 0, ...gait.strides }, ...rows] : [];
+    const names = all.map((row) => row.name);
     if (names.join() !== [...this.rows.keys()].join()) {
       this.rows = new Map(names.map((name) => [name, new Row()]));
       this["gait-rows"].replaceChildren(...[...this.rows.values()].map((row) => row.element));
     }
-    for (const row of rows) this.rows.get(row.name).show(row);
+    for (const row of all) this.rows.get(row.name).show(row);
     return "done";
   }
+}
+
+function said({ strides, enough, coordination }) {
+  const count = Object.values(strides).reduce((sum, one) => sum + (one ?? 0), 0);
+  const few = `Of ${count} strides: figures settle with ${enough} and more (Galna et al. 2013).`;
+  const index = coordination === null ? "" : `Phase coordination index ${percent(coordination, 1)}.`;
+  return [count < enough ? few : "", index].filter((words) => words !== "").join(" ");
 }
 
 class Row {
@@ -66,12 +75,16 @@ class Row {
     write(this.mean, fixed(row.both, digits));
     write(this.sd, Number.isFinite(row.sd) ? `± ${fixed(row.sd, digits)}` : "");
     write(this.cv, Number.isFinite(row.cv) ? fixed(100 * row.cv, 1) : "–");
-    const known = Number.isFinite(row.asymmetry);
-    write(this.share, known ? signed(100 * row.asymmetry, 1) : "–");
-    this.track.hidden = !known;
+    const turned = Number.isFinite(row.difference); // an angle: a share of one says nothing
+    const known = turned || Number.isFinite(row.asymmetry);
+    const lean = turned ? row.difference / STEEPEST : row.asymmetry / WIDEST;
+    const degrees = () => `${signed(row.difference, digits)}${UNITS[row.unit] ?? ""}`;
+    const share = () => `${signed(100 * row.asymmetry, 1)} %`;
+    write(this.share, turned ? degrees() : known ? share() : "–");
+    show(this.track, known);
     if (!known) return;
-    this.bar.dataset.to = row.asymmetry < 0 ? "left" : "right";
-    this.bar.style.width = `${50 * Math.min(1, Math.abs(row.asymmetry) / WIDEST)}%`;
+    this.bar.dataset.to = lean < 0 ? "left" : "right";
+    this.bar.style.width = `${50 * Math.min(1, Math.abs(lean))}%`;
   }
 }
 

@@ -48,7 +48,7 @@ class Link {
     this.device = this.#add(head, "span", "link-device");
     const figures = this.#add(this.element, "dl", "link-figures");
     this.figures = Object.fromEntries(
-      ["rate", "loss", "battery", "signal", "gaps", "rejected"].map((title) => {
+      ["rate", "loss", "lost", "battery", "signal", "gaps", "rejected"].map((title) => {
         const pair = this.#add(figures, "div");
         this.#add(pair, "dt").textContent = title;
         pair.dataset.figure = title;
@@ -64,7 +64,8 @@ class Link {
     write(this.state, say(LINKS, link.state ?? "waiting") + silent);
     write(this.device, typeof link.name === "string" ? link.name : "");
     this.#figure("rate", `${fixed(link.rate)} Hz`, Number.isFinite(link.rate));
-    this.#figure("loss", `${percent(link.loss, 1)} (${fixed(link.lost)})`, Number.isFinite(link.loss));
+    this.#figure("loss", percent(link.loss, 1), Number.isFinite(link.loss)); // of late
+    this.#figure("lost", fixed(link.lost), link.lost > 0);
     this.#figure("battery", percent(link.battery), Number.isFinite(link.battery));
     this.#figure("signal", `${fixed(link.signal)} dBm`, Number.isFinite(link.signal));
     this.#figure("gaps", fixed(link.gaps), link.gaps > 0);

@@ -3,7 +3,7 @@
 import { Alternative, Surface, calm } from "./canvas.js";
 import { Field } from "./field.js";
 import { around, shoe, spacing } from "./outline.js";
-import { pressure } from "./scales.js";
+import { pressure, scaleOf } from "./scales.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
 import { LINKS, PHASES, capital, fixed, say, show, tell, write } from "./words.js";
@@ -24,7 +24,7 @@ export class Soles {
 
   wants(changed) {
     // each second as well: a number that was written a moment ago may not have been the last
-    return ["feet", "links", "theme", "scene", "second"].some((name) => changed.has(name));
+    return ["feet", "scales", "links", "theme", "scene", "second"].some((name) => changed.has(name));
   }
 
   // Whether it drew; who wants less motion sees ten pictures a second.
@@ -36,14 +36,15 @@ export class Soles {
     return "done";
   }
 
-  #legend({ layouts, scale }) {
+  #legend({ layouts, scales }) {
     const shapes = FEET.filter((foot) =>
       this.soles.some((sole) => sole.foot === foot && sole.shows === "pressure"),
     ).map((foot) => layouts[foot]);
     show(this.scale, shapes.length > 0);
-    const ends = shapes.map(
-      (shape) => `${scale.beyond[shape.unit] ? "≥ " : ""}${fixed(scale.tops[shape.unit])} ${shape.word}`,
-    );
+    const ends = shapes.map((shape) => {
+      const { top, beyond } = scaleOf(scales, shape);
+      return `${beyond ? "≥ " : ""}${fixed(top)} ${shape.word}`;
+    });
     write(this.top, [...new Set(ends)].join(", "));
     const gradient = `linear-gradient(to right, ${theme.stops.map((stop) => `rgb(${stop})`).join(", ")})`;
     if (this.gradient !== gradient) this.bar.style.background = this.gradient = gradient;
@@ -106,7 +107,7 @@ class Sole {
     context.globalAlpha = lost ? 0.3 : 1;
     context.fillStyle = theme.colours.sole;
     context.fill(outline);
-    if (this.shows === "pressure") this.#pressure(context, outline, place, foot, state.scale.tops[layout.unit]);
+    if (this.shows === "pressure") this.#pressure(context, outline, place, foot, scaleOf(state.scales, layout).top);
     if (this.shows === "bars") this.#bars(context, place, foot);
     if (this.shows === "contact") this.#contact(context, outline, place, foot.phase);
     context.lineWidth = 1.5;
@@ -118,17 +119,20 @@ class Sole {
     context.globalAlpha = 1;
   }
 
+  // What is seen below the picture and what is read out in place of it are of one moment: whenever the latter is
+  // written the former is as well.
   #words(foot, layout, lost, link, now) {
     const phase = foot?.phase ? say(PHASES, foot.phase) : "–";
+    const force = foot && foot.force !== null && !lost ? fixed(foot.force) : "";
     write(this.phase, lost ? say(LINKS, link) : phase);
-    const known = foot && foot.force !== null && !lost;
-    this.#number(known ? `${fixed(foot.force)} ${layout?.forces ? "N" : "counts"}` : "", phase, now);
+    this.#number(force && `${force} ${layout?.forces ? "N" : "counts"}`, phase, now);
     this.alternative.say(() => {
+      this.put();
       const side = capital(this.foot);
       if (lost) return `${side} sole: no signal`;
       if (!foot) return `${side} sole: nothing heard yet`;
-      const force = foot.force === null ? "" : `, ${fixed(foot.force)} ${layout?.forces ? "newton" : "counts"}`;
-      return `${side} sole: ${phase}${force}${this.#where(foot)}`;
+      const load = force && `, ${force} ${layout?.forces ? "newton" : "counts"}`;
+      return `${side} sole: ${phase}${load}${this.#where(foot)}`;
     });
   }
 
@@ -137,12 +141,13 @@ class Sole {
     clearTimeout(this.timer);
     const wait = phase === this.said ? READABLE - (now - this.written) : 0;
     this.said = phase;
-    const put = () => {
+    this.put = () => {
+      clearTimeout(this.timer);
       this.written = performance.now();
       write(this.force, words);
     };
-    if (wait > 0) this.timer = setTimeout(put, wait);
-    else put();
+    if (wait > 0) this.timer = setTimeout(this.put, wait);
+    else this.put();
   }
 
   #where(foot) {

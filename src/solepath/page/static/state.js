@@ -1,8 +1,6 @@
 // What the messages of protocol/page.md add up to. Nothing here draws, and nothing from outside gets past it unchecked:
 // a panel may take for granted that a point is made of numbers.
 
-import { Scales } from "./scales.js";
-
 const LONGEST = 2000; // points of a track
 const REMEMBERED = 20; // s of phases
 const SAID = 50; // sentences of the log
@@ -48,7 +46,8 @@ export class State {
     this.gait = null;
     this.links = {};
     this.playback = null;
-    this.scale ??= new Scales();
+    this.pace = null;
+    this.scales = {};
   }
 
   // The names of what changed; a message of an unknown type changes nothing.
@@ -66,7 +65,6 @@ export class State {
     this.control = message.control === true;
     this.plan = plan(message.plan);
     for (const foot of FEET) this.layouts[foot] = layout(record(message.layouts)[foot]);
-    this.scale.wear(JSON.stringify(message.layouts));
     const { tracks, places, phases, log } = message;
     this.#frame({ ...record(message.frame), tracks, places, phases, log }); // the scene's own lists are whole
     return new Set([
@@ -122,6 +120,8 @@ export class State {
     if ("wearer" in message) this.#set("wearer", wearer(message.wearer), changed);
     if ("place" in message) this.#set("place", place(message.place), changed);
     if ("activity" in message) this.#set("activity", activity(message.activity), changed);
+    if ("pace" in message) this.#set("pace", pace(message.pace), changed);
+    if ("scales" in message) this.#set("scales", scales(message.scales), changed);
     if ("support" in message) this.#set("support", text(message.support) || null, changed);
     if ("gait" in message) this.#set("gait", gait(message.gait), changed);
     if ("playback" in message) this.#set("playback", playback(message.playback), changed);
@@ -161,7 +161,6 @@ export class State {
     one.force = number(one.force);
     this.feet[foot] = one;
     changed.add("feet");
-    if ("cells" in news && one.cells !== null) this.scale.hear(this.layouts[foot], one);
     const trail = this.trails[foot];
     if (one.centre === null) return; // in the air the last stance's path stays
     if (old.centre === null || old.centre === undefined) trail.length = 0;
@@ -206,7 +205,7 @@ function layout(value) {
     cells,
     length: value.length > 0 ? value.length : 0.27,
     // without areas newtons are no pressure, and are shown as what they are
-    unit: value.unit === "N" && areas ? "N" : "counts",
+    unit: value.unit === "N" ? (areas ? "kPa" : "N") : "counts",
     word: value.unit === "N" ? (areas ? "kPa" : "N a cell") : "counts a cell",
     forces: value.unit === "N",
   };
@@ -229,11 +228,22 @@ function place(value) {
       heading: number(one.heading),
       weight: number(one.weight) ?? 0,
     }));
-  return { level: text(value.level), position: value.position, spread: number(value.spread), candidates };
+  const decided = value.decided === true;
+  return { level: text(value.level), position: value.position, decided, spread: number(value.spread), candidates };
 }
 
 function activity(value) {
-  return typeof value?.now === "string" ? { now: value.now, since: number(value.since) } : null;
+  if (typeof value?.now !== "string") return null;
+  return { now: value.now, since: number(value.since), last: text(value.last) || null };
+}
+
+function pace(value) {
+  return { cadence: number(value?.cadence), speed: number(value?.speed) };
+}
+
+function scales(value) {
+  const known = Object.entries(record(value)).filter(([, scale]) => sound(scale?.top) && scale.top > 0);
+  return Object.fromEntries(known.map(([unit, { top, beyond }]) => [unit, { top, beyond: beyond === true }]));
 }
 
 function gait(value) {
@@ -245,6 +255,8 @@ function gait(value) {
     running: value.running === true,
     cadence: number(value.cadence),
     coordination: number(value.coordination),
+    strides: Object.fromEntries(FEET.map((foot) => [foot, number(value.strides?.[foot])])),
+    enough: number(value.enough) ?? 0,
     rows,
   };
 }

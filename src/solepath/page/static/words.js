@@ -21,6 +21,9 @@ export const say = (words, key) =>
     : String(key ?? "")
         .toLowerCase()
         .replaceAll("_", " ");
+// What the wearer does; while no foot is heard, that it is not known.
+export const doing = ({ now, last }) =>
+  last === null ? say(ACTIVITIES, now) : `Not known, last: ${say(ACTIVITIES, last).toLowerCase()}`;
 export const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
 export const fixed = (value, digits = 0) => {
