@@ -434,6 +434,13 @@ def test_numbers_that_are_none_are_shown_as_none() -> None:
     assert len(base64.b64decode(told["cells"])) == 3
 
 
+def test_what_happened_at_no_time_is_not_shown() -> None:
+    events = [moved(1.0)]
+    for time in (nan, inf, -inf):
+        for field in ("t", "known_at"):
+            assert encode(frame(shown([*events, evolve(moved(1.0), **{field: time})]))) == encode(frame(shown(events)))
+
+
 def test_a_page_says_how_a_recording_is_played() -> None:
     scene = Scene("a walk", "default", "recording", playback=Playback(begin=0.0, end=9.0, t=0.0))
     _, cursor = scene.whole()

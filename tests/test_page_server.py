@@ -10,20 +10,21 @@ import os
 import socket
 import struct
 from collections.abc import AsyncIterator, Awaitable, Callable, Coroutine
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 from importlib.resources import files
 from typing import Any
 from urllib.parse import urlsplit
 
 import pytest
-from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType, WSServerHandshakeError
+from aiohttp import ClientError, ClientSession, ClientWebSocketResponse, WSMsgType, WSServerHandshakeError
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath import Foot, Session
-from solepath.page import offences, server, watcher
+from solepath.page import connection, offences, server, watcher
 from solepath.page.access import Access, Refused, host_of, on_loopback
 from solepath.page.address import reached_at
+from solepath.page.connection import HEADERS
 from solepath.page.messages import Command, CommandError, parse_command
 from solepath.page.scene import Scene
 from solepath.page.server import MOST_CONNECTIONS, MOST_WATCHERS, Page
@@ -142,6 +143,10 @@ def test_the_page_is_made_of_the_files_that_are_installed() -> None:
                     assert answer.headers["X-Content-Type-Options"] == "nosniff"
                     assert answer.headers["Cache-Control"] == "no-store"
                     assert answer.headers["Referrer-Policy"] == "no-referrer"
+                    assert answer.headers["Cross-Origin-Resource-Policy"] == "same-origin"
+                    async with client.head(url + name) as head:
+                        assert (head.status, await head.read()) == (200, b"")
+                        assert head.headers["Content-Length"] == answer.headers["Content-Length"]
                     kind = answer.headers["Content-Type"].partition(";")[0]
                     assert kind == server.KINDS[f".{(name or 'index.html').rpartition('.')[2]}"]
             text = "".join((files("solepath.page") / "static" / name).read_text() for name in names)
@@ -170,6 +175,38 @@ def test_files_can_only_be_got(method: str) -> None:
     async def main() -> None:
         async with served() as (_, client, url), client.request(method, url, data=b"x" * 100_000) as answer:
             assert answer.status == 405
+
+    run(main())
+
+
+def test_only_a_get_becomes_a_socket() -> None:
+    async def main() -> None:
+        async with served() as (page, _, _):
+            for method in (b"POST", b"HEAD", b"PUT"):
+                reader, writer = await raw(page)
+                writer.write(handshake("localhost").replace(b"GET", method, 1))
+                assert (await reader.readline()).split(b" ")[1] in (b"400", b"405")
+                writer.close()
+
+    run(main())
+
+
+@pytest.mark.parametrize(
+    "sent", [b"EVIL\r\n\r\n", b"GET / HTTP/9.9 EVIL\r\n\r\n", b"POST / HTTP/1.1\r\nContent-Length: EVIL\r\n\r\n",
+             b"GET / HTTP/1.1\r\nHost: localhost\r\nEVIL\r\n\r\n", b"GET / HTTP/1.1\r\nX: " + b"EVIL" * 9000],
+)  # fmt: skip
+def test_what_is_no_request_is_answered_with_the_headers_of_every_answer_and_none_of_its_words(sent: bytes) -> None:
+    async def main() -> None:
+        async with served() as (page, _, _):
+            for begun in (b"", b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"):
+                reader, writer = await raw(page)
+                writer.write(begun + sent)
+                _, refusal, told = (await reader.read()).partition(b" 400 Bad Request")
+                writer.close()
+                assert refusal and b"EVIL" not in told
+                assert b"aiohttp" not in told and b"Python" not in told
+                for name, value in HEADERS.items():
+                    assert f"\r\n{name}: {value}\r\n".encode() in told
 
     run(main())
 
@@ -386,7 +423,8 @@ def frame_of(opcode: int, payload: bytes, *, masked: bool = True, fin: int = 0x8
         (frame_of(1, b"no json"), 1007),
         (frame_of(1, b'{"do":"seek","value":NaN}'), 1007),
         (frame_of(1, b'{"do":"dance"}'), 1008),
-        (frame_of(1, b" " * 5000), 1009),
+        (frame_of(1, b" " * 4096), 1007),
+        (frame_of(1, b" " * 4097), 1009),
         (frame_of(3, b"reserved"), 1002),
         (frame_of(1, b"", fin=0xC0), 1002),
     ],
@@ -521,6 +559,55 @@ def test_connections_that_say_nothing_are_bounded_and_closed(monkeypatch: pytest
                 writer.close()
             async with client.get(url) as answer:
                 assert answer.status == 200
+
+    run(main())
+
+
+GET = b"GET /style.css HTTP/1.1\r\nHost: localhost\r\n\r\n"
+
+
+@pytest.mark.parametrize("asked", [GET * 2000, handshake("localhost") + frame_of(1, b"{")], ids=["files", "a socket"])
+def test_whoever_asks_and_does_not_read_takes_the_place_of_nobody_for_long(
+    asked: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(server, "IDLE", 0.5)
+    monkeypatch.setattr(connection, "LONGEST", 1.0)
+    monkeypatch.setattr(server, "MOST_CONNECTIONS", MOST_WATCHERS)
+
+    async def main() -> None:
+        async with served(scene=Scene("x" * 4_000_000, "default")) as (page, client, url):
+            deaf = []
+            for _ in range(MOST_WATCHERS):
+                one = socket.socket()
+                one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+                one.setblocking(False)
+                await asyncio.get_running_loop().sock_connect(one, ("127.0.0.1", page.port))
+                with suppress(TimeoutError):
+                    async with asyncio.timeout(0.05):
+                        await asyncio.get_running_loop().sock_sendall(one, asked)
+                deaf.append(one)
+            while True:
+                try:
+                    async with client.get(url) as answer:
+                        assert answer.status == 200
+                        break
+                except ClientError:
+                    await asyncio.sleep(0.1)
+            for one in deaf:
+                one.close()
+
+    run(main())
+
+
+def test_a_browser_that_reads_watches_for_longer_than_others_may_ask(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server, "IDLE", 0.1)
+    monkeypatch.setattr(connection, "LONGEST", 0.2)
+    monkeypatch.setattr(watcher, "HEARTBEAT", 0.05)
+
+    async def main() -> None:
+        async with served() as (_, client, url), client.ws_connect(f"{url}ws") as watching:
+            for _ in range(12):
+                await watching.receive_str()
 
     run(main())
 

@@ -12,8 +12,8 @@ from attrs import define, field
 from ..events import Event
 from ..floorplan.plan import FloorPlan
 from ..output import PLAN, TrackFiles
-from ..report import Report
 from ..recording import printable
+from ..report import Report
 from ..tally import Tally
 from ..types import Packet, Sample
 from ..view.placed import Places
@@ -25,8 +25,8 @@ from .replacing import Replacing
 
 @define
 class Results:
-    """`out`: the directory of the files. `report`: the file of the report. None: not wanted. OSError from all of it when
-    something cannot be written.
+    """`out`: the directory of the files. `report`: the file of the report. None: not wanted. OSError from all of it
+    when something cannot be written.
 
     What an earlier run wrote is replaced by what is whole, when the recording was heard to its end and is summed up:
     whatever ends it before leaves all as it was."""

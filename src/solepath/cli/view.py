@@ -168,8 +168,8 @@ def run_rest(player: Player, what: str) -> None:
             if told_to_stop():
                 at = items.t(player.done - 1) if player.done else items.begin
                 note(
-                    f"given up after {at - items.begin:.1f} of {items.end - items.begin:.1f} s: nothing is summed up or "
-                    "written, and what was written before stays as it is"
+                    f"given up after {at - items.begin:.1f} of {items.end - items.begin:.1f} s: nothing is summed up "
+                    "or written, and what was written before stays as it is"
                 )
                 raise KeyboardInterrupt
 

@@ -6,7 +6,7 @@ protocol/page.md says what the messages hold. Nothing here knows a clock, a thre
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import inf
+from math import inf, isfinite
 from typing import Any
 
 from attrs import define, field, frozen
@@ -101,6 +101,8 @@ class Scene:
     def take(self, event: Event) -> None:
         """The next event of the session, in the order in which they are told."""
         known_at = event.known_at
+        if not (isfinite(known_at) and isfinite(event.t)):
+            return  # of no session
         if known_at > self.now:
             self.now = known_at
         kind = type(event)

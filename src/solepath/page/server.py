@@ -16,11 +16,13 @@ from collections.abc import Callable
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from types import TracebackType
+from typing import cast
 
 from aiohttp import web
 
 from .access import Access, Refused
 from .address import listen, reached_at
+from .connection import HEADERS, Connection, NoRoom
 from .messages import Command
 from .offences import Offences
 from .scene import Scene
@@ -31,19 +33,12 @@ MOST_CONNECTIONS = 64
 """At once, with those that ask for files or for nothing."""
 IDLE = 10.0
 """s after which a connection that asks for nothing, or for half of something, is closed."""
+METHODS = ("GET", "HEAD")
 KINDS = {
     ".html": "text/html",
     ".css": "text/css",
     ".js": "text/javascript",
     ".svg": "image/svg+xml",
-}
-HEADERS = {
-    "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
-    "connect-src 'self'; base-uri 'none'; frame-ancestors 'none'",
-    "X-Content-Type-Options": "nosniff",
-    "Referrer-Policy": "no-referrer",
-    "Cache-Control": "no-store",
-    "Server": "solepath",
 }
 
 
@@ -77,8 +72,6 @@ class Page:
         self._access = Access(self._host, secrets.token_urlsafe(16) if token is None else token)
         self._files = _files(files(__package__) / "static")
         self._watchers: set[Watcher] = set()
-        self._asked: set[web.RequestHandler] = set()
-        """Connections on which somebody has asked for something."""
         self._server: web.Server | None = None
         self._listening: asyncio.Server | None = None
 
@@ -97,15 +90,7 @@ class Page:
     async def __aenter__(self) -> Page:
         socket = listen(self._host, self._port)
         self._port = socket.getsockname()[1]
-        silent = logging.getLogger("solepath.page.http")
-        silent.disabled = True  # the library has a traceback for every request that is none
-        self._server = web.Server(
-            self._answer,
-            access_log=None,
-            logger=silent,
-            keepalive_timeout=IDLE,
-            lingering_time=0.0,
-        )
+        self._server = web.Server(self._answer)
         self._listening = await asyncio.get_running_loop().create_server(self._connect, sock=socket)
         return self
 
@@ -123,25 +108,20 @@ class Page:
         """What talks to somebody who has just connected."""
         if self._server is None or len(self._server.connections) >= MOST_CONNECTIONS:
             self.offences.tell(f"more than {MOST_CONNECTIONS} connections at once: one is refused")
-            return _NoRoom()
-        one = self._server()
-        asyncio.get_running_loop().call_later(IDLE, self._hang_up, one)
-        return one
-
-    def _hang_up(self, one: web.RequestHandler) -> None:
-        """It has had its time; the library sees to those only that have asked for something once."""
-        connections = [] if self._server is None else self._server.connections
-        if one in connections and one not in self._asked:
-            one.force_close()
-        self._asked.intersection_update(connections)
+            return NoRoom()
+        return Connection(self._server, IDLE)
 
     async def _answer(self, request: web.BaseRequest) -> web.StreamResponse:
-        self._asked.add(request.protocol)
+        connection = cast(Connection, request.protocol)
+        connection.asked = True
         try:
             host = request.headers.get("Host")
             self._access.check_host(host)
+            if request.method not in METHODS:
+                return web.Response(status=405, headers={**HEADERS, "Allow": ", ".join(METHODS)})
             if request.path == "/ws":
-                return await self._watched(request, host or "")
+                with connection.watching():
+                    return await self._watched(request, host or "")
             return self._file(request)
         except Refused as refused:
             self.offences.tell(f"{refused}: refused")
@@ -153,8 +133,6 @@ class Page:
             return web.Response(status=500, headers=HEADERS)
 
     def _file(self, request: web.BaseRequest) -> web.Response:
-        if request.method != "GET":
-            return web.Response(status=405, headers={**HEADERS, "Allow": "GET"})
         found = self._files.get("index.html" if request.path == "/" else request.path.removeprefix("/"))
         if found is None:
             return web.Response(status=404, text="there is no such file\n", headers=HEADERS)
@@ -162,6 +140,8 @@ class Page:
         return web.Response(body=body, content_type=kind, charset="utf-8", headers=HEADERS)
 
     async def _watched(self, request: web.BaseRequest, host: str) -> web.StreamResponse:
+        if request.method != "GET":
+            raise Refused("a request for the socket is none for a WebSocket", 400)
         if "Sec-WebSocket-Protocol" in request.headers:
             raise Refused("somebody wants to speak another protocol", 400)
         self._access.check_origin(request.headers.getall("Origin", []), host)
@@ -174,13 +154,6 @@ class Page:
             return await watcher.watch(request)
         finally:
             self._watchers.discard(watcher)
-
-
-class _NoRoom(asyncio.Protocol):
-    """Hangs up at once."""
-
-    def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        transport.close()
 
 
 def _files(folder: Traversable) -> dict[str, tuple[bytes, str]]:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import logging
-import socket
 from collections.abc import Callable
 from typing import Any, Protocol
 
 from aiohttp import WSCloseCode, WSMsgType, web
 
 from .access import Refused
+from .connection import HEADERS
 from .messages import LONGEST, Command, CommandError, encode, parse_command
 from .offences import Offences
 from .scene import Cursor, Scene
@@ -23,8 +23,6 @@ PATIENCE = 10.0
 """s for which a browser may read nothing."""
 ALIVE = 20.0
 """s after which a browser that sends nothing is asked for a sign of life (ping)."""
-BACKLOG = 65_536
-"""Bytes that the system holds back for a browser that reads slowly: some seconds of frames."""
 
 
 class Showing(Protocol):
@@ -42,8 +40,9 @@ class Watcher:
         self._page = page
         self._steers = steers
         self._socket = web.WebSocketResponse(
-            timeout=1.0, heartbeat=ALIVE, compress=False, max_msg_size=LONGEST, autoclose=True
+            timeout=1.0, heartbeat=ALIVE, compress=False, max_msg_size=LONGEST + 1, autoclose=True
         )
+        self._socket.headers.update(HEADERS)
         self._transport: asyncio.WriteTransport | None = None
 
     async def watch(self, request: web.BaseRequest) -> web.StreamResponse:
@@ -56,9 +55,6 @@ class Watcher:
         if transport is None:
             return self._socket
         self._transport = transport
-        accepted = transport.get_extra_info("socket")
-        if accepted is not None:
-            accepted.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BACKLOG)
         showing = asyncio.create_task(self._show(transport))
         try:
             await self._listen()
