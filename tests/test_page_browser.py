@@ -14,11 +14,14 @@ from airs import memory
 from benches import LEFT, RIGHT
 from browsers import PATIENCE, UNREACHABLE, Browser, Browsing, Window, window
 from shown import CONNECTED, after, again, between, fresh, meanwhile, opened, show, square, squares, walked
-from solepath import Connected, Session
+from solepath import Connected, Placed, Session, WearerMoved
 from solepath.ble import Devices, Wanted
+from solepath.events import Candidate
 from solepath.loopback.bench import Bench
 from solepath.loopback.faults import parse_faults
+from solepath.page.scene import Scene
 from solepath.page.server import Page
+from solepath.sim.building import BUILDING
 from solepath.sim.insole_device import Insole
 from solepath.sim.route import Route
 from solepath.types import Foot
@@ -167,6 +170,48 @@ def test_when_the_walk_stops_the_last_figures_stay(browser: Browsing) -> None:
                     f"Math.abs(parseFloat(document.getElementById('force-{foot.value}').textContent) - {force}) <= 1 &&"
                     f"document.getElementById('sole-{foot.value}').ariaLabel.includes(' newton')"
                 )
+
+    browser.run(main)
+
+
+def test_a_plan_shows_the_wearer_once_that_is_decided_and_gives_up_the_way_to_where_nobody_is(
+    browser: Browsing,
+) -> None:
+    ground, upper = (level.id for level in BUILDING.levels[:2])
+
+    def place(t: float, x: float, level: str, *others: float) -> Placed:
+        """The likeliest at `x`, and others with less weight."""
+        share = 0.4 / max(1, len(others))
+        weights = [0.6, *(share for _ in others)] if others else [1.0]
+        candidates = [
+            Candidate(level, (at, 5.0, 0.0), 0.0, weight, "stairs")
+            for at, weight in zip((x, *others), weights, strict=True)
+        ]
+        return Placed(
+            t=t, known_at=t, level=level, position=(x, 5.0, 0.0), spread=1.0, candidates=tuple(candidates)
+        )
+
+    async def main(chromium: Browser) -> None:
+        scene = Scene("a building", "default", "live", plan=BUILDING)
+        async with opened(chromium, scene) as (view, _):
+            seen = "document.getElementById('track').dataset"
+            note = "document.getElementById('track-note').innerText"
+            await view.until(f"{seen}.view === 'track' && {note}.startsWith('Where on the plan is not known yet')")
+            for k in range(4):
+                t, walked = 1.0 + k, 0.8 * k
+                scene.take(WearerMoved(t=t, known_at=t, position=(walked, 0.0, 0.0), covariance=(0.01,) * 6))
+                scene.take(place(t, 5.0 + walked, ground, 25.0 + walked))
+            await view.until(f"{seen}.view === 'plan' && {seen}.points === '4' && {seen}.since === '0'")
+            name = BUILDING.levels[0].name or ground
+            await view.until(f"{note} === '2 possible places; the likeliest, on {name}, has 60 %.'")
+            spoken = await words(view, "track")
+            assert spoken is not None and "The wearer is" not in spoken
+            scene.take(place(5.0, 27.4, ground))
+            await view.until(f"{seen}.since === '4' && document.getElementById('track-note').hidden")
+            await view.until("document.getElementById('track').ariaLabel.includes('The wearer is on')")
+            scene.take(place(6.0, 27.5, upper))
+            await view.until(f"{seen}.level === '{upper}'")
+            assert await view.tab.evaluate(f"{seen}.since") == "4"
 
     browser.run(main)
 

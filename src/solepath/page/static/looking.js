@@ -33,9 +33,10 @@ export class Looking {
     const { track } = this;
     press(this.fit, track.view.follows);
     show(this.choice, state.plan !== null);
-    press(this.onPlan, !track.byItself);
-    press(this.alone, track.byItself);
-    const levels = state.plan !== null && !track.byItself && state.plan.levels.length > 1 ? state.plan.levels : [];
+    const onPlan = track.onPlan(state);
+    press(this.onPlan, onPlan);
+    press(this.alone, !onPlan);
+    const levels = onPlan && state.plan.levels.length > 1 ? state.plan.levels : [];
     show(this.levels, levels.length > 0);
     const key = JSON.stringify(levels.map(({ id, name }) => [id, name]));
     if (key !== this.listed) this.#list(levels, key);

@@ -11,15 +11,24 @@ export function nameOf(plan, id) {
 export function noteOnPlan({ place, places, plan }, level) {
   if (!place && places.length > 0) return "The place was lost; the track by itself goes on.";
   if (!place) return "Where on the plan is not known yet.";
-  if (place.level !== level.id) return `The wearer is on ${nameOf(plan, place.level)}.`;
-  if (place.candidates.length < 2) return "";
-  const best = Math.max(...place.candidates.map((one) => one.weight));
-  return `${place.candidates.length} possible places; the likeliest has ${percent(best)}.`;
+  if (!place.decided) return possible(place, plan);
+  return place.level === level.id ? "" : `The wearer is on ${nameOf(plan, place.level)}.`;
+}
+
+// The same, where the track is shown by itself.
+export function noteAlone({ place, places, plan }) {
+  return plan && !place && places.length === 0 ? "Where on the plan is not known yet; this is the track by itself." : "";
+}
+
+function possible({ candidates, level }, plan) {
+  const best = Math.max(0, ...candidates.map((one) => one.weight));
+  const where = plan.levels.length > 1 ? `, on ${nameOf(plan, level)},` : "";
+  return `${candidates.length} possible places; the likeliest${where} has ${percent(best)}.`;
 }
 
 export function spokenOnPlan(state, level) {
   const { place, plan } = state;
-  if (!place) return `Floor plan, ${level.name}. ${noteOnPlan(state, level)}`;
+  if (!place?.decided) return `Floor plan, ${level.name}. ${noteOnPlan(state, level)}`;
   const [x, y] = place.position.map((metres) => `${fixed(metres, 1)} m`);
   const within = place.spread === null ? "" : `, within about ${fixed(place.spread, 1)} m`;
   return `Floor plan, ${level.name}. The wearer is on ${nameOf(plan, place.level)} at ${x}, ${y}${within}`;

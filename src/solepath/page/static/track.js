@@ -17,7 +17,8 @@ import {
   sure,
 } from "./marks.js";
 import { drawLevel, extent } from "./plan.js";
-import { noteOnPlan, spokenOnPlan, spokenTrack } from "./saying.js";
+import { Possibility } from "./possibility.js";
+import { noteAlone, noteOnPlan, spokenOnPlan, spokenTrack } from "./saying.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
 import { View } from "./view.js";
@@ -31,7 +32,7 @@ const WIDTHS = { left: 1.25, right: 1.25, wearer: 3.25 };
 
 export class Track {
   level = null; // chosen by hand; null follows the wearer
-  byItself = false;
+  byItself = null; // the same: true without the plan, false on it; null on it once there is a place
 
   constructor(redraw) {
     const canvas = document.getElementById("track");
@@ -46,6 +47,7 @@ export class Track {
     this.alternative = new Alternative(canvas);
     this.note = document.getElementById("track-note");
     this.section = document.getElementById("track-section");
+    this.possibility = new Possibility();
     this.key = "";
     this.drawnAt = 0;
   }
@@ -69,7 +71,9 @@ export class Track {
     if (calm.matches && now - this.drawnAt < CALM && !changed.has("theme")) return "later";
     this.drawnAt = now;
     if (changed.has("scene") && state.generation !== this.generation) this.#scene(state);
-    const onPlan = state.plan !== null && !this.byItself;
+    const onPlan = this.onPlan(state);
+    if (onPlan !== this.wasOnPlan && this.wasOnPlan !== undefined) this.view.all();
+    this.wasOnPlan = onPlan;
     const level = onPlan ? this.shown(state) : null;
     const { width, height } = this.surface;
     const box = onPlan && this.extent ? this.extent : this.#box(state);
@@ -89,10 +93,14 @@ export class Track {
 
     const view = onPlan ? "plan" : "track";
     const points = onPlan ? state.places.length : Object.values(state.tracks).reduce((sum, one) => sum + one.length, 0);
-    tell(this.canvas, { view, points, level: level?.id ?? "" });
+    tell(this.canvas, { view, points, level: level?.id ?? "", since: onPlan ? this.possibility.since(state) : 0 });
     tell(this.section, { view });
     this.#words(state, onPlan, level);
     return "done";
+  }
+
+  onPlan({ plan, place, places }) {
+    return plan !== null && !(this.byItself ?? (place === null && places.length === 0));
   }
 
   // The level to be seen: the chosen one, or where the wearer is.
@@ -139,9 +147,9 @@ export class Track {
 
   #still(state, level, px, scale, where) {
     const { width, height, ratio } = this.surface;
-    const key = [where, scale, width, height, ratio, theme.version, state.generation, state.thinned, level?.id].join(
-      " ",
-    );
+    const { generation, thinned } = state;
+    const since = level ? this.possibility.since(state) : 0;
+    const key = [where, scale, width, height, ratio, theme.version, generation, thinned, level?.id, since].join(" ");
     const context = this.layer.getContext("2d");
     if (key !== this.key) {
       this.key = key;
@@ -152,7 +160,7 @@ export class Track {
     const anew = Object.values(this.drawn).every((count) => count === 0);
     if (level) {
       if (anew) drawLevel(context, state.plan, level, px, scale);
-      this.#walked(context, state.places, level.id, px);
+      this.#walked(context, state.places, since, level.id, px);
       return;
     }
     if (anew) {
@@ -166,19 +174,23 @@ export class Track {
     }
   }
 
-  // Between two places of which one is elsewhere nothing is drawn solid.
-  #walked(context, places, level, px) {
-    const from = Math.max(1, this.drawn.places);
-    for (const here of [false, true]) {
-      const path = new Path2D();
-      for (let i = from; i < places.length; i++) {
-        const [[, a, x1, y1], [, b, x2, y2]] = [places[i - 1], places[i]];
-        if ((a === level && b === level) !== here || Math.hypot(x2 - x1, y2 - y1) > JUMP) continue;
-        path.moveTo(...px([x1, y1]));
-        path.lineTo(...px([x2, y2]));
-      }
-      stroke(context, path, here ? WIDTHS.wearer : 1.5, here ? theme.colours.wearer : theme.colours["sole-line"]);
+  // Between two places of which one is elsewhere nothing is drawn solid; what was walked before `since`, by a
+  // possibility that was given up, is dashed.
+  #walked(context, places, since, level, px) {
+    const paths = { here: new Path2D(), elsewhere: new Path2D(), before: new Path2D() };
+    for (let i = Math.max(1, this.drawn.places); i < places.length; i++) {
+      const [[, a, x1, y1], [, b, x2, y2]] = [places[i - 1], places[i]];
+      const here = a === level && b === level;
+      if (Math.hypot(x2 - x1, y2 - y1) > JUMP || i === since || (i < since && !here)) continue;
+      const path = paths[i < since ? "before" : here ? "here" : "elsewhere"];
+      path.moveTo(...px([x1, y1]));
+      path.lineTo(...px([x2, y2]));
     }
+    context.setLineDash([2, 5]);
+    stroke(context, paths.before, 1.5, theme.colours["sole-line"]);
+    context.setLineDash([]);
+    stroke(context, paths.elsewhere, 1.5, theme.colours["sole-line"]);
+    stroke(context, paths.here, WIDTHS.wearer, theme.colours.wearer);
     this.drawn.places = places.length;
   }
 
@@ -196,14 +208,15 @@ export class Track {
 
   #place(context, { place }, level, px, scale) {
     if (!place) return;
-    const here = place.level === level.id;
-    if (here && place.spread !== null) drawSpread(context, px(place.position), place.spread * scale);
-    if (place.candidates.length > 1) drawCandidates(context, place.candidates, level.id, px);
-    if (here) drawDot(context, px(place.position));
+    if (!place.decided) drawCandidates(context, place.candidates, level.id, px);
+    else if (place.level === level.id) {
+      if (place.spread !== null) drawSpread(context, px(place.position), place.spread * scale);
+      drawDot(context, px(place.position));
+    }
   }
 
   #words(state, onPlan, level) {
-    const words = onPlan ? noteOnPlan(state, level) : "";
+    const words = onPlan ? noteOnPlan(state, level) : noteAlone(state);
     write(this.note, words);
     show(this.note, words !== "");
     this.alternative.say(() => (onPlan ? spokenOnPlan(state, level) : spokenTrack(state)));
