@@ -1,11 +1,10 @@
 """An app's loop without asyncio: a thread that receives, a bounded queue, and one thread that holds the session.
 
-    python examples/thread_and_queue.py                     an emulated walk, eight times as fast as life
-    python examples/thread_and_queue.py walk.jsonl [SPEED]  a recording (solepath demo --record walk.jsonl)
+    python examples/thread_and_queue.py                     an emulated walk, as fast as the app takes it
+    python examples/thread_and_queue.py walk.jsonl [SPEED]  a recording (solepath demo --record walk.jsonl), as in life
 
-What one learns: a session belongs to one thread; a Bluetooth library's callback only puts packets into a queue. What
-to do when that is full (drop, count, say so), stays empty (advance), when the app goes to the background (save,
-restore) and when it ends (stop the receiver, use what is left, finish).
+A session belongs to one thread; a Bluetooth library's callback only puts packets into a queue. What to do when that is
+full (drop, count, say so) or empty (advance), when the app goes to the background (save, restore) and ends (finish).
 """
 
 import json
@@ -14,6 +13,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
+from math import inf
 
 from solepath import Event, Foot, Packet, PacketsDropped, Session, Site, StepTaken, StreamResumed, StreamStale
 from solepath.link.known import PROFILES
@@ -26,13 +26,19 @@ STREAMS = {name for profile in PROFILES for name in profile.streams}
 
 
 class Clock:
-    """The time that packets are stamped with: time.monotonic() in an app, here that of the walk."""
+    """What packets are stamped with: time.monotonic() in an app, here that of the walk, `speed` times as fast as life.
+    An infinite speed is as fast as the app waits for it to go on: no machine is too slow for what is shown here."""
 
     def __init__(self, speed: float, begin: float) -> None:
-        self.speed, self.begin, self.began = speed, begin, time.monotonic()
+        self.speed, self.begin, self.t, self.began = speed, begin, begin, time.monotonic()
+        self.app_waits = threading.Event()
 
-    def now(self) -> float:
-        return self.begin + (time.monotonic() - self.began) * self.speed
+    def go_on(self, t: float) -> None:
+        if self.speed == inf:
+            self.app_waits.wait()
+            self.app_waits.clear()
+        time.sleep(max(0.0, self.began + (t - self.begin) / self.speed - time.monotonic()))
+        self.t = t
 
 
 class Receiver(threading.Thread):
@@ -40,73 +46,67 @@ class Receiver(threading.Thread):
 
     def __init__(self, packets: Iterator[Packet], clock: Clock, capacity: int) -> None:
         super().__init__(name="receiver", daemon=True)
-        self.packets, self.clock, self.began = packets, clock, clock.now()
+        self.packets, self.clock, self.began = packets, clock, clock.t
         self.inbox: queue.Queue[list[Packet] | None] = queue.Queue(capacity)
-        self.dropped: dict[Site, int] = {}
-        self.stopped = threading.Event()
+        self.dropped, self.stopped, self.must_wait = dict[Site, int](), False, False
 
     def run(self) -> None:
         for packet in self.packets:
-            if packet.t < self.began:
-                continue  # sent while nobody listened
-            if self.stopped.wait(max(0.0, packet.t - self.clock.now()) / self.clock.speed):
+            while self.clock.t < packet.t and not self.stopped:
+                self.clock.go_on(min(packet.t, self.clock.t + 0.2))
+            if self.stopped:
                 break
-            self.notified(packet)  # a library's callback makes it: Packet(time.monotonic(), site, channel, data)
+            if packet.t >= self.began:  # else it was sent while nobody listened
+                self.notified(packet)  # a library's callback makes it: Packet(time.monotonic(), site, channel, data)
         self.inbox.put(None)  # no more comes; whoever takes from the queue goes on until this
 
     def notified(self, packet: Packet) -> None:
         """Never waits for the app, unless the packet is one that all others are read with."""
         site, count = packet.site, self.dropped.get(packet.site, 0)
         told = [Packet(packet.t, site, "receiver/dropped", build_dropped(count), packet.device)] if count else []
+        self.must_wait = packet.channel not in STREAMS
         try:
-            self.inbox.put([*told, packet], block=packet.channel not in STREAMS)
+            self.inbox.put([*told, packet], block=self.must_wait)
+            self.dropped[site] = 0
         except queue.Full:
             self.dropped[site] = count + 1
-        else:
-            self.dropped.pop(site, None)
 
 
 class App:
-    """All of it is called by one thread. `show` takes what happened; a GUI hands it on to its own thread there."""
+    """For one thread. `show` takes what happened; a GUI hands it on to its own thread there."""
 
     def __init__(self, packets: Iterator[Packet], clock: Clock, show: Callable[[Event], None]) -> None:
         self.packets, self.clock, self.show = packets, clock, show
-        self.session = Session()
-        self.listen()
 
-    def listen(self) -> None:
+    def listen(self, saved: str = "") -> None:
+        """The app begins, or comes back with what `stop` gave, perhaps as another process."""
+        self.session = Session.restore(json.loads(saved)) if saved else Session()
         self.receiver = Receiver(self.packets, self.clock, capacity=200)  # one second of two insoles
         self.receiver.start()
 
     def turn(self) -> bool:
         """One turn of the loop; False when the receiver has ended and everything is used."""
+        inbox = self.receiver.inbox
+        if inbox.empty():
+            self.clock.app_waits.set()
         try:
-            packets = self.receiver.inbox.get(timeout=0.2 / self.clock.speed)
-        except queue.Empty:  # time has passed all the same
-            events = self.session.advance(self.clock.now())
-        else:
-            if packets is None:
-                self.receiver.inbox.put(None)  # for whoever asks again
-                return False
-            events = self.session.feed(packets)
-        for event in events:
+            packets = inbox.get(timeout=max(0.02, 0.2 / self.clock.speed))
+        except queue.Empty:
+            packets = []
+        if packets is None:
+            inbox.put(None)  # for whoever asks again
+            return False
+        # where nothing came, time has passed all the same
+        for event in self.session.feed(packets) if packets else self.session.advance(self.clock.t):
             self.show(event)
         return True
 
-    def stop(self) -> None:
-        self.receiver.stopped.set()
+    def stop(self) -> str:
+        """The app goes to the background, or ends; its state, for a file."""
+        self.receiver.stopped = True
         while self.turn():
             pass  # what waits is used; then the receiver's thread has ended
-
-    def pause(self) -> str:
-        """The app goes to the background; its state, for a file."""
-        self.stop()
         return json.dumps(self.session.snapshot())
-
-    def resume(self, text: str) -> None:
-        """It comes back, perhaps as another process."""
-        self.session = Session.restore(json.loads(text))
-        self.listen()
 
     def close(self) -> None:
         self.stop()
@@ -118,31 +118,32 @@ def show(event: Event) -> None:
     match event:
         case StepTaken(t=t, foot=foot, stride_length=length, degraded=degraded, number=number):
             print(f"{t:6.2f} s  {foot.value} step of {length:.2f} m{', with a gap in it' if degraded else ''}")
-            if number == 2 and foot is Foot.LEFT:
-                time.sleep(0.2)  # the screen hangs
+            hangs = app.clock.t + 1.6 if number == 2 and foot is Foot.LEFT else 0.0  # the screen, while packets come
+            while app.clock.t < hangs and app.receiver.is_alive() and not app.receiver.must_wait:
+                app.clock.app_waits.set()
+                time.sleep(0.001)
         case PacketsDropped(t=t, site=site, count=count):
             print(f"{t:6.2f} s  {site.value}: {count} packets dropped, the screen was too slow")
-        case StreamStale(t=t, site=site):
-            print(f"{t:6.2f} s  {site.value}: nothing comes")
-        case StreamResumed(t=t, site=site):
-            print(f"{t:6.2f} s  {site.value}: heard again")
+        case StreamStale(t=t, site=site) | StreamResumed(t=t, site=site):
+            print(f"{t:6.2f} s  {site.value}: {'nothing comes' if isinstance(event, StreamStale) else 'heard again'}")
 
 
 if len(sys.argv) > 1:
     sent, speed = list(read_packets(sys.argv[1])), float(sys.argv[2]) if len(sys.argv) > 2 else 1.0
 else:
     walk = emulate(Route().stand(2).walk(16, speed=1.3).stop(2), seed=5)
-    sent, speed = [packet for packet in walk.packets if not 7.5 < packet.t < 9.5], 8.0  # the radio falls silent
-app = App(iter(sent), Clock(speed, sent[0].t), show)
-background = sent[0].t + 11.0
+    sent, speed = [packet for packet in walk.packets if not 7.5 < packet.t < 9.5], inf  # the radio falls silent
+app, background = App(iter(sent), Clock(speed, sent[0].t), show), sent[0].t + 11.0
+app.listen()
 try:
     while app.turn():
-        if app.clock.now() > background:
-            background, text = float("inf"), app.pause()
-            print(f"{app.clock.now():6.2f} s  paused, {len(text) / 1000:.0f} kB of state")
-            time.sleep(0.3)
-            app.resume(text)
+        if app.clock.t > background:
+            background, text = inf, app.stop()
+            print(f"{app.clock.t:6.2f} s  paused, {len(text) / 1000:.0f} kB of state")
+            app.clock.app_waits.set()
+            app.clock.go_on(app.clock.t + 2.4)
+            app.listen(text)
 except KeyboardInterrupt:
     pass
 app.close()
-print(f"{app.clock.now():6.2f} s  closed")
+print(f"{app.clock.t:6.2f} s  closed")

@@ -116,11 +116,11 @@ def test_an_app_of_a_thread_and_a_queue_loses_nothing_unsaid_and_ends():
     told = run("thread_and_queue").splitlines()
     for foot in Foot:
         steps = [line for line in told if f" {foot.value} step of " in line]
-        assert len(steps) >= 5 and "with a gap" not in steps[0], "a walk of 16 m, in spite of it all"
+        assert len(steps) >= 7 and "with a gap" not in steps[0], "a walk of 16 m, in spite of it all"
         assert any(f"{foot.value}_foot: nothing comes" in line for line in told)
         assert any(f"{foot.value}_foot: heard again" in line for line in told)
     dropped = [int(line.split()[3]) for line in told if "packets dropped, the screen was too slow" in line]
-    assert sum(dropped) > 20, "the screen hangs longer than the queue can hold"
+    assert 100 <= sum(dropped) <= 140, "1.6 s in which 200 packets a second come, and 200 of them can wait"
     assert sum("paused" in line for line in told) == 1
     assert told[-1].endswith("closed")
 
@@ -130,5 +130,5 @@ def test_an_app_of_a_thread_and_a_queue_plays_a_recording(tmp_path):
     with PacketWriter(tmp_path / "walk.jsonl") as writer:
         for packet in walk.packets:
             writer.write(packet)
-    told = run("thread_and_queue", tmp_path / "walk.jsonl", 20)
+    told = run("thread_and_queue", tmp_path / "walk.jsonl", "inf")
     assert "left step of" in told and "right step of" in told
