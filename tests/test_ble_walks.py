@@ -19,6 +19,7 @@ from solepath import (
     PacketsLost,
     SampleGap,
     Session,
+    StepTaken,
     ToeOff,
 )
 from solepath.ble import Devices, Wanted
@@ -35,9 +36,9 @@ from solepath.wire.fragment import is_fragment, parse_fragment
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 MINUTE = Route().stand(3.0).walk(20.0).turn(1.5, radius=1.5).walk(40.0, speed=1.2).stop(7.0)
 SOME = Route().stand(3.0).walk(8.0).turn(1.5, radius=1.5).walk(4.0, speed=1.2).stop(3.0)
-LITTLE = Route().stand(3.0).walk(4.0).stop(2.0)
+LITTLE = Route().stand(1.5).walk(2.5).stop(1.0)
 """What is sent in pieces costs as much for each piece."""
-LASTS = {MINUTE: 60.0, SOME: 15.0, LITTLE: 7.5}
+LASTS = {MINUTE: 60.0, SOME: 15.0, LITTLE: 4.0}
 """s."""
 
 
@@ -123,6 +124,7 @@ def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_
 
     events = events_of(packets)
     assert events == events_of(fed)
+    assert {event.foot for event in events if isinstance(event, StepTaken)} == set(Foot)
     assert not [event for event in events if isinstance(event, PacketsLost | PacketRejected | SampleGap)]
     if mtu == 23:
         assert len(packets) > 9 * len(arrived)
@@ -162,12 +164,21 @@ def test_insoles_whose_links_wait_for_connection_events_give_the_same_steps_at_t
             assert waited == pytest.approx(at_once, abs=0.005)
 
 
-@pytest.mark.parametrize("interval", [None, pytest.param(0.03, marks=pytest.mark.soak)])
+@pytest.mark.parametrize(
+    ("seeds", "interval"),
+    [
+        pytest.param((11,), None, id="a walk"),
+        pytest.param((11, 12, 13), None, id="three walks", marks=pytest.mark.soak),
+        pytest.param((11, 12, 13), 0.03, id="three walks, waiting", marks=pytest.mark.soak),
+    ],
+)
 @pytest.mark.parametrize("tag", TAGS)
-def test_sensortags_give_the_steps_of_a_walk_end_to_end(tag: str, interval: float | None) -> None:
+def test_sensortags_give_the_steps_of_a_walk_end_to_end(
+    tag: str, seeds: tuple[int, ...], interval: float | None
+) -> None:
     profile, device = TAGS[tag]
     true = found = invented = 0
-    for seed in (11, 12, 13):
+    for seed in seeds:
         bench = Bench(TAGGED, devices=dict.fromkeys(FEET, device), seed=seed)
         wanted = [Wanted(worn.site, worn.address, profile) for worn in bench.peripherals]
         packets, began = heard(bench, wanted, bench.truth().duration, interval)

@@ -10,7 +10,7 @@ import pytest
 from commands import refused, run
 from solepath.cli import main
 from solepath.cli.reproduce import NAMES
-from solepath.reproduce import footstep_walks, pressure_contour, walking_modes
+from solepath.reproduce import footstep_walks, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
 from solepath.reproduce.experiments import EXPERIMENTS
 from solepath.reproduce.picture import Boxes, Drawn, Floor, Track
 from solepath.reproduce.pool import each
@@ -24,6 +24,8 @@ from solepath.reproduce.published import (
     corner_row,
 )
 from solepath.reproduce.tables import Reproduction, Row, Statistics, as_json, statistics
+from solepath.sim import ways
+from solepath.train import emulated
 from solepath.view.reproduced import reproduced
 
 FIVE = ["mean", "std", "q1", "median", "q3"]
@@ -174,12 +176,18 @@ def test_the_command_knows_every_experiment():
 @pytest.mark.parametrize("name", NAMES)
 def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeypatch):
     pytest.importorskip("matplotlib")
-    monkeypatch.setattr(pressure_contour, "LASTING", 100.0)
+    monkeypatch.setattr(pressure_contour, "LASTING", 60.0)
     monkeypatch.setattr(pressure_contour, "LAPS", 3)
     monkeypatch.setattr(walking_modes, "STEPS", 10)
     monkeypatch.setattr(walking_modes, "REPEATS", 1)
     monkeypatch.setattr(footstep_walks, "PER_CLASS", 1)
     monkeypatch.setattr(footstep_walks, "INCREMENTS", footstep_walks.INCREMENTS[:2])
+    monkeypatch.setattr(kupt_dfpc, "CORRIDOR", 30.0)
+    monkeypatch.setattr(shoe_walks, "STEPS", 30)
+    monkeypatch.setattr(shoe_walks, "LAPS", 1)
+    monkeypatch.setattr(emulated, "TIMES", 1)
+    monkeypatch.setattr(ways, "FEWEST", 1)
+    monkeypatch.setattr(ways, "MOST", 1)
     monkeypatch.chdir(tmp_path)
     told, figure = Path("table.json"), Path(f"{name}.png")
     options = ("--walks", 1, "--seed", 3, "--processes", 1, "--json", told)

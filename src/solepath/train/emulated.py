@@ -28,6 +28,9 @@ RATE = 20.0
 FIRST_TO_LEARN_FROM = 101
 LAST_TO_LEARN_FROM = 999
 
+TIMES = 2
+"""So often each of the ways to another level is taken."""
+
 _Part = Callable[[Route, np.random.Generator], Route]
 
 
@@ -37,8 +40,8 @@ def of_seed(seed: int, *, jogging: bool = False) -> tuple[Route, Wearer]:
     stature = float(rng.uniform(1.55, 1.92))
     who = wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature)
     route = Route(speed=float(rng.uniform(0.9, 1.5))).stand(_uniform(rng, 3.0, 8.0))
-    twice = [_stairs(True), _stairs(False), _lift(True), _lift(False)]
-    parts = [*twice, *twice, _along, _along, _along, *[_jog] * jogging]
+    levels = [_stairs(True), _stairs(False), _lift(True), _lift(False)]
+    parts = [*levels * TIMES, _along, _along, _along, *[_jog] * jogging]
     for k in rng.permutation(len(parts)):
         route = parts[k](route, rng)
         if rng.uniform() < 0.6:
