@@ -14,7 +14,7 @@ from airs import memory
 from benches import LEFT, RIGHT
 from browsers import PATIENCE, UNREACHABLE, Browser, Browsing, Window, window
 from shown import CONNECTED, after, again, between, fresh, meanwhile, opened, show, square, squares, walked
-from solepath import Connected, Placed, Session, WearerMoved
+from solepath import Connected, LinkTrouble, Placed, Session, WearerMoved
 from solepath.ble import Devices, Wanted
 from solepath.events import Candidate
 from solepath.loopback.bench import Bench
@@ -26,6 +26,8 @@ from solepath.sim.insole_device import Insole
 from solepath.sim.route import Route
 from solepath.types import Foot
 
+PHONE = 360
+"""px: the width of a phone's screen."""
 MINUTE = 60.0
 MARGIN = 0.7e6
 """Bytes; eight minutes more of tracks are 1800 points."""
@@ -280,10 +282,16 @@ def test_names_from_the_air_are_shown_as_text(browser: Browsing) -> None:
 
     async def main(chromium: Browser) -> None:
         scene = after(6.0, hostile)
-        scene.take(Connected(t=6.0, known_at=6.0, site=LEFT, device="F0:5E:00:00:00:01", name=hostile, signal=-50))
-        async with opened(chromium, scene) as (view, _):
+        name = hostile.ljust(248, "W")  # as long as a device can have one
+        scene.take(Connected(t=6.0, known_at=6.0, site=LEFT, device="F0:5E:00:00:00:01", name=name, signal=-50))
+        scene.take(LinkTrouble(t=6.0, known_at=6.0, site=LEFT, what="W" * 300))
+        async with opened(chromium, scene, width=PHONE) as (view, _):
             assert await text(view, "title") == hostile
             await view.until("document.getElementById('links').textContent.includes('onerror')")
+            await view.until("document.getElementById('links').textContent.includes('WWW')")
+            assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= PHONE
+            within = "[...document.querySelectorAll('#links *')].every(e => e.getBoundingClientRect().right <= innerWidth)"
+            assert await view.tab.evaluate(within)
             assert await view.tab.locator("main img, main script, header img, header script").count() == 0
             assert await view.tab.title() != "broken"
 
