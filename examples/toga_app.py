@@ -1,13 +1,11 @@
 """An app for a phone or a desk: what the wearer does, steps, gait, both soles and the track, live, with BeeWare Toga.
 
-    pip install '.[ble]' 'toga>=0.5.7'      (on Linux, for Qt instead of GTK: toga-qt[pyside6-essentials])
+    pip install '.[ble]' 'toga-qt[pyside6-essentials]>=0.5.7'   on Linux; on macOS and Windows 'toga>=0.5.7' instead
     python examples/toga_app.py             one button for two insoles nearby, one for an emulated wearer
 
-What one learns: Toga runs an asyncio loop, and `solepath.ble.Devices` runs in it; widgets are told ten times a second.
-On a phone (not tried yet) Briefcase packs it, with the permission to use Bluetooth. Listening needs attrs, construct
-and bleak, no numpy: the package asks for it, but only the emulated wearer uses it; where it has no wheel, leave it out
-with pip's `--no-deps`. bleak has a backend for Briefcase's Android and none for iOS: there the system's own Bluetooth
-has to put packets into a queue, as in thread_and_queue.py.
+`solepath.ble.Devices` runs in Toga's asyncio loop; widgets are told ten times a second. On a phone (not tried yet)
+Briefcase packs it, with the permission to use Bluetooth; `--no-deps` leaves out numpy, which listening does not need.
+bleak has a backend for Android and none for iOS, whose Bluetooth has to fill a queue, as in thread_and_queue.py.
 """
 
 import asyncio
@@ -17,7 +15,7 @@ from collections.abc import AsyncIterator, Iterator
 import toga
 from toga.colors import rgb
 from toga.constants import CENTER, COLUMN, ROW
-from toga.widgets.canvas import Arc, DrawingAction, Fill, LineTo, Rect, Stroke
+from toga.widgets.canvas import Arc, DrawingAction, Fill, FillText, LineTo, Rect, Stroke
 
 from solepath import Event, Foot, FootPressed, Layout, LayoutKnown, LinkTrouble, Packet, Session, StepTaken, StreamStale
 from solepath.link.profile import INSOLE
@@ -28,7 +26,6 @@ FIGURES = {"steps": "steps", "cadence": "steps a minute", "length": "stride, m",
 
 async def sensors() -> AsyncIterator[Packet]:
     from solepath.ble import Devices, Wanted
-
     async with Devices([Wanted(None, profile=INSOLE), Wanted(None, profile=INSOLE)]) as devices:
         async for packet in devices:
             yield packet
@@ -36,7 +33,6 @@ async def sensors() -> AsyncIterator[Packet]:
 
 async def emulated(speed: float = 1.0) -> AsyncIterator[Packet]:
     from solepath.sim import Route, emulate
-
     loop = asyncio.get_running_loop()
     began = loop.time()
     for packet in emulate(Route().stand(2).walk(12, speed=1.3).turn(1.6, radius=1.5).walk(8).stop(2), seed=1).packets:
@@ -97,7 +93,8 @@ class GaitApp(toga.App):
                     self.steps += 1
                     self.track[foot].append((x, y))
                 case FootPressed(foot=foot, values=values):
-                    self.load[foot], self.peak = event, max(self.peak, *values)
+                    self.load[foot] = event  # what one value in a hundred is above is drawn darkest, not a single spike
+                    self.peak = max(1.0, self.peak * (1.05 if max(values) > self.peak else 0.9995))
                 case LayoutKnown(layout=layout):
                     self.layouts[layout.foot], self.status.text = layout, f"{layout.foot.value} insole heard"
                 case LinkTrouble() | StreamStale():
@@ -119,11 +116,14 @@ class GaitApp(toga.App):
             canvas.redraw()
 
     def drawn_soles(self, width: float, height: float) -> Iterator[Fill]:
-        for foot in self.load.keys() & self.layouts.keys():
-            load, layout = self.load[foot], self.layouts[foot]
-            scale, middle, heel = (height - 16) / layout.length, width * (0.3 if foot is Foot.LEFT else 0.7), height - 8
+        for foot, beside, middle in ((Foot.LEFT, 8, 0.3 * width), (Foot.RIGHT, width - 20, 0.7 * width)):
+            yield filled(COLOURS[foot], FillText(foot.name[0], beside, height - 8))
+            load, layout = self.load.get(foot), self.layouts.get(foot)
+            if load is None or layout is None:
+                continue
+            scale, heel = (height - 16) / layout.length, height - 8
             for cell, value in zip(layout.cells, load.values, strict=False):
-                side, share = scale * cell.area**0.5 - 1, (value / self.peak) ** 0.5
+                side, share = scale * cell.area**0.5 - 1, min(1.0, value / self.peak) ** 0.5
                 place = Rect(middle - scale * cell.y - side / 2, heel - scale * cell.x - side / 2, side, side)
                 yield filled(rgb(220, 220 - round(200 * share), 220 - round(210 * share)), place)
             if load.centre is not None:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from attrs import evolve
 
 from solepath import Foot, Packet
 from solepath.sim import Route, emulate
@@ -75,6 +76,23 @@ def test_after_a_walk_the_labels_say_what_was_walked_and_the_canvases_show_it(ex
         assert all([0.0 <= one["x"] <= width and 0.0 <= one["y"] <= height for one in drawn])
     ys = [one["y"] for one in track]
     assert max(ys) - min(ys) > 0.5 * app.map.layout.content_height, "10 m straight on are drawn straight up"
+
+
+def test_one_sample_that_is_far_too_high_does_not_pale_what_the_soles_show(example: Any) -> None:
+    async def go() -> Any:
+        app = opened(example)
+        app.begin(of(WALK.packets))
+        await app.listening
+        highest = max(max(load.values) for load in app.load.values())
+        assert 0.5 * highest < app.peak, "who stands bears less than who walks"
+        before, load = app.peak, app.load[Foot.LEFT]
+        app.take([evolve(load, values=(1e6, *load.values[1:]))])
+        app.draw()
+        return before, app
+
+    before, app = asyncio.run(go())
+    assert app.peak <= 1.1 * before
+    assert [one["text"] for one in shown(app.soles, "fill text")] == ["L", "R"]
 
 
 def test_the_emulated_wearer_can_be_stopped_and_what_stops_the_sensors_is_told(example: Any) -> None:
