@@ -236,6 +236,18 @@ def test_angles_that_lean_to_either_side_differ_by_degrees_and_not_by_hundreds_o
     assert line.endswith("-4.0 deg")
 
 
+def test_feet_that_fly_have_no_share_of_less_than_nothing() -> None:
+    means = GaitMeans()
+    for stride in strides((LEFT, RIGHT), 7):
+        flight = -0.08 if stride.foot is LEFT else -0.04
+        means.hear(evolve(stride, stance_time=0.4 * stride.stride_time, initial_double_support=flight))
+    parameters = means.of(True)
+    assert parameters is not None
+    (row,) = [row for row in gait_rows(parameters) if row.name == "initial_double_support"]
+    assert row.both is not None and row.both < 0.0
+    assert row.asymmetry is None and row.uneven == "-", "the right foot's is larger, and it would be told as the left's"
+
+
 # --- where on the plan -----------------------------------------------------------------------------------------------
 
 

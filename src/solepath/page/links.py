@@ -19,6 +19,7 @@ from ..events import (
     StreamStale,
 )
 from ..monitor import LinkHealth
+from ..types import Site
 from .rounding import shown
 
 WINDOW = 2.0
@@ -180,3 +181,10 @@ class Link:
             "silent_for": shown(max(now - (self.heard or 0.0), 0.0), 1) if silent else None,
             "trouble": health.trouble,
         }
+
+
+def unheard_since(links: dict[Site, Link], now: float) -> float | None:
+    """When any foot was heard last, s, while at `now` none is; None while one is, and before."""
+    feet = [link for site, link in links.items() if site.foot is not None]
+    last = max([link.heard for link in feet if link.heard is not None], default=None)
+    return None if any([link.state(now) == "ok" for link in feet]) else last

@@ -35,7 +35,7 @@ from ..foot.phase import BEGINS, SUPPORT
 from ..types import SITE_OF_FOOT, Foot, Phase, Site
 from .doings import Doings
 from .feet import FootScene
-from .links import Link
+from .links import Link, unheard_since
 from .lists import Recent
 from .measured import Measured
 from .pace import Pace
@@ -285,7 +285,7 @@ class Scene:
         for foot, one in self.feet.items():
             link = links.get(SITE_OF_FOOT[foot])
             feet[foot.value] = one.frame(0.0 if link is None else link["rate"])
-        unheard, (since, activity) = self._unheard_since(), self.doings.last
+        unheard, (since, activity) = unheard_since(self.links, now), self.doings.last
         return {
             "feet": feet,
             "wearer": self.whereabouts.wearer_frame(),
@@ -298,14 +298,6 @@ class Scene:
             "links": {site.words: link for site, link in links.items()},
             "playback": None if self.playback is None else self.playback.frame(),
         }
-
-    def _unheard_since(self) -> float | None:
-        """When any foot was heard last, s, while none is; None while one is, and before."""
-        links = [link for site, link in self.links.items() if site.foot is not None]
-        last = max([link.heard for link in links if link.heard is not None], default=None)
-        if last is None or any([link.state(self.now) == "ok" for link in links]):
-            return None
-        return last
 
     def _support(self) -> str | None:
         left, right = self.feet[Foot.LEFT].phase, self.feet[Foot.RIGHT].phase
