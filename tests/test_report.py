@@ -138,6 +138,43 @@ def test_what_was_wrong_is_said_in_words_and_in_the_table_of_links() -> None:
     assert "Nothing was wrong" in shown(quiet).text
 
 
+@cache
+def heard_after(silence: float, back: float) -> tuple[Event, ...]:
+    """What a session with insoles says of a walk in whose middle nothing is heard for so long, s, and then of times so
+    much earlier."""
+    session = Session(poses=True, pressures=True)
+    events: list[Event] = []
+    now = 0.0
+    for packet in insoles(Route().stand(1.5).walk(12.0, 1.3).stop(1.0), cells=24).packets:
+        t = packet.t + 5000.0 + (silence - back if packet.t > 6.0 else 0.0)
+        if now and t - now > 1.0:
+            events += session.advance(t - 0.1)
+        now = t
+        events += session.feed(evolve(packet, t=t))
+    return (*events, *session.finish())
+
+
+@pytest.mark.parametrize(("silence", "back", "lasts"), [(60.0, 0.0, 72.0), (0.0, 1000.0, 12.0), (0.0, 0.0, 12.0)])
+def test_a_silence_and_a_clock_that_is_set_back_make_no_other_rate_and_no_longer_walk(
+    silence: float, back: float, lasts: float
+) -> None:
+    report = told(*heard_after(silence, back))
+    for one in report.links.sites.values():
+        assert one.rate == pytest.approx(100.0, abs=0.5)
+    found = re.search(r"The recording lasts (?:(\d+) min )?(\d+) s[.;]", shown(report).text)
+    assert found is not None
+    assert 60.0 * float(found[1] or 0) + float(found[2]) == pytest.approx(lasts, abs=2.0)
+
+
+def test_a_long_name_hides_nothing_else() -> None:
+    names = [
+        Connected(t=0.0, known_at=0.0, site=site, device="a", name=f"{site.value} {'W' * 240}", signal=None)
+        for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)
+    ]
+    facts = shown(told(*names, *walked())).named("facts").text
+    assert "left_foot WWW" in facts and "right_foot WWW" in facts and facts.count("motion and pressure") == 2
+
+
 # --- a file by itself -------------------------------------------------------------------------------------------------
 
 

@@ -6,7 +6,9 @@ from attrs import define, field
 
 from ..events import (
     BatteryLevel,
+    ClockReset,
     Connected,
+    Disconnected,
     Event,
     FootMoved,
     FootPressed,
@@ -19,6 +21,37 @@ from ..events import (
 )
 from ..types import SITE_OF_FOOT, Site
 
+BACK = 1.0
+"""s by which no sample is late: earlier ones are of a clock that was set back."""
+
+
+@define
+class Covered:
+    """Time that is covered by stretches of samples, s."""
+
+    stretches: int = 0
+    before: float = 0.0
+    """By all stretches but the one that is going on ..."""
+    first: float | None = None
+    last: float = 0.0
+    """... which is from here to here."""
+
+    def add(self, t: float) -> None:
+        if self.first is not None and t < self.last - BACK:
+            self.close()
+        if self.first is None:
+            self.stretches += 1
+            self.first = self.last = t
+        self.first, self.last = min(self.first, t), max(self.last, t)
+
+    def close(self) -> None:
+        """What comes next does not go on from what came."""
+        self.before, self.first = self.total, None
+
+    @property
+    def total(self) -> float:
+        return self.before + (0.0 if self.first is None else self.last - self.first)
+
 
 @define
 class Link:
@@ -28,10 +61,16 @@ class Link:
     """Samples with a position ..."""
     pressed: int = 0
     """... and with pressure."""
-    first: float | None = None
-    last: float | None = None
+    heard: Covered = field(factory=Covered)
+    """Without silences ..."""
+    lasted: Covered = field(factory=Covered)
+    """... and with them: stretches are what no clock was set back in."""
     gaps: int = 0
     gap_time: float = 0.0
+    within: int = 0
+    """Gaps within what was heard ..."""
+    within_time: float = 0.0
+    """... and their time."""
     lost: int = 0
     rejected: int = 0
     silent: int = 0
@@ -41,16 +80,21 @@ class Link:
     name: str = ""
 
     def seen(self, t: float) -> None:
-        self.first = t if self.first is None else min(self.first, t)
-        self.last = t if self.last is None else max(self.last, t)
+        self.heard.add(t)
+        self.lasted.add(t)
+
+    def gap(self, duration: float) -> None:
+        self.gaps += 1
+        self.gap_time += duration
+        if self.heard.first is not None:  # or it was silent, or its clock began anew
+            self.within += 1
+            self.within_time += duration
 
     @property
     def rate(self) -> float | None:
-        """Samples a second outside gaps."""
-        if self.first is None or self.last is None:
-            return None
-        span = self.last - self.first - self.gap_time
-        intervals = max(self.moved, self.pressed) - 1 - self.gaps
+        """Samples a second outside gaps and silences."""
+        span = self.heard.total - self.within_time
+        intervals = max(self.moved, self.pressed) - self.heard.stretches - self.within
         return intervals / span if span > 0.0 and intervals > 0 else None
 
 
@@ -75,14 +119,16 @@ class Links:
                 one.pressed += 1
                 one.seen(t)
             case SampleGap(site=site, duration=duration):
-                self.of(site).gaps += 1
-                self.of(site).gap_time += duration
+                self.of(site).gap(duration)
             case PacketsLost(site=site, count=count) | PacketsDropped(site=site, count=count):
                 self.of(site).lost += count
             case PacketRejected(site=site) | SampleRejected(site=site):
                 self.of(site).rejected += 1
             case StreamStale(site=site):
                 self.of(site).silent += 1
+                self.of(site).heard.close()
+            case ClockReset(site=site) | Disconnected(site=site):
+                self.of(site).heard.close()
             case Connected(site=site, name=name):
                 self.of(site).connections += 1
                 self.of(site).name = name or self.of(site).name
@@ -90,3 +136,9 @@ class Links:
                 self.of(site).battery = level
             case _:
                 pass
+
+    def lasted(self) -> float | None:
+        """How long samples came, s, where a clock was set back meanwhile, so that first and last time do not tell."""
+        if all(one.lasted.stretches < 2 for one in self.sites.values()):
+            return None
+        return max(one.lasted.total for one in self.sites.values())

@@ -171,7 +171,7 @@ class Report:
         self._facts(main, clock)
         part = section(main, "summary", "Summary")
         measured = {foot: some.count for foot, some in self.strides.items()}
-        sentences(part, overview(self.tally, clock, self.spanned is not None, measured))
+        sentences(part, overview(self.tally, clock, self.spanned is not None, measured, self.links.lasted()))
         part = section(main, "gait", "Gait")
         if not gait_tables(part, self.tally.gait):
             add(part, "p", NO_STRIDE if not any(measured.values()) else NO_STEADY)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..recording import printable
 from ..tally import Tally
 from ..types import Foot, Turn
 from ..view.summary import link_health, worn
@@ -15,15 +16,21 @@ CAUTION = (
     "from no medical device."
 )
 
+LONGEST_NAME = 60
+"""Characters of a device's name that are shown, so that it crowds out nothing."""
 TURNS = {Turn.LEFT: "to the left", Turn.RIGHT: "to the right", Turn.ABOUT: "about"}
 
 
-def overview(tally: Tally, clock: Clock, begun: bool, measured: dict[Foot, int]) -> list[str]:
+def overview(
+    tally: Tally, clock: Clock, begun: bool, measured: dict[Foot, int], covered: float | None = None
+) -> list[str]:
     """The walk in sentences. `begun`: something was heard at all; `measured`: gait cycles of each foot, for a foot
-    without a track."""
+    without a track; `covered`: how long it lasts where the clock does not tell, s."""
     if not begun:
         return ["Nothing was heard of either foot."]
     told = [f"The recording lasts {lasted(clock.end - clock.begin)}."]
+    if covered is not None:
+        told = [f"The recording lasts {lasted(covered)}; its times go back in between."]
     stepped = {foot: tally.feet[foot] for foot in Foot if foot in tally.feet and tally.feet[foot].steps}
     for foot, one in stepped.items():
         far = f" over {number(one.distance, 1)} m" if one.distance > 0.0 else ""
@@ -75,7 +82,7 @@ def sensors(links: Links) -> str:
     """Which there were, in a line."""
     told = []
     for site, one in links.sites.items():
-        named_so = f" ({one.name})" if one.name else ""
+        named_so = f" ({printable(one.name, LONGEST_NAME)})" if one.name else ""
         what = [word for word, count in (("motion", one.moved), ("pressure", one.pressed)) if count]
         told.append(f"{site.words}{named_so}{': ' + ' and '.join(what) if what else ''}")
     return "; ".join(told) if told else "none was heard"
