@@ -26,25 +26,27 @@ export class Announcer {
     }, APART);
   }
 
+  // On the way to another time of a recording what is passed by is no news.
   hear(state, changed) {
+    const say = state.playback?.seeking != null ? () => {} : (words) => this.say(words);
     if (changed.has("activity") && state.activity) {
       const words = doing(state.activity);
-      if (words !== this.#activity) this.say(words);
+      if (words !== this.#activity) say(words);
       this.#activity = words;
     }
     if (changed.has("links")) {
       for (const [site, { state: how }] of Object.entries(state.links)) {
         const missed = how === "lost" || how === "silent";
-        if (missed && !this.#missed.has(site)) this.say(`Nothing heard of the ${site}`);
-        if (how === "ok" && this.#missed.has(site)) this.say(`${capital(site)} heard again`);
+        if (missed && !this.#missed.has(site)) say(`Nothing heard of the ${site}`);
+        if (how === "ok" && this.#missed.has(site)) say(`${capital(site)} heard again`);
         if (missed) this.#missed.add(site);
         if (how === "ok") this.#missed.delete(site);
       }
     }
     if (changed.has("place") && state.place) {
-      const decided = state.place.candidates.length < 2;
+      const { decided } = state.place;
       if (decided && (state.place.level !== this.#level || !this.#decided))
-        this.say(`On ${nameOf(state.plan, state.place.level)}`);
+        say(`On ${nameOf(state.plan, state.place.level)}`);
       [this.#level, this.#decided] = [state.place.level, decided];
     }
   }

@@ -3,7 +3,7 @@
 
 import { clock, describe, show, write } from "./words.js";
 
-const SOON = 300; // ms: what is there sooner needs no words
+const SOON = 400; // ms: what is there sooner needs no words
 const LONG = 900; // ms: what takes longer is said to who does not see it
 
 export class Seeking {
