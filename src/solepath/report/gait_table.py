@@ -84,7 +84,7 @@ def _notes(parent: Element, known: list[GaitParameters]) -> None:
         ("steady strides", "neither first nor last of a walk, nor in a turn, on stairs or with samples missing"),
         ("both", "mean of the feet's means; SD from the mean of their variances (Galna et al. 2013)"),
         ("CV", "standard deviation / mean, of both feet (Hausdorff 2005)"),
-        ("asymmetry", "(right - left) / their mean; 0 of equal feet (Robinson et al. 1987)"),
+        ("asymmetry", "(right - left) / their mean; 0 of equal feet, none of a flight (Robinson et al. 1987)"),
         ("asymmetry of angles", "right - left, in degrees, and no CV: their zero is the flat sole, not nothing"),
     ):
         add(listed, "dt", word)
