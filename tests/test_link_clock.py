@@ -157,6 +157,41 @@ def test_times_strictly_increase_whatever_arrives_when(moves: list[tuple[int, fl
         newest = t
 
 
+# --- two devices ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("jitter", [0.005, 0.02, 0.05])
+@pytest.mark.parametrize("seed", range(1, 6))
+def test_two_clocks_without_doubt_agree_within_5_ms(seed: int, jitter: float) -> None:
+    """Each arrival up to `jitter` late; the other device has a late first half second, as after a new connection."""
+    random, apart = Random(seed), []
+    feet = [(Clock(RATE), random.gauss(0.0, 30e-6), late) for late in (0.0, 0.1)]
+    newest = [0.0, 0.0]
+    for k in range(6000):
+        errors: list[float] = []
+        for n, (clock, drift, late) in enumerate(feet):
+            true = k * STEP / (1.0 + drift)
+            newest[n] = max(newest[n], true + jitter * random.random(), late if k < 10 else 0.0)
+            clock.observe(k * INTERVAL, newest[n])
+            t = clock.time(k * INTERVAL)
+            if clock.doubt is not None and clock.doubt < t:
+                errors.append(t - true)
+        if len(errors) == 2:
+            apart.append(abs(errors[0] - errors[1]))
+    assert len(apart) > 2000
+    assert max(apart) < 0.005
+
+
+def test_a_clock_is_in_doubt_for_5_s_and_while_a_late_beginning_is_slewed_away() -> None:
+    good, late = Clock(RATE), Clock(RATE)
+    for k in range(4000):
+        for clock, arrival in ((good, k * STEP), (late, max(k * STEP, 0.1))):
+            clock.observe(k * INTERVAL, arrival)
+            clock.time(k * INTERVAL)
+    assert good.doubt == pytest.approx(5.0, abs=2 * STEP)
+    assert late.doubt is not None and 20.0 < late.doubt < 30.0  # 95 ms at 5 ms a second, and 5 s
+
+
 # --- streams without counters -----------------------------------------------------------------------------------------
 
 

@@ -202,6 +202,8 @@ class Session:
                 self._take(site, other.advance(packet.t, self._kinds), events)
         if state.now is None or packet.t > state.now:
             state.now = packet.t
+        if decoder.link is not None:
+            state.wearer.strides.doubted(packet.site, decoder.link.doubt)
         self._take(packet.site, items, events)
         return events
 

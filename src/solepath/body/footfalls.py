@@ -17,6 +17,8 @@ SHORTEST = 0.35
 """Nor is any stride of a runner shorter than this, s."""
 GAP = 0.1
 """A steady stride lacks no samples for longer, s: a radio that loses 1 packet in 30 leaves few strides whole."""
+FOUND = 0.05
+"""Within so long after a gap a foot is found to be on the ground or off it, s, which is no event of that time."""
 KEPT = 4
 """Newest contacts, toe-offs and places of a foot that are remembered for the other's strides."""
 
@@ -57,11 +59,15 @@ class Footfalls:
     contacts: list[float] = field(factory=list)
     """The newest that were seen, s."""
     toe_offs: list[float] = field(factory=list)
+    silent_from: float | None = None
+    heard_from: float | None = None
+    """The newest gap longer than GAP, s: of what the foot did meanwhile only is known that it had done it then."""
     places: list[tuple[float, Vec3]] = field(factory=list)
     """Contact (s) and place (own track, m) of the newest steps."""
 
     def landed(self, t: float, inferred: bool) -> None:
         """The foot touched the ground at `t`, s."""
+        inferred = inferred or self._unseen(t)
         start, toe_off = self.contact, self.toe_off
         if start is not None and toe_off is None:
             return  # it never left the ground
@@ -78,14 +84,25 @@ class Footfalls:
 
     def lifted(self, t: float, inferred: bool) -> None:
         """The toe left the ground at `t`, s."""
+        inferred = inferred or self._unseen(t)
         self.toe_off = t
         self.degraded, self.spoilt = self.degraded or inferred, self.spoilt or inferred
         if not inferred:
             self.toe_offs = [*self.toe_offs[1 - KEPT :], t]
 
-    def lost(self, duration: float) -> None:
-        """There was no sample for so long, s."""
+    def lost(self, t: float, duration: float) -> None:
+        """From `t` on there was no sample for so long, s."""
         self.degraded, self.spoilt = True, self.spoilt or duration > GAP
+        if duration > GAP:
+            self.silent_from, self.heard_from = t, t + duration
+
+    def _unseen(self, t: float) -> bool:
+        """Whether it happened in a gap: then it is told with the first samples after that."""
+        return (
+            self.silent_from is not None
+            and self.heard_from is not None
+            and self.silent_from < t <= self.heard_from + FOUND
+        )
 
     def stepped(self, step: StepTaken) -> None:
         """The foot is flat after a step."""

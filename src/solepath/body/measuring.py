@@ -52,11 +52,12 @@ def measured(
     before: StrideMeasured | None,
     other: Footfalls,
     tracked: bool,
+    compared: bool,
     known_at: float,
     body: object,
 ) -> StrideMeasured:
     """A cycle of `foot` in numbers. `before`: the foot's newest stride; `other`: the other foot; `tracked`: the foot
-    has a track; `body`: of the recipe."""
+    has a track; `compared`: the feet's clocks can be, over the whole cycle; `body`: of the recipe."""
     start, toe_off, end, step = cycle.start, cycle.toe_off, cycle.end, cycle.step
     time = end - start
     between = [t for t in other.contacts if start < t < end]
@@ -67,6 +68,8 @@ def measured(
         cleared = earlier[-1] if earlier else None
     length = None if step is None else _sound(step.stride_length)
     along, across = (None, None) if step is None or struck is None else placed(foot, step, other, struck, body)
+    contact = struck if compared else None
+    cleared = cleared if compared else None
     return StrideMeasured(
         t=end,
         known_at=max(known_at, end),
@@ -78,11 +81,11 @@ def measured(
         stance_time=toe_off - start,
         swing_time=end - toe_off,
         cadence=120.0 / time,
-        step_time=None if struck is None else end - struck,
+        step_time=None if contact is None else end - contact,
         initial_double_support=None if cleared is None else cleared - start,
-        terminal_double_support=None if struck is None else toe_off - struck,
-        single_support=None if cleared is None or struck is None else min(toe_off, struck) - max(start, cleared),
-        phase=None if struck is None else (struck - start) / time,
+        terminal_double_support=None if contact is None else toe_off - contact,
+        single_support=None if cleared is None or contact is None else min(toe_off, contact) - max(start, cleared),
+        phase=None if contact is None else (contact - start) / time,
         stride_length=length,
         speed=None if length is None else length / time,
         step_length=along,

@@ -30,6 +30,9 @@ class Strides:
     means: GaitMeans = field(factory=GaitMeans, init=False)
     waits: bool = field(default=False, init=False)
     """A cycle waits for samples of the other foot."""
+    left_doubt: float | None = field(default=None, init=False)
+    right_doubt: float | None = field(default=None, init=False)
+    """Up to which time of a foot's samples its clock cannot be compared with the other's, s; None without any doubt."""
 
     @property
     def parameters(self) -> GaitParameters | None:
@@ -58,7 +61,7 @@ class Strides:
             elif isinstance(event, StepTaken):
                 this.stepped(event)
             elif isinstance(event, SampleGap) and event.site is SITE_OF_FOOT[foot.foot]:
-                this.lost(event.duration)
+                this.lost(event.t, event.duration)
         if this.ended is not None and this.ended.flat:
             this.settle()
         return self._release(feet, known_at, body)
@@ -71,6 +74,13 @@ class Strides:
         counts = [(foot, len(self._falls(foot).waiting)) for foot in Foot]
         return [event for foot, count in counts for event in self._measured(foot, feet, known_at, body, count)]
 
+    def doubted(self, site: Site, until: float | None) -> None:
+        """The times of a site's samples up to `until`, s, are not to be compared with the other foot's."""
+        if site.foot is Foot.LEFT:
+            self.left_doubt = until
+        elif site.foot is Foot.RIGHT:
+            self.right_doubt = until
+
     def interrupt(self, site: Site) -> None:
         """The clock of a site's samples begins anew: what is under way there has no length, and the other foot's times
         cannot be compared with it any more."""
@@ -81,6 +91,10 @@ class Strides:
                 self.left = Footfalls(count=count)
             else:
                 self.right = Footfalls(count=count)
+
+    @property
+    def _doubts(self) -> tuple[float | None, float | None]:
+        return self.left_doubt, self.right_doubt
 
     def _falls(self, foot: Foot) -> Footfalls:
         return self.left if foot is Foot.LEFT else self.right
@@ -116,7 +130,9 @@ class Strides:
         told: list[Event] = []
         for cycle in cycles:
             falls.count += 1
-            stride = measured(foot, falls.count, cycle, self.means.newest(foot), other, tracked, known_at, body)
+            compared = not any([doubt is not None and doubt > cycle.start for doubt in self._doubts])
+            before = self.means.newest(foot)
+            stride = measured(foot, falls.count, cycle, before, other, tracked, compared, known_at, body)
             self.means.hear(stride)
             told.append(stride)
         return told

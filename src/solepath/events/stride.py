@@ -18,6 +18,12 @@ class StrideMeasured(Happening):
     angles without an inertial sensor, whatever is between the feet while only one is heard, step length and width
     where no part of the recipe puts both feet into one frame. Times in s, lengths in m, angles in rad.
 
+    Times between the feet (`step_time`, double and single support, `phase`) compare two devices' clocks. They are None
+    in a cycle during which one of the two was not settled: for 5 s after its stream began or its device or clock began
+    anew, and for as long as a late beginning is made good, 5 ms a second (link/clock.py). Given, they are right within
+    5 ms of the clocks' (with radios that hold packets back by up to 50 ms); the constant part of what a radio is late
+    nobody sees. They are None too where the other foot's contact or toe-off fell into a gap in its samples.
+
     What it takes for a stride to be `steady`, and so to count in the running means, is in body/measuring.py.
     """
 

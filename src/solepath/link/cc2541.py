@@ -88,6 +88,11 @@ class Cc2541Link:
     def silence_is_legal(self) -> bool:
         return not (self.acc_on or self.gyro_on)
 
+    @property
+    def doubt(self) -> float | None:
+        """The newest time that is not to be compared with those of other devices (clock.py), s."""
+        return self.acc.clock.doubt if self.acc.clock.last_x is not None else self.gyro.clock.doubt
+
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
         match channel:
             case "cc2541/accelerometer":

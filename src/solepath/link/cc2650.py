@@ -65,6 +65,11 @@ class Cc2650Link:
     def silence_is_legal(self) -> bool:
         return self.wake_on_motion or self.switched_off
 
+    @property
+    def doubt(self) -> float | None:
+        """The newest time that is not to be compared with those of other devices (clock.py), s."""
+        return self.movement.clock.doubt
+
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
         match channel:
             case "cc2650/movement":

@@ -11,6 +11,13 @@ are more the windows pair up, until a window is 16 s, and from then on the oldes
 Times are assigned once and never revised. They follow the line by slewing, so that the time between two neighbouring
 samples stays true within 0.5 % (the cost: a first packet that came 50 ms late is made good over 10 s), unless the
 error is above 0.25 s, when up to 2 % is allowed. They strictly increase.
+
+Two clocks can only be compared once both are settled: a fit that began with a late packet, as at the start of a stream
+and after a device began anew, is behind until that is slewed away. A clock is settled when its times have been within
+5 ms of the line for 5 s of device time. Over radios of up to 50 ms of jitter, or connection intervals up to 50 ms, two
+settled clocks of 100 packets a second then agree within 5 ms. Nobody at this end can see what keeps *every* packet of
+one device late: where packets are nearly as far apart as the radio's connection events, that is up to one interval,
+until the two have drifted past one another.
 """
 
 from __future__ import annotations
@@ -30,6 +37,8 @@ SETTLE = 2.0
 """Time constant in s with which a small error is slewed away."""
 AHEAD = 0.5
 """A packet cannot arrive before it was measured; the fit may be wrong by this many s, not more."""
+WITHIN, SETTLED_FOR = 0.005, 5.0
+"""s that the times of a settled clock are from the line at the most, and device seconds for which they have been."""
 BEHIND_AT_ONCE, BEHIND, BEHIND_FOR = 30.0, 1.0, 20.0
 """A delay (s) that no device buffers; and one that, kept up for so long (s), is a clock that stood still."""
 
@@ -64,6 +73,10 @@ class Clock:
     """Device seconds of the newest time assigned."""
     last_t: float = 0.0
     """The newest time assigned, s."""
+    away: float = 0.0
+    """Device seconds of the newest time that was further than WITHIN from the line, or the first."""
+    doubt: float | None = None
+    """The newest time assigned while the clock was not settled, s; until then it is not to be compared with others."""
     floor: float | None = None
     """The first time assigned is not before this: a fit that follows another keeps the order of times."""
 
@@ -116,6 +129,10 @@ class Clock:
         t = self.expected(ticks)
         if self.last_x is not None and t <= self.last_t:  # below float resolution, or ticks that stand still
             t = self.last_t + 1e-6
+        if self.last_x is None or not -WITHIN <= self.fitted(ticks) - t <= WITHIN:
+            self.away = x
+        if x - self.away < SETTLED_FOR:
+            self.doubt = t
         self.last_x, self.last_t = x, t
         return t
 

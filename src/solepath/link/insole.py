@@ -74,6 +74,11 @@ class InsoleLink:
     def silence_is_legal(self) -> bool:
         return False
 
+    @property
+    def doubt(self) -> float | None:
+        """The newest time that is not to be compared with those of other devices (clock.py), s."""
+        return None if self.run.clock is None else self.run.clock.doubt
+
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
         if channel == "insole/frame":
             return self._fragment(data, arrival) if is_fragment(data) else self._whole(data, arrival)

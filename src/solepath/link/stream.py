@@ -90,6 +90,12 @@ class StreamLink:
     told: bool = False
     """The limitation was said."""
 
+    @property
+    def doubt(self) -> float | None:
+        """The newest time that is not to be compared with those of other devices (clock.py), s."""
+        clock = self.run.clock if self.periodic is None else self.periodic.clock
+        return None if clock is None else clock.doubt
+
     def feed(self, driver: Driver, channel: str, data: bytes, arrival: float) -> Output:
         reading = check(driver.read(channel, data, self.known))
         self._check(driver, channel, reading)
