@@ -37,6 +37,7 @@ export class Track {
   constructor(redraw) {
     const canvas = document.getElementById("track");
     this.canvas = canvas;
+    this.note = document.getElementById("track-note");
     this.layer = document.createElement("canvas");
     this.view = new View(canvas, redraw);
     this.surface = new Surface(canvas, () => {
@@ -45,18 +46,19 @@ export class Track {
       redraw();
     });
     this.alternative = new Alternative(canvas);
-    this.note = document.getElementById("track-note");
     this.section = document.getElementById("track-section");
     this.possibility = new Possibility();
     this.key = "";
     this.drawnAt = 0;
   }
 
-  // What is fitted leaves out the buttons: below, or at the right where there is more room.
+  // What is fitted leaves out the note at the top, and the buttons: below, or at the right where there is more room.
   #room() {
+    const noted = this.note.offsetHeight; // 0 while hidden
     const upright = getComputedStyle(document.getElementById("zoom")).flexDirection === "column";
-    this.margins = upright ? [EDGE + BUTTONS, 2 * EDGE] : [2 * EDGE, EDGE + BUTTONS];
-    [this.view.aside, this.view.above] = upright ? [(BUTTONS - EDGE) / 2, 0] : [0, (BUTTONS - EDGE) / 2];
+    this.margins = upright ? [EDGE + BUTTONS, 2 * EDGE + noted] : [2 * EDGE, EDGE + BUTTONS + noted];
+    this.view.aside = upright ? (BUTTONS - EDGE) / 2 : 0;
+    this.view.above = (upright ? 0 : (BUTTONS - EDGE) / 2) - noted / 2;
   }
 
   wants(changed) {
@@ -75,6 +77,7 @@ export class Track {
     if (onPlan !== this.wasOnPlan && this.wasOnPlan !== undefined) this.view.all();
     this.wasOnPlan = onPlan;
     const level = onPlan ? this.shown(state) : null;
+    this.#words(state, onPlan, level); // before it is fitted beside them
     const { width, height } = this.surface;
     const box = onPlan && this.extent ? this.extent : this.#box(state);
     this.view.fit(box, width - this.margins[0], height - this.margins[1], onPlan ? 0 : 0.14);
@@ -95,7 +98,6 @@ export class Track {
     const points = onPlan ? state.places.length : Object.values(state.tracks).reduce((sum, one) => sum + one.length, 0);
     tell(this.canvas, { view, points, level: level?.id ?? "", since: onPlan ? this.possibility.since(state) : 0 });
     tell(this.section, { view });
-    this.#words(state, onPlan, level);
     return "done";
   }
 
@@ -217,8 +219,16 @@ export class Track {
 
   #words(state, onPlan, level) {
     const words = onPlan ? noteOnPlan(state, level) : noteAlone(state);
-    write(this.note, words);
-    show(this.note, words !== "");
+    if (words !== this.noted) {
+      const before = this.note.offsetHeight;
+      write(this.note, words);
+      show(this.note, words !== "");
+      if (this.note.offsetHeight !== before) {
+        this.#room();
+        this.view.resized();
+      }
+      this.noted = words;
+    }
     this.alternative.say(() => (onPlan ? spokenOnPlan(state, level) : spokenTrack(state)));
   }
 }
