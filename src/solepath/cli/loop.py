@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import atexit
 import os
 import signal
 import threading
@@ -40,6 +41,7 @@ def run_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int
             for number, handler in before.items():
                 # who was told already is on the way out
                 signal.signal(number, _deaf if stop.is_set() else handler)
+            atexit.register(_deaf_to_the_end)
 
 
 @contextmanager
@@ -79,6 +81,13 @@ def _heard_by(handler: Callable[[int, object], None]) -> dict[signal.Signals, An
 
 def _deaf(number: int, frame: object) -> None:
     """Whoever stops already need not be told again. Not SIG_IGN, which is of whoever started the command."""
+
+
+def _deaf_to_the_end() -> None:
+    """Python takes its handlers away before it ends, and a signal would end it then; what is ignored stays so."""
+    for number in STOP:
+        if signal.getsignal(number) is _deaf:
+            signal.signal(number, signal.SIG_IGN)
 
 
 def _leave(terminals: list[int]) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 from contextlib import suppress
+from errno import EISDIR
 from itertools import count
 from pathlib import Path
 
@@ -27,6 +28,8 @@ class Replacing:
         """An empty file in the directory of `path`. OSError, naming `path`, where that cannot be written."""
         place = Path(os.path.realpath(path))  # of a link, what it leads to
         there = place.exists()
+        if place.is_dir():
+            raise IsADirectoryError(EISDIR, os.strerror(EISDIR), str(path))
         if there and not place.is_file():
             return path
         if there:
