@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 from collections.abc import AsyncIterator, Callable, Coroutine, Iterable, Iterator
 from contextlib import asynccontextmanager
 from functools import cache
@@ -16,7 +17,7 @@ from attrs import evolve
 
 from browsers import Browser, Window, window
 from solepath import Event, Packet, Session
-from solepath.page.messages import Command
+from solepath.page.messages import Command, encode
 from solepath.page.scene import Scene
 from solepath.page.server import Page
 from solepath.sim.building import BUILDING
@@ -54,6 +55,21 @@ def told(packets: Iterable[Packet], session: Session | None = None) -> tuple[Tol
     """What a session tells a page of these packets."""
     made = Session(poses=True, pressures=True) if session is None else session
     return tuple((packet.t, tuple(made.feed(packet))) for packet in packets)
+
+
+def shown(events: Iterable[Event], scene: Scene | None = None) -> Scene:
+    """A scene that has taken them."""
+    scene = Scene("a walk", "default") if scene is None else scene
+    for event in events:
+        scene.take(event)
+    return scene
+
+
+def frame(scene: Scene) -> dict[str, Any]:
+    """What it shows now, as a page gets it."""
+    whole = json.loads(encode(scene.whole()[0]))["frame"]
+    assert isinstance(whole, dict)
+    return whole
 
 
 @cache

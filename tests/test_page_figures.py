@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import json
 from copy import deepcopy
 from functools import cache
 from math import radians
-from typing import Any
 
 from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
+from shown import frame, shown
 from solepath import (
     Activity,
     ActivityChanged,
@@ -30,7 +29,6 @@ from solepath import (
     StrideMeasured,
 )
 from solepath.body.gait_means import GaitMeans
-from solepath.page.messages import encode
 from solepath.page.scales import LEAST, rounded
 from solepath.page.scene import Scene
 from solepath.sim.insoles import layout
@@ -46,19 +44,6 @@ WALK = Route().stand(1.5).walk(14.0, 1.3).stop(6.0)
 @cache
 def walk() -> tuple[Event, ...]:
     return tuple(Session(poses=True, pressures=True).feed(insoles(WALK).packets))
-
-
-def shown(events: list[Event] | tuple[Event, ...], scene: Scene | None = None) -> Scene:
-    scene = Scene("a walk", "default") if scene is None else scene
-    for event in events:
-        scene.take(event)
-    return scene
-
-
-def frame(scene: Scene) -> dict[str, Any]:
-    told = json.loads(encode(scene.whole()[0]))["frame"]
-    assert isinstance(told, dict)
-    return told
 
 
 def until(t: float) -> Scene:

@@ -18,7 +18,7 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from shown import later
+from shown import frame, later, shown
 from solepath import (
     Activity,
     ActivityChanged,
@@ -76,21 +76,6 @@ def fed(items: Iterable[Packet | Sample], recipe: Recipe = DEFAULT) -> tuple[Ses
     """A session that has heard all of them, and what it said."""
     session = Session(recipe, poses=True, pressures=True)
     return session, session.feed(items)
-
-
-def shown(events: Iterable[Event], scene: Scene | None = None) -> Scene:
-    """A scene that has taken them."""
-    scene = Scene("a walk", "default") if scene is None else scene
-    for event in events:
-        scene.take(event)
-    return scene
-
-
-def frame(scene: Scene) -> dict[str, Any]:
-    """What it shows now, as a page gets it."""
-    told = json.loads(encode(scene.whole()[0]))["frame"]
-    assert isinstance(told, dict)
-    return told
 
 
 @cache

@@ -47,7 +47,7 @@ export class View {
     return inside && shown > 0.45 * scale;
   }
 
-  // {x, y, scale} for now; `rests` when it is there.
+  // Where the view is at the moment `now`: {x, y, scale}; `rests` when it has come to its goal.
   at(now) {
     if (this.#now === null) return { x: 0, y: 0, scale: 30 };
     const passed = Math.min(100, now - this.#last);
