@@ -318,7 +318,7 @@ def test_a_stride_with_a_gap_or_round_a_corner_is_not_the_habit() -> None:
     habit = Habit()
     stride(habit, 1.0, 0.0)
     kept = habit.last
-    assert kept is not None and kept.moments[-1].since < 0.7
+    assert kept is not None and kept.lasted < 0.7
     assert (kept.toe_off, kept.heel_strike) == pytest.approx((0.2, 0.6))
     stride(habit, 2.0, 0.0, unseen=0.2)
     assert habit.last is kept

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from ..types import Quat, Vec3
 from ..vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, sub
 from .habit import Habit
-from .moment import Moment, Stride, at, length, limited, turned
+from .moment import Moment, Stride, at, length, limited, moments, turned
 from .navigate import LONGEST_BRIDGE, Corrector
 from .turn import heading_turned
 
@@ -76,7 +76,7 @@ def leap(habit: Habit, corrector: Corrector, a: float, b: float, acc: Vec3, gyro
     stride = habit.last
     if stride is None or b - a > LONGEST:
         return NoLeap.STOOD if habit.lifted is None and still < 8.0 else NoLeap.UNKNOWN
-    last = stride.moments
+    last = moments(stride.rows)
     whole = last[-1].since
     if habit.lifted is None:
         unlike = 0.0
@@ -111,7 +111,7 @@ def leap(habit: Habit, corrector: Corrector, a: float, b: float, acc: Vec3, gyro
         return NoLeap.UNKNOWN  # this is another kind of stride, such as a turn on the spot
     if end is None:
         return NoLeap.STOOD if habit.lifted is None and best < 20.0 else NoLeap.UNKNOWN
-    return _to(habit, stride, corrector, start, end, a, b, gyro)
+    return _to(habit, stride, last, corrector, start, end, a, b, gyro)
 
 
 def _like(last: list[Moment], corrector: Corrector, since: float) -> tuple[float, float]:
@@ -135,12 +135,20 @@ def _like(last: list[Moment], corrector: Corrector, since: float) -> tuple[float
 
 
 def _to(
-    habit: Habit, stride: Stride, corrector: Corrector, start: float, end: Moment, a: float, b: float, gyro: Vec3
+    habit: Habit,
+    stride: Stride,
+    last: list[Moment],
+    corrector: Corrector,
+    start: float,
+    end: Moment,
+    a: float,
+    b: float,
+    gyro: Vec3,
 ) -> Leap:
-    """From `start`, s after the heel's rise in the last stride, to this moment of it."""
+    """From `start`, s after the heel's rise in the last stride, to this moment of it; `last`: all of them."""
     attitude, rate, moving = corrector.attitude, corrector.rate, habit.lifted is not None
-    first = at(stride.moments, start)
-    landed = end is stride.moments[-1]
+    first = at(last, start)
+    landed = end is last[-1]
     dt = max(end.since - first.since, 1e-6)
     # tilt as it was then, for where the foot is on its way tells it better than what the last sample does; heading
     # as it is now

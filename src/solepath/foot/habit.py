@@ -13,8 +13,8 @@ from typing import NamedTuple
 from attrs import define, field
 
 from ..types import Quat, Vec3
-from ..vector import sub
-from .moment import Moment, Stride, corrected, limited, turned
+from ..vector import ZERO, sub
+from .moment import ROW, Stride, corrected, limited, turned
 from .straight import StraightOn, share
 
 
@@ -57,8 +57,10 @@ class Habit:
     last: Stride | None = field(default=None, init=False)
     age: int = field(default=1000, init=False)
     """Strides since `last`."""
-    now: list[Moment] = field(factory=list, init=False)
-    """Of the stride under way."""
+    now: bytes = field(default=b"", init=False)
+    """Moments of the stride under way (`ROW`)."""
+    origin: Vec3 = field(default=ZERO, init=False)
+    """Where the first of them was; their positions are from here, m."""
     stance: float = field(default=0.0, init=False)
     """How long the foot was flat before it last rose, s."""
     stood_since: float | None = field(default=None, init=False)
@@ -82,7 +84,7 @@ class Habit:
         if self.stood_since is not None and self.guessed == 0.0:
             self.stance = t - self.stood_since
         self.lifted = self.due = t
-        self.now = []
+        self.now = b""
 
     def guess(self, lifted: float, duration: float) -> None:
         """The heel rose at `lifted`, s, and for `duration` of the stride since, s, the last one stands in."""
@@ -96,7 +98,7 @@ class Habit:
     def interrupt(self) -> None:
         """Nobody knows what the foot does now."""
         self.lifted = self.stood_since = None
-        self.now = []
+        self.now = b""
         self.straight_on.footfalls = 0
 
     def keep(self, t: float, attitude: Quat, velocity: Vec3, position: Vec3, acc: Vec3, gyro: Vec3) -> None:
@@ -106,12 +108,19 @@ class Habit:
         self.due = t + self.spacing
         if self.guessed > 0.0:
             return
-        if len(self.now) >= self.most:
-            self.now = []
+        now = self.now
+        if not now:
+            self.origin = position
+        elif len(now) >= self.most * ROW.size:
+            self.now = b""
             self.lifted = None
             return
-        x, y, z = acc
-        self.now.append(Moment(t - self.lifted, attitude, velocity, position, gyro, hypot(x, y, z)))
+        try:
+            way = sub(position, self.origin)
+            self.now = now + ROW.pack(t - self.lifted, *attitude, *velocity, *way, *gyro, hypot(*acc))
+        except OverflowError:  # float32 goes to 3e38: this is no stride
+            self.now = b""
+            self.lifted = None
 
     def flat(
         self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, way: Vec3, interval: float
@@ -128,7 +137,7 @@ class Habit:
         crossed, self.crossed = self.crossed, False
         lasted = None if self.landed is None else t - self.landed
         self.landed = t
-        self.now = []
+        self.now = b""
         self.lifted = None
         self.stood_since = t
         sparse = interval if interval > self.dense else 0.0
@@ -152,7 +161,7 @@ class Habit:
         if self.last is None:
             return mended
         # two strides are one when a gap that was not filled hid the foot-flat between them
-        k = max(1.0, min(2.0, lasted / (self.last.moments[-1].since + self.stance)))
+        k = max(1.0, min(2.0, lasted / (self.last.lasted + self.stance)))
         x, y, z = mended.way
         x, y, _ = limited((x, y, 0.0), k * self.room * self.longest)
         return Mended(mended.turn, (x, y, max(-k * self.highest, min(z, k * self.highest))))
@@ -160,7 +169,7 @@ class Habit:
     def _learn(self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, way: Vec3) -> None:
         """Keep the stride that ends at `t` if it was seen whole; `way` as in `Stride`."""
         self.age = min(self.age + 1, 1000)
-        if self.lifted is None or toe_off is None or self.guessed > 0.0 or self.crossed or len(self.now) < self.least:
+        if self.lifted is None or toe_off is None or self.guessed > 0.0 or self.crossed or len(self.now) < self.least * ROW.size:
             return
         if corrected(self.now) > self.drift:
             return
