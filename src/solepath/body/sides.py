@@ -30,7 +30,8 @@ from attrs import define, field
 from ..events import Event, StepTaken, ToeOff
 from ..foot.tracker import FootTracker
 from ..types import Foot, Layout, Sample, Vec3
-from ..vector import ZERO, conjugate, rotate, sub
+from ..vector import conjugate, rotate
+from .turned import Turned
 
 UP: Vec3 = (0.0, 0.0, 1.0)
 RARELY = 0.0195
@@ -43,6 +44,8 @@ PUSH_OFF = 0.3
 """The foot turns over its toes for about this long before toe-off, s,"""
 TURNED = 0.25
 """and by more than this, rad."""
+NEAR = 1e-4
+"""Instants are known to that, s."""
 FEW = 4
 """A swing with fewer instants is not judged."""
 SHORTEST = 0.4
@@ -93,10 +96,7 @@ class Side:
     """The device says that it is this foot's."""
     across: Vec3 | None = None
     """To the left, as the foot turns over its toes, sensor frame."""
-    times: list[float] = field(factory=list)
-    turns: list[Vec3] = field(factory=list)
-    """Integral of the angular rate up to these times, rad, sensor frame: its parts along axes that are fixed in the
-    foot."""
+    turned: Turned = field(factory=Turned)
     seen_at: float | None = None
     """When the centre of pressure was last looked at, s."""
     sideways: list[float] = field(factory=list)
@@ -105,7 +105,8 @@ class Side:
 
 @define
 class Sides:
-    """Evidence of both feet. Costs a dot product at 50 Hz, or a centre of pressure at 20 Hz for an insole alone."""
+    """Evidence of both feet, none of it where a device says of itself on which foot it is. Costs eight bytes to write at
+    50 Hz, or a centre of pressure at 20 Hz for an insole alone."""
 
     least: int = 8
     """Steps of each foot before anything is said."""
@@ -129,7 +130,7 @@ class Sides:
             if isinstance(event, StepTaken):
                 judged = True
                 _land(side, event, rotate(conjugate(foot.corrector.attitude), UP))
-                side.times, side.turns = side.times[-1:], side.turns[-1:]
+                side.turned.keep_newest()
             elif isinstance(event, ToeOff) and side.sideways:
                 judged = True
                 _leave(side, is_left)
@@ -141,20 +142,34 @@ class Sides:
 
     def keep(self, side: Side, foot: FootTracker, sample: Sample) -> None:
         """What `sample` of the foot on that side adds to the evidence."""
+        if self.left.told or self.right.told:
+            return
         gyro = sample.gyro
         if gyro is None:
             if foot.moved_at is None and sample.pressure:
                 _press(side, sample.t, foot)
             return
-        t, times = sample.t, side.times
-        dt = t - times[-1] if times else HIDDEN
-        if not 0.0 <= dt < RARELY:
-            _turn(side, t, dt, gyro)
+        t, turned = sample.t, side.turned
+        dt = HIDDEN if turned.t is None else t - turned.t
+        if 0.0 <= dt < RARELY:
+            return
+        if 0.0 < dt < HIDDEN:
+            turned.add(t, dt, gyro, REMEMBERED)
+        else:
+            turned.begin(t)
 
     def told(self, foot: Foot, layout: Layout) -> None:
         """The device on `foot` has said where its cells are, and with it whose insole it is."""
         side = self.left if foot is Foot.LEFT else self.right
         side.told = layout.foot is foot
+        if side.told:
+            self.forget()
+
+    def forget(self) -> None:
+        """What the feet did lately is not needed any more."""
+        for side in (self.left, self.right):
+            side.turned.forget()
+            side.sideways = []
 
     def _agree(self) -> bool:
         left, right = self.left, self.right
@@ -167,23 +182,6 @@ class Sides:
         return left.centre.beyond(self.gone, self.least) and right.centre.beyond(self.gone, self.least)
 
 
-def _turn(side: Side, t: float, dt: float, gyro: Vec3) -> None:
-    """One sample of the angular rate, rad/s, `dt` s after the last one that was used."""
-    times = side.times
-    if 0.0 < dt < HIDDEN:
-        turns = side.turns
-        x, y, z = turns[-1]
-        gx, gy, gz = gyro
-        turns.append((x + dt * gx, y + dt * gy, z + dt * gz))
-    else:
-        side.times = times = []
-        side.turns = [ZERO]
-    times.append(t)
-    if len(times) > REMEMBERED:
-        del times[: REMEMBERED // 8]
-        del side.turns[: REMEMBERED // 8]
-
-
 def _land(side: Side, step: StepTaken, up: Vec3) -> None:
     """A step is over, and the foot stands with `up` (sensor frame): how it was rolled as it landed."""
     begin, end = step.t_toe_off, step.t_heel_strike
@@ -191,15 +189,17 @@ def _land(side: Side, step: StepTaken, up: Vec3) -> None:
         return
     if step.stride_length < SHORTEST or abs(step.heading_change) > STRAIGHT:
         return
-    if not side.times or side.times[0] > begin - PUSH_OFF:
+    turned = side.turned
+    times = turned.times()
+    if not times or times[0] > begin - PUSH_OFF:
         return
-    times, turns = side.times, side.turns
-    off, landed = bisect_right(times, begin), bisect_right(times, end)
-    pushed = sub(turns[off - 1], turns[bisect_right(times, begin - PUSH_OFF) - 1])
-    if landed - off < FEW or hypot(*pushed) < TURNED:
+    off, landed = bisect_right(times, begin + NEAR), bisect_right(times, end + NEAR)
+    if landed - off < FEW:
         return
-    if hypot(*sub(turns[-1], turns[landed - 1])) > hypot(*pushed):
-        return  # backwards
+    *_, pushed = turned.between(bisect_right(times, begin - PUSH_OFF + NEAR) - 1, off)
+    *_, after = turned.between(landed - 1, len(times))
+    if hypot(*pushed) < TURNED or hypot(*after) > hypot(*pushed):  # or backwards
+        return
     k = 1.0 / hypot(*pushed)
     x, y, z = pushed
     axis = (k * x, k * y, k * z)
@@ -211,7 +211,7 @@ def _land(side: Side, step: StepTaken, up: Vec3) -> None:
     if ahead is None:
         return
     a, b, c = ahead
-    angles = [a * x + b * y + c * z for x, y, z in turns[off:landed]]  # right-handed: the left edge rises
+    angles = [a * x + b * y + c * z for x, y, z in turned.between(off, landed)]  # right-handed: the left edge rises
     outwards = sum(angles) / len(angles) - angles[-1]
     side.roll.add(-outwards if step.foot is Foot.LEFT else outwards)
 

@@ -78,6 +78,7 @@ class Wear:
                 found.append(FootSilent(t=t, known_at=_known_at(sample), foot=silent, silent_for=t - other.t))
         if not self.swapped and self.sides.swapped(foot, sample, events):
             self.swapped = True
+            self.sides.forget()
             found.append(FeetSwapped(t=t, known_at=_known_at(sample)))
         return found
 

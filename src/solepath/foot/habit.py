@@ -169,7 +169,9 @@ class Habit:
     def _learn(self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, way: Vec3) -> None:
         """Keep the stride that ends at `t` if it was seen whole; `way` as in `Stride`."""
         self.age = min(self.age + 1, 1000)
-        if self.lifted is None or toe_off is None or self.guessed > 0.0 or self.crossed or len(self.now) < self.least * ROW.size:
+        if self.lifted is None or toe_off is None or self.guessed > 0.0 or self.crossed:
+            return
+        if len(self.now) < self.least * ROW.size:
             return
         if corrected(self.now) > self.drift:
             return

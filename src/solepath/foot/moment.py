@@ -8,7 +8,7 @@ from struct import Struct
 from attrs import define, frozen
 
 from ..types import Quat, Vec3
-from ..vector import normalise
+from ..vector import normalise, sub
 
 
 ROW = Struct("<15f")
@@ -80,14 +80,14 @@ def at(moments: list[Moment], since: float) -> Moment:
 
 def corrected(rows: bytes) -> float:
     """How far zero velocity moved the foot in a stride when it came down, m: what the velocities do not tell."""
-    first = ROW.unpack_from(rows)
+    first, last = ROW.unpack_from(rows), ROW.unpack_from(rows, len(rows) - ROW.size)
     before, ax, ay, az = first[0], *first[5:8]
-    x, y, z = -first[8], -first[9], -first[10]
-    for t, _, _, _, _, bx, by, bz, px, py, pz, _, _, _, _ in ROW.iter_unpack(rows):
+    x, y, z = sub(last[8:11], first[8:11])
+    for t, _, _, _, _, bx, by, bz, *_ in ROW.iter_unpack(rows):
         k = 0.5 * (t - before)
         x, y, z = x - k * (ax + bx), y - k * (ay + by), z - k * (az + bz)
         before, ax, ay, az = t, bx, by, bz
-    return length((x + px, y + py, z + pz))
+    return length((x, y, z))
 
 
 def length(v: Vec3) -> float:
