@@ -40,6 +40,7 @@ ALLOWED: dict[str, set[str]] = {
     "mcap": {"types", "events", "link", "session", "recording", "output"},
     "source": CORE | {"recording", "samples"},
     "output": CORE,
+    "fleet": CORE | {"output", "sim", "evaluate", "recording"},
     "timeline": {"types", "events"},
     "tally": CORE | {"timeline"},
     "monitor": CORE | {"tally"},

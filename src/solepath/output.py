@@ -19,6 +19,7 @@ import attrs
 from attrs import define, field
 
 from .events import Event, FootMoved, LiveEvent, Placed, StepTaken, StrideMeasured
+from .events.fleet import FleetEvent
 from .types import Site
 
 EVENTS, TRACK, STEPS, GAIT = "events.jsonl", "track.csv", "steps.csv", "gait.csv"
@@ -58,7 +59,7 @@ def plain(value: Any) -> Any:
             return value
 
 
-def event_record(event: Event) -> dict[str, Any]:
+def event_record(event: Event | FleetEvent) -> dict[str, Any]:
     """One event as a JSON object: its class's name, its times, its foot where it has one, then its own fields.
 
     An event of the link has a site; where that is a foot, the foot is told too."""

@@ -232,6 +232,11 @@ class Session:
     # --- out ---
 
     @property
+    def now(self) -> float | None:
+        """The latest moment that anything is known of, s; None before any."""
+        return self._state.now
+
+    @property
     def recipe(self) -> Recipe:
         """The parts that this session is made of."""
         return deepcopy(self._state.wearer.recipe)

@@ -1,0 +1,36 @@
+"""Many wearers on a stream engine: one pure step per wearer, whose state the engine keeps, moves and recovers.
+
+    fleet = Fleet(recipes.DEFAULT)
+    state, told = fleet.step("w-17", None, [Sent("w-17", 0, packet), ...])
+
+protocol/fleet.md says what a phone sends, in what order it is used, and what a state holds.
+"""
+
+from ..events.fleet import FleetEvent, NumbersMissing, Refusal, SentRejected, StateRefused, WearerFailed
+from .fleet import Fleet
+from .keyed import Keyed
+from .rows import SENT_COLUMNS, TOLD_COLUMNS, read_line, read_sent, sent_line, sent_row, told_row
+from .sent import End, Sent, Tick, Told, Unreadable
+
+__all__ = [
+    "SENT_COLUMNS",
+    "TOLD_COLUMNS",
+    "End",
+    "Fleet",
+    "FleetEvent",
+    "Keyed",
+    "NumbersMissing",
+    "Refusal",
+    "Sent",
+    "SentRejected",
+    "StateRefused",
+    "Tick",
+    "Told",
+    "Unreadable",
+    "WearerFailed",
+    "read_line",
+    "read_sent",
+    "sent_line",
+    "sent_row",
+    "told_row",
+]

@@ -1,0 +1,76 @@
+"""The keyed step: what a stream engine calls for every wearer, with the state that it keeps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from ..calibration import Calibration
+from ..floorplan.index import IndexedPlan
+from ..floorplan.plan import FloorPlan
+from ..link.driver import Driver
+from ..recipes import DEFAULT, Recipe
+from .keyed import Keyed
+from .sent import Sent, Told, Unreadable
+from .sessions import Sessions
+from .state import Identity, Rest, write_state
+
+
+class Fleet:
+    """The configuration of a job, the same for all wearers and on every worker; it holds nothing of any of them.
+
+    `recipe`, `floorplan`, `profiles`, `poses`, `pressures`: as for Session. `calibrations`: what is known of a wearer,
+    looked up when a session of his begins. `parts`: as for Session.restore. `window`: so many rows may overtake one
+    that is late, before it is given up. A new version of the app's own code in `recipe`, `profiles` and `parts` is for
+    the app to keep compatible. TypeError and ValueError as Session raises them.
+
+    It can be pickled when what it is given can; an engine that pickles its job and cannot pickle a driver's constructs
+    takes a Fleet that is made at the top of a module, by name.
+    """
+
+    __slots__ = ("_sessions",)
+
+    def __init__(
+        self,
+        recipe: Recipe = DEFAULT,
+        *,
+        calibrations: Mapping[str, Calibration] = {},
+        floorplan: FloorPlan | IndexedPlan | None = None,
+        profiles: Iterable[Driver] = (),
+        parts: Iterable[type] = (),
+        window: int = 256,
+        poses: bool = False,
+        pressures: bool = False,
+    ) -> None:
+        if not isinstance(calibrations, Mapping):
+            raise TypeError(f"calibrations is a mapping by wearer, not a {type(calibrations).__name__}")
+        if type(window) is not int or window < 0:
+            raise ValueError(f"window is {window}; it is a number of rows")
+        plan = IndexedPlan(floorplan) if isinstance(floorplan, FloorPlan) else floorplan
+        own = (tuple(profiles), tuple(parts))
+        self._sessions = Sessions(recipe, calibrations, plan, *own, poses, pressures, window)
+        # what is wrong for all is wrong here, and not in a worker
+        trial = self._sessions.fresh("", calibrated=False)
+        self._sessions.unpack(self._sessions.pack(trial))
+
+    def step(self, wearer: str, state: bytes | None, sent: Iterable[Sent | Unreadable]) -> tuple[bytes, list[Told]]:
+        """The state and the events of `wearer` after `sent`, given the state before; None for a wearer who is new.
+
+        Pure: the same in gives the same out, on every machine, however it is cut into calls. It never raises, whatever
+        it is given; a state that cannot be used gives StateRefused and a fresh start.
+        """
+        keyed = self.open(wearer, state)
+        told = keyed.feed(sent)
+        return keyed.state(), told
+
+    def open(self, wearer: str, state: bytes | None) -> Keyed:
+        """The same in memory, for engines that keep objects between their snapshots. It never raises."""
+        return Keyed(self._sessions, wearer, state)
+
+    def adopt(self, wearer: str, snapshot: Any) -> bytes:
+        """A state that goes on from a Session.snapshot taken elsewhere: a phone hands its wearer over, and begins to
+        send at number 0 of a run. Events are numbered from 0. SnapshotError when it cannot go on here."""
+        session = self._sessions.restored(snapshot)
+        now = session.now
+        identity = Identity(-1, 0, 0, 0.0 if now is None else now)
+        return write_state(identity, Rest(session=self._sessions.pack(session)))

@@ -1,0 +1,173 @@
+"""Rows and lines: what a phone sends and what a wearer's session says, as tables, files and topics hold them.
+
+protocol/fleet.md has both, column by column.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from operator import index
+from typing import Any
+
+from ..output import event_record
+from ..types import Packet, Site
+from .sent import LONGEST_DATA, LONGEST_NAME, MOST, End, Sent, Tick, Told, Unreadable
+
+SENT_COLUMNS: Mapping[str, type] = {
+    "wearer": str, "run": int, "number": int, "t": float, "site": str, "channel": str, "data": bytes, "device": str,
+}  # fmt: skip
+"""Columns of `sent_row` and of what is in them; t, site, data and device may be None."""
+TOLD_COLUMNS: Mapping[str, type] = {
+    "wearer": str, "number": int, "event": str, "t": float, "known_at": float, "final": bool, "foot": str,
+    "fields": str,
+}  # fmt: skip
+"""Columns of `told_row` and of what is in them; t, known_at and foot may be None."""
+
+_SITES = {site.value: site for site in Site}
+_LONGEST_LINE = 65_536
+
+
+class _Flaw(Exception):
+    """What is wrong with a row."""
+
+
+def sent_row(sent: Sent) -> dict[str, Any]:
+    """The row of what a phone sends, with the columns of SENT_COLUMNS."""
+    row = {"wearer": sent.wearer, "run": sent.run, "number": sent.number}
+    match sent.what:
+        case Packet(t, site, channel, data, device):
+            return row | {"t": t, "site": site.value, "channel": channel, "data": data, "device": device or None}
+        case Tick(t):
+            return row | {"t": t, "site": None, "channel": "tick", "data": None, "device": None}
+        case End():
+            return row | {"t": None, "site": None, "channel": "end", "data": None, "device": None}
+
+
+def read_sent(row: Any) -> Sent | Unreadable:
+    """What a row says; of one that cannot be read, why, and whatever can be. It never raises."""
+    wearer, number, run = "", None, 0
+    try:
+        if not isinstance(row, Mapping):
+            raise _Flaw(f"a row is a mapping, not a {type(row).__name__}")
+        wearer = _name(row, "wearer")
+        run = _count(row, "run", 0)
+        number = _count(row, "number", None)
+        return Sent(wearer, number, _what(row), run)
+    except _Flaw as flaw:
+        return Unreadable(wearer, str(flaw), run, number)
+
+
+def _what(row: Mapping[str, Any]) -> Packet | Tick | End:
+    channel, site = _name(row, "channel"), row.get("site")
+    if site is None and channel == "end":
+        return End()
+    if site is None and channel == "tick":
+        return Tick(_time(row))
+    if not isinstance(site, str) or site not in _SITES:
+        raise _Flaw(f"site is not one of {', '.join(_SITES)}")
+    data = row.get("data")
+    if isinstance(data, bytearray | memoryview):
+        data = bytes(data)
+    if not isinstance(data, bytes):
+        raise _Flaw(f"data is no bytes but a {type(data).__name__}")
+    if len(data) > LONGEST_DATA:
+        raise _Flaw(f"data of {len(data)} bytes; {LONGEST_DATA} are the most")
+    device = "" if row.get("device") is None else _name(row, "device")
+    return Packet(_time(row), _SITES[site], channel, data, device)
+
+
+def _name(row: Mapping[str, Any], key: str) -> str:
+    value = row.get(key)
+    if not isinstance(value, str):
+        raise _Flaw(f"{key} is no text but a {type(value).__name__}")
+    if len(value) > LONGEST_NAME:
+        raise _Flaw(f"{key} of {len(value)} characters; {LONGEST_NAME} are the most")
+    if not value.isascii():
+        try:
+            value.encode()
+        except UnicodeEncodeError:
+            raise _Flaw(f"{key} holds half a character") from None
+    return value
+
+
+def _count(row: Mapping[str, Any], key: str, default: int | None) -> int:
+    value = row.get(key)
+    if value is None and default is not None:
+        return default
+    if type(value) is not int:
+        try:
+            value = index(_not_bool(value))
+        except TypeError:
+            raise _Flaw(f"{key} is no whole number but a {type(value).__name__}") from None
+    if not 0 <= value <= MOST:
+        raise _Flaw(f"{key} is not from 0 to 2**53 - 1")
+    return value
+
+
+def _not_bool(value: Any) -> Any:
+    if isinstance(value, bool):
+        raise TypeError
+    return value
+
+
+def _time(row: Mapping[str, Any]) -> float:
+    """Whatever float: what is no time is the session's to reject."""
+    value = row.get("t")
+    if isinstance(value, bool) or not isinstance(value, float | int):
+        raise _Flaw(f"t is no number but a {type(value).__name__}")
+    try:
+        return float(value)
+    except OverflowError:
+        raise _Flaw("t is no time") from None
+
+
+def sent_line(sent: Sent) -> bytes:
+    """The same as one line of JSON, with its line feed. ValueError for a time that JSON cannot write."""
+    row = sent_row(sent)
+    if row["data"] is not None:
+        row["data"] = row["data"].hex()
+    kept = {key: value for key, value in row.items() if value is not None and (key, value) != ("run", 0)}
+    return json.dumps(kept, allow_nan=False, separators=(",", ":")).encode() + b"\n"
+
+
+def read_line(line: Any) -> Sent | Unreadable:
+    """What a line says; of one that cannot be read, why. It never raises."""
+    try:
+        row = _object(line)
+    except _Flaw as flaw:
+        return Unreadable("", str(flaw))
+    data = row.get("data")
+    if isinstance(data, str) and len(data) % 2 == 0 and _HEX.issuperset(data):
+        row["data"] = bytes.fromhex(data)
+    return read_sent(row)
+
+
+def _object(line: Any) -> dict[str, Any]:
+    if not isinstance(line, bytes | bytearray):
+        raise _Flaw(f"a line is bytes, not a {type(line).__name__}")
+    if len(line) > _LONGEST_LINE:
+        raise _Flaw(f"a line of {len(line)} bytes; {_LONGEST_LINE} are the most")
+    try:
+        value = json.loads(line.decode(), parse_constant=_refuse_constant)
+    except (ValueError, RecursionError):
+        raise _Flaw("a line that is no JSON") from None
+    if not isinstance(value, dict):
+        raise _Flaw("a line that is no JSON object")
+    return value
+
+
+def _refuse_constant(name: str) -> None:
+    raise _Flaw(f"a line with {name}, which is no JSON")
+
+
+_HEX = frozenset("0123456789abcdefABCDEF")
+
+
+def told_row(told: Told) -> dict[str, Any]:
+    """The row of an event, with the columns of TOLD_COLUMNS. `fields`: what else the event has, as JSON, in the words
+    of events.jsonl."""
+    record = event_record(told.event)
+    first = {key: record.pop(key, None) for key in ("event", "t", "known_at", "final", "foot")}
+    fields = json.dumps(record, allow_nan=False)
+    return {"wearer": told.wearer, "number": told.number, **first, "fields": fields}

@@ -1,0 +1,60 @@
+"""How the sessions of a fleet are made: the same recipe for every wearer, and what is known of each."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from attrs import frozen
+
+from ..calibration import Calibration
+from ..floorplan.index import IndexedPlan
+from ..link.driver import Driver
+from ..machine import SnapshotError
+from ..recipes import Recipe
+from ..session import Session
+
+
+@frozen
+class Sessions:
+    """Fresh ones, and bytes of them. It holds nothing of any wearer."""
+
+    recipe: Recipe
+    calibrations: Mapping[str, Calibration]
+    floorplan: IndexedPlan | None
+    profiles: tuple[Driver, ...]
+    parts: tuple[type, ...]
+    poses: bool
+    pressures: bool
+    window: int
+
+    def fresh(self, wearer: str, calibrated: bool = True) -> Session:
+        """A session that heard nothing yet. `calibrated`: with what is known of the wearer."""
+        return Session(
+            self.recipe,
+            calibration=self.calibrations.get(wearer) if calibrated else None,
+            poses=self.poses,
+            pressures=self.pressures,
+            profiles=self.profiles,
+            floorplan=self.floorplan,
+        )
+
+    def pack(self, session: Session) -> bytes:
+        """SnapshotError or TypeError when a part of the app's own holds what cannot be saved."""
+        return json.dumps(session.snapshot(), separators=(",", ":")).encode()
+
+    def unpack(self, data: bytes) -> Session:
+        """SnapshotError when it cannot go on here."""
+        try:
+            saved = json.loads(data)
+        except (ValueError, RecursionError):
+            raise SnapshotError("the session was damaged") from None
+        return self.restored(saved)
+
+    def restored(self, snapshot: Any) -> Session:
+        """The same of a JSON snapshot."""
+        session = Session.restore(snapshot, profiles=self.profiles, parts=self.parts, floorplan=self.floorplan)
+        if session.recipe.name != self.recipe.name:
+            raise SnapshotError(f"a session of recipe {session.recipe.name}, not {self.recipe.name}")
+        return session
