@@ -1,0 +1,148 @@
+"""Events as Parquet: a directory of numbered part files that DuckDB, pandas, Polars and Spark read as one table.
+
+    SELECT wearer, count(*) FROM 'told/*.parquet' WHERE event = 'StepTaken' GROUP BY wearer       -- DuckDB
+    pandas.read_parquet("told")        spark.read.parquet("told")
+
+Needs the extra `bytewax`, or pyarrow itself. It knows no engine: one writes through `Parts`, and keeps the number of
+the next part among its own state.
+
+A part is whole or not there: it is written under a name that readers pass over (it begins with a dot and does not end
+in `.parquet`), brought to the disk, and renamed. After a crash the engine says which part comes next, and those from it
+on are removed, since their events come again. So the files hold each event once; a reader may see those of the last
+seconds before a crash go away with the restart and come back the same.
+
+Every `close` makes a file, so how often it is called is the size of a file. Where few walk, close seldom, or join the
+files of days gone by into another directory, in DuckDB by
+`COPY (SELECT * FROM 'told/*.parquet' ORDER BY wearer, number) TO 'june.parquet'`.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable
+from contextlib import suppress
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+from attrs import define, field
+from pyarrow import parquet
+
+from .rows import TOLD_COLUMNS, told_row
+from .sent import Told
+
+_ARROW = {str: pa.string(), int: pa.int64(), float: pa.float64(), bool: pa.bool_()}
+SCHEMA = pa.schema([(name, _ARROW[kind]) for name, kind in TOLD_COLUMNS.items()])
+"""Columns of the files, in the order of TOLD_COLUMNS."""
+REPEATED = ["wearer", "event", "foot", "final"]
+"""Columns that are worth a dictionary."""
+GROUP = 1 << 15
+"""Events of a row group; so many are gathered and sorted by wearer, in some 40 MB."""
+GROUPS = 32
+"""Row groups after which a part is closed in any case."""
+_NAME = re.compile(r"\.?part-(\w+)-(\d+)\.parquet(\.writing)?")
+
+
+@define
+class Parts:
+    """The part files of one writer in `directory`, which is made when there is none.
+
+    `partition`: letters and digits that tell this writer from others in the same directory, which may live in other
+    processes; no two write under the same. `resume`: the number of the next part, as the last `close` that counts
+    gave it; parts from there on are removed. None when nothing is remembered, at the first start as well as after the
+    engine's own state was lost: then numbers begin at 0, and parts that are there already are set aside (renamed to
+    what no reader sees, `.part-0-00000007.parquet.replaced-1`), since the events of a fleet that begins anew are
+    numbered anew.
+
+    OSError, naming the file, when one cannot be written (the disk is full); nothing of it is left then. ValueError for
+    a partition that is not a word.
+    """
+
+    directory: Path
+    partition: str = "0"
+    resume: int | None = None
+    number: int = field(init=False)
+    """Of the part that is open."""
+    _rows: list[dict[str, Any]] = field(factory=list, init=False)
+    _buffer: Any = field(default=None, init=False)
+    _writer: Any = field(default=None, init=False)
+    _groups: int = field(default=0, init=False)
+
+    def __attrs_post_init__(self) -> None:
+        if not re.fullmatch(r"\w+", self.partition):
+            raise ValueError(f"partition must be letters and digits, not {self.partition!r}")
+        self.directory.mkdir(parents=True, exist_ok=True)
+        self.number = 0 if self.resume is None else self.resume
+        for path in sorted(self.directory.iterdir()):
+            name = _NAME.fullmatch(path.name)
+            if name is None or name[1] != self.partition:
+                continue
+            if name[3] or (self.resume is not None and int(name[2]) >= self.resume):
+                path.unlink()
+            elif self.resume is None:
+                _set_aside(path)
+        _settle(self.directory)
+
+    def write(self, told: Iterable[Told]) -> None:
+        """Gather events for the part that is open."""
+        for one in told:
+            self._rows.append(told_row(one))
+            if len(self._rows) >= GROUP:
+                self._flush()
+                if self._groups >= GROUPS:
+                    self.close()
+
+    def close(self) -> int:
+        """Bring what was gathered to the disk as one part, if it is anything. The number of the next part: what the
+        engine remembers, together with the state of whoever told the events."""
+        if self._rows:
+            self._flush()
+        if self._writer is not None:
+            self._writer.close()
+            data, self._writer, self._groups = self._buffer.getvalue(), None, 0
+            self._publish(data, self.directory / f"part-{self.partition}-{self.number:08d}.parquet")
+            self.number += 1
+        return self.number
+
+    def _flush(self) -> None:
+        """A row group of what was gathered, sorted: a wearer's events stand together, and compress so."""
+        if self._writer is None:
+            self._buffer = pa.BufferOutputStream()
+            self._writer = parquet.ParquetWriter(
+                self._buffer, SCHEMA, compression="zstd", use_dictionary=REPEATED
+            )
+        table = pa.Table.from_pylist(self._rows, SCHEMA)
+        self._rows = []
+        self._writer.write_table(table.sort_by([("wearer", "ascending"), ("number", "ascending")]))
+        self._groups += 1
+
+    def _publish(self, data: Any, path: Path) -> None:
+        beside = path.with_name(f".{path.name}.writing")
+        try:
+            with beside.open("wb") as file:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())
+            beside.replace(path)
+            _settle(self.directory)
+        except OSError as error:
+            with suppress(OSError):
+                beside.unlink(missing_ok=True)
+            raise OSError(error.errno, error.strerror, str(path)) from None
+
+
+def _set_aside(path: Path) -> None:
+    names = (path.with_name(f".{path.name}.replaced-{n}") for n in count(1))
+    path.rename(next(name for name in names if not name.exists()))
+
+
+def _settle(directory: Path) -> None:
+    """A name is on the disk only when its directory is; Windows has no way to say so and needs none."""
+    if hasattr(os, "O_DIRECTORY"):
+        at = os.open(directory, os.O_RDONLY | os.O_DIRECTORY)
+        try:
+            os.fsync(at)
+        finally:
+            os.close(at)
