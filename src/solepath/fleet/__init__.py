@@ -9,6 +9,7 @@ protocol/fleet.md says what a phone sends, in what order it is used, and what a 
 from ..events.fleet import FleetEvent, NumbersMissing, Refusal, SentRejected, StateRefused, WearerFailed
 from .fleet import Fleet
 from .keyed import Keyed
+from .once import Once
 from .rows import SENT_COLUMNS, TOLD_COLUMNS, read_line, read_sent, sent_line, sent_row, told_row
 from .sent import End, Sent, Tick, Told, Unreadable
 
@@ -20,6 +21,7 @@ __all__ = [
     "FleetEvent",
     "Keyed",
     "NumbersMissing",
+    "Once",
     "Refusal",
     "Sent",
     "SentRejected",

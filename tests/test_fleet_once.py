@@ -1,0 +1,133 @@
+"""Once: of what is delivered at least once, every event the first time."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath.fleet import Once
+from solepath.fleet.once import RANGES
+from solepath.machine import SnapshotError
+
+WEARERS = st.sampled_from(["anna", "bert", ""])
+IDENTITIES = st.lists(st.tuples(WEARERS, st.integers(0, 12)), max_size=60)
+
+
+def passed(once: Once, told: list[tuple[str, int]]) -> list[tuple[str, int]]:
+    return [identity for identity in told if once.first(*identity)]
+
+
+@st.composite
+def killed_runs(draw: st.DrawFn) -> tuple[int, list[int]]:
+    """(events of the wearer, numbers as an engine that was killed several times delivers them)."""
+    events = draw(st.integers(0, 60))
+    told: list[int] = []
+    kept = reached = 0
+    for _ in range(draw(st.integers(0, 8))):
+        reached = draw(st.integers(reached, events))
+        told += range(kept, max(reached, kept))
+        kept = draw(st.integers(kept, reached))
+    return events, [*told, *range(kept, events)]
+
+
+@given(killed_runs())
+def test_after_any_kills_every_event_is_heard_once_and_in_its_order(run: tuple[int, list[int]]) -> None:
+    events, told = run
+    once = Once()
+    assert [number for number in told if once.first("anna", number)] == list(range(events))
+
+
+@given(IDENTITIES)
+def test_whatever_the_order_each_identity_passes_the_first_time_only(told: list[tuple[str, int]]) -> None:
+    assert passed(Once(), told) == list(dict.fromkeys(told))
+
+
+@given(IDENTITIES, st.integers(0, 60))
+def test_a_reader_that_was_saved_goes_on_as_if_nothing_had_happened(told: list[tuple[str, int]], cut: int) -> None:
+    once = Once()
+    before = passed(once, told[:cut])
+    again = Once.restore(json.loads(json.dumps(once.snapshot())))
+    assert again == once
+    assert before + passed(again, told[cut:]) == passed(Once(), told)
+
+
+def test_events_that_a_dying_producer_lost_pass_when_they_come_with_the_replay() -> None:
+    """A producer may give up some messages and still deliver later ones before its process ends."""
+    told = [0, 1, 2, 5, 6, 2, 3, 4, 5, 6, 7]
+    once = Once()
+    assert [n for n in told if once.first("anna", n)] == [0, 1, 2, 5, 6, 3, 4, 7]
+
+
+def test_a_reader_that_came_late_hears_what_is_repeated_from_before_it_came() -> None:
+    once = Once()
+    assert [n for n in [50, 51, 48, 49, 50, 51, 52] if once.first("anna", n)] == [50, 51, 48, 49, 52]
+
+
+@given(st.lists(st.integers(0, 10**9), max_size=300), st.integers(1, 4))
+def test_what_is_remembered_is_bounded_and_never_lets_a_number_pass_twice(numbers: list[int], limit: int) -> None:
+    once = Once(limit)
+    heard = [n for n in numbers if once.first("anna", n)]
+    assert len(set(heard)) == len(heard)
+    for wearer in map(str, range(2 * limit)):
+        assert once.first(wearer, 0)
+    state = once.snapshot()["state"]
+    assert isinstance(state, dict) and isinstance(state["_heard"], dict)
+    assert len(state["_heard"]) == limit
+
+
+def test_of_many_holes_the_lowest_counts_as_heard() -> None:
+    once = Once()
+    for number in range(1, 2 * RANGES + 2, 2):
+        assert once.first("anna", number)
+    assert not once.first("anna", 0)
+    assert once.first("anna", 2)
+
+
+def test_of_more_wearers_than_there_is_room_for_the_one_silent_longest_is_forgotten() -> None:
+    once = Once(limit=2)
+    assert [once.first(wearer, 0) for wearer in ("anna", "bert", "anna", "carl", "anna", "bert")] == [
+        True, True, False, True, False, True,
+    ]  # fmt: skip
+
+
+def test_a_reader_begins_again_from_the_newest_number_of_each_wearer_that_its_table_holds() -> None:
+    once = Once.after({"anna": 7})
+    assert [once.first("anna", number) for number in (0, 6, 7, 8)] == [False, False, False, True]
+    assert once.first("bert", 0)
+
+
+@pytest.mark.parametrize("wearer, number", [("anna", 1.0), ("anna", True), ("anna", "1"), (None, 1), (b"anna", 1)])
+def test_what_is_no_identity_is_the_callers_mistake(wearer: object, number: object) -> None:
+    once = Once()
+    with pytest.raises(TypeError, match="identity"):
+        once.first(wearer, number)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="from 0"):
+        once.first("anna", -1)
+    assert once == Once()
+
+
+def test_room_for_no_wearer_is_the_callers_mistake() -> None:
+    with pytest.raises(ValueError, match="at least 1"):
+        Once(limit=0)
+
+
+SAVED = Once.after({"anna": 7}).snapshot()
+
+
+@pytest.mark.parametrize(
+    "saved",
+    [
+        None, {}, {"solepath.once": 2, "state": {}}, {"solepath.once": 1}, {"solepath.once": 1, "state": {}},
+        {"solepath.once": 1, "state": {"limit": 0, "_heard": {}}},
+        {"solepath.once": 1, "state": {"limit": 9, "_heard": {"anna": {"end": -1, "missing": []}}}},
+        {"solepath.once": 1, "state": {"limit": 9, "_heard": {"anna": {"end": 3, "missing": [[2, 5]]}}}},
+        {"solepath.once": 1, "state": {"limit": 9, "_heard": {"anna": {"end": 9, "missing": [[4, 5], [1, 2]]}}}},
+    ],
+)  # fmt: skip
+def test_what_is_no_snapshot_is_refused(saved: object) -> None:
+    assert Once.restore(SAVED).snapshot() == SAVED
+    with pytest.raises(SnapshotError):
+        Once.restore(saved)
