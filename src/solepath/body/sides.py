@@ -105,8 +105,8 @@ class Side:
 
 @define
 class Sides:
-    """Evidence of both feet, none of it where a device says of itself on which foot it is. Costs eight bytes to write at
-    50 Hz, or a centre of pressure at 20 Hz for an insole alone."""
+    """Evidence of both feet; none where a device says of itself on which foot it is. Costs an integral at 50 Hz, or a
+    centre of pressure at 20 Hz for an insole alone."""
 
     least: int = 8
     """Steps of each foot before anything is said."""

@@ -1,4 +1,4 @@
-"""How a foot has turned over its last second or two, eight bytes an instant: `sides` looks at it when a step is over."""
+"""How a foot has turned over its last second or two, eight bytes an instant: what sides.py sees a step by."""
 
 from __future__ import annotations
 

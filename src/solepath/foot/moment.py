@@ -10,7 +10,6 @@ from attrs import define, frozen
 from ..types import Quat, Vec3
 from ..vector import normalise, sub
 
-
 ROW = Struct("<15f")
 """A moment as it is kept: all numbers of `Moment` in their order, rounded to float32. That is 60 bytes rather than some
 700 as objects, and changes by less than 1e-6 of itself what is good for some per cent."""
