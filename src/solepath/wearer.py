@@ -109,6 +109,8 @@ class Wearer:
             self._follow(plan, events)
         if self.poses or self.pressures:
             self._show(tracker, sample, events)
+        if sample.pressure:
+            tracker.sole.insole.cells = ()
         return events
 
     def hear(self, site: Site, event: Event) -> None:

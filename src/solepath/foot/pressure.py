@@ -69,11 +69,13 @@ class Insole:
     """Cells in front of this share are the forefoot's area."""
     newtons: Newtons | None = None
     noise: tuple[float, ...] = ()
-    """Of each cell, in the unit of the samples, or N with `newtons`."""
+    """Of each cell, in the unit of the samples, or N with `newtons`; not used on another number of cells."""
     # state
     layout: Layout | None = field(default=None, init=False)
+    tells_newtons: bool = field(default=False, init=False)
+    """The device does, so `newtons` are not used."""
     cells: tuple[float, ...] = field(default=(), init=False)
-    """The newest values, noise taken off."""
+    """Values of the sample that is being used, noise taken off; () once it was."""
     sum: float = field(default=0.0, init=False)
     """Of them."""
     heel_cells: tuple[int, ...] = field(default=(), init=False)
@@ -82,9 +84,6 @@ class Insole:
     heel: Extremes = field(factory=Extremes, init=False)
     forefoot: Extremes = field(factory=Extremes, init=False)
     highest: float = field(default=0.0, init=False)
-    xs: list[float] = field(factory=list, init=False)
-    ys: list[float] = field(factory=list, init=False)
-    """Where the cells are, foot frame, m."""
     tare: list[float] = field(factory=list, init=False)
     """Each cell in the air, unit of the samples."""
     tare_total: float = field(default=0.0, init=False)
@@ -102,8 +101,6 @@ class Insole:
         self.layout = layout
         heel_ends, forefoot_begins = self.heel_ends * layout.length, self.forefoot_begins * layout.length
         self.heel_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x < heel_ends])
-        self.xs = [cell.x for cell in layout.cells]
-        self.ys = [cell.y for cell in layout.cells]
         if len(self.tare) != len(layout.cells):
             self.tare = [0.0] * len(layout.cells)
         self.forefoot_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x > forefoot_begins])
@@ -114,7 +111,7 @@ class Insole:
 
     def update(self, t: float, cells: tuple[float, ...]) -> Load | None:
         """The load as shares of the wearer's full load, or None while that is not known."""
-        if self.newtons is not None:
+        if self.newtons is not None and not self.tells_newtons:
             cells = in_newtons(self.newtons, cells)
         if len(self.noise) == len(cells):
             pairs = zip(cells, self.noise, strict=True)
@@ -170,13 +167,14 @@ class Insole:
         """(x, y) in the foot frame, m: the mean of the cells' places weighted by their load above tare. None with
         hardly any load or without a layout. Equations (2) and (3) of "Smart insole-based indoor localization system
         for Internet of Things applications", with load in place of pressure."""
-        if not self.xs or not len(cells) == len(self.xs) == len(self.tare):
+        layout = self.layout
+        if layout is None or not len(cells) == len(layout.cells) == len(self.tare):
             return None
         loads = [value - zero if value > zero else 0.0 for value, zero in zip(cells, self.tare, strict=True)]
         load = sum(loads)
         if load <= self.least * (self.total.high - self.total.low):
             return None
-        return (sum(map(mul, self.xs, loads)) / load, sum(map(mul, self.ys, loads)) / load)
+        return (sum(map(mul, layout.xs, loads)) / load, sum(map(mul, layout.ys, loads)) / load)
 
 
 @lru_cache(maxsize=16)

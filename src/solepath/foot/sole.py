@@ -85,12 +85,12 @@ class Sole:
             silent = {*health.out, *[i for i, _ in health.numberless]}
             values = tuple([0.0 if i in silent else value for i, value in enumerate(values)])
         force = sum(values)
-        centre = None
-        if insole.layout is not None and not self.guessed and len(values) == len(insole.xs):
+        centre, layout = None, insole.layout
+        if layout is not None and not self.guessed and len(values) == len(layout.cells):
             # a foot in the air for long has a small reach of loads; its cells are less than what they have carried
             least = insole.least * max(insole.total.high - insole.total.low, insole.highest)
             if force > least:
-                centre = (sum(map(mul, insole.xs, values)) / force, sum(map(mul, insole.ys, values)) / force)
+                centre = (sum(map(mul, layout.xs, values)) / force, sum(map(mul, layout.ys, values)) / force)
         return FootPressed(t=t, known_at=known_at, foot=self.foot, values=values, force=force, centre=centre)
 
     def _compare(self, count: int, t: float, known_at: float, limits: Limits, events: list[Event]) -> None:
@@ -104,12 +104,12 @@ class Sole:
         self.compared = not odd or limits.misfit(layout, noise, count, t, known_at, events)
         if odd and self.compared:
             self.supposed = None
-            self.insole.noise = noise if len(noise) == count else ()
 
     def _lay_out(self, layout: Layout, limits: Limits) -> None:
         self.insole.wear(layout)
-        if self.insole.newtons is not None and layout.scale is not None and not self.guessed:
-            self.insole.newtons = None
+        insole = self.insole
+        if insole.newtons is not None and not insole.tells_newtons and layout.scale is not None and not self.guessed:
+            insole.tells_newtons = True
             what = f"the {self.foot.value} insole tells newtons itself: the calibration's cubic is not used"
             limits.later(what)
         self.worn = True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from hashlib import blake2b
 from math import radians, sqrt
 
 from attrs import define, field
@@ -16,7 +17,7 @@ from ..events import (
     Rejection,
     ScaleSuspect,
 )
-from ..types import Layout, Quat, Sample, Site
+from ..types import Layout, Quat, Sample, Site, shared
 from ..vector import GRAVITY
 from ..wire.error import WireError
 from ..wire.fragment import is_fragment, parse_fragment
@@ -53,7 +54,7 @@ class InsoleLink:
 
     site: Site
     info: bytes = b""
-    """The INFO record in force, as it came."""
+    """Eight bytes that tell the INFO record in force from others; none before any."""
     layout: int | None = None
     cells: int = 0
     rate: int = TICK_RATE
@@ -129,9 +130,10 @@ class InsoleLink:
         if info.foot is not self.site.foot:
             raise WireError(Rejection.WRONG_SITE, f"INFO of a {info.foot.value} insole")
         _check_scales(info)
-        if data == self.info:
+        digest = blake2b(data, digest_size=8).digest()
+        if digest == self.info:
             return []
-        self.info = bytes(data)
+        self.info = digest
         self.layout, self.cells, self.rate = info.layout, len(info.cells), info.tick_rate
         if info.acc_scale != self.acc_scale:
             self.rest = RestCheck(info.acc_scale)
@@ -145,7 +147,7 @@ class InsoleLink:
             scale=info.pressure_scale if known else None,
             full_scale=FULL_PRESSURE * info.pressure_scale if known else FULL_PRESSURE,
         )
-        return [LayoutKnown(t=arrival, known_at=arrival, site=self.site, layout=layout)]
+        return [LayoutKnown(t=arrival, known_at=arrival, site=self.site, layout=shared(layout))]
 
     # --- frames -------------------------------------------------------------------------------------------------
 
