@@ -15,7 +15,7 @@ from copy import deepcopy
 from math import inf, isfinite
 from typing import Any
 
-from attrs import define, evolve, field
+from attrs import evolve
 
 from .body.gait_means import GaitParameters
 from .body.position import Position
@@ -31,24 +31,12 @@ from .link.driver import Driver
 from .link.known import Kinds, kinds
 from .machine import Json, SnapshotError, checksum, load, save
 from .recipes import DEFAULT, Recipe
+from .state import State
 from .types import Activity, Foot, Packet, Phase, Sample, Site, Support
 from .wearer import Wearer, in_order
 
 SNAPSHOT_VERSION = 1
 A_NUMBER = (float, int)
-
-
-@define
-class _State:
-    """All that a session remembers."""
-
-    wearer: Wearer
-    plan: int | None = None
-    """Fingerprint of the floor plan; None without one."""
-    now: float | None = None
-    """The latest moment that anything is known of, s."""
-    decoders: dict[Site, Decoder] = field(factory=dict)
-    finished: bool = False
 
 
 class Session:
@@ -105,7 +93,7 @@ class Session:
             if why_not is not None:
                 raise FloorPlanError(f"start: {why_not}")
             wearer.place.set_out(deepcopy(start))
-        self._state = _State(wearer, None if self._plan is None else self._plan.fingerprint)
+        self._state = State(wearer, None if self._plan is None else self._plan.fingerprint)
         for site, device in ({} if devices is None else devices).items():
             self.bind(site, device)
 
@@ -207,7 +195,7 @@ class Session:
         self._take(packet.site, items, events)
         return events
 
-    def _sample(self, state: _State, sample: Sample) -> list[Event]:
+    def _sample(self, state: State, sample: Sample) -> list[Event]:
         t, site = sample.t, sample.site
         if not isinstance(site, Site) or not isinstance(t, A_NUMBER):
             raise TypeError("a sample holds a time and a Site")
@@ -311,19 +299,47 @@ class Session:
             raise SnapshotError("not a snapshot of a session")
         if saved["solepath"] != SNAPSHOT_VERSION:
             raise SnapshotError(f"snapshot version {saved['solepath']!r}; this release reads {SNAPSHOT_VERSION}")
+        state = load(State, saved["state"], parts)
+        state.decoders = in_order(state.decoders, Site)
+        state.wearer.feet = in_order(state.wearer.feet, Foot)
+        if checksum(save(state)) != saved["check"]:
+            raise SnapshotError("the snapshot was damaged: its checksum is another")
+        return cls._of(state, profiles, floorplan)
+
+    def pack(self) -> bytes:
+        """Everything the session remembers, in some 20 kB and a third of a millisecond: for where many are saved often
+        (protocol/snapshot.md). Its recipe is not in it. Needs numpy. TypeError and SnapshotError as `snapshot`."""
+        from .packing.form import pack
+
+        return pack(self._state)
+
+    @classmethod
+    def unpack(
+        cls,
+        data: bytes,
+        recipe: Recipe = DEFAULT,
+        *,
+        profiles: Iterable[Driver] = (),
+        parts: Iterable[type] = (),
+        floorplan: FloorPlan | IndexedPlan | None = None,
+    ) -> Session:
+        """A session that goes on where it was packed. `recipe`: the same as then; the rest as in `restore`.
+        SnapshotError when it was another, for any bytes that are no packed session, and where `restore` has one."""
+        from .packing.form import unpack
+
+        return cls._of(unpack(data, recipe, parts), profiles, floorplan)
+
+    @classmethod
+    def _of(cls, state: State, profiles: Iterable[Driver], floorplan: FloorPlan | IndexedPlan | None) -> Session:
+        """What goes on from a state. SnapshotError where that needs a floor plan or a driver that is not there."""
         session = cls.__new__(cls)
         session._kinds = kinds(profiles)
-        session._state = load(_State, saved["state"], parts)
         session._plan = _indexed(floorplan)
-        if session._state.plan != (None if session._plan is None else session._plan.fingerprint):
-            with_one = "with the floor plan that it had" if session._state.plan is not None else "without a floor plan"
+        session._state = state
+        if state.plan != (None if session._plan is None else session._plan.fingerprint):
+            with_one = "with the floor plan that it had" if state.plan is not None else "without a floor plan"
             raise SnapshotError(f"a snapshot of a session is restored {with_one}")
-        session._state.decoders = in_order(session._state.decoders, Site)
-        wearer = session._state.wearer
-        wearer.feet = in_order(wearer.feet, Foot)
-        if checksum(save(session._state)) != saved["check"]:
-            raise SnapshotError("the snapshot was damaged: its checksum is another")
-        for decoder in session._state.decoders.values():
+        for decoder in state.decoders.values():
             if decoder.link is None:
                 continue
             kind = session._kinds.get(decoder.link.name)
