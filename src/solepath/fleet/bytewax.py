@@ -14,9 +14,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from datetime import UTC, datetime, timedelta
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
+from attrs import define, field, frozen
 from bytewax import operators
 from bytewax.dataflow import operator
 from bytewax.operators import KeyedStream, StatefulBatchLogic
@@ -25,9 +27,7 @@ from bytewax.outputs import FixedPartitionedSink, StatefulSinkPartition
 from .fleet import Fleet
 from .keyed import Keyed
 from .parquet import Parts
-from .sent import Sent, Told, Unreadable
-
-Batch = tuple[str, list[Sent | Unreadable]]
+from .sent import Told
 
 
 @operator
@@ -38,71 +38,61 @@ def gait(step_id: str, up: KeyedStream[Any], fleet: Fleet, idle: timedelta | Non
     that of Fleet.step. After a restart a session is made again when its wearer is heard of again. `idle`: the session
     of who sent nothing for so long is put away as bytes until then, which changes memory and not a single event.
     """
-    batches = operators.flat_map_batch("batches", up, _batches)
-    return operators.stateful_batch("sessions", batches, partial(_Wearer, fleet, idle))
+    named = operators.map("named", up, lambda item: (item[0], item))  # bytewax tells a logic no key
+    return operators.stateful_batch("sessions", named, partial(_Wearer, fleet, idle))
 
 
-def _batches(items: list[tuple[str, Any]]) -> list[tuple[str, Batch]]:
-    """By wearer, each with the name: bytewax does not tell it to who keeps the state."""
-    by_wearer: dict[str, list[Any]] = {}
-    for wearer, sent in items:
-        by_wearer.setdefault(wearer, []).extend(sent if isinstance(sent, list | tuple) else [sent])
-    return [(wearer, (wearer, sent)) for wearer, sent in by_wearer.items()]
-
-
-class _Wearer(StatefulBatchLogic[Batch, Told, bytes | None]):
+@define
+class _Wearer(StatefulBatchLogic[tuple[str, Any], Told, bytes | None]):
     """One wearer: a session, or its state as bytes, or both while they are the same."""
 
-    def __init__(self, fleet: Fleet, idle: timedelta | None, state: bytes | None) -> None:
-        self._fleet, self._idle, self._state = fleet, idle, state
-        self._keyed: Keyed | None = None
-        self._until: datetime | None = None
+    fleet: Fleet
+    idle: timedelta | None
+    state: bytes | None
+    keyed: Keyed | None = None
 
-    def on_batch(self, values: list[Batch]) -> tuple[Iterable[Told], bool]:
-        if self._keyed is None:
-            self._keyed = self._fleet.open(values[0][0], self._state)
-        self._state = None
-        if self._idle is not None:
-            self._until = datetime.now(UTC) + self._idle
-        return [told for _, sent in values for told in self._keyed.feed(sent)], self.RETAIN
+    def on_batch(self, values: list[tuple[str, Any]]) -> tuple[Iterable[Told], bool]:
+        keyed = self.keyed = self.keyed or self.fleet.open(values[0][0], self.state)
+        self.state = None
+        told = [keyed.feed(sent if isinstance(sent, list | tuple) else [sent]) for _, sent in values]
+        return list(chain.from_iterable(told)), self.RETAIN
 
     def notify_at(self) -> datetime | None:
-        return self._until
+        return None if self.idle is None or self.keyed is None else datetime.now(UTC) + self.idle
 
     def on_notify(self) -> tuple[Iterable[Told], bool]:
         self.snapshot()
-        self._keyed = self._until = None
+        self.keyed = None
         return [], self.RETAIN
 
     def snapshot(self) -> bytes | None:
-        if self._state is None and self._keyed is not None:
-            self._state = self._keyed.state()
-        return self._state
+        if self.state is None and self.keyed is not None:
+            self.state = self.keyed.state()
+        return self.state
 
 
+@frozen
 class ParquetSink(FixedPartitionedSink[Told, int]):
-    """Told, keyed by wearer, as Parquet files in `directory` (fleet/parquet.py), a part at every snapshot.
+    """Told, keyed by wearer, as Parquet files in `directory` (fleet/parquet.py), which all workers see; every snapshot
+    closes a part. `partitions`: so many workers write at a time; it stays as it is for the life of a recovery store.
+    The job ends with an OSError that names the file when one cannot be written."""
 
-    `partitions`: so many workers write; it stays the same for the life of a recovery store. All workers see the same
-    directory. The job ends with an OSError that names the file when one cannot be written.
-    """
-
-    def __init__(self, directory: str | Path, partitions: int = 1) -> None:
-        self._directory, self._partitions = Path(directory), partitions
+    directory: Path = field(converter=Path)
+    partitions: int = 1
 
     def list_parts(self) -> list[str]:
-        return [str(number) for number in range(self._partitions)]
+        return [str(number) for number in range(self.partitions)]
 
     def build_part(self, step_id: str, for_part: str, resume_state: int | None) -> _Partition:
-        return _Partition(Parts(self._directory, for_part, resume_state))
+        return _Partition(Parts(self.directory, for_part, resume_state))
 
 
+@frozen
 class _Partition(StatefulSinkPartition[Told, int]):
-    def __init__(self, parts: Parts) -> None:
-        self._parts = parts
+    parts: Parts
 
     def write_batch(self, values: list[Told]) -> None:
-        self._parts.write(values)
+        self.parts.write(values)
 
     def snapshot(self) -> int:
-        return self._parts.close()
+        return self.parts.close()
