@@ -26,6 +26,7 @@ from attrs import define, evolve, field
 from ..events import Event, LiftRidden, StepTaken
 from ..foot.tracker import FootTracker
 from ..types import Foot, Site
+from .heard import Heard, Told
 from .position import Position
 
 SCALE = 8578.0
@@ -41,7 +42,7 @@ UNKNOWN = 1e4
 FARTHEST = 1e5
 """Tracks that are higher, m, lead nowhere."""
 LEFT, RIGHT, MOVE = 0, 1, 2
-"""What is kept is of the left barometer, of the right one, or a move of the correction."""
+"""Of whom what is kept was told: the left barometer, the right one, or a move of the correction."""
 AROUND = 0.7
 """So long before a ride was felt and after it, readings are not of standing still, s."""
 LEVEL = 0.02
@@ -133,15 +134,15 @@ class Altitude:
     now: Heights = field(factory=Heights, init=False)
     base: Heights = field(factory=Heights, init=False)
     """As it was before what is kept."""
-    kept: deque[tuple[float, int, float, float]] = field(factory=deque, init=False)
-    """(t in s, which, value in m, variance in m^2), in the order in which they were used."""
+    kept: Heard = field(factory=Heard, init=False)
+    """Of the left barometer, of the right one, or a move of the correction."""
     sides: list[Gathering] = field(factory=lambda: [Gathering(), Gathering()], init=False)
     noise: float = field(default=0.04, init=False)
     """Variance of a reading that is used, learnt, m^2."""
     doubt: float = field(default=0.0, init=False)
     """Variance of all rides, m^2."""
     strides: deque[tuple[float, float]] = field(factory=deque, init=False)
-    """Begin and end of the newest, s."""
+    """Begin and end of the newest, in whole hundredths of a second."""
 
     def breathed(self, foot: FootTracker, t: float, pressure: float) -> None:
         """A foot's barometer reads `pressure` Pa at `t` s."""
@@ -198,7 +199,7 @@ class Altitude:
     # --- what came ---
 
     def _stepped(self, step: StepTaken) -> None:
-        self.strides.append((round(step.t_start, 2), round(step.t_end, 2)))
+        self.strides.append((float(round(100.0 * step.t_start)), float(round(100.0 * step.t_end))))
         if step.stride_length < STRODE:
             self.strides.pop()
         elif len(self.strides) > STRIDES:
@@ -217,19 +218,20 @@ class Altitude:
     def _ridden(self, ride: LiftRidden) -> LiftRidden:
         """The ride, at the height that it most likely had."""
         start, end = ride.t_start, ride.t
-        heard = [one for one in self.kept if one[1] != MOVE and not start - AROUND < one[0] < end + AROUND]
+        told = self.kept.all()
+        heard = [one for one in told if one[1] != MOVE and not start - AROUND < one[0] < end + AROUND]
         aired = any([one[0] < start for one in heard]) and any([one[0] > end for one in heard])
         if not aired and not self._sound(ride):
             return evolve(ride, height=None)
         by = 0.0 if ride.height is None or not abs(ride.height) < FARTHEST else ride.height
         variance = (self.ridden * by) ** 2 if by else UNKNOWN
         before = self.now.values[0]
-        kept = [one for one in self.kept if one[1] == MOVE or not start - AROUND < one[0] < end + AROUND]
+        kept = [one for one in told if one[1] == MOVE or not start - AROUND < one[0] < end + AROUND]
         first = [one for one in kept if one[0] <= end]
         later = [one for one in kept if one[0] > end]
-        self.kept = deque([*first, (end, MOVE, by, variance), *later])
+        self.kept.replace([*first, (end, MOVE, by, variance), *later])
         self.now = self.base.copy()
-        for one in self.kept:
+        for one in self.kept.all():
             self._use(self.now, one)
         risen = self.now.values[0] - before
         self.doubt = min(self.doubt + min(variance, self.now.covariance[0]), UNKNOWN)
@@ -240,7 +242,8 @@ class Altitude:
         height, lasted = ride.height, ride.t - ride.t_start
         if height is None or not lasted > 0.0 or (height > 0.0) is not ride.up:
             return False
-        walked = sum([start > ride.t_start and end < ride.t for start, end in self.strides])
+        began, ended = 100.0 * ride.t_start, 100.0 * ride.t
+        walked = sum([start > began and end < ended for start, end in self.strides])
         return (
             walked < 2
             and abs(height) >= self.shortest
@@ -249,15 +252,13 @@ class Altitude:
 
     # --- the filter ---
 
-    def _keep(self, one: tuple[float, int, float, float]) -> None:
-        t, which, value, variance = one
-        one = (round(t, 3), which, round(value, 4), round(variance, 6))  # small to keep, and no less exact
-        self._use(self.now, one)
-        self.kept.append(one)
-        while len(self.kept) > 1 and one[0] - self.kept[0][0] > KEPT or len(self.kept) > 8.0 * KEPT:
-            self._use(self.base, self.kept.popleft())
+    def _keep(self, one: Told) -> None:
+        kept = self.kept
+        while (oldest := kept.oldest) is not None and (one[0] - oldest > KEPT or kept.count >= 8.0 * KEPT):
+            self._use(self.base, kept.pop())
+        self._use(self.now, kept.add(one))
 
-    def _use(self, heights: Heights, one: tuple[float, int, float, float]) -> None:
+    def _use(self, heights: Heights, one: Told) -> None:
         t, which, value, variance = one
         if which == MOVE:
             heights.move(value, variance)
