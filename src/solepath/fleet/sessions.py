@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from typing import Any
 
@@ -11,7 +10,6 @@ from attrs import frozen
 from ..calibration import Calibration
 from ..floorplan.index import IndexedPlan
 from ..link.driver import Driver
-from ..machine import SnapshotError
 from ..recipes import Recipe
 from ..session import Session
 
@@ -42,19 +40,14 @@ class Sessions:
 
     def pack(self, session: Session) -> bytes:
         """SnapshotError or TypeError when a part of the app's own holds what cannot be saved."""
-        return json.dumps(session.snapshot(), separators=(",", ":")).encode()
+        return session.pack()
 
     def unpack(self, data: bytes) -> Session:
         """SnapshotError when it cannot go on here."""
-        try:
-            saved = json.loads(data)
-        except (ValueError, RecursionError):
-            raise SnapshotError("the session was damaged") from None
-        return self.restored(saved)
+        own: Any = {"profiles": self.profiles, "parts": self.parts, "floorplan": self.floorplan}
+        return Session.unpack(data, self.recipe, **own)
 
     def restored(self, snapshot: Any) -> Session:
         """The same of a JSON snapshot."""
-        session = Session.restore(snapshot, profiles=self.profiles, parts=self.parts, floorplan=self.floorplan)
-        if session.recipe.name != self.recipe.name:
-            raise SnapshotError(f"a session of recipe {session.recipe.name}, not {self.recipe.name}")
-        return session
+        own: Any = {"profiles": self.profiles, "parts": self.parts, "floorplan": self.floorplan}
+        return self.unpack(Session.restore(snapshot, **own).pack())

@@ -1,0 +1,79 @@
+"""Wearers of a fleet that tests share: walks as a phone sends them, and rows that show which of them were used."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache
+from itertools import pairwise
+
+from attrs import evolve, frozen
+
+from solepath.events import Event, PacketRejected
+from solepath.fleet import End, Fleet, NumbersMissing, Sent, SentRejected, Told, Unreadable
+from solepath.recipes import DEFAULT, Recipe
+from solepath.session import Session
+from solepath.types import Packet, Site
+from walks import ROUGH, SHORT, insoles
+
+WEARER = "w"
+Item = Sent | Unreadable
+
+
+@frozen
+class Walked:
+    """A walk as it is sent, and what a bare session makes of its packets."""
+
+    sent: tuple[Sent, ...]
+    events: tuple[Event, ...]
+
+
+@cache
+def walked(recipe: Recipe = DEFAULT) -> Walked:
+    """A short walk with two insoles over a bad radio, and its end."""
+    packets = insoles(SHORT, ROUGH, 7, 48).packets
+    session = Session(recipe)
+    events = [event for packet in packets for event in session.feed(packet)] + session.finish()
+    sent = [Sent(WEARER, number, packet) for number, packet in enumerate(packets)]
+    return Walked((*sent, Sent(WEARER, len(sent), End())), tuple(events))
+
+
+def shown(number: int, run: int = 0, wearer: str = WEARER) -> Sent:
+    """A packet that a session rejects in one event, which names it: it was used, and nothing else happened."""
+    return Sent(wearer, number, Packet(0.25 * number, Site.LEFT_FOOT, f"story/{run}-{number}", b""), run)
+
+
+def stepped(fleet: Fleet, cuts: Iterable[Iterable[Item]], state: bytes | None = None) -> tuple[bytes, list[Told]]:
+    """What `Fleet.step` makes of each piece, with the state carried as bytes from one to the next."""
+    told: list[Told] = []
+    for piece in cuts:
+        state, some = fleet.step(WEARER, state, piece)
+        told += some
+    return fleet.step(WEARER, state, [])[0], told
+
+
+def cut(items: list[Item], at: Iterable[int]) -> list[list[Item]]:
+    """The items in pieces that end at these places."""
+    ends = sorted({0, len(items), *(place % (len(items) + 1) for place in at)})
+    return [items[begin:end] for begin, end in pairwise(ends)]
+
+
+def uses(told: Iterable[Told]) -> list[tuple[str, int | None, int | None, object]]:
+    """Of rows as `shown` makes them: (what, run, number, how many or why)."""
+    found: list[tuple[str, int | None, int | None, object]] = []
+    for one in told:
+        match one.event:
+            case PacketRejected(channel=channel):
+                run, number = channel.removeprefix("story/").split("-")
+                found.append(("used", int(run), int(number), None))
+            case NumbersMissing(run=run, first=first, count=count):
+                found.append(("missing", run, first, count))
+            case SentRejected(run=run, number=number, reason=reason):
+                found.append(("rejected", run, number, reason.value))
+            case other:
+                raise AssertionError(f"{other} is told of no story")
+    return found
+
+
+def without_numbers(sent: Iterable[Sent]) -> list[Sent]:
+    """The same under numbers from 0."""
+    return [evolve(one, number=number) for number, one in enumerate(sent)]
