@@ -25,7 +25,7 @@ from ..types import Foot
 from ..wearer import Wearer
 from .reading import Own, Reader, readers
 from .shape import Shape, name_of, shape_of
-from .streams import from_bytes, to_bytes
+from .streams import Units, from_bytes, to_bytes
 from .writing import Writer, writers
 
 MAGIC = b"sole"
@@ -101,11 +101,19 @@ def pack(state: State) -> bytes:
     data: list[bytes] = []
     try:
         _writer()(Packed(head, state), floats, ints, flags, data)
-        body = to_bytes(floats, ints, flags, data)
+        body = to_bytes(floats, ints, flags, data, _units(wearer))
     except (ValueError, KeyError, OverflowError) as error:
         raise SnapshotError(f"a packed session cannot hold this: {error}") from error
     start = HEADER.pack(MAGIC, VERSION, 0, _check(), 0)
     return HEADER.pack(MAGIC, VERSION, 0, _check(), crc32(body, crc32(start))) + body
+
+
+def _units(wearer: Wearer) -> Units:
+    """What a count weighs: its cells' loads are multiples of that."""
+    feet = [wearer.feet.get(foot) for foot in Foot]
+    layouts = [None if foot is None else foot.insole.layout for foot in feet]
+    left, right = [0.0 if layout is None or layout.scale is None else layout.scale for layout in layouts]
+    return left, right
 
 
 def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> State:

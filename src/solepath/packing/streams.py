@@ -1,8 +1,8 @@
 """Numbers as bytes: each in the fewest bytes that give the very same number again.
 
-Four streams hold a state: floats, ints, flags and bytes. A float is told by two bits and what they ask for: nothing
-for 0.0, an int16, a float32 or a float64; an int by two bits and an unsigned byte, an int16, an int32 or an int64; a
-flag is a bit. All little-endian. An int of more than 53 bits, such as a generator's state, is told in decimal digits.
+Four streams hold a state: floats, ints, flags and bytes. Three bits tell what a float is (ZERO to AGAIN below), two
+bits and an unsigned byte, an int16, an int32 or an int64 an int; a flag is a bit. All little-endian. An int of more
+than 53 bits, such as a generator's state, is told in decimal digits.
 
 numpy does it: a loop over two thousand floats would take longer than all the rest.
 """
@@ -14,30 +14,31 @@ from typing import Any
 
 import numpy as np
 
-COUNTS = Struct("<4I")
-"""How many floats, ints and flags there are, and how many bytes tell large ints."""
+Units = tuple[float, float]
+"""What a count of the left insole's cells weighs, and one of the right's, N: loads are multiples of it."""
+COUNTS = Struct("<4I2d")
+"""How many floats, ints and flags there are, how many bytes tell large ints, and the units."""
+
+ZERO, SINGLE, DOUBLE, AGAIN, WHOLE, DECIMAL, LEFT, RIGHT = range(8)
+"""0.0; a float32; a float64; the last float64 again; an int16; one over 10,000; one times a unit."""
 LARGE = -(2**63)
 """Stands for an int that a float would not hold."""
-_FLOATS = (np.dtype("<i2"), np.dtype("<f4"), np.dtype("<f8"))
 _INTS = (np.dtype("u1"), np.dtype("<i2"), np.dtype("<i4"), np.dtype("<i8"))
-_PLACES = np.array([1, 4, 16, 64], np.uint8)
-_UNPACKED = np.array([[byte >> shift & 3 for shift in (0, 2, 4, 6)] for byte in range(256)], np.uint8)
 
 
-def to_bytes(floats: list[float], ints: list[int], flags: list[bool], data: list[bytes]) -> bytes:
+def to_bytes(floats: list[float], ints: list[int], flags: list[bool], data: list[bytes], units: Units) -> bytes:
     """All four as bytes. ValueError, TypeError or OverflowError for what is no finite number."""
     real, rough = _array(floats), _array(ints)
     if not np.isfinite(real).all():
         raise ValueError("a number is not finite")
     is_large = np.abs(rough) >= 2.0**53
-    whole = rough.astype("<i8") if not is_large.any() else np.where(is_large, LARGE, rough).astype("<i8")
     told = b" ".join([b"%d" % ints[i] for i in np.flatnonzero(is_large)])
     return b"".join(
         [
-            COUNTS.pack(len(floats), len(ints), len(flags), len(told)),
-            *_floats(real),
-            *_ints(whole),
-            np.packbits(np.frombuffer(bytes(flags), np.uint8), bitorder="little").tobytes(),
+            COUNTS.pack(len(floats), len(ints), len(flags), len(told), *units),
+            *_floats(real, units),
+            *_ints((np.where(is_large, LARGE, rough) if told else rough).astype("<i8")),
+            _in_bits(np.frombuffer(bytes(flags), np.uint8), 1),
             told,
             *data,
         ]
@@ -52,66 +53,69 @@ def _array(numbers: list[Any]) -> Any:
         raise TypeError(str(wrong)) from None
 
 
-def _floats(real: Any) -> list[bytes]:
+def _scaled(k: int, count: Any, units: Units) -> Any:
+    """What an int16 of a class stands for."""
+    return count / 1e4 if k == DECIMAL else count * (1.0 if k == WHOLE else units[k - LEFT])
+
+
+def _floats(real: Any, units: Units) -> list[bytes]:
     bits = real.view("<i8")
+    classes = np.full(len(real), DOUBLE, np.uint8)
     with np.errstate(all="ignore"):
-        short, single = real.astype(_FLOATS[0]), real.astype(_FLOATS[1])
-    is_short = short.astype("<f8").view("<i8") == bits
-    is_single = single.astype("<f8").view("<i8") == bits
-    is_zero = bits == 0
-    classes = np.where(is_short, 1, 3 - is_single).astype(np.uint8)
-    classes[is_zero] = 0
-    is_short &= ~is_zero
+        single = real.astype("<f4")
+        np.putmask(classes, single.astype("<f8").view("<i8") == bits, SINGLE)
+        counts = np.zeros(len(real), "<i2")
+        scales = {DECIMAL: 1e4, LEFT: 1.0 / units[0] if units[0] else 0.0, WHOLE: 1.0}
+        if units[1] and units[1] != units[0]:
+            scales[RIGHT] = 1.0 / units[1]
+        for k, scale in scales.items():
+            count = np.rint(real * scale).astype("<i2")  # what is too large becomes anything, and is not equal then
+            told = _scaled(k, count.astype("<f8"), units).view("<i8") == bits
+            np.putmask(classes, told, k)
+            np.copyto(counts, count, where=told)
+    np.putmask(classes, bits == 0, ZERO)
+    doubles = np.flatnonzero(classes == DOUBLE)
+    told = bits[doubles]
+    classes[doubles[1:][told[1:] == told[:-1]]] = AGAIN
     return [
-        _two_bits(classes),
-        short[is_short].tobytes(),
-        single[classes == 2].tobytes(),
-        real[classes == 3].tobytes(),
+        _in_bits(classes, 3),
+        counts[classes >= WHOLE].tobytes(),
+        single[classes == SINGLE].tobytes(),
+        real[classes == DOUBLE].tobytes(),
     ]
 
 
 def _ints(whole: Any) -> list[bytes]:
-    low, high = (int(whole.min()), int(whole.max())) if len(whole) else (0, 0)
     classes = np.zeros(len(whole), np.uint8)
-    parts = [b"", b"", b"", b""]
-    if low < 0 or high > 255:
-        classes[(whole < 0) | (whole > 255)] = 1
-        classes[(whole < -(2**15)) | (whole >= 2**15)] = 2
-        classes[(whole < -(2**31)) | (whole >= 2**31)] = 3
-        for k in (1, 2, 3):
-            parts[k] = whole[classes == k].astype(_INTS[k]).tobytes()
-        parts[0] = whole[classes == 0].astype(_INTS[0]).tobytes()
-    else:
-        parts[0] = whole.astype(_INTS[0]).tobytes()
-    return [_two_bits(classes), *parts]
+    classes[(whole < 0) | (whole > 255)] = 1
+    classes[(whole < -(2**15)) | (whole >= 2**15)] = 2
+    classes[(whole < -(2**31)) | (whole >= 2**31)] = 3
+    return [_in_bits(classes, 2), *[whole[classes == k].astype(dtype).tobytes() for k, dtype in enumerate(_INTS)]]
 
 
-def _two_bits(classes: Any) -> bytes:
-    short = -len(classes) % 4
-    if short:
-        classes = np.concatenate([classes, np.zeros(short, np.uint8)])
-    packed: bytes = (classes.reshape(-1, 4) @ _PLACES).tobytes()
-    return packed
+def _in_bits(numbers: Any, width: int) -> bytes:
+    """Eight numbers of so many bits in as many bytes, the first in the lowest bits; zeros fill it up."""
+    eights = np.zeros(-(-len(numbers) // 8) * 8, np.uint8)
+    eights[: len(numbers)] = numbers
+    packed = eights.reshape(-1, 8) @ (1 << np.arange(0, 8 * width, width, dtype="<u4"))
+    told: bytes = packed.astype("<u4", copy=False).view(np.uint8).reshape(-1, 4)[:, :width].tobytes()
+    return told
 
 
 def from_bytes(body: memoryview) -> tuple[list[float], list[int], list[bool], bytes]:
     """What `to_bytes` was given, the bytes in one. ValueError (or struct's error) for anything else; what it makes of
     it is never much larger than it is."""
-    count, whole_count, flag_count, told_length = COUNTS.unpack_from(body)
+    count, whole_count, flag_count, told_length, *units = COUNTS.unpack_from(body)
     cursor = _Cursor(body, COUNTS.size)
-    classes = cursor.classes(count)
-    real = np.zeros(count, "<f8")
-    for k, dtype in enumerate(_FLOATS, 1):
-        of_class = classes == k
-        real[of_class] = cursor.array(dtype, int(np.count_nonzero(of_class)))
+    real = _real(cursor, cursor.in_bits(count, 3), (units[0], units[1]))
     if not np.isfinite(real).all():
         raise ValueError("a number is not finite")
-    classes = cursor.classes(whole_count)
+    classes = cursor.in_bits(whole_count, 2)
     whole = np.zeros(whole_count, "<i8")
     for k, dtype in enumerate(_INTS):
         of_class = classes == k
         whole[of_class] = cursor.array(dtype, int(np.count_nonzero(of_class)))
-    flags = np.unpackbits(cursor.array(_INTS[0], -(-flag_count // 8)), bitorder="little")
+    flags = cursor.in_bits(flag_count, 1)
     told = cursor.take(told_length).tobytes()
     ints: list[int] = whole.tolist()
     if told:
@@ -119,7 +123,23 @@ def from_bytes(body: memoryview) -> tuple[list[float], list[int], list[bool], by
         ints = [int(next(large)) if i == LARGE else i for i in ints]
         if next(large, None) is not None:
             raise ValueError("large ints are left over")
-    return real.tolist(), ints, flags[:flag_count].astype(np.bool_).tolist(), cursor.take(None).tobytes()
+    return real.tolist(), ints, flags.astype(np.bool_).tolist(), cursor.take(None).tobytes()
+
+
+def _real(cursor: _Cursor, classes: Any, units: Units) -> Any:
+    real = np.zeros(len(classes), "<f8")
+    counts = cursor.array(_INTS[1], int(np.count_nonzero(classes >= WHOLE))).astype("<f8")
+    of_counts = classes[classes >= WHOLE]
+    with np.errstate(all="ignore"):
+        for k in (WHOLE, DECIMAL, LEFT, RIGHT):
+            real[classes == k] = _scaled(k, counts[of_counts == k], units)
+    real[classes == SINGLE] = cursor.array(np.dtype("<f4"), int(np.count_nonzero(classes == SINGLE)))
+    is_double = classes == DOUBLE
+    doubles = cursor.array(np.dtype("<f8"), int(np.count_nonzero(is_double)))
+    again = classes == AGAIN
+    is_double |= again
+    real[is_double] = doubles[(np.cumsum(~again[is_double]) - 1)]
+    return real
 
 
 class _Cursor:
@@ -139,5 +159,7 @@ class _Cursor:
     def array(self, dtype: Any, count: int) -> Any:
         return np.frombuffer(self.take(count * dtype.itemsize), dtype)
 
-    def classes(self, count: int) -> Any:
-        return _UNPACKED[self.array(_INTS[0], -(-count // 4))].reshape(-1)[:count]
+    def in_bits(self, count: int, width: int) -> Any:
+        bits = np.unpackbits(self.array(_INTS[0], -(-count // 8) * width), bitorder="little")
+        numbers = bits.reshape(-1, width) @ (1 << np.arange(width, dtype=np.uint8))
+        return numbers[:count]
