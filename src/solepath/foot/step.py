@@ -8,7 +8,7 @@ from attrs import define, field
 
 from ..events import StepFeatures, StepTaken
 from ..types import Foot, Quat, Vec3
-from ..vector import IDENTITY, ZERO, sub
+from ..vector import IDENTITY, ZERO, single, sub
 from .turn import heading_turned
 from .world import World
 
@@ -85,7 +85,7 @@ class StepBuilder:
     pitch_low: float = field(default=0.0, init=False)
     pitch_high: float = field(default=0.0, init=False)
     pitches: list[float] = field(factory=lambda: [0.0] * RECENT, init=False)
-    """The newest ones, rad; the next goes to `slot`."""
+    """The newest ones, rad, as `single` has them; the next goes to `slot`."""
     slot: int = field(default=0, init=False)
     moved_at: float = field(default=0.0, init=False)
     """When the newest one was, s."""
@@ -128,7 +128,7 @@ class StepBuilder:
             self.fastest = speed
         pitch = self.pitch = self.pitch + sagittal * dt
         self.moved_at = t
-        self.pitches[self.slot] = pitch
+        self.pitches[self.slot] = single(pitch)
         self.slot = (self.slot + 1) % RECENT
         if pitch < self.pitch_low:
             self.pitch_low = pitch
@@ -166,7 +166,8 @@ class StepBuilder:
         if self.cop_skipped < self.cop_stride:
             return
         self.cop_skipped = 0
-        self.cop.append(cop)
+        x, y = cop
+        self.cop.append((single(x), single(y)))
         if len(self.cop) > COP_POINTS:
             self.cop = self.cop[::2]
             self.cop_stride *= 2
