@@ -58,7 +58,8 @@ ALLOWED: dict[str, set[str]] = {
     "page": CORE | {"source", "recording", "output", "tally", "monitor", "view"},
     "report": CORE | {"recording", "source", "output", "tally", "timeline", "view"},
     "cli": CORE | {"sim", "recording", "samples", "source", "output", "tally", "demo", "evaluate", "view", "ble",
-                   "page", "report", "loopback", "monitor", "btsnoop", "mcap", "calibrate", "reproduce", "__init__"},
+                   "page", "report", "loopback", "monitor", "btsnoop", "mcap", "calibrate", "reproduce", "fleet",
+                   "__init__"},
     "__main__": {"cli"},
 }  # fmt: skip
 """Room (a module or a folder of src/solepath) -> the rooms that it may import."""

@@ -10,10 +10,10 @@ import os
 import sys
 from collections.abc import Sequence
 
-from . import calibrate, convert, demo, emulate, evaluate, live, reproduce, scan, track
+from . import calibrate, convert, demo, emulate, evaluate, fleet_demo, live, reproduce, scan, track
 from .failure import Failure, note
 
-COMMANDS = (demo, track, scan, live, emulate, convert, calibrate, evaluate, reproduce)
+COMMANDS = (demo, track, scan, live, emulate, convert, calibrate, evaluate, reproduce, fleet_demo)
 
 
 def parser() -> argparse.ArgumentParser:

@@ -1,0 +1,167 @@
+"""`solepath fleet-demo`: emulated wearers through a stream engine that is killed, and what that costs."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .failure import Failure, check_writable, count, known_recipe, positive, seed
+
+if TYPE_CHECKING:
+    from ..fleet.demo.stage import Stage
+
+DIFFERS = 1
+"""Exit status when the events of two runs differ."""
+LONGEST = 3600.0
+"""s of walking."""
+
+
+def add_to(commands: Any) -> None:
+    command: argparse.ArgumentParser = commands.add_parser(
+        "fleet-demo",
+        help="many emulated wearers through a stream engine that is killed",
+        description="Emulated wearers, whose packets come late, twice and out of order, walk through the stream engine "
+        "bytewax, which keeps the state of their sessions. Its processes are killed at random moments (kill -9) and "
+        "started again, and each time the events must equal those of an uninterrupted run, and those of sessions "
+        "without an engine. Exit status 1 when they do not.",
+        epilog="example: solepath fleet-demo --wearers 1000 --kills 10 --out fleet",
+    )
+    command.add_argument("--wearers", metavar="N", type=count, default=100, help="how many wearers (default: 100)")
+    command.add_argument("--kills", metavar="K", type=seed, default=3, help="how many kills (default: 3)")
+    command.add_argument(
+        "--seconds", metavar="S", type=positive, default=6.0, help="how long each wearer walks (default: 6)"
+    )
+    command.add_argument("--recipe", metavar="NAME", default="default", help="recipe of the sessions")
+    command.add_argument("--seed", metavar="X", type=seed, default=1, help="other wearers, other kills (default: 1)")
+    command.add_argument(
+        "--processes",
+        metavar="P",
+        type=count,
+        default=min(2, os.cpu_count() or 1),
+        help="processes of the engine (default: 2, where there are two processors)",
+    )
+    command.add_argument("--out", metavar="DIR", type=Path, help="leave the events there, as Parquet in DIR/told")
+    command.add_argument("--json", metavar="FILE", type=Path, help="write the figures as JSON too")
+    command.add_argument(
+        "--keep", action="store_true", help="keep all that the runs wrote: recovery stores, logs, events"
+    )
+    command.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    _check(options)
+    from ..fleet.demo.run import RunFailed
+    from ..fleet.demo.stage import Stage
+    from ..fleet.demo.wearers import Plan
+    from .loop import stopped_alike
+
+    plan = Plan(options.wearers, options.seconds, options.seed, options.recipe, options.processes)
+    with stopped_alike(), _directory(options) as directory:
+        stage = Stage(directory, plan)
+        try:
+            differences = play(stage, options.kills, keep=options.keep)
+        except RunFailed as failed:
+            raise Failure(str(failed)) from None
+        return conclude(stage, differences, options.out, options.json)
+
+
+def play(stage: Stage, kills: int, *, keep: bool) -> list[str]:
+    """All runs, told as they end; what differed between an uninterrupted one and the sessions alone."""
+    from .fleet_table import of_kills
+
+    plan = stage.plan
+    stage.prepare()
+    print(
+        f"{plan.wearers} wearers walk {plan.seconds:g} s each: {sum(stage.samples)} samples. {stage.poisoned} of them "
+        "send any bytes."
+    )
+    engine = stage.uninterrupted()
+    print(f"uninterrupted: {engine.whole:.1f} s, {engine.events} events in {engine.files} files", flush=True)
+    stage.bare()
+    differences = stage.compare()
+    print(f"sessions alone: {'other' if differences else 'the same'} events", flush=True)
+    for number, outcome in enumerate(stage.killed(kills, keep=keep), 1):
+        for line in of_kills(engine, number, outcome):
+            print(line, flush=True)
+    return differences
+
+
+def conclude(stage: Stage, differences: list[str], out: Path | None = None, json: Path | None = None) -> int:
+    """The table, the files, and the exit status."""
+    from .fleet_table import figures, table_of
+
+    print(f"\n{table_of(stage)}")
+    if json is not None:
+        _write(json, {**figures(stage), "differences": differences})
+    if out is not None:
+        _leave(stage, out)
+    wrong = [f"sessions alone: {line}" for line in differences]
+    for number, outcome in enumerate(stage.outcomes, 1):
+        wrong += [f"killed run {number}: {line}" for line in outcome.differences]
+    if wrong:
+        print("\n".join(["", "The events differ from those of the uninterrupted run.", *wrong]))
+    return DIFFERS if wrong else 0
+
+
+def _check(options: argparse.Namespace) -> None:
+    """Failure for what could only go wrong after a while."""
+    from importlib.util import find_spec
+
+    from ..recipes import BY_NAME
+
+    known_recipe(options.recipe, list(BY_NAME))
+    if options.seconds > LONGEST:
+        raise Failure(f"--seconds {options.seconds:g}: {LONGEST:g} is the most")
+    if options.seconds < 1.0:
+        raise Failure(f"--seconds {options.seconds:g}: a walk takes at least 1")
+    if options.processes > options.wearers:
+        raise Failure(f"--processes {options.processes}: there are only {options.wearers} wearers")
+    if any(find_spec(name) is None for name in ("bytewax", "pyarrow")):
+        raise Failure("the fleet needs bytewax and pyarrow: pip install 'solepath[bytewax]'")
+    if options.out is not None and options.out.exists() and (not options.out.is_dir() or any(options.out.iterdir())):
+        raise Failure(f"{options.out} is there already, and not an empty directory")
+    if options.json is not None:
+        check_writable(options.json)
+
+
+@contextmanager
+def _directory(options: argparse.Namespace) -> Iterator[Path]:
+    """Where the runs are; thrown away at the end unless it is to be kept."""
+    if options.out is not None:
+        options.out.mkdir(parents=True, exist_ok=True)
+        directory = options.out.resolve() / "runs"
+        directory.mkdir()
+    else:
+        directory = Path(tempfile.mkdtemp(prefix="solepath-fleet-")).resolve()
+    try:
+        yield directory
+    finally:
+        if options.keep:
+            print(f"what the runs wrote is in {directory}")
+        else:
+            shutil.rmtree(directory, ignore_errors=True)
+
+
+def _write(path: Path, figures: dict[str, Any]) -> None:
+    import json
+
+    with path.open("w", encoding="utf-8") as file:
+        json.dump(figures, file, indent=1, allow_nan=False)
+        file.write("\n")
+
+
+def _leave(stage: Stage, out: Path) -> None:
+    """The events of the uninterrupted run, and how to look at them."""
+    from ..recording import printable
+
+    told = out / "told"
+    shutil.copytree(stage.told, told)
+    query = f"FROM '{told}/*.parquet' SELECT event, count(*) AS told GROUP BY event ORDER BY told DESC"
+    print(f"\nThe events are in {printable(str(told))}. To look at them (pip install duckdb):")
+    print(f'python -c "import duckdb; print(duckdb.sql(\\"{printable(query, 2000)}\\"))"')

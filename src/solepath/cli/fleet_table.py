@@ -1,0 +1,117 @@
+"""What `solepath fleet-demo` prints of its runs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ..view.table import number, percent, table
+
+if TYPE_CHECKING:
+    from ..fleet.demo.kills import Cost, Outcome
+    from ..fleet.demo.stage import Engine, Stage
+
+
+def of_kills(engine: Engine, run: int, outcome: Outcome) -> list[str]:
+    """A line for each kill of a run, the last with what became of the run."""
+    lines = [f"killed run {run}: {_met(engine, cost)}" for cost in outcome.costs]
+    lines[-1] += "; other events" if outcome.differences else "; the same events"
+    return lines
+
+
+def _met(engine: Engine, cost: Cost) -> str:
+    who = "all processes" if cost.kill.which is None else f"process {cost.kill.which}"
+    where = f"with {100 * cost.reached:.0f} % read" if cost.started else "while it started"
+    if cost.replayed is None or cost.down is None:
+        return f"{who} after {cost.kill.after:.1f} s, {where}; the next kill came before anything was read again"
+    replayed = cost.replayed * engine.seconds
+    return f"{who} after {cost.kill.after:.1f} s, {where}; reads on {cost.down:.1f} s later, {replayed:.1f} s replayed"
+
+
+def table_of(stage: Stage) -> str:
+    """The figures of all runs. What was not done has a dash."""
+    found = figures(stage)
+    engine, bare, kills = found["engine"], found["sessions"], found["kills"]
+    costs = [kill for kill in kills if kill["replayed"] is not None]
+    equal = sum(run["equal"] for run in found["runs"])
+    replayed, down = ([kill[key] for kill in costs] for key in ("replayed", "down"))
+    rows = [
+        ["wearers", str(found["wearers"])],
+        ["samples", str(found["samples"])],
+        [f"samples/s through the engine, {found['processes']} processes", number(engine["rate"], 0)],
+        ["samples/s by as many processes of sessions alone", number(bare["rate"], 0)],
+        ["the one by the other, %", percent(found["ratio"], 0)],
+        ["memory in all, MB", number(_scaled(engine["memory"], 1e-6), 0)],
+        ["memory a wearer, kB", number(_scaled(engine["wearer"], 1e-3), 0)],
+        ["state a wearer, kB: mean", number(bare["state"] / 1e3, 1)],
+        ["state a wearer, kB: largest", number(bare["largest"] / 1e3, 1)],
+        ["of that the session, kB: largest", number(bare["session"] / 1e3, 1)],
+        ["state taken in, us: median", number(bare["snapshot"] * 1e6, 0)],
+        ["events", str(engine["events"])],
+        ["files", str(engine["files"])],
+        ["kills", str(len(kills))],
+        ["s replayed after a kill: mean", number(_mean(replayed), 1)],
+        ["s replayed after a kill: most", number(max(replayed, default=None), 1)],
+        ["s until it read on: mean", number(_mean(down), 1)],
+        ["killed runs", str(len(found["runs"]))],
+        ["of them with the same events", str(equal)],
+    ]
+    return table(["a fleet on bytewax", ""], rows)
+
+
+def figures(stage: Stage) -> dict[str, Any]:
+    """The same for programs: s, bytes, samples/s."""
+    engine, bare, plan = stage.engine, stage.sessions, stage.plan
+    if engine is None or bare is None:
+        raise ValueError("nothing has run yet")
+    samples = sum(stage.samples)
+    rate = samples / engine.seconds
+    wearer = None if engine.full is None or engine.empty is None else (engine.full - engine.empty) / plan.wearers
+    kills = [
+        {
+            "run": number,
+            "after": cost.kill.after,
+            "process": cost.kill.which,
+            "started": cost.started,
+            "read": cost.reached,
+            "replayed": None if cost.replayed is None else cost.replayed * engine.seconds,
+            "down": cost.down,
+        }
+        for number, outcome in enumerate(stage.outcomes, 1)
+        for cost in outcome.costs
+    ]
+    return {
+        "wearers": plan.wearers,
+        "seconds": plan.seconds,
+        "seed": plan.seed,
+        "recipe": plan.recipe,
+        "processes": plan.parts,
+        "samples": samples,
+        "engine": {
+            "rate": rate,
+            "seconds": engine.seconds,
+            "whole": engine.whole,
+            "cpu": engine.cpu,
+            "memory": engine.full,
+            "wearer": wearer,
+            "events": engine.events,
+            "files": engine.files,
+        },
+        "sessions": {
+            "rate": bare.rate,
+            "state": bare.state,
+            "largest": bare.largest,
+            "session": bare.session,
+            "snapshot": bare.snapshot,
+        },
+        "ratio": rate / bare.rate,
+        "kills": kills,
+        "runs": [{"equal": not outcome.differences, "differences": outcome.differences} for outcome in stage.outcomes],
+    }
+
+
+def _scaled(value: float | None, scale: float) -> float | None:
+    return None if value is None else value * scale
+
+
+def _mean(values: list[float]) -> float | None:
+    return sum(values) / len(values) if values else None

@@ -1,0 +1,76 @@
+"""The same walks through sessions alone, without an engine: `python -m solepath.fleet.demo.bare RUN PART`.
+
+What it is to be compared with: the events, and how long `Session.feed` takes for them, one wearer after the other and
+with the packets ready beforehand.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from time import perf_counter
+
+from ...events import Event
+from ...session import Session
+from ...types import Packet
+from ..fleet import Fleet
+from ..parquet import Parts
+from ..sent import Tick, Told
+from ..state import read_rest
+from .child import end_with_parent, settle
+from .job import TOLD
+from .sending import What
+from .wearers import Wearer, Wearers
+
+MEASURED = 50
+"""Wearers whose states are looked at."""
+
+
+def main(run: str, part: int) -> None:
+    """Write the events, and how long they took, into the directory of a run."""
+    end_with_parent()
+    home = Path(run)
+    wearers = Wearers.read(home.parent)
+    fleet = Fleet(wearers.recipe)
+    parts = Parts(home / TOLD, str(part))
+    settle()
+    taken = 0.0
+    for wearer in wearers.of_part(part):
+        seconds, events = _through(Session(wearers.recipe), wearer.heard())
+        taken += seconds
+        parts.write(Told(wearer.name, number, event) for number, event in enumerate(events))
+    parts.close()
+    states = [state for wearer in wearers.of_part(part)[:MEASURED] for state in _states(fleet, wearer)]
+    found = {"seconds": taken, "states": states}
+    (home / f"bare-{part}.json").write_text(json.dumps(found), encoding="utf-8")
+
+
+def _through(session: Session, heard: list[What]) -> tuple[float, list[Event]]:
+    """s that it took, and what came out."""
+    events: list[Event] = []
+    began = perf_counter()
+    for what in heard:
+        if type(what) is Packet:
+            events += session.feed(what)
+        elif isinstance(what, Tick):
+            events += session.advance(what.t)
+        else:
+            events += session.finish()
+    return perf_counter() - began, events
+
+
+def _states(fleet: Fleet, wearer: Wearer) -> list[tuple[int, int, float]]:
+    """Bytes of the wearer's state after each bundle, of the session in it, and s that it took to take it."""
+    keyed, found = fleet.open(wearer.name, None), []
+    for number in range(len(wearer.sending.bundles)):
+        keyed.feed(wearer.bundle(number))
+        began = perf_counter()
+        state = keyed.state()
+        seconds = perf_counter() - began
+        found.append((len(state), len(read_rest(state).session or b""), seconds))
+    return found
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], int(sys.argv[2]))

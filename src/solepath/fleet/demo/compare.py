@@ -1,0 +1,85 @@
+"""Two directories of events beside each other: the same events, each as often?"""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+from typing import Any, get_args
+
+import pyarrow as pa
+import pyarrow.compute as pc
+from pyarrow import parquet
+
+from ...events.fleet import FleetEvent
+from ...recording import printable
+from ..parquet import SCHEMA
+
+NAMED = 3
+"""Differences that are told."""
+KEYS = [(name, "ascending") for name in SCHEMA.names]
+
+
+class Torn(Exception):
+    """Events cannot be read: one sentence."""
+
+
+def files(directory: Path) -> list[Path]:
+    """The parts that a reader sees."""
+    return sorted(directory.glob("[!._]*.parquet"))
+
+
+def read_told(directory: Path) -> pa.Table:
+    """All events of a directory, in an order that does not depend on who wrote which when. Torn."""
+    tables = [SCHEMA.empty_table()]
+    for path in files(directory):
+        try:
+            tables.append(parquet.read_table(path, partitioning=None).cast(SCHEMA))
+        except (pa.ArrowInvalid, OSError) as error:
+            raise Torn(f"{printable(str(path))} cannot be read: {printable(str(error))}") from None
+    return pa.concat_tables(tables).combine_chunks().sort_by(KEYS)
+
+
+def differences(expected: pa.Table, found: pa.Table) -> list[str]:
+    """What differs between two tables of `read_told`, the first few of it, a sentence each; [] for the same events,
+    each as often."""
+    if expected.equals(found):
+        return []
+    wanted, got = (Counter(map(_row, table.to_pylist())) for table in (expected, found))
+    told = [(row, "is missing") for row in (wanted - got).elements()]
+    told += [(row, "is there, and should not be" if row not in wanted else "is there twice") for row in got - wanted]
+    told.sort(key=lambda one: (one[0][:2], one[1]))
+    first = [f"{wearer}, event {number} ({event} at {t} s) {what}" for (wearer, number, event, t, *_), what in told]
+    more = [f"and {len(first) - NAMED} more"] if len(first) > NAMED else []
+    return [*map(printable, first[:NAMED]), *more]
+
+
+def of_sessions(told: pa.Table) -> pa.Table:
+    """What sessions said, without what only a fleet says, each wearer's events numbered as they come."""
+    own = pa.array([kind.__name__ for kind in get_args(FleetEvent)])
+    kept = told.filter(pc.invert(pc.is_in(told["event"], own)))
+    numbers: list[int] = []
+    last, number = None, 0
+    for wearer in kept["wearer"].to_pylist():
+        number = number + 1 if wearer == last else 0
+        last = wearer
+        numbers.append(number)
+    return kept.set_column(SCHEMA.get_field_index("number"), SCHEMA.field("number"), pa.array(numbers, pa.int64()))
+
+
+def holes(told: pa.Table) -> list[str]:
+    """Wearers whose events are not numbered 0, 1, 2 and so on, the first few, a sentence each."""
+    counts = told.group_by("wearer").aggregate([("number", "min"), ("number", "max"), ("number", "count_distinct")])
+    wrong = [row for row in counts.to_pylist() if not _whole(row)]
+    return [
+        f"{printable(row['wearer'])} has {row['number_count_distinct']} events numbered from {row['number_min']} to "
+        f"{row['number_max']}"
+        for row in wrong[:NAMED]
+    ]
+
+
+def _whole(row: dict[str, Any]) -> bool:
+    return bool(row["number_min"] == 0 and row["number_max"] == row["number_count_distinct"] - 1)
+
+
+def _row(row: dict[str, Any]) -> tuple[Any, ...]:
+    return tuple(row.values())

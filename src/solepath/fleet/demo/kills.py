@@ -1,0 +1,131 @@
+"""When the job is killed, and what each kill cost."""
+
+from __future__ import annotations
+
+import shutil
+from contextlib import closing
+from math import inf
+from pathlib import Path
+from random import Random
+from time import time
+from typing import Any
+
+import pyarrow as pa
+from attrs import evolve, frozen
+
+from .compare import Torn, differences, read_told
+from .run import Run
+
+AGAIN = 0.2
+"""Share of the kills that hit the recovery from the one before."""
+RECOVERING = 2.0
+"""s after a restart in which such a kill comes."""
+SOONER = 0.6
+"""A kill that came after the end is tried anew, so much sooner."""
+
+
+@frozen
+class Kill:
+    """`after`: s from the start, or restart, of the job. `which`: the process that is killed; None for all at once, as
+    when the power fails."""
+
+    after: float
+    which: int | None = None
+
+
+@frozen
+class Mark:
+    """A kill that was done. `when`: s of the system's clock. `started`: the job had begun to read. `reached`: bundles
+    of each partition that were read by then."""
+
+    kill: Kill
+    when: float
+    started: bool
+    reached: dict[int, int]
+
+
+@frozen
+class Cost:
+    """What a kill met and cost. `started`: the job had begun to read, or to read again. `reached`: share of the bundles
+    that were read by then. `replayed`: share of them that were read again, `down`: s until the job read again; both
+    None for a kill that was followed by another before the job did."""
+
+    kill: Kill
+    started: bool
+    reached: float
+    replayed: float | None
+    down: float | None
+
+
+@frozen
+class Outcome:
+    """A run that was killed once or more, and went to its end. `differences`: from the uninterrupted run, a sentence
+    each; [] when it told the same events, each as often."""
+
+    costs: list[Cost]
+    differences: list[str]
+
+
+def draw(kills: int, length: float, processes: int, rng: Random) -> list[list[Kill]]:
+    """Kills of each run, at random moments of a run that takes `length` s with its start. One or another hits the
+    recovery from the one before."""
+    found: list[list[Kill]] = []
+    for _ in range(kills):
+        again = bool(found) and rng.random() < AGAIN
+        after = rng.uniform(0.0, min(RECOVERING, length) if again else length)
+        kill = Kill(after, None if processes == 1 or rng.random() < 0.5 else rng.randrange(processes))
+        if again:
+            found[-1].append(kill)
+        else:
+            found.append([kill])
+    return found
+
+
+def play(home: Path, kills: list[Kill], processes: int, expected: pa.Table) -> Outcome:
+    """A run from its start in `home`, killed and restarted, to its end, and what it told beside what was `expected`.
+    RunFailed. A run that was over before a kill came is begun anew, and killed sooner."""
+    while True:
+        run, marks = Run.begin(home, processes), list[Mark]()
+        with closing(run):
+            if _killed(run, kills, marks):
+                run.finish()
+                return Outcome(_costs(marks, run.began()), compared(expected, run.told))
+        late = kills[len(marks)]
+        kills = [*kills[: len(marks)], evolve(late, after=late.after * SOONER), *kills[len(marks) + 1 :]]
+        shutil.rmtree(home)
+
+
+def compared(expected: pa.Table, told: Path) -> list[str]:
+    """How the events in a directory differ from those that were expected: a sentence each."""
+    try:
+        return differences(expected, read_told(told))
+    except Torn as torn:
+        return [str(torn)]
+
+
+def _killed(run: Run, kills: list[Kill], marks: list[Mark]) -> bool:
+    """Kill and restart; False when the job came to its end before."""
+    known = 0
+    run.start()
+    for kill in kills:
+        if run.ended(kill.after):
+            return False
+        moment = time()
+        run.kill(kill.which)
+        marks.append(Mark(kill, moment, len(run.began()) > known, run.reached()))
+        known = len(run.began())
+        run.start()
+    return True
+
+
+def _costs(marks: list[Mark], began: list[dict[str, Any]]) -> list[Cost]:
+    found = []
+    for mark, end in zip(marks, [*(mark.when for mark in marks[1:]), inf], strict=True):
+        size = sum({one["part"]: one["end"] for one in began}.values())
+        again = {one["part"]: one for one in began if mark.when < one["time"] < end}
+        whole = again.keys() >= mark.reached.keys() and bool(again)
+        replayed = sum(reached - again[part]["at"] for part, reached in mark.reached.items()) if whole else 0
+        down = max(one["time"] for one in again.values()) - mark.when if whole else None
+        share = sum(mark.reached.values()) / size
+        found.append(Cost(mark.kill, mark.started, share, replayed / size if whole else None, down))
+    return found

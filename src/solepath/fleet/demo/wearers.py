@@ -1,0 +1,151 @@
+"""The wearers of a demonstration: who walks what, when, and how it reaches the engine; the same wherever it is asked.
+
+A stage is a directory with `plan.json` and the shared walks as recordings. Every process of a demonstration reads it,
+so that none has to emulate anything, and what one wearer sends is the same for all.
+"""
+
+from __future__ import annotations
+
+import json
+from itertools import chain
+from pathlib import Path
+from random import Random
+
+from attrs import asdict, define, frozen
+
+from ...recipes import BY_NAME, Recipe
+from ...recording import PacketWriter, read_packets
+from ...types import Packet
+from ..rows import read_sent
+from ..sent import Sent, Tick, Unreadable
+from .sending import Item, Sending, What, poison, samples_of, sending
+from .walks import DEVICES, walk
+
+POISONED = 97
+"""One in so many wearers sends any bytes."""
+FIRST_RUN = 1_790_000_000_000
+"""ms; when the phones were started."""
+
+
+@frozen
+class Plan:
+    """What decides every byte of a demonstration. `seconds`: of walking. `bundle`: s of it that a phone sends at a
+    time. `parts`: how many partitions the source has."""
+
+    wearers: int
+    seconds: float
+    seed: int = 1
+    recipe: str = "default"
+    parts: int = 1
+    bundle: float = 1.0
+
+
+def prepare(stage: Path, plan: Plan) -> None:
+    """Emulate the walks and write them and the plan into `stage`, a directory. OSError, RecordingError."""
+    for number, name in enumerate(DEVICES):
+        with PacketWriter(_recording(stage, number)) as writer:
+            for packet in walk(name, plan.seconds, plan.seed + number):
+                writer.write(packet)
+    (stage / "plan.json").write_text(json.dumps(asdict(plan)), encoding="utf-8")
+
+
+def _recording(stage: Path, number: int) -> Path:
+    return stage / f"walk-{number}.jsonl"
+
+
+@frozen
+class Wearer:
+    """One of them. `shift`: s from the walk's time to his. `run`: of his phone."""
+
+    name: str
+    sending: Sending
+    shift: float
+    run: int
+
+    def bundle(self, number: int) -> list[Sent | Unreadable]:
+        """What arrives of him in this piece of time."""
+        bundles = self.sending.bundles
+        if number >= len(bundles):
+            return []
+        name, run, shift = self.name, self.run, self.shift
+        # most are packets, and the engine is what is to be measured
+        return [
+            Sent(name, at, Packet(what.t + shift, what.site, what.channel, what.data), run + k)
+            if type(what) is Packet
+            else self._other((k, at, what))
+            for k, at, what in bundles[number]
+        ]
+
+    def heard(self) -> list[What]:
+        """What his session is to hear, in order."""
+        return [_later(what, self.shift) for what in self.sending.ordered]
+
+    def _other(self, item: Item) -> Sent | Unreadable:
+        k, number, what = item
+        if isinstance(what, dict):
+            return read_sent({**what, "wearer": self.name, "run": self.run + k})
+        return Sent(self.name, number, _later(what, self.shift), self.run + k)
+
+
+def _later(what: What, shift: float) -> What:
+    if isinstance(what, Packet):
+        return Packet(what.t + shift, what.site, what.channel, what.data)
+    return Tick(what.t + shift) if isinstance(what, Tick) else what
+
+
+@define(eq=False)
+class Wearers:
+    """All of them."""
+
+    plan: Plan
+    sendings: list[Sending]
+    """Of those who are sound."""
+    poisons: list[Sending]
+    all: list[Wearer]
+
+    @classmethod
+    def read(cls, stage: Path) -> Wearers:
+        """Those of a stage."""
+        plan = Plan(**json.loads((stage / "plan.json").read_text(encoding="utf-8")))
+        walks = [list(read_packets(_recording(stage, number))) for number in range(len(DEVICES))]
+        rng = Random(f"sendings {plan.seed}")
+        sendings = list(
+            chain.from_iterable(
+                (
+                    sending(packets, plan.bundle, rng),
+                    sending(packets, plan.bundle, rng, ends=True),
+                    sending(packets, plan.bundle, rng, runs=2),
+                )
+                for packets in walks
+            )
+        )
+        poisons = [poison(packets, plan.bundle, rng) for packets in walks]
+        found = []
+        for number in range(plan.wearers):
+            rng = Random(f"wearer {plan.seed} {number}")
+            drawn = rng.choice(poisons if number % POISONED == 3 else sendings)
+            run = FIRST_RUN + rng.randrange(10**8)
+            found.append(Wearer(f"w{number:05d}", drawn, rng.uniform(0.0, 1e5), run))
+        return cls(plan, sendings, poisons, found)
+
+    @property
+    def recipe(self) -> Recipe:
+        return BY_NAME[self.plan.recipe]
+
+    @property
+    def bundles(self) -> int:
+        """The most that any of them sends."""
+        return max(len(one.bundles) for one in chain(self.sendings, self.poisons))
+
+    @property
+    def poisoned(self) -> int:
+        """How many send any bytes."""
+        return sum(one.sending in self.poisons for one in self.all)
+
+    def samples(self, part: int) -> int:
+        """Of those of one part. Takes a moment the first time."""
+        return sum(samples_of(one.sending) for one in self.of_part(part))
+
+    def of_part(self, part: int) -> list[Wearer]:
+        """Those of one partition, or process."""
+        return self.all[part :: self.plan.parts]
