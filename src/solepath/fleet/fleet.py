@@ -49,9 +49,7 @@ class Fleet:
         plan = IndexedPlan(floorplan) if isinstance(floorplan, FloorPlan) else floorplan
         own = (tuple(profiles), tuple(parts))
         self._sessions = Sessions(recipe, calibrations, plan, *own, poses, pressures, window)
-        # what is wrong for all is wrong here, and not in a worker
-        trial = self._sessions.fresh("", calibrated=False)
-        self._sessions.unpack(self._sessions.pack(trial))
+        self._sessions.fresh("", calibrated=False)  # what is wrong for all is wrong here, and not in a worker
 
     def step(self, wearer: str, state: bytes | None, sent: Iterable[Sent | Unreadable]) -> tuple[bytes, list[Told]]:
         """The state and the events of `wearer` after `sent`, given the state before; None for a wearer who is new.
