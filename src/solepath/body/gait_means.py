@@ -16,7 +16,7 @@ from math import sqrt
 from attrs import define, field, fields, frozen
 
 from ..events import StrideMeasured
-from ..types import Foot
+from ..types import Foot, Word
 
 MEMORY = 120
 """Strides of a foot."""
@@ -99,8 +99,30 @@ class StrideFigures:
 
 
 NAMES = tuple(one.name for one in fields(StrideFigures))
-OFF = "off_phase"
-"""|phase - 0.5|."""
+
+
+class Parameter(Word):
+    """What is summed up: the fields of StrideFigures, and |phase - 0.5|."""
+
+    STRIDE_TIME = "stride_time"
+    STANCE_TIME = "stance_time"
+    SWING_TIME = "swing_time"
+    STEP_TIME = "step_time"
+    INITIAL_DOUBLE_SUPPORT = "initial_double_support"
+    TERMINAL_DOUBLE_SUPPORT = "terminal_double_support"
+    SINGLE_SUPPORT = "single_support"
+    PHASE = "phase"
+    STRIDE_LENGTH = "stride_length"
+    SPEED = "speed"
+    STEP_LENGTH = "step_length"
+    STEP_WIDTH = "step_width"
+    CLEARANCE = "clearance"
+    TOE_OFF_ANGLE = "toe_off_angle"
+    HEEL_STRIKE_ANGLE = "heel_strike_angle"
+    OFF_PHASE = "off_phase"
+
+
+MEASURED = tuple([Parameter(name) for name in NAMES])
 
 
 @frozen
@@ -138,36 +160,42 @@ class GaitParameters:
 class StrideSums:
     """Of one way of moving: by foot and parameter."""
 
-    left: dict[str, RunningMean] = field(factory=dict)
-    right: dict[str, RunningMean] = field(factory=dict)
+    left: dict[Parameter, RunningMean] = field(factory=dict)
+    right: dict[Parameter, RunningMean] = field(factory=dict)
 
-    def of(self, foot: Foot) -> dict[str, RunningMean]:
+    def of(self, foot: Foot) -> dict[Parameter, RunningMean]:
         """A foot's."""
         return self.left if foot is Foot.LEFT else self.right
 
     def add(self, stride: StrideMeasured, memory: int) -> None:
         """One more stride."""
         sums = self.of(stride.foot)
-        for name in NAMES:
-            value = getattr(stride, name)
+        for parameter in MEASURED:
+            value = getattr(stride, parameter.value)
             if value is not None:
-                sums.setdefault(name, RunningMean()).add(value, memory)
+                sums.setdefault(parameter, RunningMean()).add(value, memory)
         if stride.phase is not None:
-            sums.setdefault(OFF, RunningMean()).add(abs(stride.phase - 0.5), memory)
+            sums.setdefault(Parameter.OFF_PHASE, RunningMean()).add(abs(stride.phase - 0.5), memory)
 
     @property
     def coordination(self) -> float | None:
         """As in GaitParameters."""
-        known = [sums for sums in (self.left, self.right) if "phase" in sums]
+        known = [sums for sums in (self.left, self.right) if Parameter.PHASE in sums]
         if len(known) < 2:
             return None
         reference = max(known, key=_swing)
-        varies = reference["phase"].figure.cv
-        return None if varies is None else varies + 2.0 * reference[OFF].mean
+        varies = reference[Parameter.PHASE].figure.cv
+        return None if varies is None else varies + 2.0 * reference[Parameter.OFF_PHASE].mean
 
 
-def _swing(sums: dict[str, RunningMean]) -> float:
-    return sums["swing_time"].mean
+def _figures(sums: dict[Parameter, RunningMean]) -> StrideFigures:
+    known = {parameter.value: mean.figure for parameter, mean in sums.items()}
+    known.pop(Parameter.OFF_PHASE.value, None)
+    return StrideFigures(**known)
+
+
+def _swing(sums: dict[Parameter, RunningMean]) -> float:
+    return sums[Parameter.SWING_TIME].mean
 
 
 @define
@@ -216,11 +244,7 @@ class GaitMeans:
     def of(self, running: bool) -> GaitParameters | None:
         """Of walking or of running; None where there was none."""
         sums = self.run if running else self.walked
-        feet = {
-            foot: StrideFigures(**{name: mean.figure for name, mean in sums.of(foot).items() if name != OFF})
-            for foot in Foot
-            if sums.of(foot)
-        }
+        feet = {foot: _figures(sums.of(foot)) for foot in Foot if sums.of(foot)}
         if not feet:
             return None
         both = {name: together([getattr(one, name) for one in feet.values()]) for name in NAMES}

@@ -71,10 +71,12 @@ class LowerLimbs:
     """The chain of one wearer: attitudes in, the ends of both feet out."""
 
     limbs: Limbs = field(factory=Limbs)
-    facing: float | None = None
+    heading: float | None = None
     """Where the wearer looks in the N-pose, in the world that the devices share, rad, if it is known beforehand, as on
     a floor that was surveyed; None: where the first step goes."""
     # state
+    facing: float | None = field(init=False)
+    """The same, or where the first step has gone."""
     turn: float = field(default=0.0, init=False)
     """From there to the x axis of the world, rad."""
     segments: dict[Site, Segment] = field(init=False)
@@ -83,6 +85,7 @@ class LowerLimbs:
     """The wearer walked off before all seven were quiet."""
 
     def __attrs_post_init__(self) -> None:
+        self.facing = self.heading
         self.segments = {site: Segment() for site in SEGMENTS}
 
     def told(self, site: Site, t: float, quat: Quat) -> None:

@@ -60,7 +60,7 @@ PATIENCE = 0.06
 class Modes:
     """See above. `compensation`: epsilon_P, None for methods I to III. `weight`, `th`: see `Recognition`. `heading`:
     where the wearer looks at the start, in the world that the devices share, rad, where it is known
-    (`LowerLimbs.facing`)."""
+    (`LowerLimbs.heading`)."""
 
     touchdown: AnyTouchdown = field(factory=MaximumPressure)
     compensation: Compensation | None = None

@@ -37,10 +37,9 @@ class Side:
     """From its track to its place, m."""
     reach: tuple[float, float] = (0.0, 0.0)
     """From below its ankle to its end when it came down, world, m."""
-    # state
-    track: Vec3 = field(default=ZERO, init=False)
+    track: Vec3 = ZERO
     """Its own inertial track, m; of a foot that came back, as it lies beside the other's."""
-    direction: tuple[float, float] = field(default=(1.0, 0.0), init=False)
+    direction: tuple[float, float] = (1.0, 0.0)
     """Of walking when it last came down, of length 1."""
 
     @property
@@ -58,7 +57,7 @@ class Side:
 @define
 class Places:
     """`heading`: where the wearer looks at the start, in the world that the devices share, rad, where it is known
-    (`LowerLimbs.facing`). `apart`: between the feet at the start, m."""
+    (`LowerLimbs.heading`). `apart`: between the feet at the start, m."""
 
     limbs: Limbs
     heading: float | None
