@@ -8,12 +8,14 @@ from itertools import pairwise
 
 from attrs import evolve, frozen
 
+from solepath import recipes
 from solepath.events import Event, PacketRejected
 from solepath.fleet import End, Fleet, NumbersMissing, Sent, SentRejected, Told, Unreadable
-from solepath.recipes import DEFAULT, Recipe
 from solepath.session import Session
-from solepath.types import Packet, Site
-from walks import ROUGH, SHORT, insoles
+from solepath.sim.insole_device import Insole
+from solepath.sim.walk import emulate
+from solepath.types import Packet
+from walks import LEFT, RIGHT, ROUGH, SHORT
 
 WEARER = "w"
 Item = Sent | Unreadable
@@ -28,10 +30,11 @@ class Walked:
 
 
 @cache
-def walked(recipe: Recipe = DEFAULT) -> Walked:
+def walked(recipe: str = "default") -> Walked:
     """A short walk with two insoles over a bad radio, and its end."""
-    packets = insoles(SHORT, ROUGH, 7, 48).packets
-    session = Session(recipe)
+    worn = Insole(cells=24, rate=50.0)
+    packets = emulate(SHORT, devices={LEFT: worn, RIGHT: evolve(worn)}, radio=ROUGH, seed=7).packets
+    session = Session(recipes.BY_NAME[recipe])
     events = [event for packet in packets for event in session.feed(packet)] + session.finish()
     sent = [Sent(WEARER, number, packet) for number, packet in enumerate(packets)]
     return Walked((*sent, Sent(WEARER, len(sent), End())), tuple(events))
@@ -39,7 +42,7 @@ def walked(recipe: Recipe = DEFAULT) -> Walked:
 
 def shown(number: int, run: int = 0, wearer: str = WEARER) -> Sent:
     """A packet that a session rejects in one event, which names it: it was used, and nothing else happened."""
-    return Sent(wearer, number, Packet(0.25 * number, Site.LEFT_FOOT, f"story/{run}-{number}", b""), run)
+    return Sent(wearer, number, Packet(0.25 * number, LEFT, f"story/{run}-{number}", b""), run)
 
 
 def stepped(fleet: Fleet, cuts: Iterable[Iterable[Item]], state: bytes | None = None) -> tuple[bytes, list[Told]]:
@@ -72,8 +75,3 @@ def uses(told: Iterable[Told]) -> list[tuple[str, int | None, int | None, object
             case other:
                 raise AssertionError(f"{other} is told of no story")
     return found
-
-
-def without_numbers(sent: Iterable[Sent]) -> list[Sent]:
-    """The same under numbers from 0."""
-    return [evolve(one, number=number) for number, one in enumerate(sent)]

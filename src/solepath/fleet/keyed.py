@@ -152,7 +152,8 @@ class Keyed:
         if isinstance(item, Unreadable):
             if _counts(item.number) and _counts(item.run) and isinstance(item.what, str):
                 return None
-            return self._event(SentRejected, reason=Refusal.UNREADABLE, detail=str(item.what)[:LONGEST_DETAIL])
+            detail = item.what if isinstance(item.what, str) else "a row that cannot be read"
+            return self._event(SentRejected, reason=Refusal.UNREADABLE, detail=detail[:LONGEST_DETAIL])
         if not isinstance(item, Sent):
             detail = f"a {type(item).__name__}, not a Sent"
         elif not isinstance(item.wearer, str) or item.wearer != self._wearer:

@@ -1,0 +1,305 @@
+"""The keyed step of a fleet: what it tells of a wearer is what a session says, and nothing that is sent can stop it."""
+
+from __future__ import annotations
+
+import pickle
+import struct
+from collections.abc import Iterator, Mapping
+from math import inf, nan
+from random import Random
+from typing import Any
+
+import pytest
+from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import toys
+from fleets import WEARER, cut, shown, stepped, uses, walked
+from solepath import Calibration, CalibrationError, StepTaken, recipes
+from solepath.calibration import ShoeGeometry
+from solepath.fleet import End, Fleet, Refusal, Sent, SentRejected, Tick, Told, Unreadable, WearerFailed
+from solepath.link.driver import Reading
+from solepath.recipes import DEFAULT, Recipe
+from solepath.session import Session
+from solepath.sim.building import BUILDING
+from solepath.types import Packet, Site
+from walks import LEFT
+
+FLEET = Fleet()
+BOTH = [DEFAULT, recipes.KUPT_DFPC]
+LONG = "w" * 10_000
+
+
+@pytest.mark.parametrize("recipe", BOTH, ids=lambda recipe: recipe.name)
+def test_what_is_told_of_a_wearer_is_what_a_session_says_to_the_same_packets(recipe: Recipe) -> None:
+    sent, events = walked(recipe.name).sent, walked(recipe.name).events
+    fleet = Fleet(recipe)
+    pieces = cut(list(sent), range(0, len(sent), 61))
+    state, told = stepped(fleet, pieces)
+    assert tuple(one.event for one in told) == events
+    assert sum(isinstance(event, StepTaken) for event in events) >= 6
+    assert [(one.wearer, one.number) for one in told] == [(WEARER, number) for number in range(len(told))]
+    keyed = fleet.open(WEARER, None)
+    assert [one for piece in pieces for one in keyed.feed(piece)] == told
+    assert keyed.state() == state
+
+
+@pytest.mark.parametrize("recipe", BOTH, ids=lambda recipe: recipe.name)
+def test_a_walk_that_comes_late_twice_and_in_another_order_gives_the_same_events_and_the_same_state(
+    recipe: Recipe,
+) -> None:
+    sent, random, fleet = walked(recipe.name).sent, Random(3), Fleet(recipe)
+    late = sorted([*sent, *sent[::7]], key=lambda one: one.number + 200 * random.random())
+    halves = [late[: len(late) // 2], late[len(late) // 2 :]]
+    assert stepped(fleet, halves) == stepped(fleet, [sent])
+    part = sorted(sent[:450], key=lambda one: one.number + 200 * random.random())
+    assert stepped(fleet, [part]) == stepped(fleet, [sent[:450]])
+
+
+@settings(max_examples=4, deadline=None)
+@given(cuts=st.lists(st.integers(0, 450), max_size=4))
+def test_how_a_walk_is_cut_into_calls_changes_neither_events_nor_state(cuts: list[int]) -> None:
+    sent = list(walked().sent[:450])
+    keyed = FLEET.open(WEARER, None)
+    told = keyed.feed(sent)
+    assert stepped(FLEET, cut(list(sent), cuts)) == (keyed.state(), told)
+
+
+def test_a_step_leaves_what_it_was_given_as_it_was() -> None:
+    state, _ = FLEET.step(WEARER, None, walked().sent[:250])
+    once, twice = (FLEET.step(WEARER, state, walked().sent[250:450]) for _ in range(2))
+    assert once == twice
+
+
+def test_time_that_passes_is_told_as_a_session_has_it() -> None:
+    sent = walked().sent[:300]
+    session, last = Session(), sent[-1].what.t
+    events = [event for one in sent for event in session.feed(one.what)] + session.advance(last + 5.0)
+    _, told = FLEET.step(WEARER, None, [*sent, Sent(WEARER, 300, Tick(last + 5.0))])
+    assert [one.event for one in told] == events
+    assert events[-1].known_at == last + 5.0
+
+
+def test_a_wearer_goes_on_in_a_new_run_and_begins_anew_after_an_end() -> None:
+    sent, events = walked().sent, walked().events
+    half = len(sent) // 2
+    restarted = [*sent[:half], *[evolve(one, number=n, run=8) for n, one in enumerate(sent[half:])]]
+    state, told = FLEET.step(WEARER, None, restarted)
+    assert tuple(one.event for one in told) == events
+    _, again = FLEET.step(WEARER, state, [evolve(one, run=9) for one in sent])
+    assert tuple(one.event for one in again) == events
+    assert [one.number for one in again] == list(range(len(told), 2 * len(told)))
+
+
+def test_an_end_without_a_beginning_says_nothing() -> None:
+    state, told = FLEET.step(WEARER, None, [Sent(WEARER, 0, End())])
+    assert told == [] and len(state) == 49 and FLEET.open(WEARER, state).ended
+
+
+ODD_PACKETS: list[Any] = [
+    Packet("soon", LEFT, "c", b""),  # type: ignore[arg-type]
+    Packet(True, LEFT, "c", b""),
+    Packet(1.0, "left_foot", "c", b""),  # type: ignore[arg-type]
+    Packet(1.0, LEFT, 3, b""),  # type: ignore[arg-type]
+    Packet(1.0, LEFT, "c", "00"),  # type: ignore[arg-type]
+    Packet(1.0, LEFT, "c", None),  # type: ignore[arg-type]
+    Packet(1.0, LEFT, "c", b"", None),  # type: ignore[arg-type]
+    Packet(1.0, LEFT, "c", bytes(1_000_000)),
+    Packet(1.0, LEFT, "c" * 1_000_000, b""),
+    Packet(1.0, LEFT, "c", b"", "d" * 1_000_000),
+    Tick(nan),
+    Tick(inf),
+    Tick(1e300),
+    Tick(10**400),
+    Tick("noon"),  # type: ignore[arg-type]
+    None,
+    b"",
+    Session,
+]
+
+
+@pytest.mark.parametrize("what", ODD_PACKETS, ids=range(len(ODD_PACKETS)))
+def test_what_cannot_be_used_is_rejected_in_its_turn_and_the_next_is_used(what: Any) -> None:
+    keyed = FLEET.open(WEARER, None)
+    assert keyed.feed([shown(2), Sent(WEARER, 1, what)]) == []
+    assert len(keyed.state()) < 1000
+    told = keyed.feed([shown(0)])
+    assert [(what, number) for what, _, number, _ in uses(told)] == [("used", 0), ("rejected", 1), ("used", 2)]
+    rejected = told[1].event
+    assert isinstance(rejected, SentRejected) and rejected.detail and len(rejected.detail) <= 200
+    assert FLEET.step(WEARER, None, [shown(0), Sent(WEARER, 1, what), shown(2)])[1] == told
+
+
+@pytest.mark.parametrize(
+    "packet",
+    [
+        Packet(1, LEFT, "insole/frame", b"\x00"),
+        Packet(10**400, LEFT, "insole/frame", b"\x00"),
+        Packet(-inf, LEFT, "insole/frame", b"\x00"),
+        Packet(1.0, LEFT, "insole/frame", bytearray(b"\x00")),  # type: ignore[arg-type]
+        Packet(1.0, LEFT, "insole/frame", memoryview(b"\x00")),  # type: ignore[arg-type]
+    ],
+    ids=["whole", "huge", "infinite", "bytearray", "memoryview"],
+)
+def test_what_a_session_takes_or_rejects_by_itself_is_left_to_it(packet: Packet) -> None:
+    (told,) = FLEET.step(WEARER, None, [Sent(WEARER, 0, packet)])[1]
+    assert repr(told.event) == repr(Session().feed(packet)[0])
+
+
+@pytest.mark.parametrize(
+    "item",
+    [
+        None,
+        7,
+        "row",
+        Sent("somebody else", 0, End()),
+        Sent(None, 0, End()),  # type: ignore[arg-type]
+        Sent(WEARER, -1, End()),
+        Sent(WEARER, 2**53, End()),
+        Sent(WEARER, True, End()),
+        Sent(WEARER, 0.0, End()),  # type: ignore[arg-type]
+        Sent(WEARER, [], End()),  # type: ignore[arg-type]
+        Sent(WEARER, 0, End(), -1),
+        Sent(WEARER, 0, End(), None),  # type: ignore[arg-type]
+        Unreadable(WEARER, "no JSON"),
+        Unreadable(WEARER, None, 0, "first"),  # type: ignore[arg-type]
+        Unreadable(WEARER, "x" * 1_000_000, -4, 3),
+    ],
+    ids=range(15),
+)
+def test_what_has_no_place_in_the_order_is_rejected_at_once(item: Any) -> None:
+    state, told = FLEET.step(WEARER, None, [item, shown(0)])
+    assert [(what, number) for what, _, number, _ in uses(told)] == [("rejected", None), ("used", 0)]
+    assert len(told[0].event.detail) <= 200 and len(state) < 1000
+
+
+@pytest.mark.parametrize("wearer", ["", LONG, "\ud83d", "ü\n"], ids=["none", "long", "half", "odd"])
+def test_any_text_is_a_wearer(wearer: str) -> None:
+    state, told = FLEET.step(wearer, None, [shown(0, wearer=wearer), Unreadable("", "no JSON")])
+    assert [one.wearer for one in told] == [wearer, wearer] and len(state) < 1000
+
+
+class Numbers(int):
+    """A whole number that nothing can be compared with."""
+
+    def __eq__(self, other: object) -> bool:
+        raise RuntimeError("no")
+
+    __hash__ = int.__hash__
+
+
+def test_a_number_that_cannot_be_compared_is_rejected() -> None:
+    assert [one.event.reason for one in FLEET.step(WEARER, None, [Sent(WEARER, Numbers(0), End())])[1]] == [
+        Refusal.NOT_SENT
+    ]
+
+
+REAL = st.deferred(lambda: st.sampled_from([one.what.data for one in walked().sent[:40]]))
+CHANNELS = st.sampled_from(["insole/frame", "insole/info", "cc2650/movement", "device/battery", "receiver/tick", "x"])
+POISON = st.builds(
+    lambda number, t, site, channel, data: Sent(WEARER, number, Packet(t, site, channel, data)),
+    st.integers(0, 40),
+    st.floats() | st.floats(0.0, 10.0),
+    st.sampled_from(Site),
+    CHANNELS,
+    st.binary(max_size=40) | REAL,
+)
+
+
+@settings(max_examples=30, deadline=None)
+@given(poison=st.lists(POISON, max_size=40))
+def test_a_wearer_whose_bytes_are_anything_is_told_of_and_stays_small(poison: list[Sent]) -> None:
+    state, told = FLEET.step(WEARER, None, poison)
+    assert [one.number for one in told] == list(range(len(told)))
+    assert len(state) < 30_000
+    assert FLEET.open(WEARER, state).state() == state
+
+
+def raises(sent: Any, known: Any) -> Reading:
+    if sent.what > 200:
+        raise RuntimeError(f"a reader that is wrong about {sent.what}")
+    return toys.more(sent, known)
+
+
+WRONG = evolve(toys.NUMBERED, readers={"toy/data": toys.data, "toy/more": raises})
+
+
+def said(number: int, k: int, what: int | None = None) -> Sent:
+    """Of the toy: its k-th packet of data, or more of it."""
+    if what is None:
+        data, channel = struct.pack(">HIBf", k, 0, 1, 9.80665), "toy/data"
+    else:
+        data, channel = struct.pack(">Bd", what, 1.0), "toy/more"
+    return Sent(WEARER, number, Packet(0.01 * k, LEFT, channel, data))
+
+
+def test_a_reader_of_an_apps_own_that_raises_costs_its_wearer_a_fresh_start_and_nobody_else_anything() -> None:
+    fleet = Fleet(profiles=[WRONG], poses=True)
+    walk = [said(k, k) for k in range(20)]
+    bare = Session(profiles=[WRONG], poses=True)
+    events = [event for one in walk for event in bare.feed(one.what)]
+    wrong = [*walk, said(20, 20, 201), *[said(21 + k, k) for k in range(20)]]
+    _, told = fleet.step(WEARER, None, wrong)
+    failed = told[len(events)].event
+    said_of_it = "RuntimeError: a reader that is wrong about 201"
+    assert failed == WearerFailed(t=bare.now, known_at=bare.now, detail=said_of_it)
+    assert [one.event for one in told if one.event is not failed] == events + events
+    assert [one.number for one in told] == list(range(len(told)))
+    assert stepped(fleet, [[one] for one in wrong])[1] == told
+    assert [one.event for one in fleet.step(WEARER, None, walk)[1]] == events
+
+
+class Registry(Mapping[str, Calibration]):
+    """What is known of wearers, looked up one by one; of some it is wrong, or the look-up fails."""
+
+    def __getitem__(self, wearer: str) -> Calibration:
+        if wearer == "lost":
+            raise ConnectionError("the registry does not answer")
+        if wearer == "odd":
+            return Calibration(shoe=ShoeGeometry(height=-7.0))
+        if wearer == "known":
+            return Calibration(shoe=ShoeGeometry(height=0.05))
+        raise KeyError(wearer)
+
+    def __iter__(self) -> Iterator[str]:
+        raise AssertionError("a registry is not read as a whole")
+
+    def __len__(self) -> int:
+        return 3
+
+
+def test_what_is_known_of_a_wearer_is_looked_up_when_a_session_begins_and_what_is_wrong_is_told() -> None:
+    fleet = Fleet(recipes.KUPT_DFPC, calibrations=Registry())
+    plain = [one.event for one in Fleet(recipes.KUPT_DFPC).step(WEARER, None, walked().sent)[1]]
+    for wearer, failures in (("unknown", 0), ("lost", 1), ("odd", 1), ("known", 0)):
+        sent = [evolve(one, wearer=wearer) for one in walked().sent]
+        events = [one.event for one in fleet.step(wearer, None, sent)[1]]
+        assert [isinstance(event, WearerFailed) for event in events[: failures + 1]] == [True] * failures + [False]
+        assert (events[failures:] == plain) is (wearer != "known")
+
+
+def test_a_job_that_is_wrong_for_every_wearer_is_refused_when_it_is_made() -> None:
+    with pytest.raises(TypeError, match="Recipe"):
+        Fleet("default")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="mapping"):
+        Fleet(calibrations=Calibration())  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="window"):
+        Fleet(window=-1)
+    with pytest.raises(TypeError, match="FloorPlan"):
+        Fleet(floorplan="house")  # type: ignore[arg-type]
+    with pytest.raises(CalibrationError):
+        Session(calibration=Registry()["odd"])
+
+
+@pytest.mark.parametrize("recipe", BOTH, ids=lambda recipe: recipe.name)
+def test_a_job_can_be_sent_to_its_workers(recipe: Recipe) -> None:
+    fleet = Fleet(recipe, calibrations={WEARER: Calibration()}, floorplan=BUILDING, poses=True)
+    there = pickle.loads(pickle.dumps(fleet))
+    assert there.step(WEARER, None, walked().sent[:350]) == fleet.step(WEARER, None, walked().sent[:350])
+
+
+def test_what_is_sent_and_told_can_be_sent_between_workers() -> None:
+    _, told = FLEET.step(WEARER, None, walked().sent[:350])
+    both: list[Sent | Told | Unreadable] = [*walked().sent[:10], *told, Unreadable(WEARER, "no JSON", 1, 2)]
+    assert pickle.loads(pickle.dumps(both)) == both
