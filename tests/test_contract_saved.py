@@ -19,6 +19,7 @@ from hypothesis import strategies as st
 from solepath import Packet, Session, SnapshotError, StepTaken
 from solepath.machine import checksum
 from solepath.sim.building import BUILDING
+from solepath.state import VERSION
 from walks import NAMES, PACKET_NAMES, gone, machines, of, told
 
 SESSIONS = [name for name in NAMES if name.startswith("session")]
@@ -209,7 +210,7 @@ def test_a_damaged_snapshot_is_refused_and_never_half_believed(
     session.feed(machines()[name].items[len(machines()[name].items) // 2 :])
 
 
-@pytest.mark.parametrize("version", [0, 2, 99, "1", None, [], {}])
+@pytest.mark.parametrize("version", [0, VERSION + 1, 99, "1", 1.0, True, None, [], {}])
 def test_a_snapshot_of_another_version_is_refused_by_name(version: Any) -> None:
     saved = json.loads(taken("session, cc2650"))
     saved["solepath"] = version

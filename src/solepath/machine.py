@@ -57,6 +57,11 @@ def load(cls: type[T], value: Json, own: Iterable[type] = ()) -> T:
     return loaded
 
 
+def load_value(annotation: Any, value: Json) -> Any:
+    """What a field of this type holds. ValueError, TypeError and the like when it does not fit."""
+    return _codec(annotation)[1](value)
+
+
 def checksum(value: Json) -> int:
     """CRC-32 of what `save` gave, whatever the order of its keys; minus zero counts as zero: some encoders lose it."""
     text = json.dumps(value, sort_keys=True, separators=(",", ":"))

@@ -30,12 +30,11 @@ from .link.decoder import Decoder
 from .link.driver import Driver
 from .link.known import Kinds, kinds
 from .machine import Json, SnapshotError, checksum, load, save
-from .recipes import DEFAULT, Recipe
-from .state import State
+from .recipes import DEFAULT, Recipe, own
+from .state import VERSION, State
 from .types import Activity, Foot, Packet, Phase, Sample, Site, Support
 from .wearer import Wearer, in_order
 
-SNAPSHOT_VERSION = 1
 A_NUMBER = (float, int)
 
 
@@ -85,7 +84,7 @@ class Session:
         if why_not is not None:
             raise CalibrationError(f"calibration: {why_not}")
         self._plan = _indexed(floorplan)
-        wearer = Wearer(deepcopy(recipe), deepcopy(known), poses, pressures)
+        wearer = Wearer(own(recipe), deepcopy(known), poses, pressures)
         if start is not None:
             if not isinstance(start, Start) or self._plan is None:
                 raise TypeError("start must be a Start, on a floor plan")
@@ -277,7 +276,7 @@ class Session:
         It carries a checksum of itself: a session made of damaged numbers could do anything later.
         """
         state = save(self._state)
-        return {"solepath": SNAPSHOT_VERSION, "check": checksum(state), "state": state}
+        return {"solepath": VERSION, "check": checksum(state), "state": state}
 
     @classmethod
     def restore(
@@ -297,8 +296,13 @@ class Session:
         are none, or two of one name."""
         if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
             raise SnapshotError("not a snapshot of a session")
-        if saved["solepath"] != SNAPSHOT_VERSION:
-            raise SnapshotError(f"snapshot version {saved['solepath']!r}; this release reads {SNAPSHOT_VERSION}")
+        version = saved["solepath"]
+        if type(version) is not int or not 1 <= version <= VERSION:
+            raise SnapshotError(f"snapshot version {version!r}; this release reads 1 to {VERSION}")
+        if version < VERSION:
+            from .packing.older import restore
+
+            return cls._of(restore(saved, tuple(parts)), profiles, floorplan)
         state = load(State, saved["state"], parts)
         state.decoders = in_order(state.decoders, Site)
         state.wearer.feet = in_order(state.wearer.feet, Foot)

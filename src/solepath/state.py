@@ -8,6 +8,10 @@ from .link.decoder import Decoder
 from .types import Site
 from .wearer import Wearer
 
+VERSION = 2
+"""Of all that is remembered: one more for every release that remembers something else, or has other settings
+(`python -m solepath.packing.pin` says whether; packing/upgrades.py goes from one to the next)."""
+
 
 @define
 class State:

@@ -41,7 +41,7 @@ def readers(shape: Shape, own: Callable[[str, Own], Reader]) -> dict[str, Reader
     """What builds each record of the shape. `own`: the reader of a record of an app's own, by what `writers` told of
     it."""
     space: dict[str, Any] = {
-        "new": object.__new__, "put": object.__setattr__, "take": _take, "deque": deque, "some": _some,
+        "new": object.__new__, "put": object.__setattr__, "take": _take, "deque": deque, "some": some,
         "word": _word, "there": _there, "other": _other(own),
     }  # fmt: skip
     names = list(shape.classes)
@@ -126,7 +126,8 @@ def _take(floats: Iterator[float], count: int) -> list[float]:
     return taken
 
 
-def _some(count: int) -> range:
+def some(count: int) -> range:
+    """As many times, if a list can be that long."""
     if not 0 <= count <= FEW:
         raise SnapshotError(f"a list of {count}")
     return range(count)

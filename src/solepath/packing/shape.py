@@ -8,8 +8,9 @@ state of their own, which are data.
 
     {"root": R, "records": {R: {field: type, ...}, ...}, "enums": {name: [value, ...]}}
 
-A record that is written whole is named by module and class ("foot.moment.Stride"), one of which only the state is by
-that with "state of " before it. A type is "float", "int", "bool", "str", "bytes", or one of
+A record that is written whole has the name of its class ("Stride", and of another class of that name "Stride 2"), one
+of which only the state is has that with "state of " before it; which module a class is in does not matter. A type is
+"float", "int", "bool", "str", "bytes", or one of
 
     {"enum": name}   {"record": name}   {"one of": [name, ...], "open": bool}   {"maybe": type}
     {"tuple": [type, ...]}   {"row": type}   {"list": type}   {"deque": type}   {"dict": [type, type]}
@@ -73,10 +74,9 @@ def shape_of(root: type, odd: Mapping[tuple[str, str], str] | None = None) -> Sh
     return Shape(name, reader.records, reader.enums, reader.classes)
 
 
-def name_of(cls: type) -> str:
-    """Module below solepath, and class; of an app's own the class, wherever it is."""
-    package, _, module = cls.__module__.partition(".")
-    return f"{module}.{cls.__name__}" if package == "solepath" else cls.__name__
+def kind_of(record: str) -> str:
+    """The class's own name."""
+    return record.removeprefix(STATE_OF).partition(" ")[0]
 
 
 def is_part(cls: Any) -> bool:
@@ -97,13 +97,20 @@ class _Reader:
         self.records: dict[str, Fields] = {}
         self.enums: dict[str, list[str]] = {}
         self.classes: dict[str, type] = {}
+        self.names: dict[type, str] = {}
+
+    def name(self, cls: type) -> str:
+        """Its own, and its number among those of one name."""
+        if cls not in self.names:
+            alike = sum([known.__name__ == cls.__name__ for known in self.names])
+            self.names[cls] = f"{cls.__name__} {alike + 1}" if alike else cls.__name__
+        return self.names[cls]
 
     def record(self, cls: type, whole: bool) -> str:
-        name = name_of(cls) if whole else STATE_OF + name_of(cls)
-        if self.classes.setdefault(name, cls) is not cls:
-            raise TypeError(f"two classes are named {name}")
+        name = self.name(cls) if whole else STATE_OF + self.name(cls)
         if name in self.records:
             return name
+        self.classes[name] = cls
         self.records[name] = {}
         hints = typing.get_type_hints(cls)
         found: Fields = {}
@@ -129,7 +136,7 @@ class _Reader:
 
     def part(self, hint: Any) -> Type | None:
         """Of a setting: the state of the part that it is, or None."""
-        kinds = [a for a in _alternatives(hint) if a is not type(None)]
+        kinds = [a for a in alternatives(hint) if a is not type(None)]
         if not any([self.remembers(a) for a in kinds]):
             return None
         return self.type(hint, made=True)
@@ -140,12 +147,12 @@ class _Reader:
             return False
         hints = typing.get_type_hints(cls)
         return is_part(cls) or any(
-            [self.remembers(a) for f in attrs.fields(cls) for a in _alternatives(hints[f.name])]
+            [self.remembers(a) for f in attrs.fields(cls) for a in alternatives(hints[f.name])]
         )
 
     def state(self, hint: Any, begins_without: bool) -> Type:
         """Of a field that no constructor takes: parts that are there from the beginning were made with their holder."""
-        kinds = _alternatives(hint)
+        kinds = alternatives(hint)
         made = not begins_without and any([is_part(a) for a in kinds]) and all(
             [attrs.has(a) or a is type(None) for a in kinds]
         )
@@ -156,7 +163,7 @@ class _Reader:
         if hint in SCALARS:
             return SCALARS[hint]
         if isinstance(hint, type) and issubclass(hint, Enum):
-            name = name_of(hint)
+            name = self.name(hint)
             self.classes[name] = hint
             self.enums[name] = [str(member.value) for member in hint]
             return {"enum": name}
@@ -188,7 +195,8 @@ class _Reader:
         return {"maybe": kind} if len(kinds) < len(arguments) else kind
 
 
-def _alternatives(hint: Any) -> tuple[Any, ...]:
+def alternatives(hint: Any) -> tuple[Any, ...]:
+    """What a union is made of; of another type itself."""
     return typing.get_args(hint) if typing.get_origin(hint) in (typing.Union, types.UnionType) else (hint,)
 
 

@@ -1,0 +1,61 @@
+"""`python -m solepath.packing.pin`: writes down the shape of the state of this version, so that later ones can read it.
+
+Run it when a version is done, once. Exit status 1 when this version was pinned and has another shape now.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+from ..state import VERSION
+from .records import shape, snapshot_shape
+from .shape import Shape
+
+FOLDER = Path(__file__).parent / "shapes"
+
+
+def changed() -> str | None:
+    """What to do where the state has another shape than was pinned for its version; None where it has that one."""
+    file = FOLDER / f"{VERSION}.json"
+    if not file.exists():
+        return f"version {VERSION} of the state is not pinned: run `python -m solepath.packing.pin`"
+    if file.read_text("utf-8") == as_text():
+        return None
+    return (
+        f"what a session remembers, or a setting, is not what it was when version {VERSION} of its state was pinned: "
+        f"raise VERSION in state.py to {VERSION + 1}, add the step from {VERSION} to packing/upgrades.py, and run "
+        "`python -m solepath.packing.pin`. If no release had that version yet, remove its file in packing/shapes "
+        "and pin it again."
+    )
+
+
+def as_text() -> str:
+    """Both shapes, a record a line."""
+    return f'{{"packed": {_lines(shape())}, "snapshot": {_lines(snapshot_shape())}}}\n'
+
+
+def _lines(told: Shape) -> str:
+    def lines(held: dict[str, Any]) -> str:
+        return "{\n" + ",\n".join([f"  {json.dumps(key)}: {json.dumps(value)}" for key, value in held.items()]) + "\n}"
+
+    return f'{{"root": {json.dumps(told.root)}, "enums": {lines(told.enums)}, "records": {lines(told.records)}}}'
+
+
+def main() -> int:
+    """Pin it, or say why not."""
+    file = FOLDER / f"{VERSION}.json"
+    if not file.exists():
+        FOLDER.mkdir(exist_ok=True)
+        file.write_text(as_text(), "utf-8")
+        print(f"wrote {file}")
+    why_not = changed()
+    if why_not is not None:
+        print(why_not, file=sys.stderr)
+    return 0 if why_not is None else 1
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
