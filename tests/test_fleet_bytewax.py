@@ -1,0 +1,142 @@
+"""A fleet on bytewax: what every wearer's session tells is what it tells by itself, however the engine runs it."""
+
+from __future__ import annotations
+
+import pickle
+import sqlite3
+from binascii import crc32
+from collections.abc import Iterable
+from contextlib import closing
+from datetime import timedelta
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+
+pytest.importorskip("bytewax", reason="bytewax is not installed: it has no wheels for Python 3.13 and later")
+
+from bytewax import operators
+from bytewax.dataflow import Dataflow
+from bytewax.recovery import RecoveryConfig, init_db_dir
+from bytewax.testing import TestingSink, TestingSource, cluster_main, run_main
+
+from sites import RECIPES, mixed, site
+from solepath.fleet import Fleet, Refusal, Sent, StateRefused, Told, Unreadable
+from solepath.fleet.bytewax import gait
+from solepath.session import Session
+from solepath.types import Packet, Site
+
+OFTEN = timedelta(milliseconds=20)
+"""Between two snapshots."""
+
+def job(items: Iterable[Any], told: list[tuple[str, Told]], recipe: str = "default", **options: Any) -> Dataflow:
+    """From a list to a list. The source keeps its place in the recovery store, the sink keeps none."""
+    flow = Dataflow("job")
+    sent = operators.input("sent", flow, TestingSource(items, batch_size=50))
+    operators.output("told", gait("gait", sent, Fleet(RECIPES[recipe]), **options), TestingSink(told))
+    return flow
+
+
+def by_wearer(told: Iterable[tuple[str, Told]]) -> dict[str, list[Any]]:
+    """The events of each in the order of their numbers, which have no holes; what was told twice was the same."""
+    found: dict[str, dict[int, Any]] = {}
+    for wearer, one in told:
+        assert one.wearer == wearer
+        assert found.setdefault(wearer, {}).setdefault(one.number, one.event) == one.event
+    assert all(sorted(numbers) == list(range(len(numbers))) for numbers in found.values())
+    return {wearer: [numbers[number] for number in sorted(numbers)] for wearer, numbers in found.items()}
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> RecoveryConfig:
+    init_db_dir(tmp_path, 1)
+    return RecoveryConfig(str(tmp_path))
+
+
+@pytest.mark.parametrize("recipe", RECIPES)
+def test_each_wearer_has_the_events_of_a_session_of_their_own_also_when_the_job_breaks_off_again_and_again(
+    recipe: str, store: RecoveryConfig
+) -> None:
+    sent, events = site(recipe)
+    items: list[Any] = list(sent)
+    for place in sorted(Random(1).sample(range(len(items)), 3), reverse=True):
+        items.insert(place, TestingSource.ABORT())
+    told: list[tuple[str, Told]] = []
+    flow = job(items, told, recipe)
+    for _ in range(3):
+        run_main(flow, epoch_interval=OFTEN, recovery_config=store)
+        assert by_wearer(told) != events
+    run_main(flow, epoch_interval=OFTEN, recovery_config=store)
+    assert by_wearer(told) == events
+
+
+def test_wearers_are_divided_among_workers(store: RecoveryConfig) -> None:
+    sent, events = site()
+    told: list[tuple[str, Told]] = []
+    cluster_main(job(sent, told), [], 0, epoch_interval=OFTEN, recovery_config=store, worker_count_per_proc=2)
+    assert by_wearer(told) == events
+
+
+def test_what_was_sent_may_come_in_lists_and_sessions_may_be_put_away_while_nothing_comes() -> None:
+    sent, events = site()
+    lists = []
+    for at in range(0, len(sent), 200):
+        piece: dict[str, list[Any]] = {}
+        for wearer, one in sent[at : at + 200]:
+            piece.setdefault(wearer, []).append(one)
+        lists += [*piece.items(), TestingSource.PAUSE(timedelta(milliseconds=2))]
+    told: list[tuple[str, Told]] = []
+    run_main(job(lists, told, idle=timedelta(milliseconds=1)))
+    assert by_wearer(told) == events
+
+
+def test_what_no_phone_can_have_sent_is_told_and_stalls_nobody_else() -> None:
+    sent, events = site()
+    chance = Random(5)
+    packet = Packet(0.0, Site.LEFT_FOOT, "x", b"")
+    junk: list[Any] = [None, b"", {"wearer": "poison"}, object]
+    junk += [Sent("limping", 0, packet), Sent("poison", 10**30, packet), Unreadable("poison", "no row")]
+    junk += [
+        Sent("poison", n, Packet(chance.choice([0.1 * n, float("nan")]), Site.LEFT_FOOT, channel, chance.randbytes(n)))
+        for n, channel in enumerate(["insole/frame", "cc2650/movement", "insole/info", "\x00"] * 100)
+    ]
+    clean = {name: [one for wearer, one in sent if wearer == name] for name in events}
+    told: list[tuple[str, Told]] = []
+    run_main(job(mixed({**clean, "poison": junk}), told))
+    found = by_wearer(told)
+    said = found.pop("poison")
+    assert found == events
+    assert [event.reason for event in said[:7]] == [Refusal.NOT_SENT] * 6 + [Refusal.UNREADABLE]
+    assert len(said) >= 300
+
+
+def of_a_version_to_come(state: bytes) -> bytes:
+    """As protocol/fleet.md has it: whatever the version, the first bytes and their checksum can be read."""
+    first = state[:4] + b"\xfe" + state[5:37]
+    return first + crc32(first).to_bytes(4, "little") + state[41:]
+
+
+def test_states_that_cannot_go_on_are_told_and_begin_afresh_and_the_others_go_on(
+    store: RecoveryConfig, tmp_path: Path
+) -> None:
+    sent, events = site()
+    half = len(sent) // 2
+    told: list[tuple[str, Told]] = []
+    flow = job([*sent[:half], TestingSource.EOF(), *sent[half:]], told)
+    run_main(flow, recovery_config=store)
+    before = by_wearer(told)
+    with closing(sqlite3.connect(tmp_path / "part-0.sqlite3")) as kept, kept:
+        state = "FROM snaps WHERE step_id LIKE '%gait%' AND state_key"
+        (newest,) = kept.execute(f"SELECT ser_change {state} = 'limping' ORDER BY snap_epoch DESC").fetchone()
+        new = {"limping": of_a_version_to_come(pickle.loads(newest)), "whole": b"\x00" * 90}
+        for wearer, spoiled in new.items():
+            kept.execute("UPDATE snaps SET ser_change = ? WHERE state_key = ?", (pickle.dumps(spoiled), wearer))
+    run_main(flow, recovery_config=store)
+    whole = [one for wearer, one in told if wearer == "whole"][len(before["whole"]) :]
+    found = by_wearer(one for one in told if one[0] != "whole")
+    assert found["late"] == events["late"]
+    refused, *rest = found["limping"][len(before["limping"]) :]
+    assert isinstance(refused, StateRefused) and "version 254" in refused.detail
+    assert rest == Session().feed(one.what for wearer, one in sent[half:] if wearer == "limping")
+    assert isinstance(whole[0].event, StateRefused) and whole[0].number >= len(before["whole"])
