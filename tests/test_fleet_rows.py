@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import json
+import re
 from math import nan
 from pathlib import Path
 from typing import Any
 
+import attrs
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fleets import walked
 from solepath.events import HeelStrike, PacketRejected, Rejection
-from solepath.events.fleet import FleetEvent, NumbersMissing
 from solepath.fleet import (
     SENT_COLUMNS,
     TOLD_COLUMNS,
     End,
     Fleet,
+    FleetEvent,
+    NumbersMissing,
+    Refusal,
     Sent,
     Tick,
     Told,
@@ -147,6 +151,11 @@ def test_every_event_of_a_walk_is_a_row_of_the_columns() -> None:
         assert all(value is None or type(value) is TOLD_COLUMNS[name] for name, value in row.items()), one
 
 
-def test_every_event_of_the_fleet_says_when_it_is_known() -> None:
+def test_the_protocol_names_all_that_a_fleet_tells() -> None:
+    page = (Path(__file__).parent.parent / "protocol" / "fleet.md").read_text()
     for kind in FleetEvent.__args__:
-        assert "nown" in kind.__dict__["__doc__"]
+        own = {field.name for field in attrs.fields(kind)} - {"t", "known_at", "final"}
+        (line,) = [line for line in page.splitlines() if line.startswith(f"| `{kind.__name__}` |")]
+        assert own == set(re.findall(r"`(\w+)`", line.split("|")[2]))
+    assert all(f"`{reason.value}`" in page for reason in Refusal)
+    assert all(f"| `{name}` |" in page for name in SENT_COLUMNS)

@@ -210,7 +210,7 @@ def test_a_damaged_rest_is_named() -> None:
 def test_a_phone_hands_its_wearer_over() -> None:
     sent, whole = walked().sent, Session()
     first = [event for one in sent[:HALF] for event in whole.feed(one.what)]
-    state = FLEET.adopt(WEARER, json.loads(json.dumps(whole.snapshot())))
+    state = FLEET.adopt(json.loads(json.dumps(whole.snapshot())))
     assert read_identity(state).known == whole.now
     numbers = count()
     rest = [evolve(one, number=next(numbers), run=3) for one in sent[HALF:]]
@@ -221,9 +221,9 @@ def test_a_phone_hands_its_wearer_over() -> None:
 
 def test_a_snapshot_that_cannot_go_on_is_not_adopted() -> None:
     with pytest.raises(SnapshotError):
-        FLEET.adopt(WEARER, {"solepath": 1})
+        FLEET.adopt({"solepath": 1})
     with pytest.raises(SnapshotError, match="zupt"):
-        FLEET.adopt(WEARER, Session(recipes.BY_NAME["zupt"]).snapshot())
+        FLEET.adopt(Session(recipes.BY_NAME["zupt"]).snapshot())
 
 
 def test_told_of_a_refused_row_is_why() -> None:

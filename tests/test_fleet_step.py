@@ -66,6 +66,17 @@ def test_how_a_walk_is_cut_into_calls_changes_neither_events_nor_state(cuts: lis
     assert stepped(FLEET, cut(list(sent), cuts)) == (keyed.state(), told)
 
 
+@pytest.mark.parametrize("recipe", recipes.BY_NAME)
+def test_a_wearer_leaves_no_trace_in_what_all_wearers_share(recipe: str) -> None:
+    made = recipes.BY_NAME[recipe]
+    fresh = Session(made)
+    before, blank = fresh.snapshot(), fresh.pack()
+    fleet = Fleet(made)
+    state, _ = fleet.step(WEARER, None, walked().sent[:250])
+    fleet.step(WEARER, state, walked().sent[250:450])
+    assert Session.unpack(blank, made).snapshot() == before
+
+
 def test_a_step_leaves_what_it_was_given_as_it_was() -> None:
     state, _ = FLEET.step(WEARER, None, walked().sent[:250])
     once, twice = (FLEET.step(WEARER, state, walked().sent[250:450]) for _ in range(2))
@@ -75,8 +86,10 @@ def test_a_step_leaves_what_it_was_given_as_it_was() -> None:
 def test_time_that_passes_is_told_as_a_session_has_it() -> None:
     sent = walked().sent[:300]
     session, last = Session(), sent[-1].what.t
-    events = [event for one in sent for event in session.feed(one.what)] + session.advance(last + 5.0)
-    _, told = FLEET.step(WEARER, None, [*sent, Sent(WEARER, 300, Tick(last + 5.0))])
+    events = session.advance(-1.0) + [event for one in sent for event in session.feed(one.what)]
+    events += session.advance(last + 5.0)
+    later = [evolve(one, number=one.number + 1) for one in sent]
+    _, told = FLEET.step(WEARER, None, [Sent(WEARER, 0, Tick(-1)), *later, Sent(WEARER, 301, Tick(last + 5.0))])
     assert [one.event for one in told] == events
     assert events[-1].known_at == last + 5.0
 
@@ -271,9 +284,9 @@ class Registry(Mapping[str, Calibration]):
 
 def test_what_is_known_of_a_wearer_is_looked_up_when_a_session_begins_and_what_is_wrong_is_told() -> None:
     fleet = Fleet(recipes.KUPT_DFPC, calibrations=Registry())
-    plain = [one.event for one in Fleet(recipes.KUPT_DFPC).step(WEARER, None, walked().sent)[1]]
+    plain = [one.event for one in Fleet(recipes.KUPT_DFPC).step(WEARER, None, walked().sent[:500])[1]]
     for wearer, failures in (("unknown", 0), ("lost", 1), ("odd", 1), ("known", 0)):
-        sent = [evolve(one, wearer=wearer) for one in walked().sent]
+        sent = [evolve(one, wearer=wearer) for one in walked().sent[:500]]
         events = [one.event for one in fleet.step(wearer, None, sent)[1]]
         assert [isinstance(event, WearerFailed) for event in events[: failures + 1]] == [True] * failures + [False]
         assert (events[failures:] == plain) is (wearer != "known")
@@ -292,11 +305,10 @@ def test_a_job_that_is_wrong_for_every_wearer_is_refused_when_it_is_made() -> No
         Session(calibration=Registry()["odd"])
 
 
-@pytest.mark.parametrize("recipe", BOTH, ids=lambda recipe: recipe.name)
-def test_a_job_can_be_sent_to_its_workers(recipe: Recipe) -> None:
-    fleet = Fleet(recipe, calibrations={WEARER: Calibration()}, floorplan=BUILDING, poses=True)
+def test_a_job_can_be_sent_to_its_workers() -> None:
+    fleet = Fleet(recipes.KUPT_DFPC, calibrations={WEARER: Calibration()}, floorplan=BUILDING, poses=True)
     there = pickle.loads(pickle.dumps(fleet))
-    assert there.step(WEARER, None, walked().sent[:350]) == fleet.step(WEARER, None, walked().sent[:350])
+    assert there.step(WEARER, None, walked().sent[:250]) == fleet.step(WEARER, None, walked().sent[:250])
 
 
 def test_what_is_sent_and_told_can_be_sent_between_workers() -> None:

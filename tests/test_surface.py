@@ -14,6 +14,7 @@ import attrs
 import pytest
 
 import solepath
+import solepath.fleet
 from solepath import Event
 from solepath.types import Packet
 
@@ -38,14 +39,17 @@ def test_every_event_is_public() -> None:
     assert {kind.__name__ for kind in Event.__args__} <= set(solepath.__all__)
 
 
-@pytest.mark.parametrize("kind", Event.__args__, ids=lambda kind: kind.__name__)
+EVERY = (*Event.__args__, *solepath.fleet.FleetEvent.__args__)
+
+
+@pytest.mark.parametrize("kind", EVERY, ids=lambda kind: kind.__name__)
 def test_every_event_says_how_late_it_is_known(kind: type) -> None:
     """In the text of its class, not of the one that all share."""
     assert {"known", "latency"} & set(re.findall(r"[a-z]+", kind.__dict__["__doc__"].lower()))
 
 
 def test_every_number_of_an_event_says_its_unit_or_what_it_counts() -> None:
-    for kind in Event.__args__:
+    for kind in EVERY:
         lines = inspect.getsource(kind).splitlines()
         for line, after in zip(lines, [*lines[1:], ""], strict=True):
             name, _, annotation = line.strip().partition(": ")
@@ -61,10 +65,10 @@ def documented(thing: Any) -> bool:
 
 
 def members() -> list[tuple[str, Any]]:
-    """Public classes and functions, and their public methods and properties."""
+    """Public classes and functions, and their public methods and properties, those of a fleet too."""
     found: list[tuple[str, Any]] = []
-    for name in solepath.__all__:
-        thing = getattr(solepath, name)
+    public = [(name, getattr(room, name)) for room in (solepath, solepath.fleet) for name in room.__all__]
+    for name, thing in public:
         if isinstance(thing, types.ModuleType) or name in ALIASES:
             continue
         found.append((name, thing))

@@ -65,7 +65,7 @@ class Fleet:
         """The same in memory, for engines that keep objects between their snapshots. It never raises."""
         return Keyed(self._sessions, wearer, state)
 
-    def adopt(self, wearer: str, snapshot: Any) -> bytes:
+    def adopt(self, snapshot: Any) -> bytes:
         """A state that goes on from a Session.snapshot taken elsewhere: a phone hands its wearer over, and begins to
         send at number 0 of a run. Events are numbered from 0. SnapshotError when it cannot go on here."""
         session = self._sessions.restored(snapshot)

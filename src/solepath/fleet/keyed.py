@@ -168,12 +168,12 @@ class Keyed:
         """What is in its turn goes to the session."""
         session = self._session
         try:
-            if type(what) is Packet:
-                if session is None:
-                    session = self._session = self._begin(told)
-                events = session.feed(what)
-            elif session is None:
+            if session is None and type(what) is not End:
+                session = self._session = self._begin(told)
+            if session is None:
                 return
+            if type(what) is Packet:
+                events = session.feed(what)
             else:
                 events = session.advance(what.t) if isinstance(what, Tick) else session.finish()
         except MemoryError:
