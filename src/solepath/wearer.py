@@ -47,6 +47,7 @@ class Wearer:
     """Trackers of the feet, the body that the recipe gave them, and how all of it is worn."""
 
     recipe: Recipe
+    """Read only: others may hold it too."""
     calibration: Calibration
     poses: bool
     """The feet emit FootMoved; WearerMoved after a step."""
@@ -179,14 +180,17 @@ class Wearer:
         """The foot's own tracker, or a new one that nobody holds yet."""
         tracker = self.feet.get(foot)
         if tracker is None:
-            recipe, known = deepcopy(self.recipe), self.calibration
+            recipe, known = self.recipe, self.calibration
+            detector, corrector, cues, insole = deepcopy(
+                (recipe.detector, recipe.corrector, recipe.cues, recipe.insole)
+            )
             tracker = FootTracker(
                 foot,
-                _calibrated(recipe.detector, known, foot),
-                _calibrated(recipe.corrector, known, foot),
+                _calibrated(detector, known, foot),
+                _calibrated(corrector, known, foot),
                 self.poses,
-                cues=_calibrated(recipe.cues, known, foot),
-                sole=Sole(foot, _calibrated(recipe.insole, known, foot), recipe.needs_pressure),
+                cues=_calibrated(cues, known, foot),
+                sole=Sole(foot, _calibrated(insole, known, foot), recipe.needs_pressure),
                 needs_pressure=recipe.needs_pressure,
             )
             layout = known.insole(foot).layout
