@@ -39,7 +39,7 @@ SCHEMA = pa.schema([(name, _ARROW[kind]) for name, kind in TOLD_COLUMNS.items()]
 REPEATED = ["wearer", "event", "foot", "final"]
 """Columns that are worth a dictionary."""
 GROUP = 1 << 15
-"""Events of a row group; so many are gathered and sorted by wearer, in some 40 MB."""
+"""Events of a row group: as rows they take some 40 MB."""
 GROUPS = 32
 """Row groups after which a part is closed in any case."""
 _NAME = re.compile(r"\.?part-(\w+)-(\d+)\.parquet(\.writing)?")
@@ -56,13 +56,16 @@ class Parts:
     what no reader sees, `.part-0-00000007.parquet.replaced-1`), since the events of a fleet that begins anew are
     numbered anew.
 
-    OSError, naming the file, when one cannot be written (the disk is full); nothing of it is left then. ValueError for
-    a partition that is not a word.
+    `group`: so many events are gathered, sorted by wearer and packed as one row group of the part.
+
+    OSError, naming the file, when one cannot be written (the disk is full). Nothing of it is left then, on the disk or
+    here: begin again with the last number that counted. ValueError for a partition that is no word.
     """
 
     directory: Path
     partition: str = "0"
     resume: int | None = None
+    group: int = GROUP
     number: int = field(init=False)
     """Of the part that is open."""
     _rows: list[dict[str, Any]] = field(factory=list, init=False)
@@ -89,7 +92,7 @@ class Parts:
         """Gather events for the part that is open."""
         for one in told:
             self._rows.append(told_row(one))
-            if len(self._rows) >= GROUP:
+            if len(self._rows) >= self.group:
                 self._flush()
                 if self._groups >= GROUPS:
                     self.close()

@@ -1,0 +1,166 @@
+"""Parts of Parquet: whole or not there, each event once, and nothing lost that the engine still counts on."""
+
+from __future__ import annotations
+
+import errno
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+pytest.importorskip("pyarrow", reason="pyarrow is not installed (extra: bytewax)")
+
+from pyarrow import parquet
+
+from solepath.events import ActivityChanged, HeelStrike
+from solepath.fleet import TOLD_COLUMNS, StateRefused, Told, told_row
+from solepath.fleet.parquet import GROUPS, Parts
+from solepath.types import Activity, Foot
+
+FIRST = "part-0-00000000.parquet"
+
+
+def told(count: int, wearers: int = 3) -> list[Told]:
+    """Events of a few wearers by turns."""
+    events = [
+        HeelStrike(t=0.1, known_at=0.12, foot=Foot.LEFT),
+        ActivityChanged(t=0.1 + 0.2, known_at=0.5, activity=Activity.WALKING, probability=0.9),
+        StateRefused(t=0.0, known_at=0.0, detail='wearer "7" \x00 \N{FOOTPRINTS} \ud800'),
+    ]
+    return [Told(f"w{n % wearers}", n // wearers, events[n % len(events)]) for n in range(count)]
+
+
+def rows(directory: Path) -> list[dict[str, Any]]:
+    """What a reader finds, in the order of the files."""
+    return list(parquet.read_table(directory).to_pylist())
+
+
+def by_identity(found: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    return sorted(found, key=lambda row: (row["wearer"], row["number"]))
+
+
+def names(directory: Path) -> list[str]:
+    return sorted(path.name for path in directory.iterdir())
+
+
+def test_a_part_holds_the_rows_of_its_events_wearer_by_wearer(tmp_path: Path) -> None:
+    parts = Parts(tmp_path)
+    parts.write(told(20))
+    assert names(tmp_path) == []
+    assert parts.close() == 1
+    assert names(tmp_path) == [FIRST]
+    assert rows(tmp_path) == by_identity([told_row(one) for one in told(20)])
+    table = parquet.read_table(tmp_path / FIRST)
+    assert table.column_names == list(TOLD_COLUMNS)
+    assert [str(kind) for kind in table.schema.types] == [
+        "string", "int64", "string", "double", "double", "bool", "string", "string",
+    ]  # fmt: skip
+
+
+def test_a_part_without_events_is_no_file_and_has_no_number(tmp_path: Path) -> None:
+    parts = Parts(tmp_path)
+    assert [parts.close(), parts.close()] == [0, 0]
+    assert names(tmp_path) == []
+
+
+def test_a_part_that_grows_too_long_is_closed_by_itself(tmp_path: Path) -> None:
+    parts = Parts(tmp_path, group=2)
+    parts.write(told(2 * GROUPS + 1))
+    assert names(tmp_path) == [FIRST]
+    assert parts.close() == 2
+    assert parquet.ParquetFile(tmp_path / FIRST).num_row_groups == GROUPS
+    assert by_identity(rows(tmp_path)) == by_identity([told_row(one) for one in told(2 * GROUPS + 1)])
+
+
+def test_parts_from_the_resumed_number_on_are_removed_and_no_other_file_is(tmp_path: Path) -> None:
+    for partition in ("0", "1"):
+        parts = Parts(tmp_path, partition)
+        for one in told(3):
+            parts.write([one])
+            parts.close()
+    mine = [f".{FIRST}.replaced-1", ".part-1-00000009.parquet.writing", "notes.txt"]
+    for name in (*mine, ".part-0-00000003.parquet.writing"):
+        (tmp_path / name).write_bytes(b"half")
+    assert Parts(tmp_path, "0", 1).close() == 1
+    assert names(tmp_path) == sorted([*mine, FIRST, *(f"part-1-0000000{n}.parquet" for n in range(3))])
+
+
+def test_what_is_half_written_is_found_by_no_reader(tmp_path: Path) -> None:
+    parts = Parts(tmp_path)
+    parts.write(told(1))
+    parts.close()
+    (tmp_path / ".part-0-00000001.parquet.writing").write_bytes((tmp_path / FIRST).read_bytes()[:99])
+    (tmp_path / f".{FIRST}.replaced-1").write_bytes(b"")
+    assert rows(tmp_path) == [told_row(one) for one in told(1)]
+    assert [path.name for path in tmp_path.glob("*.parquet")] == [FIRST]
+
+
+def test_who_remembers_nothing_sets_the_parts_of_a_run_before_aside_and_loses_none(tmp_path: Path) -> None:
+    for count in (1, 2, 3):
+        parts = Parts(tmp_path)
+        parts.write(told(count))
+        parts.close()
+    assert names(tmp_path) == [f".{FIRST}.replaced-1", f".{FIRST}.replaced-2", FIRST]
+    kept = [parquet.ParquetFile(tmp_path / name).metadata.num_rows for name in names(tmp_path)]
+    assert kept == [1, 2, 3]
+
+
+@contextmanager
+def files_of_at_most(size: int) -> Iterator[None]:
+    """The system refuses to make any file of this process longer."""
+    resource = pytest.importorskip("resource", reason="this system does not limit the length of files")
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+def test_a_part_that_cannot_be_written_is_named_and_leaves_nothing(tmp_path: Path) -> None:
+    parts = Parts(tmp_path)
+    parts.write(told(1))
+    number = parts.close()
+    parts.write(told(20)[1:])
+    with files_of_at_most(1000), pytest.raises(OSError) as refused:
+        parts.close()
+    assert refused.value.errno == errno.EFBIG
+    assert refused.value.filename == str(tmp_path / "part-0-00000001.parquet")
+    assert names(tmp_path) == [FIRST]
+    again = Parts(tmp_path, "0", number)
+    again.write(told(20)[1:])
+    again.close()
+    assert by_identity(rows(tmp_path)) == by_identity([told_row(one) for one in told(20)])
+
+
+def test_a_partition_is_a_word(tmp_path: Path) -> None:
+    for partition in ("", "a/b", "0-1", "..", "a b", "0\n"):
+        with pytest.raises(ValueError, match="partition"):
+            Parts(tmp_path, partition)
+
+
+@given(st.lists(st.sampled_from(["write", "write many", "close", "count", "crash"]), max_size=15))
+@settings(max_examples=20, deadline=None)
+def test_however_often_it_crashes_each_event_is_there_once(steps: list[str]) -> None:
+    """What the engine remembers is what a `close` gave, perhaps not the last: it was killed before it could."""
+    all_told, at = told(60), 0
+    with TemporaryDirectory() as name:
+        parts, counts = Parts(Path(name), "0", 0, group=5), (0, 0)
+        for step in steps:
+            if step.startswith("write"):
+                upto = min(len(all_told), at + (1 if step == "write" else 13))
+                parts.write(all_told[at:upto])
+                at = upto
+            elif step == "crash":
+                parts, at = Parts(Path(name), "0", counts[0], group=5), counts[1]
+            else:
+                number = parts.close()
+                counts = (number, at) if step == "count" else counts
+        parts.write(all_told[at:])
+        parts.close()
+        assert by_identity(rows(Path(name))) == by_identity([told_row(one) for one in all_told])
