@@ -92,7 +92,7 @@ def play(stage: Stage, kills: int, *, keep: bool) -> list[str]:
     return differences
 
 
-def conclude(stage: Stage, differences: list[str], out: Path | None = None, json: Path | None = None) -> int:
+def conclude(stage: Stage, differences: list[str], out: Path | None, json: Path | None) -> int:
     """The table, the files, and the exit status."""
     from .fleet_table import figures, table_of
 
@@ -101,9 +101,13 @@ def conclude(stage: Stage, differences: list[str], out: Path | None = None, json
         _write(json, {**figures(stage), "differences": differences})
     if out is not None:
         _leave(stage, out)
-    wrong = [f"sessions alone: {line}" for line in differences]
-    for number, outcome in enumerate(stage.outcomes, 1):
-        wrong += [f"killed run {number}: {line}" for line in outcome.differences]
+    return verdict(differences, [outcome.differences for outcome in stage.outcomes])
+
+
+def verdict(alone: list[str], killed: list[list[str]]) -> int:
+    """The exit status, and why it is not 0: what differed from the sessions alone, and in each killed run."""
+    wrong = [f"sessions alone: {line}" for line in alone]
+    wrong += [f"killed run {number}: {line}" for number, lines in enumerate(killed, 1) for line in lines]
     if wrong:
         print("\n".join(["", "The events differ from those of the uninterrupted run.", *wrong]))
     return DIFFERS if wrong else 0

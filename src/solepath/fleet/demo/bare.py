@@ -9,9 +9,10 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, process_time
 
 from ...events import Event
+from ...recipes import Recipe
 from ...session import Session
 from ...types import Packet
 from ..fleet import Fleet
@@ -35,21 +36,23 @@ def main(run: str, part: int) -> None:
     fleet = Fleet(wearers.recipe)
     parts = Parts(home / TOLD, str(part))
     settle()
-    taken = 0.0
+    taken = cpu = 0.0
     for wearer in wearers.of_part(part):
-        seconds, events = _through(Session(wearers.recipe), wearer.heard())
+        seconds, used, events = _through(wearers.recipe, wearer.heard())
         taken += seconds
+        cpu += used
         parts.write(Told(wearer.name, number, event) for number, event in enumerate(events))
     parts.close()
     states = [state for wearer in wearers.of_part(part)[:MEASURED] for state in _states(fleet, wearer)]
-    found = {"seconds": taken, "states": states}
+    found = {"seconds": taken, "cpu": cpu, "states": states}
     (home / f"bare-{part}.json").write_text(json.dumps(found), encoding="utf-8")
 
 
-def _through(session: Session, heard: list[What]) -> tuple[float, list[Event]]:
-    """s that it took, and what came out."""
+def _through(recipe: Recipe, heard: list[What]) -> tuple[float, float, list[Event]]:
+    """A session from its beginning: s that it took, s of the processor, and what came out."""
     events: list[Event] = []
-    began = perf_counter()
+    began, used = perf_counter(), process_time()
+    session = Session(recipe)
     for what in heard:
         if type(what) is Packet:
             events += session.feed(what)
@@ -57,7 +60,7 @@ def _through(session: Session, heard: list[What]) -> tuple[float, list[Event]]:
             events += session.advance(what.t)
         else:
             events += session.finish()
-    return perf_counter() - began, events
+    return perf_counter() - began, process_time() - used, events
 
 
 def _states(fleet: Fleet, wearer: Wearer) -> list[tuple[int, int, float]]:

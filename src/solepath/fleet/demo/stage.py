@@ -38,11 +38,12 @@ class Engine:
 
 @frozen
 class Bare:
-    """Sessions alone, in as many processes. `rate`: samples/s of all together. `state`, `largest`: bytes of the state
-    of a wearer in the engine, the mean and the most, with what waits there for what is late; `session`: the most
-    without that; `snapshot`: s that it takes, the median."""
+    """Sessions alone, in as many processes. `rate`: samples/s of all together; `cpu`: s of the processors. `state`,
+    `largest`: bytes of the state of a wearer in the engine, the mean and the most, with what waits there for what is
+    late; `session`: the most without that; `snapshot`: s that it takes, the median."""
 
     rate: float
+    cpu: float
     state: float
     largest: int
     session: int
@@ -111,7 +112,7 @@ class Stage:
         found = [json.loads((home / f"bare-{part}.json").read_text(encoding="utf-8")) for part in parts]
         sizes, alone, taken = zip(*(state for one in found for state in one["states"]), strict=True)
         rate = sum(samples / one["seconds"] for samples, one in zip(self.samples, found, strict=True))
-        self.sessions = Bare(rate, mean(sizes), max(sizes), max(alone), median(taken))
+        self.sessions = Bare(rate, sum(one["cpu"] for one in found), mean(sizes), max(sizes), max(alone), median(taken))
         return self.sessions
 
     def compare(self) -> list[str]:
