@@ -311,6 +311,23 @@ def test_a_job_can_be_sent_to_its_workers() -> None:
     assert there.step(WEARER, None, walked().sent[:250]) == fleet.step(WEARER, None, walked().sent[:250])
 
 
+class Ours(Fleet):
+    """A job with a device of an app's own, whose constructs cannot be pickled."""
+
+    def __init__(self) -> None:
+        super().__init__(profiles=[WRONG])
+
+    def __reduce__(self) -> tuple[type, tuple[()]]:
+        return Ours, ()
+
+
+def test_a_job_with_devices_of_its_own_goes_to_its_workers_by_name() -> None:
+    with pytest.raises((TypeError, AttributeError)):
+        pickle.dumps(Fleet(profiles=[WRONG]))
+    walk = [said(k, k) for k in range(40)]
+    assert pickle.loads(pickle.dumps(Ours())).step(WEARER, None, walk) == Ours().step(WEARER, None, walk)
+
+
 def test_what_is_sent_and_told_can_be_sent_between_workers() -> None:
     _, told = FLEET.step(WEARER, None, walked().sent[:350])
     both: list[Sent | Told | Unreadable] = [*walked().sent[:10], *told, Unreadable(WEARER, "no JSON", 1, 2)]

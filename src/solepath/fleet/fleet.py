@@ -24,8 +24,15 @@ class Fleet:
     that is late, before it is given up. A new version of the app's own code in `recipe`, `profiles` and `parts` is for
     the app to keep compatible. TypeError and ValueError as Session raises them.
 
-    It can be pickled when what it is given can; an engine that pickles its job and cannot pickle a driver's constructs
-    takes a Fleet that is made at the top of a module, by name.
+    It can be pickled when what it is given can, which the constructs of a driver cannot: an engine that sends its job to
+    the workers by pickle takes a class of the app's own, in a module that the workers can import, by name:
+
+        class Ours(Fleet):
+            def __init__(self) -> None:
+                super().__init__(profiles=[STRAP])
+
+            def __reduce__(self) -> tuple[type, tuple[()]]:
+                return Ours, ()
     """
 
     __slots__ = ("_sessions",)
@@ -49,7 +56,8 @@ class Fleet:
         plan = IndexedPlan(floorplan) if isinstance(floorplan, FloorPlan) else floorplan
         own = (tuple(profiles), tuple(parts))
         self._sessions = Sessions(recipe, calibrations, plan, *own, poses, pressures, window)
-        self._sessions.fresh("", calibrated=False)  # what is wrong for all is wrong here, and not in a worker
+        # what is wrong for all is wrong here, and not in a worker
+        self._sessions.unpack(self._sessions.fresh("", calibrated=False).pack())
 
     def step(self, wearer: str, state: bytes | None, sent: Iterable[Sent | Unreadable]) -> tuple[bytes, list[Told]]:
         """The state and the events of `wearer` after `sent`, given the state before; None for a wearer who is new.
@@ -71,4 +79,4 @@ class Fleet:
         session = self._sessions.restored(snapshot)
         now = session.now
         identity = Identity(-1, 0, 0, 0.0 if now is None else now)
-        return write_state(identity, Rest(session=self._sessions.pack(session)))
+        return write_state(identity, Rest(session=session.pack()))

@@ -68,7 +68,7 @@ class Keyed:
         if self._session is not None:
             known = self._now()
             try:
-                session = self._sessions.pack(self._session)
+                session = self._session.pack()
             except MemoryError:
                 raise
             except Exception as error:  # of a part of the app's own

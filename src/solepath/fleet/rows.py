@@ -79,15 +79,16 @@ def _what(row: Mapping[str, Any]) -> Packet | Tick | End:
 
 def _name(row: Mapping[str, Any], key: str) -> str:
     value = row.get(key)
+    if type(value) is str and len(value) <= LONGEST_NAME and value.isascii():
+        return value  # as nearly all are
     if not isinstance(value, str):
         raise _Flaw(f"{key} is no text but a {type(value).__name__}")
     if len(value) > LONGEST_NAME:
         raise _Flaw(f"{key} of {len(value)} characters; {LONGEST_NAME} are the most")
-    if not value.isascii():
-        try:
-            value.encode()
-        except UnicodeEncodeError:
-            raise _Flaw(f"{key} holds half a character") from None
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise _Flaw(f"{key} holds half a character") from None
     return value
 
 
@@ -114,6 +115,8 @@ def _not_bool(value: Any) -> Any:
 def _time(row: Mapping[str, Any]) -> float:
     """Whatever float: what is no time is the session's to reject."""
     value = row.get("t")
+    if type(value) is float:
+        return value
     if isinstance(value, bool) or not isinstance(value, float | int):
         raise _Flaw(f"t is no number but a {type(value).__name__}")
     try:
@@ -127,8 +130,8 @@ def sent_line(sent: Sent) -> bytes:
     row = sent_row(sent)
     if row["data"] is not None:
         row["data"] = row["data"].hex()
-    kept = {key: value for key, value in row.items() if value is not None and (key, value) != ("run", 0)}
-    return json.dumps(kept, allow_nan=False, separators=(",", ":")).encode() + b"\n"
+    kept = {key: value for key, value in row.items() if value is not None and (key != "run" or value != 0)}
+    return _ENCODER.encode(kept).encode() + b"\n"
 
 
 def read_line(line: Any) -> Sent | Unreadable:
@@ -138,8 +141,13 @@ def read_line(line: Any) -> Sent | Unreadable:
     except _Flaw as flaw:
         return Unreadable("", str(flaw))
     data = row.get("data")
-    if isinstance(data, str) and len(data) % 2 == 0 and _HEX.issuperset(data):
-        row["data"] = bytes.fromhex(data)
+    if isinstance(data, str):
+        try:
+            read = bytes.fromhex(data)
+        except ValueError:
+            return read_sent(row)
+        if 2 * len(read) == len(data):  # Python takes blanks too
+            row["data"] = read
     return read_sent(row)
 
 
@@ -149,7 +157,7 @@ def _object(line: Any) -> dict[str, Any]:
     if len(line) > _LONGEST_LINE:
         raise _Flaw(f"a line of {len(line)} bytes; {_LONGEST_LINE} are the most")
     try:
-        value = json.loads(line.decode(), parse_constant=_refuse_constant)
+        value = _DECODER.decode(line.decode())
     except (ValueError, RecursionError):
         raise _Flaw("a line that is no JSON") from None
     if not isinstance(value, dict):
@@ -161,7 +169,9 @@ def _refuse_constant(name: str) -> None:
     raise _Flaw(f"a line with {name}, which is no JSON")
 
 
-_HEX = frozenset("0123456789abcdefABCDEF")
+_DECODER = json.JSONDecoder(parse_constant=_refuse_constant)
+_ENCODER = json.JSONEncoder(allow_nan=False, separators=(",", ":"))
+_FIELDS = json.JSONEncoder(allow_nan=False)
 
 
 def told_row(told: Told) -> dict[str, Any]:
@@ -169,5 +179,5 @@ def told_row(told: Told) -> dict[str, Any]:
     of events.jsonl."""
     record = event_record(told.event)
     first = {key: record.pop(key, None) for key in ("event", "t", "known_at", "final", "foot")}
-    fields = json.dumps(record, allow_nan=False)
+    fields = _FIELDS.encode(record)
     return {"wearer": told.wearer, "number": told.number, **first, "fields": fields}
