@@ -20,12 +20,12 @@ class Fleet:
     """The configuration of a job, the same for all wearers and on every worker; it holds nothing of any of them.
 
     `recipe`, `floorplan`, `profiles`, `poses`, `pressures`: as for Session. `calibrations`: what is known of a wearer,
-    looked up when a session of his begins. `parts`: as for Session.restore. `window`: so many rows may overtake one
-    that is late, before it is given up. A new version of the app's own code in `recipe`, `profiles` and `parts` is for
-    the app to keep compatible. TypeError and ValueError as Session raises them.
+    looked up when a session of that wearer begins. `parts`: as for Session.restore. `window`: so many rows may overtake
+    one that is late, before it is given up. A new version of the app's own code in `recipe`, `profiles` and `parts` is
+    for the app to keep compatible. TypeError and ValueError as Session raises them.
 
-    It can be pickled when what it is given can, which the constructs of a driver cannot: an engine that sends its job to
-    the workers by pickle takes a class of the app's own, in a module that the workers can import, by name:
+    It can be pickled when what it is given can, which the constructs of a driver cannot: an engine that sends its job
+    to the workers by pickle takes a class of the app's own, in a module that the workers can import, by name:
 
         class Ours(Fleet):
             def __init__(self) -> None:
