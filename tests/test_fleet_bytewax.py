@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import gc
 import pickle
 import sqlite3
 from binascii import crc32
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from contextlib import closing
 from datetime import timedelta
 from pathlib import Path
@@ -22,7 +23,7 @@ from bytewax.recovery import RecoveryConfig, init_db_dir
 from bytewax.testing import TestingSink, TestingSource, cluster_main, run_main
 
 from sites import RECIPES, mixed, site
-from solepath.fleet import Fleet, Refusal, Sent, StateRefused, Told, Unreadable
+from solepath.fleet import Fleet, Keyed, Refusal, Sent, StateRefused, Told, Unreadable
 from solepath.fleet.bytewax import gait
 from solepath.session import Session
 from solepath.types import Packet, Site
@@ -71,24 +72,43 @@ def test_each_wearer_has_the_events_of_a_session_of_their_own_also_when_the_job_
     assert by_wearer(told) == events
 
 
-def test_wearers_are_divided_among_workers(store: RecoveryConfig) -> None:
+def test_wearers_are_divided_among_workers_and_move_when_their_number_changes(store: RecoveryConfig) -> None:
     sent, events = site()
+    third = len(sent) // 3
+    pause = TestingSource.EOF()
     told: list[tuple[str, Told]] = []
-    cluster_main(job(sent, told), [], 0, epoch_interval=OFTEN, recovery_config=store, worker_count_per_proc=2)
+    flow = job([*sent[:third], pause, *sent[third : 2 * third], pause, *sent[2 * third :]], told)
+    for workers in (2, 3, 1):
+        cluster_main(flow, [], 0, epoch_interval=OFTEN, recovery_config=store, worker_count_per_proc=workers)
     assert by_wearer(told) == events
 
 
-def test_what_was_sent_may_come_in_lists_and_sessions_may_be_put_away_while_nothing_comes() -> None:
+def test_what_was_sent_may_come_in_lists_and_sessions_are_put_away_while_nothing_comes() -> None:
     sent, events = site()
-    lists = []
-    for at in range(0, len(sent), 200):
-        piece: dict[str, list[Any]] = {}
-        for wearer, one in sent[at : at + 200]:
-            piece.setdefault(wearer, []).append(one)
-        lists += [*piece.items(), TestingSource.PAUSE(timedelta(milliseconds=2))]
+    gc.collect()
+    before, left = living(), []
+
+    def lists() -> Iterator[Any]:
+        for at in range(0, len(sent), 400):
+            piece: dict[str, list[Any]] = {}
+            for wearer, one in sent[at : at + 400]:
+                piece.setdefault(wearer, []).append(one)
+            yield from piece.items()
+            for _ in range(1000):
+                yield TestingSource.PAUSE(timedelta(milliseconds=2))
+                if living() == before:
+                    break
+            left.append(living() - before)
+
     told: list[tuple[str, Told]] = []
-    run_main(job(lists, told, idle=timedelta(milliseconds=1)))
+    run_main(job(lists(), told, idle=timedelta(milliseconds=1)))
     assert by_wearer(told) == events
+    assert left and set(left) == {0}
+
+
+def living() -> int:
+    """Wearers whose sessions are in memory."""
+    return sum([isinstance(one, Keyed) for one in gc.get_objects()])
 
 
 def test_what_no_phone_can_have_sent_is_told_and_stalls_nobody_else() -> None:
