@@ -142,6 +142,10 @@ def test_a_job_that_is_killed_tells_everything_again_under_the_same_identity_and
     assert once(told) == {wearer: sessions_tell(wearer, "default") for wearer in WEARERS}
 
 
+TAKEN_OVER = "Recovery process complete"
+"""In the log of a job that has read the changelog of a partition."""
+
+
 def test_a_partition_that_moves_to_another_machine_and_back_goes_on_where_it_was(kafka: Broker) -> None:
     """A second job with a disk of its own joins, takes a partition over, and is killed; the first takes it back."""
     from brokers import kill
@@ -151,14 +155,15 @@ def test_a_partition_that_moves_to_another_machine_and_back_goes_on_where_it_was
         topics.send(walks[: len(walks) // 3])
         first = topics.start("one")
         wait_for(topics, 20)
-        second = topics.start("two")
-        time.sleep(6)
+        second, end = topics.start("two"), time.monotonic() + 90
+        while TAKEN_OVER not in topics.log("two"):
+            assert time.monotonic() < end and second.poll() is None, "the second job took nothing over"
+            time.sleep(0.2)
         topics.send(walks[len(walks) // 3 : 2 * len(walks) // 3])
         wait_for(topics, 40)
         kill(second)
         topics.send(walks[2 * len(walks) // 3 :])
         told = topics.finish(first, "one")
-        assert "Recovery process complete" in topics.log("two"), "the second job took nothing over"
     by_identity = identities(told)
     assert by_identity.keys() == expected()
     assert all(len(same) == 1 for same in by_identity.values())
