@@ -82,6 +82,10 @@ class Machine:
         value = one.snapshot() if isinstance(one, Session) else machine.save(one)
         return json.loads(json.dumps(value, allow_nan=False))
 
+    def repacked(self, one: Any) -> Any:
+        """The same through its packed form; itself where it has none."""
+        return Session.unpack(one.pack(), one.recipe, floorplan=one._plan) if isinstance(one, Session) else one
+
     def events(self, items: tuple[Item, ...] | None = None) -> list[Any]:
         """All that comes out when it is fed one item at a time and then finished."""
         if items is None:

@@ -27,7 +27,7 @@ _INTS = (np.dtype("u1"), np.dtype("<i2"), np.dtype("<i4"), np.dtype("<i8"))
 
 
 def to_bytes(floats: list[float], ints: list[int], flags: list[bool], data: list[bytes], units: Units) -> bytes:
-    """All four as bytes. ValueError, TypeError or OverflowError for what is no finite number."""
+    """All four as bytes. ValueError or OverflowError for what is no finite number."""
     real, rough = _array(floats), _array(ints)
     if not np.isfinite(real).all():
         raise ValueError("a number is not finite")
@@ -50,7 +50,7 @@ def _array(numbers: list[Any]) -> Any:
     try:
         return np.frombuffer(pack(f"<{len(numbers)}d", *numbers), "<f8")
     except error as wrong:
-        raise TypeError(str(wrong)) from None
+        raise ValueError(str(wrong)) from None
 
 
 def _scaled(k: int, count: Any, units: Units) -> Any:
@@ -133,7 +133,7 @@ def _real(cursor: _Cursor, classes: Any, units: Units) -> Any:
     with np.errstate(all="ignore"):
         for k in (WHOLE, DECIMAL, LEFT, RIGHT):
             real[classes == k] = _scaled(k, counts[of_counts == k], units)
-    real[classes == SINGLE] = cursor.array(np.dtype("<f4"), int(np.count_nonzero(classes == SINGLE)))
+        real[classes == SINGLE] = cursor.array(np.dtype("<f4"), int(np.count_nonzero(classes == SINGLE)))
     is_double = classes == DOUBLE
     doubles = cursor.array(np.dtype("<f8"), int(np.count_nonzero(is_double)))
     again = classes == AGAIN

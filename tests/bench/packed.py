@@ -1,0 +1,171 @@
+"""What a session's state takes: `python tests/bench/packed.py [--fields N]`. Prints tables; asserts nothing.
+
+A session is packed every 50 packets of a walk; then all these sessions are unpacked, and packed, one after the other,
+as an engine does with those of many wearers. Times are the processor's, the garbage collector off meanwhile.
+`--fields N` also says which N fields take the most bytes, at the end.
+"""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import json
+from collections import Counter
+from collections.abc import Callable
+from functools import partial
+from statistics import mean, quantiles
+from time import thread_time
+from typing import Any
+
+from solepath import Packet, Recipe, Session, Site, recipes
+from solepath.packing.records import Head, Packed, shape
+from solepath.packing.streams import to_bytes
+from solepath.sim.insole_device import Insole
+from solepath.sim.radio import Radio
+from solepath.sim.route import Route
+from solepath.sim.sensortags import CC2650
+from solepath.sim.walk import emulate
+
+ROUTE = Route().stand(2.0).walk(40.0, 1.3).turn(1.57, radius=1.5).walk(20.0).turn(-0.8, radius=2.0).walk(10.0).stop(2.0)
+"""A minute."""
+RADIO = Radio(loss=0.01, duplicate=0.002, latency=0.01, jitter=0.03)
+EVERY = 50
+
+WALKS: dict[str, tuple[Recipe, Callable[[], Any]]] = {
+    "default, two insoles of 48 cells": (recipes.DEFAULT, partial(Insole, cells=48)),
+    "default, two insoles of 96 cells": (recipes.DEFAULT, partial(Insole, cells=96)),
+    "default, two SensorTags": (recipes.DEFAULT, CC2650),
+    "kupt-dfpc, two insoles of 48 cells": (recipes.KUPT_DFPC, partial(Insole, cells=48)),
+    "footstep-tracker, two SensorTags": (recipes.FOOTSTEP_TRACKER, CC2650),
+}
+
+
+def packets(device: Callable[[], Any]) -> tuple[Packet, ...]:
+    """Of both feet, over a radio that loses some."""
+    return emulate(ROUTE, devices={site: device() for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}, radio=RADIO).packets
+
+
+def microseconds(work: Callable[[], Any]) -> tuple[Any, float]:
+    """What it gives, and how long that took."""
+    gc.disable()
+    began = thread_time()
+    given = work()
+    took = (thread_time() - began) * 1e6
+    gc.enable()
+    return given, took
+
+
+def told(values: list[float]) -> str:
+    """Mean, 95th percentile and the largest."""
+    return f"{mean(values):8.0f} {quantiles(values, n=20, method='inclusive')[-1]:8.0f} {max(values):8.0f}"
+
+
+def timed(values: list[float]) -> str:
+    """Median and 95th percentile."""
+    cut = quantiles(values, n=20, method="inclusive")
+    return f"{cut[9]:8.0f} {cut[-1]:8.0f}"
+
+
+def walked(name: str) -> Session:
+    """Prints what the session of this walk takes, and gives it."""
+    recipe, device = WALKS[name]
+    session, moments = Session(recipe), list[bytes]()
+    for i, packet in enumerate(packets(device)):
+        session.feed(packet)
+        if i % EVERY == 0:
+            moments.append(session.pack())
+    print(f"{name:36} {told([len(data) for data in moments])}", end="")
+    show(moments, partial(Session.unpack, recipe=recipe), Session.pack)
+    texts = [json.dumps(Session.unpack(data, recipe).snapshot()) for data in moments[::10]]
+    print(f"{'  as JSON':36} {told([len(text) for text in texts])}", end="")
+    show(texts, lambda text: Session.restore(json.loads(text)), lambda one: json.dumps(one.snapshot()))
+    return session
+
+
+def show(moments: list[Any], load: Callable[[Any], Session], save: Callable[[Session], Any]) -> None:
+    """How long all of them take, one after the other; after a round that is not counted."""
+    for _ in range(2):
+        loaded = [microseconds(partial(load, saved)) for saved in moments]
+        packed = [microseconds(partial(save, session)) for session, _ in loaded]
+    if [saved for saved, _ in packed] != moments:
+        print("   NOT THE SAME AGAIN", end="")
+    print(f"   {timed([took for _, took in packed])}   {timed([took for _, took in loaded])}")
+
+
+# --- where the bytes are ----------------------------------------------------------------------------------------------
+
+
+class Account:
+    """Bytes by field."""
+
+    def __init__(self) -> None:
+        self.bytes: Counter[str] = Counter()
+        self.counts: Counter[str] = Counter()
+        self.shape = shape()
+
+    def record(self, name: str, record: Any) -> None:
+        for field, kind in self.shape.records[name].items():
+            self.value(kind, getattr(record, field), f"{name.removeprefix('state of ')}.{field}")
+
+    def add(self, at: str, bits: float) -> None:
+        self.bytes[at] += bits / 8.0
+        self.counts[at] += 1
+
+    def value(self, kind: Any, value: Any, at: str) -> None:
+        if kind == "float":
+            self.add(at, 3 + 8 * (len(to_bytes([value], [], [], [], (0.05000000074505806, 0.0))) - NOTHING - 3))
+        elif kind == "int":
+            self.add(at, 8 * (len(to_bytes([], [value], [], [], (0.0, 0.0))) - NOTHING - 2) + 2)
+        elif kind == "bool":
+            self.add(at, 1)
+        elif isinstance(kind, str):
+            self.add(at, 8 * len(value) + 10)
+        else:
+            self.inner(*next(iter(kind.items())), value, at)
+
+    def inner(self, how: str, of: Any, value: Any, at: str) -> None:
+        if how == "record":
+            self.record(of, value)
+        elif how == "enum":
+            self.add(at, 10)
+        elif how == "one of":
+            self.add(at, 10)
+            self.record(next(name for name in of if self.shape.classes[name] is type(value)), value)
+        elif how == "maybe":
+            self.add(at, 1)
+            if value is not None:
+                self.value(of, value, at)
+        elif how == "tuple":
+            for item, held in zip(of, value, strict=True):
+                self.value(item, held, at)
+        else:
+            self.add(at, 10)
+            for item in value.items() if how == "dict" else value:
+                self.value({"tuple": of} if how == "dict" else of, item, at)
+
+
+NOTHING = len(to_bytes([], [], [], [], (0.0, 0.0)))
+
+
+def fields(session: Session, most: int) -> None:
+    """Prints which take the most."""
+    account, wearer = Account(), session._state.wearer
+    head = Head(wearer.recipe.name, wearer.calibration, wearer.poses, wearer.pressures)
+    account.record(account.shape.root, Packed(head, session._state))
+    for at, size in account.bytes.most_common(most):
+        print(f"{size:8.0f} bytes, {account.counts[at]:4} items   {at}")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--fields", type=int, default=0, metavar="N")
+    arguments = parser.parse_args()
+    print(f"{'':36} {'bytes: mean, 95 %, largest':>26}   {'pack, us: 50, 95 %':>17}   {'unpack: 50, 95 %':>17}")
+    for name in WALKS:
+        session = walked(name)
+        if arguments.fields:
+            fields(session, arguments.fields)
+
+
+if __name__ == "__main__":
+    main()
