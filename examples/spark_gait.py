@@ -1,0 +1,48 @@
+"""Gait events of any number of wearers, on Spark: from files of what phones sent to files of events.
+
+    python examples/spark_gait.py SENT TOLD CHECKPOINT                            # on this machine, all that is there
+    spark-submit ... examples/spark_gait.py SENT TOLD CHECKPOINT --every "10 seconds"     # on a cluster, until stopped
+
+SENT: a directory that Parquet files of rows (solepath.fleet.sent_row) are moved into, older ones first. TOLD: becomes
+a directory of Parquet files of events. CHECKPOINT: where the job goes on after any end. Needs solepath[spark] and
+Java 17, on a cluster on every executor.
+"""
+
+import argparse
+import os
+import sys
+
+from pyspark.sql import SparkSession
+
+from solepath import recipes
+from solepath.fleet import Fleet
+from solepath.fleet.spark import SENT_SCHEMA, STORE, gait
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Gait events of a fleet, on Spark.")
+    for name in ("sent", "told", "checkpoint"):
+        parser.add_argument(name)
+    parser.add_argument("--recipe", choices=recipes.BY_NAME, default=recipes.DEFAULT.name)
+    parser.add_argument("--every", help='how often to look for new files: "10 seconds"; otherwise once')
+    parser.add_argument("--files", type=int, default=100, help="files that are read at a time, at most")
+    args = parser.parse_args()
+
+    # without it the workers take the python3 of the PATH, which need not be the one that knows solepath
+    os.environ.setdefault("PYSPARK_PYTHON", sys.executable)
+    spark = SparkSession.builder.appName("solepath").config(map=STORE).getOrCreate()
+    spark.sparkContext.setLogLevel("ERROR")
+    sent = spark.readStream.schema(SENT_SCHEMA).option("maxFilesPerTrigger", args.files).parquet(args.sent)
+    told = gait(sent, Fleet(recipes.BY_NAME[args.recipe]))
+    writer = told.writeStream.format("parquet").option("checkpointLocation", args.checkpoint)
+    writer = writer.trigger(processingTime=args.every) if args.every else writer.trigger(availableNow=True)
+    query = writer.start(args.told)
+    query.awaitTermination()
+    for batch in query.recentProgress:
+        if batch.numInputRows:
+            seconds = batch.durationMs["triggerExecution"] / 1000
+            print(f"batch {batch.batchId}: {batch.numInputRows} rows, {batch.numInputRows / seconds:.0f} a second")
+
+
+if __name__ == "__main__":
+    main()
