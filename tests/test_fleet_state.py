@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import json
 from functools import cache
 from itertools import count
@@ -28,6 +29,7 @@ from solepath.types import Packet, Quat, Site, Vec3
 from solepath.vector import IDENTITY, ZERO
 
 STATES = json.loads((Path(__file__).parent.parent / "protocol" / "fleet" / "states.json").read_text())
+OLDER = Path(__file__).parent / "states" / "1"
 FLEET = Fleet()
 HALF = 350
 """Rows: the walk has begun."""
@@ -217,6 +219,25 @@ def test_a_phone_hands_its_wearer_over() -> None:
     _, told = FLEET.step(WEARER, state, rest)
     assert (*first, *[one.event for one in told]) == walked().events
     assert [one.number for one in told] == list(range(len(told)))
+
+
+@pytest.mark.parametrize("worn", ["insoles", "tags"])
+def test_a_wearer_of_an_older_release_goes_on_from_its_state_and_from_its_snapshot(worn: str) -> None:
+    packed, snapshot, rows = (
+        gzip.decompress((OLDER / f"{worn}.{what}.gz").read_bytes())
+        for what in ("packed", "snapshot.json", "packets.json")
+    )
+    session = Session.restore(json.loads(snapshot))
+    packets = [Packet(t, Site(site), channel, bytes.fromhex(data)) for t, site, channel, data in json.loads(rows)]
+    after = [packet for packet in packets if packet.t > session.now]
+    known = session.now
+    events = [event for packet in after for event in session.feed(packet)] + session.finish()
+    sent = [*[Sent(WEARER, 40 + n, packet) for n, packet in enumerate(after)], Sent(WEARER, 40 + len(after), End())]
+    _, told = FLEET.step(WEARER, write_state(Identity(0, 40, 300, known), Rest(session=packed)), sent)
+    assert [one.event for one in told] == events and told[0].number == 300
+    adopted = FLEET.adopt(json.loads(snapshot))
+    _, told = FLEET.step(WEARER, adopted, [evolve(one, number=one.number - 40) for one in sent])
+    assert [one.event for one in told] == events and told[0].number == 0
 
 
 def test_a_snapshot_that_cannot_go_on_is_not_adopted() -> None:
