@@ -308,6 +308,7 @@ class Session:
         state.wearer.feet = in_order(state.wearer.feet, Foot)
         if checksum(save(state)) != saved["check"]:
             raise SnapshotError("the snapshot was damaged: its checksum is another")
+        state.wearer.recipe = own(state.wearer.recipe)
         return cls._of(state, profiles, floorplan)
 
     def pack(self) -> bytes:
