@@ -11,9 +11,16 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from solepath import Packet, Session, Site, StepTaken
+from signed import signed
+from solepath import Packet, Session, Site, SnapshotError, StepTaken
 from solepath.machine import save
+from solepath.packing import pin
+from solepath.packing.older import pinned
+from solepath.packing.records import shape, snapshot_shape
+from solepath.packing.upgrades import UPGRADES
 from solepath.state import VERSION
 from walks import of
 
@@ -88,3 +95,77 @@ def test_a_state_of_an_older_version_is_one_of_this_version_once_it_was_read(
 def test_both_forms_of_one_moment_are_one_state(version: int, name: str) -> None:
     packed, snapshot = (taken_up(version, name, form) for form in ("packed", "snapshot.json"))
     assert save(packed._state) == save(snapshot._state)
+
+
+def other(value: Any) -> Any:
+    """As JavaScript would write it: 1.0 is 1, -0.0 is 0, keys in order."""
+    if isinstance(value, float) and value.is_integer():
+        return int(value)
+    if isinstance(value, dict):
+        return {key: other(value[key]) for key in sorted(value)}
+    return [other(item) for item in value] if isinstance(value, list) else value
+
+
+@pytest.mark.parametrize(("version", "name"), KEPT)
+def test_an_older_snapshot_that_another_encoder_wrote_is_read_and_a_damaged_one_is_refused(
+    version: int, name: str
+) -> None:
+    saved = json.loads(held(version, name, "snapshot.json"))
+    assert Session.restore(other(saved)).gait == Session.restore(saved).gait
+    wearer = saved["state"]["wearer"]
+    for spot, key, value in (
+        (wearer["feet"]["left"], "t", 1.0),
+        (wearer["feet"]["left"], "t", "soon"),
+        (wearer["feet"]["left"], "t", 10**400),
+        (wearer["feet"], "left", None),
+        (wearer["recipe"]["detector"], "kind", "CrystalBall"),
+        (wearer["recipe"]["detector"], "kind", []),
+        (wearer, "recipe", {}),
+        (wearer, "more", 5),
+        (saved, "state", [[[]]]),
+        (saved, "check", None),
+    ):
+        before = spot.get(key)
+        spot[key] = value
+        with pytest.raises(SnapshotError):
+            Session.restore(saved)
+        spot[key] = before
+        if before is None and key == "more":
+            del spot[key]
+    assert Session.restore(saved).gait is not None or name == "tags"
+
+
+@given(st.data())
+@settings(max_examples=40, deadline=None)
+def test_damage_to_an_older_packed_state_never_does_worse_than_be_refused(data: st.DataObject) -> None:
+    saved = bytearray(held(1, "tags", "packed"))
+    at = data.draw(st.integers(0, len(saved) - 1))
+    saved[at] ^= 1 << data.draw(st.integers(0, 7))
+    with pytest.raises(SnapshotError):
+        Session.unpack(bytes(saved))
+    try:
+        Session.unpack(signed(bytes(saved))).pack()
+    except SnapshotError:
+        return
+
+
+# --- shapes -----------------------------------------------------------------------------------------------------------
+
+
+def test_what_a_session_remembers_has_the_shape_that_was_pinned_for_its_version() -> None:
+    why_not = pin.changed(pin.as_text())
+    assert why_not is None, why_not
+
+
+def test_a_shape_that_changed_without_its_version_is_told_with_what_to_do() -> None:
+    why_not = str(pin.changed(pin.as_text().replace('"rows": "bytes"', '"lines": "bytes"', 1)))
+    assert f"raise VERSION in state.py to {VERSION + 1}, add the step from {VERSION}" in why_not
+
+
+def test_there_is_a_step_from_every_version_to_the_next_and_a_shape_of_each() -> None:
+    assert [*UPGRADES] == [*range(1, VERSION)]
+    for version in range(1, VERSION + 1):
+        packed, snapshot = pinned(version)
+        assert len(packed.records) > 100 and len(snapshot.records) > 100
+    assert pinned(VERSION) == (shape(), snapshot_shape())
+    assert pinned(VERSION)[0].check == shape().check

@@ -17,12 +17,12 @@ from .shape import Shape
 FOLDER = Path(__file__).parent / "shapes"
 
 
-def changed() -> str | None:
-    """What to do where the state has another shape than was pinned for its version; None where it has that one."""
+def changed(now: str) -> str | None:
+    """What to do where the state's shape `now` is another than was pinned for its version; None where it is that one."""
     file = FOLDER / f"{VERSION}.json"
     if not file.exists():
         return f"version {VERSION} of the state is not pinned: run `python -m solepath.packing.pin`"
-    if file.read_text("utf-8") == as_text():
+    if file.read_text("utf-8") == now:
         return None
     return (
         f"what a session remembers, or a setting, is not what it was when version {VERSION} of its state was pinned: "
@@ -51,7 +51,7 @@ def main() -> int:
         FOLDER.mkdir(exist_ok=True)
         file.write_text(as_text(), "utf-8")
         print(f"wrote {file}")
-    why_not = changed()
+    why_not = changed(as_text())
     if why_not is not None:
         print(why_not, file=sys.stderr)
     return 0 if why_not is None else 1
