@@ -16,7 +16,8 @@ from walks import insoles, packets
 ROOT = Path(solepath.__file__).parent
 
 NOUNS = {"types", "events", "vector", "machine", "calibration"}
-CORE = NOUNS | {"floorplan", "wire", "link", "foot", "body", "recipes", "wearer", "state", "packing", "session"}
+CORE = NOUNS | {"floorplan", "wire", "link", "foot", "body", "recipes", "wearer", "state", "packing",
+                "snapshot", "session"}  # fmt: skip
 ALLOWED: dict[str, set[str]] = {
     "types": set(),
     "vector": {"types"},
@@ -30,8 +31,9 @@ ALLOWED: dict[str, set[str]] = {
     "body": NOUNS | {"foot", "floorplan"},
     "recipes": NOUNS | {"foot", "body"},
     "wearer": NOUNS | {"foot", "body", "floorplan", "recipes"},
-    "state": CORE - {"state", "packing", "session"},
-    "packing": CORE - {"packing", "session"},
+    "state": CORE - {"state", "packing", "snapshot", "session"},
+    "packing": CORE - {"packing", "snapshot", "session"},
+    "snapshot": CORE - {"snapshot", "session"},
     "session": CORE - {"session"},
     "__init__": CORE,
     # the edges: they import the rooms, no room imports them

@@ -29,9 +29,10 @@ from .foot.tracker import FootTracker
 from .link.decoder import Decoder
 from .link.driver import Driver
 from .link.known import Kinds, kinds
-from .machine import Json, SnapshotError, checksum, load, save
+from .machine import Json
 from .recipes import DEFAULT, Recipe, own
-from .state import VERSION, State
+from .snapshot import must_fit, restored, taken
+from .state import State
 from .types import Activity, Foot, Packet, Phase, Sample, Site, Support
 from .wearer import Wearer, in_order
 
@@ -271,12 +272,8 @@ class Session:
     # --- elsewhere ---
 
     def snapshot(self) -> dict[str, Json]:
-        """Everything the session remembers, as plain data for JSON or any other encoder. Costs some milliseconds.
-
-        It carries a checksum of itself: a session made of damaged numbers could do anything later.
-        """
-        state = save(self._state)
-        return {"solepath": VERSION, "check": checksum(state), "state": state}
+        """Everything the session remembers, as plain data for JSON or any other encoder. Costs some milliseconds."""
+        return taken(self._state)
 
     @classmethod
     def restore(
@@ -289,27 +286,12 @@ class Session:
     ) -> Session:
         """A session that goes on where `saved` was taken. A snapshot holds no functions and no floor plan: `profiles`
         and `floorplan` are to be given again, and `parts`, the classes of stance detectors of the app's own.
-        SnapshotError when it is not a snapshot of this version, was damaged, was taken with another floor plan, or is
-        of a device that is not among the profiles, or is there with other counters, rates or ranges, or stands in the
-        place of a device of ours then and not now, or of a detector that is not among the parts. Whether its functions
-        are the same cannot be seen: that is for the app to keep. TypeError and ValueError for profiles and parts that
-        are none, or two of one name."""
-        if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
-            raise SnapshotError("not a snapshot of a session")
-        version = saved["solepath"]
-        if type(version) is not int or not 1 <= version <= VERSION:
-            raise SnapshotError(f"snapshot version {version!r}; this release reads 1 to {VERSION}")
-        if version < VERSION:
-            from .packing.older import restore
-
-            return cls._of(restore(saved, tuple(parts)), profiles, floorplan)
-        state = load(State, saved["state"], parts)
-        state.decoders = in_order(state.decoders, Site)
-        state.wearer.feet = in_order(state.wearer.feet, Foot)
-        if checksum(save(state)) != saved["check"]:
-            raise SnapshotError("the snapshot was damaged: its checksum is another")
-        state.wearer.recipe = own(state.wearer.recipe)
-        return cls._of(state, profiles, floorplan)
+        SnapshotError when it is not a snapshot of this version or an older one, was damaged, was taken with another
+        floor plan, or is of a device that is not among the profiles, or is there with other counters, rates or ranges,
+        or stands in the place of a device of ours then and not now, or of a detector that is not among the parts.
+        Whether its functions are the same cannot be seen: that is for the app to keep. TypeError and ValueError for
+        profiles and parts that are none, or two of one name."""
+        return cls._of(restored(saved, parts), profiles, floorplan)
 
     def pack(self) -> bytes:
         """Everything the session remembers, in some 20 kB and a third of a millisecond: for where many are saved often
@@ -341,17 +323,7 @@ class Session:
         session._kinds = kinds(profiles)
         session._plan = _indexed(floorplan)
         session._state = state
-        if state.plan != (None if session._plan is None else session._plan.fingerprint):
-            with_one = "with the floor plan that it had" if state.plan is not None else "without a floor plan"
-            raise SnapshotError(f"a snapshot of a session is restored {with_one}")
-        for decoder in state.decoders.values():
-            if decoder.link is None:
-                continue
-            kind = session._kinds.get(decoder.link.name)
-            if kind is None:
-                raise SnapshotError(f"a snapshot of a device {decoder.link.name!r}: restore it with its profile")
-            if not kind.fits(decoder.link):
-                raise SnapshotError(f"a snapshot of a device {decoder.link.name!r} as another driver declared it")
+        must_fit(state, session._kinds, session._plan)
         return session
 
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from copy import deepcopy
-
 from ..machine import SnapshotError
-from ..recipes import Recipe
+from ..recipes import Recipe, own
 from ..state import State
 from ..types import Foot, shared
 from ..wearer import Wearer
@@ -18,10 +16,10 @@ KEPT = 16
 _kept: tuple[tuple[Recipe, Head, State], ...] = ()
 
 
-def filled(streams: Streams, recipe: Recipe, own: Own) -> State:
+def filled(streams: Streams, recipe: Recipe, parts: Own) -> State:
     """The state that the streams hold, of a session of this recipe. SnapshotError where it was another's."""
     read_head, read_state = packed_readers()
-    arguments = streams.f, streams.n, streams.m, streams.b, streams.floats, own
+    arguments = streams.f, streams.n, streams.m, streams.b, streams.floats, parts
     head: Head = read_head(None, *arguments)
     if head.recipe != recipe.name:
         raise SnapshotError(f"packed with the recipe {head.recipe!r}, and this is {recipe.name!r}")
@@ -41,7 +39,7 @@ def _begun(recipe: Recipe, head: Head) -> State:
     for known, begun_with, state in _kept:
         if begun_with == head and known == recipe:
             return state
-    state = State(Wearer(deepcopy(recipe), head.calibration, head.poses, head.pressures))
+    state = State(Wearer(own(recipe), head.calibration, head.poses, head.pressures))
     state.wearer.feet = {foot: state.wearer._tracker(foot) for foot in Foot}
     _kept = ((state.wearer.recipe, head, state), *_kept[: KEPT - 1])
     return state

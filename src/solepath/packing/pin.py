@@ -18,7 +18,7 @@ FOLDER = Path(__file__).parent / "shapes"
 
 
 def changed(now: str) -> str | None:
-    """What to do where the state's shape `now` is another than was pinned for its version; None where it is that one."""
+    """What to do where the state's shape `now` is not the one that was pinned for its version; None where it is."""
     file = FOLDER / f"{VERSION}.json"
     if not file.exists():
         return f"version {VERSION} of the state is not pinned: run `python -m solepath.packing.pin`"
