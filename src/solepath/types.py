@@ -127,6 +127,10 @@ class Packet:
     data: bytes = field(repr=lambda data: data.hex())
     device: str = ""
 
+    def __reduce__(self) -> tuple[type[Packet], tuple[float, Site, str, bytes, str]]:
+        # a fifth of the time of attrs' own way: stream engines pickle every packet that changes processes
+        return Packet, (self.t, self.site, self.channel, self.data, self.device)
+
 
 @frozen
 class Sample:

@@ -45,6 +45,9 @@ class Sent:
     what: Packet | Tick | End
     run: int = 0
 
+    def __reduce__(self) -> tuple[type[Sent], tuple[str, int, Packet | Tick | End, int]]:
+        return Sent, (self.wearer, self.number, self.what, self.run)  # as Packet's
+
 
 @frozen
 class Unreadable:
