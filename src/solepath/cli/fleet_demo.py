@@ -35,7 +35,7 @@ def add_to(commands: Any) -> None:
     command.add_argument("--wearers", metavar="N", type=count, default=100, help="how many wearers (default: 100)")
     command.add_argument("--kills", metavar="K", type=seed, default=3, help="how many kills (default: 3)")
     command.add_argument(
-        "--seconds", metavar="S", type=positive, default=6.0, help="how long each wearer walks (default: 6)"
+        "--seconds", metavar="S", type=positive, default=4.0, help="how long each wearer walks (default: 4)"
     )
     command.add_argument("--recipe", metavar="NAME", default="default", help="recipe of the sessions")
     command.add_argument("--seed", metavar="X", type=seed, default=1, help="other wearers, other kills (default: 1)")

@@ -42,10 +42,19 @@ def flow(run: str) -> Dataflow:
     atexit.register(partial(report.write, home))
     dataflow = Dataflow("fleet_demo")
     sent: Any = operators.input("phones", dataflow, Phones(wearers, home, report))
-    told = gait("gait", sent, Fleet(wearers.recipe))
+    fleet = Fleet(wearers.recipe)
+    told = gait("gait", sent, fleet)
     operators.output("files", told, ParquetSink(home / TOLD, wearers.plan.parts))
+    _warm(fleet, wearers)
     settle()
     return dataflow
+
+
+def _warm(fleet: Fleet, wearers: Wearers) -> None:
+    """What the first packets, the first state and the first restart make once for all is no wearer's."""
+    first, state = wearers.all[0], None
+    for number in range(wearers.bundles):
+        state, _ = fleet.step(first.name, state, first.bundle(number))
 
 
 @define

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Callable
 from contextlib import closing
 from math import inf
 from pathlib import Path
@@ -81,18 +82,18 @@ def draw(kills: int, length: float, processes: int, rng: Random) -> list[list[Ki
     return found
 
 
-def play(home: Path, kills: list[Kill], processes: int, expected: pa.Table) -> Outcome:
-    """A run from its start in `home`, killed and restarted, to its end, and what it told beside what was `expected`.
-    RunFailed. A run that was over before a kill came is begun anew, and killed sooner."""
+def play(begin: Callable[[], Run], kills: list[Kill], expected: pa.Table) -> Outcome:
+    """A run from its start, killed and restarted, to its end, and what it told beside what was `expected`. RunFailed.
+    A run that was over before a kill came is begun anew, and killed sooner."""
     while True:
-        run, marks = Run.begin(home, processes), list[Mark]()
+        run, marks = begin(), list[Mark]()
         with closing(run):
             if _killed(run, kills, marks):
                 run.finish()
                 return Outcome(_costs(marks, run.began()), compared(expected, run.told))
         late = kills[len(marks)]
         kills = [*kills[: len(marks)], evolve(late, after=late.after * SOONER), *kills[len(marks) + 1 :]]
-        shutil.rmtree(home)
+        shutil.rmtree(run.home)
 
 
 def compared(expected: pa.Table, told: Path) -> list[str]:

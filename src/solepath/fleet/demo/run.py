@@ -22,8 +22,6 @@ LOOK = 0.005
 """s between two looks whether a process has ended."""
 PATIENCE = 3.0
 """s in which the processes of a job end by themselves after one of them was killed; then they are killed too."""
-EVERY = 1
-"""s between two snapshots."""
 
 
 class RunFailed(Exception):
@@ -88,18 +86,19 @@ class Children:
 
 @define
 class Run:
-    """`home`: its directory, on a stage; `processes`: of the engine."""
+    """`home`: its directory, on a stage; `processes`: of the engine; `every`: s between two snapshots."""
 
     home: Path
     processes: int
+    every: int
     children: Children = field(factory=Children)
 
     @classmethod
-    def begin(cls, home: Path, processes: int) -> Run:
+    def begin(cls, home: Path, processes: int, every: int) -> Run:
         """A run that has read nothing yet."""
         (home / RECOVERY).mkdir(parents=True)
         init_db_dir(home / RECOVERY, processes)  # type: ignore[no-untyped-call]
-        return cls(home, processes)
+        return cls(home, processes, every)
 
     @property
     def told(self) -> Path:
@@ -109,7 +108,7 @@ class Run:
     def start(self) -> None:
         """Begin, or go on where the last snapshot was taken."""
         flow = f"solepath.fleet.demo.job:flow({str(self.home)!r})"
-        recovery = ("-r", str(self.home / RECOVERY), "-s", str(EVERY), "-b", "0")
+        recovery = ("-r", str(self.home / RECOVERY), "-s", str(self.every), "-b", "0")
         self.children = Children()
         for place in _places(self.processes):
             child = start("bytewax.run", flow, *recovery, *place, home=self.home, log=self.home / "log")

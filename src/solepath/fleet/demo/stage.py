@@ -7,6 +7,7 @@ import json
 import shutil
 from collections.abc import Iterator
 from contextlib import closing
+from functools import partial
 from pathlib import Path
 from random import Random
 from statistics import mean, median
@@ -80,7 +81,7 @@ class Stage:
     def uninterrupted(self) -> Engine:
         """The job from its start to its end."""
         began = monotonic()
-        run = Run.begin(self.told.parent, self.plan.parts)
+        run = Run.begin(self.told.parent, self.plan.parts, self.plan.every)
         with closing(run):
             run.start()
             reports = run.finish()
@@ -125,9 +126,10 @@ class Stage:
         `keep`: leave what the runs wrote."""
         engine = self.engine or self.uninterrupted()
         expected = read_told(self.told)
-        for number, planned in enumerate(draw(kills, engine.whole, self.plan.parts, Random(f"kills {self.plan.seed}"))):
-            home = self.at / f"killed-{number + 1}"
-            outcome = play(home, planned, self.plan.parts, expected)
+        planned = draw(kills, engine.whole, self.plan.parts, Random(f"kills {self.plan.seed}"))
+        for number, of_run in enumerate(planned, 1):
+            home = self.at / f"killed-{number}"
+            outcome = play(partial(Run.begin, home, self.plan.parts, self.plan.every), of_run, expected)
             self.outcomes.append(outcome)
             if not keep:
                 shutil.rmtree(home)

@@ -30,7 +30,7 @@ FIRST_RUN = 1_790_000_000_000
 @frozen
 class Plan:
     """What decides every byte of a demonstration. `seconds`: of walking. `bundle`: s of it that a phone sends at a
-    time. `parts`: how many partitions the source has."""
+    time. `parts`: of the source and of the files, and processes. `every`: s between two snapshots."""
 
     wearers: int
     seconds: float
@@ -38,6 +38,7 @@ class Plan:
     recipe: str = "default"
     parts: int = 1
     bundle: float = 1.0
+    every: int = 1
 
 
 def prepare(stage: Path, plan: Plan) -> None:
