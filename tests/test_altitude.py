@@ -7,9 +7,12 @@ from math import exp, sin
 
 import pytest
 from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from solepath import Foot, LiftRidden, Sample, Session, Site, StepTaken, recipes
-from solepath.body.altitude import SCALE, STANDARD, Altitude
+from solepath.body.altitude import LEFT, MOVE, RIGHT, SCALE, STANDARD, UNKNOWN, Altitude
+from solepath.body.heard import TICKS, Heard, Told
 from solepath.body.position import Position
 from solepath.recipes import Recipe
 from solepath.sim.insole_device import Insole
@@ -152,6 +155,33 @@ def test_a_lift_that_stands_feet_in_it_is_believed_without_air() -> None:
     altitude = Altitude()
     assert altitude.follow([ride(6.0, 8.0)]) == [ride(6.0, 8.0)]
     assert altitude.placed(Position(120.0, (0.0, 0.0, 1.0), (0.0,) * 6)).position[2] == 7.0
+
+
+TOLD = st.tuples(
+    st.floats(-1e3, 1e3), st.sampled_from([LEFT, RIGHT, MOVE]), st.floats(-1e5, 1e5), st.floats(0.0, UNKNOWN)
+)
+
+
+@given(st.floats(-1e9, 1e9), st.lists(TOLD, max_size=40), st.integers(0, 40))
+@settings(max_examples=60, deadline=None)
+def test_what_the_filter_was_told_is_kept_to_a_hundredth_of_a_second_and_a_tenth_of_a_millimetre(
+    start: float, told: list[Told], popped: int
+) -> None:
+    heard, used = Heard(), []
+    for since, which, value, variance in told:
+        last = heard.last / TICKS
+        t = min(max(start + since, last - 300.0), last + 300.0) if heard.rows else start
+        used.append(heard.add((t, which, value, variance)))
+        assert used[-1][0] == pytest.approx(t, abs=0.006) and used[-1][1] == which
+        assert used[-1][2] == pytest.approx(value, abs=6e-5) and used[-1][3] == pytest.approx(variance)
+    assert heard.all() == used
+    gone = [heard.pop() for _ in range(min(popped, len(told)))]
+    assert gone + heard.all() == used
+    assert heard.count == len(used) - len(gone)
+    assert heard.oldest == (heard.all()[0][0] if heard.count else None)
+    kept = heard.all()
+    heard.replace(kept)
+    assert heard.all() == kept
 
 
 def test_a_session_in_a_lift_goes_on_from_its_snapshot() -> None:

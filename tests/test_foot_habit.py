@@ -17,6 +17,7 @@ from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Sample, SampleG
 from solepath.foot.eskf import ErrorStateFilter
 from solepath.foot.gap import NoLeap, leap
 from solepath.foot.habit import Habit
+from solepath.foot.moment import corrected, moments
 from solepath.foot.straight import StraightOn
 from solepath.foot.tracker import FootTracker
 from solepath.sim.parts import LSM6DSOX
@@ -300,6 +301,23 @@ def test_a_gap_in_the_first_stride_is_bridged_by_a_straight_line() -> None:
     assert tracker.gait.habit.last is None
     assert tracker.corrector.position == by_line.position
     assert tracker.corrector.attitude == by_line.attitude
+
+
+def test_a_stride_is_remembered_as_it_was_wherever_on_earth_it_was() -> None:
+    habit, far = Habit(), 1e7
+    habit.lift(1e9)
+    for k in range(8):
+        t = 0.032 * k
+        velocity, position = (1.0, 0.1 * k, 0.0), (far + t, -far, 0.0)
+        habit.keep(1e9 + t, IDENTITY, velocity, position, (0.0, 3.0, 4.0), (0.0, -5.0, 0.25))
+    rows = moments(habit.now)
+    assert [one.since for one in rows] == pytest.approx([0.032 * k for k in range(8)], abs=1e-6)
+    assert rows[7].velocity == pytest.approx((1.0, 0.7, 0.0))
+    assert rows[7].position == pytest.approx((0.224, 0.0, 0.0), abs=1e-7)
+    assert rows[7].rate == (0.0, -5.0, 0.25) and rows[7].force == 5.0 and rows[7].attitude == IDENTITY
+    assert corrected(habit.now) == pytest.approx(0.35 * 0.224, abs=1e-6)  # it went so far to the left, and is not there
+    habit.keep(1e9 + 1.0, IDENTITY, (1e300, 0.0, 0.0), (far, far, 0.0), (0.0, 3.0, 4.0), ZERO)
+    assert habit.now == b"" and habit.lifted is None
 
 
 def test_a_stride_with_a_gap_or_round_a_corner_is_not_the_habit() -> None:

@@ -17,6 +17,8 @@ TICKS = 2.0**19
 STEPS = 2.0**13
 """Of the turn, a radian: 0.12 mrad. Two instants of a step are less than 4 rad apart, half of what 16 bits hold."""
 ALL, HALF = 1 << 16, 1 << 15
+SIZE = ROW.size
+_pack = ROW.pack
 
 
 @define
@@ -41,14 +43,15 @@ class Turned:
         gx, gy, gz = gyro
         x, y, z = self.turn = (x + dt * gx, y + dt * gy, z + dt * gz)
         self.t = t
-        k = STEPS
-        self.rows += ROW.pack(round(dt * TICKS), round(x * k) % ALL, round(y * k) % ALL, round(z * k) % ALL)
-        if len(self.rows) > most * ROW.size:
-            self.rows = self.rows[most // 8 * ROW.size :]
+        rows = self.rows
+        if len(rows) >= most * SIZE:
+            rows = rows[most // 8 * SIZE :]
+        k, low = STEPS, ALL - 1
+        self.rows = rows + _pack(int(dt * TICKS + 0.5), int(x * k) & low, int(y * k) & low, int(z * k) & low)
 
     def keep_newest(self) -> None:
         """All others are of no more use."""
-        self.rows = self.rows[-ROW.size :]
+        self.rows = self.rows[-SIZE:]
 
     def forget(self) -> None:
         """All of it is of no more use."""
@@ -63,7 +66,7 @@ class Turned:
 
     def between(self, i: int, j: int) -> list[Vec3]:
         """How it has turned since instant `i` at each one from there to before `j`, rad."""
-        rows = self.rows[i * ROW.size : j * ROW.size]
+        rows = self.rows[i * SIZE : j * SIZE]
         _, ax, ay, az = ROW.unpack_from(rows)
         return [
             (

@@ -1,0 +1,46 @@
+"""How a foot has turned lately, in eight bytes an instant."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath.body.sides import HIDDEN, REMEMBERED
+from solepath.body.turned import Turned
+from solepath.types import Vec3
+
+RATES = st.tuples(*[st.floats(-30.0, 30.0)] * 3)
+
+
+@given(st.floats(0.0, 1e6), st.lists(st.tuples(st.floats(0.015, HIDDEN), RATES), min_size=1, max_size=60))
+@settings(max_examples=40, deadline=None)
+def test_what_is_kept_of_the_turn_of_a_foot_is_its_integral(start: float, rates: list[tuple[float, Vec3]]) -> None:
+    turned = Turned()
+    turned.begin(start)
+    t, times, turns = start, [start], [(0.0, 0.0, 0.0)]
+    for dt, gyro in rates:
+        t += dt
+        turned.add(t, dt, gyro, 100)
+        times.append(t)
+        turns.append(tuple(a + dt * rate for a, rate in zip(turns[-1], gyro, strict=True)))  # type: ignore[arg-type]
+    assert turned.times() == pytest.approx(times, abs=1e-4)
+    near = next((k for k, one in enumerate(turns) if max(map(abs, one)) > 3.9), len(turns))
+    for kept, true in zip(turned.between(0, near), turns, strict=False):
+        assert kept == pytest.approx(true, abs=3e-4)
+
+
+def test_of_a_foot_that_never_lands_only_the_newest_instants_are_kept() -> None:
+    turned = Turned()
+    turned.begin(0.0)
+    for k in range(1, 1000):
+        turned.add(0.02 * k, 0.02, (9.0, -9.0, 0.0), REMEMBERED)
+        assert len(turned.rows) <= 8 * REMEMBERED
+    times = turned.times()
+    assert times[-1] == 0.02 * 999 and times[-1] - times[0] > 1.3
+    *_, last = turned.between(len(times) - 11, len(times))
+    assert last == pytest.approx((1.8, -1.8, 0.0), abs=3e-4)
+    turned.keep_newest()
+    assert turned.times() == [0.02 * 999]
+    turned.forget()
+    assert turned.times() == [] and turned.t is None
