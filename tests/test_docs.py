@@ -8,6 +8,7 @@ import subprocess
 import sys
 from argparse import ArgumentParser
 from contextlib import redirect_stdout
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any, get_args
@@ -18,16 +19,18 @@ import figures
 from commands import run
 from quoted import NUMBER, PAGES, ROOT, below, blocks, nearly_the_same
 from snooped import insoles_log
-from solepath import LiftRidden
+from solepath import LiftRidden, sim
 from solepath.body.altitude import Altitude
 from solepath.cli.main import parser
+from solepath.fleet import Sent, sent_line
 from solepath.foot.pressure import Insole
 from solepath.foot.stance import Detector
 from solepath.foot.tracker import AnyCorrector, AnyCues, AnyDetector
 from solepath.output import STEP_COLUMNS, TRACK_COLUMNS
 from solepath.recipes import AnyActivity, AnyBody, AnyPlace
+from solepath.recording import PacketWriter
 from solepath.sim import Route, emulate
-from solepath.types import Foot
+from solepath.types import Foot, Site
 
 MARKDOWN = {**PAGES, **{f"protocol/{path.name}": path.read_text() for path in (ROOT / "protocol").glob("*.md")}}
 WALK = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), seed=1)
@@ -94,6 +97,40 @@ def test_a_session_with_a_floor_plan_says_where(played):
     _, names = played("docs/floorplans.md")
     names["indoors"].feed(WALK.packets)
     assert names["indoors"].place.level == "0"
+
+
+def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(played, tmp_path):
+    pytest.importorskip("bytewax", reason="bytewax has no release for this Python")
+    testing, parquet = import_module("bytewax.testing"), import_module("pyarrow.parquet")
+    walk = emulate(Route().stand(2).walk(3).stop(1), seed=1)
+    with PacketWriter(tmp_path / "walk.jsonl") as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    (tmp_path / "sent").mkdir()
+    sent = [sent_line(Sent("w-17", number, packet)).decode() for number, packet in enumerate(walk.packets)]
+    (tmp_path / "sent" / "a.jsonl").write_text("".join(sent))
+    (told, _), names = played("docs/fleet.md")
+    testing.run_main(names["flow"])
+    rows = parquet.read_table(tmp_path / "told").to_pylist()
+    assert sorted((row["wearer"], row["number"], row["event"]) for row in rows) == sorted(
+        (wearer, int(number), event) for wearer, number, event in map(str.split, told.splitlines())
+    )
+    steps = [row for row in rows if row["event"] == "StepTaken"]
+    assert len(steps) == sum(len(walk.truth.steps(foot)) for foot in Foot)
+
+
+def test_what_a_wearer_of_a_fleet_sends_is_counted():
+    def row(devices: dict[Site, Any]) -> str:
+        packets = emulate(Route().stand(2).walk(20, speed=1.3).stop(2), devices=devices, seed=1).packets
+        lines = [sent_line(Sent("w-00017", number, packet)) for number, packet in enumerate(packets)]
+        last = packets[-1].t - packets[0].t
+        raw, sent = (sum(len(data) for data in each) / last for each in ((p.data for p in packets), lines))
+        return f" {len(packets) / last:.0f} | {raw / 1000:.1f} kB | {sent / 1000:.1f} kB |"
+
+    feet = [Site.LEFT_FOOT, Site.RIGHT_FOOT]
+    kinds = (sim.Insole, partial(sim.Insole, batch=3, mtu=517), sim.CC2650)
+    counted = [row({site: kind() for site in feet}) for kind in kinds]
+    nearly_the_same([line.split("|", 2)[2] for line in below("sent")[2:]], counted)
 
 
 def test_the_loop_over_bluetooth_is_a_program(played):
