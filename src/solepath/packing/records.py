@@ -13,7 +13,7 @@ from ..recipes import Recipe
 from ..state import State
 from .reading import Own, Reader, readers
 from .shape import Shape, shape_of
-from .writing import Writer, writers
+from .writing import Writer, writer
 
 
 @attrs.define
@@ -67,7 +67,7 @@ def check() -> int:
 @lru_cache(maxsize=1)
 def packed_writer() -> Writer:
     """Writes a `Packed`."""
-    return writers(shape(), _own_writer)[Packed.__name__]
+    return writer(shape(), _own_writer)
 
 
 @lru_cache(maxsize=1)
@@ -117,7 +117,7 @@ def _own_writer(cls: type) -> tuple[str, Writer]:
     if any([cls.__name__ == one.__name__ for one in shape().classes.values()]):
         raise TypeError(f"it could not tell this {cls.__name__} from solepath's own: give it another name")
     told, found = _shape_of_own(cls)
-    return told, writers(found, _own_writer)[found.root]
+    return told, writer(found, _own_writer)
 
 
 def _own_reader(told: str, own: Own) -> Reader:

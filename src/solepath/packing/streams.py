@@ -23,6 +23,7 @@ ZERO, SINGLE, DOUBLE, AGAIN, WHOLE, DECIMAL, LEFT, RIGHT = range(8)
 """0.0; a float32; a float64; the last float64 again; an int16; one over 10,000; one times a unit."""
 LARGE = -(2**63)
 """Stands for an int that a float would not hold."""
+_SHIFTED = {width: 1 << np.arange(0, 8 * width, width, dtype="<u4") for width in (2, 3)}
 _INTS = (np.dtype("u1"), np.dtype("<i2"), np.dtype("<i4"), np.dtype("<i8"))
 
 
@@ -38,7 +39,7 @@ def to_bytes(floats: list[float], ints: list[int], flags: list[bool], data: list
             COUNTS.pack(len(floats), len(ints), len(flags), len(told), *units),
             *_floats(real, units),
             *_ints((np.where(is_large, LARGE, rough) if told else rough).astype("<i8")),
-            _in_bits(np.frombuffer(bytes(flags), np.uint8), 1),
+            np.packbits(np.frombuffer(bytes(flags), np.uint8), bitorder="little").tobytes(),
             told,
             *data,
         ]
@@ -69,7 +70,8 @@ def _floats(real: Any, units: Units) -> list[bytes]:
         if units[1] and units[1] != units[0]:
             scales[RIGHT] = 1.0 / units[1]
         for k, scale in scales.items():
-            count = np.rint(real * scale).astype("<i2")  # what is too large becomes anything, and is not equal then
+            # what is too large becomes anything, and is not equal then
+            count = (real if k == WHOLE else np.rint(real * scale)).astype("<i2")
             told = _scaled(k, count.astype("<f8"), units).view("<i8") == bits
             np.putmask(classes, told, k)
             np.copyto(counts, count, where=told)
@@ -87,17 +89,19 @@ def _floats(real: Any, units: Units) -> list[bytes]:
 
 def _ints(whole: Any) -> list[bytes]:
     classes = np.zeros(len(whole), np.uint8)
-    classes[(whole < 0) | (whole > 255)] = 1
-    classes[(whole < -(2**15)) | (whole >= 2**15)] = 2
-    classes[(whole < -(2**31)) | (whole >= 2**31)] = 3
-    return [_in_bits(classes, 2), *[whole[classes == k].astype(dtype).tobytes() for k, dtype in enumerate(_INTS)]]
+    few = np.flatnonzero((whole < 0) | (whole > 255))
+    larger = whole[few]
+    size = np.where(larger < 0, ~larger, larger)
+    classes[few] = of_few = 1 + (size >= 2**15) + (size >= 2**31)
+    told = [larger[of_few == k].astype(_INTS[k]).tobytes() for k in (1, 2, 3)]
+    return [_in_bits(classes, 2), whole[classes == 0].astype(np.uint8).tobytes(), *told]
 
 
 def _in_bits(numbers: Any, width: int) -> bytes:
     """Eight numbers of so many bits in as many bytes, the first in the lowest bits; zeros fill it up."""
     eights = np.zeros(-(-len(numbers) // 8) * 8, np.uint8)
     eights[: len(numbers)] = numbers
-    packed = eights.reshape(-1, 8) @ (1 << np.arange(0, 8 * width, width, dtype="<u4"))
+    packed = eights.reshape(-1, 8) @ _SHIFTED[width]
     told: bytes = packed.astype("<u4", copy=False).view(np.uint8).reshape(-1, 4)[:, :width].tobytes()
     return told
 
