@@ -162,10 +162,13 @@ def _write(path: Path, figures: dict[str, Any]) -> None:
 
 def _leave(stage: Stage, out: Path) -> None:
     """The events of the uninterrupted run, and how to look at them."""
+    from shlex import quote
+
     from ..recording import printable
 
     told = out / "told"
     shutil.copytree(stage.told, told)
-    query = f"FROM '{told}/*.parquet' SELECT event, count(*) AS told GROUP BY event ORDER BY told DESC"
+    files = f"{told}/*.parquet".replace("'", "''")
+    query = f"FROM '{files}' SELECT event, count(*) AS told GROUP BY event ORDER BY told DESC"
     print(f"\nThe events are in {printable(str(told))}. To look at them (pip install duckdb):")
-    print(f'python -c "import duckdb; print(duckdb.sql(\\"{printable(query, 2000)}\\"))"')
+    print(printable(f"python -c {quote(f'import duckdb; print(duckdb.sql({query!r}))')}", 5000))

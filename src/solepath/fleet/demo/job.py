@@ -112,7 +112,8 @@ class Part(StatefulSourcePartition[Keyed, int]):
         number, who = divmod(at, len(self._wearers))
         wearer = self._wearers[who]
         self._at = at + 1
-        os.pwrite(self._reached, POSITION.pack(at + 1), 0)  # for whoever kills this, and wants to know what that cost
+        os.lseek(self._reached, 0, os.SEEK_SET)
+        os.write(self._reached, POSITION.pack(at + 1))  # for whoever kills this, and wants to know what that cost
         bundle = wearer.bundle(number)
         return [(wearer.name, bundle)] if bundle else []
 
