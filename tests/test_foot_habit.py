@@ -320,6 +320,20 @@ def test_a_stride_is_remembered_as_it_was_wherever_on_earth_it_was() -> None:
     assert habit.now == b"" and habit.lifted is None
 
 
+def test_a_toe_off_or_heel_strike_at_one_of_the_moments_that_are_remembered_is_at_that_moment() -> None:
+    """At 10 samples a second they often are, and rounding must not decide whether a gap has hidden them."""
+    for start in range(100):
+        habit, lifted = Habit(), 0.1 * start
+        habit.lift(lifted)
+        times = [lifted + 0.1 * k for k in range(10)]
+        for t in times:
+            habit.keep(t, IDENTITY, ZERO, ZERO, (0.0, 0.0, GRAVITY), ZERO)
+        habit.flat(lifted + 1.0, times[2], times[7], 0.0, ZERO, 0.1)
+        assert habit.last is not None
+        kept = moments(habit.last.rows)
+        assert (kept[2].since, kept[7].since) == (habit.last.toe_off, habit.last.heel_strike)
+
+
 def test_a_stride_with_a_gap_or_round_a_corner_is_not_the_habit() -> None:
     pose: tuple[Quat, Vec3, Vec3] = (IDENTITY, ZERO, ZERO)
     up: Vec3 = (0.0, 0.0, GRAVITY)

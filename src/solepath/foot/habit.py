@@ -13,7 +13,7 @@ from typing import NamedTuple
 from attrs import define, field
 
 from ..types import Quat, Vec3
-from ..vector import ZERO, sub
+from ..vector import ZERO, single, sub
 from .moment import ROW, Stride, corrected, limited, turned
 from .straight import StraightOn, share
 
@@ -179,5 +179,6 @@ class Habit:
         # a stride round a corner is no habit, unless no other comes for long
         if abs(turn) < self.corner or self.age > self.old:
             struck = t if heel_strike is None else heel_strike
-            self.last = Stride(self.now, toe_off - self.lifted, struck - self.lifted, way)
+            # rounded as the moments are, at one of which they may have been
+            self.last = Stride(self.now, single(toe_off - self.lifted), single(struck - self.lifted), way)
             self.age = 0
