@@ -294,7 +294,7 @@ class Session:
         return cls._of(restored(saved, parts), profiles, floorplan)
 
     def pack(self) -> bytes:
-        """Everything the session remembers, in some 20 kB and a third of a millisecond: for where many are saved often
+        """Everything the session remembers, in 10 to 20 kB and some 0.3 ms: for where many are saved often
         (protocol/snapshot.md). Its recipe is not in it. Needs numpy. TypeError and SnapshotError as `snapshot`."""
         from .packing.form import pack
 

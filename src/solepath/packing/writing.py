@@ -25,7 +25,6 @@ from typing import Any
 
 from .shape import Shape, Type
 
-Streams = tuple[list[float], list[int], list[bool], list[bytes]]
 Writer = Callable[[Any, list[float], list[int], list[bool], list[bytes]], None]
 ARGUMENTS = "F, N, M, B"
 
