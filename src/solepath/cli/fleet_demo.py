@@ -56,6 +56,7 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     _check(options)
+    from ..fleet.demo.compare import Torn
     from ..fleet.demo.run import RunFailed
     from ..fleet.demo.stage import Stage
     from ..fleet.demo.wearers import Plan
@@ -66,7 +67,7 @@ def run(options: argparse.Namespace) -> int:
         stage = Stage(directory, plan)
         try:
             differences = play(stage, options.kills, keep=options.keep)
-        except RunFailed as failed:
+        except (RunFailed, Torn) as failed:
             raise Failure(str(failed)) from None
         return conclude(stage, differences, options.out, options.json)
 

@@ -41,7 +41,7 @@ def table_of(stage: Stage) -> str:
         ["samples/s by as many processes of sessions alone", number(bare["rate"], 0)],
         ["the one by the other, %", percent(found["ratio"], 0)],
         ["memory in all, MB", number(_scaled(engine["memory"], 1e-6), 0)],
-        ["memory a wearer, kB", number(_scaled(engine["wearer"], 1e-3), 0)],
+        ["memory a wearer, kB, the engine's own with it", number(_scaled(engine["wearer"], 1e-3), 0)],
         ["state a wearer, kB: mean", number(bare["state"] / 1e3, 1)],
         ["state a wearer, kB: largest", number(bare["largest"] / 1e3, 1)],
         ["of that the session, kB: largest", number(bare["session"] / 1e3, 1)],

@@ -57,13 +57,19 @@ class Children:
         self.kill()
 
     def ended(self, patience: float) -> bool:
-        """Whether all ended within so many s."""
+        """Whether all ended within so many s, or one ended badly: the others might wait for it for ever."""
         limit = monotonic() + patience
-        while any(child.poll() is None for child in self.running):
+        while True:
+            statuses = [child.poll() for child in self.running]
+            if None not in statuses or any(statuses):
+                return True
             if monotonic() > limit:
                 return False
             sleep(LOOK)
-        return True
+
+    def left(self) -> bool:
+        """Whether one still runs."""
+        return any(child.poll() is None for child in self.running)
 
     def kill(self, which: int | None = None) -> None:
         """kill -9 of one, or of all."""
@@ -79,7 +85,7 @@ class Children:
     def check(self, what: str, log: Path) -> None:
         """RunFailed when one of them did not end well; the last line of the log says why."""
         for child in self.running:
-            if child.returncode != 0:
+            if child.returncode:
                 said = log.read_text(encoding="utf-8", errors="replace").strip().splitlines() or ["it said nothing"]
                 raise RunFailed(f"{what} ended with status {child.returncode}: {printable(said[-1])}")
 
@@ -132,7 +138,9 @@ class Run:
     def kill(self, which: int | None) -> None:
         """kill -9 of one process, or all; the others end by themselves, or else likewise."""
         self.children.kill(which)
-        self.children.ended(PATIENCE)
+        limit = monotonic() + PATIENCE
+        while self.children.left() and monotonic() < limit:
+            sleep(LOOK)
         self.children.kill()
 
     def close(self) -> None:
