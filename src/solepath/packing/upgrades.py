@@ -47,17 +47,20 @@ def _text(data: bytes) -> str:
 
 
 _MOMENT = Struct("<15f")
+_TIMES = Struct("<2f")
 _READ = Struct("<hBif")
 
 
 def _habit_to_2(habit: Tree) -> None:
-    """Moments as float32, positions from the first of them; none, where one is too large for that."""
+    """Moments as float32, positions from the first of them, and the times that are compared with theirs; none, where
+    one is too large for that."""
     last, now = habit["last"], habit["now"]
     habit["origin"] = now[0]["position"] if now else [0.0, 0.0, 0.0]
     try:
         habit["now"] = _text(_moments(now))
         if last is not None:
             last["rows"] = _text(_moments(last.pop("moments")))
+            last["toe_off"], last["heel_strike"] = _TIMES.unpack(_TIMES.pack(last["toe_off"], last["heel_strike"]))
     except (error, OverflowError):
         habit["last"], habit["now"], habit["lifted"], habit["origin"] = None, "", None, [0.0, 0.0, 0.0]
 
