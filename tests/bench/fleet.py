@@ -1,9 +1,10 @@
 """What a stream engine costs beside bare sessions, and many wearers beside few: `python tests/bench/fleet.py`.
 
 Prints ratios; asserts nothing. Needs the extra `bytewax`. Every line is a run of the job of `solepath fleet-demo` in
-two processes with a recovery store (a snapshot every second, or as --every has it), and right after it sessions alone
-in two processes over the same packets: each wearer by himself, Session.feed alone on the clock. `--sizes 100 1000`:
-wearers of the lines.
+two processes with a recovery store, and right after it sessions alone in two processes over the same packets: each
+wearer by himself, Session.feed alone on the clock. `--sizes 100 1000`: wearers of the lines. `--every`: s between two
+snapshots, as long as bytewax has it by itself. At each, whoever is done waits for the others, so that processes of
+different speed, or on processors that others use too, do better with rarer ones.
 """
 
 from __future__ import annotations
@@ -69,7 +70,7 @@ def main() -> None:
     parser.add_argument("--sizes", type=int, nargs="+", default=[100, 1000])
     parser.add_argument("--seconds", type=float, default=4.0, help="of walking")
     parser.add_argument("--processes", type=int, default=2)
-    parser.add_argument("--every", type=int, default=1, help="s between two snapshots")
+    parser.add_argument("--every", type=int, default=10, help="s between two snapshots")
     parser.add_argument("--bundle", type=float, default=1.0, help="s that a phone sends at a time")
     parser.add_argument("--recipe", default="default")
     asked = parser.parse_args()
