@@ -139,6 +139,8 @@ def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
     ):
         with pytest.raises(SnapshotError, match=what):
             Session.unpack(packed(), other)
+    with pytest.raises(TypeError, match="must be a Recipe, not str"):
+        Session.unpack(packed(), "default")  # type: ignore[arg-type]
     bare = evolve(recipes.DEFAULT, altitude=None)
     session = Session(bare)
     session.feed(packets()["cc2650"][:50])

@@ -59,7 +59,9 @@ def _units(wearer: Wearer) -> Units:
 
 def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> State:
     """The state that was packed, of a session of this recipe. SnapshotError for anything else; TypeError and ValueError
-    for parts that are none, or two of one name."""
+    for a recipe or parts that are none, or two of one name."""
+    if not isinstance(recipe, Recipe):
+        raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}")
     own = own_classes(recipe, parts)
     version, body = _opened(data)
     try:
