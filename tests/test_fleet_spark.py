@@ -16,9 +16,10 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache
 from pathlib import Path
+from struct import pack
 from typing import Any
 
 import pytest
@@ -27,6 +28,8 @@ from solepath.fleet import TOLD_COLUMNS, End, Fleet, Sent, Told, sent_line, sent
 from solepath.recipes import BY_NAME, DEFAULT
 from solepath.session import Session
 from solepath.sim.route import Route
+from solepath.types import Packet, Site
+from toys import BASE
 from walks import insoles
 
 JOB = Path(__file__).resolve().parents[1] / "examples" / "spark_gait.py"
@@ -82,6 +85,7 @@ def spark() -> Iterator[Any]:
 
     os.environ["SPARK_LOCAL_IP"] = "127.0.0.1"
     os.environ["PYSPARK_PYTHON"] = sys.executable
+    os.environ["PYTHONPATH"] = os.pathsep.join([str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")])
     session = SparkSession.builder.master(MASTER).config(map=CONF | STORE).getOrCreate()
     session.sparkContext.setLogLevel("ERROR")
     yield session
@@ -164,7 +168,7 @@ def told(directory: Path) -> list[Row]:
     return in_order(row for path in committed(directory) for row in parquet.read_table(path).to_pylist())
 
 
-def run(rows: Any, directory: Path, fleet: Fleet | None = None, states: Any = None) -> list[Row]:
+def run(rows: Any, directory: Path, fleet: Fleet | Callable[[], Fleet] | None = None, states: Any = None) -> list[Row]:
     """All that is there through the fleet, into files below `directory`."""
     from solepath.fleet.spark import gait
 
@@ -215,6 +219,23 @@ def test_lines_as_kafka_holds_them_give_the_same_events(spark, tmp_path):
     assert of_sessions(events) == expected(2)
     others = [(row["wearer"], row["event"]) for row in events if not re.fullmatch(r"w\d", row["wearer"])]
     assert others == [("", "SentRejected"), ("", "SentRejected"), ("3", "SentRejected")]
+
+
+def of_toys() -> Fleet:
+    """One that no pickle takes."""
+    return Fleet(profiles=[BASE])
+
+
+def test_a_fleet_with_a_device_of_ones_own_is_made_where_it_is_used(spark, tmp_path):
+    batteries = [0.5, float("nan"), 0.25]
+    data = [bytes([0]) + pack(">d", share) for share in batteries] + [bytes([11]) + pack(">d", 1.0)]
+    packets = [Packet(float(t), Site.LEFT_FOOT, "toy/more", one) for t, one in enumerate(data)]
+    (tmp_path / "sent").mkdir()
+    put(tmp_path / "sent/toy.parquet", [sent_row(Sent("w0", number, one)) for number, one in enumerate(packets)], 0)
+    events = run(stream(spark, tmp_path / "sent"), tmp_path, of_toys)
+    said = Session(profiles=[BASE]).feed(packets)
+    assert {"BatteryLevel", "PacketRejected"} <= {row["event"] for row in events}
+    assert events == [told_row(Told("w0", number, event)) for number, event in enumerate(said)]
 
 
 # --- what goes wrong --------------------------------------------------------------------------------------------------

@@ -5,17 +5,18 @@
 
 Needs the extra `spark`, Java 17, and a session that was configured with STORE. examples/spark_gait.py is a whole job.
 
-A micro-batch reads and writes a wearer's state once, however many rows it brings, and its events come out when it ends.
-What Spark repeats after a crash gives the same events under the same identities (Told), and changes the state once.
-Spark's file sink lists the files that it has finished in `_spark_metadata` beside them, and Spark reads no others. So
-must any other reader (`committed`), since a killed task leaves files that nobody finished. Behind another sink, which
-may be given a batch twice, (wearer, number) tells what it has.
+A micro-batch reads and writes a wearer's state once, and its events come out when it ends. What Spark repeats after a
+crash gives the same events under the same identities (Told), and changes the state once. Spark's file sink lists the
+files that it has finished in `_spark_metadata` beside them, and Spark reads no others. Nor may any other reader
+(`committed`): a killed task leaves files that nobody finished. Behind another sink, which may be given a batch twice,
+(wearer, number) tells what it has.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote, urlsplit
@@ -42,12 +43,13 @@ SENT_SCHEMA, TOLD_SCHEMA = _ddl(SENT_COLUMNS), _ddl(TOLD_COLUMNS)
 """Rows of solepath.fleet as Spark writes a schema, for `readStream.schema`, `from_json` and the like."""
 
 
-def gait(rows: DataFrame, fleet: Fleet, states: DataFrame | None = None) -> DataFrame:
+def gait(rows: DataFrame, fleet: Fleet | Callable[[], Fleet], states: DataFrame | None = None) -> DataFrame:
     """What the sessions of a fleet tell (TOLD_SCHEMA) of what phones sent (SENT_SCHEMA; other columns are left out), in
     any order that the fleet's window covers. Rows whose wearer is null are refused under the name "".
 
-    `fleet` goes to the executors by pickle, with every task. `states` (wearer string, state binary): what wearers begin
-    with where the job's checkpoint is new, as those of an old one.
+    `fleet` goes to the executors by pickle, with every task. Where no pickle takes it, as with a driver's constructs, or
+    it is large, give a function that makes it, at the top of a module that they can import: each of their processes
+    calls it once. `states` (wearer string, state binary): what wearers begin with where the checkpoint is new.
     """
     keyed = rows.select(f.coalesce("wearer", f.lit("")).alias("key"), *SENT_COLUMNS).groupBy("key")
     begin = None if states is None else states.groupBy("wearer")
@@ -63,10 +65,11 @@ def from_lines(lines: DataFrame) -> DataFrame:
 class Gait(StatefulProcessor):
     """The keyed step: its only state is the wearer's, as Fleet.step makes it."""
 
-    def __init__(self, fleet: Fleet) -> None:
+    def __init__(self, fleet: Fleet | Callable[[], Fleet]) -> None:
         self.fleet = fleet
 
     def init(self, handle: StatefulProcessorHandle) -> None:
+        self._step = (self.fleet if isinstance(self.fleet, Fleet) else _made(self.fleet)).step
         self._state = handle.getValueState("wearer", "state binary")
 
     def handleInitialState(self, key: Any, initialState: Any, timerValues: TimerValues) -> None:
@@ -76,9 +79,12 @@ class Gait(StatefulProcessor):
         known = self._state.get()
         # the shuffle brings the rows of a batch in any order; the fleet's window is for what another batch brings
         sent = sorted([read_sent(row.asDict()) for row in rows], key=_place)
-        state, told = self.fleet.step(key[0], None if known is None else bytes(known[0]), sent)
+        state, told = self._step(key[0], None if known is None else bytes(known[0]), sent)
         self._state.update((state,))
         return (Row(**told_row(one)) for one in told)
+
+
+_made = lru_cache(lambda make: make())
 
 
 def _place(sent: Sent | Unreadable) -> tuple[int, int]:
