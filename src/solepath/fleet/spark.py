@@ -7,8 +7,8 @@ Needs the extra `spark`, Java 17, and a session that was configured with STORE. 
 
 A micro-batch reads and writes a wearer's state once, and its events come out when it ends. What Spark repeats after a
 crash gives the same events under the same identities (Told), and changes the state once. Spark's file sink lists the
-files that it has finished in `_spark_metadata` beside them, and Spark reads no others. Nor may any other reader
-(`committed`): a killed task leaves files that nobody finished. Another sink may be given a batch twice: (wearer, number).
+files that it has finished in `_spark_metadata`, and Spark reads no others. Nor may any other reader (`committed`): a
+killed task leaves files that nobody finished. Another sink may be given a batch twice, and goes by the identities.
 """
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ def gait(rows: DataFrame, fleet: Fleet | Callable[[], Fleet], states: DataFrame 
     """What the sessions of a fleet tell (TOLD_SCHEMA) of what phones sent (SENT_SCHEMA; other columns are left out), in
     any order that the fleet's window covers. Rows whose wearer is null are refused under the name "".
 
-    `fleet` goes to the executors by pickle, with every task. Where it is large, or holds what no pickle takes, as drivers
-    do, give a function that makes it, at the top of a module that they can import: it is called once in each process.
+    `fleet` goes to the executors by pickle, with every task. Where it is large, or no pickle takes it (drivers),
+    give a function that makes it, at the top of a module that they can import: it is called once in each process.
     `states` (wearer string, state binary): what wearers begin with where the checkpoint is new.
     """
     keyed = rows.select(f.coalesce("wearer", f.lit("")).alias("key"), *SENT_COLUMNS).groupBy("key")
