@@ -1,4 +1,4 @@
-"""A job on bytewax for a process of its own: what phones sent, from a file of lines, through the fleet into files.
+"""A job on bytewax for a process of its own: what phones sent, from files of lines, through the fleet into files.
 
     python fleet_job.py SENT DIRECTORY STORE [--die-at N]
 """
@@ -8,32 +8,31 @@ from __future__ import annotations
 import argparse
 import os
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable
 from datetime import timedelta
+from itertools import count
 from pathlib import Path
 
-from attrs import frozen
 from bytewax import operators
 from bytewax.dataflow import Dataflow
 from bytewax.recovery import RecoveryConfig, init_db_dir
-from bytewax.testing import TestingSource, run_main
+from bytewax.testing import run_main
 
 from solepath.fleet import Fleet, Sent, Unreadable, read_line
 from solepath.fleet.bytewax import ParquetSink, gait
+from solepath.fleet.lines import LineSource
 
 
-@frozen
-class Lines:
-    """What is in the file. Whoever gets to line `die_at` dies there, without another word."""
+def reader(die_at: int | None) -> Callable[[bytes], Sent | Unreadable]:
+    """Whoever gets to line `die_at` of those that this process reads dies there, without another word."""
+    lines = count()
 
-    path: Path
-    die_at: int | None
+    def read(line: bytes) -> Sent | Unreadable:
+        if next(lines) == die_at:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return read_line(line)
 
-    def __iter__(self) -> Iterator[Sent | Unreadable]:
-        for number, line in enumerate(self.path.read_bytes().splitlines()):
-            if number == self.die_at:
-                os.kill(os.getpid(), signal.SIGKILL)
-            yield read_line(line)
+    return read
 
 
 def main() -> None:
@@ -46,7 +45,8 @@ def main() -> None:
         asked.store.mkdir()
         init_db_dir(asked.store, 1)
     flow = Dataflow("job")
-    sent = operators.input("sent", flow, TestingSource(Lines(asked.sent, asked.die_at), batch_size=25))
+    lines = operators.input("phones", flow, LineSource(asked.sent, batch=25))
+    sent = operators.map("read", lines, reader(asked.die_at))
     keyed = operators.key_on("wearer", sent, lambda one: one.wearer)
     operators.output("files", gait("gait", keyed, Fleet()), ParquetSink(asked.directory, partitions=2))
     try:

@@ -107,11 +107,15 @@ def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(played, t
         for packet in walk.packets:
             writer.write(packet)
     (tmp_path / "sent").mkdir()
-    sent = [sent_line(Sent("w-17", number, packet)).decode() for number, packet in enumerate(walk.packets)]
-    (tmp_path / "sent" / "a.jsonl").write_text("".join(sent))
+    sent = [sent_line(Sent("w-17", number, packet)) for number, packet in enumerate(walk.packets)]
+    for hour in (11, 8, 10, 9):
+        lines = sent[(hour - 8) * len(sent) // 4 : (hour - 7) * len(sent) // 4]
+        (tmp_path / "sent" / f"w-17-{hour:02}.jsonl").write_bytes(b"".join(lines))
+    (tmp_path / "sent" / "w-16.jsonl").write_bytes(b"\xff no line of anybody's \xff\n")
     (told, _), names = played("docs/fleet.md")
     testing.run_main(names["flow"])
-    rows = parquet.read_table(tmp_path / "told").to_pylist()
+    nobody, *rows = sorted(parquet.read_table(tmp_path / "told").to_pylist(), key=lambda row: row["wearer"])
+    assert (nobody["wearer"], nobody["event"]) == ("", "SentRejected")
     assert sorted((row["wearer"], row["number"], row["event"]) for row in rows) == sorted(
         (wearer, int(number), event) for wearer, number, event in map(str.split, told.splitlines())
     )

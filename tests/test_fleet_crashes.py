@@ -27,9 +27,13 @@ QUIET = {**os.environ, "RUST_BACKTRACE": "0"}
 
 @pytest.fixture
 def sent(tmp_path: Path) -> Path:
-    path = tmp_path / "sent.jsonl"
-    path.write_bytes(b"".join(sent_line(one) for _, one in site()[0]))
-    return path
+    """Files of some hours."""
+    lines = [sent_line(one) for _, one in site()[0]]
+    (tmp_path / "sent").mkdir()
+    for hour in range(4):
+        part = lines[hour * len(lines) // 4 : (hour + 1) * len(lines) // 4]
+        (tmp_path / "sent" / f"hour-{hour}.jsonl").write_bytes(b"".join(part))
+    return tmp_path / "sent"
 
 
 @cache
@@ -50,10 +54,10 @@ def test_killed_at_any_moments_and_started_again_a_job_leaves_each_event_once(
     seed: int, sent: Path, tmp_path: Path
 ) -> None:
     lines = len(site()[0])
-    moments = sorted(Random(seed).sample(range(lines), 2))
+    first, second = sorted(Random(seed).sample(range(lines), 2))
     job = [*JOB, sent, tmp_path / "told", tmp_path / "store"]
-    for moment in moments:
-        assert subprocess.run([*job, "--die-at", str(moment)], env=QUIET).returncode == -9
+    for line in (first, second - first):
+        assert subprocess.run([*job, "--die-at", str(line)], env=QUIET).returncode == -9
     assert subprocess.run(job, env=QUIET).returncode == 0
     assert held(tmp_path / "told") == expected()
 

@@ -25,7 +25,8 @@ TOLD_COLUMNS: Mapping[str, type] = {
 """Columns of `told_row` and of what is in them; t, known_at and foot may be None."""
 
 _SITES = {site.value: site for site in Site}
-_LONGEST_LINE = 65_536
+LONGEST_LINE = 65_536
+"""Bytes of a line, without its line feed."""
 
 
 class _Flaw(Exception):
@@ -154,8 +155,8 @@ def read_line(line: Any) -> Sent | Unreadable:
 def _object(line: Any) -> dict[str, Any]:
     if not isinstance(line, bytes | bytearray):
         raise _Flaw(f"a line is bytes, not a {type(line).__name__}")
-    if len(line) > _LONGEST_LINE:
-        raise _Flaw(f"a line of {len(line)} bytes; {_LONGEST_LINE} are the most")
+    if len(line) > LONGEST_LINE:
+        raise _Flaw(f"a line of {len(line)} bytes; {LONGEST_LINE} are the most")
     try:
         value = _DECODER.decode(line.decode())
     except (ValueError, RecursionError):
