@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..machine import SnapshotError
-from ..recipes import Recipe, own
+from ..recipes import Recipe, alike
 from ..state import State
 from ..types import Foot, shared
 from ..wearer import Wearer
@@ -17,7 +17,8 @@ _kept: tuple[tuple[Recipe, Head, State], ...] = ()
 
 
 def filled(streams: Streams, recipe: Recipe, parts: Own) -> State:
-    """The state that the streams hold, of a session of this recipe. SnapshotError where it was another's."""
+    """The state that the streams hold, of a session of this recipe, which is one that nobody changes (recipes.own).
+    SnapshotError where it was another's."""
     read_head, read_state = packed_readers()
     arguments = streams.f, streams.n, streams.m, streams.b, streams.floats, parts
     head: Head = read_head(None, *arguments)
@@ -37,9 +38,9 @@ def _begun(recipe: Recipe, head: Head) -> State:
     Making one takes longer than all the rest, so the newest are kept; nobody else holds them."""
     global _kept
     for known, begun_with, state in _kept:
-        if begun_with == head and known == recipe:
+        if known is recipe and alike(begun_with, head):
             return state
-    state = State(Wearer(own(recipe), head.calibration, head.poses, head.pressures))
+    state = State(Wearer(recipe, head.calibration, head.poses, head.pressures))
     state.wearer.feet = {foot: state.wearer._tracker(foot) for foot in Foot}
-    _kept = ((state.wearer.recipe, head, state), *_kept[: KEPT - 1])
+    _kept = ((recipe, head, state), *_kept[: KEPT - 1])
     return state

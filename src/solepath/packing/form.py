@@ -15,7 +15,7 @@ from struct import Struct
 from typing import Any
 
 from ..machine import SnapshotError
-from ..recipes import Recipe
+from ..recipes import Recipe, own
 from ..state import VERSION, State
 from ..types import Foot
 from ..wearer import Wearer
@@ -60,21 +60,20 @@ def _units(wearer: Wearer) -> Units:
 def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> State:
     """The state that was packed, of a session of this recipe. SnapshotError for anything else; TypeError and ValueError
     for a recipe or parts that are none, or two of one name."""
-    if not isinstance(recipe, Recipe):
-        raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}")
-    own = own_classes(recipe, parts)
+    held = own(recipe)
+    classes = own_classes(held, parts)
     version, body = _opened(data)
     try:
-        return _read(version, body, recipe, own)
-    except SnapshotError:
+        return _read(version, body, held, classes)
+    except (SnapshotError, MemoryError):  # memory is the machine's: the state may be as good as it was
         raise
     except Exception as error:
         raise SnapshotError(f"not a packed session: {error or type(error).__name__}") from error
 
 
-def _read(version: int, body: memoryview, recipe: Recipe, own: Own) -> State:
+def _read(version: int, body: memoryview, recipe: Recipe, classes: Own) -> State:
     streams = Streams(*from_bytes(body))
-    return filled(streams if version == VERSION else upgraded(version, streams, own), recipe, own)
+    return filled(streams if version == VERSION else upgraded(version, streams, classes), recipe, classes)
 
 
 def _opened(data: Any) -> tuple[int, memoryview]:

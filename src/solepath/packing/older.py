@@ -11,6 +11,7 @@ from typing import Any
 
 import attrs
 
+from .. import recipes
 from ..machine import SnapshotError, checksum, load_value
 from ..recipes import Recipe
 from ..state import VERSION, State
@@ -66,7 +67,7 @@ def _restored(version: int, saved: Mapping[str, Any], own: Own) -> State:
     tree: Any = to_tree(snapshot, _cut(snapshot, saved["state"], own), partial(own_shape, own=own))
     if checksum(tree) != saved["check"]:
         raise SnapshotError("the snapshot was damaged: its checksum is another")
-    recipe = _made_again(Recipe, tree["wearer"]["recipe"], own)
+    recipe = recipes.own(_made_again(Recipe, tree["wearer"]["recipe"], own))
     head = {name: tree["wearer"][name] for name in ("calibration", "poses", "pressures")}
     whole = {"head": head | {"recipe": recipe.name}, "state": tree}
     less = to_tree(packed, _cut(packed, whole, own, strict=False), partial(own_shape, own=own))

@@ -81,10 +81,11 @@ def kind_of(record: str) -> str:
 
 def is_part(cls: Any) -> bool:
     """Whether it has state of its own beside settings; what is frozen never changes, so it has none."""
-    return attrs.has(cls) and not _is_frozen(cls) and any([not f.init for f in attrs.fields(cls)])
+    return attrs.has(cls) and not is_frozen(cls) and any([not f.init for f in attrs.fields(cls)])
 
 
-def _is_frozen(cls: type) -> bool:
+def is_frozen(cls: type) -> bool:
+    """Whether attrs refuses to change it."""
     setter: Any = cls.__setattr__
     return setter is _Frozen.__setattr__
 
@@ -143,7 +144,7 @@ class _Reader:
 
     def remembers(self, cls: Any) -> bool:
         """Whether it is a part, or has parts among its settings."""
-        if not attrs.has(cls) or _is_frozen(cls):
+        if not attrs.has(cls) or is_frozen(cls):
             return False
         hints = typing.get_type_hints(cls)
         return is_part(cls) or any(

@@ -6,27 +6,31 @@ The code is made from the shape, once, and looks like this:
         x0, x1, x2 = o.up
         x3 = o.since
         F += (o.rate, x0, x1, x2)
-        M += (o.known, x3 is not None)
         if x3 is not None:
-            F += (x3,)
-        N += (len(o.rows),)
-        F += o.rows
+            F.append(x3)
+        x4 = o.rows
+        F += x4
+        N.append(len(x4))
+        M += (o.known, x3 is not None)
         other(o.corrector, kinds_3, False, F, N, M, B)
 
 F takes floats, N ints, enums (where in their class), lengths and kinds, M flags, B bytes. A loop over fields would take
-six times as long.
+eight times as long.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from itertools import chain
+from operator import attrgetter
 from typing import Any
 
-from .shape import Shape, Type
+from .shape import Shape, Type, is_frozen
 
 Writer = Callable[[Any, list[float], list[int], list[bool], list[bytes]], None]
 ARGUMENTS = "F, N, M, B"
+KEPT = 64
+"""So many rows of records that never change are kept as numbers: a layout's cells are the same in all sessions."""
 
 
 def writer(shape: Shape, own: Callable[[type], tuple[str, Writer]]) -> Writer:
@@ -37,6 +41,8 @@ def writer(shape: Shape, own: Callable[[type], tuple[str, Writer]]) -> Writer:
         space[_function("place", shape, name)] = {word: k for k, word in enumerate(words)}
     source: list[str] = []
     tables: dict[tuple[str, ...], str] = {}
+    for name in _still(shape):
+        space[_function("numbers", shape, name)] = _numbers(tuple(shape.records[name]))
     called = [shape.root]
     for name in called:  # grows meanwhile
         code = _Code(shape, tables)
@@ -66,6 +72,31 @@ def _flat(rows: Any, width: int) -> list[Any]:
     return numbers
 
 
+def _still(shape: Shape) -> list[str]:
+    """Records that never change, all of floats: two at least."""
+    fields = {name: list(shape.records[name].values()) for name in shape.records if is_frozen(shape.classes[name])}
+    return [name for name, kinds in fields.items() if len(kinds) > 1 and kinds == ["float"] * len(kinds)]
+
+
+def _numbers(fields: tuple[str, ...]) -> Callable[[Any], list[float]]:
+    """Of a row of such records, one after the other. The newest are kept, by which object they are."""
+    kept: dict[int, tuple[Any, list[float]]] = {}
+    of_one = attrgetter(*fields)
+
+    def numbers(row: Any) -> list[float]:
+        known = kept.get(id(row))
+        if known is not None and known[0] is row:
+            return known[1]
+        made = list(chain.from_iterable(map(of_one, row)))
+        if type(row) is tuple and row:
+            if len(kept) >= KEPT:
+                kept.clear()
+            kept[id(row)] = row, made
+        return made
+
+    return numbers
+
+
 def _other(own: Callable[[type], tuple[str, Writer]]) -> Callable[..., None]:
     def write(o: Any, table: dict[type, Any], is_open: bool, F: Any, N: Any, M: Any, B: Any) -> None:
         """A record of a union, by its kind; one of an app's own is the kind after ours, and its name."""
@@ -88,34 +119,44 @@ class _Code:
 
     def __init__(self, shape: Shape, tables: dict[tuple[str, ...], str]) -> None:
         self.shape, self.tables = shape, tables
+        self.still = _still(shape)
         self.called: list[str] = []
         self.lines: list[str] = []
-        self.indent = ""
         self.pending: dict[str, list[str]] = {"F": [], "N": [], "M": []}
+        self.used: set[str] = set()
+        """The streams that the lines write to."""
         self.named = 0
         self.within: list[str] = []
-
-    def line(self, line: str) -> None:
-        self.lines.append(self.indent + line)
 
     def name(self) -> str:
         self.named += 1
         return f"x{self.named - 1}"
 
-    def flush(self) -> None:
-        for stream, parts in self.pending.items():
+    def flush(self, streams: Iterable[str] = "FNM") -> None:
+        """Now, or they would come after what is written next."""
+        for stream in streams:
+            parts = self.pending.get(stream, [])
             if parts:
-                self.line(f"{stream} += ({', '.join(parts)},)")
+                joined = ", ".join(parts)
+                self.lines.append(f"{stream}.append({joined})" if len(parts) == 1 else f"{stream} += ({joined})")
                 parts.clear()
+            self.used.add(stream)
+
+    def put(self, stream: str, line: str) -> None:
+        """A line that writes to a stream."""
+        self.flush(stream)
+        self.lines.append(line)
 
     def inner(self, opening: str, kind: Type, what: str) -> None:
-        """A block that writes `what`."""
-        self.flush()
-        self.line(opening)
-        self.indent += "    "
+        """A block that writes `what`: only what goes to the same streams must be written before."""
+        outer = self.lines, self.pending, self.used
+        self.lines, self.pending, self.used = [], {stream: [] for stream in outer[1]}, set()
         self.write(kind, what)
-        self.flush()
-        self.indent = self.indent[:-4]
+        self.flush([stream for stream, parts in self.pending.items() if parts])
+        block, used = self.lines, self.used
+        self.lines, self.pending, self.used = outer
+        self.flush(sorted(used))
+        self.lines += [opening, *["    " + line for line in block or ["pass"]]]
 
     def write(self, kind: Type, what: str) -> None:
         if isinstance(kind, str):
@@ -124,40 +165,47 @@ class _Code:
         if how == "enum":
             self.pending["N"].append(f"{_function('place', self.shape, of)}[{what}]")
         elif how == "record":
-            self.held(of, what)
+            self.inlined(of, what)
         elif how == "one of":
             table = self.tables.setdefault(tuple(of), f"kinds_{len(self.tables)}")
             self.flush()
-            self.line(f"other({what}, {table}, {kind['open']}, {ARGUMENTS})")
+            self.lines.append(f"other({what}, {table}, {kind['open']}, {ARGUMENTS})")
         elif how == "maybe":
-            held = self.name()
-            self.line(f"{held} = {what}")
+            held = self.held(what)
             self.pending["M"].append(f"{held} is not None")
             self.inner(f"if {held} is not None:", of, held)
         elif how == "tuple":
             names = [self.name() for _ in of]
-            self.line(f"{', '.join(names)}{',' * (len(of) == 1)} = {what}" if of else f"() = {what}")
+            self.lines.append(f"{', '.join(names)}{',' * (len(of) == 1)} = {what}" if of else f"() = {what}")
             for item, held in zip(of, names, strict=True):
                 self.write(item, held)
         elif how == "dict":
-            held, key = self.name(), self.name()
-            self.line(f"{held} = {what}")
+            held, key, value = self.held(what), self.name(), self.name()
             self.pending["N"].append(f"len({held})")
-            self.inner(f"for {key}, {held} in {held}.items():", {"tuple": of}, f"{key}, {held}")
+            self.inner(f"for {key}, {value} in {held}.items():", {"both": of}, f"{key}, {value}")
+        elif how == "both":
+            for item, held in zip(of, what.split(", "), strict=True):
+                self.write(item, held)
         else:
             self.row(how, of, what)
         return None
 
-    def held(self, name: str, what: str) -> None:
+    def held(self, what: str) -> str:
+        """A name for it."""
+        if what.isidentifier():
+            return what
+        held = self.name()
+        self.lines.append(f"{held} = {what}")
+        return held
+
+    def inlined(self, name: str, what: str) -> None:
         """A record within another, in the same lines: calls would take a sixth of the time. Unless it holds itself."""
         if name in self.within:
             self.flush()
             self.called.append(name)
-            self.line(f"{_function('write', self.shape, name)}({what}, {ARGUMENTS})")
-            return
-        held = self.name()
-        self.line(f"{held} = {what}")
-        self.record(name, held)
+            self.lines.append(f"{_function('write', self.shape, name)}({what}, {ARGUMENTS})")
+        else:
+            self.record(name, self.held(what))
 
     def record(self, name: str, what: str) -> None:
         self.within.append(name)
@@ -170,22 +218,22 @@ class _Code:
         if stream is not None:
             self.pending[stream].append(what)
             return
-        held = self.name()
-        self.line(f"{held} = {what}" + (".encode()" if kind == "str" else ""))
+        held = self.held(what + (".encode()" if kind == "str" else ""))
         self.pending["N"].append(f"len({held})")
-        self.line(f"B.append({held})")
+        self.put("B", f"B.append({held})")
 
     def row(self, how: str, of: Type, what: str) -> None:
-        held = self.name()
-        self.line(f"{held} = {what}")
+        held = self.held(what)
         if how == "deque":
             self.write({"maybe": "int"}, f"{held}.maxlen")
         self.pending["N"].append(f"len({held})")
-        self.flush()
-        if of in ("float", "int", "bool"):
-            self.line(f"{ {'float': 'F', 'int': 'N', 'bool': 'M'}[of] } += {held}")
+        stream = {"float": "F", "int": "N", "bool": "M"}.get(of) if isinstance(of, str) else None
+        if stream is not None:
+            self.put(stream, f"{stream} += {held}")
         elif isinstance(of, dict) and "tuple" in of and all([item == "float" for item in of["tuple"]]):
-            self.line(f"F += flat({held}, {len(of['tuple'])})")
+            self.put("F", f"F += flat({held}, {len(of['tuple'])})")
+        elif isinstance(of, dict) and of.get("record") in self.still:
+            self.put("F", f"F += {_function('numbers', self.shape, of['record'])}({held})")
         else:
             item = self.name()
             self.inner(f"for {item} in {held}:", of, item)
