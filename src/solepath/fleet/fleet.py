@@ -62,20 +62,26 @@ class Fleet:
     def step(self, wearer: str, state: bytes | None, sent: Iterable[Sent | Unreadable]) -> tuple[bytes, list[Told]]:
         """The state and the events of `wearer` after `sent`, given the state before; None for a wearer who is new.
 
-        Pure: the same in gives the same out, on every machine, however it is cut into calls. It never raises, whatever
-        it is given; a state that cannot be used gives StateRefused and a fresh start.
+        Pure: the same in gives the same out, on every machine, however it is cut into calls, where parts of the app's
+        own can be saved at any moment. One that cannot, since it holds an infinity just then, costs its wearer the
+        session (WearerFailed) where a state is taken at that moment, and nothing where none is.
+
+        It never raises, whatever phones sent; a state that cannot be used gives StateRefused and a fresh start.
+        TypeError, since the job itself is wrong, for a state that is neither bytes nor None and for a `sent` that
+        cannot be gone through. MemoryError where memory runs out.
         """
         keyed = self.open(wearer, state)
         told = keyed.feed(sent)
         return keyed.state(), told
 
     def open(self, wearer: str, state: bytes | None) -> Keyed:
-        """The same in memory, for engines that keep objects between their snapshots. It never raises."""
+        """The same in memory, for engines that keep objects between their snapshots. It raises as `step` does."""
         return Keyed(self._sessions, wearer, state)
 
     def adopt(self, snapshot: Any) -> bytes:
         """A state that goes on from a Session.snapshot taken elsewhere: a phone hands its wearer over, and begins to
-        send at number 0 of a run. Events are numbered from 0. SnapshotError when it cannot go on here."""
+        send at number 0 of a run. Events are numbered from 0. SnapshotError when it cannot go on here or is
+        finished."""
         session = self._sessions.restored(snapshot)
         now = session.now
         identity = Identity(-1, 0, 0, 0.0 if now is None else now)

@@ -22,8 +22,9 @@ _Kind = TypeVar("_Kind", NumbersMissing, SentRejected, StateRefused, WearerFaile
 class Keyed:
     """One wearer, for engines that keep objects between two snapshots; `Fleet.open` makes it.
 
-    `feed` never raises, whatever it is given, except MemoryError, after which this is to be thrown away: the last
-    `state()` is good. What is fed in how many calls makes no difference, nor how often `state()` is taken and opened.
+    `feed` never raises, whatever phones sent, except MemoryError, after which this is to be thrown away: the last
+    `state()` is good. What is fed in how many calls makes no difference, nor, where parts of the app's own can be saved
+    at any moment (Fleet.step), how often `state()` is taken and opened.
     """
 
     __slots__ = ("_known", "_numbered", "_opened", "_order", "_pending", "_session", "_sessions", "_told", "_wearer")
@@ -40,6 +41,8 @@ class Keyed:
         self._numbered = True
         """False where not even the numbers could be read, until something comes that has one."""
         if state is not None:
+            if not isinstance(state, bytes | bytearray | memoryview):
+                raise TypeError(f"a state is bytes, or None for a new wearer, not a {type(state).__name__}")
             self._open(bytes(state))
 
     @property

@@ -10,6 +10,7 @@ from attrs import frozen
 from ..calibration import Calibration
 from ..floorplan.index import IndexedPlan
 from ..link.driver import Driver
+from ..machine import SnapshotError
 from ..recipes import Recipe
 from ..session import Session
 
@@ -41,7 +42,12 @@ class Sessions:
     def unpack(self, data: bytes) -> Session:
         """SnapshotError when it cannot go on here."""
         own: Any = {"profiles": self.profiles, "parts": self.parts, "floorplan": self.floorplan}
-        return Session.unpack(data, self.recipe, **own)
+        session = Session.unpack(data, self.recipe, **own)
+        try:
+            session.feed(())
+        except ValueError as error:  # finished
+            raise SnapshotError(str(error)) from None
+        return session
 
     def restored(self, snapshot: Any) -> Session:
         """The same of a JSON snapshot."""
