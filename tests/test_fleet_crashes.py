@@ -99,7 +99,7 @@ def test_a_full_disk_ends_the_job_with_the_name_of_the_file_and_with_room_it_goe
     place: Path, sent: Path
 ) -> None:
     said = until_full(place, sent, "disk/told", "store", room=60_000)
-    part = r"part-[01]-\d{8}\.parquet"
+    part = r"part-[01]-\d+-\d{8}\.parquet"
     assert re.fullmatch(f"error: .*No space left on device: 'disk/told/{part}'", said.splitlines()[-1])
     assert all(re.fullmatch(part, path.name) for path in (place / "told_then").iterdir())
     then = held(place / "told_then")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -45,17 +46,23 @@ def by_identity(found: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def names(directory: Path) -> list[str]:
-    return sorted(path.name for path in directory.iterdir())
+    """Of all files, without the run in them."""
+    return sorted(re.sub(r"(part-\w+)-\d+-", r"\1-", path.name) for path in directory.iterdir())
+
+
+def file(directory: Path, name: str = FIRST) -> Path:
+    (found,) = (path for path in directory.iterdir() if re.sub(r"(part-\w+)-\d+-", r"\1-", path.name) == name)
+    return found
 
 
 def test_a_part_holds_the_rows_of_its_events_wearer_by_wearer(tmp_path: Path) -> None:
     parts = Parts(tmp_path)
     parts.write(told(20))
     assert names(tmp_path) == []
-    assert parts.close() == 1
+    assert parts.close() == (parts.run, 1)
     assert names(tmp_path) == [FIRST]
     assert rows(tmp_path) == by_identity([told_row(one) for one in told(20)])
-    table = parquet.read_table(tmp_path / FIRST)
+    table = parquet.read_table(file(tmp_path))
     assert table.column_names == list(TOLD_COLUMNS)
     assert [str(kind) for kind in table.schema.types] == [
         "string", "int64", "string", "double", "double", "bool", "string", "string",
@@ -64,7 +71,7 @@ def test_a_part_holds_the_rows_of_its_events_wearer_by_wearer(tmp_path: Path) ->
 
 def test_a_part_without_events_is_no_file_and_has_no_number(tmp_path: Path) -> None:
     parts = Parts(tmp_path)
-    assert [parts.close(), parts.close()] == [0, 0]
+    assert [parts.close(), parts.close()] == [(parts.run, 0)] * 2
     assert names(tmp_path) == []
 
 
@@ -72,21 +79,23 @@ def test_a_part_that_grows_too_long_is_closed_by_itself(tmp_path: Path) -> None:
     parts = Parts(tmp_path, group=2)
     parts.write(told(2 * GROUPS + 1))
     assert names(tmp_path) == [FIRST]
-    assert parts.close() == 2
-    assert parquet.ParquetFile(tmp_path / FIRST).num_row_groups == GROUPS
+    assert parts.close() == (parts.run, 2)
+    assert parquet.ParquetFile(file(tmp_path)).num_row_groups == GROUPS
     assert by_identity(rows(tmp_path)) == by_identity([told_row(one) for one in told(2 * GROUPS + 1)])
 
 
 def test_parts_from_the_resumed_number_on_are_removed_and_no_other_file_is(tmp_path: Path) -> None:
+    runs = {}
     for partition in ("0", "1"):
         parts = Parts(tmp_path, partition)
         for one in told(3):
             parts.write([one])
             parts.close()
-    mine = [f".{FIRST}.replaced-1", ".part-1-00000009.parquet.writing", "notes.txt"]
-    for name in (*mine, ".part-0-00000003.parquet.writing"):
+        runs[partition] = parts.run
+    mine = [".part-1-00000009.parquet.writing", "notes.txt"]
+    for name in (".part-1-7-00000009.parquet.writing", ".part-0-7-00000003.parquet.writing", "notes.txt"):
         (tmp_path / name).write_bytes(b"half")
-    assert Parts(tmp_path, "0", 1).close() == 1
+    assert Parts(tmp_path, "0", (runs["0"], 1)).close() == (runs["0"], 1)
     assert names(tmp_path) == sorted([*mine, FIRST, *(f"part-1-0000000{n}.parquet" for n in range(3))])
 
 
@@ -94,20 +103,52 @@ def test_what_is_half_written_is_found_by_no_reader(tmp_path: Path) -> None:
     parts = Parts(tmp_path)
     parts.write(told(1))
     parts.close()
-    (tmp_path / ".part-0-00000001.parquet.writing").write_bytes((tmp_path / FIRST).read_bytes()[:99])
-    (tmp_path / f".{FIRST}.replaced-1").write_bytes(b"")
+    whole = file(tmp_path)
+    (tmp_path / f".part-0-{parts.run}-00000001.parquet.writing").write_bytes(whole.read_bytes()[:99])
+    (tmp_path / ".part-0-7-00000000.parquet.replaced").write_bytes(b"")
     assert rows(tmp_path) == [told_row(one) for one in told(1)]
-    assert [path.name for path in tmp_path.glob("*.parquet")] == [FIRST]
+    assert list(tmp_path.glob("*.parquet")) == [whole]
 
 
-def test_who_remembers_nothing_sets_the_parts_of_a_run_before_aside_and_loses_none(tmp_path: Path) -> None:
+def test_who_remembers_nothing_sets_the_parts_of_a_run_before_aside_and_says_so(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
     for count in (1, 2, 3):
         parts = Parts(tmp_path)
         parts.write(told(count))
         parts.close()
-    assert names(tmp_path) == [f".{FIRST}.replaced-1", f".{FIRST}.replaced-2", FIRST]
-    kept = [parquet.ParquetFile(tmp_path / name).metadata.num_rows for name in names(tmp_path)]
+        assert rows(tmp_path) == by_identity([told_row(one) for one in told(count)])
+    assert names(tmp_path) == [f".{FIRST}.replaced"] * 2 + [FIRST]
+    kept = [parquet.ParquetFile(path).metadata.num_rows for path in sorted(tmp_path.iterdir())]
     assert kept == [1, 2, 3]
+    said = f"{tmp_path}: a new run begins, and the parts of the one before are hidden (1). "
+    assert [message.startswith(said) for message in caplog.messages] == [True, True]
+
+
+def test_who_forgot_once_what_was_remembered_has_it_all_back_with_the_next_start(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    parts, all_told = Parts(tmp_path), told(4)
+    for one in all_told[:3]:
+        parts.write([one])
+        known = parts.close()
+    forgetful = Parts(tmp_path)
+    forgetful.write(all_told[:1])
+    forgetful.close()
+    assert rows(tmp_path) == [told_row(all_told[0])]
+    caplog.clear()
+    parts = Parts(tmp_path, "0", (known[0], 2))
+    assert rows(tmp_path) == [told_row(one) for one in all_told[:2]]
+    parts.write(all_told[2:])
+    parts.close()
+    assert by_identity(rows(tmp_path)) == by_identity([told_row(one) for one in all_told])
+    assert caplog.messages == [
+        f"{tmp_path}: an earlier run goes on, and its parts are back (2); those of another are hidden (1)"
+    ]
+    assert names(tmp_path)[0] == f".{FIRST}.replaced"
+    caplog.clear()
+    Parts(tmp_path, "0", parts.close())
+    assert caplog.messages == []
 
 
 @contextmanager
@@ -130,7 +171,7 @@ def test_a_part_that_cannot_be_written_is_named_and_leaves_nothing(tmp_path: Pat
     with files_of_at_most(1000), pytest.raises(OSError) as refused:
         parts.close()
     assert refused.value.errno == errno.EFBIG
-    assert refused.value.filename == str(tmp_path / "part-0-00000001.parquet")
+    assert refused.value.filename == str(tmp_path / f"part-0-{parts.run}-00000001.parquet")
     assert names(tmp_path) == [FIRST]
     again = Parts(tmp_path, "0", number)
     again.write(told(20)[1:])
@@ -150,7 +191,8 @@ def test_however_often_it_crashes_each_event_is_there_once(steps: list[str]) -> 
     """What the engine remembers is what a `close` gave, perhaps not the last: it was killed before it could."""
     all_told, at = told(60), 0
     with TemporaryDirectory() as name:
-        parts, counts = Parts(Path(name), "0", 0, group=5), (0, 0)
+        parts = Parts(Path(name), group=5)
+        counts = (parts.close(), 0)
         for step in steps:
             if step.startswith("write"):
                 upto = min(len(all_told), at + (1 if step == "write" else 13))

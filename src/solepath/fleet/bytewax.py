@@ -72,7 +72,7 @@ class _Wearer(StatefulBatchLogic[tuple[str, Any], Told, bytes | None]):
 
 
 @frozen
-class ParquetSink(FixedPartitionedSink[Told, int]):
+class ParquetSink(FixedPartitionedSink[Told, tuple[int, int]]):
     """Told, keyed by wearer, as Parquet files in `directory` (fleet/parquet.py), which all workers see; every snapshot
     closes a part. `partitions`: so many workers write at a time; it stays as it is for the life of a recovery store.
     The job ends with an OSError that names the file when one cannot be written."""
@@ -83,16 +83,16 @@ class ParquetSink(FixedPartitionedSink[Told, int]):
     def list_parts(self) -> list[str]:
         return [str(number) for number in range(self.partitions)]
 
-    def build_part(self, step_id: str, for_part: str, resume_state: int | None) -> _Partition:
+    def build_part(self, step_id: str, for_part: str, resume_state: tuple[int, int] | None) -> _Partition:
         return _Partition(Parts(self.directory, for_part, resume_state))
 
 
 @frozen
-class _Partition(StatefulSinkPartition[Told, int]):
+class _Partition(StatefulSinkPartition[Told, tuple[int, int]]):
     parts: Parts
 
     def write_batch(self, values: list[Told]) -> None:
         self.parts.write(values)
 
-    def snapshot(self) -> int:
+    def snapshot(self) -> tuple[int, int]:
         return self.parts.close()

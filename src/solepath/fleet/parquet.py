@@ -18,12 +18,13 @@ files of days gone by into another directory, in DuckDB by
 
 from __future__ import annotations
 
+import logging
 import os
 import re
 from collections.abc import Iterable
 from contextlib import suppress
-from itertools import count
 from pathlib import Path
+from time import time_ns
 from typing import Any
 
 import pyarrow as pa
@@ -42,7 +43,15 @@ GROUP = 1 << 15
 """Events of a row group: as rows they take some 40 MB."""
 GROUPS = 32
 """Row groups after which a part is closed in any case."""
-_NAME = re.compile(r"\.?part-(\w+)-(\d+)\.parquet(\.writing)?")
+_NAME = re.compile(
+    r"\.?(?P<shown>part-(?P<partition>\w+)-(?P<run>\d+)-(?P<number>\d+)\.parquet)((?P<half>\.writing)|\.replaced)?"
+)
+_LOG = logging.getLogger(__name__)
+_BEGUN = (
+    "%s: a new run begins, and the parts of the one before are hidden (%d). Was that one to go on? "
+    "Start the job with its recovery store, and they are back"
+)
+_TAKEN_UP = "%s: an earlier run goes on, and its parts are back (%d); those of another are hidden (%d)"
 
 
 @define
@@ -50,11 +59,13 @@ class Parts:
     """The part files of one writer in `directory`, which is made when there is none.
 
     `partition`: letters and digits that tell this writer from others in the same directory, which may live in other
-    processes; no two write under the same. `resume`: the number of the next part, as the last `close` that counts
-    gave it; parts from there on are removed. None when nothing is remembered, at the first start as well as after the
-    engine's own state was lost: then numbers begin at 0, and parts that are there already are set aside (renamed to
-    what no reader sees, `.part-0-00000007.parquet.replaced-1`), since the events of a fleet that begins anew are
-    numbered anew.
+    processes; no two write under the same. `resume`: the run and the number of the next part, as the last `close` that
+    counts gave them; parts from there on are removed.
+
+    None when nothing is remembered, at the first start as well as after the engine's own state was lost, or not given:
+    then a new run begins, whose parts are numbered from 0. Parts of another run are hidden from readers then (renamed,
+    `.part-0-1749718800000-00000007.parquet.replaced`), since the events of a fleet that begins anew are numbered anew,
+    and a warning is logged. Nothing is lost if that was a mistake: whoever resumes a run has its parts back.
 
     `group`: so many events are gathered, sorted by wearer and packed as one row group of the part.
 
@@ -64,8 +75,10 @@ class Parts:
 
     directory: Path
     partition: str = "0"
-    resume: int | None = None
+    resume: tuple[int, int] | None = None
     group: int = GROUP
+    run: int = field(init=False)
+    """In the names of its parts: the time in ms at which it began."""
     number: int = field(init=False)
     """Of the part that is open."""
     _rows: list[dict[str, Any]] = field(factory=list, init=False)
@@ -77,16 +90,31 @@ class Parts:
         if not re.fullmatch(r"\w+", self.partition):
             raise ValueError(f"partition must be letters and digits, not {self.partition!r}")
         self.directory.mkdir(parents=True, exist_ok=True)
-        self.number = 0 if self.resume is None else self.resume
-        for path in sorted(self.directory.iterdir()):
-            name = _NAME.fullmatch(path.name)
-            if name is None or name[1] != self.partition:
-                continue
-            if name[3] or (self.resume is not None and int(name[2]) >= self.resume):
-                path.unlink()
-            elif self.resume is None:
-                _set_aside(path)
+        names = [name for path in sorted(self.directory.iterdir()) if (name := _NAME.fullmatch(path.name))]
+        names = [name for name in names if name["partition"] == self.partition]
+        newest = max([int(name["run"]) for name in names], default=0)
+        self.run, self.number = self.resume or (max(newest + 1, time_ns() // 1_000_000), 0)
+        self._take_over(names)
         _settle(self.directory)
+
+    def _take_over(self, names: list[re.Match[str]]) -> None:
+        """Of all that is there, readers see the parts of this run that count."""
+        back = aside = 0
+        for name in names:
+            path, shown = self.directory / name[0], self.directory / name["shown"]
+            mine = int(name["run"]) == self.run
+            if name["half"] or (mine and int(name["number"]) >= self.number):
+                path.unlink()
+            elif mine and path != shown:
+                path.rename(shown)
+                back += 1
+            elif not mine and path == shown:
+                path.rename(shown.with_name(f".{shown.name}.replaced"))
+                aside += 1
+        if aside and self.resume is None:
+            _LOG.warning(_BEGUN, self.directory, aside)
+        elif aside or back:
+            _LOG.warning(_TAKEN_UP, self.directory, back, aside)
 
     def write(self, told: Iterable[Told]) -> None:
         """Gather events for the part that is open."""
@@ -97,17 +125,17 @@ class Parts:
                 if self._groups >= GROUPS:
                     self.close()
 
-    def close(self) -> int:
-        """Bring what was gathered to the disk as one part, if it is anything. The number of the next part: what the
-        engine remembers, together with the state of whoever told the events."""
+    def close(self) -> tuple[int, int]:
+        """Bring what was gathered to the disk as one part, if it is anything. The run and the number of the next part:
+        what the engine remembers, together with the state of whoever told the events."""
         if self._rows:
             self._flush()
         if self._writer is not None:
             self._writer.close()
             data, self._writer, self._groups = self._buffer.getvalue(), None, 0
-            self._publish(data, self.directory / f"part-{self.partition}-{self.number:08d}.parquet")
+            self._publish(data, self.directory / f"part-{self.partition}-{self.run}-{self.number:08d}.parquet")
             self.number += 1
-        return self.number
+        return self.run, self.number
 
     def _flush(self) -> None:
         """A row group of what was gathered, sorted: a wearer's events stand together, and compress so."""
@@ -134,11 +162,6 @@ class Parts:
             with suppress(OSError):
                 beside.unlink(missing_ok=True)
             raise OSError(error.errno, error.strerror, str(path)) from None
-
-
-def _set_aside(path: Path) -> None:
-    names = (path.with_name(f".{path.name}.replaced-{n}") for n in count(1))
-    path.rename(next(name for name in names if not name.exists()))
 
 
 def _settle(directory: Path) -> None:
