@@ -70,8 +70,8 @@ def uses(told: Iterable[Told]) -> list[tuple[str, int | None, int | None, object
                 found.append(("used", int(run), int(number), None))
             case NumbersMissing(run=run, first=first, count=count):
                 found.append(("missing", run, first, count))
-            case SentRejected(run=run, number=number, reason=reason):
-                found.append(("rejected", run, number, reason.value))
+            case SentRejected(run=run, number=number, reason=reason, count=count):
+                found.append(("rejected", run, number, reason.value if count == 1 else (reason.value, count)))
             case other:
                 raise AssertionError(f"{other} is told of no story")
     return found

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from attrs import define, evolve, field
+from attrs import astuple, define, evolve, field
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -20,7 +20,7 @@ from solepath import SnapshotError, recipes
 from solepath.fleet import End, Fleet, Refusal, Sent, SentRejected, StateRefused, Tick, Told, Unreadable
 from solepath.fleet.keyed import first_number
 from solepath.fleet.order import Refused
-from solepath.fleet.state import Identity, Rest, StateError, read_identity, read_rest, write_state
+from solepath.fleet.state import READERS, VERSION, Identity, Rest, StateError, read_identity, read_rest, write_state
 from solepath.foot.stance import Load, Stance
 from solepath.recipes import DEFAULT
 from solepath.session import Session
@@ -69,7 +69,9 @@ def test_a_state_says_what_the_protocol_says(vector: dict[str, Any]) -> None:
     rest = read_rest(state)
     assert identity == Identity(*[fields[name] for name in ("run", "next", "told", "known")])
     assert (rest.ended, rest.failure, rest.session) == (fields["ended"], fields["failure"], None)
-    assert [[span.run, span.first, span.end] for span in rest.spans] == fields["spans"]
+    assert [[span.run, span.first, span.end] for span in rest.left.spans] == fields["spans"]
+    assert [[*runs] for runs in rest.left.forgotten] == fields["forgotten"]
+    assert [*astuple(rest.strays)] == fields["strays"]
     assert [held_as_told(place, what) for place, what in rest.held.items()] == fields["held"]
     assert write_state(identity, rest) == state
     assert FLEET.open(WEARER, state).state() == state
@@ -77,6 +79,11 @@ def test_a_state_says_what_the_protocol_says(vector: dict[str, Any]) -> None:
 
 def test_there_are_as_many_states_as_they_say() -> None:
     assert STATES["schema"] == "solepath fleet states 1" and STATES["count"] == len(STATES["states"])
+
+
+def test_every_version_up_to_the_newest_is_read_and_has_an_example() -> None:
+    shown = {bytes.fromhex(vector["hex"])[4] for vector in STATES["states"] if vector["result"] == "valid"}
+    assert shown == set(READERS) == set(range(1, VERSION + 1))
 
 
 @settings(max_examples=40, deadline=None)
@@ -124,7 +131,7 @@ def test_where_nothing_can_be_read_the_first_number_waits_for_a_row_that_has_one
     assert keyed.feed([Unreadable(WEARER, "no row"), Sent(WEARER, -1, End())]) == []
     assert keyed.state() == b"not a state"
     told = keyed.feed([shown(12, 1_763_800_000_000)])
-    assert told[0].number == 16 * 1_763_800_000_000 + 64 * 13
+    assert told[0].number == 64 * (1_763_800_000_000 + 13)
     assert isinstance(told[0].event, StateRefused)
     assert uses(told[1:]) == [("missing", 1_763_800_000_000, 0, 12), ("used", 1_763_800_000_000, 12, None)]
 
@@ -141,7 +148,7 @@ def test_a_session_of_another_recipe_or_of_a_building_is_refused_and_the_numbers
 
 def test_after_the_end_a_tombstone_is_left_which_every_job_can_read() -> None:
     state, told = FLEET.step(WEARER, None, walked().sent)
-    assert len(state) == 49 and FLEET.open(WEARER, state).ended
+    assert len(state) == 54 and FLEET.open(WEARER, state).ended
     other = Fleet(recipes.KUPT_DFPC)
     assert other.step(WEARER, state, walked().sent) == (state, [])
     again, more = other.step(WEARER, state, [evolve(one, run=1) for one in walked().sent[:HALF]])

@@ -107,7 +107,7 @@ def test_a_wearer_goes_on_in_a_new_run_and_begins_anew_after_an_end() -> None:
 
 def test_an_end_without_a_beginning_says_nothing() -> None:
     state, told = FLEET.step(WEARER, None, [Sent(WEARER, 0, End())])
-    assert told == [] and len(state) == 49 and FLEET.open(WEARER, state).ended
+    assert told == [] and len(state) == 54 and FLEET.open(WEARER, state).ended
 
 
 ODD_PACKETS: list[Any] = [

@@ -25,7 +25,7 @@ class Refusal(Enum):
     OVERSIZED = "oversized"
     NOT_FINITE = "not finite"
     LATE = "late"
-    """Its number was given up before it came, or its run was over."""
+    """Its number was given up before it came, or its run was left."""
     AFTER_END = "after the end"
 
 
@@ -60,6 +60,9 @@ class SentRejected(Happening):
     number: int | None = None
     """Which of the run it is; None where that cannot be read."""
     detail: str = ""
+    count: int = 1
+    """LATE and AFTER_END: so many came of this run, this one among them. The first, the second, the fourth, the eighth
+    are told, and so on, until something of another run is late; 1 for all others."""
 
 
 @frozen(kw_only=True)

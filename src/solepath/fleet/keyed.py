@@ -79,7 +79,7 @@ class Keyed:
                 self._pending = (WearerFailed, _said(error))
         if self._pending is not None:
             failure = self._pending[1]
-        rest = Rest(order.ended, order.spans, order.held, failure, session)
+        rest = Rest(order.ended, order.left, order.strays, order.held, failure, session)
         return write_state(Identity(order.run, order.next, self._told, known), rest)
 
     # --- in ---
@@ -94,7 +94,8 @@ class Keyed:
         self._order = Order(window, identity.run, identity.next)
         try:
             rest = read_rest(state)
-            self._order = Order(window, identity.run, identity.next, rest.ended, rest.held, rest.spans)
+            placed = (identity.run, identity.next, rest.ended, rest.held, rest.left, rest.strays)
+            self._order = Order(window, *placed)
             if rest.failure:
                 self._pending = (WearerFailed, rest.failure)
             elif rest.session is not None:
@@ -117,6 +118,7 @@ class Keyed:
             and type(sent.run) is int
             and sent.run == order.run
             and not order.held
+            and not order.strays.straight
             and not order.ended
             and sent.number <= MOST
             and type(sent.wearer) is str
@@ -145,8 +147,8 @@ class Keyed:
             if isinstance(passed, Missing):
                 self._tell(told, self._event(NumbersMissing, run=of_run, first=at, count=passed.count))
             elif isinstance(passed, Refused):
-                reason, detail = passed.reason, passed.detail
-                self._tell(told, self._event(SentRejected, reason=reason, run=of_run, number=at, detail=detail))
+                why = {"reason": passed.reason, "count": passed.count, "detail": passed.detail}
+                self._tell(told, self._event(SentRejected, run=of_run, number=at, **why))
             else:
                 self._use(passed, told)
 
@@ -228,7 +230,7 @@ class Keyed:
 def first_number(run: int, number: int) -> int:
     """The number of the first event where nothing of the state can be read and this is what comes next: beyond all that
     were used, as protocol/fleet.md has it."""
-    return 16 * run + 64 * (number + 1)
+    return 64 * (run + number + 1)
 
 
 def _counts(value: object) -> bool:

@@ -37,7 +37,7 @@ class Sent:
     """What the phone of `wearer` sends: a packet as it arrived there, that time has passed, or that it was the last.
 
     `number`: 0, 1, 2, ... without holes within a `run`. A phone that cannot go on counting where it stopped begins a
-    new run, at 0, under a larger number (the time in ms at which the app was started); the session goes on.
+    new run, at 0, under a larger number (the time in ms, or the last run + 1 where that is more); the session goes on.
     """
 
     wearer: str

@@ -7,6 +7,7 @@ a checksum of their own: what comes after them may be damaged or unknown, and no
 from __future__ import annotations
 
 from binascii import crc32
+from collections.abc import Callable, Mapping
 from math import isfinite
 from struct import Struct
 from struct import error as StructError
@@ -15,7 +16,8 @@ from attrs import define, field, frozen
 
 from ..events.fleet import Refusal
 from ..types import Packet, Site
-from .order import Refused, Span, What
+from .left import Left, Span, Strays
+from .order import Refused, What
 from .sent import MOST, End, Tick
 
 MAGIC, VERSION = b"spfl", 1
@@ -51,7 +53,8 @@ class Rest:
     nothing. `session`: None before the first packet and after the end."""
 
     ended: bool = False
-    spans: list[Span] = field(factory=list)
+    left: Left = field(factory=Left)
+    strays: Strays = field(factory=Strays)
     held: dict[tuple[int, int], What] = field(factory=dict)
     failure: str = ""
     session: bytes | None = None
@@ -62,14 +65,17 @@ def write_state(identity: Identity, rest: Rest) -> bytes:
     first = _FIRST.pack(MAGIC, VERSION, identity.run, identity.next, identity.told, identity.known)
     out = _Writer()
     out.put(bytes([rest.ended * _ENDED + (rest.session is not None) * _SESSION]))
-    out.count(len(rest.spans))
-    for span in rest.spans:
-        for number in (span.run, span.first, span.end):
-            out.count(number)
+    left, strays = rest.left, rest.strays
+    out.count(len(left.spans))
+    for span in left.spans:
+        out.counts(span.run, span.first, span.end)
+    out.count(len(left.forgotten))
+    for runs in left.forgotten:
+        out.counts(*runs)
+    out.counts(strays.run, strays.count, strays.straight, strays.number)
     out.count(len(rest.held))
     for (run, number), what in sorted(rest.held.items(), key=lambda one: one[0]):
-        out.count(run)
-        out.count(number)
+        out.counts(run, number)
         _write_what(out, what)
     out.text(rest.failure)
     session = b"" if rest.session is None else rest.session
@@ -89,20 +95,28 @@ def read_identity(state: bytes) -> Identity | None:
 
 def read_rest(state: bytes) -> Rest:
     """What comes after the first bytes, which are sound. StateError when it cannot be read."""
-    if state[4] != VERSION:
-        raise StateError(f"a state of version {state[4]}; this release reads {VERSION}")
-    data = _Reader(state, _FIRST.size + _CHECK.size)
+    reader = READERS.get(state[4])
+    if reader is None:
+        raise StateError(f"a state of version {state[4]}; this release reads {', '.join(map(str, READERS))}")
     try:
-        flags = data.take(1)[0]
-        spans = [Span(data.count(), data.count(), data.count()) for _ in range(data.count())]
-        held = {(data.count(), data.count()): _read_what(data) for _ in range(data.count())}
-        failure = data.text()
-        fleet = state[_FIRST.size + _CHECK.size : data.at]
-        if data.take(4) != _CHECK.pack(crc32(fleet)):
-            raise StateError("the state was damaged: its checksum is another")
+        return reader(_Reader(state, _FIRST.size + _CHECK.size))
     except (ValueError, IndexError, StructError, OverflowError) as error:
         raise StateError(str(error) if isinstance(error, StateError) else "the state was damaged") from None
-    return Rest(bool(flags & _ENDED), spans, held, failure, state[data.at :] if flags & _SESSION else None)
+
+
+def _read_1(data: _Reader) -> Rest:
+    begin = data.at
+    flags = data.take(1)[0]
+    spans = [Span(data.count(), data.count(), data.count()) for _ in range(data.count())]
+    forgotten = [(data.count(), data.count()) for _ in range(data.count())]
+    strays = Strays(data.count(), data.count(), data.count(), data.count())
+    held = {(data.count(), data.count()): _read_what(data) for _ in range(data.count())}
+    failure = data.text()
+    checked = data.state[begin : data.at]
+    if data.take(4) != _CHECK.pack(crc32(checked)):
+        raise StateError("the state was damaged: its checksum is another")
+    session = data.state[data.at :] if flags & _SESSION else None
+    return Rest(bool(flags & _ENDED), Left(spans, forgotten), strays, held, failure, session)
 
 
 def _write_what(out: _Writer, what: What) -> None:
@@ -153,6 +167,10 @@ class _Writer:
             number >>= 7
         self.done.append(number)
 
+    def counts(self, *numbers: int) -> None:
+        for number in numbers:
+            self.count(number)
+
     def text(self, text: str) -> None:
         data = text.encode("utf-8", "surrogatepass")
         self.count(len(data))
@@ -185,3 +203,8 @@ class _Reader:
 
     def text(self) -> str:
         return self.take(self.count()).decode("utf-8", "surrogatepass")
+
+
+READERS: Mapping[int, Callable[[_Reader], Rest]] = {1: _read_1}
+"""By version: each makes of its layout what the newest has. What a session remembers has versions and steps of its own
+(solepath.packing.upgrades)."""
