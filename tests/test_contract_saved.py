@@ -16,6 +16,7 @@ from attrs import asdict, evolve
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
+from encoded import other
 from solepath import Packet, Session, SnapshotError, StepTaken
 from solepath.machine import checksum
 from solepath.sim.building import BUILDING
@@ -66,15 +67,6 @@ def test_an_encoder_may_sort_keys_and_write_whole_floats_as_integers() -> None:
     machine = machines()["session, whole frames"]
     straight = machine.begin()
     straight.feed(machine.items[:900])
-
-    def other(value: Any) -> Any:
-        """As JavaScript would write it: 1.0 is 1, -0.0 is 0, keys in order."""
-        if isinstance(value, float) and value.is_integer():
-            return int(value)
-        if isinstance(value, dict):
-            return {key: other(value[key]) for key in sorted(value)}
-        return [other(item) for item in value] if isinstance(value, list) else value
-
     restored = Session.restore(json.loads(json.dumps(other(straight.snapshot()))))
     assert restored.feed(machine.items[900:]) == straight.feed(machine.items[900:])
 

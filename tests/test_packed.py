@@ -45,7 +45,9 @@ def packed(name: str = "session, whole frames") -> bytes:
 # --- what it holds ----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("device", [Insole(cells=48), CC2650()], ids=["insoles", "SensorTags"])
+@pytest.mark.parametrize(
+    "device", [Insole(cells=48), Insole(cells=96), CC2650()], ids=["48 cells", "96 cells", "SensorTags"]
+)
 def test_the_state_of_two_devices_is_below_20_kB_at_any_moment_of_a_walk(device: Any) -> None:
     session, largest = Session(), 0
     for i, packet in enumerate(emulate(SHORT, devices={LEFT: device, RIGHT: evolve(device)}, radio=ROUGH).packets):

@@ -14,6 +14,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from encoded import other
 from signed import signed
 from solepath import Packet, Session, Site, SnapshotError, StepTaken
 from solepath.machine import save
@@ -95,15 +96,6 @@ def test_a_state_of_an_older_version_is_one_of_this_version_once_it_was_read(
 def test_both_forms_of_one_moment_are_one_state(version: int, name: str) -> None:
     packed, snapshot = (taken_up(version, name, form) for form in ("packed", "snapshot.json"))
     assert save(packed._state) == save(snapshot._state)
-
-
-def other(value: Any) -> Any:
-    """As JavaScript would write it: 1.0 is 1, -0.0 is 0, keys in order."""
-    if isinstance(value, float) and value.is_integer():
-        return int(value)
-    if isinstance(value, dict):
-        return {key: other(value[key]) for key in sorted(value)}
-    return [other(item) for item in value] if isinstance(value, list) else value
 
 
 @pytest.mark.parametrize(("version", "name"), KEPT)

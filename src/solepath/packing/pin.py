@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from ..state import VERSION
 from .records import shape, snapshot_shape
+from .rows import ROWS
 from .shape import Shape
 
 FOLDER = Path(__file__).parent / "shapes"
@@ -33,15 +35,16 @@ def changed(now: str) -> str | None:
 
 
 def as_text() -> str:
-    """Both shapes, a record a line."""
-    return f'{{"packed": {_lines(shape())}, "snapshot": {_lines(snapshot_shape())}}}\n'
+    """Both shapes, a record a line, and what is in fields of bytes."""
+    return f'{{"packed": {_told(shape())}, "snapshot": {_told(snapshot_shape())}, "rows": {_lines(ROWS)}}}\n'
 
 
-def _lines(told: Shape) -> str:
-    def lines(held: dict[str, Any]) -> str:
-        return "{\n" + ",\n".join([f"  {json.dumps(key)}: {json.dumps(value)}" for key, value in held.items()]) + "\n}"
+def _told(one: Shape) -> str:
+    return f'{{"root": {json.dumps(one.root)}, "enums": {_lines(one.enums)}, "records": {_lines(one.records)}}}'
 
-    return f'{{"root": {json.dumps(told.root)}, "enums": {lines(told.enums)}, "records": {lines(told.records)}}}'
+
+def _lines(held: Mapping[str, Any]) -> str:
+    return "{\n" + ",\n".join([f"  {json.dumps(key)}: {json.dumps(value)}" for key, value in held.items()]) + "\n}"
 
 
 def main() -> int:
