@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fleets import WEARER, shown, stepped, uses
+from fleets import WEARER, shown, stepped, uses, walked
+from solepath.events import PacketRejected, Rejection, StepTaken
 from solepath.fleet import End, Fleet, NumbersMissing, Sent, SentRejected, Told
 from solepath.fleet.sent import MOST
 
@@ -96,3 +98,14 @@ def test_a_flood_of_rows_that_are_late_is_told_ever_more_seldom() -> None:
 def test_a_phone_that_goes_on_after_the_end_is_told_ever_more_seldom() -> None:
     _, told = FLEET.step(WEARER, None, [shown(0), Sent(WEARER, 1, End()), *run(0, 2000, 2)])
     assert [one.event.count for one in told[1:]] == [2**k for k in range(11)]
+
+
+def test_a_phone_that_was_started_again_with_a_clock_at_nought_is_followed_after_19_packets_of_each_site() -> None:
+    sent = walked().sent
+    half = len(sent) // 2
+    shifted = [evolve(one, what=evolve(one.what, t=one.what.t + 50_000.0)) for one in sent[:half]]
+    state, _ = FLEET.step(WEARER, None, shifted)
+    again = [evolve(one, number=number, run=1) for number, one in enumerate(sent[half:])]
+    told = [one.event for one in FLEET.step(WEARER, state, again)[1]]
+    assert [e.reason for e in told if isinstance(e, PacketRejected)].count(Rejection.TIME_BACKWARDS) == 2 * 19
+    assert sum(isinstance(event, StepTaken) for event in told) >= 2
