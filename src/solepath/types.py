@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from enum import Enum
 from functools import cached_property, lru_cache
+from struct import pack
 
 from attrs import field, frozen
 
@@ -192,7 +193,22 @@ class Layout:
         return tuple([cell.y for cell in self.cells])
 
 
-@lru_cache(maxsize=256)
 def shared(layout: Layout) -> Layout:
-    """A layout that is equal: the same object for all wearers of one kind of insole, which hold it for hours."""
-    return layout
+    """A layout that is the same to the bit: one object for all wearers of one kind of insole, who hold it for hours."""
+    numbers = [layout.length, layout.full_scale, 0.0 if layout.scale is None else layout.scale]
+    for cell in layout.cells:
+        numbers += (cell.x, cell.y, cell.area)
+    # -0.0 and 0.0 are equal, and not the same
+    bits = pack(f"<{len(numbers)}d", *numbers)
+    return _first(_Bits((layout.id, layout.foot, layout.scale is None, bits), layout))
+
+
+@frozen
+class _Bits:
+    told: tuple[int, Foot, bool, bytes]
+    layout: Layout = field(eq=False)
+
+
+@lru_cache(maxsize=256)
+def _first(bits: _Bits) -> Layout:
+    return bits.layout

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from attrs import frozen
+from attrs import astuple, field, frozen
 
 from ..calibration import Calibration
 from ..floorplan.index import IndexedPlan
 from ..link.driver import Driver
 from ..machine import SnapshotError
-from ..recipes import Recipe
+from ..recipes import Recipe, own
 from ..session import Session
 
 
@@ -19,7 +19,8 @@ from ..session import Session
 class Sessions:
     """Fresh ones, and bytes of them. It holds nothing of any wearer."""
 
-    recipe: Recipe
+    recipe: Recipe = field(converter=own)
+    """Nobody changes it, so that no session has to look whether somebody did."""
     calibrations: Mapping[str, Calibration]
     floorplan: IndexedPlan | None
     profiles: tuple[Driver, ...]
@@ -27,6 +28,9 @@ class Sessions:
     poses: bool
     pressures: bool
     window: int
+
+    def __reduce__(self) -> tuple[type[Sessions], tuple[Any, ...]]:
+        return Sessions, astuple(self, recurse=False)  # to be converted where it comes to
 
     def fresh(self, wearer: str, calibrated: bool = True) -> Session:
         """A session that heard nothing yet. `calibrated`: with what is known of the wearer."""

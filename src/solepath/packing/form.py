@@ -65,7 +65,7 @@ def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> State:
     version, body = _opened(data)
     try:
         return _read(version, body, held, classes)
-    except (SnapshotError, MemoryError):  # memory is the machine's: the state may be as good as it was
+    except (SnapshotError, MemoryError, RecursionError):  # where room is short the state may be as good as ever
         raise
     except Exception as error:
         raise SnapshotError(f"not a packed session: {error or type(error).__name__}") from error
