@@ -84,7 +84,7 @@ class ParquetSink(FixedPartitionedSink[Told, tuple[int, int]]):
         return [str(number) for number in range(self.partitions)]
 
     def build_part(self, step_id: str, for_part: str, resume_state: tuple[int, int] | None) -> _Partition:
-        return _Partition(Parts(self.directory, for_part, resume_state))
+        return _Partition(Parts(self.directory, for_part, resume_state, partitions=self.list_parts()))
 
 
 @frozen

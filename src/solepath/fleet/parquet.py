@@ -21,7 +21,7 @@ from __future__ import annotations
 import logging
 import os
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from time import time_ns
@@ -67,6 +67,9 @@ class Parts:
     `.part-0-1749718800000-00000007.parquet.replaced`), since the events of a fleet that begins anew are numbered anew,
     and a warning is logged. Nothing is lost if that was a mistake: whoever resumes a run has its parts back.
 
+    `partitions`: all that the job has, in every process. Parts of others are hidden then, by the first: they were
+    written when the job had more. Where nobody says, they are left as they are.
+
     `group`: so many events are gathered, sorted by wearer and packed as one row group of the part.
 
     OSError, naming the file, when one cannot be written (the disk is full). Nothing of it is left then, on the disk or
@@ -77,6 +80,7 @@ class Parts:
     partition: str = "0"
     resume: tuple[int, int] | None = None
     group: int = GROUP
+    partitions: Sequence[str] = ()
     run: int = field(init=False)
     """In the names of its parts: the time in ms at which it began."""
     number: int = field(init=False)
@@ -90,19 +94,24 @@ class Parts:
         if not re.fullmatch(r"\w+", self.partition):
             raise ValueError(f"partition must be letters and digits, not {self.partition!r}")
         self.directory.mkdir(parents=True, exist_ok=True)
-        names = [name for path in sorted(self.directory.iterdir()) if (name := _NAME.fullmatch(path.name))]
-        names = [name for name in names if name["partition"] == self.partition]
+        paths = sorted(self.directory.iterdir())
+        names = [name for path in paths if (name := _NAME.fullmatch(path.name)) and path.is_file()]
+        names = [name for name in names if self._is_to_see_to(name["partition"])]
         newest = max([int(name["run"]) for name in names], default=0)
         self.run, self.number = self.resume or (max(newest + 1, time_ns() // 1_000_000), 0)
         self._take_over(names)
         _settle(self.directory)
+
+    def _is_to_see_to(self, partition: str) -> bool:
+        is_first = self.partition == next(iter(self.partitions), None)
+        return partition == self.partition or (is_first and partition not in self.partitions)
 
     def _take_over(self, names: list[re.Match[str]]) -> None:
         """Of all that is there, readers see the parts of this run that count."""
         back = aside = 0
         for name in names:
             path, shown = self.directory / name[0], self.directory / name["shown"]
-            mine = int(name["run"]) == self.run
+            mine = int(name["run"]) == self.run and name["partition"] == self.partition
             if name["half"] or (mine and int(name["number"]) >= self.number):
                 path.unlink()
             elif mine and path != shown:

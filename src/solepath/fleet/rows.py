@@ -177,8 +177,10 @@ _FIELDS = json.JSONEncoder(allow_nan=False)
 
 def told_row(told: Told) -> dict[str, Any]:
     """The row of an event, with the columns of TOLD_COLUMNS. `fields`: what else the event has, as JSON, in the words
-    of events.jsonl."""
-    record = event_record(told.event)
+    of events.jsonl. Half a character in the wearer's name is written `\\ud800`: a table holds UTF-8."""
+    record, wearer = event_record(told.event), told.wearer
+    if not wearer.isascii():
+        wearer = wearer.encode("utf-8", "backslashreplace").decode()
     first = {key: record.pop(key, None) for key in ("event", "t", "known_at", "final", "foot")}
     fields = _FIELDS.encode(record)
-    return {"wearer": told.wearer, "number": told.number, **first, "fields": fields}
+    return {"wearer": wearer, "number": told.number, **first, "fields": fields}
