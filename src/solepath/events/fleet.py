@@ -67,8 +67,8 @@ class SentRejected(Happening):
 
 @frozen(kw_only=True)
 class WearerFailed(Happening):
-    """A reader or a detector of the app's own raised an exception. This wearer begins afresh; no other notices. Known
-    with the packet that did it."""
+    """A reader or a detector of the app's own raised an exception, or held what cannot be saved when a state was taken.
+    This wearer begins afresh; no other notices. Known with the packet that did it, or the first after the state."""
 
     detail: str
 

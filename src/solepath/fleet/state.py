@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from binascii import crc32
 from collections.abc import Callable, Mapping
+from itertools import pairwise
 from math import isfinite
 from struct import Struct
 from struct import error as StructError
@@ -110,13 +111,17 @@ def _read_1(data: _Reader) -> Rest:
     spans = [Span(data.count(), data.count(), data.count()) for _ in range(data.count())]
     forgotten = [(data.count(), data.count()) for _ in range(data.count())]
     strays = Strays(data.count(), data.count(), data.count(), data.count())
-    held = {(data.count(), data.count()): _read_what(data) for _ in range(data.count())}
+    held = [((data.count(), data.count()), _read_what(data)) for _ in range(data.count())]
     failure = data.text()
     checked = data.state[begin : data.at]
     if data.take(4) != _CHECK.pack(crc32(checked)):
         raise StateError("the state was damaged: its checksum is another")
+    _, _, run, number, _, _ = _FIRST.unpack_from(data.state)
+    places = [(run, number - 1), *[place for place, _ in held]]
+    if not all(low < high for low, high in pairwise(places)) or any(max(place) > MOST for place in places[1:]):
+        raise StateError("the state holds what cannot be held")
     session = data.state[data.at :] if flags & _SESSION else None
-    return Rest(bool(flags & _ENDED), Left(spans, forgotten), strays, held, failure, session)
+    return Rest(bool(flags & _ENDED), Left(spans, forgotten), strays, dict(held), failure, session)
 
 
 def _write_what(out: _Writer, what: What) -> None:
