@@ -25,6 +25,7 @@ from typing import Any
 import pytest
 
 from solepath.fleet import TOLD_COLUMNS, End, Fleet, Sent, Told, sent_line, sent_row, told_row
+from solepath.fleet.spark_files import committed
 from solepath.recipes import BY_NAME, DEFAULT
 from solepath.session import Session
 from solepath.sim.route import Route
@@ -163,8 +164,6 @@ def told(directory: Path) -> list[Row]:
     """What is in the files that count, by somebody who is not Spark."""
     from pyarrow import parquet
 
-    from solepath.fleet.spark import committed
-
     return in_order(row for path in committed(directory) for row in parquet.read_table(path).to_pylist())
 
 
@@ -208,17 +207,33 @@ def test_other_readers_find_the_files_that_spark_finds(spark, tmp_path):
     )  # fmt: skip
 
 
-def test_lines_as_kafka_holds_them_give_the_same_events(spark, tmp_path):
-    from solepath.fleet.spark import from_lines
+def test_messages_as_kafka_has_them_give_the_same_events(spark, tmp_path):
+    """Their key is the wearer, and their value are lines, of a second or so."""
+    from pyarrow import parquet, table
 
+    wrong = {b"w0": [b"no JSON\n", b"\xff{\n", sent_line(sent(1, 1)[0])], b"\xff\xfe": [b"{}"], b"w3": [b"\n"] * 5000}
+    messages = [(f"w{wearer}".encode(), lines) for wearer in range(2) for lines in _bundles(wearer)]
+    messages += [*wrong.items(), (None, [])]
+    random.Random(3).shuffle(messages)
     (tmp_path / "sent").mkdir()
-    lines = [sent_line(one) for wearer in range(2) for one in sent(wearer, wearer)]
-    (tmp_path / "sent/lines.txt").write_bytes(b"".join([*lines, b'{"wearer": 3}\n', b"no JSON\n", b"\xff{\n"]))
-    rows = from_lines(spark.readStream.text(str(tmp_path / "sent")))
+    keys, values = [key for key, _ in messages], [b"".join(lines) for _, lines in messages]
+    parquet.write_table(table({"key": keys, "value": values}), tmp_path / "sent/messages.parquet")
+    rows = spark.readStream.schema("key binary, value binary").parquet(str(tmp_path / "sent"))
     events = run(rows, tmp_path)
-    assert of_sessions(events) == expected(2)
-    others = [(row["wearer"], row["event"]) for row in events if not re.fullmatch(r"w\d", row["wearer"])]
-    assert others == [("", "SentRejected"), ("", "SentRejected"), ("3", "SentRejected")]
+    refused = [row["wearer"] for row in events if row["event"] == "SentRejected"]
+    assert sorted(refused) == ["w0", "w0", "w0", "w3", "\ufffd\ufffd"]
+    rest = [row for row in events if row["event"] != "SentRejected"]
+    of = [[without_number(row) for row in rest if row["wearer"] == f"w{wearer}"] for wearer in range(2)]
+    assert of == [[without_number(row) for row in expected(2) if row["wearer"] == f"w{wearer}"] for wearer in range(2)]
+
+
+def _bundles(wearer: int) -> Iterator[list[bytes]]:
+    lines = [sent_line(one) for one in sent(wearer, wearer)]
+    yield from (lines[at : at + 200] for at in range(0, len(lines), 200))
+
+
+def without_number(row: Row) -> Row:
+    return {key: value for key, value in row.items() if key != "number"}
 
 
 def of_toys() -> Fleet:
@@ -266,6 +281,24 @@ def test_a_wearer_of_anything_stalls_no_other(spark, tmp_path):
     poisoned = [row for row in events if row["wearer"].startswith("poisoned")]
     assert {"SentRejected", "NumbersMissing"} <= {row["event"] for row in poisoned}
     assert any(row["wearer"] == "" and "wearer is no text" in row["fields"] for row in events)
+
+
+def test_text_that_is_no_text_ends_no_job(spark, tmp_path):
+    """Parquet holds whatever bytes were written as text."""
+    import pyarrow as pa
+    from pyarrow import parquet
+
+    (tmp_path / "sent").mkdir()
+    rows = [sent_row(one) for one in sent(0, 0)]
+    put(tmp_path / "sent/good.parquet", rows, 0)
+    bad = parquet.read_table(tmp_path / "sent/good.parquet").take([0, 0, 0])
+    for name in ("wearer", "site", "channel", "device"):
+        bytes_ = pa.array([b"\xff\xfe", b"w0\x80", b"\xed\xa0\x80"]).view(pa.string())
+        bad = bad.set_column(bad.column_names.index(name), name, bytes_)
+    parquet.write_table(bad, tmp_path / "sent/bad.parquet")
+    events = run(stream(spark, tmp_path / "sent"), tmp_path)
+    assert of_sessions(events) == expected(1)
+    assert [row["event"] for row in events if row["wearer"] != "w0"] == ["SentRejected"] * 3
 
 
 def test_a_state_that_cannot_go_on_is_told_and_its_wearer_begins_afresh(spark, tmp_path):
@@ -404,14 +437,8 @@ def test_a_job_that_is_killed_in_mid_stream_tells_what_one_that_runs_through_tel
         job.end()
     events = told(job.told)
     written = set(job.told.glob("*.parquet"))
-    print(f"{len(events)} events; {len(written) - len(set(_finished(job.told)))} files that nobody finished")
+    print(f"{len(events)} events; {len(written) - len(set(committed(job.told)))} files that nobody finished")
     assert events == told(tmp_path / "through") == expected(wearers)
-
-
-def _finished(directory: Path) -> list[Path]:
-    from solepath.fleet.spark import committed
-
-    return committed(directory)
 
 
 @pytest.fixture

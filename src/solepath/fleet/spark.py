@@ -6,31 +6,28 @@
 Needs the extra `spark`, Java 17, and a session that was configured with STORE. examples/spark_gait.py is a whole job.
 
 A micro-batch reads and writes a wearer's state once, and its events come out when it ends. What Spark repeats after a
-crash gives the same events under the same identities (Told), and changes the state once. Spark's file sink lists the
-files that it has finished in `_spark_metadata`, and Spark reads no others. Nor may any other reader (`committed`): a
-killed task leaves files that nobody finished. Another sink may be given a batch twice, and goes by the identities.
+crash gives the same events under the same identities (Told), and changes the state once. The files that its sink wrote
+may be a killed task's: Spark passes over those, for other readers see spark_files.py.
 """
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import lru_cache
-from pathlib import Path
+from itertools import chain
 from typing import Any
-from urllib.parse import unquote, urlsplit
 
-from pyspark.sql import DataFrame, Row
+from pyspark.sql import Column, DataFrame, Row
 from pyspark.sql import functions as f
 from pyspark.sql.streaming.stateful_processor import StatefulProcessor, StatefulProcessorHandle, TimerValues
 
-from . import SENT_COLUMNS, TOLD_COLUMNS, Fleet, Sent, Unreadable, read_sent, told_row
+from . import SENT_COLUMNS, TOLD_COLUMNS, Fleet, Sent, Unreadable, read_line, read_sent, told_row
 
-STORE = {
-    "spark.sql.streaming.stateStore.providerClass":
-        "org.apache.spark.sql.execution.streaming.state.RocksDBStateStoreProvider",
-}  # fmt: skip
+_ROCKS = "org.apache.spark.sql.execution.streaming.state.RocksDBStateStoreProvider"
+STORE = {"spark.sql.streaming.stateStore.providerClass": _ROCKS}
 """What the Spark session is to be configured with: transformWithState keeps its state in RocksDB only."""
+MOST_LINES = 4096
+"""Of one message; one that has more is refused whole, since every line that cannot be read is told of."""
 
 
 def _ddl(columns: Mapping[str, type]) -> str:
@@ -39,26 +36,31 @@ def _ddl(columns: Mapping[str, type]) -> str:
 
 
 SENT_SCHEMA, TOLD_SCHEMA = _ddl(SENT_COLUMNS), _ddl(TOLD_COLUMNS)
-"""Rows of solepath.fleet as Spark writes a schema, for `readStream.schema`, `from_json` and the like."""
+"""Rows of solepath.fleet as Spark writes a schema."""
 
 
 def gait(rows: DataFrame, fleet: Fleet | Callable[[], Fleet], states: DataFrame | None = None) -> DataFrame:
-    """What the sessions of a fleet tell (TOLD_SCHEMA) of what phones sent (SENT_SCHEMA; other columns are left out), in
-    any order that the fleet's window covers. Rows whose wearer is null are refused under the name "".
+    """What the sessions of a fleet tell (TOLD_SCHEMA) of what phones sent, in any order that the fleet's window covers.
 
-    `fleet` goes to the executors by pickle, with every task. Where it is large, or no pickle takes it (drivers),
-    give a function that makes it, at the top of a module that they can import: it is called once in each process.
+    `rows`: of SENT_SCHEMA; or messages as Kafka has them, `key` the wearer's name and `value` lines of `sent_line`: the
+    more lines in one, the less they cost. What cannot be read is told, without a wearer under the name "".
+    `fleet` goes to the executors by pickle, with every task. Where it is large, or no pickle takes it (drivers), give a
+    function that makes it, at the top of a module that they can import: it is called once in each process.
     `states` (wearer string, state binary): what wearers begin with where the checkpoint is new.
     """
-    keyed = rows.select(f.coalesce("wearer", f.lit("")).alias("key"), *SENT_COLUMNS).groupBy("key")
+    if "value" in rows.columns:
+        rows = rows.select(_text("key"), "value")
+    else:
+        columns = [_text(name) if kind is str else name for name, kind in SENT_COLUMNS.items()]
+        rows = rows.select(_text("wearer").alias("key"), *columns)
+    keyed = rows.fillna("", ["key"]).groupBy("key")
     begin = None if states is None else states.groupBy("wearer")
     return keyed.transformWithState(Gait(fleet), TOLD_SCHEMA, "Append", timeMode="None", initialState=begin)
 
 
-def from_lines(lines: DataFrame) -> DataFrame:
-    """Rows for `gait` from lines of JSON (solepath.fleet.sent_line) in a column `value`, as Kafka has it."""
-    sent = f.from_json(f.col("value").cast("string"), SENT_SCHEMA.replace("data binary", "data string"))
-    return lines.select(sent.alias("sent")).select("sent.*").withColumn("data", f.unhex("data"))
+def _text(name: str) -> Column:
+    # what is no UTF-8 would end the worker, and with it the job, each time that it was started
+    return f.make_valid_utf8(f.col(name).cast("string")).alias(name)
 
 
 class Gait(StatefulProcessor):
@@ -77,10 +79,17 @@ class Gait(StatefulProcessor):
     def handleInputRows(self, key: Any, rows: Iterable[Row], timerValues: TimerValues) -> Iterator[Row]:
         known = self._state.get()
         # the shuffle brings the rows of a batch in any order; the fleet's window is for what another batch brings
-        sent = sorted([read_sent(row.asDict()) for row in rows], key=_place)
+        sent = sorted(chain.from_iterable(map(_read, rows)), key=_place)
         state, told = self._step(key[0], None if known is None else bytes(known[0]), sent)
         self._state.update((state,))
         return (Row(**told_row(one)) for one in told)
+
+
+def _read(row: Row) -> list[Sent | Unreadable]:
+    if "value" not in row:
+        return [read_sent(row.asDict())]
+    lines = bytes(row.value or b"").splitlines()
+    return [*map(read_line, lines)] if len(lines) <= MOST_LINES else [Unreadable("", f"{len(lines)} lines at once")]
 
 
 _made = lru_cache(lambda make: make())
@@ -88,12 +97,3 @@ _made = lru_cache(lambda make: make())
 
 def _place(sent: Sent | Unreadable) -> tuple[int, int]:
     return sent.run, -1 if sent.number is None else sent.number
-
-
-def committed(directory: str | Path) -> list[Path]:
-    """The files in a local `directory` of Spark's file sink that hold finished batches: what a reader other than Spark
-    is to open. Each event is in them once. Empty before the first batch ends."""
-    log = {int(path.stem): path for path in Path(directory).glob("_spark_metadata/[0-9]*")}
-    whole = max([number for number, path in log.items() if path.suffix == ".compact"], default=-1)
-    lines = [line for number in sorted(log) if number >= whole for line in log[number].read_text().splitlines()[1:]]
-    return [Path(unquote(urlsplit(json.loads(line)["path"]).path)) for line in lines]
