@@ -23,8 +23,8 @@ from bytewax.recovery import RecoveryConfig, init_db_dir
 from bytewax.testing import TestingSink, TestingSource, cluster_main, run_main
 
 from sites import RECIPES, mixed, site
-from solepath.fleet import Fleet, Keyed, Refusal, Sent, StateRefused, Told, Unreadable
-from solepath.fleet.bytewax import gait
+from solepath.fleet import End, Fleet, Keyed, Refusal, Sent, StateRefused, Tick, Told, Unreadable
+from solepath.fleet.bytewax import gait, purge
 from solepath.session import Session
 from solepath.types import Packet, Site
 
@@ -106,6 +106,36 @@ def test_what_was_sent_may_come_in_lists_and_sessions_are_put_away_while_nothing
     assert left and set(left) == {0}
 
 
+def test_who_has_ended_is_forgotten_after_a_while_though_the_job_stopped_in_between_and_nobody_else_is(
+    tmp_path: Path,
+) -> None:
+    init_db_dir(tmp_path, 1)
+    store, before = RecoveryConfig(str(tmp_path), timedelta(0)), []
+    pauses = [TestingSource.PAUSE(timedelta(milliseconds=5))] * 40
+
+    def sent(wearer: str, number: int, what: Tick | End, run: int = 0) -> tuple[str, Sent]:
+        return wearer, Sent(wearer, number, what, run)
+
+    def run(items: list[Any], forget: timedelta | None) -> set[str]:
+        """Of whom the store has a state then."""
+        run_main(job([*before, *items, *pauses], [], forget=forget), epoch_interval=OFTEN, recovery_config=store)
+        before.extend(items)
+        with closing(sqlite3.connect(tmp_path / "part-0.sqlite3")) as parts:
+            rows = parts.execute("SELECT state_key FROM snaps WHERE step_id LIKE '%gait%' AND ser_change NOT NULL")
+            return {wearer for (wearer,) in rows}
+
+    began = [sent(wearer, 0, Tick(1.0)) for wearer in ("ended", "silent", "again")]
+    ended = [sent(wearer, 1, End()) for wearer in ("ended", "again")]
+    again, more = (sent("again", number, Tick(2.0 + number), run=1) for number in (0, 1))
+    assert run([*began, *ended], None) == {"ended", "silent", "again"}
+    assert run([again], timedelta(hours=1)) == {"ended", "silent", "again"}
+    assert run([more], timedelta(milliseconds=1)) == {"silent", "again"}
+    assert b"ended" in (tmp_path / "part-0.sqlite3").read_bytes()
+    purge(tmp_path)
+    assert not any(b"ended" in path.read_bytes() for path in tmp_path.iterdir())
+    assert run([*began, *ended], timedelta(hours=1)) == {"ended", "silent", "again"}
+
+
 def living() -> int:
     """Wearers whose sessions are in memory."""
     return sum([isinstance(one, Keyed) for one in gc.get_objects()])
@@ -149,9 +179,9 @@ def test_states_that_cannot_go_on_are_told_and_begin_afresh_and_the_others_go_on
     with closing(sqlite3.connect(tmp_path / "part-0.sqlite3")) as kept, kept:
         state = "FROM snaps WHERE step_id LIKE '%gait%' AND state_key"
         (newest,) = kept.execute(f"SELECT ser_change {state} = 'limping' ORDER BY snap_epoch DESC").fetchone()
-        new = {"limping": of_a_version_to_come(pickle.loads(newest)), "whole": b"\x00" * 90}
+        new = {"limping": of_a_version_to_come(pickle.loads(newest)[0]), "whole": b"\x00" * 90}
         for wearer, spoiled in new.items():
-            kept.execute("UPDATE snaps SET ser_change = ? WHERE state_key = ?", (pickle.dumps(spoiled), wearer))
+            kept.execute("UPDATE snaps SET ser_change = ? WHERE state_key = ?", (pickle.dumps((spoiled, None)), wearer))
     run_main(flow, recovery_config=store)
     whole = [one for wearer, one in told if wearer == "whole"][len(before["whole"]) :]
     found = by_wearer(one for one in told if one[0] != "whole")

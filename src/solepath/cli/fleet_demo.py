@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import shutil
+import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -128,7 +129,8 @@ def _check(options: argparse.Namespace) -> None:
     if options.processes > options.wearers:
         raise Failure(f"--processes {options.processes}: there are only {options.wearers} wearers")
     if any(find_spec(name) is None for name in ("bytewax", "pyarrow")):
-        raise Failure("the fleet needs bytewax and pyarrow: pip install 'solepath[bytewax]'")
+        where = "" if sys.version_info < (3, 13) else " on Python 3.11 or 3.12, the last that bytewax has a release for"
+        raise Failure(f"the fleet needs bytewax and pyarrow: pip install 'solepath[bytewax]'{where}")
     if options.out is not None and options.out.exists() and (not options.out.is_dir() or any(options.out.iterdir())):
         raise Failure(f"{options.out} is there already, and not an empty directory")
     if options.json is not None:

@@ -11,64 +11,52 @@ wearer and the sink at the same place. So the files hold each event once, when t
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from datetime import UTC, datetime, timedelta
-from functools import partial
-from itertools import chain
+import sqlite3
+from contextlib import closing
+from datetime import timedelta
 from pathlib import Path
 from typing import Any
 
-from attrs import define, field, frozen
+from attrs import field, frozen
 from bytewax import operators
 from bytewax.dataflow import operator
-from bytewax.operators import KeyedStream, StatefulBatchLogic
+from bytewax.operators import KeyedStream
 from bytewax.outputs import FixedPartitionedSink, StatefulSinkPartition
 
+from .bytewax_wearer import Wearer
 from .fleet import Fleet
-from .keyed import Keyed
 from .parquet import Parts
 from .sent import Told
 
 
 @operator
-def gait(step_id: str, up: KeyedStream[Any], fleet: Fleet, idle: timedelta | None = None) -> KeyedStream[Told]:
+def gait(
+    step_id: str, up: KeyedStream[Any], fleet: Fleet, idle: timedelta | None = None, forget: timedelta | None = None
+) -> KeyedStream[Told]:
     """What the sessions of a fleet tell of what phones sent, wearer by wearer.
 
-    `up`: keyed by the wearer's name; Sent and Unreadable, one at a time or in lists. Its state in the recovery store is
-    that of Fleet.step. After a restart a session is made again when its wearer is heard of again. `idle`: the session
-    of who sent nothing for so long is put away as bytes until then, which changes memory and not a single event.
+    `up`: keyed by the wearer's name; Sent and Unreadable, one at a time or in lists. In the recovery store is the state
+    of Fleet.step, and when a wearer who has ended was last heard of. After a restart a session is made again when its
+    wearer is heard of again. `idle`: the session of who sent nothing for so long is put away as bytes until then, which
+    changes memory and not a single event. `forget`: the state of who has ended, and sent nothing for so long, on the
+    engine's clock and over restarts, is thrown away. It keeps late copies from beginning anything: one that comes after
+    that begins the wearer anew, with events that are numbered from 0 again. bytewax keeps the name (see `purge`).
     """
     named = operators.map("named", up, lambda item: (item[0], item))  # bytewax tells a logic no key
-    return operators.stateful_batch("sessions", named, partial(_Wearer, fleet, idle))
+    return operators.stateful_batch("sessions", named, lambda kept: Wearer(fleet, idle, forget, *kept or (None, None)))
 
 
-@define
-class _Wearer(StatefulBatchLogic[tuple[str, Any], Told, bytes | None]):
-    """One wearer: a session, or its state as bytes, or both while they are the same."""
-
-    fleet: Fleet
-    idle: timedelta | None
-    state: bytes | None
-    keyed: Keyed | None = None
-
-    def on_batch(self, values: list[tuple[str, Any]]) -> tuple[Iterable[Told], bool]:
-        keyed = self.keyed = self.keyed or self.fleet.open(values[0][0], self.state)
-        self.state = None
-        told = [keyed.feed(sent if isinstance(sent, list | tuple) else [sent]) for _, sent in values]
-        return list(chain.from_iterable(told)), self.RETAIN
-
-    def notify_at(self) -> datetime | None:
-        return None if self.idle is None or self.keyed is None else datetime.now(UTC) + self.idle
-
-    def on_notify(self) -> tuple[Iterable[Told], bool]:
-        self.snapshot()
-        self.keyed = None
-        return [], self.RETAIN
-
-    def snapshot(self) -> bytes | None:
-        if self.state is None and self.keyed is not None:
-            self.state = self.keyed.state()
-        return self.state
+def purge(store: str | Path) -> None:
+    """Take who was forgotten out of the recovery store of a job that does not run: bytewax keeps their names for ever,
+    and SQLite what was written over. What bytewax still counts on stays; run the job with `-b 0`, or that is all."""
+    for path in sorted(Path(store).glob("part-*.sqlite3")):
+        with closing(sqlite3.connect(path)) as kept:
+            kept.execute(
+                "DELETE FROM snaps AS gone WHERE ser_change IS NULL AND NOT EXISTS (SELECT 1 FROM snaps WHERE "
+                "step_id = gone.step_id AND state_key = gone.state_key AND snap_epoch < gone.snap_epoch)"
+            )
+            kept.commit()
+            kept.execute("VACUUM")
 
 
 @frozen
