@@ -1,7 +1,8 @@
 """What a session's state takes: `python tests/bench/packed.py [--fields N]`. Prints tables; asserts nothing.
 
 A session is packed every 50 packets of a walk; then all these sessions are unpacked, and packed, one after the other,
-as an engine does with those of many wearers. Times are the processor's, the garbage collector off meanwhile.
+as an engine does with those of many wearers. Times are the processor's, in microseconds, the garbage collector off
+meanwhile.
 `--fields N` also says which N fields take the most bytes, at the end.
 """
 
@@ -10,10 +11,12 @@ from __future__ import annotations
 import argparse
 import gc
 import json
+import os
+import platform
 from collections import Counter
 from collections.abc import Callable
 from functools import partial
-from statistics import mean, quantiles
+from statistics import mean, median, quantiles
 from time import thread_time
 from typing import Any
 
@@ -55,15 +58,9 @@ def microseconds(work: Callable[[], Any]) -> tuple[Any, float]:
     return given, took
 
 
-def told(values: list[float]) -> str:
-    """Mean, 95th percentile and the largest."""
-    return f"{mean(values):8.0f} {quantiles(values, n=20, method='inclusive')[-1]:8.0f} {max(values):8.0f}"
-
-
-def timed(values: list[float]) -> str:
-    """Median and 95th percentile."""
-    cut = quantiles(values, n=20, method="inclusive")
-    return f"{cut[9]:8.0f} {cut[-1]:8.0f}"
+def nearly_most(values: list[float]) -> float:
+    """95 % are below it."""
+    return quantiles(values, n=20, method="inclusive")[-1]
 
 
 def walked(name: str) -> Session:
@@ -74,22 +71,33 @@ def walked(name: str) -> Session:
         session.feed(packet)
         if i % EVERY == 0:
             moments.append(session.pack())
-    print(f"{name:36} {told([len(data) for data in moments])}", end="")
-    show(moments, partial(Session.unpack, recipe=recipe), Session.pack)
+    show(name, moments, partial(Session.unpack, recipe=recipe), Session.pack)
     texts = [json.dumps(Session.unpack(data, recipe).snapshot()) for data in moments[::10]]
-    print(f"{'  as JSON':36} {told([len(text) for text in texts])}", end="")
-    show(texts, lambda text: Session.restore(json.loads(text)), lambda one: json.dumps(one.snapshot()))
+    show("  as JSON", texts, lambda text: Session.restore(json.loads(text)), lambda one: json.dumps(one.snapshot()))
     return session
 
 
-def show(moments: list[Any], load: Callable[[Any], Session], save: Callable[[Session], Any]) -> None:
-    """How long all of them take, one after the other; after a round that is not counted."""
+COLUMNS = (
+    "bytes, mean", "bytes, most", "pack, median", "pack, 95 %", "pack, most", "unpack, median", "unpack, 95 %",
+)  # fmt: skip
+
+
+def show(name: str, moments: list[Any], load: Callable[[Any], Session], save: Callable[[Session], Any]) -> None:
+    """Prints how large they are, and how long all of them take, one after the other; after a round that is not
+    counted."""
     for _ in range(2):
         loaded = [microseconds(partial(load, saved)) for saved in moments]
         packed = [microseconds(partial(save, session)) for session, _ in loaded]
     if [saved for saved, _ in packed] != moments:
-        print("   NOT THE SAME AGAIN", end="")
-    print(f"   {timed([took for _, took in packed])}   {timed([took for _, took in loaded])}")
+        raise SystemExit(f"{name}: what was unpacked is packed in other bytes")
+    sizes, packing, unpacking = [len(saved) for saved in moments], [took for _, took in packed], [t for _, t in loaded]
+    told = (
+        *(mean(sizes), max(sizes)),
+        *(median(packing), nearly_most(packing), max(packing)),
+        *(median(unpacking), nearly_most(unpacking)),
+    )
+    cells = [f"{value:{len(column)}.0f}" for column, value in zip(COLUMNS, told, strict=True)]
+    print(f"{name:34}  " + "  ".join(cells), flush=True)
 
 
 # --- where the bytes are ----------------------------------------------------------------------------------------------
@@ -160,7 +168,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fields", type=int, default=0, metavar="N")
     arguments = parser.parse_args()
-    print(f"{'':36} {'bytes: mean, 95 %, largest':>26}   {'pack, us: 50, 95 %':>17}   {'unpack: 50, 95 %':>17}")
+    print(
+        f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores, one used; bytes of a state, "
+        "us to pack and unpack"
+    )
+    print(f"{'':34}  " + "  ".join(COLUMNS))
     for name in WALKS:
         session = walked(name)
         if arguments.fields:
