@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import pickle
 import struct
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from copy import copy, deepcopy
 from typing import Any
 
 import pytest
-from attrs import evolve
+from attrs import astuple, evolve, frozen
 
 import toys
 from fleets import WEARER, stepped, walked
 from solepath import Calibration, CalibrationError, recipes
 from solepath.calibration import ShoeGeometry
-from solepath.fleet import Fleet, Sent, Told, Unreadable, WearerFailed
+from solepath.fleet import End, Fleet, Sent, Tick, Told, Unreadable, WearerFailed
 from solepath.link.driver import Reading
 from solepath.session import Session
 from solepath.sim.building import BUILDING
@@ -127,3 +128,44 @@ def test_what_is_sent_and_told_can_be_sent_between_workers() -> None:
     _, told = FLEET.step(WEARER, None, walked().sent[:350])
     both: list[Sent | Told | Unreadable] = [*walked().sent[:10], *told, Unreadable(WEARER, "no JSON", 1, 2)]
     assert pickle.loads(pickle.dumps(both)) == both
+
+
+@frozen
+class Located(Packet):
+    """A packet that says more."""
+
+    where: str = "gym"
+
+
+@frozen
+class Ward(Sent):
+    bed: int = 7
+
+
+class Pause(Tick):
+    """A tick of another name."""
+
+
+class Off(End):
+    """An end of another name."""
+
+
+@pytest.mark.parametrize("again", [copy, deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
+def test_a_copy_of_what_an_app_made_of_a_packet_is_what_the_app_made(again: Callable[[Any], Any]) -> None:
+    packet = walked().sent[0].what
+    located = Located(packet.t, packet.site, packet.channel, packet.data, where="hall")
+    for one in (packet, located, Sent(WEARER, 0, packet), Ward(WEARER, 0, located, bed=3)):
+        assert again(one) == one and type(again(one)) is type(one)
+        assert again(one) is not one
+
+
+def test_packets_ticks_and_ends_of_classes_of_an_apps_own_are_used_as_what_they_are() -> None:
+    sent = [*walked().sent[:200], Sent(WEARER, 200, Tick(90.0)), Sent(WEARER, 201, End())]
+    own: list[Any] = [Located(*astuple(one.what, recurse=False)) for one in sent[:200]]
+    own = [Ward(WEARER, number, what) for number, what in enumerate([*own, Pause(90.0), Off()])]
+    fleet = Fleet()
+    expected = fleet.step(WEARER, None, sent)
+    assert fleet.step(WEARER, None, own) == expected
+    state, told = fleet.step(WEARER, None, own[1:])  # held, for want of the first
+    after, rest = fleet.step(WEARER, state, own[:1])
+    assert (after, [*told, *rest]) == expected

@@ -6,13 +6,16 @@ from functools import cache
 from typing import Any
 
 import pytest
+from attrs import define
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from signed import signed
-from solepath import Session, SnapshotError
+from solepath import Foot, Session, SnapshotError
 from solepath.packing.form import HEADER
+from solepath.packing.reading import readers
 from solepath.packing.records import own_classes, own_shape, shape
+from solepath.packing.shape import shape_of
 from solepath.packing.streams import from_bytes, to_bytes
 from solepath.packing.tree import Streams, from_tree, to_tree
 from walks import machines
@@ -110,6 +113,38 @@ def test_other_versions_forms_and_shapes_are_refused_by_name() -> None:
             Session.unpack(signed(HEADER.pack(magic, *header, check) + body))
 
 
+def test_what_is_left_over_in_any_of_the_streams_is_refused() -> None:
+    floats, ints, flags, data = from_bytes(memoryview(packed())[HEADER.size :])
+    for more in ([[], [], [], []], [[0.5], [], [], []], [[], [0], [], []], [[], [], [False], []], [[], [], [], [b"x"]]):
+        streams: Any = [floats + more[0], ints + more[1], flags + more[2], [data, *more[3]]]
+        saved = signed(packed()[: HEADER.size] + to_bytes(*streams, (0.0, 0.0)))
+        if any(more):
+            with pytest.raises(SnapshotError, match="more is packed than a session holds"):
+                Session.unpack(saved)
+        else:
+            assert Session.unpack(saved).pack() == packed()
+
+
+def test_a_word_before_the_first_is_none() -> None:
+    """Python would count from the end."""
+    read = readers(shape_of(Worded), own_shape)["Worded"]
+    for k, what in ((0, Foot.LEFT), (1, Foot.RIGHT), (-1, None), (-2, None), (2, None)):
+        streams = Streams([], [k], [], b"")
+        arguments = streams.f, streams.n, streams.m, streams.b, streams.floats, {}
+        if what is not None:
+            assert read(None, *arguments) == Worded(what)
+        else:
+            with pytest.raises((SnapshotError, IndexError)):
+                read(None, *arguments)
+
+
+@define
+class Worded:
+    """A record of one word."""
+
+    foot: Foot
+
+
 # --- numbers and trees ------------------------------------------------------------------------------------------------
 
 _FLOATS = st.one_of(
@@ -130,6 +165,7 @@ _FLOATS = st.one_of(
     st.tuples(_FLOATS, st.sampled_from([0.0, 1.0, 0.05000000074505806])),
 )
 @example([1.5, 1.5, 0.1, 0.1, 0.1, -0.0, 0.1], [-(2**63), 2**63, 2**53, -(2**53)], [], [], (0.0, 0.0))
+@example([], [2**53 - 1, 2**53 + 1, -(2**53) - 1], [], [], (0.0, 0.0))
 @settings(max_examples=100, deadline=None)
 def test_every_number_comes_back_to_the_bit(
     floats: list[float], ints: list[int], flags: list[bool], data: list[bytes], units: tuple[float, float]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any, SupportsIndex
+
 from attrs import frozen
 
 from ..events import Event
@@ -45,8 +47,10 @@ class Sent:
     what: Packet | Tick | End
     run: int = 0
 
-    def __reduce__(self) -> tuple[type[Sent], tuple[str, int, Packet | Tick | End, int]]:
-        return Sent, (self.wearer, self.number, self.what, self.run)  # as Packet's
+    def __reduce_ex__(self, protocol: SupportsIndex) -> str | tuple[Any, ...]:
+        if type(self) is Sent:  # as Packet's
+            return Sent, (self.wearer, self.number, self.what, self.run)
+        return super().__reduce_ex__(protocol)
 
 
 @frozen

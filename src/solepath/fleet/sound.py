@@ -27,17 +27,17 @@ def is_sound(packet: Packet) -> bool:
 def sound(what: object) -> What:
     """What a session takes and a state can hold, or why not."""
     if isinstance(what, Packet):
-        return what if is_sound(what) else _mended(what)
+        return what if type(what) is Packet and is_sound(what) else _mended(what)
     if isinstance(what, Tick):
         t = _number(what.t)
         if t is None:
             return Refused(Refusal.MALFORMED, "a Tick without a time")
         return Tick(t) if -LATEST <= t <= LATEST else Refused(Refusal.NOT_FINITE, f"a Tick at {t:g} s")
-    return what if isinstance(what, End) else Refused(Refusal.MALFORMED, f"a {type(what).__name__}"[:LONGEST_DETAIL])
+    return End() if isinstance(what, End) else Refused(Refusal.MALFORMED, f"a {type(what).__name__}"[:LONGEST_DETAIL])
 
 
 def _mended(packet: Packet) -> What:
-    """Numbers and bytes of other kinds as they are used here."""
+    """Numbers and bytes of other kinds, and packets of an app's own class, as they are used here."""
     t, data = _number(packet.t), packet.data
     if isinstance(data, bytearray | memoryview):
         data = bytes(data)
