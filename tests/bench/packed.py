@@ -169,8 +169,8 @@ def main() -> None:
     parser.add_argument("--fields", type=int, default=0, metavar="N")
     arguments = parser.parse_args()
     print(
-        f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores, one used; bytes of a state, "
-        "us to pack and unpack"
+        f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores, one used; bytes of "
+        "a state, us to pack and unpack"
     )
     print(f"{'':34}  " + "  ".join(COLUMNS))
     for name in WALKS:
