@@ -8,7 +8,7 @@ import shutil
 import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +21,8 @@ DIFFERS = 1
 """Exit status when the events of two runs differ."""
 LONGEST = 3600.0
 """s of walking."""
+WALKED, LEAST, MOST = 1200.0, 4.0, 20.0
+"""s of walking of all wearers, and the least and the most of each, where nobody says how long."""
 
 
 def add_to(commands: Any) -> None:
@@ -36,7 +38,11 @@ def add_to(commands: Any) -> None:
     command.add_argument("--wearers", metavar="N", type=count, default=100, help="how many wearers (default: 100)")
     command.add_argument("--kills", metavar="K", type=seed, default=3, help="how many kills (default: 3)")
     command.add_argument(
-        "--seconds", metavar="S", type=positive, default=4.0, help="how long each wearer walks (default: 4)"
+        "--seconds",
+        metavar="S",
+        type=positive,
+        help=f"how long each wearer walks (default: {LEAST:g} for {WALKED / LEAST:.0f} wearers and more, up to "
+        f"{MOST:g} for fewer)",
     )
     command.add_argument("--recipe", metavar="NAME", default="default", help="recipe of the sessions")
     command.add_argument("--seed", metavar="X", type=seed, default=1, help="other wearers, other kills (default: 1)")
@@ -63,7 +69,8 @@ def run(options: argparse.Namespace) -> int:
     from ..fleet.demo.wearers import Plan
     from .loop import stopped_alike
 
-    plan = Plan(options.wearers, options.seconds, options.seed, options.recipe, options.processes)
+    seconds = options.seconds or min(max(WALKED / options.wearers, LEAST), MOST)
+    plan = Plan(options.wearers, seconds, options.seed, options.recipe, options.processes)
     with stopped_alike(), _directory(options) as directory:
         stage = Stage(directory, plan)
         try:
@@ -75,22 +82,28 @@ def run(options: argparse.Namespace) -> int:
 
 def play(stage: Stage, kills: int, *, keep: bool) -> list[str]:
     """All runs, told as they end; what differed between an uninterrupted one and the sessions alone."""
-    from .fleet_table import of_kills
+    from .fleet_table import of_kills, of_worth
 
     plan = stage.plan
     stage.prepare()
     print(
-        f"{plan.wearers} wearers walk {plan.seconds:g} s each: {sum(stage.samples)} samples. {stage.poisoned} of them "
-        "send any bytes."
+        f"{_counted(plan.wearers, 'wearer walks', 'wearers walk')} {plan.seconds:g} s: {sum(stage.samples)} samples; "
+        f"{_counted(stage.gapped, 'loses', 'lose')} some of what is sent for good, "
+        f"{_counted(stage.poisoned, 'sends', 'send')} any bytes"
     )
-    engine = stage.uninterrupted()
-    print(f"uninterrupted: {engine.whole:.1f} s, {engine.events} events in {engine.files} files", flush=True)
     stage.bare()
+    engine = stage.uninterrupted()
+    print(
+        f"uninterrupted: {engine.whole:.1f} s, {engine.events} events in {engine.files} files, a snapshot every "
+        f"{engine.every:.2g} s",
+        flush=True,
+    )
     differences = stage.compare()
     print(f"sessions alone: {'other' if differences else 'the same'} events", flush=True)
     for number, outcome in enumerate(stage.killed(kills, keep=keep), 1):
         for line in of_kills(engine, number, outcome):
             print(line, flush=True)
+    print(of_worth(stage.outcomes))
     return differences
 
 
@@ -104,6 +117,10 @@ def conclude(stage: Stage, differences: list[str], out: Path | None, json: Path 
     if out is not None:
         _leave(stage, out)
     return verdict(differences, [outcome.differences for outcome in stage.outcomes])
+
+
+def _counted(count: int, one: str, many: str) -> str:
+    return f"{count} {one if count == 1 else many}"
 
 
 def verdict(alone: list[str], killed: list[list[str]]) -> int:
@@ -122,12 +139,12 @@ def _check(options: argparse.Namespace) -> None:
     from ..recipes import BY_NAME
 
     known_recipe(options.recipe, list(BY_NAME))
-    if options.seconds > LONGEST:
+    if options.seconds is not None and options.seconds > LONGEST:
         raise Failure(f"--seconds {options.seconds:g}: {LONGEST:g} is the most")
-    if options.seconds < 1.0:
+    if options.seconds is not None and options.seconds < 1.0:
         raise Failure(f"--seconds {options.seconds:g}: a walk takes at least 1")
     if options.processes > options.wearers:
-        raise Failure(f"--processes {options.processes}: there are only {options.wearers} wearers")
+        raise Failure(f"--processes {options.processes}: more than there are wearers, {options.wearers}")
     if any(find_spec(name) is None for name in ("bytewax", "pyarrow")):
         where = "" if sys.version_info < (3, 13) else " on Python 3.11 or 3.12, the last that bytewax has a release for"
         raise Failure(f"the fleet needs bytewax and pyarrow: pip install 'solepath[bytewax]'{where}")
@@ -140,6 +157,7 @@ def _check(options: argparse.Namespace) -> None:
 @contextmanager
 def _directory(options: argparse.Namespace) -> Iterator[Path]:
     """Where the runs are; thrown away at the end unless it is to be kept."""
+    made = options.out is not None and not options.out.exists()
     if options.out is not None:
         options.out.mkdir(parents=True, exist_ok=True)
         directory = options.out.resolve() / "runs"
@@ -153,6 +171,9 @@ def _directory(options: argparse.Namespace) -> Iterator[Path]:
             print(f"what the runs wrote is in {directory}")
         else:
             shutil.rmtree(directory, ignore_errors=True)
+            if made:
+                with suppress(OSError):  # there is something in it
+                    directory.parent.rmdir()
 
 
 def _write(path: Path, figures: dict[str, Any]) -> None:

@@ -14,17 +14,35 @@ if TYPE_CHECKING:
 def of_kills(engine: Engine, run: int, outcome: Outcome) -> list[str]:
     """A line for each kill of a run, the last with what became of the run."""
     lines = [f"killed run {run}: {_met(engine, cost)}" for cost in outcome.costs]
-    lines[-1] += "; other events" if outcome.differences else "; the same events"
+    if outcome.differences:
+        lines[-1] += "; other events"
+    elif any(cost.told for cost in outcome.costs):
+        lines[-1] += "; the same events"
+    else:
+        lines[-1] += "; nothing was lost that had to come back"
     return lines
+
+
+def of_worth(outcomes: list[Outcome]) -> str:
+    """What the kills were worth."""
+    costs = [cost for outcome in outcomes for cost in outcome.costs]
+    if not costs:
+        return "nothing was killed"
+    replayed, reopened = sum(bool(cost.replayed) for cost in costs), sum(cost.reopened > 0 for cost in costs)
+    found = f"of {len(costs)} kills {replayed} had something read again, and {reopened} had wearers go on from states"
+    if not reopened:
+        return f"{found}: so no state was tried. Let them walk longer (--seconds) or kill more often (--kills)."
+    return found
 
 
 def _met(engine: Engine, cost: Cost) -> str:
     who = "all processes" if cost.kill.which is None else f"process {cost.kill.which}"
     where = f"with {100 * cost.reached:.0f} % read" if cost.started else "while it started"
     if cost.replayed is None or cost.down is None:
-        return f"{who} after {cost.kill.after:.1f} s, {where}; the next kill came before anything was read again"
+        return f"{who}, {where}; the next kill came before all of it read on"
     replayed = cost.replayed * engine.seconds
-    return f"{who} after {cost.kill.after:.1f} s, {where}; reads on {cost.down:.1f} s later, {replayed:.1f} s replayed"
+    on = f"reads on {cost.down:.1f} s later, {replayed:.1f} s replayed"
+    return f"{who}, {where}; {on}, {cost.reopened} went on from their states"
 
 
 def table_of(stage: Stage) -> str:
@@ -33,6 +51,7 @@ def table_of(stage: Stage) -> str:
     engine, bare, kills = found["engine"], found["sessions"], found["kills"]
     costs = [kill for kill in kills if kill["replayed"] is not None]
     equal = sum(run["equal"] for run in found["runs"])
+    again, reopened = (sum(bool(kill[key]) for kill in kills) for key in ("replayed", "reopened"))
     replayed, down = ([kill[key] for kill in costs] for key in ("replayed", "down"))
     rows = [
         ["wearers", str(found["wearers"])],
@@ -40,15 +59,19 @@ def table_of(stage: Stage) -> str:
         [f"samples/s through the engine, {found['processes']} processes", number(engine["rate"], 0)],
         ["samples/s by as many processes of sessions alone", number(bare["rate"], 0)],
         ["the one by the other, %", percent(found["ratio"], 0)],
+        ["s between two snapshots", number(engine["every"], 2)],
+        ["snapshots while it read", str(engine["snapshots"])],
         ["memory in all, MB", number(_scaled(engine["memory"], 1e-6), 0)],
-        ["memory a wearer, kB, the engine's own with it", number(_scaled(engine["wearer"], 1e-3), 0)],
-        ["state a wearer, kB: mean", number(bare["state"] / 1e3, 1)],
-        ["state a wearer, kB: largest", number(bare["largest"] / 1e3, 1)],
-        ["of that the session, kB: largest", number(bare["session"] / 1e3, 1)],
+        ["memory a wearer, kB", number(_scaled(engine["wearer"], 1e-3), 0)],
+        ["state a wearer, nothing held, kB: mean", number(bare["state"] / 1e3, 1)],
+        ["state a wearer, nothing held, kB: largest", number(bare["largest"] / 1e3, 1)],
+        ["state with rows held behind a missing one, kB: largest", number(_scaled(bare["held"], 1e-3), 1)],
         ["state taken in, us: median", number(bare["snapshot"] * 1e6, 0)],
         ["events", str(engine["events"])],
         ["files", str(engine["files"])],
         ["kills", str(len(kills))],
+        ["of them with something read again", str(again)],
+        ["of them with wearers who went on from states", str(reopened)],
         ["s replayed after a kill: mean", number(_mean(replayed), 1)],
         ["s replayed after a kill: most", number(max(replayed, default=None), 1)],
         ["s until it read on: mean", number(_mean(down), 1)],
@@ -65,16 +88,17 @@ def figures(stage: Stage) -> dict[str, Any]:
         raise ValueError("nothing has run yet")
     samples = sum(stage.samples)
     rate = samples / engine.seconds
-    wearer = None if engine.full is None or engine.empty is None else (engine.full - engine.empty) / plan.wearers
     kills = [
         {
             "run": number,
+            "share": cost.kill.share,
             "after": cost.kill.after,
             "process": cost.kill.which,
             "started": cost.started,
             "read": cost.reached,
             "replayed": None if cost.replayed is None else cost.replayed * engine.seconds,
             "down": cost.down,
+            "reopened": cost.reopened,
         }
         for number, outcome in enumerate(stage.outcomes, 1)
         for cost in outcome.costs
@@ -90,9 +114,11 @@ def figures(stage: Stage) -> dict[str, Any]:
             "rate": rate,
             "seconds": engine.seconds,
             "whole": engine.whole,
+            "every": engine.every,
+            "snapshots": engine.snapshots,
             "cpu": engine.cpu,
             "memory": engine.full,
-            "wearer": wearer,
+            "wearer": stage.memory,
             "events": engine.events,
             "files": engine.files,
         },
@@ -100,7 +126,7 @@ def figures(stage: Stage) -> dict[str, Any]:
             "rate": bare.rate,
             "state": bare.state,
             "largest": bare.largest,
-            "session": bare.session,
+            "held": bare.held,
             "snapshot": bare.snapshot,
         },
         "ratio": rate / bare.rate,

@@ -64,14 +64,14 @@ def _through(recipe: Recipe, heard: list[What]) -> tuple[float, float, list[Even
 
 
 def _states(fleet: Fleet, wearer: Wearer) -> list[tuple[int, int, float]]:
-    """Bytes of the wearer's state after each bundle, of the session in it, and s that it took to take it."""
+    """Bytes of the wearer's state after each bundle, rows that are held in it, and s that it took to take it."""
     keyed, found = fleet.open(wearer.name, None), []
     for number in range(len(wearer.sending.bundles)):
         keyed.feed(wearer.bundle(number))
         began = perf_counter()
         state = keyed.state()
         seconds = perf_counter() - began
-        found.append((len(state), len(read_rest(state).session or b""), seconds))
+        found.append((len(state), len(read_rest(state).held), seconds))
     return found
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections import Counter
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, get_args
 
@@ -13,6 +15,7 @@ from pyarrow import parquet
 from ...events.fleet import FleetEvent
 from ...recording import printable
 from ..parquet import SCHEMA
+from .sending import Remark
 
 NAMED = 3
 """Differences that are told."""
@@ -55,8 +58,7 @@ def differences(expected: pa.Table, found: pa.Table) -> list[str]:
 
 def of_sessions(told: pa.Table) -> pa.Table:
     """What sessions said, without what only a fleet says, each wearer's events numbered as they come."""
-    own = pa.array([kind.__name__ for kind in get_args(FleetEvent)])
-    kept = told.filter(pc.invert(pc.is_in(told["event"], own)))
+    kept = told.filter(pc.invert(_of_fleet(told)))
     numbers: list[int] = []
     last, number = None, 0
     for wearer in kept["wearer"].to_pylist():
@@ -64,6 +66,32 @@ def of_sessions(told: pa.Table) -> pa.Table:
         last = wearer
         numbers.append(number)
     return kept.set_column(SCHEMA.get_field_index("number"), SCHEMA.field("number"), pa.array(numbers, pa.int64()))
+
+
+def remarked(expected: Mapping[str, Iterable[Remark]], told: pa.Table) -> list[str]:
+    """What only a fleet says, beside what is expected of it, by wearer: the first few that are missing or were not
+    expected, a sentence each."""
+    wanted = Counter((wearer, remark) for wearer, remarks in expected.items() for remark in remarks)
+    got = Counter((row["wearer"], _remark(row)) for row in told.filter(_of_fleet(told)).to_pylist())
+    wrong = [(*one, "is missing") for one in (wanted - got).elements()]
+    wrong += [(*one, "was not expected") for one in (got - wanted).elements()]
+    lines = sorted(
+        f"{wearer}, {one.event} ({one.why}) of run {one.run}, number {one.number} {what}" for wearer, one, what in wrong
+    )
+    more = [f"and {len(lines) - NAMED} more"] if len(lines) > NAMED else []
+    return [*map(printable, lines[:NAMED]), *more]
+
+
+def _remark(row: dict[str, Any]) -> Remark:
+    fields = json.loads(row["fields"])
+    if row["event"] == "NumbersMissing":
+        return Remark(row["event"], fields["run"], fields["first"], fields["count"])
+    return Remark(row["event"], fields.get("run"), fields.get("number"), fields.get("reason", fields.get("detail", "")))
+
+
+def _of_fleet(told: pa.Table) -> Any:
+    """Which of the rows only a fleet says."""
+    return pc.is_in(told["event"], pa.array([kind.__name__ for kind in get_args(FleetEvent)]))
 
 
 def holes(told: pa.Table) -> list[str]:

@@ -1,8 +1,9 @@
 """The job of the demonstration, as an engine runs it:
 
-    python -m bytewax.run "solepath.fleet.demo.job:flow('STAGE/RUN')" -r STAGE/RUN/recovery -s 1 -b 0
+    python -m solepath.fleet.demo.job STAGE/RUN SECONDS [NUMBER ADDRESS ADDRESS ...]
 
-STAGE was prepared (wearers.py); events go to STAGE/RUN/told, and beside it what the run has to say of itself.
+STAGE was prepared (wearers.py); events go to STAGE/RUN/told, and beside it what the run has to say of itself. It is
+`python -m bytewax.run`, which takes whole seconds only between two snapshots (-s), too rare for a short run.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ from __future__ import annotations
 import atexit
 import json
 import os
+import sys
+from datetime import timedelta
 from functools import partial
 from pathlib import Path
 from struct import Struct
@@ -20,17 +23,35 @@ from attrs import asdict, define
 from bytewax import operators
 from bytewax.dataflow import Dataflow
 from bytewax.inputs import FixedPartitionedSource, StatefulSourcePartition
+from bytewax.recovery import RecoveryConfig
+from bytewax.run import cli_main
 
-from .. import Fleet, Sent, Unreadable
+from ...recipes import Recipe
+from .. import keyed
 from ..bytewax import ParquetSink, gait
+from ..fleet import Fleet
+from ..sent import Sent, Unreadable
 from .child import end_with_parent, most_memory, settle
 from .wearers import Wearers
 
 TOLD, RECOVERY = "told", "recovery"
 """Directories of a run."""
+REOPENED = "reopened-"
+"""Files of as many bytes as wearers went on from their states, one for each process."""
 POSITION = Struct("<q")
 
 Keyed = tuple[str, list[Sent | Unreadable]]
+
+
+def main(run: str, every: float, number: int | None, addresses: list[str]) -> None:
+    """One process of the engine. `every`: s between two snapshots. `number`: which of the `addresses` is its own."""
+    cli_main(  # type: ignore[no-untyped-call]
+        flow(run),
+        process_id=number,
+        addresses=addresses or None,
+        epoch_interval=timedelta(seconds=every),
+        recovery_config=RecoveryConfig(Path(run) / RECOVERY, timedelta(0)),  # type: ignore[no-untyped-call]
+    )
 
 
 def flow(run: str) -> Dataflow:
@@ -42,10 +63,10 @@ def flow(run: str) -> Dataflow:
     atexit.register(partial(report.write, home))
     dataflow = Dataflow("fleet_demo")
     sent: Any = operators.input("phones", dataflow, Phones(wearers, home, report))
-    fleet = Fleet(wearers.recipe)
+    fleet = Counted(wearers.recipe, home)
     told = gait("gait", sent, fleet)
     operators.output("files", told, ParquetSink(home / TOLD, wearers.plan.parts))
-    _warm(fleet, wearers)
+    _warm(Fleet(wearers.recipe), wearers)
     settle()
     return dataflow
 
@@ -57,16 +78,33 @@ def _warm(fleet: Fleet, wearers: Wearers) -> None:
         state, _ = fleet.step(first.name, state, first.bundle(number))
 
 
+class Counted(Fleet):
+    """Of the sessions that it opens from bytes it leaves a byte each, for whoever kills this."""
+
+    __slots__ = ("_file",)
+
+    def __init__(self, recipe: Recipe, home: Path) -> None:
+        super().__init__(recipe)
+        self._file = os.open(home / f"{REOPENED}{os.getpid()}", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
+
+    def open(self, wearer: str, state: bytes | None) -> keyed.Keyed:
+        if state is not None:
+            os.write(self._file, b".")
+        return super().open(wearer, state)
+
+
 @define
 class Report:
     """What one process of a run used. `began`, `ended`: s of the system's clock at the first bundle and at the end of
-    the work; `cpu`: s from the one to the other; `empty`, `full`: most memory until the first, and until the second."""
+    the work; `cpu`: s from the one to the other; `empty`, `full`: most memory until the first, and until the second;
+    `snapshots`: of the source while it read."""
 
     began: float | None = None
     ended: float | None = None
     cpu: float = 0.0
     empty: int | None = None
     full: int | None = None
+    snapshots: int = 0
 
     def begin(self) -> None:
         if self.began is None:
@@ -118,7 +156,12 @@ class Part(StatefulSourcePartition[Keyed, int]):
         return [(wearer.name, bundle)] if bundle else []
 
     def snapshot(self) -> int:
+        self._report.snapshots += self._at < self._end
         return self._at
 
     def close(self) -> None:
         os.close(self._reached)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], float(sys.argv[2]), int(sys.argv[3]) if sys.argv[3:] else None, sys.argv[4:])

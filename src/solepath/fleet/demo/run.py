@@ -16,7 +16,7 @@ from attrs import define, field
 from bytewax.recovery import init_db_dir
 
 from ...recording import printable
-from .job import POSITION, RECOVERY, TOLD
+from .job import POSITION, RECOVERY, REOPENED, TOLD
 
 LOOK = 0.005
 """s between two looks whether a process has ended."""
@@ -96,11 +96,11 @@ class Run:
 
     home: Path
     processes: int
-    every: int
+    every: float
     children: Children = field(factory=Children)
 
     @classmethod
-    def begin(cls, home: Path, processes: int, every: int) -> Run:
+    def begin(cls, home: Path, processes: int, every: float) -> Run:
         """A run that has read nothing yet."""
         (home / RECOVERY).mkdir(parents=True)
         init_db_dir(home / RECOVERY, processes)  # type: ignore[no-untyped-call]
@@ -113,11 +113,10 @@ class Run:
 
     def start(self) -> None:
         """Begin, or go on where the last snapshot was taken."""
-        flow = f"solepath.fleet.demo.job:flow({str(self.home)!r})"
-        recovery = ("-r", str(self.home / RECOVERY), "-s", str(self.every), "-b", "0")
+        job = ("solepath.fleet.demo.job", str(self.home), str(self.every))
         self.children = Children()
         for place in _places(self.processes):
-            child = start("bytewax.run", flow, *recovery, *place, home=self.home, log=self.home / "log")
+            child = start(*job, *place, home=self.home, log=self.home / "log")
             self.children.running.append(child)
 
     def finish(self) -> list[dict[str, Any]]:
@@ -156,6 +155,15 @@ class Run:
                 found[int(path.name.partition("-")[2])] = POSITION.unpack(data)[0]
         return found
 
+    def share(self) -> float:
+        """The same as a share of all; 0 before all partitions were opened."""
+        ends = {one["part"]: one["end"] for one in self.began()}
+        return sum(self.reached().values()) / sum(ends.values()) if len(ends) == self.processes else 0.0
+
+    def reopened(self) -> int:
+        """How many wearers went on from their states by now, after all restarts together."""
+        return sum(path.stat().st_size for path in self.home.glob(f"{REOPENED}*"))
+
     def began(self) -> list[dict[str, Any]]:
         """Each time that a partition was opened: its `part`, where it went on (`at`), its `end`, and when (`time`)."""
         path = self.home / "began.jsonl"
@@ -167,8 +175,8 @@ def _places(processes: int) -> list[tuple[str, ...]]:
     """What tells each process of a job where the others are."""
     if processes == 1:
         return [()]
-    addresses = ";".join(f"127.0.0.1:{port}" for port in _free_ports(processes))
-    return [("-i", str(number), "-a", addresses) for number in range(processes)]
+    addresses = [f"127.0.0.1:{port}" for port in _free_ports(processes)]
+    return [(str(number), *addresses) for number in range(processes)]
 
 
 def _free_ports(count: int) -> list[int]:

@@ -12,6 +12,7 @@ from typing import Any
 
 from attrs import frozen
 
+from ...events.fleet import Refusal
 from ...link.decoder import Decoder
 from ...link.known import kinds
 from ...types import Packet, Sample, Site
@@ -21,6 +22,8 @@ LATE, BEHIND = 0.02, 100
 """Share of what is sent that comes late, and how many others may come before it: fewer than the fleet's window."""
 TWICE, AGAIN = 0.02, 400
 """The same of what comes a second time."""
+LOST, TOO_LATE = 12, 400
+"""Rows that are lost for good, and how many may come before one of them comes after all: more than the window."""
 QUIET = 0.25
 """s without a packet after which a phone says what time it is."""
 
@@ -31,12 +34,26 @@ Item = tuple[int, int, What | Row]
 """(which run of the phone, number, what)."""
 
 
+@frozen
+class Remark:
+    """What only a fleet is to say of something that was sent. `run`: which of the phone; None where no place in the
+    order can be read. `number`: of what is refused, or the first that is missing. `why`: the reason of a SentRejected,
+    the count of a NumbersMissing."""
+
+    event: str
+    run: int | None
+    number: int | None
+    why: str | int
+
+
 @frozen(eq=False)
 class Sending:
-    """`bundles`: what arrives, one for each piece of time. `ordered`: what the session is to hear of it, in order."""
+    """`bundles`: what arrives, one for each piece of time. `ordered`: what the session is to hear of it, in order.
+    `remarks`: what the fleet is to say beside."""
 
     bundles: tuple[tuple[Item, ...], ...]
     ordered: tuple[What, ...]
+    remarks: tuple[Remark, ...] = ()
 
 
 def sending(packets: Sequence[Packet], every: float, rng: Random, *, runs: int = 1, ends: bool = False) -> Sending:
@@ -51,14 +68,37 @@ def sending(packets: Sequence[Packet], every: float, rng: Random, *, runs: int =
     return Sending(_bundles(arrived, every), tuple(heard))
 
 
+def gap(packets: Sequence[Packet], every: float, rng: Random) -> Sending | None:
+    """Of a walk of which LOST rows in a row never come, but for one of them, long after it was given up. None where too
+    little comes after them for that."""
+    heard = list(_with_ticks(packets))
+    first = len(heard) // 8
+    end = first + LOST
+    if len(heard) < end + TOO_LATE + BEHIND:
+        return None
+    placed = _disturbed([(n, what) for n, what in enumerate(heard) if not first <= n < end], rng)
+    at = next(place for place, (number, _) in enumerate(placed) if number >= end + TOO_LATE)
+    late = rng.randrange(first, end)
+    placed.insert(at, (late, heard[late]))
+    remarks = (
+        Remark("NumbersMissing", 0, first, LOST),
+        Remark("SentRejected", 0, late, Refusal.LATE.value),
+    )
+    items = [(0, number, what) for number, what in placed]
+    return Sending(_bundles(items, every), tuple([*heard[:first], *heard[end:]]), remarks)
+
+
 def poison(packets: Sequence[Packet], every: float, rng: Random) -> Sending:
     """Any bytes instead of half of a walk's, among rows that are none."""
-    heard, items, number = list[What](), list[Item](), 0
+    heard, items, remarks, number = list[What](), list[Item](), list[Remark](), 0
     for packet in packets:
         drawn = rng.random()
         if drawn < 0.1:
             row = _no_row(packet, number, rng)
-            number += row["number"] == number  # others have no place in the order
+            numbered = row["number"] == number  # others have no place in the order
+            run, place = (0, number) if numbered else (None, None)
+            remarks.append(Remark("SentRejected", run, place, Refusal.UNREADABLE.value))
+            number += numbered
             items.append((0, number, row))
             continue
         if drawn < 0.5:
@@ -68,7 +108,7 @@ def poison(packets: Sequence[Packet], every: float, rng: Random) -> Sending:
         heard.append(packet)
         items.append((0, number, packet))
         number += 1
-    return Sending(_bundles(items, every), tuple(heard))
+    return Sending(_bundles(items, every), tuple(heard), tuple(remarks))
 
 
 def _no_row(packet: Packet, number: int, rng: Random) -> Row:

@@ -16,20 +16,31 @@ from typing import Any
 
 from attrs import define, field, frozen
 
-from .compare import differences, files, holes, of_sessions, read_told
+from .compare import differences, files, holes, of_sessions, read_told, remarked
 from .kills import Outcome, draw, play
 from .run import Children, Run, start
 from .wearers import Plan, Wearers, prepare
+
+SNAPSHOTS = 8
+"""Snapshots in the time that sessions alone take; the engine takes longer."""
+OFTEN, RARELY = 0.1, 10.0
+"""s between two snapshots, at the least and the most. bytewax's own is the most."""
+
+FEW = 500
+"""Among fewer wearers than that, memory that the engine itself takes on the way would count as theirs."""
 
 
 @frozen
 class Engine:
     """An uninterrupted run. `whole`: s with the start of its processes; `seconds`: s from the first bundle to the end;
-    `cpu`: s of the processors meanwhile; `empty`, `full`: memory of all processes before the first bundle and at its
-    most, bytes, None where the system does not say; `events`; `files`."""
+    `every`: s between two snapshots, of which `snapshots` came while it read; `cpu`: s of the processors; `empty`,
+    `full`: memory of all processes before the first bundle and at its most, bytes, None where the system does not say;
+    `events`; `files`."""
 
     whole: float
     seconds: float
+    every: float
+    snapshots: int
     cpu: float
     empty: int | None
     full: int | None
@@ -40,20 +51,21 @@ class Engine:
 @frozen
 class Bare:
     """Sessions alone, in as many processes. `rate`: samples/s of all together; `cpu`: s of the processors. `state`,
-    `largest`: bytes of the state of a wearer in the engine, the mean and the most, with what waits there for what is
-    late; `session`: the most without that; `snapshot`: s that it takes, the median."""
+    `largest`: bytes of the state of a wearer in the engine while nothing is held behind a missing row, the mean and the
+    most; `held`: the most with rows that are held, None where none ever were; `snapshot`: s that it takes, the
+    median."""
 
     rate: float
     cpu: float
     state: float
     largest: int
-    session: int
+    held: int | None
     snapshot: float
 
 
 @define
 class Stage:
-    """`at`: an empty directory. Used in this order: `prepare`, `uninterrupted`, `bare`, then `killed`. RunFailed when a
+    """`at`: an empty directory. Used in this order: `prepare`, `bare`, `uninterrupted`, then `killed`. RunFailed when a
     process ends as it should not have."""
 
     at: Path
@@ -62,6 +74,8 @@ class Stage:
     """Of the wearers of each process."""
     poisoned: int = field(default=0, init=False)
     """Wearers who send any bytes."""
+    gapped: int = field(default=0, init=False)
+    """Wearers who lose something for good."""
     engine: Engine | None = field(default=None, init=False)
     sessions: Bare | None = field(default=None, init=False)
     outcomes: list[Outcome] = field(factory=list, init=False)
@@ -71,7 +85,25 @@ class Stage:
         prepare(self.at, self.plan)
         wearers = Wearers.read(self.at)
         self.samples = [wearers.samples(part) for part in range(self.plan.parts)]
-        self.poisoned = wearers.poisoned
+        self.poisoned, self.gapped = wearers.poisoned, wearers.gapped
+
+    @property
+    def every(self) -> float:
+        """s between two snapshots: as planned, or so many that a run has several, as far as `bare` says how long it
+        takes."""
+        if self.plan.every is not None:
+            return self.plan.every
+        if self.sessions is None:
+            return RARELY
+        return min(max(sum(self.samples) / self.sessions.rate / SNAPSHOTS, OFTEN), RARELY)
+
+    @property
+    def memory(self) -> float | None:
+        """Bytes a wearer, beyond what the processes took before the first; None where nobody says, or for a few."""
+        engine = self.engine
+        if engine is None or engine.full is None or engine.empty is None or self.plan.wearers < FEW:
+            return None
+        return (engine.full - engine.empty) / self.plan.wearers
 
     @property
     def told(self) -> Path:
@@ -81,7 +113,7 @@ class Stage:
     def uninterrupted(self) -> Engine:
         """The job from its start to its end."""
         began = monotonic()
-        run = Run.begin(self.told.parent, self.plan.parts, self.plan.every)
+        run = Run.begin(self.told.parent, self.plan.parts, self.every)
         with closing(run):
             run.start()
             reports = run.finish()
@@ -90,6 +122,8 @@ class Stage:
         self.engine = Engine(
             whole=whole,
             seconds=seconds,
+            every=self.every,
+            snapshots=min(r["snapshots"] for r in reports),
             cpu=sum(r["cpu"] for r in reports),
             empty=_sum(reports, "empty"),
             full=_sum(reports, "full"),
@@ -111,25 +145,31 @@ class Stage:
                 pass
             children.check("the sessions alone", log)
         found = [json.loads((home / f"bare-{part}.json").read_text(encoding="utf-8")) for part in parts]
-        sizes, alone, taken = zip(*(state for one in found for state in one["states"]), strict=True)
+        states = [state for one in found for state in one["states"]]
+        taken = median(seconds for _, _, seconds in states)
+        free, held = ([size for size, waits, _ in states if bool(waits) is holds] for holds in (False, True))
         rate = sum(samples / one["seconds"] for samples, one in zip(self.samples, found, strict=True))
-        self.sessions = Bare(rate, sum(one["cpu"] for one in found), mean(sizes), max(sizes), max(alone), median(taken))
+        cpu = sum(one["cpu"] for one in found)
+        self.sessions = Bare(rate, cpu, mean(free), max(free), max(held, default=None), taken)
         return self.sessions
 
     def compare(self) -> list[str]:
-        """How the uninterrupted run differs from the sessions alone: a sentence each."""
+        """How the uninterrupted run differs from the sessions alone, and from what a fleet is to say beside: a sentence
+        each."""
         engine, sessions = read_told(self.told), read_told(self.at / "sessions" / "told")
-        return [*differences(sessions, of_sessions(engine)), *holes(engine)]
+        expected = {wearer.name: wearer.remarks() for wearer in Wearers.read(self.at).all}
+        return [*differences(sessions, of_sessions(engine)), *remarked(expected, engine), *holes(engine)]
 
     def killed(self, kills: int, *, keep: bool) -> Iterator[Outcome]:
         """So many kills, each followed by a restart, and each run compared with the uninterrupted one at its end.
         `keep`: leave what the runs wrote."""
         engine = self.engine or self.uninterrupted()
         expected = read_told(self.told)
-        planned = draw(kills, engine.whole, self.plan.parts, Random(f"kills {self.plan.seed}"))
+        starting = engine.whole - engine.seconds
+        planned = draw(kills, starting, engine.seconds, self.plan.parts, Random(f"kills {self.plan.seed}"))
         for number, of_run in enumerate(planned, 1):
             home = self.at / f"killed-{number}"
-            outcome = play(partial(Run.begin, home, self.plan.parts, self.plan.every), of_run, expected)
+            outcome = play(partial(Run.begin, home, self.plan.parts, self.every), of_run, expected)
             self.outcomes.append(outcome)
             if not keep:
                 shutil.rmtree(home)

@@ -11,18 +11,20 @@ from itertools import chain
 from pathlib import Path
 from random import Random
 
-from attrs import asdict, define, frozen
+from attrs import asdict, define, evolve, frozen
 
 from ...recipes import BY_NAME, Recipe
 from ...recording import PacketWriter, read_packets
 from ...types import Packet
 from ..rows import read_sent
 from ..sent import Sent, Tick, Unreadable
-from .sending import Item, Sending, What, poison, samples_of, sending
+from .sending import Item, Remark, Sending, What, gap, poison, samples_of, sending
 from .walks import DEVICES, walk
 
 POISONED = 97
-"""One in so many wearers sends any bytes."""
+"""One in so many wearers sends any bytes, the fourth first."""
+GAPPED = 10
+"""One in so many loses some of what is sent for good, the sixth first."""
 FIRST_RUN = 1_790_000_000_000
 """ms; when the phones were started."""
 
@@ -30,7 +32,8 @@ FIRST_RUN = 1_790_000_000_000
 @frozen
 class Plan:
     """What decides every byte of a demonstration. `seconds`: of walking. `bundle`: s of it that a phone sends at a
-    time. `parts`: of the source and of the files, and processes. `every`: s between two snapshots."""
+    time. `parts`: of the source and of the files, and processes. `every`: s between two snapshots; None:
+    as fits the run."""
 
     wearers: int
     seconds: float
@@ -38,7 +41,7 @@ class Plan:
     recipe: str = "default"
     parts: int = 1
     bundle: float = 1.0
-    every: int = 1
+    every: float | None = None
 
 
 def prepare(stage: Path, plan: Plan) -> None:
@@ -77,6 +80,10 @@ class Wearer:
             for k, at, what in bundles[number]
         ]
 
+    def remarks(self) -> list[Remark]:
+        """What the fleet is to say of him beside his session."""
+        return [r if r.run is None else evolve(r, run=self.run + r.run) for r in self.sending.remarks]
+
     def heard(self) -> list[What]:
         """What his session is to hear, in order."""
         return [_later(what, self.shift) for what in self.sending.ordered]
@@ -102,6 +109,8 @@ class Wearers:
     sendings: list[Sending]
     """Of those who are sound."""
     poisons: list[Sending]
+    gaps: list[Sending]
+    """None where walks are too short for one."""
     all: list[Wearer]
 
     @classmethod
@@ -121,13 +130,15 @@ class Wearers:
             )
         )
         poisons = [poison(packets, plan.bundle, rng) for packets in walks]
+        gaps = [one for packets in walks if (one := gap(packets, plan.bundle, rng)) is not None]
         found = []
         for number in range(plan.wearers):
             rng = Random(f"wearer {plan.seed} {number}")
-            drawn = rng.choice(poisons if number % POISONED == 3 else sendings)
+            kind = poisons if number % POISONED == 3 else (gaps or sendings) if number % GAPPED == 5 else sendings
+            drawn = rng.choice(kind)
             run = FIRST_RUN + rng.randrange(10**8)
             found.append(Wearer(f"w{number:05d}", drawn, rng.uniform(0.0, 1e5), run))
-        return cls(plan, sendings, poisons, found)
+        return cls(plan, sendings, poisons, gaps, found)
 
     @property
     def recipe(self) -> Recipe:
@@ -136,12 +147,17 @@ class Wearers:
     @property
     def bundles(self) -> int:
         """The most that any of them sends."""
-        return max(len(one.bundles) for one in chain(self.sendings, self.poisons))
+        return max(len(one.bundles) for one in chain(self.sendings, self.poisons, self.gaps))
 
     @property
     def poisoned(self) -> int:
         """How many send any bytes."""
         return sum(one.sending in self.poisons for one in self.all)
+
+    @property
+    def gapped(self) -> int:
+        """How many lose something for good."""
+        return sum(one.sending in self.gaps for one in self.all)
 
     def samples(self, part: int) -> int:
         """Of those of one part. Takes a moment the first time."""
