@@ -47,6 +47,16 @@ def test_who_begins_anew_with_fewer_partitions_hides_the_parts_of_those_that_are
     assert found(tmp_path) == [("w0", 0), ("w0", 1), ("w1", 0), ("w1", 1)], "and the second, without those of the first"
 
 
+def test_parts_of_a_partition_that_is_no_more_are_not_taken_for_ones_own_though_their_run_began_in_the_same_ms(
+    tmp_path: Path,
+) -> None:
+    other = Parts(tmp_path, "1", (5, 0))
+    other.write([Told("w1", 0, STRIKE)])
+    assert other.close() == (5, 1)
+    Parts(tmp_path, "0", (5, 0), partitions=["0"])
+    assert [path.name for path in tmp_path.iterdir()] == [".part-1-5-00000000.parquet.replaced"]
+
+
 def test_a_job_on_bytewax_hides_the_parts_of_partitions_that_it_does_not_have(tmp_path: Path) -> None:
     pytest.importorskip("bytewax", reason="bytewax is not installed: it has no wheels for Python 3.13 and later")
     from solepath.fleet.bytewax import ParquetSink

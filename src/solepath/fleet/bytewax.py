@@ -38,9 +38,10 @@ def gait(
     `up`: keyed by the wearer's name; Sent and Unreadable, one at a time or in lists. In the recovery store is the state
     of Fleet.step, and when a wearer who has ended was last heard of. After a restart a session is made again when its
     wearer is heard of again. `idle`: the session of who sent nothing for so long is put away as bytes until then, which
-    changes memory and not a single event. `forget`: the state of who has ended, and sent nothing for so long, on the
-    engine's clock and over restarts, is thrown away. It keeps late copies from beginning anything: one that comes after
-    that begins the wearer anew, with events that are numbered from 0 again. bytewax keeps the name (see `purge`).
+    changes memory and not a single event (unless a part of the app's own cannot be saved just then: Fleet.step).
+    `forget`: the state of who has ended, and sent nothing for so long, on the engine's clock and over restarts, is
+    thrown away. It keeps late copies from beginning anything: one that comes after that begins the wearer anew, with
+    events that are numbered from 0 again. bytewax keeps the name (see `purge`).
     """
     named = operators.map("named", up, lambda item: (item[0], item))  # bytewax tells a logic no key
     return operators.stateful_batch("sessions", named, lambda kept: Wearer(fleet, idle, forget, *kept or (None, None)))
