@@ -1,31 +1,40 @@
 """What a stream engine costs beside bare sessions, and many wearers beside few: `python tests/bench/fleet.py`.
 
-Prints ratios; asserts nothing. Needs the extra `bytewax`. Every line is a run of the job of `solepath fleet-demo` in
-two processes with a recovery store, and right after it sessions alone in two processes over the same packets: each
-wearer by himself, Session.feed alone on the clock. `--sizes 100 1000`: wearers of the lines. `--every`: s between two
-snapshots, as long as bytewax has it by itself. At each, whoever is done waits for the others, so that processes of
-different speed, or on processors that others use too, do better with rarer ones.
+Prints ratios; asserts nothing; takes three minutes on two quiet processors. Needs the extra `bytewax`. Every line is a
+run of the job of `solepath fleet-demo` with a recovery store, and sessions alone in as many processes over the same
+packets. The fewer the wearers the longer they walk, so that every line has several snapshots in it. For many:
+`--sizes 100 1000 5000 20000` (ten minutes more, 4 GB of memory).
 """
 
 from __future__ import annotations
 
 import argparse
+import os
+import platform
 import tempfile
 from pathlib import Path
 
 from attrs import evolve
 
-from solepath.fleet.demo.stage import Stage
+from solepath.fleet.demo.stage import Bare, Stage
 from solepath.fleet.demo.wearers import Plan
+from solepath.view.table import number, percent, table
 
 COLUMNS = (
-    "wearers", "samples", "engine/s", "bare/s", "%", "us a sample", "bare us", "cpu us", "cpu %", "kB a wearer",
-    "state kB", "largest", "session", "snapshot us", "differences",
+    "wearers", "samples", "us a sample: engine", "us: bare session", "share, %", "wearers a core", "kB a wearer",
+    "snapshots",
 )  # fmt: skip
-
-
+WALKED, LEAST = 12_000.0, 3.0
+"""s of walking of all wearers of a line, and the least of each."""
 MOST_ALONE = 1000
-"""Beyond so many the sessions alone are those of so many: each is by himself, so they cost the same."""
+"""Beyond so many the sessions alone are those of so many: each is by itself, so they cost the same."""
+RATE = 2 * 100.0
+"""samples/s of two feet."""
+NOTE = """\
+Wearers of the six walks of `solepath fleet-demo`, as fast as it goes, a snapshot every {every} s (bytewax's own: 10 s).
+us: of a processor. Bare: wearer after wearer, packets ready, Session.feed alone on the clock. Share: of the samples/s
+that bare sessions reach in as many processes. Wearers a core: both feet at 100 Hz, in real time, with the engine.
+kB a wearer: memory, with packets on their way; for a few wearers the engine's own would be most of it."""
 
 
 def line(plan: Plan) -> list[str]:
@@ -33,54 +42,44 @@ def line(plan: Plan) -> list[str]:
     with tempfile.TemporaryDirectory(prefix="solepath-fleet-") as directory:
         stage = Stage(Path(directory), plan)
         stage.prepare()
-        engine, samples = stage.uninterrupted(), sum(stage.samples)
-        bare = stage.bare() if plan.wearers <= MOST_ALONE else None
-        differences = str(len(stage.compare())) if bare is not None else "-"
-    if bare is None:
-        with tempfile.TemporaryDirectory(prefix="solepath-fleet-") as directory:
-            fewer = Stage(Path(directory), evolve(plan, wearers=MOST_ALONE))
-            fewer.prepare()
-            bare = fewer.bare()
-            alone = sum(fewer.samples)
-    else:
-        alone = samples
+        samples = sum(stage.samples)
+        engine = stage.uninterrupted()
+        bare, alone = (stage.bare(), samples) if plan.wearers <= MOST_ALONE else _alone(plan)
     rate = samples / engine.seconds
-    memory = None if engine.full is None or engine.empty is None else (engine.full - engine.empty) / plan.wearers
     return [
         str(plan.wearers),
         str(samples),
-        f"{rate:.0f}",
-        f"{bare.rate:.0f}",
-        f"{100.0 * rate / bare.rate:.0f}",
-        f"{1e6 * plan.parts / rate:.1f}",
-        f"{1e6 * plan.parts / bare.rate:.1f}",
-        f"{1e6 * engine.cpu / samples:.1f}",
-        f"{100.0 * bare.cpu / alone * samples / engine.cpu:.0f}",
-        "-" if memory is None else f"{memory / 1e3:.0f}",
-        f"{bare.state / 1e3:.1f}",
-        f"{bare.largest / 1e3:.1f}",
-        f"{bare.session / 1e3:.1f}",
-        f"{1e6 * bare.snapshot:.0f}",
-        differences,
+        number(1e6 * engine.cpu / samples, 1),
+        number(1e6 * bare.cpu / alone, 1),
+        percent(rate / bare.rate, 0),
+        number(rate / plan.parts / RATE, 0),
+        number(None if stage.memory is None else stage.memory / 1e3, 0),
+        str(engine.snapshots),
     ]
+
+
+def _alone(plan: Plan) -> tuple[Bare, int]:
+    with tempfile.TemporaryDirectory(prefix="solepath-fleet-") as directory:
+        fewer = Stage(Path(directory), evolve(plan, wearers=MOST_ALONE))
+        fewer.prepare()
+        return fewer.bare(), sum(fewer.samples)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--sizes", type=int, nargs="+", default=[100, 1000])
-    parser.add_argument("--seconds", type=float, default=4.0, help="of walking")
+    parser.add_argument("--sizes", type=int, nargs="+", default=[100, 1000], help="wearers of the lines")
+    parser.add_argument("--seconds", type=float, help="of walking; by default as long as several snapshots take")
     parser.add_argument("--processes", type=int, default=2)
-    parser.add_argument("--every", type=int, default=10, help="s between two snapshots")
-    parser.add_argument("--bundle", type=float, default=1.0, help="s that a phone sends at a time")
+    parser.add_argument("--every", type=float, default=10.0, help="s between two snapshots")
     parser.add_argument("--recipe", default="default")
     asked = parser.parse_args()
-    print(f"{asked.seconds:g} s of walking, {asked.processes} processes, a snapshot every {asked.every} s")
-    print("  ".join(COLUMNS))
+    rows = []
     for wearers in asked.sizes:
-        plan = Plan(
-            wearers, asked.seconds, recipe=asked.recipe, parts=asked.processes, bundle=asked.bundle, every=asked.every
-        )
-        print("  ".join(cell.rjust(len(name)) for name, cell in zip(COLUMNS, line(plan), strict=True)), flush=True)
+        seconds = asked.seconds or max(WALKED / wearers, LEAST)
+        rows.append(line(Plan(wearers, seconds, recipe=asked.recipe, parts=asked.processes, every=asked.every)))
+    machine = f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores"
+    print(f"{machine}, {asked.processes} processes of bytewax\n\n{table(COLUMNS, rows)}\n")
+    print(NOTE.format(every=f"{asked.every:g}"))
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ from .job import TOLD
 from .sending import What
 from .wearers import Wearer, Wearers
 
-MEASURED = 50
+MEASURED = 12
 """Wearers whose states are looked at."""
 
 
