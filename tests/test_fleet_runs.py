@@ -53,11 +53,11 @@ ENDS = st.builds(lambda number, of: Sent(WEARER, number, End(), of), st.integers
 
 @settings(max_examples=60, deadline=None)
 @given(before=st.lists(ROWS | ENDS, max_size=14), new=st.integers(0, 5) | st.integers(0, MOST))
-def test_whatever_came_before_a_new_run_is_heard_after_a_window_of_rows(before: list[Sent], new: int) -> None:
+def test_whatever_came_before_a_new_run_is_heard_but_for_a_window_of_rows(before: list[Sent], new: int) -> None:
     before = [one for one in before if one.run != new]
     _, told = NARROW.step(WEARER, None, [*before, *run(new, 20)])
     heard = [number for of, number in used(told) if of == new]
-    assert heard == list(range(heard[0], 20)) and heard[0] <= 3
+    assert len(heard) >= 17 and heard[-13:] == list(range(7, 20))
 
 
 @settings(max_examples=60, deadline=None)
