@@ -311,7 +311,11 @@ class Session:
         floorplan: FloorPlan | IndexedPlan | None = None,
     ) -> Session:
         """A session that goes on where it was packed. `recipe`: the same as then; the rest as in `restore`.
-        SnapshotError when it was another, for any bytes that are no packed session, and where `restore` has one."""
+
+        What is looked at is the recipe's name, the kind of every part, and whether it has an `altitude`. Settings are
+        believed: those of `recipe` hold from here on, so that one that was tuned goes on. What is not to go on gets
+        another name. SnapshotError when it was another by that, for any bytes that are no packed session, and where
+        `restore` has one. A checksum tells damage, not intent: a state is believed, as code is."""
         from .packing.form import unpack
 
         return cls._of(unpack(data, recipe, parts), profiles, floorplan)

@@ -80,8 +80,8 @@ class Fleet:
 
     def adopt(self, snapshot: Any) -> bytes:
         """A state that goes on from a Session.snapshot taken elsewhere: a phone hands its wearer over, and begins to
-        send at number 0 of a run. Events are numbered from 0. SnapshotError when it cannot go on here or is
-        finished."""
+        send at number 0 of a run. Events are numbered from 0. The settings of the job's recipe hold from here on, not
+        those in the snapshot. SnapshotError when it cannot go on here (Session.unpack) or is finished."""
         session = self._sessions.restored(snapshot)
         now = session.now
         identity = Identity(-1, 0, 0, 0.0 if now is None else now)
