@@ -19,8 +19,9 @@ from .run import LOOK, Run
 
 STARTING = 5
 """One kill in so many hits the start of a run, or the recovery from the kill before; all others hit reading."""
-READ = (0.2, 0.95)
-"""Shares of a run's bundles between which the others come,"""
+READ = (0.3, 0.95)
+"""Shares of a run's bundles between which the others come, when there is a snapshot to go back to: the engine goes
+back to the last but one,"""
 LATER = 0.1
 """and up to this share of the time of reading later, so that they do not all hit the beginning of a bundle."""
 SOONER = 0.6
