@@ -29,7 +29,8 @@ def of_worth(outcomes: list[Outcome]) -> str:
     if not costs:
         return "nothing was killed"
     replayed, reopened = sum(bool(cost.replayed) for cost in costs), sum(cost.reopened > 0 for cost in costs)
-    found = f"of {len(costs)} kill{'s'[: len(costs) > 1]} {replayed} had something read again, and {reopened} had wearers go on from states"
+    kills = "1 kill" if len(costs) == 1 else f"{len(costs)} kills"
+    found = f"of {kills} {replayed} had something read again, and {reopened} had wearers go on from states"
     if not reopened:
         return f"{found}: so no state was tried. Let them walk longer (--seconds) or kill more often (--kills)."
     return found
