@@ -61,7 +61,7 @@ def table_of(stage: Stage) -> str:
         ["samples/s by as many processes of sessions alone", number(bare["rate"], 0)],
         ["the one by the other, %", percent(found["ratio"], 0)],
         ["s between two snapshots", number(engine["every"], 2)],
-        ["snapshots while it read", str(engine["snapshots"])],
+        ["snapshots before the end", str(engine["snapshots"])],
         ["memory in all, MB", number(_scaled(engine["memory"], 1e-6), 0)],
         ["memory a wearer, kB", number(_scaled(engine["wearer"], 1e-3), 0)],
         ["state a wearer, nothing held, kB: mean", number(bare["state"] / 1e3, 1)],

@@ -96,15 +96,13 @@ class Counted(Fleet):
 @define
 class Report:
     """What one process of a run used. `began`, `ended`: s of the system's clock at the first bundle and at the end of
-    the work; `cpu`: s from the one to the other; `empty`, `full`: most memory until the first, and until the second;
-    `snapshots`: of the source while it read."""
+    the work; `cpu`: s from the one to the other; `empty`, `full`: most memory until the first, and until the second."""
 
     began: float | None = None
     ended: float | None = None
     cpu: float = 0.0
     empty: int | None = None
     full: int | None = None
-    snapshots: int = 0
 
     def begin(self) -> None:
         if self.began is None:
@@ -156,7 +154,6 @@ class Part(StatefulSourcePartition[Keyed, int]):
         return [(wearer.name, bundle)] if bundle else []
 
     def snapshot(self) -> int:
-        self._report.snapshots += self._at < self._end
         return self._at
 
     def close(self) -> None:

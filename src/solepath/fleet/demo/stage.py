@@ -33,9 +33,9 @@ FEW = 500
 @frozen
 class Engine:
     """An uninterrupted run. `whole`: s with the start of its processes; `seconds`: s from the first bundle to the end;
-    `every`: s between two snapshots, of which `snapshots` came while it read; `cpu`: s of the processors; `empty`,
-    `full`: memory of all processes before the first bundle and at its most, bytes, None where the system does not say;
-    `events`; `files`."""
+    `every`: s between two snapshots, of which `snapshots` came before the one at the end, as the files tell, since each
+    closes one of every part; `cpu`: s of the processors; `empty`, `full`: memory of all processes before the first
+    bundle and at its most, bytes, None where the system does not say; `events`; `files`."""
 
     whole: float
     seconds: float
@@ -123,7 +123,7 @@ class Stage:
             whole=whole,
             seconds=seconds,
             every=self.every,
-            snapshots=min(r["snapshots"] for r in reports),
+            snapshots=max(len(files(self.told)) // self.plan.parts - 1, 0),
             cpu=sum(r["cpu"] for r in reports),
             empty=_sum(reports, "empty"),
             full=_sum(reports, "full"),
