@@ -27,7 +27,7 @@ def run(name: str, *arguments: object) -> str:
 
 
 def test_every_example_is_run_here_and_is_short():
-    others = ("test_toga_app.py", "test_fleet_spark.py")
+    others = ("test_toga_app.py", "test_fleet_spark_job.py")
     here = "".join(path.read_text() for path in (Path(__file__), *map(Path(__file__).with_name, others)))
     for path in EXAMPLES.glob("*.py"):
         assert f'run("{path.stem}"' in here or f'"examples" / "{path.name}"' in here, path.name

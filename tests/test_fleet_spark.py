@@ -1,8 +1,8 @@
-"""A fleet on Spark: the events of sessions, also past a kill -9, a full disk, rows of anything and states of nobody.
+"""A fleet on Spark: the events of sessions, also past rows of anything and states of nobody.
 
     pip install solepath[spark,test], Java 17, then
-    python -m pytest -m "spark and not soak" tests/test_fleet_spark.py             # about three minutes
-    python -m pytest -m "spark and soak" -s tests/test_fleet_spark.py              # 1,000 wearers; prints its rate
+    python -m pytest -m "spark and not soak" tests/test_fleet_spark*.py            # about three minutes
+    python -m pytest -m "spark and soak" -s tests/test_fleet_spark*.py             # 1,000 wearers; prints its rate
 """
 
 from __future__ import annotations
@@ -10,72 +10,29 @@ from __future__ import annotations
 import json
 import os
 import random
-import re
-import shutil
-import signal
-import subprocess
 import sys
-import time
-from collections.abc import Callable, Iterable, Iterator
-from functools import cache
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from struct import pack
 from typing import Any
 
 import pytest
 
-from solepath.fleet import TOLD_COLUMNS, End, Fleet, Sent, Told, sent_line, sent_row, told_row
-from solepath.fleet.spark_files import committed
-from solepath.recipes import BY_NAME, DEFAULT
+from solepath.fleet import TOLD_COLUMNS, Fleet, Sent, Told, sent_line, sent_row, told_row
+from solepath.recipes import BY_NAME
 from solepath.session import Session
-from solepath.sim.route import Route
 from solepath.types import Packet, Site
+from sparks import CONF, MASTER, Row, deliver, expected, in_order, lacking, of_sessions, put, says, sent, told
 from toys import BASE
-from walks import insoles
-
-JOB = Path(__file__).resolve().parents[1] / "examples" / "spark_gait.py"
-ROUTE = Route().stand(1.0).walk(3.0, 1.3).stop(0.5)
-CONF = {
-    "spark.driver.memory": "2g",
-    "spark.driver.bindAddress": "127.0.0.1",
-    "spark.driver.host": "127.0.0.1",
-    "spark.ui.enabled": "false",
-    "spark.ui.showConsoleProgress": "false",
-    "spark.sql.shuffle.partitions": "2",
-    "spark.sql.streaming.fileSink.log.compactInterval": "3",
-}
-MASTER = "local[2]"
-WALKS = 5
-
-Row = dict[str, Any]
-
-
-def _lacking() -> str | None:
-    """Why Spark cannot run here."""
-    home = os.environ.get("JAVA_HOME")
-    java = shutil.which("java", path=f"{home}/bin" if home else None)
-    if java is None:
-        return "Spark needs Java 17, and there is no java here"
-    told = subprocess.run([java, "-version"], capture_output=True, text=True, check=False).stderr
-    version = re.search(r'version "(\d+)', told)
-    if version is None or int(version[1]) < 17:
-        return f"Spark needs Java 17, and here is {told.splitlines()[0] if told else 'none'}"
-    try:
-        import pyspark  # noqa: F401
-        from google import protobuf  # noqa: F401
-    except ImportError as error:
-        return f"{error}; pip install solepath[spark]"
-    return None
-
 
 pytestmark = [pytest.mark.spark]
 
 
 @pytest.fixture(scope="module", autouse=True)
 def _needed() -> None:
-    lacking = _lacking()
-    if lacking is not None:
-        pytest.skip(lacking)
+    why = lacking()
+    if why is not None:
+        pytest.skip(why)
 
 
 @pytest.fixture(scope="module")
@@ -91,80 +48,6 @@ def spark() -> Iterator[Any]:
     session.sparkContext.setLogLevel("ERROR")
     yield session
     session.stop()
-
-
-# --- what is sent, and what is to be told of it -----------------------------------------------------------------------
-
-
-def sent(wearer: int, walk: int) -> list[Sent]:
-    """All that the phone of one wearer sends."""
-    packets = insoles(ROUTE, seed=walk, cells=48).packets
-    what = [*packets, End()]
-    return [Sent(f"w{wearer}", number, one) for number, one in enumerate(what)]
-
-
-@cache
-def says(walk: int, recipe: str) -> tuple[Row, ...]:
-    """Rows of what a bare session says of the same walk."""
-    session = Session(BY_NAME[recipe])
-    events = session.feed(insoles(ROUTE, seed=walk, cells=48).packets) + session.finish()
-    return tuple(told_row(Told("", number, event)) for number, event in enumerate(events))
-
-
-def expected(wearers: int, recipe: str = DEFAULT.name) -> list[Row]:
-    rows = [{**row, "wearer": f"w{w}"} for w in range(wearers) for row in says(w % WALKS, recipe)]
-    return in_order(rows)
-
-
-def in_order(rows: Iterable[Row]) -> list[Row]:
-    return sorted(rows, key=lambda row: (row["wearer"], row["number"]))
-
-
-def of_sessions(rows: Iterable[Row]) -> list[Row]:
-    """Those of the wearers w0, w1, ..."""
-    return in_order(row for row in rows if re.fullmatch(r"w\d+", row["wearer"]))
-
-
-def deliver(directory: Path, wearers: int, files: int, more: Iterable[Row] = ()) -> int:
-    """Files of what all wearers send at the same time; in each the rows are shuffled, some are late by a file, some
-    are there twice. Returns how many rows.
-
-    A file holds fewer rows of a wearer than the fleet's window."""
-    chance = random.Random(wearers)
-    directory.mkdir()
-    late: list[Row] = []
-    count = 0
-    for file in range(files):
-        rows, late = [*late, *(more if file == 0 else ())], []
-        for wearer in range(wearers):
-            mine = sent(wearer, wearer % WALKS)
-            for one in mine[len(mine) * file // files : len(mine) * (file + 1) // files]:
-                fate = chance.random()
-                (late if fate < 0.005 and file < files - 1 else rows).append(sent_row(one))
-                if fate > 0.995:
-                    rows.append(sent_row(one))
-        chance.shuffle(rows)
-        put(directory / f"{file:03}.parquet", rows, file)
-        count += len(rows)
-    return count
-
-
-def put(path: Path, rows: list[Row], age: int) -> None:
-    """One file of rows. Spark takes files by the time of their last change."""
-    import pyarrow as pa
-    from pyarrow import parquet
-
-    kinds = {"wearer": pa.string(), "run": pa.int64(), "number": pa.int64(), "t": pa.float64(), "data": pa.binary()}
-    schema = pa.schema([(name, kinds.get(name, pa.string())) for name in sent_row(Sent("", 0, End()))])
-    parquet.write_table(pa.Table.from_pylist(rows, schema), path)
-    os.utime(path, (1.7e9 + age, 1.7e9 + age))
-
-
-def told(directory: Path) -> list[Row]:
-    """What is in the files that count, by somebody who is not Spark."""
-    from pyarrow import parquet
-
-    return in_order(row for path in committed(directory) for row in parquet.read_table(path).to_pylist())
 
 
 def run(rows: Any, directory: Path, fleet: Fleet | Callable[[], Fleet] | None = None, states: Any = None) -> list[Row]:
@@ -344,125 +227,6 @@ def test_states_of_a_checkpoint_go_on_in_a_job_of_more_partitions(spark, tmp_pat
     finally:
         spark.conf.set("spark.sql.shuffle.partitions", CONF["spark.sql.shuffle.partitions"])
     assert before and after and in_order(before + after) == expected(4)
-
-
-# --- a job of its own -------------------------------------------------------------------------------------------------
-
-
-class Job:
-    """examples/spark_gait.py in processes of its own: the driver, its JVM and the Python workers."""
-
-    def __init__(self, directory: Path, told: str = "told", checkpoint: str = "checkpoint") -> None:
-        self.told, self.checkpoint, self.log = directory / told, directory / checkpoint, directory / f"{told}.log"
-        conf = " ".join(f"--conf {key}={value}" for key, value in CONF.items())
-        place = {"PYSPARK_SUBMIT_ARGS": f"--master {MASTER} {conf} pyspark-shell", "SPARK_LOCAL_IP": "127.0.0.1"}
-        command = [sys.executable, JOB, directory / "sent", self.told, self.checkpoint, "--files", "1"]
-        with self.log.open("w") as log:
-            self.process = subprocess.Popen(
-                command, env=os.environ | place, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=log,
-                text=True, start_new_session=True,
-            )  # fmt: skip
-
-    def __enter__(self) -> Job:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.kill()
-        self.process.wait()
-        if self.process.stdout is not None:
-            self.process.stdout.close()
-
-    def batches(self) -> int:
-        """How many are done with."""
-        return len(list(self.checkpoint.glob("commits/[0-9]*")))
-
-    def until(self, batches: int) -> None:
-        while self.batches() < batches:
-            assert self.process.poll() is None, self.log.read_text()[-3000:]
-            time.sleep(0.02)
-
-    def end(self) -> str:
-        told, _ = self.process.communicate()
-        assert self.process.returncode == 0, self.log.read_text()[-3000:]
-        return told
-
-    def kill(self) -> int:
-        """kill -9 of all of it at once. Returns how many processes there were."""
-        there = map(int, filter(str.isdigit, os.listdir("/proc")))
-        session = [pid for pid in there if _session(pid) == self.process.pid]
-        for pid in session:
-            os.kill(pid, signal.SIGKILL)
-        while any(_session(pid) == self.process.pid and not _is_dead(pid) for pid in session):
-            time.sleep(0.01)
-        return len(session)
-
-
-def _session(pid: int) -> int | None:
-    try:
-        return os.getsid(pid)
-    except ProcessLookupError:
-        return None
-
-
-def _is_dead(pid: int) -> bool:
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
-    except OSError:
-        return True
-
-
-@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="finds the processes of a job in /proc")
-@pytest.mark.parametrize(("wearers", "kills"), [(25, 2), pytest.param(1000, 1, marks=pytest.mark.soak)])
-def test_a_job_that_is_killed_in_mid_stream_tells_what_one_that_runs_through_tells(tmp_path, wearers, kills):
-    files = 10
-    rows = deliver(tmp_path / "sent", wearers, files)
-    begun = time.monotonic()
-    with Job(tmp_path, "through", "through-checkpoint") as job:
-        job.until(1)
-        first = time.monotonic()
-        batches = job.end()
-        seconds = (time.monotonic() - first) / (files - 1)
-    print(f"\n{wearers} wearers, {rows} rows in {time.monotonic() - begun:.0f} s with Spark's own start\n{batches}")
-
-    chance = random.Random(time.time_ns())
-    for _ in range(kills):
-        with Job(tmp_path) as job:
-            job.until(job.batches() + chance.randint(1, 2))
-            time.sleep(chance.uniform(0.0, seconds))
-            done = job.batches()
-            processes = job.kill()
-        print(f"killed {processes} processes after {done} of {files} batches")
-        assert processes >= 3 and 1 <= done < files
-    with Job(tmp_path) as job:
-        job.end()
-    events = told(job.told)
-    written = set(job.told.glob("*.parquet"))
-    print(f"{len(events)} events; {len(written) - len(set(committed(job.told)))} files that nobody finished")
-    assert events == told(tmp_path / "through") == expected(wearers)
-
-
-@pytest.fixture
-def small_disk(tmp_path: Path) -> Iterator[Path]:
-    """A place with room for almost nothing."""
-    place = tmp_path / "told"
-    place.mkdir()
-    mount = ["mount", "-t", "tmpfs", "-o", "size=32k", "tmpfs", place]
-    if shutil.which("mount") is None or subprocess.run(mount, capture_output=True, check=False).returncode:
-        pytest.skip("no disk can be mounted here")
-    yield place
-    subprocess.run(["umount", place], check=True)
-
-
-def test_a_job_whose_disk_is_full_ends_and_goes_on_when_there_is_room(tmp_path, small_disk):
-    deliver(tmp_path / "sent", wearers=10, files=5)
-    with Job(tmp_path) as job:
-        job.process.communicate()
-    assert job.process.returncode != 0 and "No space left on device" in job.log.read_text()
-    assert job.batches() < 5
-    subprocess.run(["mount", "-o", "remount,size=64m", small_disk], check=True)
-    with Job(tmp_path) as job:
-        job.end()
-    assert told(small_disk) == expected(10)
 
 
 def test_events_of_a_wearer_have_one_number_each():
