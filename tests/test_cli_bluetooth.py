@@ -64,6 +64,14 @@ def wait_for(path: Path, what: str) -> None:
         time.sleep(0.05)
 
 
+def is_socket(file: Path) -> bool:
+    """Of an entry of /proc/PID/fd, which may be closed at any time."""
+    try:
+        return os.readlink(file).startswith("socket:")
+    except FileNotFoundError:
+        return False
+
+
 def wait_for_sockets(process: subprocess.Popen[str]) -> None:
     """Until a program that says nothing is connected: it has one socket more than the two of its event loop."""
     files = Path(f"/proc/{process.pid}/fd")
@@ -71,7 +79,7 @@ def wait_for_sockets(process: subprocess.Popen[str]) -> None:
         time.sleep(3.0)
         return
     end = time.monotonic() + TAKES
-    while sum(os.readlink(file).startswith("socket:") for file in files.iterdir()) < 3:
+    while sum(is_socket(file) for file in files.iterdir()) < 3:
         assert time.monotonic() < end, "nothing was connected"
         time.sleep(0.05)
     time.sleep(0.3)

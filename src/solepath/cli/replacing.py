@@ -35,9 +35,9 @@ class Replacing:
         if there:
             place.open("ab").close()  # one that may not be written is not replaced either
         written = place.with_name(f".solepath-{os.getpid()}-{next(_numbers)}.part")
+        self._places[written] = place  # before it is there: Ctrl-C may come between any two lines
         try:
             written.open("xb").close()
-            self._places[written] = place
             if there:
                 shutil.copymode(place, written)  # whoever may not read the one may not read the other
         except OSError as error:
