@@ -12,6 +12,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from solepath.fleet import End, Sent, Told, sent_row, told_row
 from solepath.fleet.spark_files import committed
 from solepath.recipes import BY_NAME, DEFAULT
@@ -51,6 +53,13 @@ def lacking() -> str | None:
     except ImportError as error:
         return f"{error}; pip install solepath[spark]"
     return None
+
+
+def needed() -> None:
+    """Skips what needs Spark, with the reason why it cannot run here."""
+    why = lacking()
+    if why is not None:
+        pytest.skip(why)
 
 
 def sent(wearer: int, walk: int) -> list[Sent]:

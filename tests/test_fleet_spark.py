@@ -22,17 +22,11 @@ from solepath.fleet import TOLD_COLUMNS, Fleet, Sent, Told, sent_line, sent_row,
 from solepath.recipes import BY_NAME
 from solepath.session import Session
 from solepath.types import Packet, Site
-from sparks import CONF, MASTER, Row, deliver, expected, in_order, lacking, of_sessions, put, says, sent, told
+from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, of_sessions, put, says, sent, told
 from toys import BASE
 
 pytestmark = [pytest.mark.spark]
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _needed() -> None:
-    why = lacking()
-    if why is not None:
-        pytest.skip(why)
+_needed = pytest.fixture(needed, scope="module", autouse=True)
 
 
 @pytest.fixture(scope="module")

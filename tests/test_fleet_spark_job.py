@@ -15,18 +15,12 @@ from pathlib import Path
 import pytest
 
 from solepath.fleet.spark_files import committed
-from sparks import CONF, MASTER, deliver, expected, lacking, told
+from sparks import CONF, MASTER, deliver, expected, needed, told
 
 JOB = Path(__file__).resolve().parents[1] / "examples" / "spark_gait.py"
 
 pytestmark = [pytest.mark.spark]
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _needed() -> None:
-    why = lacking()
-    if why is not None:
-        pytest.skip(why)
+_needed = pytest.fixture(needed, scope="module", autouse=True)
 
 
 class Job:
