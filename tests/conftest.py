@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
-from solepath.evaluate.jobs import evaluate, find
+from solepath.evaluate.jobs import evaluate
 from solepath.evaluate.report import Result
 
 if TYPE_CHECKING:
@@ -27,11 +28,15 @@ def data_dir() -> Path:
 
 
 @pytest.fixture(scope="session")
-def results(data_dir: Path) -> list[Result]:
-    """The default recipe on all recorded data that have a truth, but for those that it must first learn for in folds:
-    that takes minutes."""
-    quick = [data_set.name for data_set in find(data_dir) if not data_set.folds]
-    return list(evaluate(data_dir, ["default"], only=quick, processes=2))
+def evaluated(data_dir: Path) -> Callable[[str, str], Result]:
+    """What a recipe makes of the recordings of a data set, by the names of both; each is evaluated once."""
+
+    @cache
+    def of(data_set: str, recipe: str) -> Result:
+        (result,) = evaluate(data_dir, [recipe], only=[data_set], processes=2)
+        return result
+
+    return of
 
 
 @pytest.fixture(scope="session")
