@@ -37,6 +37,15 @@ from solepath.types import Foot
 SMALL = ("--wearers", "12", "--seconds", "4", "--processes", "1")
 
 
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="this system does not tell a program's memory apart")
+def test_the_memory_of_a_process_is_not_that_of_who_started_it() -> None:
+    held = b"x" * 400_000_000
+    code = "from solepath.fleet.demo.child import memory, most_memory; print(memory(), most_memory())"
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    now, most = map(int, said.split())
+    assert 5e6 < now <= most < len(held)
+
+
 @pytest.fixture(scope="module")
 def kept(tmp_path_factory: pytest.TempPathFactory) -> tuple[subprocess.CompletedProcess[str], Path]:
     """What a whole demonstration printed, and where it left what it wrote."""

@@ -1,9 +1,9 @@
 """What a stream engine costs beside bare sessions, and many wearers beside few: `python tests/bench/fleet.py`.
 
-Prints ratios; asserts nothing; takes three minutes on two quiet processors. Needs the extra `bytewax`. Every line is a
-run of the job of `solepath fleet-demo` with a recovery store, and sessions alone in as many processes over the same
-packets. The fewer the wearers the longer they walk, so that every line has several snapshots in it. For many:
-`--sizes 100 1000 5000 20000` (ten minutes more, 4 GB of memory).
+Prints ratios; asserts nothing; takes two minutes on two quiet processors, half an hour with
+`--sizes 100 1000 5000 20000` (4 GB of memory). Needs the extra `bytewax`. Every line is a run of the job of
+`solepath fleet-demo` with a recovery store, and sessions alone in as many processes over the same packets. All walk
+equally long, so that lines can be compared: what a sample takes differs between standing, the first steps and others.
 """
 
 from __future__ import annotations
@@ -24,14 +24,13 @@ COLUMNS = (
     "wearers", "samples", "us a sample: engine", "us: bare session", "share, %", "wearers a core", "kB a wearer",
     "snapshots",
 )  # fmt: skip
-WALKED, LEAST = 12_000.0, 3.0
-"""s of walking of all wearers of a line, and the least of each."""
 MOST_ALONE = 1000
 """Beyond so many the sessions alone are those of so many: each is by itself, so they cost the same."""
 RATE = 2 * 100.0
 """samples/s of two feet."""
 NOTE = """\
-Wearers of the six walks of `solepath fleet-demo`, as fast as it goes, a snapshot every {every} s (bytewax's own: 10 s).
+Wearers of the six walks of `solepath fleet-demo`, {seconds} s each and sent by the second, as fast as it goes,
+a snapshot every {every} s (bytewax's own: 10 s) and one at the end.
 us: of a processor. Bare: wearer after wearer, packets ready, Session.feed alone on the clock. Share: of the samples/s
 that bare sessions reach in as many processes. Wearers a core: both feet at 100 Hz, in real time, with the engine.
 kB a wearer: memory, with packets on their way; for a few wearers the engine's own would be most of it."""
@@ -68,18 +67,16 @@ def _alone(plan: Plan) -> tuple[Bare, int]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--sizes", type=int, nargs="+", default=[100, 1000], help="wearers of the lines")
-    parser.add_argument("--seconds", type=float, help="of walking; by default as long as several snapshots take")
+    parser.add_argument("--seconds", type=float, default=4.0, help="of walking")
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--every", type=float, default=10.0, help="s between two snapshots")
     parser.add_argument("--recipe", default="default")
     asked = parser.parse_args()
-    rows = []
-    for wearers in asked.sizes:
-        seconds = asked.seconds or max(WALKED / wearers, LEAST)
-        rows.append(line(Plan(wearers, seconds, recipe=asked.recipe, parts=asked.processes, every=asked.every)))
+    plans = [Plan(n, asked.seconds, recipe=asked.recipe, parts=asked.processes, every=asked.every) for n in asked.sizes]
+    rows = [line(plan) for plan in plans]
     machine = f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores"
     print(f"{machine}, {asked.processes} processes of bytewax\n\n{table(COLUMNS, rows)}\n")
-    print(NOTE.format(every=f"{asked.every:g}"))
+    print(NOTE.format(every=f"{asked.every:g}", seconds=f"{asked.seconds:g}"))
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ from .. import keyed
 from ..bytewax import ParquetSink, gait
 from ..fleet import Fleet
 from ..sent import Sent, Unreadable
-from .child import end_with_parent, most_memory, settle
+from .child import end_with_parent, memory, most_memory, settle
 from .wearers import Wearers
 
 TOLD, RECOVERY = "told", "recovery"
@@ -96,7 +96,7 @@ class Counted(Fleet):
 @define
 class Report:
     """What one process of a run used. `began`, `ended`: s of the system's clock at the first bundle and at the end of
-    the work; `cpu`: s from the one to the other; `empty`, `full`: most memory until the first, and until the second."""
+    the work; `cpu`: s from the one to the other; `empty`, `full`: memory at the first, the most until the second."""
 
     began: float | None = None
     ended: float | None = None
@@ -106,7 +106,7 @@ class Report:
 
     def begin(self) -> None:
         if self.began is None:
-            self.began, self.cpu, self.empty = time(), -process_time(), most_memory()
+            self.began, self.cpu, self.empty = time(), -process_time(), memory()
 
     def write(self, home: Path) -> None:
         """At the end of the process: by then the engine has done all that was to do."""

@@ -34,7 +34,7 @@ FEW = 500
 class Engine:
     """An uninterrupted run. `whole`: s with the start of its processes; `seconds`: s from the first bundle to the end;
     `every`: s between two snapshots, of which `snapshots` came before the one at the end, as the files tell, since each
-    closes one of every part; `cpu`: s of the processors; `empty`, `full`: memory of all processes before the first
+    closes one of every part; `cpu`: s of the processors; `empty`, `full`: memory of all processes at the first
     bundle and at its most, bytes, None where the system does not say; `events`; `files`."""
 
     whole: float
@@ -99,7 +99,7 @@ class Stage:
 
     @property
     def memory(self) -> float | None:
-        """Bytes a wearer, beyond what the processes took before the first; None where nobody says, or for a few."""
+        """Bytes a wearer, beyond what the processes held at the first; None where nobody says, or for a few."""
         engine = self.engine
         if engine is None or engine.full is None or engine.empty is None or self.plan.wearers < FEW:
             return None
