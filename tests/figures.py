@@ -16,6 +16,7 @@ BENCH = "tests/bench/bench.py"
 BLUETOOTH = "tests/bench/bluetooth.py"
 PAGE = "tests/bench/page.py"
 PACKED = "tests/bench/packed.py"
+FLEET = ["tests/bench/fleet.py", "--sizes", "100", "1000", "5000", "20000"]
 COMPARED = ("default", "kupt-dfpc", "zupt", "pressure-contour", "gyroscope")
 INSOLES = [
     *(word for data in ("smart_insole_35", "marpino_pressed", "gaitpdb_vgrf") for word in ("--only", data)),

@@ -61,6 +61,12 @@ def test_every_program_is_run_by_a_test():
             assert f'"{page}"' in tests, page
 
 
+def test_what_a_command_is_said_to_print_stands_there():
+    marks = [mark for text in PAGES.values() for mark in re.findall(r"^<!-- (\S+) -->\n```", text, re.MULTILINE)]
+    assert len(marks) > 10
+    assert not [mark for mark in marks if not below(mark)]
+
+
 def test_a_live_source_samples_and_a_saved_session(played):
     (_, _, saved), names = played("docs/session.md")
     assert saved.startswith("Position(t=")
