@@ -173,7 +173,12 @@ def test_the_command_knows_every_experiment():
     assert tuple(EXPERIMENTS) == NAMES
 
 
-@pytest.mark.parametrize("name", NAMES)
+LONGEST = "footstep-tracker"
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.soak if name == LONGEST else ()) for name in NAMES]
+)
 def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeypatch):
     pytest.importorskip("matplotlib")
     monkeypatch.setattr(pressure_contour, "LASTING", 60.0)
