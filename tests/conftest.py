@@ -29,7 +29,8 @@ def data_dir() -> Path:
 
 @pytest.fixture(scope="session")
 def evaluated(data_dir: Path) -> Callable[[str, str], Result]:
-    """What a recipe makes of the recordings of a data set, by the names of both; each is evaluated once."""
+    """What a recipe makes of the recordings of a data set, by the names of both; each is evaluated once
+    in a process."""
 
     @cache
     def of(data_set: str, recipe: str) -> Result:

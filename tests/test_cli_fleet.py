@@ -27,6 +27,7 @@ from solepath.cli.fleet_demo import verdict
 from solepath.cli.fleet_table import of_kills, of_worth
 from solepath.events import HeelStrike
 from solepath.fleet import Told
+from solepath.fleet.demo.child import _told
 from solepath.fleet.demo.compare import Torn, differences, files, holes, of_sessions, read_told, remarked
 from solepath.fleet.demo.kills import Cost, Kill, Outcome, compared, draw
 from solepath.fleet.demo.stage import Engine
@@ -37,7 +38,7 @@ from solepath.types import Foot
 SMALL = ("--wearers", "12", "--seconds", "4", "--processes", "1")
 
 
-@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="this system does not tell a program's memory apart")
+@pytest.mark.skipif(_told("VmHWM") is None, reason="this system does not tell a program's memory apart")
 def test_the_memory_of_a_process_is_not_that_of_who_started_it() -> None:
     held = b"x" * 400_000_000
     code = "from solepath.fleet.demo.child import memory, most_memory; print(memory(), most_memory())"

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import os
+from itertools import count
 from pathlib import Path
 
 import pytest
 
+from solepath.cli import replacing
 from solepath.cli.replacing import Replacing
 
 
@@ -38,3 +41,15 @@ def test_a_file_is_there_as_it_was_until_it_is_kept(kept: bool, tmp_path: Path) 
     files.drop()
     assert earlier.read_text() == ("later" if kept else "earlier")
     assert list(tmp_path.iterdir()) == [earlier]
+
+
+def test_another_programs_file_is_not_thrown_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two machines that share a directory may give two programs the same number."""
+    files = Replacing()
+    monkeypatch.setattr(replacing, "_numbers", count(7))
+    another = tmp_path / f".solepath-{os.getpid()}-7.part"
+    another.write_text("half of a track")
+    with pytest.raises(OSError, match=r"track\.csv"):
+        files.beside(tmp_path / "track.csv")
+    files.drop()
+    assert another.read_text() == "half of a track"

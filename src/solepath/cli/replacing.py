@@ -41,6 +41,8 @@ class Replacing:
             if there:
                 shutil.copymode(place, written)  # whoever may not read the one may not read the other
         except OSError as error:
+            if isinstance(error, FileExistsError):
+                del self._places[written]  # another program's, which is not ours to throw away
             raise OSError(error.errno, error.strerror, str(path)) from None
         return written
 

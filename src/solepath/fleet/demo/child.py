@@ -31,7 +31,8 @@ def end_with_parent() -> None:
 
 
 def memory() -> int | None:
-    """Bytes that this process holds; None on systems that do not say."""
+    """Bytes that this process holds, or held at its largest until now where the system tells only that; None on
+    systems that say neither."""
     return _told("VmRSS") or most_memory()
 
 
