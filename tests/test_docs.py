@@ -1,6 +1,7 @@
 """README.md and docs/ are true: programs run, commands and options exist, links lead somewhere, figures are printed."""
 
 import io
+import json
 import re
 import shlex
 import shutil
@@ -19,10 +20,10 @@ import figures
 from commands import run
 from quoted import NUMBER, PAGES, ROOT, below, blocks, nearly_the_same
 from snooped import insoles_log
-from solepath import LiftRidden, sim
+from solepath import LiftRidden, Session, sim
 from solepath.body.altitude import Altitude
 from solepath.cli.main import parser
-from solepath.fleet import Sent, sent_line
+from solepath.fleet import Sent, Told, sent_line, told_row
 from solepath.foot.pressure import Insole
 from solepath.foot.stance import Detector
 from solepath.foot.tracker import AnyCorrector, AnyCues, AnyDetector
@@ -141,6 +142,15 @@ def test_what_a_wearer_of_a_fleet_sends_is_counted():
     kinds = (sim.Insole, partial(sim.Insole, batch=3, mtu=517), sim.CC2650)
     counted = [row({site: kind() for site in feet}) for kind in kinds]
     nearly_the_same([line.split("|", 2)[2] for line in below("sent")[2:]], counted)
+
+
+def test_what_comes_out_of_a_wearer_of_a_fleet_is_counted():
+    packets = emulate(Route().stand(2).walk(20, speed=1.3).stop(2), seed=1).packets
+    session = Session()
+    events = session.feed(packets) + session.finish()
+    last = packets[-1].t - packets[0].t
+    rows = sum(len(json.dumps(told_row(Told("w-00017", number, event)))) for number, event in enumerate(events))
+    assert f" {len(events) / last:.0f} events/s, {rows / last / 1000:.0f} kB/s as rows" in PAGES["docs/fleet.md"]
 
 
 def test_the_loop_over_bluetooth_is_a_program(played):
