@@ -8,9 +8,9 @@ import sys
 
 from solepath import Connected, Disconnected, LinkTrouble, Session, Site, StepTaken
 from solepath.ble import NATIVE, Backend, BluetoothError, Devices, Wanted
-from solepath.loopback.bench import Bench
-from solepath.loopback.server import virtual_air
-from solepath.sim import Route
+from solepath.emulate import Route
+from solepath.emulate.controllers.server import virtual_air
+from solepath.emulate.devices.bench import Bench
 
 
 async def listen(left: str, right: str, backend: Backend = NATIVE, seconds: float = 600.0) -> None:

@@ -9,9 +9,9 @@ the integration of acceleration from drifting?). Any detector goes with any corr
 from math import radians
 
 from solepath import Foot, Recipe, Session, StepTaken, recipes
-from solepath.foot.dedrift import LinearDedrift
-from solepath.foot.stance import Shoe
-from solepath.sim import Radio, Route, emulate
+from solepath.emulate import Radio, Route, emulate
+from solepath.foot.navigate.dedrift import LinearDedrift
+from solepath.foot.stance.stance import Shoe
 
 # Walking slowly and fast, with a bend: what one threshold finds hard to serve.
 route = Route().stand(2).walk(15, speed=0.9).turn(radians(180), radius=2).walk(15, speed=1.6).stop(2)

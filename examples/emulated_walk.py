@@ -6,7 +6,7 @@
 from math import degrees, radians
 
 from solepath import FootFlat, HeelOff, HeelStrike, PacketRejected, PacketsLost, Session, StepTaken, ToeOff
-from solepath.sim import Radio, Route, emulate
+from solepath.emulate import Radio, Route, emulate
 
 # Stand, walk six metres, turn left on a bend, walk on, stop. The radio loses one packet in fifty.
 route = Route().stand(2).walk(6, speed=1.3).turn(radians(90), radius=1.5).walk(3).stop(2)

@@ -9,10 +9,10 @@ from math import hypot
 from pathlib import Path
 
 from solepath import ActivityChanged, LiftRidden, Placed, Session, Site, read_floorplan, recipes
-from solepath.sim.sensortags import CC2541
-from solepath.sim.shoe import IN_SOLE
-from solepath.sim.walk import emulate
-from solepath.sim.ways import case_study
+from solepath.emulate.routes.ways import case_study
+from solepath.emulate.sensors.sensortags import CC2541
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.shoe import IN_SOLE
 
 plan = read_floorplan(Path(__file__).with_name("building.geojson"))
 way = case_study()

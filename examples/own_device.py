@@ -14,10 +14,10 @@ from pathlib import Path
 from construct import Const, Int16ub, OneOf, Struct, Terminated
 
 from solepath import BatteryLevel, Foot, Packet, PacketsLost, Session, Site, StepTaken
+from solepath.emulate import Route, Walker
 from solepath.link.driver import Driver, Measured, Reading
 from solepath.link.profile import Channel, How, Profile, Write
-from solepath.link.vectors import disagreements
-from solepath.sim import Route, Walker
+from solepath.testing.vectors import disagreements
 from solepath.wire.fields import Fields
 
 SERVICE = "5d1e0001-9c60-4cf1-a1b3-1a2b3c4d5e6f"

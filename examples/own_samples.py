@@ -11,7 +11,7 @@ import sys
 from collections.abc import Iterator
 
 from solepath import Foot, Sample, SampleGap, SampleRejected, Session, Site, StepTaken
-from solepath.sim import Route, Walker
+from solepath.emulate import Route, Walker
 
 
 def samples_of(path: str) -> Iterator[Sample]:

@@ -8,7 +8,7 @@ A snapshot is plain data, so it goes through JSON, a database or a message as it
 import json
 
 from solepath import Event, Session
-from solepath.sim import Route, emulate
+from solepath.emulate import Route, emulate
 
 walk = emulate(Route().stand(2).walk(10, speed=1.2).stop(2), seed=3)
 half = len(walk.packets) // 2

@@ -16,9 +16,9 @@ from collections.abc import Callable, Iterator
 from math import inf
 
 from solepath import Event, Foot, Packet, PacketsDropped, Session, Site, StepTaken, StreamResumed, StreamStale
+from solepath.emulate import Route, emulate
 from solepath.link.known import PROFILES
 from solepath.recording import read_packets
-from solepath.sim import Route, emulate
 from solepath.wire.receiver import build_dropped
 
 # What comes a hundred times a second may be dropped; a layout or a range, which comes once, may not.

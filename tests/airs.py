@@ -10,9 +10,9 @@ from typing import Any, TypeVar
 import looptime
 
 from solepath.ble import Backend, Devices
-from solepath.loopback.bench import Bench
-from solepath.loopback.memory import Air
-from solepath.loopback.server import virtual_air
+from solepath.emulate.controllers.server import virtual_air
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.memory import Air
 from solepath.types import Packet
 
 T = TypeVar("T")

@@ -8,10 +8,10 @@ from attrs import define, evolve, field
 from bleak.backends.characteristic import BleakGATTCharacteristic
 
 from solepath.ble import Backend
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.devices.memory import Air
+from solepath.emulate.devices.peripheral import Peripheral
 from solepath.link.profile import Channel, How, Profile, Write
-from solepath.loopback.faults import parse_faults
-from solepath.loopback.memory import Air
-from solepath.loopback.peripheral import Peripheral
 from strap import BATTERY, BEAT, CONTROL, HEART_RATE, LEVEL, LOG, PAGE, Strap
 
 RATE = 10

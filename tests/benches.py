@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from functools import cache
 
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.devices.peripheral import AttError, Outgoing, Peripheral
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.device import Device
+from solepath.emulate.wearers.walker import Walker
 from solepath.link.profile import How, Profile
-from solepath.loopback.bench import Bench
-from solepath.loopback.faults import parse_faults
-from solepath.loopback.peripheral import AttError, Outgoing, Peripheral
-from solepath.sim.device import Device
-from solepath.sim.route import Route
-from solepath.sim.walker import Walker
 from solepath.types import Site
 
 ROUTE = Route().stand(2.0).walk(8.0, 1.2).stop(2.0)

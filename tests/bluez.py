@@ -17,8 +17,8 @@ from dbus_fast import Variant
 
 import bus
 from bus import Refused
-from solepath.loopback.link import Link
-from solepath.loopback.peripheral import Characteristic, Peripheral, Service
+from solepath.emulate.devices.link import Link
+from solepath.emulate.devices.peripheral import Characteristic, Peripheral, Service
 
 ADAPTER = "/org/bluez/hci0"
 HEARD = 0.1

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from solepath.evaluate.jobs import evaluate
-from solepath.evaluate.report import Result
+from solepath.lab.evaluate.jobs import evaluate
+from solepath.lab.evaluate.report import Result
 
 if TYPE_CHECKING:
     from browsers import Browsing

@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 from attrs import frozen
 
+from solepath.emulate.radio import Radio
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.device import Notification
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.walker import Walker
 from solepath.link.devices import dot, orphe, thingy
 from solepath.link.driver import Driver
-from solepath.sim.device import Notification
-from solepath.sim.insoles import layout
-from solepath.sim.parts import LSM6DSOX
-from solepath.sim.radio import Radio
-from solepath.sim.route import Route
-from solepath.sim.walker import Walker
 from solepath.types import SITE_OF_FOOT, Foot, Packet, Sample
-from solepath.vector import GRAVITY
+from solepath.types.vector import GRAVITY
 
 SETUP = 0.05
 """s after which a device measures; reading and writing come before."""

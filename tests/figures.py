@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 
-from solepath.evaluate.datasets import DATASETS
+from solepath.lab.evaluate.datasets import DATASETS
 
 Row = tuple[str, str]
 

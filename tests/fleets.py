@@ -9,11 +9,11 @@ from itertools import pairwise
 from attrs import evolve, frozen
 
 from solepath import recipes
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.walk import emulate
 from solepath.events import Event, PacketRejected
 from solepath.fleet import End, Fleet, NumbersMissing, Sent, SentRejected, Told, Unreadable
 from solepath.session import Session
-from solepath.sim.insole_device import Insole
-from solepath.sim.walk import emulate
 from solepath.types import Packet
 from walks import LEFT, RIGHT, ROUGH, SHORT
 

@@ -12,7 +12,7 @@ from random import Random
 from attrs import define, field
 
 from solepath import Activity, ActivityChanged, Event, FlightClimbed, Foot, LiftRidden, StepFeatures, StepTaken, Vec3
-from solepath.body.position import Position
+from solepath.body.fuse.position import Position
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, Connector, FloorPlan, Kind, Level, Point, Stop, Wall
 

@@ -17,14 +17,14 @@ from attrs import evolve
 
 from browsers import Browser, Window, window
 from solepath import Event, Packet, Session
-from solepath.page.messages import Command, encode
-from solepath.page.scene import Scene
-from solepath.page.server import Page
-from solepath.sim.building import BUILDING
-from solepath.sim.insole_device import Insole
-from solepath.sim.route import Route
-from solepath.sim.walk import emulate
-from solepath.sim.ways import corridor
+from solepath.emulate.routes.building import BUILDING
+from solepath.emulate.routes.route import Route
+from solepath.emulate.routes.ways import corridor
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.walk import emulate
+from solepath.show.page.messages import Command, encode
+from solepath.show.page.scene.scene import Scene
+from solepath.show.page.server.server import Page
 from solepath.types import SITE_OF_FOOT, Foot
 
 REFRESH = 1.0 / 60.0

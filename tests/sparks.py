@@ -14,11 +14,11 @@ from typing import Any
 
 import pytest
 
+from solepath.emulate.routes.route import Route
 from solepath.fleet import End, Sent, Told, sent_row, told_row
 from solepath.fleet.spark_files import committed
 from solepath.recipes import BY_NAME, DEFAULT
 from solepath.session import Session
-from solepath.sim.route import Route
 from walks import insoles
 
 ROUTE = Route().stand(1.0).walk(3.0, 1.3).stop(0.5)

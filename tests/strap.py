@@ -10,8 +10,8 @@ from typing import Any
 
 from attrs import frozen
 
-from solepath.loopback.peripheral import WRONG_LENGTH, AttError, Characteristic, Peripheral, Service
-from solepath.loopback.tcp import serve
+from solepath.emulate.controllers.tcp import serve
+from solepath.emulate.devices.peripheral import WRONG_LENGTH, AttError, Characteristic, Peripheral, Service
 from solepath.types import Site
 
 

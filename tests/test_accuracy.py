@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 from quoted import below, nearly_the_same
-from solepath.evaluate.jobs import find
-from solepath.evaluate.report import Result
-from solepath.evaluate.score import Scored, Summary
-from solepath.view.markdown import accuracy_table
+from solepath.lab.evaluate.jobs import find
+from solepath.lab.evaluate.report import Result
+from solepath.lab.measures.score import Scored, Summary
+from solepath.lab.tables.markdown import accuracy_table
 
 Evaluated = Callable[[str, str], Result]
 

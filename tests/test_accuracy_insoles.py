@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from solepath.evaluate.report import Result
+from solepath.lab.evaluate.report import Result
 
 Evaluated = Callable[[str, str], Result]
 

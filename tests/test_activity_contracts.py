@@ -9,17 +9,18 @@ from math import cos, sin
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import Session, machine
+from solepath import Session
 from solepath.body.activity.activities import Activities
 from solepath.body.activity.features import COUNT, GYRO
 from solepath.body.activity.motion import MOTIONS, from_json, shipped, to_json
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.walker import Walker
 from solepath.events import ActivityChanged, Event
-from solepath.foot.cycle import Cycle
-from solepath.foot.eskf import ErrorStateFilter
+from solepath.foot.navigate.error_state import ErrorStateFilter
+from solepath.foot.stance.cycle import Cycle
 from solepath.foot.tracker import FootTracker
-from solepath.sim.parts import LSM6DSOX
-from solepath.sim.route import Route
-from solepath.sim.walker import Walker
+from solepath.saving import codec as machine
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site
 
 number = st.floats(-1e9, 1e9) | st.floats(-30.0, 30.0)

@@ -8,7 +8,7 @@ from math import exp, isclose, isfinite, log
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.body.activity.hmm import forward, spread, weighed
+from solepath.papers.footstep_tracker.activity.hmm import forward, spread, weighed
 
 BEGIN = (0.6, 0.3, 0.1)
 CHAIN = ((0.9, 0.05, 0.05), (0.15, 0.8, 0.05), (0.15, 0.15, 0.7))

@@ -7,8 +7,8 @@ from math import sin
 
 from solepath.body.activity.activities import Activities
 from solepath.events import ActivityChanged, Event, LiftRidden
-from solepath.foot.cycle import Cycle
-from solepath.foot.eskf import ErrorStateFilter
+from solepath.foot.navigate.error_state import ErrorStateFilter
+from solepath.foot.stance.cycle import Cycle
 from solepath.foot.tracker import FootTracker
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import isclose
 
 from solepath.body.activity.chain import STAND, SUPPOSED, UP, WALK, chain_of
-from solepath.train.activities_course import Course, chances, changes, spans
+from solepath.lab.train.activities_course import Course, chances, changes, spans
 from solepath.types import Activity
 
 STOOD, WALKED, CLIMBED = Activity.STANDING, Activity.WALKING, Activity.STAIRS_UP

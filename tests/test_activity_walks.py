@@ -9,13 +9,13 @@ import attrs
 import pytest
 
 from solepath import Session, recipes
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.sensors.sensortags import CC2541
+from solepath.emulate.walk import EmulatedWalk, emulate
+from solepath.emulate.wearers.walker import Walker
 from solepath.events import ActivityChanged, Event, FlightClimbed, LiftRidden
-from solepath.sim.parts import LSM6DSOX
-from solepath.sim.route import Route
-from solepath.sim.sensortags import CC2541
-from solepath.sim.walk import EmulatedWalk, emulate
-from solepath.sim.walker import Walker
-from solepath.timeline import Timeline
+from solepath.show.timeline import Timeline
 from solepath.types import Activity, Foot, Packet, Sample, Site
 
 HOUSE = (

@@ -11,13 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath import Foot, LiftRidden, Sample, Session, Site, StepTaken, recipes
-from solepath.body.altitude import LEFT, MOVE, RIGHT, SCALE, STANDARD, UNKNOWN, Altitude
-from solepath.body.heard import TICKS, Heard, Told
-from solepath.body.position import Position
+from solepath.body.fuse.position import Position
+from solepath.body.height.altitude import LEFT, MOVE, RIGHT, SCALE, STANDARD, UNKNOWN, Altitude
+from solepath.body.height.received import TICKS, Heard, Told
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.walk import SampledWalk, sampled
 from solepath.recipes import Recipe
-from solepath.sim.insole_device import Insole
-from solepath.sim.route import Route
-from solepath.sim.walk import SampledWalk, sampled
 from walks import samples
 
 RIDE = 6.4

@@ -14,11 +14,11 @@ from airs import hear, in_virtual_time, others
 from belts import RATE, READ_AFTER, STRAP, address, asked, strap
 from benches import LEFT, RIGHT
 from solepath.ble import Backend, Devices, Wanted
+from solepath.emulate import Route
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.memory import Air
+from solepath.emulate.sensors.insole_device import Insole
 from solepath.link.profile import How
-from solepath.loopback.bench import Bench
-from solepath.loopback.memory import Air
-from solepath.sim import Route
-from solepath.sim.insole_device import Insole
 from solepath.types import Packet, Site
 
 PELVIS = Site.PELVIS

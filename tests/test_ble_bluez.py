@@ -17,14 +17,14 @@ from bluez import Bluez
 from bus import DAEMON, message_bus
 from solepath import Connected, Disconnected, Session
 from solepath.ble import BluetoothError, Devices, Wanted, scan
+from solepath.emulate import Route
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.sensors.device import Device
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2650
 from solepath.link.profile import CC2650 as PROFILE
-from solepath.loopback.bench import Bench
-from solepath.loopback.faults import parse_faults
 from solepath.recording import read_packets
-from solepath.sim import Route
-from solepath.sim.device import Device
-from solepath.sim.insole_device import Insole
-from solepath.sim.sensortags import CC2650
 from solepath.types import Packet, Site
 from solepath.wire.receiver import parse_words
 

@@ -10,10 +10,10 @@ import pytest
 from airs import hear, in_virtual_time, memory
 from belts import RATE, STRAP, address, asked
 from solepath.ble import Backend, Devices, Wanted
-from solepath.loopback.bench import Bench
-from solepath.loopback.faults import Fault, What, parse_faults
-from solepath.loopback.peripheral import AttError
-from solepath.sim import Route
+from solepath.emulate import Route
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import Fault, What, parse_faults
+from solepath.emulate.devices.peripheral import AttError
 from solepath.types import Site
 from solepath.wire.receiver import parse_words
 from strap import Strap

@@ -16,13 +16,13 @@ from belts import RATE, READ_AFTER, STRAP, Asked, address, asked, strap
 from benches import LEFT, RIGHT, ROUTE
 from solepath import BatteryLevel, LayoutKnown, PacketRejected, PacketsDropped, Session
 from solepath.ble import Backend, BluetoothError, Devices, State, Wanted
+from solepath.emulate import Route
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.memory import Air
+from solepath.emulate.devices.peripheral import Characteristic, Service
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2650 as Tag
 from solepath.link.profile import CC2650, INSOLE, How, Write
-from solepath.loopback.bench import Bench
-from solepath.loopback.memory import Air
-from solepath.loopback.peripheral import Characteristic, Service
-from solepath.sim import Route
-from solepath.sim.insole_device import Insole
-from solepath.sim.sensortags import CC2650 as Tag
 from solepath.types import Packet, Site
 from solepath.wire.receiver import parse_dropped
 from strap import BATTERY, BEAT, CONTROL, HEART_RATE, LEVEL, Strap

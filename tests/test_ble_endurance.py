@@ -17,14 +17,14 @@ from attrs import define, field
 from airs import bumble, in_virtual_time, others
 from solepath import Connected, Disconnected, FootMoved, PacketRejected, SampleGap, Session, StepTaken
 from solepath.ble import Devices, Wanted
-from solepath.evaluate.strides import position_errors
+from solepath.emulate import Route, emulate
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import Fault, What
+from solepath.emulate.sensors.device import Device
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.wearers.truth import Truth
+from solepath.lab.measures.strides import position_errors
 from solepath.link.profile import INSOLE
-from solepath.loopback.bench import Bench
-from solepath.loopback.faults import Fault, What
-from solepath.sim import Route, emulate
-from solepath.sim.device import Device
-from solepath.sim.insole_device import Insole
-from solepath.sim.truth import Truth
 from solepath.types import Foot, Site
 
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)

@@ -27,14 +27,14 @@ from solepath import (
     StreamStale,
 )
 from solepath.ble import Devices, Wanted
+from solepath.emulate import Route
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.sensors.device import Device
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2650 as Tag
+from solepath.link.devices.reassembly import Reassembly
 from solepath.link.profile import CC2650, INSOLE, Write
-from solepath.link.reassembly import Reassembly
-from solepath.loopback.bench import Bench
-from solepath.loopback.faults import parse_faults
-from solepath.sim import Route
-from solepath.sim.device import Device
-from solepath.sim.insole_device import Insole
-from solepath.sim.sensortags import CC2650 as Tag
 from solepath.types import Packet, Site
 from solepath.wire.fragment import is_fragment, parse_fragment
 from solepath.wire.insole import InsoleFrame, parse_frame

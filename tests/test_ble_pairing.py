@@ -11,12 +11,13 @@ from bleak.exc import BleakError, BleakGATTProtocolError, BleakGATTProtocolError
 
 from airs import TIERS, hear, in_virtual_time
 from solepath.ble import Backend, Devices, Wanted
+from solepath.emulate import Route
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.sensors import sensortags
+from solepath.emulate.sensors.device import Device
+from solepath.emulate.sensors.insole_device import Insole
 from solepath.link.profile import CC2541, CC2650, INSOLE, Profile
-from solepath.loopback.bench import Bench
-from solepath.loopback.faults import parse_faults
-from solepath.sim import Route, sensortags
-from solepath.sim.device import Device
-from solepath.sim.insole_device import Insole
 from solepath.types import Packet, Site
 from solepath.wire.receiver import parse_words
 

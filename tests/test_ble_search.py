@@ -10,15 +10,15 @@ from airs import hear, in_virtual_time
 from belts import STRAP, address, asked, strap
 from benches import LEFT, RIGHT, ROUTE
 from solepath.ble import Backend, Devices, State, Wanted, scan
+from solepath.emulate.devices import cc2650
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.devices.memory import Air
+from solepath.emulate.devices.peripheral import Peripheral
+from solepath.emulate.sensors.device import Device
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2650 as Tag
 from solepath.link.profile import CC2541, CC2650, INSOLE
-from solepath.loopback import cc2650
-from solepath.loopback.bench import Bench
-from solepath.loopback.faults import parse_faults
-from solepath.loopback.memory import Air
-from solepath.loopback.peripheral import Peripheral
-from solepath.sim.device import Device
-from solepath.sim.insole_device import Insole
-from solepath.sim.sensortags import CC2650 as Tag
 from solepath.types import Packet, Site
 from solepath.wire.receiver import parse_connected
 

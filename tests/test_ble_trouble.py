@@ -19,9 +19,9 @@ from airs import hear, in_virtual_time, others
 from belts import STRAP, address, asked
 from solepath.ble import Backend, BluetoothError, Devices, Wanted, scan
 from solepath.ble.trouble import sentence
+from solepath.emulate.devices.memory import Air
+from solepath.emulate.devices.peripheral import Outgoing
 from solepath.link.profile import CC2650
-from solepath.loopback.memory import Air
-from solepath.loopback.peripheral import Outgoing
 from solepath.types import Packet, Site
 from strap import Strap
 

@@ -23,13 +23,14 @@ from solepath import (
     ToeOff,
 )
 from solepath.ble import Devices, Wanted
-from solepath.evaluate.emulated import compare
-from solepath.evaluate.gathered import Gathering
+from solepath.emulate import Route, emulate
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.sensors import sensortags
+from solepath.emulate.sensors.device import Device
+from solepath.lab.emulated.compare import compare
+from solepath.lab.evaluate.gathered import Gathering
+from solepath.link.devices.reassembly import Reassembly
 from solepath.link.profile import CC2541, CC2541_20HZ, CC2650, INSOLE, Profile
-from solepath.link.reassembly import Reassembly
-from solepath.loopback.bench import Bench
-from solepath.sim import Route, emulate, sensortags
-from solepath.sim.device import Device
 from solepath.types import Foot, Packet, Site
 from solepath.wire.fragment import is_fragment, parse_fragment
 

@@ -9,16 +9,17 @@ import pytest
 from attrs import evolve
 
 import walks
-from solepath import machine, recipes
-from solepath.body.agreement import HEADING, RATE, STATES, Agreement, X, Y
-from solepath.body.both_feet import BothFeet
-from solepath.body.corridor import Corridor
-from solepath.body.position import MeanOfFeet
+from solepath import recipes
+from solepath.body.fuse.agreement import HEADING, RATE, STATES, Agreement, X, Y
+from solepath.body.fuse.both_feet import BothFeet
+from solepath.body.fuse.corridor import Corridor
+from solepath.body.fuse.position import MeanOfFeet
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, StepTaken
+from solepath.saving import codec as machine
 from solepath.session import Session
-from solepath.sim.parts import LSM6DSOX
-from solepath.sim.route import Route
-from solepath.sim.walker import Walker
 from solepath.types import Foot, Sample
 
 LONG = Route().stand(2.0).walk(40.0, 1.3).stop(1.0)

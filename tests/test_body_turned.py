@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.body.sides import HIDDEN, REMEMBERED
-from solepath.body.turned import Turned
+from solepath.body.worn.sides import HIDDEN, REMEMBERED
+from solepath.body.worn.turned import Turned
 from solepath.types import Vec3
 
 RATES = st.tuples(*[st.floats(-30.0, 30.0)] * 3)

@@ -17,14 +17,14 @@ from hypothesis import strategies as st
 import walks
 from snooped import BEGAN, H1, H4, INSOLE, LEFT, MONITOR, OTHER, RIGHT, TAG, Log, insole_uuid
 from solepath import Packet, PacketRejected, Sample, Session, Site
-from solepath.btsnoop import is_btsnoop, open_btsnoop
-from solepath.btsnoop.att import How, Op
-from solepath.btsnoop.values import Listener, Value
 from solepath.events import Connected, Disconnected, StepTaken
 from solepath.link.decoder import Decoder
 from solepath.recording import RecordingError
+from solepath.recording.btsnoop import is_btsnoop, open_btsnoop
+from solepath.recording.btsnoop.att import How, Op
+from solepath.recording.btsnoop.values import Listener, Value
 from solepath.types import Foot
-from solepath.vector import GRAVITY
+from solepath.types.vector import GRAVITY
 from solepath.wire.fragment import split
 from solepath.wire.insole_info import build_info, parse_info
 

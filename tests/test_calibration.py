@@ -36,10 +36,10 @@ from solepath.calibration import (
     unusable,
     write_calibration,
 )
+from solepath.emulate.sensors.insoles import layout
 from solepath.events import CellsFailed, Limitation
-from solepath.foot.pressure import in_newtons
+from solepath.foot.pressure.insole import in_newtons
 from solepath.recipes import Recipe
-from solepath.sim.insoles import layout
 from walks import of, samples
 
 WHOLE = Calibration(

@@ -13,13 +13,14 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import Session, machine
+from solepath import Session
 from solepath.calibration import Calibration, InsoleCalibration
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import FULL_SCALE, layout
 from solepath.events import CellFault, CellsFailed, Event, InsoleNeverUnloads, SampleRejected, StepTaken
-from solepath.foot.cell_health import CellHealth
-from solepath.foot.cells import enclosed, spacing
-from solepath.sim.insoles import FULL_SCALE, layout
-from solepath.sim.route import Route
+from solepath.foot.pressure.cell_health import CellHealth
+from solepath.foot.pressure.cells import enclosed, spacing
+from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Layout, Phase, Sample, Site
 from walks import LEFT, of, samples
 

@@ -16,14 +16,14 @@ import pytest
 
 from solepath import Event, FootMoved, PacketsLost, Session, StepTaken
 from solepath.cli import main
-from solepath.cli.failure import note
+from solepath.cli.common.failure import note
+from solepath.emulate.radio import Radio
+from solepath.emulate.routes.route import Route
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.walker import Walker
 from solepath.events import LiveEvent
-from solepath.output import event_record
 from solepath.recording import PacketWriter, read_packets
-from solepath.sim.radio import Radio
-from solepath.sim.route import Route
-from solepath.sim.walk import emulate
-from solepath.sim.walker import Walker
+from solepath.show.output import event_record
 from solepath.types import Foot, Packet, Site
 
 ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)

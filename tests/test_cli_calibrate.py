@@ -11,14 +11,14 @@ import pytest
 from commands import refused, run
 from solepath.calibration import Calibration, InsoleCalibration, ShoeGeometry, read_calibration, write_calibration
 from solepath.cli import main
+from solepath.emulate.routes.laps import marked, marks, square, write_marks
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole, boot
+from solepath.emulate.sensors.sensortags import CC2650
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.walker import Walker
 from solepath.recipes import BY_NAME
 from solepath.recording import PacketWriter
-from solepath.sim.insole_device import Insole, boot
-from solepath.sim.laps import marked, marks, square, write_marks
-from solepath.sim.route import Route
-from solepath.sim.sensortags import CC2650
-from solepath.sim.walk import emulate
-from solepath.sim.walker import Walker
 from solepath.types import Foot, Site, WalkingMode
 
 ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)

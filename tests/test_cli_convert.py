@@ -257,7 +257,7 @@ def test_the_help_has_an_example():
 
 
 def test_the_recording_that_comes_of_a_log_gives_the_events_of_the_log(log, tmp_path):
-    from solepath.btsnoop import open_btsnoop
+    from solepath.recording.btsnoop import open_btsnoop
 
     out = tmp_path / "walk.jsonl"
     assert convert(log, out).returncode == 0

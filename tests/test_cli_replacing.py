@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from solepath.cli import replacing
-from solepath.cli.replacing import Replacing
+from solepath.cli.common import replacing
+from solepath.cli.common.replacing import Replacing
 
 
 def test_a_file_interrupted_as_it_is_made_is_thrown_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -19,9 +19,9 @@ from typing import Any
 import pytest
 
 from commands import refused, run
+from solepath.emulate.routes.route import Route
+from solepath.emulate.walk import emulate
 from solepath.recording import PacketWriter
-from solepath.sim.route import Route
-from solepath.sim.walk import emulate
 
 aiohttp = pytest.importorskip("aiohttp")
 

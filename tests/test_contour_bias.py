@@ -6,13 +6,13 @@ from math import cos, inf, pi, sin
 
 import pytest
 
-from solepath import machine
 from solepath.calibration import Calibration
-from solepath.foot.acc_bias import AccelerometerBias
-from solepath.foot.bias_zupt import BiasZupt
-from solepath.foot.stance import Stance
+from solepath.foot.stance.stance import Stance
+from solepath.papers.pressure_contour.acc_bias import AccelerometerBias
+from solepath.papers.pressure_contour.bias_zupt import BiasZupt
+from solepath.saving import codec as machine
 from solepath.types import Foot, Phase, Quat, Vec3
-from solepath.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector, from_yaw, multiply, rotate
+from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector, from_yaw, multiply, rotate
 
 STANDS = Stance(ZERO, 0.01, 0.0, Phase.STATIONARY)
 MOVES = Stance(ZERO, inf, 0.0, None)

@@ -8,9 +8,9 @@ import pytest
 
 from solepath import Session, StepTaken
 from solepath.calibration import Calibration
-from solepath.evaluate.insoles import in_dataset
+from solepath.lab.evaluate.insoles import in_dataset
 from solepath.recipes import DEFAULT, GYROSCOPE, PRESSURE_CONTOUR, Recipe
-from solepath.samples import load_samples
+from solepath.recording.samples import load_samples
 from walks import of
 
 LONGEST = 2.0

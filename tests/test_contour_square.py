@@ -10,16 +10,16 @@ import pytest
 from attrs import evolve
 
 from solepath import Session, StepTaken
-from solepath.calibrate.recorded import recorded
-from solepath.calibrate.square import Mark, check, fit_square, fitted, read_marks, square_drift
 from solepath.calibration import Calibration, CalibrationError
-from solepath.foot.bias_zupt import BiasZupt
+from solepath.emulate.routes.laps import square
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.parts import AttitudePart
+from solepath.emulate.walk import EmulatedWalk, emulate
+from solepath.papers.pressure_contour.bias_zupt import BiasZupt
+from solepath.papers.pressure_contour.square import Mark, check, fit_square, fitted, read_marks, square_drift
 from solepath.recipes import DEFAULT, GYROSCOPE, Recipe
-from solepath.sim.insole_device import Insole
-from solepath.sim.laps import square
-from solepath.sim.parts import AttitudePart
-from solepath.sim.route import Route
-from solepath.sim.walk import EmulatedWalk, emulate
+from solepath.recording.decoded import recorded
 from solepath.types import Foot, Packet, Sample, Site, Vec3
 
 LEFT = Foot.LEFT

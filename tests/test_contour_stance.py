@@ -11,19 +11,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath import LayoutKnown, Limitation, Session, StepTaken, machine
-from solepath.foot.contour_stance import ContourVelocity, GyroscopeMagnitude
-from solepath.foot.pressure import Insole as Cells
-from solepath.foot.stance import Load
+from solepath import LayoutKnown, Limitation, Session, StepTaken
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole, boot
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import INERTIACUBE3
+from solepath.emulate.walk import EmulatedWalk, emulate
+from solepath.foot.pressure.insole import Insole as Cells
+from solepath.foot.stance.stance import Load
 from solepath.link.decoder import Decoder
+from solepath.papers.pressure_contour.contour_stance import ContourVelocity, GyroscopeMagnitude
 from solepath.recipes import GYROSCOPE, PRESSURE_CONTOUR, Recipe
-from solepath.sim.insole_device import Insole, boot
-from solepath.sim.insoles import layout
-from solepath.sim.parts import INERTIACUBE3
-from solepath.sim.route import Route
-from solepath.sim.walk import EmulatedWalk, emulate
+from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Layout, Phase, Sample, Site
-from solepath.vector import GRAVITY, ZERO
+from solepath.types.vector import GRAVITY, ZERO
 from walks import of
 
 LEFT = Foot.LEFT

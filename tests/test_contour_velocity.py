@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath import machine
-from solepath.foot.contour import FIGURE_4, Contours
-from solepath.sim.insoles import heel_array, layout
+from solepath.emulate.sensors.insoles import heel_array, layout
+from solepath.papers.pressure_contour.contour import FIGURE_4, Contours
+from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Layout
 
 LENGTH = 0.28

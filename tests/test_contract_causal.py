@@ -28,10 +28,10 @@ from solepath import (
     ToeOff,
     TouchedDown,
 )
+from solepath.emulate.radio import CLEAN
+from solepath.emulate.routes.route import Route
 from solepath.events import LiveEvent
 from solepath.link.decoder import Decoder
-from solepath.sim.radio import CLEAN
-from solepath.sim.route import Route
 from walks import NAMES, SHORT, Machine, gone, insoles, machines, of, pieces, samples, told
 
 QUICK = settings(max_examples=2, deadline=None, phases=[Phase.generate])

@@ -12,8 +12,8 @@ import pytest
 from attrs import evolve
 
 from solepath import Packet, PacketRejected, PacketsLost, Sample, Session, Site, StepTaken
-from solepath.sim.radio import Radio
-from solepath.sim.route import Route
+from solepath.emulate.radio import Radio
+from solepath.emulate.routes.route import Route
 from solepath.wire.error import WireError
 from solepath.wire.insole import InsoleFrame, build_frame, parse_frame
 from walks import LEFT, RIGHT, insoles, of, samples

@@ -18,9 +18,9 @@ from hypothesis import strategies as st
 
 from encoded import other
 from solepath import Packet, Session, SnapshotError, StepTaken
-from solepath.machine import checksum
-from solepath.sim.building import BUILDING
-from solepath.state import VERSION
+from solepath.emulate.routes.building import BUILDING
+from solepath.saving.codec import checksum
+from solepath.session.state import VERSION
 from walks import NAMES, PACKET_NAMES, gone, machines, of, told
 
 SESSIONS = [name for name in NAMES if name.startswith("session")]

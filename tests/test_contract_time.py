@@ -12,23 +12,13 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import (
-    Foot,
-    FootMoved,
-    PacketsLost,
-    Sample,
-    SampleGap,
-    Session,
-    StepTaken,
-    StreamResumed,
-    StreamStale,
-)
-from solepath.sim.insole_device import Insole
-from solepath.sim.parts import LSM6DSOX
-from solepath.sim.radio import CLEAN
-from solepath.sim.route import Route
-from solepath.sim.walk import emulate
-from solepath.sim.walker import Walker
+from solepath import Foot, FootMoved, PacketsLost, Sample, SampleGap, Session, StepTaken, StreamResumed, StreamStale
+from solepath.emulate.radio import CLEAN
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.walker import Walker
 from walks import LEFT, NAMES, PACKET_NAMES, RIGHT, machines, of, samples
 
 # --- 2: time is data --------------------------------------------------------------------------------------------------

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from solepath.foot.covariance import Covariance, propagate, update
+from solepath.foot.navigate.covariance import Covariance, propagate, update
 
 BLOCKS = [(0, 0), (0, 3), (0, 6), (3, 3), (3, 6), (6, 6)]
 

@@ -15,14 +15,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath import Foot, Sample, StepTaken
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.walker import Walker
 from solepath.foot.tracker import FootTracker
 from solepath.recipes import DEFAULT, Recipe
-from solepath.samples import load_samples
-from solepath.sim.parts import LSM6DSOX
-from solepath.sim.route import Route
-from solepath.sim.walker import Walker
+from solepath.recording.samples import load_samples
 from solepath.types import Quat, Vec3
-from solepath.vector import GRAVITY, ZERO, normalise, rotate
+from solepath.types.vector import GRAVITY, ZERO, normalise, rotate
 from walks import of
 
 ROUTE = Route().stand(2.0).walk(14.0, 1.3).stop(1.5)

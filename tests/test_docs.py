@@ -20,17 +20,18 @@ import figures
 from commands import run
 from quoted import NUMBER, PAGES, ROOT, below, blocks, nearly_the_same
 from snooped import insoles_log
-from solepath import LiftRidden, Session, sim
-from solepath.body.altitude import Altitude
+from solepath import LiftRidden, Session
+from solepath import emulate as sim
+from solepath.body.height.altitude import Altitude
 from solepath.cli.main import parser
+from solepath.emulate import Route, emulate
 from solepath.fleet import Sent, Told, sent_line, told_row
-from solepath.foot.pressure import Insole
-from solepath.foot.stance import Detector
+from solepath.foot.pressure.insole import Insole
+from solepath.foot.stance.stance import Detector
 from solepath.foot.tracker import AnyCorrector, AnyCues, AnyDetector
-from solepath.output import STEP_COLUMNS, TRACK_COLUMNS
 from solepath.recipes import AnyActivity, AnyBody, AnyPlace
 from solepath.recording import PacketWriter
-from solepath.sim import Route, emulate
+from solepath.show.output import STEP_COLUMNS, TRACK_COLUMNS
 from solepath.types import Foot, Site
 
 MARKDOWN = {**PAGES, **{f"protocol/{path.name}": path.read_text() for path in (ROOT / "protocol").glob("*.md")}}

@@ -11,14 +11,14 @@ import pytest
 from attrs import evolve
 
 from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Packet, SampleGap, Session, Site, StepTaken, ToeOff
-from solepath.evaluate.emulated import FootComparison, compare
-from solepath.evaluate.gathered import Gathering
-from solepath.sim.device import Device
-from solepath.sim.insole_device import Insole
-from solepath.sim.radio import CLEAN, Radio
-from solepath.sim.route import Route
-from solepath.sim.sensortags import CC2541, CC2650
-from solepath.sim.walk import EmulatedWalk, emulate
+from solepath.emulate.radio import CLEAN, Radio
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.device import Device
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2541, CC2650
+from solepath.emulate.walk import EmulatedWalk, emulate
+from solepath.lab.emulated.compare import FootComparison, compare
+from solepath.lab.evaluate.gathered import Gathering
 from walks import LEFT, RIGHT, of
 
 WALK = Route().stand(3.0).walk(100.0, 1.3).stop(2.0)

@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose
 
-from solepath.evaluate.alignment import Alignment, align, at_times, path_length, rms_distance, track_error
-from solepath.evaluate.contacts import merged, switch_contacts
-from solepath.evaluate.errors import Errors
-from solepath.evaluate.legs import between, leg_errors, turned_about
-from solepath.evaluate.matching import Matching, interval_errors, match
-from solepath.evaluate.score import Scored, summarise
-from solepath.evaluate.strides import StrideScore, marker_rests, position_errors, stride_score, surveyed_score
+from solepath.lab.measures.alignment import Alignment, align, at_times, path_length, rms_distance, track_error
+from solepath.lab.measures.contacts import merged, switch_contacts
+from solepath.lab.measures.errors import Errors
+from solepath.lab.measures.legs import between, leg_errors, turned_about
+from solepath.lab.measures.matching import Matching, interval_errors, match
+from solepath.lab.measures.score import Scored, summarise
+from solepath.lab.measures.strides import StrideScore, marker_rests, position_errors, stride_score, surveyed_score
 
 SQUARE = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]])
 

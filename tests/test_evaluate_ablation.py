@@ -2,18 +2,18 @@
 
 import pytest
 
-from solepath.evaluate.ablation import COLUMNS, WITHOUT, Column, recipes
-from solepath.evaluate.changes import BETTER
-from solepath.evaluate.datasets import DATASETS, EMULATED
-from solepath.evaluate.matching import Matching
-from solepath.evaluate.report import Result
-from solepath.evaluate.score import Scored
-from solepath.machine import load, save
+from solepath.emulate.routes.route import Route
+from solepath.emulate.walk import sampled
+from solepath.lab.evaluate.ablation import COLUMNS, WITHOUT, Column, recipes
+from solepath.lab.evaluate.changes import BETTER
+from solepath.lab.evaluate.datasets import DATASETS, EMULATED
+from solepath.lab.evaluate.report import Result
+from solepath.lab.measures.matching import Matching
+from solepath.lab.measures.score import Scored
+from solepath.lab.tables.ablation import ablation_table
 from solepath.recipes import DEFAULT
+from solepath.saving.codec import load, save
 from solepath.session import Session
-from solepath.sim.route import Route
-from solepath.sim.walk import sampled
-from solepath.view.ablation import ablation_table
 
 BY_NAME = {data_set.name: data_set for data_set in (*DATASETS, *EMULATED)}
 

@@ -6,17 +6,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.evaluate import learning
-from solepath.evaluate.activity import CLIMBED, compared, rides, spans, stairs_figures, windows
-from solepath.evaluate.confusion import CLASSES, ActivityScore
-from solepath.evaluate.jobs import evaluate
-from solepath.evaluate.learning import Learner, Lesson, lessons, part_for, taught
-from solepath.evaluate.score import Scored, summarise
 from solepath.events import ActivityChanged, LiftRidden
-from solepath.timeline import Timeline
-from solepath.train import footstep_activity
-from solepath.train.folds import FOLDS, fold_of
-from solepath.train.hugadb import LABELS, labels, recordings
+from solepath.lab.evaluate import learning
+from solepath.lab.evaluate.activity import CLIMBED, compared, rides, spans, stairs_figures, windows
+from solepath.lab.evaluate.jobs import evaluate
+from solepath.lab.evaluate.learning import Learner, Lesson, lessons, part_for, taught
+from solepath.lab.measures.confusion import CLASSES, ActivityScore
+from solepath.lab.measures.score import Scored, summarise
+from solepath.lab.train import footstep_activity
+from solepath.lab.train.folds import FOLDS, fold_of
+from solepath.lab.train.hugadb import LABELS, labels, recordings
+from solepath.show.timeline import Timeline
 from solepath.types import Activity
 
 STANDING, WALKING, RUNNING = Activity.STANDING, Activity.WALKING, Activity.RUNNING

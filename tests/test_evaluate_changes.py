@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.evaluate.changes import BETTER, Better, Verdict, compared, missing, read_scores, verdict
-from solepath.evaluate.datasets import DATASETS, EMULATED
-from solepath.evaluate.score import Scored, pooled_figures
+from solepath.lab.evaluate.changes import BETTER, Better, Verdict, compared, missing, read_scores, verdict
+from solepath.lab.evaluate.datasets import DATASETS, EMULATED
+from solepath.lab.measures.score import Scored, pooled_figures
+from solepath.lab.tables.changes import comparison_tables
 from solepath.recording import RecordingError
-from solepath.view.changes import comparison_tables
 
 NEITHER = {
     "path", "authors", "most_frequent", "strides_true", "rides_true", "heel_strike_true", "heel_strike_found",

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from solepath.evaluate.emulated_walks import FLOORS, HALF_HOUR, four_floors, half_hour, long_way, middle, place_figures
-from solepath.sim.route import Stairs, Stand, Turn
-from solepath.sim.walker import Walker
+from solepath.emulate.routes.route import Stairs, Stand, Turn
+from solepath.emulate.wearers.walker import Walker
+from solepath.lab.emulated.walks import FLOORS, HALF_HOUR, four_floors, half_hour, long_way, middle, place_figures
 from solepath.types import Foot
 
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from solepath.emulate import Radio, Route, Walker, emulate
 from solepath.recording import PacketWriter
-from solepath.sim import Radio, Route, Walker, emulate
 from solepath.types import Foot
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from quoted import blocks
-from solepath.sim import Route, Walker, emulate
+from solepath.emulate import Route, Walker, emulate
 from solepath.types import Foot
 
 PAGE = (Path(__file__).resolve().parents[1] / "docs" / "extending.md").read_text()

@@ -15,10 +15,10 @@ import toys
 from fleets import WEARER, stepped, walked
 from solepath import Calibration, CalibrationError, recipes
 from solepath.calibration import ShoeGeometry
+from solepath.emulate.routes.building import BUILDING
 from solepath.fleet import End, Fleet, Sent, Tick, Told, Unreadable, WearerFailed
 from solepath.link.driver import Reading
 from solepath.session import Session
-from solepath.sim.building import BUILDING
 from solepath.types import Packet
 from walks import LEFT
 

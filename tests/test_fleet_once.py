@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.fleet import Once
-from solepath.fleet.once import RANGES
-from solepath.machine import SnapshotError
+from solepath.fleet.step.once import RANGES
+from solepath.saving.codec import SnapshotError
 
 WEARERS = st.sampled_from(["anna", "bert", ""])
 IDENTITIES = st.lists(st.tuples(WEARERS, st.integers(0, 12)), max_size=60)

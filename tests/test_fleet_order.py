@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from fleets import WEARER, cut, shown, stepped, uses
 from solepath.fleet import End, Fleet, NumbersMissing, Sent, Tick, read_line
-from solepath.fleet.order import HELD
-from solepath.fleet.sent import LONGEST_DATA, MOST
+from solepath.fleet.step.order import HELD
+from solepath.fleet.step.sent import LONGEST_DATA, MOST
 from solepath.types import Packet, Site
 
 STORIES = json.loads((Path(__file__).parent.parent / "protocol" / "fleet" / "stories.json").read_text())

@@ -14,10 +14,10 @@ import toys
 from fleets import WEARER, shown, uses, walked
 from solepath import SnapshotError
 from solepath.fleet import End, Fleet, NumbersMissing, Once, Sent, SentRejected, StateRefused, Tick, Unreadable
-from solepath.fleet.once import RANGES
-from solepath.fleet.order import HELD
-from solepath.fleet.sent import LONGEST_DATA
-from solepath.fleet.state import Identity, Rest, write_state
+from solepath.fleet.step.once import RANGES
+from solepath.fleet.step.order import HELD
+from solepath.fleet.step.sent import LONGEST_DATA
+from solepath.fleet.step.state import Identity, Rest, write_state
 from solepath.session import Session
 from solepath.types import Packet, Site
 

@@ -20,8 +20,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from solepath import Session, recipes
+from solepath.emulate.radio import CLEAN
 from solepath.fleet import End, Fleet, Once, Sent, Told, sent_line, told_row
-from solepath.sim.radio import CLEAN
 from walks import ROUGH, insoles
 
 if TYPE_CHECKING:

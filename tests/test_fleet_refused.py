@@ -11,8 +11,8 @@ import pytest
 
 from fleets import WEARER, shown, uses, walked
 from solepath.fleet import End, Fleet, StateRefused, Tick
-from solepath.fleet.sent import MOST
-from solepath.fleet.state import Identity, Rest, read_rest, write_state
+from solepath.fleet.step.sent import MOST
+from solepath.fleet.step.state import Identity, Rest, read_rest, write_state
 
 STATES = json.loads((Path(__file__).parent.parent / "protocol" / "fleet" / "states.json").read_text())["states"]
 FLEET = Fleet()

@@ -33,7 +33,7 @@ from solepath.fleet import (
     sent_row,
     told_row,
 )
-from solepath.fleet.sent import LONGEST_DATA, LONGEST_NAME, MOST
+from solepath.fleet.step.sent import LONGEST_DATA, LONGEST_NAME, MOST
 from solepath.types import Foot, Packet, Site
 
 LINES = json.loads((Path(__file__).parent.parent / "protocol" / "fleet" / "lines.json").read_text())

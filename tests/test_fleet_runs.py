@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from fleets import WEARER, shown, stepped, uses, walked
 from solepath.events import PacketRejected, Rejection, StepTaken
 from solepath.fleet import End, Fleet, NumbersMissing, Sent, SentRejected, Told
-from solepath.fleet.sent import MOST
+from solepath.fleet.step.sent import MOST
 
 FLEET, NARROW = Fleet(), Fleet(window=3)
 AHEAD, NOW = 4_000_000_000_000, 1_790_000_000_000

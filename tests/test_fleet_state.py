@@ -17,16 +17,25 @@ from hypothesis import strategies as st
 
 from fleets import WEARER, shown, uses, walked
 from solepath import SnapshotError, recipes
+from solepath.emulate.routes.building import BUILDING
 from solepath.fleet import End, Fleet, Refusal, Sent, SentRejected, StateRefused, Tick, Told, Unreadable
-from solepath.fleet.keyed import first_number
-from solepath.fleet.order import Refused
-from solepath.fleet.state import READERS, VERSION, Identity, Rest, StateError, read_identity, read_rest, write_state
-from solepath.foot.stance import Load, Stance
+from solepath.fleet.step.keyed import first_number
+from solepath.fleet.step.order import Refused
+from solepath.fleet.step.state import (
+    READERS,
+    VERSION,
+    Identity,
+    Rest,
+    StateError,
+    read_identity,
+    read_rest,
+    write_state,
+)
+from solepath.foot.stance.stance import Load, Stance
 from solepath.recipes import DEFAULT
 from solepath.session import Session
-from solepath.sim.building import BUILDING
 from solepath.types import Packet, Quat, Site, Vec3
-from solepath.vector import IDENTITY, ZERO
+from solepath.types.vector import IDENTITY, ZERO
 
 STATES = json.loads((Path(__file__).parent.parent / "protocol" / "fleet" / "states.json").read_text())
 OLDER = Path(__file__).parent / "states" / "1"

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from solepath.floorplan.earth import Tangent, south_west
+from solepath.floorplan.importers.earth import Tangent, south_west
 from solepath.floorplan.plan import Anchor, FloorPlanError
 
 anchors = st.builds(Anchor, st.floats(-80.0, 80.0), st.floats(-180.0, 180.0), st.floats(-3.2, 3.2))

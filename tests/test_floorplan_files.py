@@ -15,13 +15,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floorplans import FILES, archive, plans
-from solepath.floorplan import reading
+from solepath.emulate.routes.building import BUILDING
 from solepath.floorplan.checks import warnings
-from solepath.floorplan.geojson import text_of, write_floorplan
+from solepath.floorplan.importers import reading
+from solepath.floorplan.importers.geojson import text_of, write_floorplan
+from solepath.floorplan.importers.reading import plan_of_bytes, read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, FloorPlan, FloorPlanError, Kind
-from solepath.floorplan.reading import plan_of_bytes, read_floorplan
-from solepath.sim.building import BUILDING
 
 HOUSE = read_floorplan(FILES / "house.geojson")
 INVALID = json.loads((FILES / "invalid.json").read_text(encoding="utf-8"))

@@ -10,10 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floorplans import FILES, archive
-from solepath.floorplan.earth import Tangent
+from solepath.floorplan.importers.earth import Tangent
+from solepath.floorplan.importers.reading import plan_of_bytes, read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, FloorPlan, FloorPlanError, Kind, Point
-from solepath.floorplan.reading import plan_of_bytes, read_floorplan
 
 CORNER = Tangent(Anchor(48.15, 11.57))
 HOUSE = read_floorplan(FILES / "house.geojson")

@@ -10,11 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floorplans import FILES
-from solepath.floorplan.earth import Tangent
+from solepath.floorplan.importers.earth import Tangent
+from solepath.floorplan.importers.osm_tags import levels_told
+from solepath.floorplan.importers.reading import plan_of_bytes
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.osm_tags import levels_told
 from solepath.floorplan.plan import Anchor, Door, FloorPlan, FloorPlanError, Kind, Point
-from solepath.floorplan.reading import plan_of_bytes
 
 CORNER = Tangent(Anchor(48.15, 11.57))
 

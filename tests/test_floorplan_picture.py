@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 
 from commands import run
 from floorplans import FILES
-from solepath.cli.failure import Failure
-from solepath.cli.floorplan import start_of
+from solepath.cli.common.failure import Failure
+from solepath.cli.common.floorplan import start_of
 from solepath.floorplan.plan import Connector, FloorPlan, Kind, Level, Stop, Wall
 from solepath.recording import PacketWriter
-from solepath.view.plan import PlanPicture
+from solepath.show.tables.plan import PlanPicture
 from walks import insoles
 
 any_text = st.text(st.characters(), min_size=1, max_size=12) | st.sampled_from(

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from floorplans import FILES, doors, plans, walls
 from solepath.floorplan.checks import unusable, warnings
 from solepath.floorplan.doors import with_doors_cut
+from solepath.floorplan.importers.reading import read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import (
     Anchor,
@@ -26,7 +27,6 @@ from solepath.floorplan.plan import (
     Stop,
     Wall,
 )
-from solepath.floorplan.reading import read_floorplan
 from solepath.session import Session
 
 HOUSE = read_floorplan(FILES / "house.geojson")

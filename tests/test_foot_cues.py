@@ -8,14 +8,14 @@ from statistics import median
 import pytest
 
 from solepath import Foot, Sample, Session, Site, ToeOff
+from solepath.emulate import Route, Walker
 from solepath.events import Event, HeelStrike
-from solepath.foot.cues import InertialCues
-from solepath.foot.eskf import ErrorStateFilter
+from solepath.foot.cues.inertial import InertialCues
+from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.phase import PHASES, Cue
-from solepath.foot.stance import Stance
-from solepath.sim import Route, Walker
+from solepath.foot.stance.stance import Stance
 from solepath.types import Phase
-from solepath.vector import GRAVITY, ZERO, from_rotation_vector, rotate
+from solepath.types.vector import GRAVITY, ZERO, from_rotation_vector, rotate
 
 
 def walked(speed: float, rate: float = 100.0, far: float = 15.0) -> tuple[Walker, list[Sample]]:

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath import Foot, Layout
-from solepath.foot.guess import LayoutGuess
-from solepath.foot.pressure import Insole
-from solepath.sim.insoles import layout
+from solepath.emulate.sensors.insoles import layout
+from solepath.foot.pressure.guess import LayoutGuess
+from solepath.foot.pressure.insole import Insole
 from walks import samples
 
 

@@ -13,19 +13,20 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Sample, SampleGap, Session, StepTaken, ToeOff, machine
-from solepath.foot.eskf import ErrorStateFilter
-from solepath.foot.gap import NoLeap, leap
-from solepath.foot.habit import Habit
-from solepath.foot.moment import corrected, moments
-from solepath.foot.straight import StraightOn
+from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Sample, SampleGap, Session, StepTaken, ToeOff
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.truth import TrueStep
+from solepath.emulate.wearers.walker import Walker
+from solepath.foot.gaps.gap import NoLeap, leap
+from solepath.foot.gaps.moment import corrected, moments
+from solepath.foot.gaps.straight import StraightOn
+from solepath.foot.gaps.template import Habit
+from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.tracker import FootTracker
-from solepath.sim.parts import LSM6DSOX
-from solepath.sim.route import Route
-from solepath.sim.truth import TrueStep
-from solepath.sim.walker import Walker
+from solepath.saving import codec as machine
 from solepath.types import Quat, Vec3
-from solepath.vector import GRAVITY, IDENTITY, ZERO
+from solepath.types.vector import GRAVITY, IDENTITY, ZERO
 from walks import of
 
 PHASES = HeelStrike | FootFlat | HeelOff | ToeOff

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.foot.impact import Impact
+from solepath.foot.cues.impact import Impact
 from solepath.types import Quat, Vec3
-from solepath.vector import GRAVITY, ZERO, from_rotation_vector, rotate
+from solepath.types.vector import GRAVITY, ZERO, from_rotation_vector, rotate
 
 LANDED, LASTS = 0.52, 0.03
 """When the ground's push of `felt` is half over, and how long it takes, s."""

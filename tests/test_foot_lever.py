@@ -9,10 +9,10 @@ from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.foot.cycle import Cycle
-from solepath.foot.lever import Lever
+from solepath.foot.stance.cycle import Cycle
+from solepath.foot.stance.sensor_height import Lever
 from solepath.types import Vec3
-from solepath.vector import GRAVITY, IDENTITY, conjugate, normalise, rotate
+from solepath.types.vector import GRAVITY, IDENTITY, conjugate, normalise, rotate
 
 DT = 0.005
 ASKEW = normalise((0.3, -0.5, 0.7, 0.4))

@@ -7,10 +7,10 @@ from itertools import pairwise
 import pytest
 
 from solepath import Cell, Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Session, StepTaken, ToeOff
-from solepath.foot.pressure import Extremes, Insole
-from solepath.sim.insoles import layout
-from solepath.sim.route import Route
-from solepath.sim.walker import Walker
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.wearers.walker import Walker
+from solepath.foot.pressure.insole import Extremes, Insole
 from walks import LEFT, SHORT, insoles, of
 
 SOLE = Layout(7, Foot.LEFT, (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.13, 0.0), Cell(0.20, 0.02)), 0.26)

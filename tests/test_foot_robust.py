@@ -8,9 +8,9 @@ import pytest
 from attrs import evolve
 
 from solepath import Event, Foot, FootFlat, Layout, Sample, Session, Site, StepTaken, recipes
-from solepath.foot.guess import LayoutGuess
-from solepath.foot.pressure import Insole
-from solepath.sim.insoles import layout
+from solepath.emulate.sensors.insoles import layout
+from solepath.foot.pressure.guess import LayoutGuess
+from solepath.foot.pressure.insole import Insole
 from walks import samples
 
 QUATS = [

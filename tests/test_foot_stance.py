@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from solepath.foot.cycle import Cycle
-from solepath.foot.pressure_stance import MaximumPressure, TwoArea
-from solepath.foot.stance import AngularRate, Graph, Load, MovingVariance, Shoe, Stance, soften
-from solepath.sim.insoles import layout
-from solepath.sim.route import Route
-from solepath.sim.walker import Walker
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.wearers.walker import Walker
+from solepath.foot.stance.cycle import Cycle
+from solepath.foot.stance.pressure import MaximumPressure, TwoArea
+from solepath.foot.stance.stance import AngularRate, Graph, Load, MovingVariance, Shoe, Stance, soften
 from solepath.types import Foot, Phase
-from solepath.vector import GRAVITY
+from solepath.types.vector import GRAVITY
 
 SIGMA_ACC, SIGMA_GYRO = 0.01, 0.1 * pi / 180.0
 """Skog et al.: the noise levels that the statistics are scaled by, m/s^2 and rad/s."""
@@ -147,7 +147,7 @@ def shares(detector: Any) -> tuple[float, float]:
     truth = WALKER.truth().feet[Foot.LEFT]
     stance = [(flat + 0.02, off - 0.02) for flat, off in zip(truth.foot_flats, truth.heel_offs[1:], strict=False)]
     swing = [(a + 0.15, b - 0.10) for a, b in zip(truth.toe_offs, truth.heel_strikes, strict=True)]
-    from solepath.foot.pressure import Insole
+    from solepath.foot.pressure.insole import Insole
 
     insole, found = Insole(), []
     insole.wear(layout(96, Foot.LEFT))

@@ -27,16 +27,16 @@ from solepath import (
     StepTaken,
     ToeOff,
 )
-from solepath.foot.cycle import Cycle
-from solepath.foot.dedrift import LinearDedrift
-from solepath.foot.eskf import ErrorStateFilter
+from solepath.emulate import emulate
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.shoe import ON_INSTEP, Mounting
+from solepath.emulate.wearers.walker import Walker
+from solepath.foot.navigate.dedrift import LinearDedrift
+from solepath.foot.navigate.error_state import ErrorStateFilter
+from solepath.foot.stance.cycle import Cycle
 from solepath.recipes import DEFAULT
-from solepath.sim import emulate
-from solepath.sim.parts import LSM6DSOX
-from solepath.sim.route import Route
-from solepath.sim.shoe import ON_INSTEP, Mounting
-from solepath.sim.walker import Walker
-from solepath.vector import GRAVITY, conjugate, from_yaw, multiply, normalise, rotate
+from solepath.types.vector import GRAVITY, conjugate, from_yaw, multiply, normalise, rotate
 from solepath.wire.insole_info import build_info, parse_info
 from walks import LEFT, of
 

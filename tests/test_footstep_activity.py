@@ -9,24 +9,24 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.body.activity.footstep_activity import LONGEST_RIDE, MOVING, TwoSecondWindows
-from solepath.body.activity.window_model import FEATURES, Gaussian, WindowModel, seen, shipped
-from solepath.body.activity.windows import BLOCKS, FootWindows, Window
-from solepath.evaluate.emulated_activity import score
 from solepath.events import ActivityChanged, LiftRidden
-from solepath.foot.cycle import Cycle
-from solepath.foot.eskf import ErrorStateFilter
+from solepath.foot.navigate.error_state import ErrorStateFilter
+from solepath.foot.stance.cycle import Cycle
 from solepath.foot.tracker import FootTracker
-from solepath.machine import load, save
+from solepath.lab.emulated.activity import score
+from solepath.lab.reproduce import footstep_tracker
+from solepath.lab.train import activities, emulated
+from solepath.lab.train import footstep_activity as footstep_training
+from solepath.lab.train import turns as turns_training
+from solepath.lab.train.footstep_activity import Taught, Told, threshold, train
+from solepath.papers.footstep_tracker.activity.two_second_windows import LONGEST_RIDE, MOVING, TwoSecondWindows
+from solepath.papers.footstep_tracker.activity.window_model import FEATURES, Gaussian, WindowModel, seen, shipped
+from solepath.papers.footstep_tracker.activity.windows import BLOCKS, FootWindows, Window
 from solepath.recipes import FOOTSTEP_TRACKER
-from solepath.reproduce import footstep_tracker
-from solepath.timeline import Timeline
-from solepath.train import activities, emulated
-from solepath.train import footstep_activity as footstep_training
-from solepath.train import turns as turns_training
-from solepath.train.footstep_activity import Taught, Told, threshold, train
+from solepath.saving.codec import load, save
+from solepath.show.timeline import Timeline
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample
-from solepath.vector import GRAVITY
+from solepath.types.vector import GRAVITY
 
 RATE = 20.0
 FEET = {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in Foot}

@@ -14,22 +14,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath import Session
-from solepath.body.direction import Direction, Turned, agreed
-from solepath.body.footsteps import Footsteps
-from solepath.body.turns import WEIGHTS, Turns, classified
-from solepath.calibrate.toe_out import learnt, toe_out
+from solepath.body.gait.direction import Direction, Turned, agreed
+from solepath.body.gait.turns import WEIGHTS, Turns, classified
 from solepath.calibration import Calibration, CalibrationError, merged, read_calibration, unusable, write_calibration
 from solepath.cli.main import main
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.sensortags import CC2541
+from solepath.emulate.walk import EmulatedWalk, emulate
+from solepath.emulate.wearers.shoe import IN_SOLE
 from solepath.events import Event, StepFeatures, StepTaken, TurnMade
-from solepath.foot.projection import Projection
+from solepath.lab.train.turns import ANGLES, emulated, read, trained, walk
+from solepath.papers.footstep_tracker.footsteps import Footsteps
+from solepath.papers.footstep_tracker.projection import Projection
+from solepath.papers.footstep_tracker.toe_out import learnt, toe_out
 from solepath.recipes import DEFAULT, FOOTSTEP_TRACKER, Recipe
 from solepath.recording import PacketWriter
-from solepath.samples import load_samples
-from solepath.sim.route import Route
-from solepath.sim.sensortags import CC2541
-from solepath.sim.shoe import IN_SOLE
-from solepath.sim.walk import EmulatedWalk, emulate
-from solepath.train.turns import ANGLES, emulated, read, trained, walk
+from solepath.recording.samples import load_samples
 from solepath.types import Foot, Packet, Site, Turn
 from walks import LEFT, RIGHT, ROUGH, of, samples
 

@@ -9,24 +9,24 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import machine
-from solepath.foot.critical_cues import CriticalCues
-from solepath.foot.critical_times import CriticalTimes, Row, critical_times
+from solepath.body.gait.turning_steps import TurningSteps
 from solepath.foot.phase import Cue
-from solepath.foot.projection import Projection
-from solepath.foot.segment import FootAxes, Segment, turned_to, with_offset
-from solepath.foot.stance import Stance
-from solepath.foot.static_zones import StaticZones
-from solepath.foot.step_length import (
+from solepath.foot.stance.stance import Stance
+from solepath.papers.footstep_tracker.critical_cues import CriticalCues
+from solepath.papers.footstep_tracker.critical_times import CriticalTimes, Row, critical_times
+from solepath.papers.footstep_tracker.projection import Projection
+from solepath.papers.footstep_tracker.segment import FootAxes, Segment, turned_to, with_offset
+from solepath.papers.footstep_tracker.static_zones import StaticZones
+from solepath.papers.footstep_tracker.step_length import (
     closed_step_length,
     missed,
     step_length,
     turned,
     turned_about_vertical,
 )
-from solepath.foot.turning_steps import TurningSteps
+from solepath.saving import codec as machine
 from solepath.types import Foot, Phase, Vec3
-from solepath.vector import GRAVITY, ZERO
+from solepath.types.vector import GRAVITY, ZERO
 
 G = GRAVITY
 

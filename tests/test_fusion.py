@@ -11,12 +11,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import Session, machine, recipes
-from solepath.body.fusion import POINTS, DoubleFoot, correlation, resampled, share
+from solepath import Session, recipes
 from solepath.calibration import Calibration, InsoleCalibration
+from solepath.emulate.routes.route import Route
 from solepath.events import Event, FootSilent, StepFeatures, StepTaken, StrideFused
-from solepath.foot.centre import centre as centre_of
-from solepath.sim.route import Route
+from solepath.foot.pressure.centre import centre as centre_of
+from solepath.papers.kupt_dfpc.fusion import POINTS, DoubleFoot, correlation, resampled, share
+from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Layout, Sample, Site
 from walks import insoles, of
 

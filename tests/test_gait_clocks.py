@@ -9,10 +9,10 @@ import pytest
 from attrs import evolve
 
 from solepath import ClockReset, Event, Foot, GaitParameters, Packet, Session, Site, StrideMeasured
-from solepath.sim.insole_device import Insole
-from solepath.sim.radio import Radio
-from solepath.sim.route import Route
-from solepath.sim.walk import emulate
+from solepath.emulate.radio import Radio
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.walk import emulate
 from solepath.wire.insole import build_frame, parse_frame
 from walks import of
 

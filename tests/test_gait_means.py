@@ -12,24 +12,14 @@ from attrs import define
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import (
-    FootFlat,
-    HeelOff,
-    HeelStrike,
-    SampleGap,
-    Site,
-    StepFeatures,
-    StepTaken,
-    StrideMeasured,
-    ToeOff,
-    machine,
-)
-from solepath.body.gait_means import MEMORY, GaitMeans, RunningMean
-from solepath.body.strides import Strides
+from solepath import FootFlat, HeelOff, HeelStrike, SampleGap, Site, StepFeatures, StepTaken, StrideMeasured, ToeOff
+from solepath.body.gait.cycles import Strides
+from solepath.body.gait.means import MEMORY, GaitMeans, RunningMean
 from solepath.events import Event
-from solepath.foot.cycle import Cycle
-from solepath.foot.eskf import ErrorStateFilter
+from solepath.foot.navigate.error_state import ErrorStateFilter
+from solepath.foot.stance.cycle import Cycle
 from solepath.foot.tracker import FootTracker
+from solepath.saving import codec as machine
 from solepath.types import SITE_OF_FOOT, Foot, Vec3
 
 L, R = Foot.LEFT, Foot.RIGHT

@@ -11,14 +11,14 @@ import numpy as np
 import pytest
 
 from solepath import Foot, GaitParameters, Sample, Session, StrideMeasured
-from solepath.output import GAIT_COLUMNS, TrackFiles
-from solepath.sim.insoles import layout
-from solepath.sim.parts import LSM6DSOX
-from solepath.sim.route import Route
-from solepath.sim.truth import Truth
-from solepath.sim.walker import Walker
-from solepath.tally import Tally
-from solepath.view.gait import gait_lines
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.truth import Truth
+from solepath.emulate.wearers.walker import Walker
+from solepath.show.output import GAIT_COLUMNS, TrackFiles
+from solepath.show.tables.gait import gait_lines
+from solepath.show.tally import Tally
 
 LEVEL = Route().stand(1.5).walk(14.0, 1.3).stop(1.0)
 BENT = Route().stand(1.5).walk(7.0, 1.2).turn(pi / 2, radius=1.0).walk(7.0).stop(1.0)

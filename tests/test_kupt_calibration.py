@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from solepath.calibrate.noise import pressure_noise
-from solepath.calibrate.shoe import fit_shoe
 from solepath.calibration import Calibration, CalibrationError, InsoleCalibration, Newtons, ShoeGeometry
-from solepath.foot.kinematics import forefoot_place
-from solepath.foot.pressure import Insole
-from solepath.sim.insoles import layout
-from solepath.sim.route import Route
-from solepath.sim.walker import Walker
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.wearers.walker import Walker
+from solepath.foot.pressure.insole import Insole
+from solepath.papers.kupt_dfpc.kinematics import forefoot_place
+from solepath.papers.kupt_dfpc.noise import pressure_noise
+from solepath.papers.kupt_dfpc.shoe import fit_shoe
 from solepath.types import Foot, Sample, Site
 
 

@@ -7,16 +7,16 @@ from math import inf, isinf
 import pytest
 from attrs import evolve
 
-from solepath import machine
 from solepath.calibration import Calibration, ShoeGeometry
-from solepath.foot.dedrift import LinearDedrift
-from solepath.foot.kinematics import Sagittal
-from solepath.foot.known_velocity import KnownVelocity
+from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.phase import Cue
-from solepath.foot.stance import Load, Stance
-from solepath.foot.swing_dedrift import SwingDedrift
+from solepath.foot.stance.stance import Load, Stance
+from solepath.papers.kupt_dfpc.kinematics import Sagittal
+from solepath.papers.kupt_dfpc.known_velocity import KnownVelocity
+from solepath.papers.kupt_dfpc.swing_dedrift import SwingDedrift
+from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Layout, Phase, Quat, Vec3
-from solepath.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
+from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
 
 CELLS = (0.0,) * 96
 BOTH = Load(1.0, 0.5, 0.5, 1.0, False, CELLS, (0.13, 0.0))

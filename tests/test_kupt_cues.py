@@ -6,17 +6,17 @@ from math import inf
 
 import pytest
 
-from solepath.foot.cop_cues import CopCues, Stage
-from solepath.foot.cues import Seen
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.wearers.walker import Walker
+from solepath.foot.cues.inertial import Seen
+from solepath.foot.cues.touch import Touch
 from solepath.foot.phase import PHASES, Cue
-from solepath.foot.pressure import Insole
-from solepath.foot.stance import Load, Stance
-from solepath.foot.touch import Touch
-from solepath.sim.insoles import layout
-from solepath.sim.route import Route
-from solepath.sim.walker import Walker
+from solepath.foot.pressure.insole import Insole
+from solepath.foot.stance.stance import Load, Stance
+from solepath.papers.kupt_dfpc.cop_cues import CopCues, Stage
 from solepath.types import Cell, Foot, Layout, Phase, Vec3
-from solepath.vector import GRAVITY, ZERO
+from solepath.types.vector import GRAVITY, ZERO
 
 FOUR = Layout(4, Foot.LEFT, (Cell(0.034, 0.0), Cell(0.07, 0.0), Cell(0.12, 0.0), Cell(0.166, 0.0)), 0.2)
 """The paper's cells lie from 34 to 166 mm: its foot centre is 100 mm."""

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from solepath.calibration import ShoeGeometry
-from solepath.foot.kinematics import Sagittal, forefoot_place, heel_place, velocity
-from solepath.sim.shoe import Shoe
+from solepath.emulate.wearers.shoe import Shoe
+from solepath.papers.kupt_dfpc.kinematics import Sagittal, forefoot_place, heel_place, velocity
 from solepath.types import Quat
-from solepath.vector import IDENTITY, conjugate, from_rotation_vector, from_yaw, multiply, normalise, rotate
+from solepath.types.vector import IDENTITY, conjugate, from_rotation_vector, from_yaw, multiply, normalise, rotate
 
 STRAIGHT = ShoeGeometry(forefoot_radius=(0.070, 0.025), pivot_to_toe=(0.090, -0.025), steepest=1.2)
 """Curves that are lines, for sums on paper."""

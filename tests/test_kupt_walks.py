@@ -12,14 +12,14 @@ from attrs import evolve
 
 from solepath import recipes
 from solepath.calibration import Calibration, InsoleCalibration
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, FootFlat, HeelOff, HeelStrike, StepTaken, ToeOff
 from solepath.session import Session
-from solepath.sim.insoles import layout
-from solepath.sim.parts import LSM6DSOX
-from solepath.sim.route import Route
-from solepath.sim.walker import Walker
 from solepath.types import SITE_OF_FOOT, Foot, Quat, Sample
-from solepath.vector import normalise, rotate
+from solepath.types.vector import normalise, rotate
 
 ROUTE = Route().stand(2.0).walk(20.0, 1.3).stop(1.5)
 SEEDS = (221, 222, 223)

@@ -11,18 +11,19 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import Foot, Sample, Session, StepTaken, machine
-from solepath.foot.covariance import HEIGHT, believed_height
-from solepath.foot.level import Level
+from solepath import Foot, Sample, Session, StepTaken
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import LSM6DSOX, MPU6050, Imu
+from solepath.emulate.sensors.ramp import Ramp
+from solepath.emulate.wearers.motion import Kinematics
+from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
+from solepath.emulate.wearers.walker import Walker
+from solepath.foot.navigate.covariance import HEIGHT, believed_height
+from solepath.foot.navigate.level import Level
 from solepath.recipes import DEFAULT, Recipe
-from solepath.sim.motion import Kinematics
-from solepath.sim.parts import LSM6DSOX, MPU6050, Imu
-from solepath.sim.ramp import Ramp
-from solepath.sim.route import Route
-from solepath.sim.shoe import IN_SOLE, ON_INSTEP, Mounting
-from solepath.sim.walker import Walker
+from solepath.saving import codec as machine
 from solepath.types import Quat
-from solepath.vector import IDENTITY, from_rotation_vector, multiply, normalise
+from solepath.types.vector import IDENTITY, from_rotation_vector, multiply, normalise
 from walks import of
 
 UNGATED = evolve(DEFAULT, corrector=evolve(DEFAULT.corrector, level=Level(gate=False)))

@@ -23,8 +23,8 @@ from solepath import (
     StreamStale,
     recipes,
 )
-from solepath.body.position import MeanOfFeet
-from solepath.sim import CC2650, Route, emulate
+from solepath.body.fuse.position import MeanOfFeet
+from solepath.emulate import CC2650, Route, emulate
 
 LEFT = Site.LEFT_FOOT
 

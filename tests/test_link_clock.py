@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import machine
 from solepath.link.clock import WINDOWS, Clock
 from solepath.link.periodic import Periodic, periodic
+from solepath.saving import codec as machine
 
 RATE = 32768
 INTERVAL = 328

@@ -12,7 +12,6 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import machine
 from solepath.events import (
     BatteryLevel,
     ClockReset,
@@ -26,11 +25,12 @@ from solepath.events import (
     StreamResumed,
     StreamStale,
 )
-from solepath.link.cc2541 import counts_per_g
 from solepath.link.decoder import SET_BACK, Decoder
+from solepath.link.devices.cc2541 import counts_per_g
 from solepath.link.known import PROFILES
+from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Packet, Sample, Site
-from solepath.vector import GRAVITY
+from solepath.types.vector import GRAVITY
 from solepath.wire import cc2541, cc2650
 from solepath.wire.device import build_battery, build_firmware
 from solepath.wire.fragment import split

@@ -11,9 +11,10 @@ import pytest
 from attrs import evolve
 from construct import Bytes, ExprAdapter, ExprValidator, GreedyBytes, Int8ub, Struct, Terminated, this
 
-from solepath import Packet, Session, machine
+from solepath import Packet, Session
 from solepath.events import PacketRejected, Rejection
 from solepath.link.driver import Measured, Reading
+from solepath.saving import codec as machine
 from toys import BOTH, FORMATS, LEFT, TICKING, Toy, data, more, toy
 
 UP = (0.0, 0.0, 9.80665)

@@ -8,7 +8,6 @@ from typing import Any
 
 import pytest
 
-from solepath import machine
 from solepath.events import (
     ClockReset,
     LayoutKnown,
@@ -20,6 +19,7 @@ from solepath.events import (
     StreamStale,
 )
 from solepath.link.decoder import Decoder
+from solepath.saving import codec as machine
 from solepath.types import Packet, Sample, Site
 
 STORIES = sorted((Path(__file__).parent.parent / "protocol" / "stories").glob("*.json"))

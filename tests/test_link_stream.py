@@ -12,7 +12,7 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import Packet, Sample, Session, SnapshotError, machine
+from solepath import Packet, Sample, Session, SnapshotError
 from solepath.events import (
     BatteryLevel,
     ClockReset,
@@ -30,6 +30,7 @@ from solepath.link.devices import DECLARED, orphe
 from solepath.link.driver import Axis, Driver, Reading
 from solepath.link.known import KINDS, kinds
 from solepath.link.profile import Write
+from solepath.saving import codec as machine
 from toys import BASE, BOTH, COARSE, FORMATS, KIND, LAYOUT, LEFT, NUMBERED, PROFILE, TICKING, Toy, data, of, times, toy
 
 # --- times ------------------------------------------------------------------------------------------------------------

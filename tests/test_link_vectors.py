@@ -11,7 +11,7 @@ import pytest
 from attrs import evolve
 
 from solepath.link.driver import Measured, Reading
-from solepath.link.vectors import disagreements
+from solepath.testing.vectors import disagreements
 from toys import NUMBERED, more
 
 FINE = "0006000000640141200000"

@@ -28,8 +28,8 @@ from solepath import (
     recipes,
 )
 from solepath.calibration import InsoleCalibration, Newtons
+from solepath.emulate.sensors.insoles import layout
 from solepath.events import LiveEvent
-from solepath.sim.insoles import layout
 from walks import LEFT, insoles, of, samples
 
 BOTH = {"poses": True, "pressures": True}

@@ -10,8 +10,8 @@ import pytest
 from bleak import BleakClient, BleakScanner
 from bleak.exc import BleakError, BleakGATTProtocolError
 
-from solepath.loopback.gatt import advertisement
-from solepath.loopback.server import virtual_air
+from solepath.emulate.controllers.gatt import advertisement
+from solepath.emulate.controllers.server import virtual_air
 from strap import BATTERY, BEAT, BOOK, CONTROL, HEART_RATE, LEVEL, LOG, PAGE, standard
 from virtual import ONE, TWO, Host, find, linked, now, run, strap
 

@@ -9,11 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from benches import LEFT, RIGHT, Heard, begin, played, refusal, set_up, worn
+from solepath.emulate.devices.faults import Fault, What, parse_faults
+from solepath.emulate.devices.peripheral import Peripheral
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2650
 from solepath.link import profile
-from solepath.loopback.faults import Fault, What, parse_faults
-from solepath.loopback.peripheral import Peripheral
-from solepath.sim.insole_device import Insole
-from solepath.sim.sensortags import CC2650
 from solepath.wire.error import WireError
 from solepath.wire.insole import parse_frame
 

@@ -14,7 +14,7 @@ from bleak.exc import BleakDeviceNotFoundError, BleakError
 from bleak_retry_connector import establish_connection
 from bumble.device import Connection
 
-from solepath.loopback.server import virtual_air
+from solepath.emulate.controllers.server import virtual_air
 from strap import CONTROL, LEVEL, PAGE
 from virtual import ONE, TWO, Host, find, linked, now, run, strap
 
@@ -217,7 +217,7 @@ def test_links_come_and_go_without_a_word_in_the_log(caplog: pytest.LogCaptureFi
 PROGRAM = """
 import asyncio, logging
 from bleak import BleakClient, BleakScanner
-from solepath.loopback.server import virtual_air
+from solepath.emulate.controllers.server import virtual_air
 from strap import Strap
 
 async def main():

@@ -14,15 +14,15 @@ from bleak.backends.characteristic import BleakGATTCharacteristic
 from bleak.exc import BleakCharacteristicNotFoundError, BleakDeviceNotFoundError, BleakError, BleakGATTProtocolError
 
 from benches import LEFT, RIGHT, ROUTE, walker
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.devices.memory import Air
+from solepath.emulate.devices.peripheral import Characteristic, Peripheral, Service
+from solepath.emulate.devices.standard import standard
+from solepath.emulate.sensors.device import Device, device_numbers
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.link import profile
-from solepath.loopback.bench import Bench
-from solepath.loopback.faults import parse_faults
-from solepath.loopback.memory import Air
-from solepath.loopback.peripheral import Characteristic, Peripheral, Service
-from solepath.loopback.standard import standard
-from solepath.sim.device import Device, device_numbers
-from solepath.sim.insole_device import Insole
-from solepath.sim.sensortags import CC2541, CC2650
 from solepath.types import Site
 
 FRAME, INFO, CONTROL = (profile.INSOLE.channel(f"insole/{n}").characteristic for n in ("frame", "info", "control"))

@@ -8,15 +8,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from benches import LEFT, RIGHT, ROUTE, Heard, begin, played, refusal, set_up, walker, worn
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.peripheral import Peripheral
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.device import Device, device_numbers
+from solepath.emulate.sensors.insole_device import TICK_RATE, Insole
+from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.link import profile
 from solepath.link.decoder import Decoder
 from solepath.link.profile import How, Profile
-from solepath.loopback.bench import Bench
-from solepath.loopback.peripheral import Peripheral
-from solepath.sim.device import Device, device_numbers
-from solepath.sim.insole_device import TICK_RATE, Insole
-from solepath.sim.route import Route
-from solepath.sim.sensortags import CC2541, CC2650
 from solepath.types import Packet, Sample, Site
 from solepath.wire import cc2541, cc2650
 from solepath.wire.insole import InsoleFrame, parse_frame

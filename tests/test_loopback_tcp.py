@@ -16,9 +16,9 @@ from bleak.backends.device import BLEDevice
 from bleak.exc import BleakError
 
 from solepath.ble.backend import Backend
-from solepath.loopback import radio
-from solepath.loopback.faults import parse_faults
-from solepath.loopback.tcp import address_of, reach, serve
+from solepath.emulate.controllers import radio
+from solepath.emulate.controllers.tcp import address_of, reach, serve
+from solepath.emulate.devices.faults import parse_faults
 from strap import BEAT, CONTROL, LEVEL, Strap
 
 HERE = Path(__file__).parent
@@ -27,7 +27,7 @@ LISTEN = """
 import asyncio, sys
 from bleak import BleakClient, BleakScanner
 from solepath.loopback import radio
-from solepath.loopback.tcp import reach
+from solepath.emulate.controllers.tcp import reach
 from strap import BEAT, CONTROL
 
 async def main():

@@ -18,8 +18,8 @@ import walks
 from solepath import FootMoved, Packet, Sample, Session, Site, StepTaken
 from solepath.events import LiveEvent
 from solepath.link.decoder import Decoder
-from solepath.output import event_record
 from solepath.recording import RecordingError
+from solepath.show.output import event_record
 from toys import NUMBERED
 
 pytest.importorskip("mcap", reason="the extra mcap is not installed")
@@ -29,7 +29,7 @@ from mcap.reader import make_reader  # noqa: E402
 from mcap.records import Chunk, Message  # noqa: E402
 from mcap.stream_reader import StreamReader  # noqa: E402
 
-from solepath.mcap import McapWriter  # noqa: E402
+from solepath.recording.mcap import McapWriter  # noqa: E402
 
 BEGAN = {"began": "2026-11-21T09:30:00.25Z", "began_t": 2.0}
 AT_ZERO = int(datetime(2026, 11, 21, 9, 29, 58, 250_000, UTC).timestamp() * 1000) * 1_000_000
@@ -238,7 +238,8 @@ def test_what_cannot_be_written_is_one_clear_error(tmp_path):
 
 
 def test_import_solepath_does_not_load_mcap():
-    code = "import sys, solepath; print({'mcap', 'solepath.mcap', 'solepath.btsnoop'} & set(sys.modules))"
+    names = {"mcap", "solepath.recording.mcap", "solepath.recording.btsnoop"}
+    code = f"import sys, solepath; print({names} & set(sys.modules))"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "set()\n"
 
 

@@ -11,18 +11,18 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.body.modes.compensation import TABLE_1
-from solepath.body.modes.modes import Modes
-from solepath.body.modes.touchdown import Height, NetAcceleration
 from solepath.calibration import Calibration, InsoleCalibration
+from solepath.emulate.routes.laps import MARK_SPEED, marked
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.suit import limb_samples
+from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, Limitation, TouchedDown, WalkingModeChanged
+from solepath.papers.walking_modes.compensation import TABLE_1
+from solepath.papers.walking_modes.modes import Modes
+from solepath.papers.walking_modes.touchdown import Height, NetAcceleration
 from solepath.recipes import WALKING_MODES
 from solepath.session import Session
-from solepath.sim.insoles import layout
-from solepath.sim.laps import MARK_SPEED, marked
-from solepath.sim.route import Route
-from solepath.sim.suit import limb_samples
-from solepath.sim.walker import Walker
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 from walks import of
 

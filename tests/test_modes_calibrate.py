@@ -8,16 +8,23 @@ from pathlib import Path
 
 import pytest
 
-from solepath.calibrate.modes import Mark, fit_modes, mean_errors, read_marks, step_errors, without_heading
-from solepath.calibrate.newton import fit_gauge, fit_newtons
-from solepath.calibrate.recorded import Recorded
 from solepath.calibration import Calibration, CalibrationError
+from solepath.emulate.routes.laps import marked, marks, write_marks
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.suit import limb_samples
+from solepath.emulate.wearers.walker import Walker
 from solepath.events import TouchedDown
-from solepath.foot.pressure import in_newtons
-from solepath.sim.insoles import layout
-from solepath.sim.laps import marked, marks, write_marks
-from solepath.sim.suit import limb_samples
-from solepath.sim.walker import Walker
+from solepath.foot.pressure.insole import in_newtons
+from solepath.papers.walking_modes.calibrate import (
+    Mark,
+    fit_modes,
+    mean_errors,
+    read_marks,
+    step_errors,
+    without_heading,
+)
+from solepath.papers.walking_modes.newton import fit_gauge, fit_newtons
+from solepath.recording.decoded import Recorded
 from solepath.types import SITE_OF_FOOT, Foot, WalkingMode
 
 # --- newtons ----------------------------------------------------------------------------------------------------------

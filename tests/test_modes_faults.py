@@ -9,17 +9,17 @@ from math import hypot, pi
 import pytest
 from attrs import evolve
 
-from solepath.body.position import MeanOfFeet
+from solepath.body.fuse.position import MeanOfFeet
 from solepath.calibration import Calibration, InsoleCalibration
+from solepath.emulate import faults
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.sensors.suit import limb_samples
+from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, Limitation, SampleRejected, TouchedDown, WalkingModeChanged
 from solepath.recipes import BY_NAME, DEFAULT, Recipe
 from solepath.session import Session
-from solepath.sim import faults
-from solepath.sim.insoles import layout
-from solepath.sim.parts import LSM6DSOX
-from solepath.sim.route import Route
-from solepath.sim.suit import limb_samples
-from solepath.sim.walker import Walker
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 from walks import of
 

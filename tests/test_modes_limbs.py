@@ -10,18 +10,27 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath import machine
-from solepath.body.modes.inclination import Inclination
-from solepath.body.modes.limbs import ABOVE, SEGMENTS, LowerLimbs, Transform, foot_end
 from solepath.calibration import Limbs
-from solepath.sim.gait import Wearer
-from solepath.sim.parts import MPU9250
-from solepath.sim.route import Route
-from solepath.sim.suit import limb_samples
-from solepath.sim.turning import matrices
-from solepath.sim.walker import Walker
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import MPU9250
+from solepath.emulate.sensors.suit import limb_samples
+from solepath.emulate.wearers.gait import Wearer
+from solepath.emulate.wearers.turning import matrices
+from solepath.emulate.wearers.walker import Walker
+from solepath.papers.walking_modes.limbs.inclination import Inclination
+from solepath.papers.walking_modes.limbs.limbs import ABOVE, SEGMENTS, LowerLimbs, Transform, foot_end
+from solepath.saving import codec as machine
 from solepath.types import Foot, Quat, Site, Vec3
-from solepath.vector import GRAVITY, IDENTITY, conjugate, from_rotation_vector, from_yaw, multiply, normalise, rotate
+from solepath.types.vector import (
+    GRAVITY,
+    IDENTITY,
+    conjugate,
+    from_rotation_vector,
+    from_yaw,
+    multiply,
+    normalise,
+    rotate,
+)
 
 LIMBS = Limbs(hip_width=0.2, thigh=0.4, shank=0.45, foot=0.2, ankle_height=0.1)
 HIP: Vec3 = (0.0, 0.1, 0.0)

@@ -7,9 +7,9 @@ from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.body.modes.compensation import TABLE_1
-from solepath.body.modes.mode import PACE, POINTS, STRAIGHT_ON, TH, Contact, at_pace, decide, regions
-from solepath.sim.insoles import layout
+from solepath.emulate.sensors.insoles import layout
+from solepath.papers.walking_modes.compensation import TABLE_1
+from solepath.papers.walking_modes.mode import PACE, POINTS, STRAIGHT_ON, TH, Contact, at_pace, decide, regions
 from solepath.types import Cell, Foot, Layout, WalkingMode
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT

@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath import machine
-from solepath.body.modes.touchdown import (
+from solepath.papers.walking_modes.touchdown import (
     AnyTouchdown,
     Carrier,
     FootState,
@@ -19,6 +18,7 @@ from solepath.body.modes.touchdown import (
     suspended,
     v_change,
 )
+from solepath.saving import codec as machine
 from solepath.types import Foot
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT

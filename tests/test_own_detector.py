@@ -12,14 +12,14 @@ import pytest
 from attrs import define, evolve, field
 
 from solepath import Foot, Phase, Session, SnapshotError, StepTaken, recipes
-from solepath.foot.promises import broken
-from solepath.foot.stance import Load, Stance
-from solepath.machine import load, save
+from solepath.emulate import Route, Walker
+from solepath.emulate.sensors.insoles import layout
+from solepath.foot.stance.stance import Load, Stance
 from solepath.recipes import BY_NAME
-from solepath.sim import Route, Walker
-from solepath.sim.insoles import layout
+from solepath.saving.codec import load, save
+from solepath.testing.promises import broken
 from solepath.types import Quat, Vec3
-from solepath.vector import IDENTITY, ZERO
+from solepath.types.vector import IDENTITY, ZERO
 from walks import of, samples
 
 WALKED = tuple(

@@ -16,14 +16,14 @@ from attrs import define, evolve, field
 
 from solepath import Calibration, Foot, Packet, Phase, Recipe, Session, Site, SnapshotError, recipes
 from solepath.calibration import InsoleCalibration, Limbs, Newtons, ShoeGeometry
-from solepath.foot.stance import Load, Shoe, Stance
-from solepath.sim.building import BUILDING
-from solepath.sim.insole_device import Insole
-from solepath.sim.insoles import layout
-from solepath.sim.sensortags import CC2650
-from solepath.sim.walk import emulate
+from solepath.emulate.routes.building import BUILDING
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.sensortags import CC2650
+from solepath.emulate.walk import emulate
+from solepath.foot.stance.stance import Load, Shoe, Stance
 from solepath.types import Quat, Vec3, WalkingMode
-from solepath.vector import IDENTITY, ZERO
+from solepath.types.vector import IDENTITY, ZERO
 from toys import NUMBERED
 from walks import LEFT, RIGHT, ROUGH, SHORT, machines, packets, samples
 

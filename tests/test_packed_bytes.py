@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 
 from signed import signed
 from solepath import Foot, Session, SnapshotError
-from solepath.packing.form import HEADER
-from solepath.packing.reading import readers
-from solepath.packing.records import own_classes, own_shape, shape
-from solepath.packing.shape import shape_of
-from solepath.packing.streams import from_bytes, to_bytes
-from solepath.packing.tree import Streams, from_tree, to_tree
+from solepath.saving.form import HEADER
+from solepath.saving.reading import readers
+from solepath.saving.records import own_classes, own_shape, shape
+from solepath.saving.shape import shape_of
+from solepath.saving.streams import from_bytes, to_bytes
+from solepath.saving.tree import Streams, from_tree, to_tree
 from walks import machines
 
 FEW = settings(max_examples=40, deadline=None)

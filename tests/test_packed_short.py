@@ -13,9 +13,9 @@ from attrs import define, evolve
 from fleets import WEARER, walked
 from solepath import Calibration, Session, SnapshotError, recipes
 from solepath.fleet import Fleet
-from solepath.foot.stance import Load, Stance
+from solepath.foot.stance.stance import Load, Stance
 from solepath.types import Quat, Vec3
-from solepath.vector import IDENTITY, ZERO
+from solepath.types.vector import IDENTITY, ZERO
 
 SHORT: list[Exception] = []
 """What copying a detector ends in, if anything."""

@@ -14,12 +14,12 @@ from typing import Any
 import pytest
 
 from solepath import Session, recipes
-from solepath.packing import pin
-from solepath.packing.form import HEADER
-from solepath.packing.records import shape
-from solepath.packing.rows import ROWS
-from solepath.packing.shape import kind_of
-from solepath.packing.streams import from_bytes
+from solepath.saving import pin
+from solepath.saving.form import HEADER
+from solepath.saving.records import shape
+from solepath.saving.rows import ROWS
+from solepath.saving.shape import kind_of
+from solepath.saving.streams import from_bytes
 
 ROOT = Path(__file__).parent.parent
 FILE = json.loads((ROOT / "protocol" / "snapshot" / "states.json").read_text("utf-8"))

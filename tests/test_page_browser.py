@@ -16,14 +16,14 @@ from browsers import PATIENCE, UNREACHABLE, Browser, Browsing, Window, window
 from shown import CONNECTED, after, again, between, fresh, meanwhile, opened, show, square, squares, walked
 from solepath import Connected, LinkTrouble, Placed, Session, WearerMoved
 from solepath.ble import Devices, Wanted
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.routes.building import BUILDING
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole
 from solepath.events import Candidate
-from solepath.loopback.bench import Bench
-from solepath.loopback.faults import parse_faults
-from solepath.page.scene import Scene
-from solepath.page.server import Page
-from solepath.sim.building import BUILDING
-from solepath.sim.insole_device import Insole
-from solepath.sim.route import Route
+from solepath.show.page.scene.scene import Scene
+from solepath.show.page.server.server import Page
 from solepath.types import Foot
 
 PHONE = 360

@@ -28,13 +28,13 @@ from solepath import (
     Site,
     StrideMeasured,
 )
-from solepath.body.gait_means import GaitMeans
-from solepath.page.scales import LEAST, rounded
-from solepath.page.scene import Scene
-from solepath.sim.insoles import layout
-from solepath.sim.route import Route
-from solepath.view.gait import gait_lines
-from solepath.view.gait_rows import ENOUGH, gait_rows
+from solepath.body.gait.means import GaitMeans
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.show.page.scene.scales import LEAST, rounded
+from solepath.show.page.scene.scene import Scene
+from solepath.show.tables.gait import gait_lines
+from solepath.show.tables.gait_rows import ENOUGH, gait_rows
 from walks import insoles
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT

@@ -11,11 +11,11 @@ from typing import Any
 from browsers import Browser, Browsing, Window
 from shown import CONNECTED, after, meanwhile, opened, placed, walked
 from solepath import Session
-from solepath.page.kept import Kept
-from solepath.page.player import Player
-from solepath.page.playing import Playing
-from solepath.page.scene import Playback, Scene
-from solepath.sim.route import Route
+from solepath.emulate.routes.route import Route
+from solepath.show.page.player.kept import Kept
+from solepath.show.page.player.player import Player
+from solepath.show.page.player.playing import Playing
+from solepath.show.page.scene.scene import Playback, Scene
 
 NARROW = 360
 """px."""

@@ -9,15 +9,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath import Event, Packet, Sample, Session, Site
-from solepath.page import player as playing
-from solepath.page.kept import CHUNK, Kept
-from solepath.page.messages import Command
-from solepath.page.player import FASTEST, SLOWEST, Player
-from solepath.page.scene import Scene
-from solepath.sim.insole_device import Insole
-from solepath.sim.radio import Radio
-from solepath.sim.route import Route
-from solepath.sim.walk import emulate, sampled
+from solepath.emulate.radio import Radio
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.walk import emulate, sampled
+from solepath.show.page.messages import Command
+from solepath.show.page.player import player as playing
+from solepath.show.page.player.kept import CHUNK, Kept
+from solepath.show.page.player.player import FASTEST, SLOWEST, Player
+from solepath.show.page.scene.scene import Scene
 
 ROUTE = Route().stand(0.5).walk(2.0, speed=1.3).stop(0.5)
 BAD_RADIO = Radio(loss=0.05, duplicate=0.01, corrupt=0.01, jitter=0.03)

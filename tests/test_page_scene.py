@@ -51,21 +51,21 @@ from solepath import (
     TurnMade,
     WearerMoved,
 )
-from solepath.page import plan_drawing
-from solepath.page.lists import MOST_POINTS, RECENT
-from solepath.page.messages import FASTEST, SLOWEST, encode, parse_command
-from solepath.page.playback import Playback
-from solepath.page.scene import MOST_LINES, Scene
-from solepath.page.sentences import sentence
+from solepath.emulate.routes.building import BUILDING
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.sensortags import CC2650
+from solepath.emulate.walk import emulate
 from solepath.recipes import DEFAULT, PRESSURE_CONTOUR, Recipe
-from solepath.sim.building import BUILDING
-from solepath.sim.route import Route
-from solepath.sim.sensortags import CC2650
-from solepath.sim.walk import emulate
-from solepath.tally import Tally
+from solepath.show.page.messages import FASTEST, SLOWEST, encode, parse_command
+from solepath.show.page.player.playback import Playback
+from solepath.show.page.scene import plan_drawing
+from solepath.show.page.scene.lists import MOST_POINTS, RECENT
+from solepath.show.page.scene.scene import MOST_LINES, Scene
+from solepath.show.page.scene.sentences import sentence
+from solepath.show.tables.gait import gait_lines
+from solepath.show.tables.gait_rows import gait_rows
+from solepath.show.tally import Tally
 from solepath.types import Turn
-from solepath.view.gait import gait_lines
-from solepath.view.gait_rows import gait_rows
 from walks import ROUGH, SHORT, insoles, samples
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT

@@ -21,16 +21,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath import Foot, Session
-from solepath.page import connection, offences, server, watcher
-from solepath.page.access import Access, Refused, host_of, on_loopback
-from solepath.page.address import reached_at
-from solepath.page.connection import HEADERS
-from solepath.page.messages import Command, CommandError, parse_command
-from solepath.page.scene import Scene
-from solepath.page.server import MOST_CONNECTIONS, MOST_WATCHERS, Page
+from solepath.show.page.messages import Command, CommandError, parse_command
+from solepath.show.page.scene.scene import Scene
+from solepath.show.page.server import connection, offences, server, watcher
+from solepath.show.page.server.access import Access, Refused, host_of, on_loopback
+from solepath.show.page.server.address import reached_at
+from solepath.show.page.server.connection import HEADERS
+from solepath.show.page.server.server import MOST_CONNECTIONS, MOST_WATCHERS, Page
 from walks import insoles
 
-LOGGER = "solepath.page"
+LOGGER = "solepath.show.page"
 TOKEN = "a-token-of-a-test"
 
 
@@ -133,7 +133,7 @@ def test_another_scene_is_sent_whole_as_after_a_seek() -> None:
 
 def test_the_page_is_made_of_the_files_that_are_installed() -> None:
     async def main() -> None:
-        names = {one.name for one in (files("solepath.page") / "static").iterdir()}
+        names = {one.name for one in (files("solepath.show.page") / "static").iterdir()}
         assert "index.html" in names
         async with served() as (_, client, url):
             for name in ("", *names):
@@ -149,7 +149,7 @@ def test_the_page_is_made_of_the_files_that_are_installed() -> None:
                         assert head.headers["Content-Length"] == answer.headers["Content-Length"]
                     kind = answer.headers["Content-Type"].partition(";")[0]
                     assert kind == server.KINDS[f".{(name or 'index.html').rpartition('.')[2]}"]
-            text = "".join((files("solepath.page") / "static" / name).read_text() for name in names)
+            text = "".join((files("solepath.show.page") / "static" / name).read_text() for name in names)
             for elsewhere in ("https:", "//cdn"):
                 assert elsewhere not in text.replace('"https:"', "").replace("'https:'", "")
 

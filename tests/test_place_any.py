@@ -26,12 +26,13 @@ from floors import (
     stepped,
     tour,
 )
-from solepath import Activity, Event, FlightClimbed, Foot, LiftRidden, Placed, PlaceLost, Session, machine, recipes
+from solepath import Activity, Event, FlightClimbed, Foot, LiftRidden, Placed, PlaceLost, Session, recipes
+from solepath.body.fuse.position import Position
 from solepath.body.place.particles import Particles
-from solepath.body.place.snake import SnakeGame
-from solepath.body.position import Position
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start, Wall
+from solepath.papers.footstep_tracker.snake import SnakeGame
+from solepath.saving import codec as machine
 from walks import insoles
 
 METHODS = [Particles, SnakeGame]

@@ -7,15 +7,15 @@ from statistics import median
 import pytest
 
 from solepath import Foot, Session, recipes
-from solepath.evaluate import emulated_place
-from solepath.evaluate.emulated_place import PlaceScore
+from solepath.emulate.routes.building import BUILDING
+from solepath.emulate.routes.ways import wandering
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2541
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.shoe import IN_SOLE
 from solepath.floorplan.index import IndexedPlan
-from solepath.sim.building import BUILDING
-from solepath.sim.insole_device import Insole
-from solepath.sim.sensortags import CC2541
-from solepath.sim.shoe import IN_SOLE
-from solepath.sim.walk import emulate
-from solepath.sim.ways import wandering
+from solepath.lab.emulated import place as emulated_place
+from solepath.lab.emulated.place import PlaceScore
 from solepath.types import SITE_OF_FOOT
 
 PLAN = IndexedPlan(BUILDING)

@@ -11,9 +11,9 @@ from floors import HIGH, LEFT, LIFTS, LOW, OFFICE, RIGHT, STAIRS, Pedestrian, To
 from solepath import Activity, Event, LiftRidden, Placed, TurnMade
 from solepath.body.place.crowd import packed, unpacked
 from solepath.body.place.particles import Particles
-from solepath.body.place.snake import SnakeGame
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Start
+from solepath.papers.footstep_tracker.snake import SnakeGame
 
 METHODS = [Particles, SnakeGame]
 Method = type[Particles] | type[SnakeGame]

@@ -6,7 +6,7 @@ import csv
 from pathlib import Path
 
 from floors import office
-from solepath.floorplan.geojson import write_floorplan
+from solepath.floorplan.importers.geojson import write_floorplan
 from test_cli_bluetooth import emulator, run
 
 

@@ -14,13 +14,13 @@ from commands import refused, run
 from floors import LOW, OFFICE, RIGHT, Pedestrian, office, tour
 from solepath import PlaceLost
 from solepath.body.place.particles import Particles
-from solepath.cli.failure import Failure
-from solepath.cli.floorplan import start_of
-from solepath.floorplan.geojson import write_floorplan
+from solepath.cli.common.failure import Failure
+from solepath.cli.common.floorplan import start_of
+from solepath.floorplan.importers.geojson import write_floorplan
 from solepath.floorplan.plan import Anchor, Connector, FloorPlan, Kind, Level, Start, Stop, Wall
 from solepath.recording import PacketWriter
-from solepath.view.placed import Places
-from solepath.view.plan import PlanPicture, colour
+from solepath.show.tables.placed import Places
+from solepath.show.tables.plan import PlanPicture, colour
 from walks import insoles
 
 SVG = "{http://www.w3.org/2000/svg}"

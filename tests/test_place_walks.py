@@ -26,9 +26,9 @@ from floors import (
 )
 from solepath import Activity, Event, LiftRidden, Placed, PlaceLost
 from solepath.body.place.particles import Particles
-from solepath.body.place.snake import SnakeGame
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start
+from solepath.papers.footstep_tracker.snake import SnakeGame
 
 METHODS = [Particles, SnakeGame]
 Method = type[Particles] | type[SnakeGame]

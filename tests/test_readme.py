@@ -15,9 +15,9 @@ import figures
 from quoted import NUMBER, README, below, blocks
 from solepath import Event
 from solepath.cli.main import parser
+from solepath.emulate import Radio, Route, emulate
 from solepath.recipes import BY_NAME
 from solepath.recording import PacketWriter
-from solepath.sim import Radio, Route, emulate
 from solepath.types import Foot
 
 

@@ -17,18 +17,18 @@ import happenings
 from floors import LOW, OFFICE, Pedestrian, office
 from pages import Node, parsed, read
 from solepath import Connected, LinkTrouble, PacketsLost, PlaceLost, Session, Site
-from solepath.body.gait_means import GaitMeans
+from solepath.body.gait.means import GaitMeans
 from solepath.body.place.particles import Particles
+from solepath.emulate.routes.building import BUILDING
+from solepath.emulate.routes.route import Route
 from solepath.events import Event, FootMoved, FootPressed, LayoutKnown, StepTaken, StrideMeasured, WearerMoved
 from solepath.floorplan.plan import Start
-from solepath.report import Report
-from solepath.report.page import text_of
-from solepath.sim.building import BUILDING
-from solepath.sim.route import Route
-from solepath.tally import Tally
+from solepath.show.report import Report
+from solepath.show.report.page import text_of
+from solepath.show.tables.gait_rows import gait_rows
+from solepath.show.tables.table import number, percent
+from solepath.show.tally import Tally
 from solepath.types import Foot
-from solepath.view.gait_rows import gait_rows
-from solepath.view.table import number, percent
 from walks import insoles
 
 CORNER = Route().stand(1.5).walk(12.0, 1.3).turn(radians(90), radius=1.5).walk(3.0).stop(1.0)

@@ -8,17 +8,17 @@ from hypothesis import strategies as st
 
 from pages import parsed
 from solepath import ActivityChanged, FootPressed, StrideMeasured
-from solepath.body.gait_means import Figure, GaitParameters, StrideFigures
-from solepath.report.axes import Scale, line, ticks, told
-from solepath.report.bounded import Thinned, coarser
-from solepath.report.clock import Clock, lasted
-from solepath.report.cycle_figure import contacts, neither, overlaps
-from solepath.report.pressure_figure import shade
-from solepath.report.soles import KEPT, STATIONS, Sole
-from solepath.sim.building import BUILDING
-from solepath.timeline import Timeline
+from solepath.body.gait.means import Figure, GaitParameters, StrideFigures
+from solepath.emulate.routes.building import BUILDING
+from solepath.show.report.bounded import Thinned, coarser
+from solepath.show.report.clock import Clock, lasted
+from solepath.show.report.figures.axes import Scale, line, ticks, told
+from solepath.show.report.figures.cycle import contacts, neither, overlaps
+from solepath.show.report.figures.pressure import shade
+from solepath.show.report.soles import KEPT, STATIONS, Sole
+from solepath.show.tables.plan import PlanPicture
+from solepath.show.timeline import Timeline
 from solepath.types import Activity, Cell, Foot, Layout
-from solepath.view.plan import PlanPicture
 
 L, R = Foot.LEFT, Foot.RIGHT
 

@@ -10,11 +10,12 @@ import pytest
 from commands import refused, run
 from solepath.cli import main
 from solepath.cli.reproduce import NAMES
-from solepath.reproduce import footstep_walks, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
-from solepath.reproduce.experiments import EXPERIMENTS
-from solepath.reproduce.picture import Boxes, Drawn, Floor, Track
-from solepath.reproduce.pool import each
-from solepath.reproduce.published import (
+from solepath.emulate.routes import ways
+from solepath.lab.reproduce import footstep_walks, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
+from solepath.lab.reproduce.experiments import EXPERIMENTS
+from solepath.lab.reproduce.picture import Boxes, Drawn, Floor, Track
+from solepath.lab.reproduce.pool import each
+from solepath.lab.reproduce.published import (
     CORNERS,
     KUPT_DFPC,
     KUPT_L_MEAN_IN_TEXT,
@@ -23,10 +24,9 @@ from solepath.reproduce.published import (
     WALKING_MODES,
     corner_row,
 )
-from solepath.reproduce.tables import Reproduction, Row, Statistics, as_json, statistics
-from solepath.sim import ways
-from solepath.train import emulated
-from solepath.view.reproduced import reproduced
+from solepath.lab.reproduce.tables import Reproduction, Row, Statistics, as_json, statistics
+from solepath.lab.tables.reproduced import reproduced
+from solepath.lab.train import emulated
 
 FIVE = ["mean", "std", "q1", "median", "q3"]
 
@@ -161,7 +161,7 @@ def test_ours_and_the_papers_stand_beside_each_other_and_ours_is_said_to_be_emul
 
 @pytest.mark.parametrize(("ending", "begins"), [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")])
 def test_boxes_and_floors_are_drawn_in_the_format_that_the_ending_names(tmp_path, ending, begins):
-    figures = pytest.importorskip("solepath.view.figures", exc_type=ImportError)
+    figures = pytest.importorskip("solepath.lab.tables.figures", exc_type=ImportError)
     figures.draw(TWO_ROWS, tmp_path / f"figure.{ending}")
     assert (tmp_path / f"figure.{ending}").read_bytes().startswith(begins)
 

@@ -12,8 +12,8 @@ import re
 import numpy as np
 import pytest
 
-from solepath.reproduce.experiments import EXPERIMENTS
-from solepath.reproduce.tables import Reproduction
+from solepath.lab.reproduce.experiments import EXPERIMENTS
+from solepath.lab.reproduce.tables import Reproduction
 
 pytestmark = pytest.mark.soak
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from solepath.recording import RecordingError, RecordingWarning
-from solepath.samples import load_samples, read_samples
+from solepath.recording.samples import load_samples, read_samples
 from solepath.types import Foot, Sample, Site
 
 

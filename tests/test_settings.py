@@ -9,12 +9,13 @@ import attrs
 import pytest
 from attrs import evolve
 
-from solepath import Calibration, Foot, Recipe, Session, machine, recipes
-from solepath.body.both_feet import BothFeet
+from solepath import Calibration, Foot, Recipe, Session, recipes
+from solepath.body.fuse.both_feet import BothFeet
 from solepath.calibration import InsoleCalibration, Newtons
+from solepath.emulate.sensors.insoles import layout
 from solepath.recipes import own
-from solepath.sim.insoles import layout
-from solepath.wearer import Wearer
+from solepath.saving import codec as machine
+from solepath.session.wearer import Wearer
 from walks import RECIPES, gone, machines, packets, samples
 
 BESIDES = ("fragments", "four samples a frame", "cc2541 at 20 Hz", "samples with pressure", "seven sites")

@@ -11,13 +11,13 @@ import pytest
 from attrs import define, evolve, field
 
 from solepath import Calibration, Foot, Session, recipes
-from solepath.body.both_feet import BothFeet
+from solepath.body.fuse.both_feet import BothFeet
 from solepath.calibration import InsoleCalibration
-from solepath.foot.stance import Load, Stance
+from solepath.emulate.sensors.insoles import layout
+from solepath.foot.stance.stance import Load, Stance
 from solepath.recipes import own
-from solepath.sim.insoles import layout
 from solepath.types import Cell, Quat, Vec3, shared
-from solepath.vector import IDENTITY, ZERO
+from solepath.types.vector import IDENTITY, ZERO
 from walks import samples
 
 

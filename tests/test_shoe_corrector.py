@@ -12,11 +12,11 @@ from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath import machine
-from solepath.foot.gated_tilt import ShoeSensing
-from solepath.foot.stance import Stance
+from solepath.foot.stance.stance import Stance
+from solepath.papers.shoe_sensing.gated_tilt import ShoeSensing
+from solepath.saving import codec as machine
 from solepath.types import Phase, Vec3
-from solepath.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
+from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
 
 STILL = Stance(ZERO, 0.01, 0.0, Phase.STATIONARY)
 MOVES = Stance(ZERO, inf, 9.0, None)

@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath import machine
-from solepath.foot.short_time_energy import AccelerationMagnitude, ShortTimeEnergy
-from solepath.foot.stance import Stance
-from solepath.foot.steepness import DOWN_FROM, UP_FROM, angle_per_metre, steepness
+from solepath.body.activity.steepness import DOWN_FROM, UP_FROM, angle_per_metre, steepness
+from solepath.foot.stance.stance import Stance
+from solepath.papers.shoe_sensing.short_time_energy import AccelerationMagnitude, ShortTimeEnergy
+from solepath.saving import codec as machine
 from solepath.types import Phase
-from solepath.vector import GRAVITY, ZERO
+from solepath.types.vector import GRAVITY, ZERO
 
 
 def last(detector: ShortTimeEnergy | AccelerationMagnitude, magnitudes: list[float], rate: float = 100.0) -> Stance:

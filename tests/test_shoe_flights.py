@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath import machine
 from solepath.body.activity.flights import Flights
+from solepath.body.activity.steepness import HIGHEST_RISE
 from solepath.events import FlightClimbed, StepFeatures, StepTaken
-from solepath.foot.steepness import HIGHEST_RISE
+from solepath.saving import codec as machine
 from solepath.types import Foot
 
 RISER = 0.16

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.foot.posture import GAIN, POINT, POINTS, gravity_error, posture, turned
+from solepath.papers.shoe_sensing.posture import GAIN, POINT, POINTS, gravity_error, posture, turned
 from solepath.types import Quat, Vec3
-from solepath.vector import GRAVITY, IDENTITY, from_rotation_vector, multiply, normalise, rotate
+from solepath.types.vector import GRAVITY, IDENTITY, from_rotation_vector, multiply, normalise, rotate
 
 Vec4 = tuple[float, float, float, float]
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 from attrs import evolve
 
+from solepath.emulate.wearers.truth import TrueStep
 from solepath.events import StepFeatures, StepTaken
+from solepath.lab.reproduce import shoe_sensing, shoe_walks
+from solepath.lab.reproduce.published import NORMALISED
+from solepath.lab.reproduce.published import SHOE_SENSING as PAPER
+from solepath.lab.reproduce.shoe_walks import FOOT, STATES, heard, judged, matched, route_of, tour_route, worn
 from solepath.recipes import SHOE_SENSING
-from solepath.reproduce import shoe_sensing, shoe_walks
-from solepath.reproduce.published import NORMALISED
-from solepath.reproduce.published import SHOE_SENSING as PAPER
-from solepath.reproduce.shoe_walks import FOOT, STATES, heard, judged, matched, route_of, tour_route, worn
-from solepath.sim.truth import TrueStep
 
 
 def step(t: float, lasting: float = 1.0, length: float = 1.2) -> StepTaken:

@@ -11,20 +11,20 @@ from pathlib import Path
 import pytest
 from attrs import evolve
 
-from solepath.body.activity.walking_state import AnglePerMetre
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import MPU6050
+from solepath.emulate.wearers.shoe import ON_INSTEP
+from solepath.emulate.wearers.truth import Truth
+from solepath.emulate.wearers.walker import Walker
 from solepath.events import ActivityChanged, Event, FlightClimbed, StepTaken
-from solepath.foot.gated_tilt import ShoeSensing
-from solepath.foot.short_time_energy import ShortTimeEnergy
 from solepath.foot.tracker import FootTracker
-from solepath.machine import load, save
+from solepath.papers.shoe_sensing.gated_tilt import ShoeSensing
+from solepath.papers.shoe_sensing.short_time_energy import ShortTimeEnergy
+from solepath.papers.shoe_sensing.walking_state import AnglePerMetre
 from solepath.recipes import SHOE_MAGNITUDE, SHOE_SENSING
-from solepath.samples import load_samples
+from solepath.recording.samples import load_samples
+from solepath.saving.codec import load, save
 from solepath.session import Session
-from solepath.sim.parts import MPU6050
-from solepath.sim.route import Route
-from solepath.sim.shoe import ON_INSTEP
-from solepath.sim.truth import Truth
-from solepath.sim.walker import Walker
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample
 
 LEVEL = Route().stand(3.0).walk(30.0, 1.3).stop(2.0)

@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from solepath.sim.curves import Array
-from solepath.sim.gait import SETTLING, Wearer
-from solepath.sim.insole_device import Insole, boot
-from solepath.sim.insoles import heel_array, layout
-from solepath.sim.load import TAKEN
-from solepath.sim.route import Route
-from solepath.sim.sensortags import CC2541, CC2650
-from solepath.sim.walk import emulate
-from solepath.sim.walker import Walker
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole, boot
+from solepath.emulate.sensors.insoles import heel_array, layout
+from solepath.emulate.sensors.sensortags import CC2541, CC2650
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.curves import Array
+from solepath.emulate.wearers.gait import SETTLING, Wearer
+from solepath.emulate.wearers.load import TAKEN
+from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot, Layout, Site
-from solepath.vector import GRAVITY
+from solepath.types.vector import GRAVITY
 from solepath.wire.insole_info import parse_info
 
 STRAIGHT = Route().stand(1.0).walk(6.0, 1.3).stop(1.0)

@@ -7,16 +7,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from solepath.emulate.routes.building import BUILDING, CABINS, EAST, NORTH, STOREY, WELLS
+from solepath.emulate.routes.ways import Way, case_study, corridor, wandering
+from solepath.emulate.sensors.parts import MPU6050
+from solepath.emulate.wearers.walker import Walker
 from solepath.floorplan.checks import unusable, warnings
+from solepath.floorplan.importers.reading import read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Kind
-from solepath.floorplan.reading import read_floorplan
-from solepath.sim.building import BUILDING, CABINS, EAST, NORTH, STOREY, WELLS
-from solepath.sim.parts import MPU6050
-from solepath.sim.walker import Walker
-from solepath.sim.ways import Way, case_study, corridor, wandering
 from solepath.types import Activity, Foot
-from solepath.vector import GRAVITY
+from solepath.types.vector import GRAVITY
 
 LEVEL = {level.id: number for number, level in enumerate(BUILDING.levels)}
 SEEDS = range(101, 113)

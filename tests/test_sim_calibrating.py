@@ -6,14 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from solepath.calibrate.newton import fit_gauge
-from solepath.calibrate.shoe import fit_shoe
-from solepath.sim.gauge import MOST, RPPS_99, TWELVE_BIT, Characteristic, gauge, uncalibrated, write_gauge
-from solepath.sim.insoles import layout
-from solepath.sim.postures import PITCHES, REPEATED, posture, postures, write_postures
-from solepath.sim.route import Route
-from solepath.sim.shoe import IN_SOLE, Mounting, Shoe
-from solepath.sim.walker import Walker
+from solepath.emulate.routes.postures import PITCHES, REPEATED, posture, postures, write_postures
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.gauge import MOST, RPPS_99, TWELVE_BIT, Characteristic, gauge, uncalibrated, write_gauge
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.wearers.shoe import IN_SOLE, Mounting, Shoe
+from solepath.emulate.wearers.walker import Walker
+from solepath.papers.kupt_dfpc.shoe import fit_shoe
+from solepath.papers.walking_modes.newton import fit_gauge
 from solepath.types import Foot
 
 

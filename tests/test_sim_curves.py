@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.sim.curves import BUMP, DEGREE, EVEN_OUT, constant, evaluate, join, part
+from solepath.emulate.wearers.curves import BUMP, DEGREE, EVEN_OUT, constant, evaluate, join, part
 
 values = st.floats(-10.0, 10.0)
 ends = st.tuples(values, values, values)

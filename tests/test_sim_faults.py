@@ -6,14 +6,14 @@ from math import isnan
 import pytest
 from attrs import evolve
 
-from solepath.sim.faults import cut_off, dead, missing, never_unloads, saturated, silent, stuck, swapped
-from solepath.sim.insole_device import Insole
-from solepath.sim.insoles import layout
-from solepath.sim.radio import Radio
-from solepath.sim.route import Route
-from solepath.sim.suit import limb_samples
-from solepath.sim.walk import emulate
-from solepath.sim.walker import Walker
+from solepath.emulate.faults import cut_off, dead, missing, never_unloads, saturated, silent, stuck, swapped
+from solepath.emulate.radio import Radio
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.suit import limb_samples
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot, Sample, Site
 from solepath.wire.insole import parse_frame
 

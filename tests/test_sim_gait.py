@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.sim.gait import Stance, Wearer, cadence, step_length, step_time
-from solepath.sim.route import Pivot, Route, Turn, legs
-from solepath.sim.walker import Walker
+from solepath.emulate.routes.route import Pivot, Route, Turn, legs
+from solepath.emulate.wearers.gait import Stance, Wearer, cadence, step_length, step_time
+from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
 
 moves = st.one_of(

@@ -7,9 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from solepath.calibrate.modes import read_marks
-from solepath.sim.gait import Wearer
-from solepath.sim.laps import (
+from solepath.emulate.routes.laps import (
     ACROSS,
     ALONG,
     CORRIDOR,
@@ -31,8 +29,10 @@ from solepath.sim.laps import (
     through,
     write_marks,
 )
-from solepath.sim.route import Route
-from solepath.sim.walker import Walker
+from solepath.emulate.routes.route import Route
+from solepath.emulate.wearers.gait import Wearer
+from solepath.emulate.wearers.walker import Walker
+from solepath.papers.walking_modes.calibrate import read_marks
 from solepath.types import Foot, WalkingMode
 
 

@@ -7,15 +7,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from solepath.emulate.routes.lift import Lift, Ride, ride
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.sensortags import CC2541, CC2650
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.shoe import ON_INSTEP
+from solepath.emulate.wearers.walker import Walker
 from solepath.link.decoder import Decoder
-from solepath.sim.lift import Lift, Ride, ride
-from solepath.sim.route import Route
-from solepath.sim.sensortags import CC2541, CC2650
-from solepath.sim.shoe import ON_INSTEP
-from solepath.sim.walk import emulate
-from solepath.sim.walker import Walker
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample, Site
-from solepath.vector import GRAVITY
+from solepath.types.vector import GRAVITY
 
 
 @pytest.fixture(scope="module")

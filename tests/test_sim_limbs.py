@@ -6,24 +6,24 @@ import numpy as np
 import pytest
 from attrs import evolve
 
+from solepath.emulate.radio import Radio
+from solepath.emulate.routes.laps import rectangle
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.dot import Dot
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import CRE_CC02, WORN_RESISTIVE
+from solepath.emulate.sensors.suit import limb_samples, strapped, suit
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.curves import Array
+from solepath.emulate.wearers.gait import Wearer, step_length
+from solepath.emulate.wearers.limbs import SLACK, Body, ankle_place
+from solepath.emulate.wearers.shoe import Mounting
+from solepath.emulate.wearers.turning import matrices, multiplied, quaternions
+from solepath.emulate.wearers.walker import Walker
+from solepath.emulate.wearers.wearers import SUBJECTS
 from solepath.link.decoder import Decoder
-from solepath.sim.curves import Array
-from solepath.sim.dot import Dot
-from solepath.sim.gait import Wearer, step_length
-from solepath.sim.insoles import layout
-from solepath.sim.laps import rectangle
-from solepath.sim.limbs import SLACK, Body, ankle_place
-from solepath.sim.parts import CRE_CC02, WORN_RESISTIVE
-from solepath.sim.radio import Radio
-from solepath.sim.route import Route
-from solepath.sim.shoe import Mounting
-from solepath.sim.suit import limb_samples, strapped, suit
-from solepath.sim.turning import matrices, multiplied, quaternions
-from solepath.sim.walk import emulate
-from solepath.sim.walker import Walker
-from solepath.sim.wearers import SUBJECTS
 from solepath.types import Foot, Quat, Sample, Site
-from solepath.vector import GRAVITY
+from solepath.types.vector import GRAVITY
 
 ROUTE = Route().stand(2.0).walk(8.0, 1.3).turn(pi, 2.0, 1.1).walk(4.0).turn(pi / 2).walk(3.0).stop(2.0)
 ABOVE = [site for site in Site if site.foot is None]

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
+from solepath.emulate.radio import Radio
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.device import Device
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2541, CC2650
+from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.link.decoder import Decoder
-from solepath.sim.device import Device
-from solepath.sim.insole_device import Insole
-from solepath.sim.radio import Radio
-from solepath.sim.route import Route
-from solepath.sim.sensortags import CC2541, CC2650
-from solepath.sim.walk import EmulatedWalk, emulate
 from solepath.types import Foot, Sample, Site
 
 ROUTE = Route().stand(3.0).walk(15.0, 1.2).stop(3.0)

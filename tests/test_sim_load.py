@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from solepath.sim.curves import Array
-from solepath.sim.insoles import SCALE, layout
-from solepath.sim.route import Route
-from solepath.sim.walker import Walker
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import SCALE, layout
+from solepath.emulate.wearers.curves import Array
+from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
-from solepath.vector import GRAVITY
+from solepath.types.vector import GRAVITY
 
 T = np.arange(0.0, 22.0, 0.002)
 

@@ -5,13 +5,13 @@ from math import radians, sqrt
 import numpy as np
 import pytest
 
-from solepath.sim.gait import Wearer
-from solepath.sim.route import Route
-from solepath.sim.shoe import IN_SOLE, ON_INSTEP, Mounting
-from solepath.sim.strides import IMPACT
-from solepath.sim.walker import Walker
+from solepath.emulate.routes.route import Route
+from solepath.emulate.wearers.gait import Wearer
+from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
+from solepath.emulate.wearers.strides import IMPACT
+from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot, Phase
-from solepath.vector import GRAVITY, from_rotation_vector, multiply, normalise, rotate
+from solepath.types.vector import GRAVITY, from_rotation_vector, multiply, normalise, rotate
 
 TILTED = Mounting(position=(0.16, 0.01, 0.08), attitude=from_rotation_vector((0.5, -2.2, 0.9)))
 

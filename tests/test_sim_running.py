@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.sim.gait import Stride
-from solepath.sim.route import Route
-from solepath.sim.shoe import IN_SOLE, ON_INSTEP, Mounting
-from solepath.sim.styles import Manner
-from solepath.sim.walker import Walker
+from solepath.emulate.routes.route import Route
+from solepath.emulate.routes.styles import Manner
+from solepath.emulate.wearers.gait import Stride
+from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
+from solepath.emulate.wearers.walker import Walker
 from solepath.types import Activity, Foot, Site
 
 

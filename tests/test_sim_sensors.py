@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from solepath.sim.parts import (
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import (
     BMP280,
     CRE_CC02,
     INERTIACUBE3,
@@ -23,8 +24,7 @@ from solepath.sim.parts import (
     Imu,
     Triad,
 )
-from solepath.sim.route import Route
-from solepath.sim.sensors import (
+from solepath.emulate.sensors.sensors import (
     air_pressure,
     attitude_read,
     errors,
@@ -36,9 +36,9 @@ from solepath.sim.sensors import (
     sample,
     wander,
 )
-from solepath.sim.walker import Walker
+from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
-from solepath.vector import GRAVITY, from_rotation_vector, multiply
+from solepath.types.vector import GRAVITY, from_rotation_vector, multiply
 
 PERFECT = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.0, bandwidth=1e9)
 

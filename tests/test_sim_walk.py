@@ -7,22 +7,22 @@ from math import ceil, radians
 import numpy as np
 import pytest
 
+from solepath.emulate.radio import Radio
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.device import SETUP, Device, Notification
+from solepath.emulate.sensors.insole_device import ACC_COUNT, GYRO_COUNT, TICK_RATE, Insole
+from solepath.emulate.sensors.insoles import heel_array
+from solepath.emulate.sensors.parts import CellPart, Imu, Triad
+from solepath.emulate.sensors.sensors import air_pressure
+from solepath.emulate.sensors.sensortags import CC2541, CC2650, T5400_CALIBRATION, raw_air
+from solepath.emulate.sensors.sensortags import GYRO_COUNT as TAG_GYRO_COUNT
+from solepath.emulate.walk import emulate, sampled
+from solepath.emulate.wearers.gait import Wearer
+from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
 from solepath.link import profile as profiles
 from solepath.link.decoder import Decoder
-from solepath.sim.device import SETUP, Device, Notification
-from solepath.sim.gait import Wearer
-from solepath.sim.insole_device import ACC_COUNT, GYRO_COUNT, TICK_RATE, Insole
-from solepath.sim.insoles import heel_array
-from solepath.sim.parts import CellPart, Imu, Triad
-from solepath.sim.radio import Radio
-from solepath.sim.route import Route
-from solepath.sim.sensors import air_pressure
-from solepath.sim.sensortags import CC2541, CC2650, T5400_CALIBRATION, raw_air
-from solepath.sim.sensortags import GYRO_COUNT as TAG_GYRO_COUNT
-from solepath.sim.shoe import IN_SOLE, ON_INSTEP, Mounting
-from solepath.sim.walk import emulate, sampled
 from solepath.types import Foot, Packet, Phase, Sample, Site
-from solepath.vector import GRAVITY, from_rotation_vector
+from solepath.types.vector import GRAVITY, from_rotation_vector
 from solepath.wire import cc2541, cc2650
 from solepath.wire.fragment import parse_fragment
 from solepath.wire.insole import InsoleFrame, parse_frame

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from solepath import Activity, ActivityChanged, FlightClimbed, LiftRidden, Turn, TurnMade
-from solepath.tally import Tally
-from solepath.timeline import Timeline
-from solepath.view.summary import summary
+from solepath.show.tables.summary import summary
+from solepath.show.tally import Tally
+from solepath.show.timeline import Timeline
 
 
 def told(t: float, activity: Activity, revises: float | None = None, final: bool = True) -> ActivityChanged:

@@ -13,7 +13,7 @@ import pytest
 from attrs import evolve
 
 from solepath import Foot, Packet
-from solepath.sim import Route, emulate
+from solepath.emulate import Route, emulate
 
 pytest.importorskip("toga", reason="toga-core is not installed (extra: test)")
 pytest.importorskip("toga_dummy", reason="toga-dummy is not installed (extra: test)")

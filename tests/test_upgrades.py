@@ -17,12 +17,12 @@ from hypothesis import strategies as st
 from encoded import other
 from signed import signed
 from solepath import Packet, Session, Site, SnapshotError, StepTaken
-from solepath.machine import save
-from solepath.packing import pin
-from solepath.packing.older import pinned
-from solepath.packing.records import shape, snapshot_shape
-from solepath.packing.upgrades import UPGRADES
-from solepath.state import VERSION
+from solepath.saving import pin
+from solepath.saving.codec import save
+from solepath.saving.older import pinned
+from solepath.saving.records import shape, snapshot_shape
+from solepath.saving.upgrades import UPGRADES
+from solepath.session.state import VERSION
 from walks import of
 
 STATES = Path(__file__).parent / "states"

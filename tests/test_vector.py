@@ -8,7 +8,7 @@ from struct import pack, unpack
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.vector import single
+from solepath.types.vector import single
 
 
 @given(st.floats(1e-37, 1e37), st.sampled_from([1.0, -1.0]))

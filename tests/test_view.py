@@ -8,6 +8,9 @@ from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
+from solepath.emulate.radio import CLEAN, Radio
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.walk import emulate
 from solepath.events import (
     CellFault,
     CellsFailed,
@@ -29,18 +32,15 @@ from solepath.events import (
     StrideFused,
     TouchedDown,
 )
-from solepath.monitor import Monitor
-from solepath.output import event_record
 from solepath.session import Session
-from solepath.sim.insole_device import Insole
-from solepath.sim.radio import CLEAN, Radio
-from solepath.sim.walk import emulate
-from solepath.tally import Tally
+from solepath.show.monitor import Monitor
+from solepath.show.output import event_record
+from solepath.show.tables.plot import plot
+from solepath.show.tables.status import status
+from solepath.show.tables.summary import link_health, summary, worn
+from solepath.show.tables.table import milliseconds, number, percent, table
+from solepath.show.tally import Tally
 from solepath.types import Cell, Foot, Layout, Packet, Phase, Sample, Site, WalkingMode
-from solepath.view.plot import plot
-from solepath.view.status import status
-from solepath.view.summary import link_health, summary, worn
-from solepath.view.table import milliseconds, number, percent, table
 from walks import SHORT, packets
 
 STEP = StepTaken(

@@ -12,16 +12,17 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import Recipe, Session, machine, recipes
-from solepath.body.position import MeanOfFeet
-from solepath.body.sides import Average
+from solepath import Recipe, Session, recipes
+from solepath.body.fuse.position import MeanOfFeet
+from solepath.body.worn.sides import Average
 from solepath.calibration import Calibration, InsoleCalibration
+from solepath.emulate.faults import silent
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.walker import Walker
 from solepath.events import FeetSwapped, FootHeard, FootSilent, StepTaken
-from solepath.sim.faults import silent
-from solepath.sim.insoles import layout
-from solepath.sim.route import Route
-from solepath.sim.walk import emulate
-from solepath.sim.walker import Walker
+from solepath.saving import codec as machine
 from solepath.types import Foot, Sample, Site
 from walks import LEFT, RIGHT, SHORT, of, samples
 

@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
-from solepath.link import cc2541 as old_tag
-from solepath.link import cc2650 as new_tag
 from solepath.link.decoder import Decoder
+from solepath.link.devices import cc2541 as old_tag
+from solepath.link.devices import cc2650 as new_tag
 from solepath.types import Packet, Sample, Site
-from solepath.vector import GRAVITY
+from solepath.types.vector import GRAVITY
 from solepath.wire.cc2541 import parse_accelerometer, parse_gyroscope, parse_magnetometer
 from solepath.wire.cc2650 import MovementConfig, build_movement_config
 

@@ -12,12 +12,12 @@ import attrs
 import pytest
 from attrs import frozen
 
-from solepath import machine
 from solepath.events import Rejection
 from solepath.link.devices import DECLARED
 from solepath.link.driver import Driver
 from solepath.link.known import PROFILES
-from solepath.link.vectors import disagreements, plain
+from solepath.saving import codec as machine
+from solepath.testing.vectors import disagreements, plain
 from solepath.types import Cell, Foot
 from solepath.wire import cc2541, cc2650, device, fragment, insole, insole_control, insole_info, period, receiver
 from solepath.wire.envelope import crc16

@@ -12,8 +12,8 @@ from bleak import BleakClient, BleakScanner
 from bleak.backends.device import BLEDevice
 
 from solepath.ble.backend import Backend
-from solepath.loopback.faults import parse_faults
-from solepath.loopback.server import virtual_air
+from solepath.emulate.controllers.server import virtual_air
+from solepath.emulate.devices.faults import parse_faults
 from strap import BEAT, CONTROL, Strap
 
 ONE, TWO = "F0:00:00:00:00:01", "F0:00:00:00:00:02"

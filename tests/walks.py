@@ -11,27 +11,28 @@ from typing import Any
 from attrs import evolve, frozen
 
 import declared
-from solepath import machine, recipes
+from solepath import recipes
+from solepath.emulate.radio import CLEAN, Radio
+from solepath.emulate.routes.building import BUILDING, COLUMNS
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.sensors.sensortags import CC2541, CC2650
+from solepath.emulate.sensors.suit import limb_samples
+from solepath.emulate.walk import EmulatedWalk, emulate
+from solepath.emulate.wearers.walker import Walker
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Start
-from solepath.foot.cycle import Cycle
-from solepath.foot.dedrift import LinearDedrift
-from solepath.foot.eskf import ErrorStateFilter
-from solepath.foot.pressure_stance import MaximumPressure, TwoArea
-from solepath.foot.stance import AngularRate, Graph, MovingVariance, Shoe
+from solepath.foot.navigate.dedrift import LinearDedrift
+from solepath.foot.navigate.error_state import ErrorStateFilter
+from solepath.foot.stance.cycle import Cycle
+from solepath.foot.stance.pressure import MaximumPressure, TwoArea
+from solepath.foot.stance.stance import AngularRate, Graph, MovingVariance, Shoe
 from solepath.link.decoder import Decoder
 from solepath.recipes import DEFAULT, Recipe
+from solepath.saving import codec as machine
 from solepath.session import Session
-from solepath.sim.building import BUILDING, COLUMNS
-from solepath.sim.insole_device import Insole
-from solepath.sim.insoles import layout
-from solepath.sim.parts import LSM6DSOX
-from solepath.sim.radio import CLEAN, Radio
-from solepath.sim.route import Route
-from solepath.sim.sensortags import CC2541, CC2650
-from solepath.sim.suit import limb_samples
-from solepath.sim.walk import EmulatedWalk, emulate
-from solepath.sim.walker import Walker
 from solepath.types import Foot, Packet, Sample, Site
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT

@@ -1,8 +1,8 @@
 """solepath: bytes of foot-worn sensors in; gait events, steps and a track out."""
 
 from . import recipes
-from .body.gait_means import Figure, GaitParameters, StrideFigures
-from .body.position import Position
+from .body.fuse.position import Position
+from .body.gait.means import Figure, GaitParameters, StrideFigures
 from .calibration import Calibration, CalibrationError, read_calibration
 from .events import (
     ActivityChanged,
@@ -51,27 +51,13 @@ from .events import (
     WalkingModeChanged,
     WearerMoved,
 )
+from .floorplan.importers.reading import read_floorplan
 from .floorplan.index import IndexedPlan
 from .floorplan.plan import FloorPlan, FloorPlanError, Start
-from .floorplan.reading import read_floorplan
-from .machine import SnapshotError
 from .recipes import Recipe
+from .saving.codec import SnapshotError
 from .session import Session
-from .types import (
-    Activity,
-    Cell,
-    Foot,
-    Layout,
-    Packet,
-    Phase,
-    Quat,
-    Sample,
-    Site,
-    Support,
-    Turn,
-    Vec3,
-    WalkingMode,
-)
+from .types import Activity, Cell, Foot, Layout, Packet, Phase, Quat, Sample, Site, Support, Turn, Vec3, WalkingMode
 
 __all__ = [
     "Activity",

@@ -12,35 +12,35 @@ from typing import Any
 from attrs import evolve, field, fields, frozen, has
 
 from .body.activity.activities import Activities
-from .body.activity.footstep_activity import TwoSecondWindows
-from .body.activity.walking_state import AnglePerMetre
-from .body.altitude import Altitude
-from .body.both_feet import BothFeet
-from .body.footsteps import Footsteps
-from .body.fusion import DoubleFoot
-from .body.modes.compensation import TABLE_1
-from .body.modes.modes import Modes
-from .body.modes.touchdown import Height, MaximumPressure, NetAcceleration
+from .body.fuse.both_feet import BothFeet
+from .body.fuse.position import MeanOfFeet
+from .body.height.altitude import Altitude
 from .body.place.particles import Particles
-from .body.place.snake import SnakeGame
-from .body.position import MeanOfFeet
-from .foot.bias_zupt import BiasZupt
-from .foot.contour_stance import ContourVelocity, GyroscopeMagnitude
-from .foot.cop_cues import CopCues
-from .foot.critical_cues import CriticalCues
-from .foot.cycle import Cycle
-from .foot.dedrift import LinearDedrift
-from .foot.eskf import ErrorStateFilter
-from .foot.gait_cues import GaitCues
-from .foot.gated_tilt import ShoeSensing
-from .foot.known_velocity import KnownVelocity
-from .foot.level import Level
-from .foot.pressure import Insole
-from .foot.projection import Projection
-from .foot.short_time_energy import AccelerationMagnitude, ShortTimeEnergy
-from .foot.static_zones import StaticZones
-from .foot.swing_dedrift import SwingDedrift
+from .foot.cues.gait_cues import GaitCues
+from .foot.navigate.dedrift import LinearDedrift
+from .foot.navigate.error_state import ErrorStateFilter
+from .foot.navigate.level import Level
+from .foot.pressure.insole import Insole
+from .foot.stance.cycle import Cycle
 from .foot.tracker import AnyCorrector, AnyCues, AnyDetector
+from .papers.footstep_tracker.activity.two_second_windows import TwoSecondWindows
+from .papers.footstep_tracker.critical_cues import CriticalCues
+from .papers.footstep_tracker.footsteps import Footsteps
+from .papers.footstep_tracker.projection import Projection
+from .papers.footstep_tracker.snake import SnakeGame
+from .papers.footstep_tracker.static_zones import StaticZones
+from .papers.kupt_dfpc.cop_cues import CopCues
+from .papers.kupt_dfpc.fusion import DoubleFoot
+from .papers.kupt_dfpc.known_velocity import KnownVelocity
+from .papers.kupt_dfpc.swing_dedrift import SwingDedrift
+from .papers.pressure_contour.bias_zupt import BiasZupt
+from .papers.pressure_contour.contour_stance import ContourVelocity, GyroscopeMagnitude
+from .papers.shoe_sensing.gated_tilt import ShoeSensing
+from .papers.shoe_sensing.short_time_energy import AccelerationMagnitude, ShortTimeEnergy
+from .papers.shoe_sensing.walking_state import AnglePerMetre
+from .papers.walking_modes.compensation import TABLE_1
+from .papers.walking_modes.modes import Modes
+from .papers.walking_modes.touchdown import Height, MaximumPressure, NetAcceleration
 
 AnyBody = BothFeet | MeanOfFeet | DoubleFoot | Modes | Footsteps
 AnyActivity = Activities | AnglePerMetre | TwoSecondWindows

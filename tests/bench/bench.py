@@ -21,20 +21,20 @@ from yardstick import Tuned, Usual
 
 from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StepTaken, recipes
 from solepath.calibration import InsoleCalibration
+from solepath.emulate.radio import CLEAN
+from solepath.emulate.routes.building import BUILDING
+from solepath.emulate.routes.route import Route
+from solepath.emulate.routes.ways import wandering
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.sensors.suit import limb_samples
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.walker import Walker
 from solepath.floorplan.index import IndexedPlan
-from solepath.foot.cycle import Cycle
-from solepath.foot.dedrift import LinearDedrift
+from solepath.foot.navigate.dedrift import LinearDedrift
+from solepath.foot.stance.cycle import Cycle
 from solepath.link.decoder import Decoder
-from solepath.sim.building import BUILDING
-from solepath.sim.insole_device import Insole
-from solepath.sim.insoles import layout
-from solepath.sim.parts import LSM6DSOX
-from solepath.sim.radio import CLEAN
-from solepath.sim.route import Route
-from solepath.sim.suit import limb_samples
-from solepath.sim.walk import emulate
-from solepath.sim.walker import Walker
-from solepath.sim.ways import wandering
 from solepath.types import SITE_OF_FOOT
 
 RUNS = 5

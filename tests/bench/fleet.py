@@ -18,7 +18,7 @@ from attrs import evolve
 
 from solepath.fleet.demo.stage import Bare, Stage
 from solepath.fleet.demo.wearers import Plan
-from solepath.view.table import number, percent, table
+from solepath.show.tables.table import number, percent, table
 
 COLUMNS = (
     "wearers", "samples", "us a sample: engine", "us: bare session", "share, %", "wearers a core", "kB a wearer",

@@ -15,13 +15,13 @@ from random import Random
 from statistics import median
 from time import perf_counter
 
+from solepath.emulate.routes.building import BUILDING
 from solepath.floorplan.checks import warnings
 from solepath.floorplan.doors import with_doors_cut
-from solepath.floorplan.geojson import text_of
+from solepath.floorplan.importers.geojson import text_of
+from solepath.floorplan.importers.reading import plan_of_bytes
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Door, FloorPlan, Level, Wall
-from solepath.floorplan.reading import plan_of_bytes
-from solepath.sim.building import BUILDING
 
 RUNS = 5
 STEP = 0.7

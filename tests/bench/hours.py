@@ -19,10 +19,10 @@ from attrs import evolve
 
 from solepath import Calibration, Foot, Sample, Session, StepTaken
 from solepath.calibration import InsoleCalibration
-from solepath.sim.insoles import layout
-from solepath.sim.parts import LSM6DSOX
-from solepath.sim.route import Route
-from solepath.sim.walker import Walker
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.walker import Walker
 
 LOOP = Route().stand(1.0).walk(14.0, 1.3).turn(3.1416).walk(14.0).turn(3.1416).walk(14.0).stop(4.0)
 CELLS = 96

@@ -21,13 +21,13 @@ from time import thread_time
 from typing import Any
 
 from solepath import Packet, Recipe, Session, Site, recipes
-from solepath.packing.records import Head, Packed, shape
-from solepath.packing.streams import to_bytes
-from solepath.sim.insole_device import Insole
-from solepath.sim.radio import Radio
-from solepath.sim.route import Route
-from solepath.sim.sensortags import CC2650
-from solepath.sim.walk import emulate
+from solepath.emulate.radio import Radio
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2650
+from solepath.emulate.walk import emulate
+from solepath.saving.records import Head, Packed, shape
+from solepath.saving.streams import to_bytes
 
 ROUTE = Route().stand(2.0).walk(40.0, 1.3).turn(1.57, radius=1.5).walk(20.0).turn(-0.8, radius=2.0).walk(10.0).stop(2.0)
 """A minute."""

@@ -31,8 +31,8 @@ from attrs import define, field  # noqa: E402
 from browsers import Browser, Browsing, Window, browsing, program, why_not, window  # noqa: E402
 from shown import squares, walked  # noqa: E402
 from solepath import Session  # noqa: E402
-from solepath.page.scene import Scene  # noqa: E402
-from solepath.page.server import Page  # noqa: E402
+from solepath.show.page.scene.scene import Scene  # noqa: E402
+from solepath.show.page.server.server import Page  # noqa: E402
 
 WAYS = {
     "without": "no page",

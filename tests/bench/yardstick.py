@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solepath import Sample
-from solepath.vector import GRAVITY
+from solepath.types.vector import GRAVITY
 
 Array = NDArray[np.float64]
 

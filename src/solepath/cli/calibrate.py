@@ -6,12 +6,12 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .calibrated import check_pressure
-from .failure import Failure, check_writable, count, degrees_of, known_recipe, note, positive, share
+from .common.calibrated import check_pressure
+from .common.failure import Failure, check_writable, count, degrees_of, known_recipe, note, positive, share
 
 if TYPE_CHECKING:
-    from ..calibrate.recorded import Recorded
     from ..calibration import Calibration
+    from ..recording.decoded import Recorded
 
 MERGED = "What FILE holds already of other kinds, or of the other foot, stays."
 
@@ -70,8 +70,8 @@ def _recording(command: argparse.ArgumentParser) -> None:
 
 def _recorded(path: Path, foot: str | None = None) -> Recorded:
     """What a recording holds. RecordingError when it cannot be read to its end."""
-    from ..calibrate.recorded import recorded
-    from ..source import open_source
+    from ..recording.decoded import recorded
+    from ..recording.source import open_source
     from ..types import Foot
 
     return recorded(open_source(path, Foot(foot) if foot else None, report=note))
@@ -100,8 +100,8 @@ def _add_noise(kinds: Any) -> argparse.ArgumentParser:
 
 
 def _noise(options: argparse.Namespace, known: Calibration) -> Learnt:
-    from ..calibrate.noise import pressure_noise
-    from ..view.table import number, table
+    from ..papers.kupt_dfpc.noise import pressure_noise
+    from ..show.tables.table import number, table
 
     if options.share == 0.0:
         raise Failure("--share 0: of no samples at all nothing is learnt")
@@ -132,7 +132,7 @@ def _add_shoe(kinds: Any) -> argparse.ArgumentParser:
 def _shoe(options: argparse.Namespace, known: Calibration) -> Learnt:
     from math import degrees
 
-    from ..calibrate.shoe import fit_shoe
+    from ..papers.kupt_dfpc.shoe import fit_shoe
 
     fit = fit_shoe(options.file)
     shoe = fit.calibration.shoe
@@ -177,10 +177,10 @@ def _add_square(kinds: Any) -> argparse.ArgumentParser:
 
 
 def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
-    from ..calibrate.square import read_marks, square_drift
     from ..calibration import Calibration
+    from ..papers.pressure_contour.square import read_marks, square_drift
     from ..recipes import BY_NAME
-    from ..source import open_source
+    from ..recording.source import open_source
     from ..types import Foot
 
     recipe = BY_NAME[known_recipe(options.recipe, list(BY_NAME))]
@@ -222,10 +222,10 @@ def _add_toe_out(kinds: Any) -> argparse.ArgumentParser:
 def _toe_out(options: argparse.Namespace, known: Calibration) -> Learnt:
     from math import degrees
 
-    from ..calibrate.toe_out import learnt, toe_out
-    from ..source import open_source
+    from ..papers.footstep_tracker.toe_out import learnt, toe_out
+    from ..recording.source import open_source
+    from ..show.tables.table import number, table
     from ..types import Foot
-    from ..view.table import number, table
 
     foot = Foot(options.foot) if options.foot else None
     found = toe_out(open_source(options.file, foot, report=note), options.distance)
@@ -260,8 +260,8 @@ def _add_newton(kinds: Any) -> argparse.ArgumentParser:
 
 
 def _newton(options: argparse.Namespace, known: Calibration) -> Learnt:
-    from ..calibrate.newton import fit_gauge
     from ..calibration import Calibration, InsoleCalibration
+    from ..papers.walking_modes.newton import fit_gauge
     from ..types import Foot
 
     feet = [Foot(options.foot)] if options.foot else list(Foot)
@@ -298,8 +298,8 @@ def _add_modes(kinds: Any) -> argparse.ArgumentParser:
 
 
 def _modes(options: argparse.Namespace, known: Calibration) -> Learnt:
-    from ..calibrate.modes import fit_modes
-    from ..view.table import number, table
+    from ..papers.walking_modes.calibrate import fit_modes
+    from ..show.tables.table import number, table
 
     if len(options.files) % 2:
         raise Failure("calibrate modes takes two files for each walk: the recording, and the csv file of its marks")

@@ -12,10 +12,10 @@ from stat import S_IWUSR
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from ..types import Packet, Site
-from .failure import Failure, note
+from .common.failure import Failure, note
 
 if TYPE_CHECKING:
-    from ..btsnoop import BtsnoopLog
+    from ..recording.btsnoop import BtsnoopLog
 
 LONG = 4_000_000
 """Bytes from which on there is a progress bar."""
@@ -89,9 +89,9 @@ class _Writer(Protocol):
 
 
 def run(options: argparse.Namespace) -> int:
-    from ..btsnoop import is_btsnoop
     from ..recording import RecordingError, printable, read_header, read_packets
-    from ..view.progress import progress_bar
+    from ..recording.btsnoop import is_btsnoop
+    from ..show.tables.progress import progress_bar
 
     source, out = options.source, options.out
     make = _maker(out)
@@ -124,8 +124,8 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _opened(options: argparse.Namespace) -> BtsnoopLog:
-    from ..btsnoop import open_btsnoop
     from ..link.known import PROFILES
+    from ..recording.btsnoop import open_btsnoop
 
     sites, handles = _once("--site", options.sites), _once("--handle", options.handles)
     known = {channel.name for profile in PROFILES for channel in profile.channels}
@@ -165,7 +165,7 @@ def _maker(out: Path) -> Make:
     if suffix != MCAP:
         raise Failure(f"{printable(str(out))}: ends neither in {RECORDING} nor in {MCAP}, which says what to write")
     try:
-        from ..mcap import McapWriter
+        from ..recording.mcap import McapWriter
     except ModuleNotFoundError as error:
         if error.name is None or error.name.partition(".")[0] != "mcap":
             raise

@@ -7,11 +7,11 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .failure import Failure, note, positive, seconds, seed, share
-from .view import View, add_speed, add_view, aiohttp_is_there, attended, pace_of, view_of
+from .common.failure import Failure, note, positive, seconds, seed, share
+from .common.view import View, add_speed, add_view, aiohttp_is_there, attended, pace_of, view_of
 
 if TYPE_CHECKING:
-    from ..demo import Demo
+    from ..lab.emulated.demo import Demo
 
 REPORT_EVERY = 10.0
 """s of the walk between two lines where there is no terminal."""
@@ -50,10 +50,10 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from ..demo import ROUTE, make_demo, make_indoors, radio, straight
-    from ..view.comparison import comparison_table, place_table
-    from ..view.gait import gait_lines
-    from ..view.summary import latency
+    from ..lab.emulated.demo import ROUTE, make_demo, make_indoors, radio, straight
+    from ..lab.tables.comparison import comparison_table, place_table
+    from ..show.tables.gait import gait_lines
+    from ..show.tables.summary import latency
 
     view = _view(options)
     pace = 1.0 if view is None else pace_of(options, 1.0)
@@ -74,7 +74,7 @@ def run(options: argparse.Namespace) -> int:
     if view is not None:
         _show(demo, view, pace)
     elif sys.stdout.isatty() and _rich_is_there():
-        from ..view.terminal import play
+        from ..show.tables.terminal import play
 
         play(demo, PACE if options.speed is None else options.speed)
     else:
@@ -103,10 +103,10 @@ def _view(options: argparse.Namespace) -> View | None:
 
 def _show(demo: Demo, view: View, pace: float) -> None:
     """On a page. Whatever was looked at there, the walk is heard to its end."""
-    from ..page.kept import Kept
-    from ..page.player import Player
-    from ..page.scene import Scene
-    from .view import play, run_rest
+    from ..show.page.player.kept import Kept
+    from ..show.page.player.player import Player
+    from ..show.page.scene.scene import Scene
+    from .common.view import play, run_rest
 
     scene = Scene("An emulated walk", "default", "demo", plan=None if demo.plan is None else demo.plan.plan)
     player = Player(Kept(demo.walk.packets), demo.monitor.session, scene, demo.plan, told=demo.told)
@@ -138,9 +138,9 @@ def _rich_is_there() -> bool:
 
 def _tell(demo: Demo) -> None:
     """Lines of plain text instead of a picture, as fast as it goes."""
+    from ..show.tables.plot import plot
+    from ..show.tables.summary import link_health
     from ..types import Foot
-    from ..view.plot import plot
-    from ..view.summary import link_health
 
     due = REPORT_EVERY
     for packet in demo.play():

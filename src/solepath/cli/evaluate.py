@@ -9,11 +9,11 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .calibrated import add_calibration, calibration_of
-from .failure import Failure, known_recipe, note
+from .common.calibrated import add_calibration, calibration_of
+from .common.failure import Failure, known_recipe, note
 
 if TYPE_CHECKING:
-    from ..evaluate.report import Result
+    from ..lab.evaluate.report import Result
     from ..recipes import Recipe
 
 ENVIRONMENT = "SOLEPATH_DATA"
@@ -69,17 +69,17 @@ def run(options: argparse.Namespace) -> int:
     import json
 
     from .. import recipes
-    from ..evaluate import ablation
-    from ..evaluate.changes import read_scores
-    from ..evaluate.datasets import EMULATED
-    from ..evaluate.jobs import evaluate, evaluate_emulated, find
-    from ..evaluate.report import as_json
+    from ..lab.evaluate import ablation
+    from ..lab.evaluate.changes import read_scores
+    from ..lab.evaluate.datasets import EMULATED
+    from ..lab.evaluate.jobs import evaluate, evaluate_emulated, find
+    from ..lab.evaluate.report import as_json
+    from ..lab.tables.ablation import ablation_table
+    from ..lab.tables.changes import comparison_tables
+    from ..lab.tables.markdown import accuracy_table
+    from ..lab.tables.scores import score_table
     from ..recording import RecordingError
-    from ..view.ablation import ablation_table
-    from ..view.changes import comparison_tables
-    from ..view.markdown import accuracy_table
-    from ..view.progress import progress_bar
-    from ..view.scores import score_table
+    from ..show.tables.progress import progress_bar
 
     walks = [data_set.name for data_set in EMULATED]
     recorded, walked = ([name for name in options.only if (name in walks) is made] for made in (False, True))

@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .failure import Failure, check_writable, count, known_recipe, positive, seed
+from .common.failure import Failure, check_writable, count, known_recipe, positive, seed
 
 if TYPE_CHECKING:
     from ..fleet.demo.stage import Stage
@@ -67,7 +67,7 @@ def run(options: argparse.Namespace) -> int:
     from ..fleet.demo.run import RunFailed
     from ..fleet.demo.stage import Stage
     from ..fleet.demo.wearers import Plan
-    from .loop import stopped_alike
+    from .common.loop import stopped_alike
 
     seconds = options.seconds or min(max(WALKED / options.wearers, LEAST), MOST)
     plan = Plan(options.wearers, seconds, options.seed, options.recipe, options.processes)

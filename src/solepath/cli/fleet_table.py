@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ..view.table import number, percent, table
+from ..show.tables.table import number, percent, table
 
 if TYPE_CHECKING:
     from ..fleet.demo.kills import Cost, Outcome

@@ -10,8 +10,9 @@ import os
 import sys
 from collections.abc import Sequence
 
-from . import calibrate, convert, demo, emulate, evaluate, fleet_demo, live, reproduce, scan, track
-from .failure import Failure, note
+from . import calibrate, convert, demo, evaluate, fleet_demo, reproduce, track
+from .bluetooth import emulate, live, scan
+from .common.failure import Failure, note
 
 COMMANDS = (demo, track, scan, live, emulate, convert, calibrate, evaluate, reproduce, fleet_demo)
 

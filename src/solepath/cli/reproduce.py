@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 from typing import Any
 
-from .failure import Failure, check_writable, count, seed
+from .common.failure import Failure, check_writable, count, seed
 
 NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
 """As reproduce.EXPERIMENTS has them; said here so that --help loads nothing heavy."""
@@ -51,11 +51,11 @@ def run(options: argparse.Namespace) -> int:
         if path is not None:
             check_writable(path)
 
+    from ..lab.reproduce.experiments import EXPERIMENTS
+    from ..lab.reproduce.tables import as_json
+    from ..lab.tables.reproduced import reproduced
     from ..recording import printable
-    from ..reproduce.experiments import EXPERIMENTS
-    from ..reproduce.tables import as_json
-    from ..view.progress import progress_bar
-    from ..view.reproduced import reproduced
+    from ..show.tables.progress import progress_bar
 
     with progress_bar("walks", 100) as show:
 
@@ -70,7 +70,7 @@ def run(options: argparse.Namespace) -> int:
             json.dump(as_json(done), file, indent=1, allow_nan=False)
             file.write("\n")
     if figure is not None:
-        from ..view.figures import draw
+        from ..lab.tables.figures import draw
 
         draw(done, figure)
         print(f"figure drawn in {printable(str(figure))}")
@@ -90,7 +90,7 @@ def _figure(options: argparse.Namespace) -> Path | None:
         raise Failure("figures need matplotlib: pip install 'solepath[figures]'")
     if path == Path():
         path = Path(f"{options.name}.png")
-    from ..view.figures import formats
+    from ..lab.tables.figures import formats
 
     if path.suffix[1:].lower() not in formats():
         raise Failure(f"{printable(str(path))}: ends in none of {', '.join(formats())}, which says what to draw")

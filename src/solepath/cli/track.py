@@ -8,18 +8,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..recording import printable
-from .calibrated import add_calibration, calibration_of, check_pressure
-from .failure import Failure, known_recipe, note
-from .floorplan import add_floorplan, floorplan_of
-from .view import View, add_speed, add_view, attended, need_page, newtons_of, pace_of, play, run_rest, view_of
+from .common.calibrated import add_calibration, calibration_of, check_pressure
+from .common.failure import Failure, known_recipe, note
+from .common.floorplan import add_floorplan, floorplan_of
+from .common.view import View, add_speed, add_view, attended, need_page, newtons_of, pace_of, play, run_rest, view_of
 
 if TYPE_CHECKING:
     from ..calibration import Calibration
     from ..floorplan.index import IndexedPlan
+    from ..recording.source import Source
     from ..session import Session
-    from ..source import Source
     from ..types import Packet, Sample
-    from .results import Results
+    from .common.results import Results
 
 LONG = 4_000_000
 """Bytes of packets from which on there is a progress bar ..."""
@@ -60,11 +60,11 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     from .. import recipes
     from ..recording import RecordingError
+    from ..recording.source import open_source
     from ..session import Session
-    from ..source import open_source
     from ..types import Foot
-    from .loop import stopped_alike
-    from .results import Results
+    from .common.loop import stopped_alike
+    from .common.results import Results
 
     recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
     calibration = calibration_of(options)
@@ -131,7 +131,7 @@ class _Reading:
 
     def __iter__(self) -> Iterator[Packet | Sample]:
         from ..recording import RecordingError
-        from ..view.progress import progress_bar
+        from ..show.tables.progress import progress_bar
 
         source = self.source
         long = source.total > (LONG if source.samples is None else LONG_SAMPLES)
@@ -172,9 +172,9 @@ def _played(
 
     The player tells of every item once and in order, whatever is done on the page, and what nobody has watched is run
     through at the end: what comes of the recording is the same."""
-    from ..page.kept import Kept
-    from ..page.player import Player
-    from ..page.scene import Scene
+    from ..show.page.player.kept import Kept
+    from ..show.page.player.player import Player
+    from ..show.page.scene.scene import Scene
 
     items = Kept(reading)
     shown, fault = len(items) > 0, "" if reading.failure is None else str(reading.failure)

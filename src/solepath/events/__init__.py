@@ -7,25 +7,9 @@ revise it. Final events never change, however much data follows.
 
 from __future__ import annotations
 
-from .activity import (
-    ActivityChanged,
-    FlightClimbed,
-    LiftRidden,
-    TurnMade,
-)
-from .body import (
-    StrideFused,
-    TouchedDown,
-    WalkingModeChanged,
-)
-from .gait import (
-    FootFlat,
-    HeelOff,
-    HeelStrike,
-    StepFeatures,
-    StepTaken,
-    ToeOff,
-)
+from .activity import ActivityChanged, FlightClimbed, LiftRidden, TurnMade
+from .body import StrideFused, TouchedDown, WalkingModeChanged
+from .gait import FootFlat, HeelOff, HeelStrike, StepFeatures, StepTaken, ToeOff
 from .link import (
     BatteryLevel,
     ClockReset,
@@ -46,25 +30,10 @@ from .link import (
     StreamResumed,
     StreamStale,
 )
-from .live import (
-    FootMoved,
-    FootPressed,
-    WearerMoved,
-)
-from .place import (
-    Candidate,
-    Placed,
-    PlaceLost,
-)
+from .live import FootMoved, FootPressed, WearerMoved
+from .place import Candidate, Placed, PlaceLost
 from .stride import StrideMeasured
-from .wear import (
-    CellFault,
-    CellsFailed,
-    FeetSwapped,
-    FootHeard,
-    FootSilent,
-    InsoleNeverUnloads,
-)
+from .wear import CellFault, CellsFailed, FeetSwapped, FootHeard, FootSilent, InsoleNeverUnloads
 
 __all__ = [
     "ActivityChanged",

@@ -24,7 +24,7 @@ class StrideMeasured(Happening):
     5 ms of the clocks' (with radios that hold packets back by up to 50 ms); the constant part of what a radio is late
     nobody sees. They are None too where the other foot's contact or toe-off fell into a gap in its samples.
 
-    What it takes for a stride to be `steady`, and so to count in the running means, is in body/measuring.py.
+    What it takes for a stride to be `steady`, and so to count in the running means, is in body/gait/measuring.py.
     """
 
     foot: Foot
@@ -61,8 +61,8 @@ class StrideMeasured(Happening):
     step_length: float | None
     """From where the other foot stood to where this one came down, along this foot's stride (Huxham et al. 2006, Gait &
     Posture 23), between the sensors: right where both are mounted alike. It takes a recipe whose body measures where
-    one foot is from the other (body/measuring.py); two tracks that are only supposed to lie beside one another do not
-    tell it."""
+    one foot is from the other (body/gait/measuring.py); two tracks that are only supposed to lie beside one another do
+    not tell it."""
     step_width: float | None
     """The other foot's distance from the line of this stride (as above); below zero when the feet cross."""
     clearance: float | None

@@ -8,10 +8,10 @@ protocol/fleet.md says what a phone sends, in what order it is used, and what a 
 
 from ..events.fleet import FleetEvent, NumbersMissing, Refusal, SentRejected, StateRefused, WearerFailed
 from .fleet import Fleet
-from .keyed import Keyed
-from .once import Once
 from .rows import SENT_COLUMNS, TOLD_COLUMNS, read_line, read_sent, sent_line, sent_row, told_row
-from .sent import End, Sent, Tick, Told, Unreadable
+from .step.keyed import Keyed
+from .step.once import Once
+from .step.sent import End, Sent, Tick, Told, Unreadable
 
 __all__ = [
     "SENT_COLUMNS",

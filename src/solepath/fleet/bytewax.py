@@ -26,7 +26,7 @@ from bytewax.outputs import FixedPartitionedSink, StatefulSinkPartition
 from .bytewax_wearer import Wearer
 from .fleet import Fleet
 from .parquet import Parts
-from .sent import Told
+from .step.sent import Told
 
 
 @operator

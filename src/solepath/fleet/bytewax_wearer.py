@@ -11,8 +11,8 @@ from attrs import define
 from bytewax.operators import StatefulBatchLogic
 
 from .fleet import Fleet
-from .keyed import Keyed
-from .sent import Told
+from .step.keyed import Keyed
+from .step.sent import Told
 
 
 @define

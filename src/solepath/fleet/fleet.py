@@ -10,10 +10,10 @@ from ..floorplan.index import IndexedPlan
 from ..floorplan.plan import FloorPlan
 from ..link.driver import Driver
 from ..recipes import DEFAULT, Recipe
-from .keyed import Keyed
-from .sent import Sent, Told, Unreadable
-from .sessions import Sessions
-from .state import Identity, Rest, write_state
+from .step.keyed import Keyed
+from .step.sent import Sent, Told, Unreadable
+from .step.sessions import Sessions
+from .step.state import Identity, Rest, write_state
 
 
 class Fleet:

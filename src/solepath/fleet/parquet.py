@@ -32,7 +32,7 @@ from attrs import define, field
 from pyarrow import parquet
 
 from .rows import TOLD_COLUMNS, told_row
-from .sent import Told
+from .step.sent import Told
 
 _ARROW = {str: pa.string(), int: pa.int64(), float: pa.float64(), bool: pa.bool_()}
 SCHEMA = pa.schema([(name, _ARROW[kind]) for name, kind in TOLD_COLUMNS.items()])

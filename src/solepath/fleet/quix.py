@@ -21,9 +21,9 @@ from quixstreams.models.serializers.simple_types import BytesDeserializer
 
 from ..events.fleet import Refusal, SentRejected
 from .fleet import Fleet
-from .keyed import Keyed
 from .rows import read_line, told_row
-from .sent import LONGEST_NAME, Sent, Told, Unreadable
+from .step.keyed import Keyed
+from .step.sent import LONGEST_NAME, Sent, Told, Unreadable
 
 MOST_LINES = 4096
 """Of one message; one that has more is refused whole, since every line that cannot be read is told of."""

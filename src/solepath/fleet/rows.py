@@ -10,9 +10,9 @@ from collections.abc import Mapping
 from operator import index
 from typing import Any
 
-from ..output import event_record
+from ..show.output import event_record
 from ..types import Packet, Site
-from .sent import LONGEST_DATA, LONGEST_NAME, MOST, End, Sent, Tick, Told, Unreadable
+from .step.sent import LONGEST_DATA, LONGEST_NAME, MOST, End, Sent, Tick, Told, Unreadable
 
 SENT_COLUMNS: Mapping[str, type] = {
     "wearer": str, "run": int, "number": int, "t": float, "site": str, "channel": str, "data": bytes, "device": str,

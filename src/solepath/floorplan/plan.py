@@ -11,7 +11,7 @@ from enum import Enum
 
 from attrs import evolve, field, frozen
 
-from ..machine import checksum, save
+from ..saving.codec import checksum, save
 
 Point = tuple[float, float]
 """(x, y) in m, plan frame."""

@@ -12,7 +12,7 @@ from attrs import define, field
 
 from ..events import ScaleSuspect
 from ..types import Quat, Site, Vec3
-from ..vector import GRAVITY, TIE, ZERO, levelling
+from ..types.vector import GRAVITY, TIE, ZERO, levelling
 
 COARSEST = 0.7
 """No accelerometer's count is worth more (8 bits for +-8 g are 0.61), m/s^2."""

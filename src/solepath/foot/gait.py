@@ -6,14 +6,14 @@ from attrs import define, field
 
 from ..events import Event
 from ..types import Foot, Phase, Vec3
-from ..vector import ZERO, sub
-from .cues import Seen
-from .gait_cues import Cues
-from .gap import Leap
-from .habit import Habit
-from .navigate import Corrector
+from ..types.vector import ZERO, sub
+from .cues.gait_cues import Cues
+from .cues.inertial import Seen
+from .gaps.gap import Leap
+from .gaps.template import Habit
+from .navigate.strapdown import Corrector
 from .phase import BEGINS, PHASES, Cue
-from .step import StepBuilder, Way
+from .stride import StepBuilder, Way
 from .turn import heading_turned
 from .world import Covariance3, World
 

@@ -12,35 +12,35 @@ from typing import Any, Final
 from attrs import define, evolve, field
 
 from ..events import Event, FootMoved, SampleGap
+from ..papers.footstep_tracker.critical_cues import CriticalCues
+from ..papers.footstep_tracker.projection import Projection
+from ..papers.footstep_tracker.static_zones import StaticZones
+from ..papers.kupt_dfpc.cop_cues import CopCues
+from ..papers.kupt_dfpc.known_velocity import KnownVelocity
+from ..papers.kupt_dfpc.swing_dedrift import SwingDedrift
+from ..papers.pressure_contour.bias_zupt import BiasZupt
+from ..papers.pressure_contour.contour_stance import ContourVelocity, GyroscopeMagnitude
+from ..papers.shoe_sensing.gated_tilt import ShoeSensing
+from ..papers.shoe_sensing.short_time_energy import AccelerationMagnitude, ShortTimeEnergy
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
-from ..vector import ZERO
+from ..types.vector import ZERO
 from .attitude import Levelling, Rest, suspected
-from .bias_zupt import BiasZupt
-from .contour_stance import ContourVelocity, GyroscopeMagnitude
-from .cop_cues import CopCues
-from .critical_cues import CriticalCues
-from .crossing import cross
-from .cues import Seen
-from .cycle import Cycle
-from .dedrift import LinearDedrift
-from .eskf import ErrorStateFilter
+from .cues.gait_cues import GaitCues
+from .cues.inertial import Seen
 from .gait import Gait
-from .gait_cues import GaitCues
-from .gap import SHORTEST
-from .gated_tilt import ShoeSensing
-from .known_velocity import KnownVelocity
+from .gaps.crossing import cross
+from .gaps.gap import SHORTEST
 from .limits import WITHOUT, Limits
-from .navigate import LONGEST_BRIDGE
-from .pressure import Insole
-from .pressure_stance import MaximumPressure, TwoArea
-from .projection import Projection
-from .refusal import refusal, rejected
+from .navigate.dedrift import LinearDedrift
+from .navigate.error_state import ErrorStateFilter
+from .navigate.strapdown import LONGEST_BRIDGE
+from .pressure.insole import Insole
+from .pressure.sole import Sole
+from .rejection import refusal, rejected
 from .rhythm import Rhythm
-from .short_time_energy import AccelerationMagnitude, ShortTimeEnergy
-from .sole import Sole
-from .stance import AngularRate, Detector, Graph, Load, MovingVariance, Shoe
-from .static_zones import StaticZones
-from .swing_dedrift import SwingDedrift
+from .stance.cycle import Cycle
+from .stance.pressure import MaximumPressure, TwoArea
+from .stance.stance import AngularRate, Detector, Graph, Load, MovingVariance, Shoe
 from .world import Covariance3
 
 AnyDetector = (

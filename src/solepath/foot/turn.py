@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import atan2, pi
 
 from ..types import Quat
-from ..vector import conjugate, multiply
+from ..types.vector import conjugate, multiply
 
 
 def heading_turned(before: Quat, after: Quat) -> float:

@@ -12,7 +12,7 @@ from math import atan2, cos, hypot, sin
 from attrs import define, field
 
 from ..types import Quat, Vec3
-from ..vector import from_yaw, multiply
+from ..types.vector import from_yaw, multiply
 
 FIRST_WAY = 0.15
 """The foot tells a heading when it is this far from where it first stood, m."""

@@ -35,9 +35,9 @@ from ..events import (
 from ..types import Packet, Sample, Site
 from ..wire.device import parse_battery, parse_firmware
 from ..wire.error import WireError
-from .cc2541 import Cc2541Link
-from .cc2650 import Cc2650Link
-from .insole import InsoleLink
+from .devices.cc2541 import Cc2541Link
+from .devices.cc2650 import Cc2650Link
+from .devices.insole import InsoleLink
 from .known import KINDS, Kind, Kinds
 from .receiver import said
 from .stream import StreamLink

@@ -10,11 +10,11 @@ from attrs import frozen
 
 from ..events import LinkEvent
 from ..types import Sample, Site
-from .cc2541 import Cc2541Link, cc2541_link
-from .cc2650 import Cc2650Link
 from .devices import DECLARED
+from .devices.cc2541 import Cc2541Link, cc2541_link
+from .devices.cc2650 import Cc2650Link
+from .devices.insole import InsoleLink
 from .driver import Driver
-from .insole import InsoleLink
 from .profile import CC2541, CC2650, INSOLE, Profile
 from .profile import PROFILES as OWN
 from .stream import StreamLink, stream_link

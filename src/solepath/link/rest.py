@@ -7,7 +7,7 @@ from math import sqrt
 from attrs import define
 
 from ..types import Vec3
-from ..vector import GRAVITY
+from ..types.vector import GRAVITY
 
 WINDOW = 1.5
 """Seconds without motion that count as rest."""

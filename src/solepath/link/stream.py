@@ -27,7 +27,7 @@ from ..events import (
     ScaleSuspect,
 )
 from ..types import Quat, Sample, Site, Vec3
-from ..vector import GRAVITY
+from ..types.vector import GRAVITY
 from ..wire.error import WireError
 from ..wire.fields import malformed
 from .driver import COARSEST, Axis, Basis, Driver, Measured, Reading

@@ -22,7 +22,7 @@ from attrs import define, field
 from ...events import ActivityChanged, Event, LiftRidden, StepFeatures, StepTaken
 from ...foot.tracker import FootTracker
 from ...types import Activity, Foot, Sample, Site
-from ...vector import TIE, ZERO
+from ...types.vector import TIE, ZERO
 from .air import NOTHING, Air
 from .features import BLOCK, REACH, FootWindow
 from .flights import Flights

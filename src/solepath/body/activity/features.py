@@ -15,7 +15,7 @@ from attrs import define, field
 from ...events import Event, FootFlat, HeelStrike, StepTaken
 from ...foot.tracker import FootTracker
 from ...types import Vec3
-from ...vector import ZERO
+from ...types.vector import ZERO
 from .block import Block, Stepped
 
 BLOCK = 0.5

@@ -13,10 +13,10 @@ over as well with the first stride the other way, and when both feet stand at on
 nobody need walk on, and who rests on the stairs with a foot on each tread is not there yet. What is lower than
 `least_height` is a kerb. Latency: that of the level strides, about a second, or `patience`.
 
-What no stride of stairs gains (foot/steepness.py), or one the other way, is an error of the track and is not believed:
-such a stride is taken to rise by the mean of those of the flight that are, and where these are not even half of them
-there is no height to tell, and no flight is told. A stride that nobody can judge parts flights as level ones do, and
-is one of the flight when a stair stride follows it.
+What no stride of stairs gains (body/activity/steepness.py), or one the other way, is an error of the track and is not
+believed: such a stride is taken to rise by the mean of those of the flight that are, and where these are not even half
+of them there is no height to tell, and no flight is told. A stride that nobody can judge parts flights as level ones
+do, and is one of the flight when a stair stride follows it.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from __future__ import annotations
 from attrs import define, field
 
 from ...events import FlightClimbed, StepTaken
-from ...foot.steepness import LEAST_RISE, of_stairs
 from ...types import Foot
+from .steepness import LEAST_RISE, of_stairs
 
 
 @define

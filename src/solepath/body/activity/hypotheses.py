@@ -14,7 +14,7 @@ from math import exp, inf, log
 from attrs import define, field
 
 from ...types import Activity
-from ...vector import TIE
+from ...types.vector import TIE
 from .chain import ACTIVITIES, BEGIN, CRUISES, HALTS, LIFTS, PULSES, RIDES, STAND, Chain
 from .features import BLOCK
 from .ride import DWELLS, HALT, HALT_VARIES, HASTE, USUAL, VARIES, Beside, Felt, Level, Levels, Ride

@@ -1,7 +1,7 @@
 """From one foot's features to how likely each way of moving is: two small networks, evaluated in plain Python.
 
 One hidden layer of tanh, outputs that add up to 1 (softmax); a foot without a gyroscope has a network of its own. They
-were trained by `solepath.train.activities`, which also says what on; what it learnt is activities.json beside this
+were trained by `solepath.lab.train.activities`, which also says what on; what it learnt is activities.json beside this
 file. How long things last and when labels change belong to it as well: chain.py says what for.
 
 How like anything that it was trained on the features are is said by `strangeness`: each way of moving has a mean and a

@@ -14,7 +14,7 @@ from operator import is_
 
 from attrs import define
 
-from ...vector import GRAVITY
+from ...types.vector import GRAVITY
 
 USUAL = 0.6
 """Acceleration of a lift that starts or stops, m/s^2, and"""

@@ -13,8 +13,8 @@ from attrs import define, field
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import FloorPlan, Kind, Point
 from ...types import Vec3
-from ...vector import ZERO
-from ..position import Position
+from ...types.vector import ZERO
+from ..fuse.position import Position
 from .arrivals import anew, changing, out
 from .crowd import Row, packed, resampled, unpacked
 from .landings import Landing, landings, ways_out

@@ -16,7 +16,7 @@ from attrs import define, field
 from ...events import Event, Placed, PlaceLost, StepTaken, TurnMade
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
-from ..position import Position
+from ..fuse.position import Position
 from .arrivals import fan, nowhere
 from .crowd import AGREED, Row, believed, effective, packed, unpacked
 from .levels import FARTHEST, FEW, ROUGH, Levels

@@ -19,7 +19,7 @@ from attrs import define, field, frozen
 from ...events import ActivityChanged, Event, FlightClimbed, LiftRidden, StepTaken
 from ...floorplan.plan import FloorPlan, Kind
 from ...types import Activity, Foot, Vec3
-from ..position import Position
+from ..fuse.position import Position
 from .landings import HIGH, LOW
 from .passage import Passage
 

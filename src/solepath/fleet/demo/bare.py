@@ -17,8 +17,8 @@ from ...session import Session
 from ...types import Packet
 from ..fleet import Fleet
 from ..parquet import Parts
-from ..sent import Tick, Told
-from ..state import read_rest
+from ..step.sent import Tick, Told
+from ..step.state import read_rest
 from .child import end_with_parent, settle
 from .job import TOLD
 from .sending import What

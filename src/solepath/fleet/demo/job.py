@@ -27,10 +27,10 @@ from bytewax.recovery import RecoveryConfig
 from bytewax.run import cli_main
 
 from ...recipes import Recipe
-from .. import keyed
 from ..bytewax import ParquetSink, gait
 from ..fleet import Fleet
-from ..sent import Sent, Unreadable
+from ..step import keyed
+from ..step.sent import Sent, Unreadable
 from .child import end_with_parent, memory, most_memory, settle
 from .wearers import Wearers
 

@@ -16,7 +16,7 @@ from ...events.fleet import Refusal
 from ...link.decoder import Decoder
 from ...link.known import kinds
 from ...types import Packet, Sample, Site
-from ..sent import LONGEST_DATA, End, Tick
+from ..step.sent import LONGEST_DATA, End, Tick
 
 LATE, BEHIND = 0.02, 100
 """Share of what is sent that comes late, and how many others may come before it: fewer than the fleet's window."""

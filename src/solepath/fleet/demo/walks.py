@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from math import pi
 
-from ...sim.device import Device
-from ...sim.insole_device import Insole
-from ...sim.radio import Radio
-from ...sim.route import Route
-from ...sim.sensortags import CC2541, CC2650
-from ...sim.walk import emulate
+from ...emulate.radio import Radio
+from ...emulate.routes.route import Route
+from ...emulate.sensors.device import Device
+from ...emulate.sensors.insole_device import Insole
+from ...emulate.sensors.sensortags import CC2541, CC2650
+from ...emulate.walk import emulate
 from ...types import Packet, Site
 
 ROUGH = Radio(loss=0.02, duplicate=0.005, corrupt=0.005, truncate=0.005, latency=0.01, jitter=0.03)

@@ -17,7 +17,7 @@ from ...recipes import BY_NAME, Recipe
 from ...recording import PacketWriter, read_packets
 from ...types import Packet
 from ..rows import read_sent
-from ..sent import Sent, Tick, Unreadable
+from ..step.sent import Sent, Tick, Unreadable
 from .sending import Item, Remark, Sending, What, gap, poison, samples_of, sending
 from .walks import DEVICES, walk
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from construct import Bytes, Const, ExprValidator, Int8ul, Int16ul, Int32ul, OneOf, Struct, Terminated
 
-from ...vector import GRAVITY
+from ...types.vector import GRAVITY
 from ...wire.fields import Fields, Hex
 from ..driver import Driver, Known, Measured, Reading
 from ..profile import Channel, How, Profile, Write

@@ -25,7 +25,7 @@ from construct import (
 )
 
 from ...types import Foot
-from ...vector import GRAVITY
+from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, Hex
 from ..driver import Driver, Known, Measured, Reading
 from ..profile import FIRMWARE, Channel, How, Profile, Write

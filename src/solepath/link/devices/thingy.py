@@ -11,7 +11,7 @@ from typing import Any
 
 from construct import Int8ul, Int16ul, Int32sl, OneOf, Struct, Terminated
 
-from ...vector import GRAVITY
+from ...types.vector import GRAVITY
 from ...wire.fields import Fields
 from ..driver import Driver, Known, Measured, Reading
 from ..profile import BATTERY, Channel, How, Profile, Write

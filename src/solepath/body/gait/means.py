@@ -1,0 +1,261 @@
+"""Running means of steady strides: what a clinician reads off a walk.
+
+Up to `MEMORY` strides of a foot (two minutes of walking) the means are plain ones; from then on each new stride weighs
+as much as one of so many, and what is old fades. Walking and running are added up apart.
+
+Means and standard deviations of both feet together: the mean of the feet's means, and the root of the mean of their
+variances, so that a difference between the feet does not count as variability (Galna et al. 2013, Gait & Posture 37;
+Lord et al. 2013, J. Gerontol. A 68). Variability is that standard deviation, or relative to the mean the coefficient of
+variation (Hausdorff 2005, J. NeuroEng. Rehabil. 2). It takes at least 30 steps to mean something (Galna et al.).
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from attrs import define, field, fields, frozen
+
+from ...events import StrideMeasured
+from ...types import Foot, Word
+
+MEMORY = 120
+"""Strides of a foot."""
+
+
+@define
+class RunningMean:
+    """Mean and variance of a figure. O(1)."""
+
+    count: int = 0
+    """Values, up to those that are remembered."""
+    mean: float = 0.0
+    variance: float = 0.0
+    """About the mean, by the weights of the values."""
+
+    def add(self, value: float, memory: int) -> None:
+        """One more; older ones fade once there were `memory`."""
+        self.count = min(self.count + 1, memory)
+        weight = 1.0 / self.count
+        off = value - self.mean
+        self.mean += weight * off
+        self.variance = (1.0 - weight) * (self.variance + weight * off * off)
+
+    @property
+    def figure(self) -> Figure:
+        """As it is now."""
+        # the variance of a sample of n is n / (n - 1) times that about its own mean
+        sd = sqrt(self.variance * self.count / (self.count - 1)) if self.count > 1 else None
+        return Figure(self.mean, sd, self.count)
+
+
+@frozen
+class Figure:
+    """Mean and standard deviation (None of a single stride) of one gait parameter, in the parameter's unit."""
+
+    mean: float
+    sd: float | None
+    strides: int
+    """Over which it was taken; of a session at most 120 of a foot."""
+
+    @property
+    def cv(self) -> float | None:
+        """Coefficient of variation, as a share (0.02 is 2 %); None of a single stride and of a mean of zero."""
+        return None if self.sd is None or self.mean == 0.0 else self.sd / abs(self.mean)
+
+
+@frozen
+class StrideFigures:
+    """The parameters of StrideMeasured over steady strides, of one foot or of both; None where none could be told."""
+
+    stride_time: Figure | None = None
+    stance_time: Figure | None = None
+    swing_time: Figure | None = None
+    step_time: Figure | None = None
+    initial_double_support: Figure | None = None
+    terminal_double_support: Figure | None = None
+    single_support: Figure | None = None
+    phase: Figure | None = None
+    stride_length: Figure | None = None
+    speed: Figure | None = None
+    step_length: Figure | None = None
+    step_width: Figure | None = None
+    clearance: Figure | None = None
+    toe_off_angle: Figure | None = None
+    heel_strike_angle: Figure | None = None
+
+    def share(self, name: str) -> float | None:
+        """Mean of a time as a share of the mean stride time; None where it could not be told."""
+        time: Figure | None = getattr(self, name)
+        if time is None or self.stride_time is None:
+            return None
+        return time.mean / self.stride_time.mean
+
+    @property
+    def double_support(self) -> float | None:
+        """Mean of initial and terminal double support together, s; below zero of a runner, who flies for so long."""
+        if self.initial_double_support is None or self.terminal_double_support is None:
+            return None
+        return self.initial_double_support.mean + self.terminal_double_support.mean
+
+
+NAMES = tuple(one.name for one in fields(StrideFigures))
+
+
+class Parameter(Word):
+    """What is summed up: the fields of StrideFigures, and |phase - 0.5|."""
+
+    STRIDE_TIME = "stride_time"
+    STANCE_TIME = "stance_time"
+    SWING_TIME = "swing_time"
+    STEP_TIME = "step_time"
+    INITIAL_DOUBLE_SUPPORT = "initial_double_support"
+    TERMINAL_DOUBLE_SUPPORT = "terminal_double_support"
+    SINGLE_SUPPORT = "single_support"
+    PHASE = "phase"
+    STRIDE_LENGTH = "stride_length"
+    SPEED = "speed"
+    STEP_LENGTH = "step_length"
+    STEP_WIDTH = "step_width"
+    CLEARANCE = "clearance"
+    TOE_OFF_ANGLE = "toe_off_angle"
+    HEEL_STRIKE_ANGLE = "heel_strike_angle"
+    OFF_PHASE = "off_phase"
+
+
+MEASURED = tuple([Parameter(name) for name in NAMES])
+
+
+@frozen
+class GaitParameters:
+    """Running means over steady strides (body/gait/measuring.py says which those are). `running`: of strides that were
+    run. `feet`: each foot's own, of those that took steady strides; `both`: of both together."""
+
+    running: bool
+    feet: dict[Foot, StrideFigures]
+    both: StrideFigures
+    coordination: float | None
+    """Phase coordination index (Plotnik et al. 2007, Exp. Brain Res. 181): the coefficient of variation of the phase of
+    the foot that swings longer, and the mean of how far that phase is from a half, relative to a half. A share (0.03 is
+    3 %): 0.02 to 0.04 of healthy walkers. None without both feet."""
+
+    @property
+    def cadence(self) -> float | None:
+        """Steps a minute: 120 / mean stride time."""
+        time = self.both.stride_time
+        return None if time is None else 120.0 / time.mean
+
+    def asymmetry(self, name: str) -> float | None:
+        """Symmetry index of a parameter of StrideFigures, (right - left) / (half of right + left), as a share (0.05 is
+        5 %): 0 of equal feet, positive where the right one's is larger (Robinson et al. 1987, J. Manip. Physiol. Ther.
+        10). Of swing times |ln(right / left)| of Plotnik et al. 2005 (Ann. Neurol. 57) is nearly its size. None where
+        one foot's is not known, or both are zero."""
+        left, right = (getattr(self.feet.get(foot), name, None) for foot in Foot)
+        if left is None or right is None or left.mean + right.mean == 0.0:
+            return None
+        index: float = 2.0 * (right.mean - left.mean) / (right.mean + left.mean)
+        return index
+
+
+@define
+class StrideSums:
+    """Of one way of moving: by foot and parameter."""
+
+    left: dict[Parameter, RunningMean] = field(factory=dict)
+    right: dict[Parameter, RunningMean] = field(factory=dict)
+
+    def of(self, foot: Foot) -> dict[Parameter, RunningMean]:
+        """A foot's."""
+        return self.left if foot is Foot.LEFT else self.right
+
+    def add(self, stride: StrideMeasured, memory: int) -> None:
+        """One more stride."""
+        sums = self.of(stride.foot)
+        for parameter in MEASURED:
+            value = getattr(stride, parameter.value)
+            if value is not None:
+                sums.setdefault(parameter, RunningMean()).add(value, memory)
+        if stride.phase is not None:
+            sums.setdefault(Parameter.OFF_PHASE, RunningMean()).add(abs(stride.phase - 0.5), memory)
+
+    @property
+    def coordination(self) -> float | None:
+        """As in GaitParameters."""
+        known = [sums for sums in (self.left, self.right) if Parameter.PHASE in sums]
+        if len(known) < 2:
+            return None
+        reference = max(known, key=_swing)
+        varies = reference[Parameter.PHASE].figure.cv
+        return None if varies is None else varies + 2.0 * reference[Parameter.OFF_PHASE].mean
+
+
+def _figures(sums: dict[Parameter, RunningMean]) -> StrideFigures:
+    known = {parameter.value: mean.figure for parameter, mean in sums.items()}
+    known.pop(Parameter.OFF_PHASE.value, None)
+    return StrideFigures(**known)
+
+
+def _swing(sums: dict[Parameter, RunningMean]) -> float:
+    return sums[Parameter.SWING_TIME].mean
+
+
+@define
+class GaitMeans:
+    """Every stride in, running means of the steady ones out: each is counted once the next one of its foot follows, so
+    that the last one before a stop is not."""
+
+    memory: int = MEMORY
+    """Strides of a foot after which old ones fade."""
+    # state
+    left: StrideMeasured | None = field(default=None, init=False)
+    right: StrideMeasured | None = field(default=None, init=False)
+    """The foot's newest stride."""
+    walked: StrideSums = field(factory=StrideSums, init=False)
+    run: StrideSums = field(factory=StrideSums, init=False)
+    running: bool | None = field(default=None, init=False)
+    """What the newest stride that counts was; None before any."""
+
+    def newest(self, foot: Foot) -> StrideMeasured | None:
+        """The foot's newest stride."""
+        return self.left if foot is Foot.LEFT else self.right
+
+    def hear(self, stride: StrideMeasured) -> None:
+        """One more stride, of either foot in the order of its time."""
+        before = self.newest(stride.foot)
+        if stride.foot is Foot.LEFT:
+            self.left = stride
+        else:
+            self.right = stride
+        if before is not None and before.steady and before.t == stride.t_start:
+            self.running = before.running
+            (self.run if before.running else self.walked).add(before, self.memory)
+
+    def interrupt(self, foot: Foot) -> None:
+        """Nothing that comes follows what came."""
+        if foot is Foot.LEFT:
+            self.left = None
+        else:
+            self.right = None
+
+    @property
+    def parameters(self) -> GaitParameters | None:
+        """Of what the wearer does now, walking or running; None before any stride."""
+        return None if self.running is None else self.of(self.running)
+
+    def of(self, running: bool) -> GaitParameters | None:
+        """Of walking or of running; None where there was none."""
+        sums = self.run if running else self.walked
+        feet = {foot: _figures(sums.of(foot)) for foot in Foot if sums.of(foot)}
+        if not feet:
+            return None
+        both = {name: together([getattr(one, name) for one in feet.values()]) for name in NAMES}
+        return GaitParameters(running, feet, StrideFigures(**both), sums.coordination)
+
+
+def together(figures: list[Figure | None]) -> Figure | None:
+    """Of both feet: mean of the means, root of the mean variance."""
+    known = [figure for figure in figures if figure is not None]
+    if not known:
+        return None
+    deviations = [figure.sd for figure in known if figure.sd is not None]
+    sd = sqrt(sum([one * one for one in deviations]) / len(deviations)) if deviations else None
+    return Figure(sum([one.mean for one in known]) / len(known), sd, sum([one.strides for one in known]))

@@ -1,0 +1,145 @@
+"""A gait cycle in numbers, and whether it is a steady one. What is measured, and by whose definition, is told where
+StrideMeasured is.
+
+Steady strides count in the running means. A stride is steady when
+
+- no sample was saturated in it, none was missing for longer than `GAP`, and none of its events is inferred;
+- it follows another stride without a pause. With the half stride from the first stand that leaves out the first three
+  steps of a walk, after which gait is steady (Mann et al. 1979, J. Bone Joint Surg. Am. 61);
+- it is as long, in s and m, as the one before it, within a factor of `ALIKE`: who hesitates is not walking steadily;
+- it turns by less than `TURNS`, and climbs less than `CLIMBS` of its length;
+- the foot took a step in it, where it has a track: stepping on the spot is no walk.
+
+It is counted once the next stride of the foot follows, so that the last one before a stop is not.
+"""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import Protocol
+
+from ...events import StepTaken, StrideMeasured
+from ...types import Foot, Vec3
+from ...types.vector import sub
+from .footfalls import Cycle, Footfalls
+
+ALIKE = 1.5
+"""Two steady strides in a row differ by less than this factor."""
+TURNS = 0.2
+"""rad: strides straight on differ by 0.05, and on a circle of 7 m each turns by this."""
+CLIMBS = 0.15
+"""A ramp for wheelchairs climbs 1 in 12, stairs 1 in 2."""
+ABSURD = 1e4
+"""No figure of a stride is as large, m, rad: it is none."""
+LEAST_WAY = 0.2
+"""A shorter stride has no direction to measure a step along, m."""
+OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
+
+
+class Shared(Protocol):
+    """A body that measures where one foot is from the other has this method; the Body protocol does not ask for it. One
+    that supposes that a foot lands half-way along the other's stride must not: all steps would be as long."""
+
+    def common(self, foot: Foot, place: Vec3) -> Vec3 | None:
+        """A place on a foot's own track (StepTaken.position), m, in a frame that both feet share, z up; None while
+        they share none."""
+
+
+def measured(
+    foot: Foot,
+    number: int,
+    cycle: Cycle,
+    before: StrideMeasured | None,
+    other: Footfalls,
+    tracked: bool,
+    compared: bool,
+    known_at: float,
+    body: object,
+) -> StrideMeasured:
+    """A cycle of `foot` in numbers. `before`: the foot's newest stride; `other`: the other foot; `tracked`: the foot
+    has a track; `compared`: the feet's clocks can be, over the whole cycle; `body`: of the recipe."""
+    start, toe_off, end, step = cycle.start, cycle.toe_off, cycle.end, cycle.step
+    time = end - start
+    between = [t for t in other.contacts if start < t < end]
+    struck = between[0] if len(between) == 1 else None
+    cleared = None
+    if struck is not None:
+        earlier = [t for t in other.toe_offs if start - 0.5 * time < t < struck]
+        cleared = earlier[-1] if earlier else None
+    length = None if step is None else _sound(step.stride_length)
+    along, across = (None, None) if step is None or struck is None else placed(foot, step, other, struck, body)
+    contact = struck if compared else None
+    cleared = cleared if compared else None
+    return StrideMeasured(
+        t=end,
+        known_at=max(known_at, end),
+        foot=foot,
+        number=number,
+        t_start=start,
+        t_toe_off=toe_off,
+        stride_time=time,
+        stance_time=toe_off - start,
+        swing_time=end - toe_off,
+        cadence=120.0 / time,
+        step_time=None if contact is None else end - contact,
+        initial_double_support=None if cleared is None else cleared - start,
+        terminal_double_support=None if contact is None else toe_off - contact,
+        single_support=None if cleared is None or contact is None else min(toe_off, contact) - max(start, cleared),
+        phase=None if contact is None else (contact - start) / time,
+        stride_length=length,
+        speed=None if length is None else length / time,
+        step_length=along,
+        step_width=across,
+        # a height that was corrected at the foot-flat may be above all that the swing was seen to reach
+        clearance=None if step is None else _sound(max(0.0, step.features.clearance)),
+        toe_off_angle=None if step is None else _sound(step.features.toe_off_angle),
+        heel_strike_angle=None if step is None else _sound(step.features.heel_strike_angle),
+        turning_angle=None if step is None else _sound(step.heading_change),
+        rise=None if step is None else _sound(step.height_change),
+        degraded=cycle.degraded,
+        steady=is_steady(cycle, time, before, tracked),
+    )
+
+
+def is_steady(cycle: Cycle, time: float, before: StrideMeasured | None, tracked: bool) -> bool:
+    """By the rule at the top of this file; `time`: of the cycle, s."""
+    if cycle.spoilt or not cycle.follows or before is None or before.t != cycle.start:
+        return False
+    if not _alike(time, before.stride_time):
+        return False
+    step = cycle.step
+    if step is None:
+        return not (tracked and cycle.flat)
+    if abs(step.heading_change) > TURNS or abs(step.height_change) > CLIMBS * step.stride_length:
+        return False
+    return before.stride_length is None or _alike(step.stride_length, before.stride_length)
+
+
+def _alike(one: float, other: float) -> bool:
+    return one < ALIKE * other and other < ALIKE * one
+
+
+def placed(
+    foot: Foot, step: StepTaken, other: Footfalls, struck: float, body: object
+) -> tuple[float | None, float | None]:
+    """Step length and step width, m: how the place where the other foot came down at `struck`, s, lies to the line of
+    the step."""
+    stood = [place for contact, place in other.places if contact == struck]
+    if not stood or not hasattr(body, "common"):  # isinstance of a protocol takes 20 us
+        return None, None
+    shared: Shared = body
+    begin = shared.common(foot, sub(step.position, step.displacement))
+    end, beside = shared.common(foot, step.position), shared.common(OTHER[foot], stood[-1])
+    if begin is None or end is None or beside is None:
+        return None, None
+    dx, dy, _ = sub(end, begin)
+    way = hypot(dx, dy)
+    if not LEAST_WAY <= way < ABSURD:
+        return None, None
+    x, y, _ = sub(end, beside)
+    left = (dx * y - dy * x) / way  # of the other foot
+    return _sound((dx * x + dy * y) / way), _sound(left if foot is Foot.LEFT else -left)
+
+
+def _sound(value: float | None) -> float | None:
+    return None if value is None or not abs(value) < ABSURD else value

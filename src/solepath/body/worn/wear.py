@@ -1,0 +1,87 @@
+"""How the feet's sensors are worn, whatever the recipe: a foot that falls silent, and left and right exchanged."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from attrs import define, field
+
+from ...events import Event, FeetSwapped, FootHeard, FootSilent, StepTaken
+from ...foot.tracker import FootTracker
+from ...types import Foot, Layout, Sample
+from .sides import Sides
+
+LEFT: Final = Foot.LEFT
+"""Looked up once: a word of an enum costs as much as five multiplications."""
+
+
+@define
+class Hearing:
+    """When one foot was last heard."""
+
+    t: float | None = None
+    """Its newest sample, s; None before any."""
+    missing: int = 0
+    """Steps of the other foot since then."""
+    said: bool = False
+    """That it is silent."""
+
+
+@define
+class Wear:
+    """Hears every sample of both feet.
+
+    A foot that was heard before is silent when the other has taken `steps` steps and `seconds` since its last sample:
+    FootSilent, and FootHeard with the sample that ends it. While nobody walks nothing is said, and nothing of a foot
+    that was never heard: a recording may be of one foot. Recipes of two feet go on with the one that is left.
+    FeetSwapped is said once, as `Sides` sees it.
+    """
+
+    steps: int = 3
+    seconds: float = 3.0
+    sides: Sides = field(factory=Sides)
+    # state
+    left: Hearing = field(factory=Hearing, init=False)
+    right: Hearing = field(factory=Hearing, init=False)
+    swapped: bool = field(default=False, init=False)
+    """That has been said."""
+
+    def told(self, foot: Foot, layout: Layout) -> None:
+        """The device on `foot` has said where its cells are."""
+        self.sides.told(foot, layout)
+
+    def heard(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
+        """`foot` has used `sample`, and `events` are what came of it."""
+        t = sample.t
+        is_left = foot.foot is LEFT
+        this, other = (self.left, self.right) if is_left else (self.right, self.left)
+        if not (events or this.said or other.missing):
+            this.t, this.missing = t, 0
+            if not self.swapped:
+                self.sides.keep(self.sides.left if is_left else self.sides.right, foot, sample)
+            return []
+        found: list[Event] = []
+        if this.said:
+            this.said = False
+            silence = 0.0 if this.t is None else max(0.0, t - this.t)
+            found.append(FootHeard(t=t, known_at=_known_at(sample), foot=foot.foot, silent_for=silence))
+        this.t = t
+        this.missing = 0
+        if events and any([isinstance(event, StepTaken) for event in events]):
+            other.missing += 1
+        if other.missing and other.t is not None and not other.said:
+            if t < other.t:
+                other.missing = 0  # this foot lags behind the other on the way here, or its times began anew
+            elif other.missing >= self.steps and t - other.t >= self.seconds:
+                other.said = True
+                silent = Foot.RIGHT if is_left else LEFT
+                found.append(FootSilent(t=t, known_at=_known_at(sample), foot=silent, silent_for=t - other.t))
+        if not self.swapped and self.sides.swapped(foot, sample, events):
+            self.swapped = True
+            self.sides.forget()
+            found.append(FeetSwapped(t=t, known_at=_known_at(sample)))
+        return found
+
+
+def _known_at(sample: Sample) -> float:
+    return sample.t if sample.known_at is None else max(sample.t, sample.known_at)

@@ -1,0 +1,51 @@
+"""What commands do by Bluetooth: reach it, listen for so long, and end with one line where there is none."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterable, AsyncIterator, Callable, Coroutine
+from contextlib import AsyncExitStack, asynccontextmanager
+from typing import Any
+
+from ...ble import NATIVE, Backend, BluetoothError
+from ...types import Packet
+from ..common.failure import Failure
+from ..common.loop import run_to_end
+
+
+def listen_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int:
+    """run_to_end; errors of Bluetooth are a Failure."""
+    try:
+        return run_to_end(main)
+    except BluetoothError as error:
+        raise Failure(str(error)) from None
+
+
+@asynccontextmanager
+async def air(via: str | None) -> AsyncIterator[Backend]:
+    """The Bluetooth of `--via`. Failure when it cannot be reached."""
+    if via is None:
+        yield NATIVE
+        return
+    from bleak.exc import BleakError
+
+    try:
+        from ...emulate.controllers.tcp import reach
+    except ModuleNotFoundError as error:
+        raise Failure(f"--via needs {error.name}: pip install 'solepath[loopback]'") from None
+    async with AsyncExitStack() as stack:
+        try:
+            backend = await stack.enter_async_context(reach(via))
+        except (BleakError, ValueError) as error:
+            raise Failure(f"--via {via}: {error}") from None
+        yield backend
+
+
+async def until(packets: AsyncIterable[Packet], stop: asyncio.Event, seconds: float | None) -> AsyncIterator[Packet]:
+    """`packets` until `stop`, or for so many seconds. Devices give a packet four times a second at least."""
+    loop = asyncio.get_running_loop()
+    end = None if seconds is None else loop.time() + seconds
+    async for packet in packets:
+        if stop.is_set() or (end is not None and loop.time() >= end):
+            return
+        yield packet

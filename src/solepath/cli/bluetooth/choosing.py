@@ -1,0 +1,120 @@
+"""Which devices a command listens to, by which Bluetooth, and for how long."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import TYPE_CHECKING
+
+from ..common.failure import Failure, note, positive
+
+if TYPE_CHECKING:
+    from ...ble import Found, Wanted
+
+LISTENED = 4.0
+"""s for which devices are looked for when none was named."""
+UNWATCHED = 30.0
+"""s that a command listens where there is no terminal to end it from, unless it is told how long."""
+UNATTENDED = 600.0
+"""s that emulated devices are served there."""
+
+
+def add_air(command: argparse.ArgumentParser) -> None:
+    """Which Bluetooth."""
+    command.add_argument(
+        "--via",
+        metavar="tcp:HOST:PORT",
+        help="the emulated devices of `solepath emulate` there, instead of this machine's Bluetooth",
+    )
+
+
+def add_devices(command: argparse.ArgumentParser) -> None:
+    """Which devices, and for how long."""
+    add_air(command)
+    command.add_argument("--left", metavar="DEVICE", help="address or name of the device on the left foot")
+    command.add_argument("--right", metavar="DEVICE", help="address or name of the device on the right foot")
+    command.add_argument(
+        "--at", metavar="SITE=DEVICE", action="append", default=[], help="a device elsewhere, for instance pelvis=NAME"
+    )
+    command.add_argument(
+        "--profile", metavar="NAME", help="the kind of all these devices, where their names do not say it"
+    )
+    command.add_argument("--pair", action="store_true", help="pair with the devices")
+    command.add_argument(
+        "--duration",
+        metavar="S",
+        type=positive,
+        help=f"end by itself after so long (default: at Ctrl-C; {UNWATCHED:g} s without a terminal)",
+    )
+
+
+def wanted(options: argparse.Namespace) -> list[Wanted]:
+    """The devices that were named; none when none was. Failure for a site or profile that there is not."""
+    from ...ble import Wanted
+    from ...ble.wanted import check
+    from ...link.known import BY_NAME
+    from ...types import Site
+
+    named = [(Site.LEFT_FOOT, options.left), (Site.RIGHT_FOOT, options.right)]
+    sites = {site.value: site for site in Site}
+    for text in options.at:
+        site, equals, which = text.partition("=")
+        if site not in sites or not which:
+            raise Failure(f"--at {text}: that is not SITE=DEVICE, SITE one of {', '.join(sites)}")
+        named.append((sites[site], which))
+    if options.profile is not None and options.profile not in BY_NAME:
+        raise Failure(f"there is no profile {options.profile!r}; there are: {', '.join(BY_NAME)}")
+    profile = BY_NAME.get(options.profile)
+    devices = [Wanted(site, which, profile) for site, which in named if which]
+    try:
+        if devices:
+            check(devices)
+    except ValueError as error:
+        raise Failure(str(error)) from None
+    return devices
+
+
+def chosen(found: list[Found], kind: str | None) -> list[Wanted]:
+    """What to listen to when no device was named: two insoles, who say their feet, as soon as one is heard; or the one
+    other device, on the right foot as in `track`. `kind`: the profile that was named. Failure where that is not
+    clear."""
+    from ...ble import Wanted
+    from ...link.known import BY_NAME
+    from ...link.profile import INSOLE
+    from ...types import Site
+
+    told = None if kind is None else BY_NAME[kind]
+    if told is not None:
+        known = [one for one in found if told.answers_to(one.name) or not {*told.services}.isdisjoint(one.services)]
+    else:
+        known = [one for one in found if one.profile is not None]
+    if any(one.profile is INSOLE for one in known):
+        return [Wanted(None, profile=INSOLE), Wanted(None, profile=INSOLE)]
+    if len(known) == 1:
+        note(f"{known[0].name}: taken for the right foot's (--left {known[0].address} says otherwise)")
+        return [Wanted(Site.RIGHT_FOOT, known[0].address, told or known[0].profile)]
+    if not known and told is not None:
+        raise Failure(f"no {told.name} is heard: switch it on, or say which device it is with --left and --right")
+    if not known:
+        raise Failure("no device is heard that is known here: switch it on, or say which with --left and --right")
+    heard = ", ".join(f"{one.address} ({one.name})" for one in known)
+    raise Failure(f"{len(known)} devices are heard, {heard}: say which is where with --left and --right")
+
+
+def need_bleak() -> None:
+    """Failure in words where the `ble` extra is not installed."""
+    from importlib.util import find_spec
+
+    for package in ("bleak", "bleak_retry_connector"):
+        if find_spec(package) is None:
+            raise Failure(f"Bluetooth needs {package}: pip install 'solepath[ble]'")
+
+
+def how_long(options: argparse.Namespace) -> float | None:
+    """--duration, or what goes without it."""
+    if options.duration is not None:
+        return float(options.duration)
+    if sys.stdin.isatty() or sys.stdout.isatty():
+        return None
+    print(f"no terminal to end this from: it ends after {UNWATCHED:g} s (--duration says otherwise)", flush=True)
+    return UNWATCHED

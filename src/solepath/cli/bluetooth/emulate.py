@@ -1,0 +1,61 @@
+"""`solepath emulate`: devices that are not there, over true Bluetooth protocols."""
+
+from __future__ import annotations
+
+import argparse
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from ..common.failure import Failure, positive, seed
+from .choosing import UNATTENDED
+
+HERE = "127.0.0.1:9735"
+KINDS = ("insole", "cc2650", "cc2541", "cc2541-20hz")
+WALKED = 300.0
+"""m that the wearer walks when nothing else is said: four minutes."""
+
+
+def add_to(commands: Any) -> None:
+    command: argparse.ArgumentParser = commands.add_parser(
+        "emulate",
+        help="serve emulated sensors over a true Bluetooth link",
+        description="Serve emulated sensors on the feet of an emulated wearer: virtual Bluetooth controllers with the "
+        "true services of the devices, spoken to in HCI over TCP. The wearer begins to walk when the first device is "
+        "connected, and anew when none was for ten seconds.",
+        epilog="example: solepath emulate --listen 127.0.0.1:9735, and then in another terminal: "
+        "solepath live --via tcp:127.0.0.1:9735",
+    )
+    command.add_argument(
+        "--listen",
+        metavar="HOST:PORT",
+        default=HERE,
+        help=f"where to (default: {HERE}; port 0: any that is free)",
+    )
+    command.add_argument(
+        "--device", choices=KINDS, default="insole", help="what is worn on both feet (default: insole)"
+    )
+    command.add_argument("--distance", metavar="M", type=positive, default=WALKED, help="how far (default: 300)")
+    command.add_argument("--seed", metavar="N", type=seed, default=1, help="another walk of this route (default: 1)")
+    command.add_argument("--mtu", metavar="N", type=int, default=247, help="that insoles agree to (default: 247)")
+    command.add_argument("--faults", metavar="FILE", type=Path, help="a script of what goes wrong")
+    command.add_argument(
+        "--duration",
+        metavar="S",
+        type=positive,
+        help=f"end by itself after so long (default: at Ctrl-C; {UNATTENDED:g} s without a terminal)",
+    )
+    command.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    from importlib.util import find_spec
+
+    for package in ("bleak", "bumble"):
+        if find_spec(package) is None:
+            raise Failure(f"emulated Bluetooth needs {package}: pip install 'solepath[loopback]'")
+    from ..common.loop import run_to_end
+    from .emulate_run import prepared, serve_devices
+
+    # not on the loop: a walk takes its time to be worked out, and Ctrl-C ends that on the spot
+    return run_to_end(partial(serve_devices, options, prepared(options)))

@@ -1,0 +1,135 @@
+"""What `solepath emulate` does once its options are read."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import os
+import sys
+from contextlib import AsyncExitStack
+
+from ...emulate.controllers.tcp import serve
+from ...emulate.devices.bench import Bench
+from ...emulate.devices.faults import parse_faults
+from ...emulate.devices.peripheral import Peripheral
+from ...emulate.sensors import insole_device, sensortags
+from ...emulate.sensors.device import Device
+from ...lab.emulated.demo import straight
+from ...link.profile import CC2541, CC2541_20HZ, CC2650, INSOLE
+from ...recording import printable
+from ...types import Site
+from ..common.failure import Failure
+from .choosing import UNATTENDED
+
+LONGEST = 5000.0
+"""m; a longer walk would take minutes and gigabytes to be worked out."""
+RESTED = 10.0
+"""s without a connection after which the next one finds the wearer at the beginning of his walk."""
+TOLD_EVERY, REDRAWN = 10.0, 1.0
+"""s between two lines on how it goes, without a terminal and in one."""
+LONG = 500.0
+"""m from which on it takes some seconds to work out the walk."""
+HESITATES = 1.0
+"""s from the first connection to the walk's beginning; it begins with standing."""
+
+
+def prepared(options: argparse.Namespace) -> Bench:
+    """The devices and their wearer, who stands. Failure for what cannot be emulated."""
+    if options.distance > LONGEST:
+        raise Failure(f"--distance {options.distance:g}: {LONGEST:g} m is as far as emulated wearers walk")
+    if not 23 <= options.mtu <= 517:
+        raise Failure(f"--mtu {options.mtu}: an MTU is from 23 to 517")
+    _host_and_port(options)
+    kinds: dict[str, Device] = {
+        INSOLE.name: insole_device.Insole(),
+        CC2650.name: sensortags.CC2650(),
+        CC2541.name: sensortags.CC2541(),
+        CC2541_20HZ.name: sensortags.CC2541(rate=20.0),
+    }
+    feet = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
+    try:
+        bench = Bench(
+            straight(options.distance),
+            devices=dict.fromkeys(feet, kinds[options.device]),
+            seed=options.seed,
+            mtu=options.mtu,
+            faults=parse_faults(options.faults.read_text("utf-8")) if options.faults else (),
+        )
+    except ValueError as error:
+        if options.faults is None:
+            raise
+        raise Failure(f"{options.faults}: {error}") from None
+    if options.distance > LONG:
+        print(f"working out a walk of {options.distance:g} m ...", flush=True)
+    bench.prepare()
+    return bench
+
+
+def _host_and_port(options: argparse.Namespace) -> tuple[str, int]:
+    host, colon, port = options.listen.rpartition(":")
+    if not colon or not host or not port.isdecimal() or int(port) > 65535:
+        raise Failure(f"--listen {options.listen}: that is not HOST:PORT")
+    return host.strip("[]"), int(port)
+
+
+async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio.Event) -> int:
+    """Until it is told to stop; the exit status."""
+    bench.began = asyncio.get_running_loop().time() + 1e6  # until somebody is connected the wearer stands
+    async with AsyncExitStack() as stack:
+        try:
+            at, number = await stack.enter_async_context(serve(bench.peripherals, *_host_and_port(options)))
+        except OSError as error:
+            why = os.strerror(error.errno).lower() if error.errno and error.errno > 0 else error.strerror or str(error)
+            raise Failure(f"--listen {options.listen}: {why}") from None
+        print(f"serving at tcp:{at}:{number}", flush=True)
+        for peripheral in bench.peripherals:
+            print(f"  {peripheral.address}  {peripheral.site.words}  {printable(peripheral.name)}", flush=True)
+        seconds = options.duration
+        if seconds is None and not (sys.stdin.isatty() or sys.stdout.isatty()):
+            seconds = UNATTENDED
+        tasks = [asyncio.create_task(work) for work in (_walk_when_connected(bench), _tell(bench))]
+        try:
+            async with asyncio.timeout(seconds):
+                await stop.wait()
+        except TimeoutError:
+            pass
+        finally:
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
+    return 0
+
+
+async def _tell(bench: Bench) -> None:
+    """How it goes: one line that changes in a terminal, elsewhere a line now and then."""
+    loop = asyncio.get_running_loop()
+    began, live = loop.time(), sys.stdout.isatty()
+    try:
+        while True:
+            await asyncio.sleep(REDRAWN if live else TOLD_EVERY)
+            line = f"{loop.time() - began:6.0f} s  {'; '.join(map(_state, bench.peripherals))}"
+            print(f"\r{line}\x1b[K" if live else line, end="" if live else "\n", flush=True)
+    finally:
+        if live:
+            print()
+
+
+def _state(peripheral: Peripheral) -> str:
+    link = "connected" if peripheral.is_connected else "not connected"
+    faults = f", {peripheral.suffered} faults" if peripheral.suffered else ""
+    return f"{peripheral.site.words} {link}, {sum(peripheral.sent.values())} sent{faults}"
+
+
+async def _walk_when_connected(bench: Bench) -> None:
+    """The walk begins when the first device is connected; anew when none was for RESTED s."""
+    loop = asyncio.get_running_loop()
+    alone_since: float | None = float("-inf")
+    while True:
+        now = loop.time()
+        if not any(peripheral.is_connected for peripheral in bench.peripherals):
+            alone_since = now if alone_since is None else alone_since
+        elif alone_since is not None:
+            if now - alone_since > RESTED:
+                bench.began = now + HESITATES
+            alone_since = None
+        await asyncio.sleep(0.01)

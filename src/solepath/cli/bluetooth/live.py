@@ -1,0 +1,64 @@
+"""`solepath live` and `solepath record`: devices heard as they are worn."""
+
+from __future__ import annotations
+
+import argparse
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from ..common.calibrated import add_calibration, calibration_of
+from ..common.failure import known_recipe
+from ..common.floorplan import add_floorplan, floorplan_of
+from ..common.view import add_view, need_page, view_of
+from .choosing import add_devices, need_bleak
+
+
+def add_to(commands: Any) -> None:
+    live: argparse.ArgumentParser = commands.add_parser(
+        "live",
+        help="listen to sensors and show what they say",
+        description="Connect to sensors on the feet and show gait, track and links as they are worn. Without "
+        "--left and --right it takes two insoles when it hears any, who know their feet.",
+        epilog="example: solepath live --left F0:5E:00:00:00:01 --right F0:5E:00:00:00:02 --record walk.jsonl",
+    )
+    add_devices(live)
+    add_view(live, live, "show it")
+    live.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
+    add_calibration(live)
+    add_floorplan(live)
+    live.add_argument("--record", metavar="FILE", type=Path, help="write the packets as a recording too")
+    live.add_argument(
+        "--out",
+        metavar="DIR",
+        type=Path,
+        help="write events.jsonl, track.csv, steps.csv and gait.csv into this directory, with a floor plan "
+        "places.csv too",
+    )
+    live.set_defaults(run=run)
+
+    record: argparse.ArgumentParser = commands.add_parser(
+        "record",
+        help="write what sensors send into a file",
+        description="Connect to sensors and write every packet as it arrives; a file for `solepath track`. Whatever "
+        "happens to this program, what came until 200 ms before can be read.",
+        epilog="example: solepath record --out walk.jsonl --duration 120",
+    )
+    add_devices(record)
+    record.add_argument("--out", metavar="FILE", dest="record", type=Path, required=True, help="the recording")
+    record.set_defaults(run=run, recipe="default", calibration=None, out=None, floorplan=None, start=None, view=None)
+
+
+def run(options: argparse.Namespace) -> int:
+    from ... import recipes
+
+    recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
+    calibration = calibration_of(options)
+    need_page(options, options.view is not None)
+    view = view_of(options)
+    plan, start = floorplan_of(options)
+    need_bleak()
+    from .air import listen_to_end
+    from .live_run import listen
+
+    return listen_to_end(partial(listen, options, recipe, calibration, plan, start, view))

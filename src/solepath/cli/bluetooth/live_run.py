@@ -1,0 +1,164 @@
+"""What `solepath live` and `solepath record` do once their options are read."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+from contextlib import AsyncExitStack
+from pathlib import Path
+
+from attrs import define
+
+from ...ble import Devices, scan
+from ...ble.record import beginning
+from ...calibration import Calibration
+from ...events import Event
+from ...floorplan.index import IndexedPlan
+from ...floorplan.plan import Start
+from ...recipes import Recipe
+from ...recording import PacketWriter, RecordingError, printable, why
+from ...session import Session
+from ...show.monitor import Monitor
+from ...show.output import EVENTS, PLACES, STEPS, TRACK, TrackFiles
+from ...show.page.scene.scene import Scene
+from ...show.tables.placed import Places
+from ...show.tables.summary import summary
+from ...types import Packet
+from ..common.failure import Failure, note
+from ..common.loop import unless_told
+from ..common.view import View, newtons_of, page_of
+from .air import air, until
+from .choosing import LISTENED, chosen, how_long, wanted
+from .showing import shown
+
+
+async def listen(
+    options: argparse.Namespace,
+    recipe: Recipe,
+    calibration: Calibration | None,
+    plan: IndexedPlan | None,
+    start: Start | None,
+    view: View | None,
+    stop: asyncio.Event,
+) -> int:
+    """Until it is told to stop; the exit status."""
+    devices = wanted(options)
+    check_writable(options.record, options.out, plan is not None)
+    seconds = how_long(options)
+    session = Session(
+        recipe, calibration=calibration, poses=True, pressures=view is not None, floorplan=plan, start=start
+    )
+    monitor = Monitor(session)
+    places = None if plan is None else Places()
+    scene: Scene | None = None
+    async with AsyncExitStack() as stack:
+        async with unless_told(stop):
+            backend = await stack.enter_async_context(air(options.via))
+            if not devices:
+                print(f"looking for sensors for {LISTENED:g} s ...", flush=True)
+                devices = chosen(await scan(LISTENED, backend=backend), options.profile)
+            heard = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
+        if view is not None:
+            drawn = None if plan is None else plan.plan
+            scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration))
+            await stack.enter_async_context(page_of(scene, view))
+        # not before: a search in vain replaces nothing of an earlier run
+        files = Files(options.record, options.out, plan is not None)
+        try:
+            with shown(monitor, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
+                async for packet in until(heard, stop, seconds):
+                    files.packet(packet)
+                    for event in monitor.take(packet):
+                        files.event(event)
+                        if places is not None:
+                            places.add(event)
+                        if scene is not None:
+                            scene.take(event)
+                    if scene is not None:
+                        scene.tick(packet.t)  # when nothing comes, there is a packet that says so
+                    report()
+                    if files.failure is not None:
+                        break
+        except asyncio.CancelledError:
+            note("interrupted")
+        finally:
+            for event in monitor.finish():
+                files.event(event)
+                if places is not None:
+                    places.add(event)
+            files.close()
+    print(summary(monitor.tally, title=f"recipe {recipe.name}", seconds=0.0))
+    if places is not None:
+        print("\n".join(places.lines()))
+    if files.failure is not None:
+        raise Failure(files.failure)
+    if options.record:
+        print(f"recorded in {printable(str(options.record))}")
+    if options.out:
+        print(f"written to {printable(str(options.out))}")
+    return 0
+
+
+@define(init=False)
+class Files:
+    """What is written meanwhile. `failure`: why nothing is any more."""
+
+    failure: str | None
+    _packets: PacketWriter | None
+    _events: TrackFiles | None
+
+    def __init__(self, record: Path | None, out: Path | None, places: bool = False) -> None:
+        """`places`: there is a floor plan. Failure when one cannot be opened."""
+        self.failure = self._packets = self._events = None
+        try:
+            if record is not None:
+                self._packets = PacketWriter(record, beginning())
+            if out is not None:
+                self._events = TrackFiles(out, places=places)
+        except (RecordingError, OSError) as error:
+            self.close()
+            raise Failure(_words(error)) from None
+
+    def packet(self, packet: Packet) -> None:
+        if self._packets is not None and self.failure is None:
+            try:
+                self._packets.write(packet)
+            except RecordingError as error:
+                self.failure = _words(error)
+
+    def event(self, event: Event) -> None:
+        if self._events is not None:
+            try:
+                self._events.write(event)
+            except OSError as error:
+                self._events, self.failure = None, self.failure or _words(error)
+
+    def close(self) -> None:
+        for file in (self._packets, self._events):
+            try:
+                if file is not None:
+                    file.close()
+            except (RecordingError, OSError) as error:
+                self.failure = self.failure or _words(error)
+
+
+def check_writable(record: Path | None, out: Path | None, places: bool = False) -> None:
+    """Failure now when these will not be opened later. What is in them stays."""
+    try:
+        if out is not None:
+            out.mkdir(parents=True, exist_ok=True)
+        names = (EVENTS, TRACK, STEPS, PLACES) if places else (EVENTS, TRACK, STEPS)
+        for path in [*([record] if record else []), *([out / name for name in names] if out else [])]:
+            there = path.exists()
+            if not there or path.is_file() or path.is_dir():  # a pipe would take it for the end
+                path.open("ab").close()
+            if not there:
+                path.unlink()
+    except OSError as error:
+        raise Failure(_words(error)) from None
+
+
+def _words(error: RecordingError | OSError) -> str:
+    if isinstance(error, RecordingError):
+        return str(error)
+    return f"{error.filename}: {why(error)}" if error.filename else why(error)

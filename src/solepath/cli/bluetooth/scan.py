@@ -1,0 +1,61 @@
+"""`solepath scan`: which devices are there."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING, Any
+
+from ...recording import printable
+from ...show.tables.table import table
+from ..common.failure import positive
+from .choosing import LISTENED, add_air, need_bleak
+
+if TYPE_CHECKING:
+    from ...ble import Found
+
+
+def add_to(commands: Any) -> None:
+    command: argparse.ArgumentParser = commands.add_parser(
+        "scan",
+        help="list the sensors that can be heard",
+        description="List the sensors that advertise, the nearest first.",
+        epilog="example: solepath scan --seconds 8",
+    )
+    command.add_argument(
+        "--seconds", metavar="S", type=positive, default=LISTENED, help=f"how long to listen (default: {LISTENED:g})"
+    )
+    command.add_argument("--all", action="store_true", help="devices of kinds that are not known here too")
+    add_air(command)
+    command.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    need_bleak()
+    import asyncio
+
+    from ...ble import scan
+    from ..common.loop import unless_told
+    from .air import air, listen_to_end
+
+    async def listen(stop: asyncio.Event) -> int:
+        async with unless_told(stop), air(options.via) as backend:
+            found = await scan(options.seconds, backend=backend)
+        _tell(found, options.all)
+        return 0
+
+    return listen_to_end(listen)
+
+
+def _tell(found: list[Found], strangers: bool) -> None:
+    known = [one for one in found if one.profile is not None]
+    if shown := found if strangers else known:
+        print(table(["address", "kind", "dBm", "name"], [_row(one) for one in shown]))
+    else:
+        print("no sensor is heard: switch it on, bring it near, and see that no other program or phone holds it")
+    if not strangers and len(known) < len(found):
+        print(f"{len(found) - len(known)} of other kinds (--all shows them)")
+
+
+def _row(one: Found) -> list[str]:
+    kind = "-" if one.profile is None else one.profile.name
+    return [one.address, kind, str(one.signal), printable(one.name, 40) or "-"]

@@ -1,0 +1,69 @@
+"""The calibration that a command runs with, and whether a recording has what a recipe needs."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .failure import Failure
+
+if TYPE_CHECKING:
+    from ...calibration import Calibration
+    from ...recipes import Recipe
+    from ...recording.source import Source
+
+
+def add_calibration(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--calibration",
+        metavar="FILE",
+        type=Path,
+        help="what is known of wearer, shoes and insoles, as `solepath calibrate` writes it",
+    )
+
+
+def calibration_of(options: argparse.Namespace) -> Calibration | None:
+    """What --calibration names; None without it. Failure when that is no calibration."""
+    from ...calibration import CalibrationError, read_calibration
+    from ...recording import printable
+
+    if options.calibration is None:
+        return None
+    try:
+        return read_calibration(options.calibration)
+    except CalibrationError as error:
+        raise Failure(printable(str(error), 2000)) from None
+
+
+def check_pressure(recipe: Recipe, source: Source) -> None:
+    """Failure when the recipe needs pressure cells and nothing in the recording comes from any. It reads packets only
+    until the first sample with pressure."""
+    from ...recording import printable
+
+    if recipe.needs_pressure and not _pressed(source):
+        raise Failure(f"recipe {recipe.name} needs pressure cells; {printable(str(source.path))} has none")
+
+
+def _pressed(source: Source) -> bool:
+    from ...link.decoder import Decoder
+    from ...recording import RecordingError
+    from ...recording.source import open_source
+    from ...types import Packet, Sample, Site
+
+    if source.samples is not None:
+        return any("pressure" in table.columns for table in source.samples.tables)
+    decoders: dict[Site, Decoder] = {}
+    try:
+        for item in open_source(source.path, source.foot, report=_said_later):
+            if isinstance(item, Packet):
+                found = decoders.setdefault(item.site, Decoder(item.site)).feed(item)
+                if any(isinstance(one, Sample) and one.pressure for one in found):
+                    return True
+    except RecordingError:
+        return True  # whatever is wrong with it is said when it is run
+    return False
+
+
+def _said_later(sentence: str) -> None:
+    """The run itself reports it."""

@@ -1,0 +1,85 @@
+"""The floor plan that a command runs with, and where on it the wearer sets out."""
+
+from __future__ import annotations
+
+import argparse
+from math import isfinite, nan, radians
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .failure import Failure, note
+
+if TYPE_CHECKING:
+    from ...floorplan.index import IndexedPlan
+    from ...floorplan.plan import Start
+
+
+def add_floorplan(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--floorplan",
+        metavar="FILE",
+        type=Path,
+        help="find the wearer on this plan: GeoJSON, an IMDF archive or OpenStreetMap indoor tagging",
+    )
+    command.add_argument(
+        "--start",
+        metavar="LEVEL,X,Y[,HEADING]",
+        help="where on it the wearer sets out: m in the plan's frame, and the first heading in degrees, anticlockwise"
+        " from the plan's x axis; without it the place is known after stairs or a lift",
+    )
+
+
+def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start | None]:
+    """What --floorplan and --start name; what is worth saying of the plan goes to stderr. Failure when the plan cannot
+    be used, or nobody can set out there."""
+    from ...body.place.arrivals import nowhere
+    from ...floorplan.checks import warnings
+    from ...floorplan.importers.reading import read_floorplan
+    from ...floorplan.index import IndexedPlan
+    from ...floorplan.plan import FloorPlanError
+    from ...recording import printable
+
+    start = None if options.start is None else start_of(options.start)
+    if options.floorplan is None:
+        if start is not None:
+            raise Failure("--start is a place on a floor plan: give --floorplan, too")
+        return None, None
+    try:
+        plan = read_floorplan(options.floorplan)
+        indexed = IndexedPlan(plan)
+    except FloorPlanError as error:
+        raise Failure(printable(str(error), 2000)) from None
+    for sentence in warnings(plan):
+        note(f"{options.floorplan}: {sentence}")
+    if start is not None and (why_not := nowhere(indexed, start)) is not None:
+        raise Failure(printable(f"{options.floorplan}: {why_not}", 2000))
+    return indexed, start
+
+
+def start_of(text: str) -> Start:
+    """LEVEL,X,Y or LEVEL,X,Y,HEADING; the level's name may have commas. Failure when it is something else."""
+    from ...floorplan.plan import Start
+    from ...floorplan.records import no_start
+    from ...recording import printable
+
+    for numbers in (3, 2):
+        level, *parts = text.rsplit(",", numbers)
+        values = [_finite(part) for part in parts]
+        if len(values) == numbers and level.strip() and None not in values:
+            x, y, *heading = [value for value in values if value is not None]
+            if heading and not abs(heading[0]) <= 360.0:
+                raise Failure(f"--start {printable(text, 80)}: a heading can be -360 to 360 degrees")
+            start = Start(level.strip(), (x, y), radians(heading[0]) if heading else None)
+            why_not = no_start(start)
+            if why_not is not None:
+                raise Failure(f"--start {printable(text, 80)}: {why_not}")
+            return start
+    raise Failure(f"--start {printable(text, 80)} is not LEVEL,X,Y or LEVEL,X,Y,HEADING, as in 0,12.5,3 or 0,12.5,3,90")
+
+
+def _finite(text: str) -> float | None:
+    try:
+        value = nan if "_" in text else float(text)  # Python takes 1_0 for ten
+    except ValueError:
+        return None
+    return value if isfinite(value) else None

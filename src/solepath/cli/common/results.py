@@ -1,0 +1,130 @@
+"""What `solepath track` makes of a recording's events: a summary, files, a picture of the plan, a report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from types import TracebackType
+
+from attrs import define, field
+
+from ...events import Event
+from ...floorplan.plan import FloorPlan
+from ...recording import printable
+from ...show.output import PLAN, TrackFiles
+from ...show.report import Report
+from ...show.tables.placed import Places
+from ...show.tables.plan import PlanPicture
+from ...show.tables.summary import summary
+from ...show.tally import Tally
+from ...types import Packet, Sample
+from .failure import check_writable
+from .replacing import Replacing
+
+
+@define
+class Results:
+    """`out`: the directory of the files. `report`: the file of the report. None: not wanted. OSError from all of it
+    when something cannot be written.
+
+    What an earlier run wrote is replaced by what is whole, when the recording was heard to its end and is summed up:
+    whatever ends it before leaves all as it was."""
+
+    title: str
+    out: Path | None = None
+    report: Path | None = None
+    plan: FloorPlan | None = None
+    recipe: str = ""
+    when: str = ""
+    """The recording began, to be read."""
+    tally: Tally = field(factory=Tally, init=False)
+    places: Places = field(factory=Places, init=False)
+    _picture: PlanPicture | None = field(init=False)
+    _report: Report | None = field(init=False)
+    _files: TrackFiles | None = field(default=None, init=False)
+    _open: ExitStack = field(factory=ExitStack, init=False)
+    _replacing: Replacing = field(factory=Replacing, init=False)
+    _replacing_report: Replacing = field(factory=Replacing, init=False)
+    _picture_at: Path | None = field(default=None, init=False)
+    _report_at: Path | None = field(default=None, init=False)
+
+    def __attrs_post_init__(self) -> None:
+        self._picture = None if self.plan is None else PlanPicture(self.plan)
+        self._report = None
+        if self.report is not None:
+            check_writable(self.report)
+            self._report = Report(self.title, self.plan, self.recipe, self.when, _version())
+
+    def begin(self) -> None:
+        """There is something to write, or there will be nothing."""
+        if self._files is None and self.out is not None:
+            files = TrackFiles(self.out, places=self.plan is not None, beside=self._replacing.beside)
+            self._files = self._open.enter_context(files)
+            if self.plan is not None:
+                self._picture_at = self._replacing.beside(self.out / PLAN)
+        if self._report_at is None and self.report is not None:
+            self._report_at = self._replacing_report.beside(self.report)
+
+    def told(self, item: Packet | Sample | None, events: list[Event]) -> None:
+        """What the session said of an item; of none, at the end."""
+        if isinstance(item, Sample):
+            self.tally.fed_sample(item)
+        elif item is not None:
+            self.tally.fed_packet(item)
+        for event in events:
+            self.tally.add(event)
+            if self._files is not None:
+                self._files.write(event)
+            if self._report is not None:
+                self._report.add(event)
+            if self._picture is not None:
+                self.places.add(event)
+                self._picture.add(event)
+
+    def print(self, seconds: float) -> None:
+        """The files and the report, whole, in their places; the summary. `seconds` on the wall that it took."""
+        self._open.close()
+        if self._picture is not None and self._picture_at is not None:
+            with _named(self._picture_at, self.out):
+                self._picture.write(self._picture_at, self.title)
+        self._replacing.keep()
+        print(summary(self.tally, title=self.title, seconds=seconds))
+        if self._picture is not None:
+            print("\n".join(self.places.lines()))
+        if self.out is not None:
+            print(f"written to {printable(str(self.out))}")
+        if self._report is not None and self._report_at is not None:
+            with _named(self._report_at, self.report):
+                self._report.write(self._report_at)
+                self._replacing_report.keep()
+            print(f"report in {printable(str(self.report))}")
+
+    def __enter__(self) -> Results:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """The files are closed, and those that are not in their places are thrown away."""
+        try:
+            self._open.__exit__(kind, error, trace)
+        finally:
+            self._replacing.drop()
+            self._replacing_report.drop()
+
+
+@contextmanager
+def _named(written: Path, wanted: Path | None) -> Iterator[None]:
+    """Errors name the file that was wanted."""
+    try:
+        yield
+    except OSError as error:
+        name = str(wanted) if error.filename == str(written) else error.filename
+        raise OSError(error.errno, error.strerror, name) from None
+
+
+def _version() -> str:
+    from importlib.metadata import version
+
+    return version("solepath")

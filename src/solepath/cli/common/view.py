@@ -1,0 +1,221 @@
+"""The page in a browser: its options, and a page that is served while a command runs."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+from typing import TYPE_CHECKING
+
+from attrs import frozen
+
+from ...recording import printable
+from .failure import Failure, note, positive
+
+if TYPE_CHECKING:
+    from ...calibration import Calibration
+    from ...show.page.messages import Command
+    from ...show.page.player.player import Player
+    from ...show.page.scene.scene import Scene
+    from ...show.page.server.server import Page
+    from ...types import Foot
+
+HERE = "127.0.0.1:8765"
+LONG = 40_000
+"""Items from which on there is a progress bar: some seconds of computing ..."""
+ITEMS = 1000
+"""... and that are computed between two steps of it."""
+
+
+@frozen
+class View:
+    """Where the page is to be served, and whether a browser is opened. `port`: None when nobody named one."""
+
+    host: str = "127.0.0.1"
+    port: int | None = None
+    browser: bool = False
+
+
+def add_view(command: argparse.ArgumentParser, group: argparse._ActionsContainer, what: str) -> None:
+    """--view, in a group of the command's or in itself, and --no-browser. `what` it does, in a word or two."""
+    group.add_argument(
+        "--view",
+        metavar="HOST:PORT",
+        nargs="?",
+        const="",
+        help=f"{what} on a page in the browser, served there (default: {HERE}, or another port when that is taken; "
+        "port 0: any that is free)",
+    )
+    command.add_argument("--no-browser", action="store_true", help="open no browser: only say where the page is")
+
+
+def add_speed(command: argparse.ArgumentParser, default: str) -> None:
+    command.add_argument("--speed", metavar="X", type=positive, help=f"times real time (default: {default})")
+
+
+def aiohttp_is_there() -> bool:
+    from importlib.util import find_spec
+
+    return find_spec("aiohttp") is not None
+
+
+def attended() -> bool:
+    """Whether there is a terminal to end a command from."""
+    return sys.stdin.isatty() or sys.stdout.isatty()
+
+
+def need_page(options: argparse.Namespace, page: bool) -> None:
+    """Failure for an option of the page's where there is none."""
+    for name in ("speed", "no_browser"):
+        if not page and getattr(options, name, None):
+            raise Failure(f"--{name.replace('_', '-')} is for the page: it goes with --view")
+
+
+def view_of(options: argparse.Namespace) -> View | None:
+    """What --view names; None without it. Failure for what is no address or is taken, and where there is no aiohttp."""
+    if options.view is None:
+        return None
+    browser = sys.stdout.isatty() and not options.no_browser
+    if options.view == "":
+        view = View(browser=browser)
+    else:
+        host, colon, port = options.view.rpartition(":")
+        if not colon or not host or not (port.isascii() and port.isdecimal()) or int(port) > 65535:
+            raise Failure(f"--view {printable(options.view, 80)}: that is not HOST:PORT, as in {HERE}")
+        view = View(host.removeprefix("[").removesuffix("]"), int(port), browser)
+    if not aiohttp_is_there():
+        raise Failure("--view needs aiohttp: pip install 'solepath[view]'")
+    _check_free(view)
+    return view
+
+
+def pace_of(options: argparse.Namespace, default: float) -> float:
+    """--speed, of the page. Failure where no player goes so fast or so slowly."""
+    from ...show.page.messages import FASTEST, SLOWEST
+
+    if options.speed is None:
+        return default
+    if not SLOWEST <= options.speed <= FASTEST:
+        raise Failure(f"--speed {options.speed:g}: on the page it is from {SLOWEST:g} to {FASTEST:g}")
+    return float(options.speed)
+
+
+def newtons_of(calibration: Calibration | None) -> tuple[Foot, ...]:
+    """The feet whose calibration turns counts into N."""
+    from ...types import Foot
+
+    return tuple(foot for foot in Foot if calibration is not None and calibration.insole(foot).newtons is not None)
+
+
+@asynccontextmanager
+async def page_of(scene: Scene, view: View, commands: Callable[[Command], None] | None = None) -> AsyncIterator[Page]:
+    """The page, served; its address is said, and a browser opened where one is wanted and there. Failure when it cannot
+    be served there."""
+    import asyncio
+
+    from ...show.page.server.access import on_loopback
+    from ...show.page.server.server import Page
+
+    page = Page(scene, host=view.host, port=view.port, commands=commands)
+    try:
+        await page.__aenter__()
+    except (OSError, UnicodeError) as error:
+        raise _taken(view, error) from None
+    try:
+        print(f"the page: {page.url}", flush=True)
+        if not on_loopback(view.host):
+            note("the page can be reached from other machines: whoever has this address with its token sees it")
+        if view.browser and _there_is_a_browser():
+            await asyncio.to_thread(_open, page.url)
+        yield page
+    finally:
+        await page.__aexit__(None, None, None)
+
+
+def play(player: Player, view: View, *, once: bool) -> int:
+    """`player` on a page of its own until Ctrl-C; `once`: or until it was played to its end. The exit status."""
+    import asyncio
+
+    from ...show.page.player.playing import Playing
+    from .loop import run_to_end
+
+    async def played(stop: asyncio.Event) -> int:
+        playing = Playing(player)
+        async with page_of(player.scene, view, playing.command) as page:
+            if not once:
+                print("Ctrl-C ends it", flush=True)
+            await playing.run(page, stop, once=once)
+        return 0
+
+    return run_to_end(played)
+
+
+def run_rest(player: Player, what: str) -> None:
+    """What nobody has watched of `what`, a word, so that `told` has heard all of it. KeyboardInterrupt at another
+    Ctrl-C, after an item that `told` has heard of."""
+    from ...show.tables.progress import progress_bar
+    from .loop import listening
+
+    items = player.items
+    left = len(items) - player.done
+    with progress_bar("computing", len(items), wanted=left > LONG) as show, listening() as told_to_stop:
+        if left > 0:
+            print(f"the rest of the {what}, as fast as it can be computed; Ctrl-C again gives it up ...", flush=True)
+        while player.run_through(_After(ITEMS, told_to_stop)):
+            show(player.done)
+            if told_to_stop():
+                at = items.t(player.done - 1) if player.done else items.begin
+                note(
+                    f"given up after {at - items.begin:.1f} of {items.end - items.begin:.1f} s: nothing is summed up "
+                    "or written, and what was written before stays as it is"
+                )
+                raise KeyboardInterrupt
+
+
+class _After:
+    """Enough after so many items, or when it is told to stop."""
+
+    def __init__(self, items: int, stop: Callable[[], bool]) -> None:
+        self._left = items
+        self._stop = stop
+
+    def __call__(self) -> bool:
+        self._left -= 1
+        return self._left <= 0 or self._stop()
+
+
+def _there_is_a_browser() -> bool:
+    """One with windows: a browser of the terminal would take the place of this command."""
+    if sys.platform in ("darwin", "win32"):
+        return True
+    return any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"))
+
+
+def _open(url: str) -> None:
+    import webbrowser
+
+    if not webbrowser.open(url):
+        note("no browser could be opened: the address is for one of your own")
+
+
+def _check_free(view: View) -> None:
+    """Failure now when nothing will be served there later, after a long recording was read."""
+    from ...show.page.server.address import listen
+
+    try:
+        listen(view.host, view.port).close()
+    except (OSError, UnicodeError) as error:
+        raise _taken(view, error) from None
+
+
+def _taken(view: View, error: OSError | UnicodeError) -> Failure:
+    """Why nothing can be served there; where there is no number, as errors of name servers have none, in their own
+    words."""
+    at = f"--view {printable(view.host, 80)}:{view.port or 0}"
+    if isinstance(error, UnicodeError):
+        return Failure(f"{at}: there is no such host")
+    known = error.errno is not None and error.errno > 0
+    why = os.strerror(error.errno or 0) if known else error.strerror or str(error)
+    return Failure(f"{at}: {why.lower()}")

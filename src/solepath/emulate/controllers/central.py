@@ -1,0 +1,307 @@
+"""bleak's client and scanner over a virtual central, for `BleakClient(..., backend=)`: all above is as for a radio."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Coroutine
+from contextlib import suppress
+from functools import partial
+from typing import Any, ClassVar, TypeVar
+
+from bleak import BleakScanner
+from bleak.args import SizedBuffer
+from bleak.assigned_numbers import gatt_char_props_to_strs
+from bleak.backends.characteristic import BleakGATTCharacteristic
+from bleak.backends.client import BaseBleakClient, NotifyCallback
+from bleak.backends.descriptor import BleakGATTDescriptor
+from bleak.backends.device import BLEDevice
+from bleak.backends.scanner import AdvertisementData, AdvertisementDataCallback, BaseBleakScanner
+from bleak.backends.service import BleakGATTService, BleakGATTServiceCollection
+from bleak.exc import BleakDeviceNotFoundError, BleakError, BleakGATTProtocolError
+from bleak.uuids import normalize_uuid_str
+from bumble import att, core, hci, smp
+from bumble.core import AdvertisingData
+from bumble.device import Advertisement, Connection, Peer
+
+from ...ble.backend import Backend
+from .radio import Radio, end_link
+
+_T = TypeVar("_T")
+
+_SMALLEST_MTU = 23
+_PAIRING = 30.0
+"""s after which a pairing has failed (Bluetooth Core, vol 3 part H, 3.4)."""
+_REFUSALS: dict[tuple[str, int | None], str] = {
+    ("smp", int(smp.ErrorCode.PAIRING_NOT_SUPPORTED)): "the device refused to be paired",
+    ("hci", int(hci.HCI_ErrorCode.PIN_OR_KEY_MISSING_ERROR)): "the device has forgotten the pairing: unpair it here "
+    "too, and pair anew",
+}
+_SERVICE_LISTS = (
+    AdvertisingData.INCOMPLETE_LIST_OF_16_BIT_SERVICE_CLASS_UUIDS,
+    AdvertisingData.COMPLETE_LIST_OF_16_BIT_SERVICE_CLASS_UUIDS,
+    AdvertisingData.INCOMPLETE_LIST_OF_128_BIT_SERVICE_CLASS_UUIDS,
+    AdvertisingData.COMPLETE_LIST_OF_128_BIT_SERVICE_CLASS_UUIDS,
+)
+
+
+def backend_of(radio: Radio) -> Backend:
+    """The classes that bleak is given to use this radio."""
+
+    class VirtualScanner(RadioScanner):
+        pass
+
+    class VirtualClient(RadioClient):
+        pass
+
+    VirtualScanner.radio = VirtualClient.radio = radio
+    VirtualClient.scanner = VirtualScanner
+    return Backend(client=VirtualClient, scanner=VirtualScanner)
+
+
+def _uuid(uuid: core.UUID) -> str:
+    return normalize_uuid_str(uuid.to_hex_str("-"))
+
+
+def _uuids(listed: object) -> list[str]:
+    """The UUIDs of one list of an advertisement."""
+    return [_uuid(uuid) for uuid in listed if isinstance(uuid, core.UUID)] if isinstance(listed, list) else []
+
+
+class RadioScanner(BaseBleakScanner):
+    """Hears what the devices on the air advertise."""
+
+    radio: ClassVar[Radio]
+
+    def __init__(
+        self,
+        detection_callback: AdvertisementDataCallback | None,
+        service_uuids: list[str] | None,
+        scanning_mode: str = "active",
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(detection_callback, service_uuids)
+
+    async def start(self) -> None:
+        self.seen_devices = {}
+        await self.radio.listen(self)
+
+    async def stop(self) -> None:
+        await self.radio.ignore(self)
+
+    def heard(self, advertisement: Advertisement) -> None:
+        """Called by the radio for each advertisement."""
+        said = advertisement.data
+        services = [uuid for kind in _SERVICE_LISTS for uuids in said.get_all(kind) for uuid in _uuids(uuids)]
+        name = said.get(AdvertisingData.COMPLETE_LOCAL_NAME) or said.get(AdvertisingData.SHORTENED_LOCAL_NAME)
+        data = AdvertisementData(
+            local_name=name,
+            manufacturer_data={
+                int(company): bytes(body) for company, body in said.get_all(AdvertisingData.MANUFACTURER_SPECIFIC_DATA)
+            },
+            service_data={},
+            service_uuids=list(dict.fromkeys(services)),
+            tx_power=None,
+            rssi=advertisement.rssi,
+            platform_data=(advertisement,),
+        )
+        if self.is_allowed_uuid(data.service_uuids):
+            address = advertisement.address.to_string(False)
+            device = self.create_or_update_device(address, address, name, {"peer": advertisement.address}, data)
+            self.call_detection_callbacks(device, data)
+
+
+class RadioClient(BaseBleakClient):
+    """One GATT client.
+
+    The disconnected callback is called once for every link that came to stand, whoever ended it and however. A request
+    that is pending then ends with a BleakError.
+    """
+
+    radio: ClassVar[Radio]
+    scanner: ClassVar[type[RadioScanner]]
+
+    def __init__(self, address_or_ble_device: BLEDevice | str, services: set[str] | None = None, **kwargs: Any) -> None:
+        super().__init__(address_or_ble_device, **kwargs)
+        self._device = address_or_ble_device if isinstance(address_or_ble_device, BLEDevice) else None
+        self._wanted = services
+        self._link: Connection | None = None
+        self._established = False
+        self._subscriptions: dict[int, Callable[[bytes], None]] = {}
+
+    @property
+    def name(self) -> str:
+        return (self._device.name if self._device is not None else None) or self.address.replace(":", "-")
+
+    @property
+    def mtu_size(self) -> int:
+        return self._link.att_mtu if self._link is not None else _SMALLEST_MTU
+
+    @property
+    def is_connected(self) -> bool:
+        return self._link is not None
+
+    # the link
+
+    async def connect(self, pair: bool, **kwargs: Any) -> None:
+        """Connects, agrees on an MTU and discovers what the device has. The link is encrypted if there are keys of an
+        earlier pairing; if there are none and `pair`, the device is paired with.
+
+        `timeout`: s. TimeoutError when the device does not answer; BleakDeviceNotFoundError when only an address was
+        given and nobody advertised it for so long; BleakError when the link is lost at once, or pairing fails.
+        """
+        if self._link is not None:
+            raise BleakError("already connected")
+        timeout: float = kwargs.get("timeout", self._timeout)
+        device = self._device or await self._find(timeout)
+        async with asyncio.timeout(timeout):
+            link = await self.radio.connect(device.details["peer"])
+            self._link = link
+            link.on(Connection.EVENT_DISCONNECTION, partial(self._lost, link))
+            try:
+                if await self.radio.keys.get(str(link.peer_address)) is not None:
+                    await self._request(link.encrypt)
+                elif pair:
+                    await self.pair()
+                peer = Peer(link)
+                await self._request(partial(peer.request_mtu, self.radio.mtu))
+                self.services = await self._request(partial(self._discover, peer))
+                if self._link is not link:
+                    raise BleakError("the link was lost")
+            except BaseException:
+                await self.disconnect()
+                raise
+            self._established = True
+
+    async def _find(self, timeout: float) -> BLEDevice:
+        """By its address."""
+        device = await BleakScanner.find_device_by_address(self.address, timeout, backend=self.scanner)
+        if device is None:
+            raise BleakDeviceNotFoundError(self.address, f"device {self.address} was not found")
+        self._device = device
+        return device
+
+    async def _discover(self, peer: Peer) -> BleakGATTServiceCollection:
+        found = BleakGATTServiceCollection()
+        for service in await peer.discover_services():
+            if self._wanted and _uuid(service.uuid) not in self._wanted:
+                continue
+            ours = BleakGATTService(service, service.handle, _uuid(service.uuid))
+            found.add_service(ours)
+            for characteristic in await service.discover_characteristics():
+                properties = list(gatt_char_props_to_strs(int(characteristic.properties)))
+                of_ours = BleakGATTCharacteristic(
+                    characteristic, characteristic.handle, _uuid(characteristic.uuid), properties, self._room, ours
+                )
+                found.add_characteristic(of_ours)
+                for descriptor in await characteristic.discover_descriptors():
+                    found.add_descriptor(
+                        BleakGATTDescriptor(descriptor, descriptor.handle, _uuid(descriptor.type), of_ours)
+                    )
+        return found
+
+    def _room(self) -> int:
+        """Bytes of a value that fit in one ATT packet."""
+        return self.mtu_size - 3
+
+    def _lost(self, link: Connection, reason: int) -> None:
+        if self._link is not link:
+            return
+        established, self._established = self._established, False
+        self._link = self.services = None
+        self._subscriptions.clear()
+        if established and self._disconnected_callback is not None:
+            asyncio.get_running_loop().call_soon(self._disconnected_callback)
+
+    async def disconnect(self) -> None:
+        link = self._link
+        if link is not None:
+            await end_link(link)
+            self._lost(link, 0)
+
+    async def pair(self, *args: Any, **kwargs: Any) -> None:
+        """LE Secure Connections, Just Works: nobody is asked. The keys are kept as long as the backend."""
+        link = self._link
+        if link is None:
+            raise BleakError("not connected")
+        if link.is_encrypted:
+            return
+        try:
+            async with asyncio.timeout(_PAIRING):
+                await self._request(link.pair)
+        except TimeoutError as error:
+            await self.disconnect()
+            raise BleakError("the device did not answer when it was to be paired") from error
+
+    async def unpair(self) -> None:
+        """Forgets the keys, which ends the link."""
+        await self.radio.keys.delete(self.address)
+        await self.disconnect()
+
+    # attributes
+
+    async def _request(self, exchange: Callable[[], Coroutine[Any, Any, _T]]) -> _T:
+        link = self._link
+        if link is None:
+            raise BleakError("not connected")
+        try:
+            return await self.radio.finish(exchange())
+        except att.ATT_Error as error:
+            raise BleakGATTProtocolError(int(error.error_code)) from error
+        except core.TimeoutError as error:
+            # Core specification Vol 3, Part F, 3.3.3: after 30 s without an answer nothing more may be sent on the link
+            await self.disconnect()
+            raise BleakError("the device did not answer") from error
+        except core.ProtocolError as error:
+            known = _REFUSALS.get((error.error_namespace, error.error_code))
+            raise BleakError(known or str(error)) from error
+        except (core.BaseBumbleError, TimeoutError) as error:
+            raise BleakError(str(error)) from error
+
+    async def read_gatt_char(
+        self, characteristic: BleakGATTCharacteristic, *, use_cached: bool = False, **kwargs: Any
+    ) -> bytearray:
+        return bytearray(await self._request(characteristic.obj.read_value))
+
+    async def read_gatt_descriptor(
+        self, descriptor: BleakGATTDescriptor, *, use_cached: bool = False, **kwargs: Any
+    ) -> bytearray:
+        return bytearray(await self._request(descriptor.obj.read_value))
+
+    async def write_gatt_char(self, characteristic: BleakGATTCharacteristic, data: SizedBuffer, response: bool) -> None:
+        value = bytes(data)
+        if not response and len(value) > self._room():
+            raise BleakError(f"{len(value)} bytes do not fit in a write without response ({self._room()} do)")
+        await self._request(partial(characteristic.obj.write_value, value, with_response=response))
+
+    async def write_gatt_descriptor(self, descriptor: BleakGATTDescriptor, data: SizedBuffer) -> None:
+        await self._request(partial(descriptor.obj.write_value, bytes(data), with_response=True))
+
+    async def start_notify(
+        self, characteristic: BleakGATTCharacteristic, callback: NotifyCallback, **kwargs: Any
+    ) -> None:
+        if not {"notify", "indicate"} & set(characteristic.properties):
+            raise BleakError(f"{characteristic.uuid} does not notify")
+        if characteristic.handle in self._subscriptions:
+            raise BleakError(f"notifications of {characteristic.uuid} are on already")
+        subscriber = self._subscriptions[characteristic.handle] = partial(_deliver, callback)
+        try:
+            await self._request(partial(characteristic.obj.subscribe, subscriber))
+        except BaseException:
+            self._subscriptions.pop(characteristic.handle, None)
+            raise
+
+    async def stop_notify(self, characteristic: BleakGATTCharacteristic) -> None:
+        subscriber = self._subscriptions.pop(characteristic.handle, None)
+        if subscriber is not None:
+            with suppress(BleakGATTProtocolError):  # off is off, whatever the device says
+                await self._request(partial(characteristic.obj.unsubscribe, subscriber))
+
+
+def _deliver(callback: NotifyCallback, value: bytes) -> None:
+    """An app's mistake is reported by the loop, as for any callback, and not taken for a packet that cannot be read."""
+    try:
+        callback(bytearray(value))
+    except Exception as error:
+        asyncio.get_running_loop().call_exception_handler(
+            {"message": "a notification callback raised", "exception": error}
+        )

@@ -1,0 +1,234 @@
+"""Emulated devices as true GATT servers, each on a virtual controller of its own, and a central to reach them with.
+
+`virtual_air` is for one process; tcp.py carries the same air to other processes.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Callable, Iterable
+from contextlib import asynccontextmanager
+from functools import partial
+from typing import TypeVar
+
+from attrs import define, field
+from bumble import att, hci
+from bumble.device import Connection, Device, DeviceConfiguration
+from bumble.gatt import Characteristic
+from bumble.host import Host
+from bumble.transport.common import AsyncPipeSink, Transport
+
+from ...ble.backend import Backend
+from ..devices.peripheral import AttError, Peripheral
+from .central import backend_of
+from .controller import Link, VirtualController
+from .gatt import advertisement, furnish
+from .pairing import just_works
+from .radio import Radio, end_link
+
+_T = TypeVar("_T")
+
+ADVERTISING = 62.5
+"""ms between advertisements: bumble's controller reads the 0.625 ms units of HCI as milliseconds, so it is 100 ms."""
+_CENTRAL = "C0:50:1E:9A:74:01"
+
+
+@asynccontextmanager
+async def virtual_air(
+    peripherals: Iterable[Peripheral], mtu: int = 247, interval: float | None = None
+) -> AsyncIterator[Backend]:
+    """The devices on the air and a Backend that reaches them, in this process and on this loop's time.
+
+    `mtu`: the ATT MTU that the central asks for; a device may agree to less. `interval`: s between the connection
+    events of each link, when everything goes that is ready, requests and their answers too (0.0075 to 4 s on a real
+    one, often 0.03); None: nothing waits.
+    """
+    link = Link(interval)
+    controller = VirtualController("central", link)
+
+    async def reach() -> Transport:
+        return Transport(controller, AsyncPipeSink(controller))
+
+    async with on_air(peripherals, link):
+        radio = Radio(reach, "the virtual controller", mtu, _CENTRAL)
+        try:
+            yield backend_of(radio)
+        finally:
+            await radio.close()
+            link.leave(controller)
+
+
+@asynccontextmanager
+async def on_air(peripherals: Iterable[Peripheral], link: Link) -> AsyncIterator[None]:
+    """The devices advertise and serve on this link."""
+    servers = [Server(device, link) for device in peripherals]
+    try:
+        for server in servers:
+            await server.start()
+        yield
+    finally:
+        for server in servers:
+            await server.stop()
+
+
+@define(eq=False)
+class Server:
+    """Serves one Peripheral: asks it at the times it names, and obeys it."""
+
+    peripheral: Peripheral
+    air: Link
+    _served: dict[str, Characteristic[bytes]] = field(init=False)
+    _controller: VirtualController = field(init=False)
+    _device: Device = field(init=False)
+    _loop: asyncio.AbstractEventLoop = field(factory=asyncio.get_running_loop, init=False)
+    _link: Connection | None = field(default=None, init=False)
+    _timer: asyncio.TimerHandle | None = field(default=None, init=False)
+    _due: float = field(default=0.0, init=False)
+    _silence: asyncio.Future[bytes] | None = field(default=None, init=False)
+    _restart: asyncio.Task[None] | None = field(default=None, init=False)
+    _stopped: bool = field(default=False, init=False)
+
+    def __attrs_post_init__(self) -> None:
+        self._controller = VirtualController(self.peripheral.name, self.air, self._advertisement)
+        config = DeviceConfiguration(
+            name=self.peripheral.name,
+            address=hci.Address(self.peripheral.address),
+            gap_service_enabled=False,
+            gatt_service_enabled=False,
+        )
+        self._device = Device(config=config, host=Host(self._controller, AsyncPipeSink(self._controller)))
+        just_works(self._device, self._agrees_to_pair)
+        self._served = furnish(self._device, self.peripheral, self)
+        self._device.on(Device.EVENT_CONNECTION, self._connected)
+
+    async def start(self) -> None:
+        """Goes on the air and advertises."""
+        await self._device.power_on()
+        self.peripheral.changed = self._arm
+        await self._advertise()
+
+    async def stop(self) -> None:
+        """Ends the link and leaves the air."""
+        self._stopped = True
+        if self._link is not None:
+            await end_link(self._link)
+        if self._restart is not None:
+            await self._restart
+        self._disarm()
+        self.peripheral.changed = None
+        await self._device.power_off()
+        self.air.leave(self._controller)
+
+    # advertising
+
+    async def _advertise(self) -> None:
+        await self._device.start_advertising(
+            advertising_data=advertisement(self.peripheral.name, self.peripheral.advertised),
+            advertising_interval_min=ADVERTISING,
+            advertising_interval_max=ADVERTISING,
+        )
+
+    def _advertisement(self) -> bytes | None:
+        if not self.peripheral.visible(self._loop.time()):
+            return None
+        return advertisement(self.peripheral.name, self.peripheral.advertised)
+
+    # the link
+
+    def _connected(self, link: Connection) -> None:
+        self._link = link
+        self._silence = self._loop.create_future()
+        self._device.gatt_server.max_mtu = self.peripheral.mtu
+        link.on(Connection.EVENT_DISCONNECTION, partial(self._disconnected, link))
+        link.on(Connection.EVENT_CONNECTION_ATT_MTU_UPDATE, self._mtu_changed)
+        link.on(Connection.EVENT_CONNECTION_ENCRYPTION_CHANGE, partial(self._encryption_changed, link))
+        self.peripheral.connected(self._loop.time(), link.att_mtu)
+        self._arm()
+
+    def _mtu_changed(self) -> None:
+        if self._link is not None:
+            self.peripheral.mtu_changed(self._link.att_mtu)
+
+    def _agrees_to_pair(self) -> bool:
+        return self.peripheral.agrees_to_pair(self._loop.time())
+
+    def _encryption_changed(self, link: Connection) -> None:
+        if self._link is link:
+            self.peripheral.encryption_changed(link.is_encrypted)
+
+    def _disconnected(self, link: Connection, reason: int) -> None:
+        if self._link is not link:
+            return
+        self._link = None
+        self._disarm()
+        if self._silence is not None:
+            self._silence.cancel()
+        self.peripheral.disconnected(self._loop.time())
+        if not self._stopped:
+            self._restart = self._loop.create_task(self._advertise())
+
+    # requests (gatt.Answers)
+
+    async def read(self, channel: str, link: Connection) -> bytes:
+        value = self._ask(partial(self.peripheral.read, channel))
+        return value if value is not None else await self._never()
+
+    async def write(self, channel: str, link: Connection, value: bytes) -> None:
+        if not self._ask(partial(self.peripheral.write, channel, value)):
+            await self._never()
+
+    def subscribe(self, channel: str, link: Connection, notify: bool, indicate: bool) -> None:
+        self._ask(partial(self.peripheral.subscribe, channel, notify))
+
+    def _ask(self, request: Callable[[float], _T]) -> _T:
+        """The device's answer, or its refusal as an ATT error; afterwards it may have something to send sooner."""
+        try:
+            return request(self._loop.time())
+        except AttError as refusal:
+            raise att.ATT_Error(refusal.code) from None
+        except Exception as error:
+            self._loop.call_exception_handler({"message": f"{self.peripheral.name} failed", "exception": error})
+            raise att.ATT_Error(att.ATT_UNLIKELY_ERROR_ERROR) from error
+        finally:
+            self._arm()
+
+    async def _never(self) -> bytes:
+        """An answer that never comes; it is given up with the link."""
+        if self._silence is None:
+            raise att.ATT_Error(att.ATT_UNLIKELY_ERROR_ERROR)
+        return await asyncio.shield(self._silence)
+
+    # notifications
+
+    def _disarm(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+
+    def _arm(self) -> None:
+        self._disarm()
+        due = self.peripheral.next_due() if self._link is not None else None
+        if due is not None:
+            self._due = due
+            self._timer = self._loop.call_at(due, self._send)
+
+    def _send(self) -> None:
+        link = self._link
+        if link is None:
+            return
+        now = max(self._loop.time(), self._due)  # a timer may fire a clock's resolution early
+        for outgoing in self.peripheral.poll(now):
+            self._notify(link, self._served[outgoing.channel], outgoing.value)
+        if self.peripheral.hang_up(now):
+            self._lose()
+        else:
+            self._arm()
+
+    def _notify(self, link: Connection, characteristic: Characteristic[bytes], value: bytes) -> None:
+        room = link.att_mtu - 3  # what is longer is cut without an error, as real stacks do
+        pdu = att.ATT_Handle_Value_Notification(attribute_handle=characteristic.handle, attribute_value=value[:room])
+        self._device.gatt_server.send_gatt_pdu(link, bytes(pdu))
+
+    def _lose(self) -> None:
+        for connection in list(self._controller.le_connections.values()):
+            self.air.lose(self._controller, connection)

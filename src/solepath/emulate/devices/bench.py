@@ -1,0 +1,108 @@
+"""A wearer and the devices on his feet, ready to be served by either tier."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from ...types import SITE_OF_FOOT, Foot, Site
+from ..routes.route import Route
+from ..sensors.device import Device, foot_of
+from ..sensors.insole_device import Insole
+from ..sensors.sensortags import CC2541, CC2650
+from ..wearers.gait import Wearer
+from ..wearers.truth import Truth
+from ..wearers.walker import Walker
+from .cc2541 import CC2541Peripheral
+from .cc2650 import CC2650Peripheral
+from .faults import Fault
+from .insole import InsolePeripheral
+from .peripheral import Peripheral
+
+_SIDE = {Foot.LEFT: "L", Foot.RIGHT: "R"}
+
+
+class Bench:
+    """Devices worn on `route`: insoles "solepath L" and "solepath R" on both feet when nothing else is said.
+
+    SensorTags have the names that they are sold with, the same on both feet: only the address tells which is which.
+    It is F0:5E:00:00:00:01 for the first site in the order of Site that wears something, :02 for the next.
+    `began`: the loop's time at which the walk begins. ValueError for what cannot be worn there.
+    """
+
+    def __init__(
+        self,
+        route: Route,
+        *,
+        devices: Mapping[Site, Device] | None = None,
+        wearer: Wearer | None = None,
+        seed: int = 1,
+        mtu: int = 247,
+        began: float = 0.0,
+        faults: Iterable[Fault] = (),
+    ) -> None:
+        if devices is None:
+            devices = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
+        self.walker = Walker(route, wearer, seed)
+        self.devices = {site: devices[site] for site in Site if site in devices}
+        self._began = began
+        faults = tuple(faults)
+        self.peripherals: tuple[Peripheral, ...] = tuple(
+            _worn(device, self.walker, site, f"F0:5E:00:00:00:{number:02X}", seed, mtu, began, faults)
+            for number, (site, device) in enumerate(self.devices.items(), 1)
+        )
+
+    def __getitem__(self, site: Site) -> Peripheral:
+        for peripheral in self.peripherals:
+            if peripheral.site is site:
+                return peripheral
+        raise KeyError(site)
+
+    @property
+    def began(self) -> float:
+        return self._began
+
+    @began.setter
+    def began(self, began: float) -> None:
+        self._began = began
+        for peripheral in self.peripherals:
+            peripheral.began = began
+
+    def prepare(self) -> None:
+        """Work out now what the devices send after their usual setup, so that nobody waits for it on the link."""
+        for peripheral in self.peripherals:
+            peripheral.prepare()
+
+    def truth(self) -> Truth:
+        """What truly happens, in times of the walk."""
+        return self.walker.truth({foot_of(site): device.mounting for site, device in self.devices.items()})
+
+
+def _worn(
+    device: Device,
+    walker: Walker,
+    site: Site,
+    address: str,
+    seed: int,
+    mtu: int,
+    began: float,
+    faults: tuple[Fault, ...],
+) -> Peripheral:
+    side = _SIDE[foot_of(site)]
+    match device:
+        case Insole():
+            return InsolePeripheral(
+                device,
+                walker,
+                site=site,
+                address=address,
+                name=f"solepath {side}",
+                seed=seed,
+                mtu=mtu,
+                began=began,
+                faults=faults,
+            )
+        case CC2650():
+            return CC2650Peripheral(device, walker, site=site, address=address, seed=seed, began=began, faults=faults)
+        case CC2541():
+            return CC2541Peripheral(device, walker, site=site, address=address, seed=seed, began=began, faults=faults)
+    raise ValueError(f"no peripheral is known for {type(device).__name__}")

@@ -1,0 +1,272 @@
+"""What is to go wrong: a script of faults, and its effect on one emulated device.
+
+A script is text, one fault a line, `SECONDS SITE WHAT [AMOUNT]`; `#` begins a comment, `*` means every site and a
+semicolon ends a fault as a line does:
+
+    12.5 left_foot disconnect         # the link is lost, the device advertises again at once
+    20 right_foot vanish 60           # the link is lost and the device is not to be seen for so many s
+    5 left_foot drop 3                # the next notifications are lost
+    5 * duplicate 2                   # ... arrive twice
+    8 left_foot truncate 4            # ... arrive cut short
+    8 left_foot flip 2                # ... arrive with one to three bits turned
+    15 left_foot freeze 5             # nothing is sent for so many s though the link stands; a setup write thaws it
+    0 left_foot mtu 23                # the device agrees to no larger MTU from its next connection on
+    0 left_foot refuse cc2650/movement-config 2   # the next requests to the channel get the ATT error 0x80
+    30 left_foot hang                 # the next request is never answered, and 1 s later the link is lost
+    40 left_foot restart              # the link is lost and the device begins anew, its counters too
+    0 * name "SensorTag"              # the device goes by another name
+    0 left_foot pairing               # from now on the device must be paired with before it says anything of the foot
+    0 left_foot refuse pairing        # the next attempt to pair is refused
+
+Seconds count from the walk's beginning. The same script does the same every time.
+"""
+
+from __future__ import annotations
+
+import random
+import shlex
+from collections.abc import Iterable
+from enum import Enum
+from math import inf, isfinite
+
+from attrs import frozen
+
+from ...types import Site
+
+HANGING = 1.0
+"""s from a request that is never answered until the link is lost."""
+PAIRING = "pairing"
+"""What is refused, in place of a channel, when it is an attempt to pair."""
+
+
+class What(Enum):
+    """What goes wrong; the words are those of the script."""
+
+    DISCONNECT = "disconnect"
+    VANISH = "vanish"
+    DROP = "drop"
+    DUPLICATE = "duplicate"
+    TRUNCATE = "truncate"
+    FLIP = "flip"
+    FREEZE = "freeze"
+    MTU = "mtu"
+    REFUSE = "refuse"
+    HANG = "hang"
+    RESTART = "restart"
+    NAME = "name"
+    PAIRING = "pairing"
+
+
+@frozen
+class Fault:
+    """One fault at `at` s of the walk, at `site` (None: at every site).
+
+    `amount`: s for VANISH and FREEZE (inf without), the MTU for MTU, a number of notifications or requests otherwise.
+    `argument`: the channel for REFUSE, or PAIRING; the name for NAME.
+    """
+
+    at: float
+    site: Site | None
+    what: What
+    amount: float = 1.0
+    argument: str = ""
+
+
+_COUNTED = {What.DROP, What.DUPLICATE, What.TRUNCATE, What.FLIP, What.REFUSE}
+_LASTING = {What.VANISH, What.FREEZE}
+_NAMING = {What.REFUSE: "a channel", What.NAME: "a name"}
+
+
+def parse_faults(text: str) -> tuple[Fault, ...]:
+    """The faults of a script, in its order. ValueError names the line that cannot be understood, and why."""
+    found = []
+    for number, line in enumerate(text.splitlines(), 1):
+        try:
+            words = _words(line)
+            for each in words:
+                found.append(_fault(each))
+        except ValueError as error:
+            raise ValueError(f"line {number}: {error}") from None
+    return tuple(found)
+
+
+def _words(line: str) -> list[list[str]]:
+    """The words of each fault on the line."""
+    lexer = shlex.shlex(line, posix=True, punctuation_chars=";")
+    lexer.whitespace_split = True
+    faults: list[list[str]] = [[]]
+    for word in lexer:
+        if set(word) == {";"}:
+            faults.append([])
+        else:
+            faults[-1].append(word)
+    return [words for words in faults if words]
+
+
+def _fault(words: list[str]) -> Fault:
+    if len(words) < 3:
+        raise ValueError("a fault is SECONDS SITE WHAT [AMOUNT]")
+    at, site, what = _number(words[0], "seconds"), _site(words[1]), _what(words[2])
+    rest = words[3:]
+    argument = ""
+    if what in _NAMING:
+        if not rest:
+            raise ValueError(f"{what.value} needs {_NAMING[what]}")
+        argument, rest = rest[0], rest[1:]
+    takes = what in _COUNTED | _LASTING | {What.MTU}
+    if len(rest) > takes:
+        raise ValueError(f"too many words after {what.value}")
+    return Fault(at, site, what, _amount(what, rest), argument)
+
+
+def _amount(what: What, rest: list[str]) -> float:
+    if what is What.MTU:
+        amount = _number(rest[0], "MTU") if rest else 0.0
+        if amount != int(amount) or not 23 <= amount <= 517:
+            raise ValueError("mtu needs a whole number from 23 to 517")
+        return amount
+    if not rest:
+        return inf if what in _LASTING else 1.0
+    amount = _number(rest[0], "amount")
+    if what in _COUNTED and (amount != int(amount) or amount < 1):
+        raise ValueError(f"{what.value} needs a whole number, at least 1")
+    return amount
+
+
+def _number(word: str, what: str) -> float:
+    try:
+        value = float(word)
+    except ValueError:
+        raise ValueError(f"{what}: {word!r} is not a number") from None
+    if not isfinite(value) or value < 0.0:
+        raise ValueError(f"{what}: {word} is out of range")
+    return value
+
+
+def _site(word: str) -> Site | None:
+    if word == "*":
+        return None
+    try:
+        return Site(word)
+    except ValueError:
+        raise ValueError(f"no site {word!r}; there are * and {', '.join(site.value for site in Site)}") from None
+
+
+def _what(word: str) -> What:
+    try:
+        return What(word)
+    except ValueError:
+        raise ValueError(f"no fault {word!r}; there are {', '.join(what.value for what in What)}") from None
+
+
+class Misfortune:
+    """The faults of one device as time passes. `t` is everywhere the time of the walk, s, and never goes back."""
+
+    def __init__(self, faults: Iterable[Fault], site: Site) -> None:
+        mine = [fault for fault in faults if fault.site in (None, site)]
+        self._coming = sorted(mine, key=_when)
+        self._random = random.Random(f"faults {site.value}")
+        self._left = dict.fromkeys(_COUNTED - {What.REFUSE}, 0)
+        self._refusing: dict[str, int] = {}
+        self._hidden_until = -inf
+        self._frozen_until = -inf
+        self._hang = False
+        self._lost_at = inf
+        self.happened = 0
+        self.cut = False
+        """The link is to be lost now."""
+        self.mtu: int | None = None
+        """The largest MTU that the device now agrees to, None when no fault says so."""
+        self.restarted: float | None = None
+        """When the device began anew the last time, None when it never did."""
+        self.name: str | None = None
+        """What the device now calls itself, None when no fault says so."""
+        self.needs_pairing = False
+        """Whether the device wants to be paired with."""
+
+    def next_at(self) -> float | None:
+        """When something happens by itself, s; None when nothing is to come."""
+        at = min(self._coming[0].at if self._coming else inf, self._lost_at)
+        return None if at == inf else at
+
+    def advance(self, t: float) -> None:
+        """Let happen what is to happen until `t`."""
+        while self._coming and self._coming[0].at <= t:
+            self._happen(self._coming.pop(0))
+        if self._lost_at <= t:
+            self.cut, self._lost_at = True, inf
+
+    def connected(self) -> None:
+        """A new link: what was to end the old one ends no other. A request that hangs may still be to come."""
+        self.cut, self._lost_at = False, inf
+
+    def hidden(self, t: float) -> bool:
+        return t < self._hidden_until
+
+    def frozen(self, t: float) -> bool:
+        return t < self._frozen_until
+
+    def thaw(self) -> None:
+        self._frozen_until = -inf
+
+    def refuses(self, channel: str) -> bool:
+        """Whether a request to the channel is refused; asked once for each request."""
+        left = self._refusing.get(channel, 0)
+        self._refusing[channel] = max(0, left - 1)
+        return left > 0
+
+    def hangs(self, t: float) -> bool:
+        """Whether a request at `t` is never answered. No other is either until the link is lost."""
+        if self._hang:
+            self._hang, self._lost_at = False, t + HANGING
+        return self._lost_at < inf
+
+    def carry(self, value: bytes) -> list[bytes]:
+        """What is really sent in place of a notification."""
+        if self._spend(What.DROP):
+            return []
+        if self._spend(What.TRUNCATE):
+            value = value[: self._random.randrange(len(value))] if value else value
+        if self._spend(What.FLIP):
+            value = self._flip(value)
+        return [value, value] if self._spend(What.DUPLICATE) else [value]
+
+    def _happen(self, fault: Fault) -> None:
+        self.happened += 1
+        match fault.what:
+            case What.DISCONNECT:
+                self.cut = True
+            case What.RESTART:
+                self.cut, self.restarted = True, fault.at
+            case What.VANISH:
+                self.cut, self._hidden_until = True, fault.at + fault.amount
+            case What.FREEZE:
+                self._frozen_until = fault.at + fault.amount
+            case What.MTU:
+                self.mtu = int(fault.amount)
+            case What.REFUSE:
+                self._refusing[fault.argument] = self._refusing.get(fault.argument, 0) + int(fault.amount)
+            case What.HANG:
+                self._hang = True
+            case What.NAME:
+                self.name = fault.argument
+            case What.PAIRING:
+                self.needs_pairing = True
+            case _:
+                self._left[fault.what] += int(fault.amount)
+
+    def _spend(self, what: What) -> bool:
+        if self._left[what] == 0:
+            return False
+        self._left[what] -= 1
+        return True
+
+    def _flip(self, value: bytes) -> bytes:
+        damaged = bytearray(value)
+        for bit in self._random.sample(range(8 * len(value)), min(8 * len(value), self._random.randint(1, 3))):
+            damaged[bit // 8] ^= 1 << (bit % 8)
+        return bytes(damaged)
+
+
+def _when(fault: Fault) -> float:
+    return fault.at

@@ -1,0 +1,224 @@
+"""The emulated insole as a GATT server: protocol/insole.md from the device's side."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable, Sequence
+from math import ceil
+
+from attrs import Factory, define, evolve
+
+from ...link.profile import INSOLE
+from ...types import Site
+from ...wire.error import WireError
+from ...wire.fragment import FRAME_IDS, MAX_FRAGMENTS, split
+from ...wire.insole import InsoleFrame, build_frame
+from ...wire.insole_control import Resend, SetInterval, Start, Stop, parse_control
+from ...wire.insole_info import build_info
+from ..sensors.device import device_numbers
+from ..sensors.insole_device import BATTERY, TICK_RATE, Insole
+from ..sensors.insole_signal import InsoleSignal
+from ..wearers.walker import Walker
+from .faults import Fault
+from .peripheral import AttError, Peripheral
+from .standard import NOTIFY, READ, WRITE, Battery, information, services
+
+UNKNOWN_OPCODE = 0x80
+WRONG_VALUE = 0x81
+NOT_NOW = 0x82
+
+SHORTEST = 82
+"""Ticks: the fastest that the emulated insole samples, 400 Hz."""
+KEPT = 20.0
+"""s of frames that can be sent again."""
+_BURST = 4
+"""Frames that are sent again with each new one, at the most."""
+_SIGNALS = 3
+"""Intervals for which the whole walk is kept at hand."""
+_OPCODES = range(1, 5)
+_LONGEST = 512
+_HEADER_AND_CRC = 16
+
+_SERVICES = services(
+    INSOLE,
+    {
+        "insole/frame": NOTIFY,
+        "insole/info": READ,
+        "insole/control": WRITE,
+        "device/battery": READ | NOTIFY,
+        "device/firmware": READ,
+    },
+    information=("manufacturer", "model"),
+)
+
+
+@define(eq=False)
+class _Frames:
+    """A Source: the frames of a signal. `sequence` and `ticks` are added to its own; `kept` are the numbers of those
+    that were sent, `again` the sequences that are to be sent once more."""
+
+    signal: InsoleSignal
+    batch: int
+    sequence: int = 0
+    ticks: int = 0
+    kept: deque[int] = Factory(deque)
+    again: deque[int] = Factory(deque)
+
+    def after(self, t: float) -> int:
+        return ceil((t - self.signal.first) / (self.signal.step * self.batch))
+
+    def due(self, number: int) -> float:
+        return self.signal.ready(number, self.batch)
+
+    def values(self, number: int, mtu: int) -> Sequence[bytes]:
+        found = self._pieces(number, False, mtu)
+        for _ in range(min(_BURST, len(self.again))):
+            found += self._pieces(self.again.popleft(), True, mtu)
+        self.kept.append(number)
+        while len(self.kept) * self.signal.step * self.batch > KEPT:
+            self.kept.popleft()
+        return found
+
+    def frame(self, number: int) -> InsoleFrame:
+        frame = self.signal.frame(number, self.batch)
+        sequence, ticks = (frame.sequence + self.sequence) % 2**16, (frame.ticks + self.ticks) % 2**32
+        return evolve(frame, sequence=sequence, ticks=ticks)
+
+    def own_ticks(self, number: int) -> int:
+        """Those of a frame before `ticks` are added."""
+        return self.signal.ticks + number * self.batch * self.signal.interval
+
+    def elapsed(self, number: int, since: float) -> int:
+        """Ticks of the device's clock from `since`, s, until the frame's first sample."""
+        return round((self.signal.taken(number, self.batch) - since) / self.signal.step * self.signal.interval)
+
+    def resend(self, command: Resend) -> None:
+        """Those asked for that are still kept will go with the next frames."""
+        asked = {(command.first + i) % 2**16 for i in range(command.count)}
+        offset = self.signal.sequence + self.sequence
+        self.again += [n for n in self.kept if (offset + n) % 2**16 in asked and n not in self.again]
+
+    def _pieces(self, number: int, again: bool, mtu: int) -> list[bytes]:
+        frame = self.frame(number)
+        return split(build_frame(evolve(frame, retransmitted=again)), mtu - 3, number % FRAME_IDS)
+
+
+class InsolePeripheral(Peripheral):
+    """An insole on a foot of `walker`.
+
+    Its frames are byte for byte those that `device.emit` gives for the same walker, site, seed and interval, as long as
+    SET INTERVAL comes while it is stopped. Set while it runs, sequence and ticks go on from where they are. What a
+    whole walk is worth is worked out once for each interval, when it is first needed or by `prepare`.
+    """
+
+    def __init__(
+        self,
+        device: Insole,
+        walker: Walker,
+        *,
+        site: Site,
+        address: str,
+        name: str,
+        seed: int = 1,
+        mtu: int = 247,
+        began: float = 0.0,
+        faults: Iterable[Fault] = (),
+    ) -> None:
+        super().__init__(
+            site=site,
+            address=address,
+            name=name,
+            services=_SERVICES,
+            advertised=INSOLE.services,
+            mtu=mtu,
+            began=began,
+            faults=faults,
+        )
+        self.device = device
+        self._walker, self._seed = walker, seed
+        self._interval = device.interval
+        self._signals: dict[int, InsoleSignal] = {}
+        self._frames: _Frames | None = None
+        self._battery = Battery(BATTERY)
+        self._said = information(device.firmware, manufacturer="solepath", model="emulated insole")
+
+    def prepare(self) -> None:
+        """Work out now what the insole sends after START, instead of when it is first asked."""
+        self.signal()
+
+    def signal(self) -> InsoleSignal:
+        """What it measures at the interval in force."""
+        found = self._signals.get(self._interval)
+        if found is None:
+            device = self.device
+            if device.interval != self._interval:
+                device = evolve(device, rate=TICK_RATE / self._interval)
+            found = device.measure(self._walker, self.site, device_numbers(self._seed, self.site))
+            while len(self._signals) >= _SIGNALS:
+                self._signals.pop(next(iter(self._signals)))
+            self._signals[self._interval] = found
+        return found
+
+    def begin(self) -> None:
+        self.flow("device/battery", self._battery, self.walk_time)
+
+    def stop(self) -> None:
+        self._frames = None
+
+    def value(self, channel: str, t: float) -> bytes:
+        match channel:
+            case "insole/info":
+                return build_info(self.device.info(self.signal()))
+            case "device/battery":
+                return self._battery.level(t)
+        return self._said[channel]
+
+    def take(self, channel: str, value: bytes, t: float) -> None:
+        try:
+            command = parse_control(value)
+        except WireError:
+            raise AttError(WRONG_VALUE if not value or value[0] in _OPCODES else UNKNOWN_OPCODE) from None
+        match command:
+            case Start():
+                if self._frames is None:
+                    self._measure(self._frames_from(t), t)
+            case Stop():
+                self._frames = None
+                self.flow("insole/frame", None, t)
+            case SetInterval(interval=interval):
+                self._interval = max(SHORTEST, interval)
+                if self._frames is not None:
+                    self._measure(self._following(self._frames, t), t)
+            case Resend():
+                if self._frames is None:
+                    raise AttError(NOT_NOW)
+                self._frames.resend(command)
+
+    def _measure(self, frames: _Frames, t: float) -> None:
+        self._frames = frames
+        self.flow("insole/frame", frames, t)
+
+    def _frames_from(self, t: float) -> _Frames:
+        """Frames from `t` on; after a restart they count from 0, and the ticks from then."""
+        frames = _Frames(self.signal(), self._batch())
+        if self.restarted is not None:
+            number = frames.after(t)
+            frames.sequence = -(frames.signal.sequence + number) % 2**16
+            frames.ticks = (frames.elapsed(number, self.restarted) - frames.own_ticks(number)) % 2**32
+        return frames
+
+    def _batch(self) -> int:
+        """Samples a frame: what the device wants, or fewer when they would be too many fragments."""
+        one = len(build_frame(self.signal().frame(0))) - _HEADER_AND_CRC
+        room = min(_LONGEST, max(self.agreed_mtu - 3, MAX_FRAGMENTS * (self.agreed_mtu - 4)))
+        return max(1, min(self.device.batch, (room - _HEADER_AND_CRC) // one))
+
+    def _following(self, old: _Frames, t: float) -> _Frames:
+        """Frames at the interval in force whose first, at `t`, continues the sequence and the clock of the old ones."""
+        new = _Frames(self.signal(), old.batch)
+        number = new.after(t)
+        last = old.kept[-1] if old.kept else old.after(t) - 1
+        new.sequence = (old.signal.sequence + old.sequence + last + 1 - new.signal.sequence - number) % 2**16
+        ticks = old.signal.ticks + old.ticks + new.elapsed(number, old.signal.first)
+        new.ticks = (ticks - new.own_ticks(number)) % 2**32
+        return new

@@ -1,0 +1,312 @@
+"""One emulated device as its server sees it: attributes to read and write, and notifications that fall due.
+
+No clock and no asyncio: whoever serves it passes its own loop's time as `now` (s, never going back) and does with each
+device of a connection
+
+    device.connected(now, mtu)
+    ... subscribe, read, write as the host asks ...
+    at device.next_due(), and whenever `changed` was called sooner:
+        for outgoing in device.poll(now): send it
+        if device.hang_up(now): lose the link
+    device.disconnected(now)
+
+A fault script (faults.py) acts inside; the server sees only its effects.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from attrs import frozen
+
+from ...types import Site
+from .advertisement import check_fits
+from .faults import PAIRING, Fault, Misfortune, What
+from .flows import Flows, Source
+
+READ_NOT_PERMITTED = 0x02
+WRITE_NOT_PERMITTED = 0x03
+NOT_PAIRED = 0x05
+"""Insufficient authentication (Bluetooth Core, vol 3 part C, 10.3.1)."""
+REQUEST_NOT_SUPPORTED = 0x06
+WRONG_LENGTH = 0x0D
+REFUSED = 0x80
+"""The first of the codes that an application may give a meaning (Bluetooth Core, vol 3 part F, 3.4.1.1)."""
+
+SMALLEST_MTU = 23
+_AT_ONCE = 2e-6
+"""s: a timer may fire so much before its time by the resolution of a loop's clock."""
+
+
+class AttError(Exception):
+    """A request is refused with this ATT error code."""
+
+    def __init__(self, code: int) -> None:
+        super().__init__(f"ATT error {code:#04x}")
+        self.code = code
+
+
+@frozen
+class Characteristic:
+    """`uuid`: in full, lower case. `channel`: the name by which it is read and written here.
+    `properties`: of "read", "write", "write-without-response" and "notify"."""
+
+    uuid: str
+    channel: str
+    properties: frozenset[str]
+
+
+@frozen
+class Service:
+    """A primary service, its uuid in full, lower case."""
+
+    uuid: str
+    characteristics: tuple[Characteristic, ...]
+
+
+@frozen
+class Outgoing:
+    """A notification to be sent now."""
+
+    channel: str
+    value: bytes
+
+
+class Peripheral:
+    """A device without attributes of its own; insole.py and sensortags.py say what theirs are.
+
+    `mtu`: the largest that it agrees to. `began`: the loop's time at which its wearer's walk begins; until then he
+    stands as at its beginning. `sent` counts the notifications that were handed over by channel, and `log` has them
+    all once a list is put there.
+    """
+
+    def __init__(
+        self,
+        *,
+        site: Site,
+        address: str,
+        name: str,
+        services: Iterable[Service],
+        advertised: Iterable[str],
+        mtu: int = 247,
+        began: float = 0.0,
+        faults: Iterable[Fault] = (),
+    ) -> None:
+        self.site = site
+        self.address = address
+        self.services = tuple(services)
+        self.advertised = tuple(advertised)
+        self.sent: dict[str, int] = {}
+        self.log: list[Outgoing] | None = None
+        self.changed: Callable[[], None] | None = None
+        faults = tuple(faults)
+        for said in (name, *(fault.argument for fault in faults if fault.what is What.NAME)):
+            check_fits(said, self.advertised)
+        self._name, self._mtu, self._began = name, mtu, began
+        self._faults = faults
+        self._misfortune = Misfortune(faults, site)
+        self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
+        self._flows = Flows()
+        self._linked = self._encrypted = False
+        self._now = float("-inf")
+        self._agreed = SMALLEST_MTU
+
+    # what its devices say
+
+    def value(self, channel: str, t: float) -> bytes:
+        """What a read of the channel gives at `t` of the walk. AttError."""
+        raise AttError(READ_NOT_PERMITTED)
+
+    def take(self, channel: str, value: bytes, t: float) -> None:
+        """Obey a write at `t` of the walk. AttError."""
+        raise AttError(WRITE_NOT_PERMITTED)
+
+    def stop(self) -> None:
+        """Do as the device does when its link is gone. The flows have been stopped already."""
+
+    def begin(self) -> None:
+        """Do as the device does when it is connected."""
+
+    def prepare(self) -> None:
+        """Work out now what would otherwise be worked out when a host first asks for it."""
+
+    def flow(self, channel: str, source: Source | None, t: float) -> None:
+        """From `t` of the walk on the channel tells what `source` has, or nothing."""
+        self._flows.put(channel, source, t)
+
+    # what its server asks
+
+    @property
+    def name(self) -> str:
+        return self._name if self._misfortune.name is None else self._misfortune.name
+
+    @property
+    def mtu(self) -> int:
+        return self._mtu if self._misfortune.mtu is None else min(self._mtu, self._misfortune.mtu)
+
+    @property
+    def agreed_mtu(self) -> int:
+        """Of the link, while there is one."""
+        return self._agreed
+
+    @property
+    def walk_time(self) -> float:
+        """The time of the walk when it was last asked anything, s."""
+        return self._now - self._began
+
+    @property
+    def restarted(self) -> float | None:
+        """When it began anew the last time, in time of the walk; None when it never did."""
+        return self._misfortune.restarted
+
+    @property
+    def suffered(self) -> int:
+        """Faults of the script that have happened in this walk."""
+        return self._misfortune.happened
+
+    @property
+    def needs_pairing(self) -> bool:
+        """Whether it refuses requests on a link that is not encrypted, but for Device Information and battery."""
+        return self._misfortune.needs_pairing
+
+    @property
+    def is_connected(self) -> bool:
+        return self._linked
+
+    @property
+    def began(self) -> float:
+        return self._began
+
+    @began.setter
+    def began(self, began: float) -> None:
+        """The walk begins anew, and the script of its faults with it: nothing of an earlier one holds over."""
+        self._began = began
+        self._misfortune = Misfortune(self._faults, self.site)
+        self._flows.go_to(self._now - began)
+        self._tell()
+
+    def visible(self, now: float) -> bool:
+        """Whether it advertises, if it is not connected."""
+        t = self._pass(now)
+        return not self._misfortune.hidden(t)
+
+    def connected(self, now: float, mtu: int) -> None:
+        """A link begins, with the MTU that is agreed so far."""
+        self._pass(now)
+        self._misfortune.connected()
+        self._linked, self._encrypted, self._agreed = True, False, mtu
+        self.begin()
+        self._tell()
+
+    def mtu_changed(self, mtu: int) -> None:
+        self._agreed = mtu
+
+    def agrees_to_pair(self, now: float) -> bool:
+        """Whether it takes part in a pairing that the host begins."""
+        self._pass(now)
+        return not self._misfortune.refuses(PAIRING)
+
+    def encryption_changed(self, encrypted: bool) -> None:
+        """The link is encrypted by the keys of a pairing, of now or of earlier; or it is not any more."""
+        self._encrypted = encrypted
+
+    def disconnected(self, now: float) -> None:
+        """The link is gone, whoever ended it: subscriptions are forgotten, the device does what its protocol says."""
+        self._pass(now)
+        self._linked = self._encrypted = False
+        self._flows.clear()
+        self._agreed = SMALLEST_MTU
+        self.stop()
+
+    def subscribe(self, channel: str, on: bool, now: float) -> None:
+        """AttError for a channel that does not notify."""
+        if "notify" not in self._properties.get(channel, ()):
+            raise AttError(REQUEST_NOT_SUPPORTED)
+        t = self._pass(now)
+        self._check_paired(channel)
+        self._flows.subscribe(channel, on, t)
+        self._tell()
+
+    def read(self, channel: str, now: float) -> bytes | None:
+        """The value; None when the answer never comes. AttError."""
+        t = self._pass(now)
+        if self._fails(channel, t):
+            return None
+        if "read" not in self._properties.get(channel, ()):
+            raise AttError(READ_NOT_PERMITTED)
+        return self.value(channel, t)
+
+    def write(self, channel: str, value: bytes, now: float) -> bool:
+        """Obey; False when the answer never comes. AttError."""
+        t = self._pass(now)
+        if self._fails(channel, t):
+            return False
+        if not self._properties.get(channel, frozenset()) & {"write", "write-without-response"}:
+            raise AttError(WRITE_NOT_PERMITTED)
+        self.take(channel, bytes(value), t)
+        self._misfortune.thaw()
+        self._tell()
+        return True
+
+    def next_due(self) -> float | None:
+        """When `poll` or `hang_up` have something next; None when nothing is foreseeable."""
+        if not self._linked:
+            return None
+        fault = self._misfortune.next_at()
+        soonest = min(self._flows.next_due(), float("inf") if fault is None else fault)
+        return None if soonest == float("inf") else max(self._now, self._began + soonest)
+
+    def poll(self, now: float) -> list[Outgoing]:
+        """The notifications that are due by now, after the faults, in order of their time."""
+        found: list[Outgoing] = []
+        while self._linked:
+            channel, due = self._flows.first(now - self._began + _AT_ONCE)
+            t = self._pass(now) if channel is None else self._happen(due)
+            if channel is None or self._misfortune.cut:
+                break
+            source, number = self._flows.take(channel)
+            if self._misfortune.frozen(t) or self._is_closed(channel):
+                continue
+            for value in source.values(number, self._agreed):
+                found += [Outgoing(channel, sent) for sent in self._misfortune.carry(value)]
+        for outgoing in found:
+            self.sent[outgoing.channel] = self.sent.get(outgoing.channel, 0) + 1
+        if self.log is not None:
+            self.log += found
+        return found
+
+    def hang_up(self, now: float) -> bool:
+        """True once when the link is to be lost now as by a supervision timeout (0x08)."""
+        self._pass(now)
+        cut, self._misfortune.cut = self._misfortune.cut and self._linked, False
+        return cut
+
+    def _fails(self, channel: str, t: float) -> bool:
+        if self._misfortune.hangs(t):
+            self._tell()
+            return True
+        if self._misfortune.refuses(channel):
+            raise AttError(REFUSED)
+        self._check_paired(channel)
+        return False
+
+    def _is_closed(self, channel: str) -> bool:
+        """Whether the link must be encrypted first. What every device tells of itself is open to all."""
+        return self.needs_pairing and not self._encrypted and not channel.startswith("device/")
+
+    def _check_paired(self, channel: str) -> None:
+        if self._is_closed(channel):
+            raise AttError(NOT_PAIRED)
+
+    def _pass(self, now: float) -> float:
+        """Time passes; returns the time of the walk."""
+        self._now = max(self._now, now)
+        return self._happen(now - self._began + _AT_ONCE) - _AT_ONCE
+
+    def _happen(self, t: float) -> float:
+        self._misfortune.advance(t)
+        return t
+
+    def _tell(self) -> None:
+        if self.changed is not None:
+            self.changed()

@@ -1,0 +1,221 @@
+"""What both emulated SensorTags do alike: sensors that are switched on by their configuration and told their period."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from math import ceil, inf
+
+from attrs import define, frozen
+
+from ...link.profile import Profile
+from ...types import Site
+from ..sensors.device import Clock
+from ..sensors.sensortags import PRESS
+from ..sensors.tag_signals import HANDLING
+from .faults import Fault
+from .peripheral import REFUSED, WRONG_LENGTH, AttError, Characteristic, Peripheral
+from .standard import NOTIFY, READ, WRITE, services
+
+MTU = 23
+"""Stock firmware agrees to no larger one."""
+STOCK = 10
+"""The shortest period of stock firmware, in units of 10 ms."""
+SLUGGISH = 30
+"""The same of the infrared thermometer."""
+INFRARED, HUMIDITY, LIGHT = 0xAA00, 0xAA20, 0xAA70
+"""Services of sensors that the profiles leave out."""
+
+Make = tuple[float, Callable[[int], bytes | None]]
+"""How many s after the clock's first sample a sensor begins, and what it says."""
+
+
+@frozen
+class Sensor:
+    """`name` is that of its data channel; the others end in -config and -period. Periods are in units of 10 ms:
+    `default` after connecting, `shortest` what the firmware makes of anything below. `blank`: the data read while it is
+    off. `size`: bytes of the configuration."""
+
+    name: str
+    default: int
+    shortest: int
+    blank: bytes
+    size: int = 1
+
+
+@define
+class _State:
+    config: bytes
+    period: int
+
+
+@frozen(eq=False)
+class Timed:
+    """A Source: what `make` gives for the numbers of samples taken at `first` + k `step` s; None is not sent."""
+
+    first: float
+    step: float
+    make: Callable[[int], bytes | None]
+
+    def after(self, t: float) -> int:
+        return ceil((t - self.first) / self.step)
+
+    def due(self, number: int) -> float:
+        return self.first + self.step * number + HANDLING
+
+    def values(self, number: int, mtu: int) -> Sequence[bytes]:
+        value = self.make(number)
+        return () if value is None else (value,)
+
+
+@frozen
+class Presses:
+    """A Source: a byte when a key goes down and another when it comes up, `presses` s."""
+
+    presses: tuple[float, ...]
+    down: bytes
+    up: bytes
+
+    def after(self, t: float) -> int:
+        return sum(self.due(k) < t for k in range(2 * len(self.presses)))
+
+    def due(self, number: int) -> float:
+        if number >= 2 * len(self.presses):
+            return inf
+        return sorted(self.presses)[number // 2] + (PRESS if number % 2 else 0.0)
+
+    def values(self, number: int, mtu: int) -> Sequence[bytes]:
+        return (self.up if number % 2 else self.down,)
+
+
+class Tag(Peripheral):
+    """A SensorTag. `clock` is its own; `others` are sensors that the profile does not know, with their service."""
+
+    def __init__(
+        self,
+        profile: Profile,
+        sensors: Iterable[Sensor],
+        others: Mapping[str, int],
+        said: Mapping[str, bytes],
+        clock: Clock,
+        *,
+        site: Site,
+        address: str,
+        name: str,
+        began: float,
+        faults: Iterable[Fault],
+    ) -> None:
+        self._sensors = {sensor.name: sensor for sensor in sensors}
+        more = [one for sensor, service in others.items() for one in _table(sensor, service)]
+        super().__init__(
+            site=site,
+            address=address,
+            name=name,
+            services=services(
+                profile,
+                {channel.name: self._allowed(channel.name) for channel in profile.channels},
+                more,
+                tuple(channel.partition("/")[2] for channel in said if channel != "device/firmware"),
+            ),
+            advertised=profile.services,
+            mtu=MTU,
+            began=began,
+            faults=faults,
+        )
+        self._said = said
+        self.clock = clock
+        self._states: dict[str, _State] = {}
+        self.stop()
+
+    def make(self, sensor: str, config: bytes, period: float) -> Make | None:
+        """What a sensor says that is configured like this; None when that is off. AttError for a configuration that the
+        firmware does not take."""
+        raise AttError(REFUSED)
+
+    def stop(self) -> None:
+        """Everything is off and as it was when the tag was switched on."""
+        self._states = {s.name: _State(bytes(s.size), s.default) for s in self._sensors.values()}
+
+    def value(self, channel: str, t: float) -> bytes:
+        name, kind = _split(channel)
+        state = self._states.get(name)
+        if state is None:
+            return self._said[channel]
+        if kind == "config":
+            return state.config
+        if kind == "period":
+            return bytes([state.period])
+        source = self._source(name, state)
+        value = None if source is None else source.make(source.after(t) - 1)
+        return self._sensors[name].blank if value is None else value
+
+    def take(self, channel: str, value: bytes, t: float) -> None:
+        name, kind = _split(channel)
+        sensor, state = self._sensors[name], self._states[name]
+        if len(value) != (sensor.size if kind == "config" else 1):
+            raise AttError(WRONG_LENGTH)
+        new = _State(value, state.period)
+        if kind == "period":
+            new = _State(state.config, max(sensor.shortest, value[0]))
+        source = self._source(name, new)
+        self._states[name] = new
+        self.flow(name, source, t)
+
+    def _source(self, name: str, state: _State) -> Timed | None:
+        period = 0.01 * state.period
+        made = self.make(name, state.config, period)
+        return None if made is None else Timed(self.clock.first + made[0], self.clock.interval(period), made[1])
+
+    def _allowed(self, channel: str) -> frozenset[str]:
+        name, kind = _split(channel)
+        if kind:
+            return READ | WRITE
+        if name in self._sensors or channel == "device/battery":
+            return READ | NOTIFY
+        return NOTIFY if channel.endswith("/keys") else READ
+
+
+def _split(channel: str) -> tuple[str, str]:
+    """The sensor, and which of its values: "config", "period" or "" for its data."""
+    for kind in ("config", "period"):
+        if channel.endswith(f"-{kind}"):
+            return channel.removesuffix(f"-{kind}"), kind
+    return channel, ""
+
+
+def _table(sensor: str, service: int) -> list[tuple[str, Characteristic]]:
+    """Data, configuration and period, in a row as TI numbers them."""
+    rows = ((1, "", READ | NOTIFY), (2, "-config", READ | WRITE), (3, "-period", READ | WRITE))
+    return [(ti(service), Characteristic(ti(service + k), sensor + end, may)) for k, end, may in rows]
+
+
+def ti(short: int) -> str:
+    """The full UUID of one of TI's."""
+    return f"f000{short:04x}-0451-4000-b000-000000000000"
+
+
+def shortest(rate: float) -> int:
+    """The shortest period, in units of 10 ms, of stock firmware or of one rebuilt to take `rate` Hz."""
+    return min(STOCK, max(1, round(100.0 / rate)))
+
+
+def switch(config: bytes, most: int) -> int:
+    """A configuration of one byte. AttError when it is more than `most`."""
+    if config[0] > most:
+        raise AttError(REFUSED)
+    return config[0]
+
+
+def room(values: Mapping[str, bytes]) -> list[Sensor]:
+    """Sensors that measure nothing of the wearer and always say the same."""
+    return [Sensor(n, 100, SLUGGISH if n.endswith("infrared") else STOCK, bytes(len(v))) for n, v in values.items()]
+
+
+def constant(value: bytes, number: int) -> bytes:
+    """What such a sensor says."""
+    return value
+
+
+def masked(row: tuple[int, int, int], axes: tuple[bool, ...]) -> tuple[int, int, int]:
+    """The axes that are on; the others read 0."""
+    x, y, z = (value if on else 0 for value, on in zip(row, axes, strict=True))
+    return (x, y, z)

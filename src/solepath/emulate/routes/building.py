@@ -1,0 +1,209 @@
+"""A building to walk in: two floors of 56 m by 63 m, as large as that of Liu et al. 2015 (section V-B).
+
+Six corridors, 2.4 m wide, make four loops of different sizes; rooms with doors lie along them. Four lifts, as many as
+the candidates of the paper's fig. 15, open to four corridors; `A` is the one at the bottom left. Two staircases have
+two flights and a landing each storey. Both floors are alike, but for the ways out on the ground. Plan frame: origin at
+the south-west corner, x to the east, y to the north, m.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import pi
+
+from attrs import frozen
+
+from ...floorplan.doors import with_doors_cut
+from ...floorplan.plan import Connector, Door, FloorPlan, Kind, Level, Point, Stop, Wall
+
+EAST, NORTH = 56.0, 63.0
+HALF = 1.2
+"""m: half of a corridor's width."""
+COLUMNS, ROWS = (9.0, 25.0, 47.0), (9.0, 27.0, 54.0)
+"""m: middle lines of the corridors: x of those that run north, y of those that run east. The first and the last column
+run through the whole building."""
+GROUND, UPPER = "0", "1"
+STEPS, RISE, GOING = 10, 0.16, 0.30
+"""Of a flight."""
+STOREY = 2 * STEPS * RISE
+
+_Box = tuple[float, float, float, float]
+"""From x, y to x, y."""
+
+
+@frozen
+class Cabin:
+    """A lift: its cabin's middle, and the way out, rad."""
+
+    name: str
+    middle: Point
+    out: float
+
+
+@frozen
+class Well:
+    """A stairwell off a corridor. `door`: the middle of its open side, on the corridor's wall; `inward`: rad. Upwards
+    one enters on the right of the two lanes and comes out on the other."""
+
+    name: str
+    door: Point
+    inward: float
+
+
+CABIN = 1.8
+"""m: side of a cabin."""
+DEEP, LANE, APPROACH = 7.8, 0.7, 2.4
+"""m: depth of a stairwell; from its middle line to that of a lane; from its door to the first edge."""
+CABINS = (
+    Cabin("A", (6.9, 4.9), 0.0),
+    Cabin("B", (49.1, 57.9), pi),
+    Cabin("C", (32.9, 29.1), -0.5 * pi),
+    Cabin("D", (22.9, 45.9), 0.0),
+)
+WELLS = (Well("west stairs", (7.8, 20.9), pi), Well("north stairs", (31.4, 55.2), 0.5 * pi))
+
+
+def _split(marks: tuple[float, ...]) -> list[tuple[float, float]]:
+    return list(pairwise(marks))
+
+
+def _rooms() -> list[tuple[_Box, str]]:
+    """Every room, and which of its sides has the door: "n", "e", "s", "w", or "" for a shaft."""
+    w, e, s, n = COLUMNS[0] - HALF, COLUMNS[2] + HALF, ROWS[0] - HALF, ROWS[2] + HALF
+    inner = [(COLUMNS[0] + HALF, COLUMNS[1] - HALF), (COLUMNS[1] + HALF, COLUMNS[2] - HALF)]
+    low, high = (ROWS[0] + HALF, ROWS[1] - HALF), (ROWS[1] + HALF, ROWS[2] - HALF)
+    found: list[tuple[_Box, str]] = []
+    for a, b in _split((0.0, 4.0, 5.8, 13.0, 19.5, 22.3, 29.0, 36.0, 43.0, 50.0, 57.0, NORTH)):
+        shaft, well = a == 4.0, a == 19.5
+        found += [] if well else [((0.0, a, w - CABIN if shaft else w, b), "" if shaft else "e")]
+    for a, b in _split((0.0, 7.0, 14.0, 21.0, 28.0, 35.0, 42.0, 49.0, 57.0, 58.8, NORTH)):
+        shaft = a == 57.0
+        found += [((e + CABIN if shaft else e, a, EAST, b), "" if shaft else "w")]
+    for a, b in _split((inner[0][0], 17.0, 24.0, 31.0, 38.0, inner[1][1])):
+        found.append(((a, 0.0, b, s), "n"))
+    for a, b in _split((inner[0][0], 17.0, 24.0, 30.0, 32.8, 39.0, inner[1][1])):
+        found += [] if a == 30.0 else [((a, n, b, NORTH), "s")]
+    for (left, right), middle in zip(inner, (17.0, 36.0), strict=True):
+        for a, b in _split((low[0], 18.0, low[1])):
+            found += [((left, a, middle, b), "w"), ((middle, a, right, b), "e")]
+    left, right = inner[0]
+    for a, b in _split((high[0], 36.0, 44.0, high[1])):
+        found.append(((left, a, 17.0, b), "w"))
+    for a, b in _split((high[0], 37.0, 45.0, 46.8, high[1])):
+        shaft = a == 45.0
+        found.append(((17.0, a, right - CABIN if shaft else right, b), "" if shaft else "e"))
+    left, right = inner[1]
+    found += [((left, high[0], 32.0, 36.0), "s"), ((32.0, high[0] + CABIN, 33.8, 36.0), "")]
+    found.append(((33.8, high[0], right, 36.0), "s"))
+    for a, b in _split((36.0, 44.0, high[1])):
+        found += [((left, a, 36.0, b), "w"), ((36.0, a, right, b), "e")]
+    return found
+
+
+def _corridors() -> list[_Box]:
+    ends = ((0.0, NORTH), (ROWS[0] + HALF, ROWS[2] - HALF), (0.0, NORTH))
+    columns = [(x - HALF, a, x + HALF, b) for x, (a, b) in zip(COLUMNS, ends, strict=True)]
+    return columns + [(COLUMNS[0] + HALF, y - HALF, COLUMNS[2] - HALF, y + HALF) for y in ROWS]
+
+
+def _cabin(cabin: Cabin) -> _Box:
+    (x, y), half = cabin.middle, 0.5 * CABIN
+    return (x - half, y - half, x + half, y + half)
+
+
+def _well(well: Well) -> _Box:
+    x, y = well.door
+    if well.inward == pi:
+        return (x - DEEP, y - 2.0 * LANE, x, y + 2.0 * LANE)
+    return (x - 2.0 * LANE, y, x + 2.0 * LANE, y + DEEP)
+
+
+def _door(box: _Box, side: str, width: float, name: str = "") -> Door:
+    """In the middle of one side."""
+    x0, y0, x1, y1 = box
+    mx, my, half = 0.5 * (x0 + x1), 0.5 * (y0 + y1), 0.5 * width
+    if side in "ns":
+        y = y1 if side == "n" else y0
+        return Door((mx - half, y), (mx + half, y), name)
+    x = x1 if side == "e" else x0
+    return Door((x, my - half), (x, my + half), name)
+
+
+def _walls(boxes: list[_Box]) -> tuple[Wall, ...]:
+    """The sides of all boxes, each line drawn once."""
+    across: dict[float, list[tuple[float, float]]] = {}
+    along: dict[float, list[tuple[float, float]]] = {}
+    for x0, y0, x1, y1 in boxes:
+        for y in (y0, y1):
+            across.setdefault(round(y, 6), []).append((x0, x1))
+        for x in (x0, x1):
+            along.setdefault(round(x, 6), []).append((y0, y1))
+    found = [Wall((a, y), (b, y)) for y in sorted(across) for a, b in _joined(across[y])]
+    return (*found, *(Wall((x, a), (x, b)) for x in sorted(along) for a, b in _joined(along[x])))
+
+
+def _joined(pieces: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    found: list[tuple[float, float]] = []
+    for a, b in sorted(pieces):
+        if found and a <= found[-1][1] + 1e-6:
+            found[-1] = (found[-1][0], max(b, found[-1][1]))
+        else:
+            found.append((a, b))
+    return found
+
+
+def _ring(box: _Box) -> tuple[Point, ...]:
+    x0, y0, x1, y1 = box
+    return ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
+
+
+def _level(name: str, title: str, ordinal: int, ways_out: bool) -> Level:
+    rooms, corridors = _rooms(), _corridors()
+    doors = [_door(box, side, 0.9) for box, side in rooms if side]
+    doors += [_door(_cabin(one), {0.0: "e", pi: "w"}.get(one.out, "s"), 1.0, f"lift {one.name}") for one in CABINS]
+    doors += [_door(_well(one), "e" if one.inward == pi else "s", 2.4, one.name) for one in WELLS]
+    if ways_out:
+        doors += [_door(corridors[k], side, 1.6, "way out") for k in (0, 2) for side in "sn"]
+    boxes = [box for box, _ in rooms] + [_cabin(one) for one in CABINS] + [_well(one) for one in WELLS]
+    level = Level(
+        id=name,
+        name=title,
+        ordinal=ordinal,
+        elevation=ordinal * STOREY,
+        walls=_walls([*boxes, (0.0, 0.0, EAST, NORTH)]),
+        doors=tuple(doors),
+        rooms=tuple(_ring(box) for box in [*corridors, *(box for box, side in rooms if side)]),
+    )
+    return with_doors_cut(level)
+
+
+def _connectors() -> tuple[Connector, ...]:
+    found = []
+    for cabin in CABINS:
+        stops = tuple(Stop(level, cabin.middle, _ring(_cabin(cabin))) for level in (GROUND, UPPER))
+        found.append(Connector(Kind.LIFT, cabin.name, stops))
+    for well in WELLS:
+        below, above = ends(well)
+        stops = tuple(Stop(level, at, _ring(_well(well))) for level, at in ((GROUND, below), (UPPER, above)))
+        found.append(Connector(Kind.STAIRS, well.name, stops, flights=2, rise=RISE))
+    return tuple(found)
+
+
+def ends(well: Well) -> tuple[Point, Point]:
+    """Where one steps on the stairs on the ground floor, and on the upper one: at their edge, in the lane's middle."""
+    return in_well(well, APPROACH, -LANE), in_well(well, APPROACH, LANE)
+
+
+def in_well(well: Well, inward: float, left: float) -> Point:
+    """The point so many m inside the door and to the left of the middle line of a stairwell."""
+    x, y = well.door
+    if well.inward == pi:
+        return (x - inward, y - left)
+    return (x - left, y + inward)
+
+
+BUILDING = FloorPlan(
+    name="two floors of 56 m by 63 m",
+    levels=(_level(GROUND, "ground floor", 0, True), _level(UPPER, "upper floor", 1, False)),
+    connectors=_connectors(),
+)

@@ -1,0 +1,274 @@
+"""The ways of published experiments: straight on, squares and bends over marks, a rectangle, a corridor, a field.
+
+A route here is one that `Walker` and `emulate` take. Where marks are stepped on, `marks` says which step of which foot
+came down on which, and `modes` how every step was walked. Marks are the points of the ground below the ankle, in the
+world of the walk (origin between the feet at the start, x along the first heading).
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Sequence
+from math import atan2, cos, hypot, pi, sin, tan
+from pathlib import Path
+
+import numpy as np
+from attrs import evolve, frozen
+
+from ...types import Foot, Vec3, WalkingMode
+from ..wearers.gait import Stride
+from ..wearers.walker import Walker
+from .planner import plan
+from .route import Route
+
+Point = tuple[float, float]
+
+EDGE, PER_LAP = 11.7, 40
+"""m: side of the calibration square of Bebek et al. 2010 (section V-B), and the marks around it."""
+LAP_SPEED = 0.8
+"""m/s: 235 m in five minutes (section V-D)."""
+LAP_CORNER = 0.5
+"""m: radius at which its corners are walked (assumed: who is to keep to a square walks them tightly)."""
+
+RADII = {
+    WalkingMode.LEFT_WIDE: 4.0,
+    WalkingMode.LEFT_TIGHT: 2.0,
+    WalkingMode.RIGHT_WIDE: -4.0,
+    WalkingMode.RIGHT_TIGHT: -2.0,
+}
+"""m, to the left positive (Gong et al. 2023, section 3.3)."""
+MARKS_APART = 0.55
+"""m along the path: "an average of 0.5-0.6 m intervals" (the same)."""
+MARK_STEPS = 50
+MARK_SPEED = 1.1
+"""m/s (assumed)."""
+TIGHT, WIDE = 1.0 / (2.0 * 2.0**0.5), 1.0 / 8.0
+"""1/m: a bend is tight from the geometric mean of 2 m and 4 m on, and none beyond 8 m."""
+IN_PLACE = 0.15
+"""m: a foot that goes less far than this does not walk (L_w of table 2)."""
+
+ALONG, ACROSS = 2.8, 4.0
+"""m: AB and CD, BC and DA of the rectangle of Gong et al. 2023, section 3.4."""
+CORNER = 0.5
+"""m: radius at which the rectangle's corners are walked (assumed: without a halt, about one step on the arc)."""
+CORRIDOR = 91.0
+"""m: the walk around a floor of Chen et al. 2019, section IV-C."""
+FIELD = (60.0, 40.0)
+"""m: of the field of a random walk, the start in its middle (assumed: a part of a sports field)."""
+
+
+@frozen
+class Mark:
+    """A mark on the floor at (x, y), m, and who stepped on it: step `step` (from 1) of `foot`, flat on it from `t` s.
+
+    `lap` and `number` count from 0: which of the foot's marks it is.
+    """
+
+    foot: Foot
+    step: int
+    t: float
+    x: float
+    y: float
+    mode: WalkingMode
+    lap: int = 0
+    number: int = 0
+
+
+@frozen
+class Corner:
+    """A corner of a rectangle at `place` (m), passed at `t` s, when the body is nearest to it or stands on it.
+
+    `body`: where the middle of the body is then, on the ground. `steps`: the step of each foot (from 1) that comes down
+    nearest to `t`, and `feet` the ground below that ankle.
+    """
+
+    name: str
+    t: float
+    place: Vec3
+    body: Vec3
+    steps: dict[Foot, int]
+    feet: dict[Foot, Vec3]
+
+
+# --- routes -----------------------------------------------------------------------------------------------------------
+
+
+def straight(distance: float = 20.0, speed: float = 1.3) -> Route:
+    """Straight on; two seconds of standing before and after, as on every way here."""
+    return Route().stand(2.0).walk(distance, speed).stop(2.0)
+
+
+def square(laps: int = 5, edge: float = EDGE, speed: float = LAP_SPEED, corner: float = LAP_CORNER) -> Route:
+    """Rounds of a square to the left without a halt, each foot on PER_LAP marks a lap, the same ones every time."""
+    lap = 4.0 * (edge - 2.0 * corner + 0.5 * pi * corner)
+    route = Route().stand(2.0).paced(lap / (2 * PER_LAP))
+    for _ in range(4 * laps):
+        route = route.walk(edge - 2.0 * corner, speed).turn(0.5 * pi, corner, speed)
+    return route.stop(2.0)
+
+
+def marked(
+    mode: WalkingMode, steps: int = MARK_STEPS, spacing: float = MARKS_APART, speed: float = MARK_SPEED
+) -> Route:
+    """So many steps over marks, straight on or round the bend that the mode is. ValueError for standing."""
+    route = Route().stand(2.0).paced(spacing)
+    if mode is WalkingMode.STRAIGHT:
+        return route.walk(steps * spacing, speed).stop(2.0)
+    if mode not in RADII:
+        raise ValueError(f"marks are walked over, not {mode.value}")
+    radius = RADII[mode]
+    return route.turn(steps * spacing / radius, abs(radius), speed).stop(2.0)
+
+
+def rectangle(speed: float = 1.1, corner: float = CORNER, rounds: int = 1) -> Route:
+    """From A over B, C and D back to A, counter-clockwise, A at the origin and B ahead of it.
+
+    Corners are bends of radius `corner`, walked at TIGHT_TURN (route.py) where it is below 1 m; 0 turns on the spot,
+    with a halt. The walk ends on A itself, at the end of DA.
+    """
+    points = [(ALONG, 0.0), (ALONG, ACROSS), (0.0, ACROSS), (0.0, 0.0)] * rounds
+    return through(Route().stand(2.0), points, speed, corner).stop(2.0)
+
+
+def corridor(length: float = CORRIDOR, speed: float = 1.3, corner: float = 1.0) -> Route:
+    """Once around the inner block of a building's floor, to the left and back to the start; long sides 1.5 times as
+    long as short ones. (The paper shows its path in fig. 13 alone.)"""
+    short = (length - 2.0 * pi * corner) / 5.0 + 2.0 * corner
+    long = 1.5 * (short - 2.0 * corner) + 2.0 * corner
+    route = Route().stand(2.0)
+    # It begins and ends in the middle of a long side, where there is no bend.
+    points = [(0.5 * long, 0.0), (0.5 * long, short), (-0.5 * long, short), (-0.5 * long, 0.0), (0.0, 0.0)]
+    return through(route, points, speed, corner).stop(2.0)
+
+
+def field_walk(
+    duration: float = 1800.0, speed: float = 1.0, seed: int = 1, field: Point = FIELD, corner: float = 1.5
+) -> Route:
+    """About `duration` s of walking from one random place in a field to the next, and back to the start."""
+    rng = np.random.default_rng([seed, 7])
+    half = (0.5 * field[0], 0.5 * field[1])
+    points: list[Point] = [(0.4 * field[0], 0.0)]
+    behind: Point = (0.0, 0.0)
+    way = points[0][0]
+    while way + hypot(*points[-1]) < speed * duration or not _easy(behind, points[-1], (0.0, 0.0)):
+        there = (float(rng.uniform(-half[0], half[0])), float(rng.uniform(-half[1], half[1])))
+        if _easy(behind, points[-1], there):
+            way += hypot(there[0] - points[-1][0], there[1] - points[-1][1])
+            behind = points[-1]
+            points.append(there)
+    return through(Route().stand(2.0), [*points, (0.0, 0.0)], speed, corner).stop(2.0)
+
+
+def through(route: Route, points: Sequence[Point], speed: float, corner: float) -> Route:
+    """`route` and then from where it ends straight to each of the points in turn, round bends of radius `corner`; the
+    first turn, and all of them where `corner` is 0, on the spot. ValueError where a bend does not fit between two."""
+    end = route.end
+    here, heading, cut = (end.x, end.y), end.heading, 0.0
+    for k, there in enumerate(points):
+        way = hypot(there[0] - here[0], there[1] - here[1])
+        toward = atan2(there[1] - here[1], there[0] - here[0])
+        turn = _wrapped(toward - heading)
+        if k == 0 or corner == 0.0:
+            cut = 0.0
+            if abs(turn) > 1e-9:
+                route = route.turn(turn)
+        elif abs(turn) > 1e-9:
+            route = route.turn(turn, corner)
+        after = 0.0
+        if k + 1 < len(points) and corner > 0.0:
+            beyond = points[k + 1]
+            next_turn = _wrapped(atan2(beyond[1] - there[1], beyond[0] - there[0]) - toward)
+            after = corner * tan(0.5 * abs(next_turn))
+        if way - cut - after <= 0.0:
+            raise ValueError(f"no room for bends of {corner:g} m between {here} and {there}")
+        route = route.walk(way - cut - after, speed)
+        here, heading, cut = there, toward, after
+    return route
+
+
+# --- what was true of them --------------------------------------------------------------------------------------------
+
+
+def mode_of(stride: Stride) -> WalkingMode:
+    """How one step was walked, by the bend where the foot came down."""
+    if hypot(stride.end.x - stride.start.x, stride.end.y - stride.start.y) < IN_PLACE:
+        return WalkingMode.STANDING
+    if abs(stride.curvature) < WIDE:
+        return WalkingMode.STRAIGHT
+    left = stride.curvature > 0.0
+    if abs(stride.curvature) < TIGHT:
+        return WalkingMode.LEFT_WIDE if left else WalkingMode.RIGHT_WIDE
+    return WalkingMode.LEFT_TIGHT if left else WalkingMode.RIGHT_TIGHT
+
+
+def modes(walker: Walker) -> dict[Foot, tuple[WalkingMode, ...]]:
+    """The mode of every true step of each foot, in the order of `Truth.steps`."""
+    return {foot: tuple(mode_of(stride) for stride in walker.plan.strides[foot]) for foot in Foot}
+
+
+def marks(walker: Walker, per_lap: int | None = None) -> tuple[Mark, ...]:
+    """The marks of a walker on a paced route and who stepped on them, in the order of time; closing steps have none.
+
+    `per_lap`: how many marks a foot has before it comes to the first one again.
+    """
+    exact = evolve(walker.wearer, width_variation=0.0, angle_variation=0.0, aim=0.0)
+    meant = plan(walker.route, exact, np.random.default_rng(0))
+    closing = {
+        max(s.heel_strike for foot in Foot for s in walker.plan.strides[foot] if begun <= s.heel_strike <= ended)
+        for begun, ended in walker.plan.bouts
+    }
+    found = []
+    for foot in Foot:
+        for k, (stride, aimed) in enumerate(zip(walker.plan.strides[foot], meant.strides[foot], strict=True)):
+            if stride.heel_strike not in closing:
+                lap, number = (0, k) if per_lap is None else divmod(k, per_lap)
+                at = aimed.end
+                found.append(Mark(foot, k + 1, stride.foot_flat, at.x, at.y, mode_of(stride), lap, number))
+    return tuple(sorted(found, key=_moment))
+
+
+def corners(walker: Walker) -> tuple[Corner, ...]:
+    """B, C, D and A of one round of a rectangle, with the instants at which they were passed."""
+    t = np.arange(0.0, walker.duration, 0.01)
+    track = walker.body.pelvis(t)[0]
+    found = []
+    for name, x, y in (("B", ALONG, 0.0), ("C", ALONG, ACROSS), ("D", 0.0, ACROSS)):
+        k = int(np.argmin((track[:, 0] - x) ** 2 + (track[:, 1] - y) ** 2))
+        found.append(_corner(walker, name, float(t[k]), (x, y, 0.0)))
+    return (*found, _corner(walker, "A", walker.plan.bouts[-1][1], (0.0, 0.0, 0.0)))
+
+
+def _corner(walker: Walker, name: str, t: float, place: Vec3) -> Corner:
+    x, y, _ = (float(value) for value in walker.body.pelvis(np.array([t]))[0][0])
+    steps, feet = {}, {}
+    for foot in Foot:
+        strides = walker.plan.strides[foot]
+        k = min(range(len(strides)), key=[abs(stride.foot_flat - t) for stride in strides].__getitem__)
+        steps[foot] = k + 1
+        feet[foot] = (strides[k].end.x, strides[k].end.y, strides[k].end.z)
+    return Corner(name, t, place, (x, y, 0.0), steps, feet)
+
+
+def write_marks(path: Path | str, found: Iterable[Mark]) -> None:
+    """Marks as `solepath calibrate modes` reads them: a csv file with the columns foot, x, y, mode and t; steps in
+    place are left out."""
+    with Path(path).open("w", newline="", encoding="utf-8") as file:
+        rows = csv.writer(file)
+        rows.writerow(("foot", "x", "y", "mode", "t"))
+        for mark in found:
+            if mark.mode is not WalkingMode.STANDING:
+                rows.writerow((mark.foot.value, f"{mark.x:.4f}", f"{mark.y:.4f}", mark.mode.name, f"{mark.t:.3f}"))
+
+
+def _easy(behind: Point, here: Point, there: Point) -> bool:
+    """Whether one can walk on to `there`: it is 6 m or more away, and not back."""
+    way, toward = (there[0] - here[0], there[1] - here[1]), atan2(here[1] - behind[1], here[0] - behind[0])
+    return hypot(*way) >= 6.0 and abs(_wrapped(atan2(way[1], way[0]) - toward)) < 2.1
+
+
+def _wrapped(angle: float) -> float:
+    return atan2(sin(angle), cos(angle))
+
+
+def _moment(mark: Mark) -> float:
+    return mark.t

@@ -1,0 +1,146 @@
+"""The ride of a lift: how its car moves from one floor to another.
+
+Speed, acceleration and jerk are limited (Peters 1995, "Ideal lift kinematics", Elevator Technology 6): the car speeds
+up by a ramp of acceleration, a hold and a ramp back, runs on, and slows down the same way. Lifts of few storeys run at
+1.0 to 1.6 m/s with 0.6 to 1.2 m/s^2 and a jerk of about 1 m/s^3. Some creep the last centimetres to the floor.
+
+On its rails the car shakes: SHAKE is of the order of the 10 to 15 milli-g from peak to peak that measurements by
+ISO 18738-1 find in lifts in order. Where its frequencies lie between 2 and 12 Hz is assumed.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+from attrs import frozen
+
+from ..wearers.curves import Array
+
+SHAKE = (0.012, 0.012, 0.018)
+"""m/s^2: amplitude of each of the WAVES sines along x, y and z."""
+WAVES = 3
+BAND = (2.0, 12.0)
+"""Hz."""
+GENTLE = 0.5
+"""s in which the shaking comes and goes."""
+CREEPING = 1.0
+"""s for which a car creeps, if it does."""
+HALVINGS = 60
+"""Of the interval in which the top speed of a short ride is sought."""
+
+_Ramp = tuple[float, float]
+"""How long (s) a jerk (m/s^3) lasts."""
+
+
+@frozen
+class Lift:
+    """A ride by `height` m, negative down. `speed` in m/s, `acceleration` in m/s^2, `jerk` in m/s^3: the most that the
+    car reaches, less where the way is too short. `doors`: how long they take to close before and to open after, s.
+    `creep`: m/s at which it approaches the floor; 0 when it stops at once."""
+
+    height: float
+    speed: float = 1.0
+    acceleration: float = 0.8
+    jerk: float = 1.0
+    doors: float = 2.5
+    creep: float = 0.0
+
+
+@frozen(eq=False)
+class Ride:
+    """A car that moves from `begin` to `end` (s) and is then `height` m higher, negative: lower.
+
+    `knots` (n) s after `begin` where the jerk changes; `state` (n, 4) height, speed, acceleration and jerk there.
+    `waves` (3, WAVES, 3) amplitude in m/s^2, angular frequency and phase of what shakes it along x, y and z.
+    """
+
+    begin: float
+    end: float
+    height: float
+    knots: Array
+    state: Array
+    waves: Array
+
+    def at(self, t: Array) -> tuple[Array, Array, Array]:
+        """How far the car is from where it began, m, its velocity and acceleration at instants `t`, (N, 3) each."""
+        since = np.asarray(t, dtype=np.float64) - self.begin
+        inside = (since > 0.0) & (since < self.end - self.begin)
+        position, velocity, acceleration = (np.zeros((len(since), 3)) for _ in range(3))
+        k = np.clip(np.searchsorted(self.knots, since, side="right") - 1, 0, len(self.knots) - 1)
+        s = since - self.knots[k]
+        z, v, a, j = self.state[k].T
+        position[:, 2] = np.where(inside, z + s * (v + s * (a / 2.0 + s * j / 6.0)), self.height * (since > 0.0))
+        velocity[:, 2] = np.where(inside, v + s * (a + s * j / 2.0), 0.0)
+        acceleration[:, 2] = np.where(inside, a + s * j, 0.0)
+        fade, slope, bend = self._fade(since[inside])
+        for axis in range(3):
+            for size, w, phase in self.waves[axis]:
+                # A wave of acceleration `size` is one of position size / w^2; under the fade by the product rule.
+                swing = np.sin(w * since[inside] + phase) * size / w**2
+                turn = np.cos(w * since[inside] + phase) * size / w
+                position[inside, axis] += fade * swing
+                velocity[inside, axis] += slope * swing + fade * turn
+                acceleration[inside, axis] += bend * swing + 2.0 * slope * turn - fade * w**2 * swing
+        return position, velocity, acceleration
+
+    def _fade(self, since: Array) -> tuple[Array, Array, Array]:
+        """From 0 to 1 within GENTLE s and back to 0 at the end, with its first two derivatives."""
+        away = np.minimum(since, self.end - self.begin - since)
+        sign = np.where(since < self.end - self.begin - since, 1.0, -1.0)
+        u = np.minimum(away / GENTLE, 1.0)
+        return (
+            u**3 * (10.0 - 15.0 * u + 6.0 * u**2),
+            sign * 30.0 * u**2 * (1.0 - u) ** 2 / GENTLE,
+            60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / GENTLE**2,
+        )
+
+
+def ride(lift: Lift, begin: float, rng: np.random.Generator) -> Ride:
+    """The ride of `lift` when the car starts at `begin` s; `rng` draws how it shakes."""
+    up = 1.0 if lift.height > 0.0 else -1.0
+    knots, rows = [0.0], [(0.0, 0.0, 0.0, 0.0)]
+    for duration, jerk in _ramps(lift):
+        z, v, a, _ = rows[-1]
+        rows[-1] = (z, v, a, jerk)
+        z += duration * (v + duration * (a / 2.0 + duration * jerk / 6.0))
+        v, a = v + duration * (a + duration * jerk / 2.0), a + duration * jerk
+        knots.append(knots[-1] + duration)
+        rows.append((z, v, a, 0.0))
+    size = np.array(SHAKE)[:, None] * np.ones(WAVES)
+    turning = 2.0 * np.pi * np.asarray(rng.uniform(*BAND, (3, WAVES)))
+    phase = np.asarray(rng.uniform(0.0, 2.0 * np.pi, (3, WAVES)))
+    waves = np.stack((size, turning, phase), axis=2)
+    return Ride(begin, begin + knots[-1], lift.height, np.array(knots), up * np.array(rows), waves)
+
+
+def _ramps(lift: Lift) -> list[_Ramp]:
+    """The jerks of the whole ride upwards, in order."""
+    way = abs(lift.height)
+    creep = min(lift.creep, 0.1 * way)
+    top = lift.speed
+    if _covered(top, creep, lift) > way:
+        low = creep
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + top)
+            low, top = (low, middle) if _covered(middle, creep, lift) > way else (middle, top)
+        top = low
+    slow, stop = _change(top - creep, lift), _change(creep, lift)
+    found = [*_change(top, lift), ((way - _covered(top, creep, lift)) / top, 0.0), *((d, -j) for d, j in slow)]
+    found += [(CREEPING if creep > 0.0 else 0.0, 0.0), *((d, -j) for d, j in stop)]
+    return [ramp for ramp in found if ramp[0] > 0.0]
+
+
+def _covered(top: float, creep: float, lift: Lift) -> float:
+    """m of the way that a ride up to `top` m/s takes at least."""
+    lasts = [sum(duration for duration, _ in _change(by, lift)) for by in (top, top - creep, creep)]
+    # A change of speed is as long before its middle as after it: its mean speed is that of its ends.
+    return 0.5 * (top * lasts[0] + (top + creep) * lasts[1] + creep * lasts[2]) + creep * CREEPING
+
+
+def _change(by: float, lift: Lift) -> list[_Ramp]:
+    """The jerks that change the speed by `by` m/s."""
+    if by <= 0.0:
+        return []
+    top = min(lift.acceleration, sqrt(by * lift.jerk))
+    return [(top / lift.jerk, lift.jerk), (by / top - top / lift.jerk, 0.0), (top / lift.jerk, -lift.jerk)]

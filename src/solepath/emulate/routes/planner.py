@@ -1,0 +1,268 @@
+"""A route becomes strides: where each foot goes next, and when.
+
+All randomness of the gait is drawn here, in the order of the steps.
+"""
+
+from __future__ import annotations
+
+from math import cos, hypot, sin
+
+import numpy as np
+from attrs import evolve, frozen
+
+from ...types import Foot
+from ..wearers.gait import SETTLING, Climb, Plan, Stance, Stride, Wearer, double_support, step_length, step_time
+from .lift import Ride, ride
+from .path import Lifted, Path, Piece, Pivot, Pose
+from .route import Leg, Route, Stand, legs
+from .stairs import Flight
+from .styles import Manner, running_cadence, style_of
+
+LEVEL = 1e-6
+"""m: floors that differ by less are the same."""
+
+
+def plan(route: Route, wearer: Wearer, rng: np.random.Generator) -> Plan:
+    """Lay out the footfalls of `route` and time them; all randomness of the gait is drawn here."""
+    return _Planner(wearer, rng).run(legs(route))
+
+
+@frozen
+class _Footfall:
+    """One step to come: the place on the path, the speed, how far the path advances in it, how long it usually takes
+    (s), and how the path bends there (1/m)."""
+
+    pose: Pose
+    speed: float
+    advance: float
+    duration: float
+    curvature: float = 0.0
+    manner: Manner = Manner.WALK
+    flight: Flight | None = None
+
+
+class _Planner:
+    def __init__(self, wearer: Wearer, rng: np.random.Generator) -> None:
+        self.wearer = wearer
+        self.rng = rng
+        self.t = 0.0
+        self.moving = wearer.first  # the foot that goes next
+        self.struck: float | None = None  # the last heel-strike while walking goes on; None while standing
+        self.began = 0.0
+        self.running: float | None = None  # the speed of the last step if it was run
+        self.flight: Flight | None = None  # the one that a foot is on
+        self.climbing: float | None = None  # since when
+        self.bouts: list[tuple[float, float]] = []
+        self.climbs: list[Climb] = []
+        self.rides: list[Ride] = []
+        origin = Pose(0.0, 0.0, 0.0, 0.0)
+        self.at = {foot: self._stance(origin, foot, 0.0, 0.0) for foot in Foot}
+        self.starts = dict(self.at)
+        self.strides: dict[Foot, list[Stride]] = {foot: [] for foot in Foot}
+
+    def run(self, todo: list[Leg]) -> Plan:
+        for leg in todo:
+            match leg:
+                case Stand(duration=duration):
+                    self._halt()
+                    self.t += duration
+                case Path():
+                    self._walk(self._along(leg))
+                case Pivot():
+                    self._walk(self._on_the_spot(leg))
+                case Lifted():
+                    self._halt()
+                    self._ride(leg)
+        self._halt()
+        strides = {foot: tuple(found) for foot, found in self.strides.items()}
+        return Plan(self.t, self.starts, strides, tuple(self.bouts), tuple(self.climbs), tuple(self.rides))
+
+    def _ride(self, leg: Lifted) -> None:
+        """The doors close, the car goes, the doors open."""
+        car = ride(leg.lift, self.t + leg.lift.doors, self.rng)
+        self.rides.append(car)
+        self.t = car.end + leg.lift.doors
+        self.at = {foot: evolve(at, z=at.z + car.height) for foot, at in self.at.items()}
+
+    def _halt(self) -> None:
+        if self.struck is not None:
+            self.t = self.struck + SETTLING
+            self.bouts.append((self.began, self.t))
+            self.struck = None
+            self.running = None
+
+    # --- where ------------------------------------------------------------------------------------------------------
+
+    def _along(self, path: Path) -> list[_Footfall]:
+        """Flight by flight, and what lies between them by itself; at the end the feet are set together."""
+        falls: list[_Footfall] = []
+        for section in path.sections:
+            piece = section.pieces[0]
+            if piece.flight is not None:
+                falls += self._on_stairs(piece, piece.flight)
+            elif section.spacing is not None:
+                falls += self._on_marks(section, section.spacing)
+            else:
+                falls += self._naturally(section)
+        return [*falls, _closing(falls[-1])]
+
+    def _naturally(self, path: Path) -> list[_Footfall]:
+        """Steps of natural length with a few per cent of variation, stretched to end exactly at the path's end."""
+        ends: list[float] = []
+        s = 0.0
+        while not ends or ends[-1] < path.length:
+            speed, running = path.pace(min(s, path.length))
+            usual = speed * 60.0 / running_cadence(speed) if running else step_length(speed, self.wearer)
+            s += usual * self._vary(self.wearer.length_variation)
+            ends.append(s)
+        if len(ends) > 1 and ends[-1] - path.length > path.length - ends[-2]:
+            ends.pop()
+        fit = path.length / ends[-1]
+        falls = []
+        before = 0.0
+        for end in (fit * end for end in ends):
+            pose = path.at(end)[0]
+            speed, running = path.pace(end)
+            usual = 60.0 / running_cadence(speed) if running else step_time(speed, self.wearer)
+            manner = Manner.RUN if running else Manner.WALK
+            falls.append(_Footfall(pose, speed, end - before, usual, path.curvature(end), manner))
+            before = end
+        return falls
+
+    def _on_marks(self, path: Path, spacing: float) -> list[_Footfall]:
+        count = max(1, round(path.length / spacing))
+        each = path.length / count
+        falls = []
+        for k in range(1, count + 1):
+            _, speed = path.at(each * k)
+            hit = each * k + self.wearer.aim * float(np.clip(self.rng.standard_normal(), -3.0, 3.0))
+            falls.append(_Footfall(path.at(hit)[0], speed, each, each / speed, path.curvature(each * k)))
+        return falls
+
+    def _on_stairs(self, piece: Piece, flight: Flight) -> list[_Footfall]:
+        """One step for every riser."""
+        manner = Manner.UP if flight.rise > 0.0 else Manner.DOWN
+        falls = []
+        for k in range(1, flight.steps + 1):
+            hit = flight.going * k + self.wearer.aim * float(np.clip(self.rng.standard_normal(), -2.0, 2.0))
+            pose = evolve(piece.start.ahead(hit, 0.0), z=flight.z + flight.rise * k)
+            duration = flight.going / piece.speed
+            falls.append(_Footfall(pose, piece.speed, flight.going, duration, 0.0, manner, flight))
+        return falls
+
+    def _on_the_spot(self, pivot: Pivot) -> list[_Footfall]:
+        count = max(1, int(np.ceil(abs(pivot.angle) / self.wearer.pivot_step)))
+        turned = [pivot.angle * k / count for k in range(1, count + 1)]
+        duration = step_time(pivot.speed, self.wearer)
+        falls = [
+            _Footfall(evolve(pivot.start, heading=pivot.start.heading + a), pivot.speed, 0.0, duration) for a in turned
+        ]
+        return [*falls, falls[-1]]
+
+    def _stance(self, pose: Pose, foot: Foot, width: float, turned: float) -> Stance:
+        side = 1.0 if foot is Foot.LEFT else -1.0
+        out = side * (0.5 * self.wearer.step_width + width)
+        yaw = pose.heading + side * (self.wearer.toe_out + turned)
+        return Stance(pose.x - out * sin(pose.heading), pose.y + out * cos(pose.heading), pose.z, yaw)
+
+    # --- when -------------------------------------------------------------------------------------------------------
+
+    def _walk(self, falls: list[_Footfall]) -> None:
+        for fall in falls:
+            step = fall.duration * self._vary(self.wearer.time_variation)
+            if self.struck is None:
+                self.began = self.t
+                # As if the other foot had just landed: the weight needs that long to leave the foot that goes first.
+                self.struck = self.t + 0.32 * step
+            foot = self.moving
+            self.moving = Foot.RIGHT if foot is Foot.LEFT else Foot.LEFT
+            self._stride(foot, fall, self.struck, step)
+            self.struck += step
+            self.t = self.struck
+
+    def _stride(self, foot: Foot, fall: _Footfall, struck: float, step: float) -> None:
+        wearer, before = self.wearer, self.strides[foot]
+        start = self.at[foot]
+        manner = fall.manner
+        if fall.flight is not None:
+            self._step_on(fall.flight)
+        if abs(fall.pose.z - start.z) > LEVEL:
+            manner = Manner.UP if fall.pose.z > start.z else Manner.DOWN
+        style = None if manner is Manner.WALK else style_of(manner, fall.speed)
+        double, early, flat = double_support(fall.speed), 0.12, 0.095
+        if style is not None:
+            flat = style.flat
+            if manner is not Manner.RUN:
+                double, early = style.double, style.early
+        if self.running is not None:
+            # Who runs is in the air before the other foot comes down.
+            run = style_of(Manner.RUN, self.running)
+            double, early = run.double, run.early
+        toe_off = struck + double * 2.0 * step
+        earliest = before[-1].foot_flat + 0.04 if before else 0.0
+        heel_off = max(struck - early * 2.0 * step * self._vary(0.08), earliest)
+        if self.running is not None:
+            toe_off = max(toe_off, heel_off + 0.06)
+        heel_strike = struck + step
+        foot_flat = heel_strike + flat * 2.0 * step * self._vary(0.06)
+        width, out = (float(value) for value in self.rng.standard_normal(2))
+        end = self._stance(fall.pose, foot, wearer.width_variation * width, 0.5 * wearer.angle_variation * out)
+        # Short steps roll the foot less; the exponents keep half steps and steps in place looking like steps.
+        moved = hypot(end.x - start.x, end.y - start.y)
+        reach = min(moved / 1.42, 1.4)
+        roll, yaw, outward = (float(value) for value in self.rng.standard_normal(3))
+        side = 1.0 if foot is Foot.LEFT else -1.0
+        weave = (side * (0.16 + 0.03 * roll), -side * (0.10 + 0.02 * yaw), side * (0.012 + 0.004 * outward))
+        if style is not None:
+            weave = (style.weave * weave[0], style.weave * weave[1], weave[2])
+        leave = wearer.toe_off_pitch * max(reach, 0.08) ** 0.55 if style is None else style.toe_off_pitch
+        strike = wearer.strike_pitch * max(reach, 0.05) ** 0.9 if style is None else style.strike_pitch
+        before.append(
+            Stride(
+                number=len(before) + 1,
+                heel_off=heel_off,
+                toe_off=toe_off,
+                heel_strike=heel_strike,
+                foot_flat=foot_flat,
+                start=start,
+                end=end,
+                toe_off_pitch=leave * self._vary(wearer.angle_variation),
+                strike_pitch=strike * self._vary(wearer.angle_variation),
+                speed=fall.speed * min(reach, 1.0) if style is None else fall.speed,
+                clearance=(wearer.clearance if style is None else style.clearance) * self._vary(0.08),
+                weave=weave,
+                settle=4e-4 * float(np.clip(self.rng.standard_normal(), -1.0, 1.0)),
+                curvature=fall.curvature,
+                pace=0.5 * moved / step,
+                manner=manner,
+                flight=self.flight if manner in (Manner.UP, Manner.DOWN) else None,
+            )
+        )
+        self.at[foot] = end
+        self.running = fall.speed if manner is Manner.RUN else None
+        self._step_off(before[-1])
+
+    def _step_on(self, flight: Flight) -> None:
+        if self.flight is not flight:
+            self.flight = flight
+            self.climbing = None
+
+    def _step_off(self, stride: Stride) -> None:
+        """A climb is over when both feet are beyond the flight."""
+        flight = self.flight
+        if flight is None:
+            return
+        if self.climbing is None:
+            self.climbing = stride.toe_off
+        if all(abs(at.z - flight.z - flight.height) < LEVEL for at in self.at.values()):
+            self.climbs.append(Climb(self.climbing, stride.heel_strike, flight))
+            self.flight = None
+
+    def _vary(self, sigma: float) -> float:
+        """A factor about 1, never further away than three sigma."""
+        return 1.0 + sigma * float(np.clip(self.rng.standard_normal(), -3.0, 3.0))
+
+
+def _closing(last: _Footfall) -> _Footfall:
+    """The closing half step: beside the foot that arrived."""
+    return evolve(last, advance=0.0, manner=Manner.WALK)

@@ -1,0 +1,220 @@
+"""Walks through BUILDING, with the truth of where the wearer is on its plan.
+
+    way = wandering(seed=7)
+    walker = Walker(way.route, seed=7)
+    session = Session(recipe, floorplan=BUILDING, start=way.start)
+    way.places(walker, t)
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from itertools import pairwise
+from math import cos, pi, sin
+
+import numpy as np
+from attrs import frozen
+
+from ...floorplan.plan import Point, Start
+from ...types import Foot
+from ..wearers.curves import Array
+from ..wearers.shoe import Mounting
+from ..wearers.walker import Walker
+from .building import (
+    APPROACH,
+    BUILDING,
+    CABINS,
+    COLUMNS,
+    GOING,
+    GROUND,
+    LANE,
+    NORTH,
+    ROWS,
+    UPPER,
+    WELLS,
+    Cabin,
+    Well,
+    in_well,
+)
+from .course import OTHER, Course, course_from
+from .route import Route
+from .stairs import ahead
+
+ASTRAY = 0.3
+"""m: how far off the middle of the corridors a wanderer walks, at the most."""
+FEWEST, MOST = 3, 7
+"""Corners of a wandering before it turns to the way out."""
+RUN_UP = 4.0
+"""m walked along the corridor before and after stairs on the floor that is not wandered on."""
+_ELEVATION = {level.id: level.elevation for level in BUILDING.levels}
+
+Exit = Cabin | Well
+
+
+@frozen
+class Way:
+    """A route through the building: where and how it sets out, and by which lift or stairs it comes to the floor
+    `level` and leaves it; "" where it stays there."""
+
+    route: Route
+    start: Start
+    level: str
+    came: str = ""
+    left: str = ""
+
+    def places(self, walker: Walker, t: Array | float) -> list[tuple[str, float, float]]:
+        """Level, x and y (m, plan frame) of the middle between both ankles at instants `t`, s. In a lift and on stairs
+        it is the level that is nearer."""
+        when = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        x, y = self.track(walker, when).T
+        high = _ELEVATION[self.start.level] + walker.truth().elevation(when)
+        levels = [min(_ELEVATION, key=lambda name: abs(_ELEVATION[name] - z)) for z in high.tolist()]
+        return list(zip(levels, x.tolist(), y.tolist(), strict=True))
+
+    def track(self, walker: Walker, t: Array) -> Array:
+        """x and y of the same, (N, 2)."""
+        ankle = Mounting((walker.wearer.shoe.ankle[0], 0.0, 0.0))
+        middle = 0.5 * sum(walker.kinematics(foot, t, ankle).position[:, :2] for foot in Foot)
+        heading = self.start.heading or 0.0
+        c, s = cos(heading), sin(heading)
+        return np.asarray(middle @ np.array([[c, s], [-s, c]]) + np.array(self.start.place))
+
+
+def case_study() -> Way:
+    """As in section V-F of Liu et al. 2015: down by the lift at the bottom left, along corridors, and away by another
+    lift. The paper gives no measures; this one turns five times on the floor."""
+    a, b = CABINS[:2]
+    course = course_from(UPPER, a.middle, a.out)
+    course.stand()
+    course.ride()
+    west, middle, east = COLUMNS
+    south, centre, _ = ROWS
+    bends = ((west, a.middle[1]), (west, south), (middle, south), (middle, centre), (east, centre), (east, b.middle[1]))
+    course.along([*bends, b.middle])
+    course.face(b.out)
+    course.ride()
+    course.stand()
+    return Way(course.route, course.start, GROUND, a.name, b.name)
+
+
+def corridor() -> Way:
+    """63 m straight on from door to door, as the long corridor of section V-D."""
+    course = course_from(GROUND, (COLUMNS[0], 0.0), 0.5 * pi)
+    course.stand()
+    course.along([(COLUMNS[0], NORTH)])
+    course.stand()
+    return Way(course.route, course.start, GROUND)
+
+
+def wandering(seed: int) -> Way:
+    """Comes to a floor by a lift or stairs, walks along corridors and leaves by another; drawn from `seed`."""
+    rng = np.random.default_rng([seed, 5])
+    level = (GROUND, UPPER)[int(rng.integers(2))]
+    exits: list[Exit] = [*CABINS, *WELLS]
+    one, other = (exits[int(k)] for k in rng.choice(len(exits), 2, replace=False))
+    off = rng.uniform(-ASTRAY, ASTRAY, 2)
+    dx, dy = float(off[0]), float(off[1])
+    course = _arriving(one, level, dx, dy)
+    begin, end = _beside(one, level, dx, dy), _beside(other, level, dx, dy)
+    course.along([*_strolled(_network(dx, dy, begin, end), begin, end, rng), _inside(other, level)])
+    _leaving(course, other, level, dx, dy)
+    course.stand()
+    return Way(course.route, course.start, level, one.name, other.name)
+
+
+# --- corridors --------------------------------------------------------------------------------------------------------
+
+
+def _lane(well: Well, level: str) -> float:
+    """To the left of a stairwell's middle: the lane that ends, and begins, on this level."""
+    return -LANE if level == GROUND else LANE
+
+
+def _inside(one: Exit, level: str) -> Point:
+    """Where one stands in a cabin, or before the first edge of the stairs."""
+    if isinstance(one, Cabin):
+        return one.middle
+    return in_well(one, APPROACH - ahead(level == GROUND, GOING), _lane(one, level))
+
+
+def _beside(one: Exit, level: str, dx: float, dy: float) -> Point:
+    """Where one turns into a cabin or a stairwell, on the line along which its corridor is walked."""
+    x, y = _inside(one, level)
+    heading = one.out if isinstance(one, Cabin) else one.inward
+    if abs(cos(heading)) > 0.5:
+        return (min(COLUMNS, key=lambda column: abs(column - x)) + dx, y)
+    return (x, min(ROWS, key=lambda row: abs(row - y)) + dy)
+
+
+def _network(dx: float, dy: float, *turnings: Point) -> dict[Point, list[Point]]:
+    """Crossings and turnings, and which are next to each other along a corridor."""
+    columns, rows = [x + dx for x in COLUMNS], [y + dy for y in ROWS]
+    places = {*turnings, *((x, y) for x in columns for y in rows)}
+    nodes: dict[Point, list[Point]] = {place: [] for place in sorted(places)}
+    lines = [sorted(place for place in places if place[0] == x) for x in columns]
+    lines += [sorted(place for place in places if place[1] == y) for y in rows]
+    for line in lines:
+        for one, other in pairwise(line):
+            nodes[one].append(other)
+            nodes[other].append(one)
+    return nodes
+
+
+def _strolled(nodes: dict[Point, list[Point]], begin: Point, end: Point, rng: np.random.Generator) -> list[Point]:
+    """From turning to turning without going back: at random for some corners, and then by the fewest places."""
+    path = [begin, nodes[begin][int(rng.integers(len(nodes[begin])))]]
+    corners = int(rng.integers(FEWEST, MOST + 1))
+    while corners > 0 or path[-1] == end:
+        onward = _onward(nodes, path)
+        path.append(onward[int(rng.integers(len(onward)))])
+        corners -= len(path) > 2 and not _straight(*path[-3:])
+    ways = deque([path[-2:]])
+    known = {(path[-2], path[-1])}
+    while ways[0][-1] != end:
+        way = ways.popleft()
+        for place in _onward(nodes, way):
+            if (way[-1], place) not in known:
+                known.add((way[-1], place))
+                ways.append([*way, place])
+    return [*path[:-2], *ways[0]]
+
+
+def _onward(nodes: dict[Point, list[Point]], path: list[Point]) -> list[Point]:
+    """Where to go next: not back, but from a corridor's end."""
+    return [place for place in nodes[path[-1]] if place != path[-2]] or [path[-2]]
+
+
+def _straight(a: Point, b: Point, c: Point) -> bool:
+    return a[0] == b[0] == c[0] or a[1] == b[1] == c[1]
+
+
+# --- stairs and lifts -------------------------------------------------------------------------------------------------
+
+
+def _arriving(one: Exit, level: str, dx: float, dy: float) -> Course:
+    """From the other floor to this one; the course then is where one comes out."""
+    if isinstance(one, Cabin):
+        course = course_from(OTHER[level], one.middle, one.out)
+        course.stand()
+        course.ride()
+        return course
+    inside, turning = _inside(one, OTHER[level]), _beside(one, OTHER[level], dx, dy)
+    if one.inward == pi:
+        course = course_from(OTHER[level], (turning[0], turning[1] - RUN_UP), 0.5 * pi)
+    else:
+        course = course_from(OTHER[level], (turning[0] - RUN_UP, turning[1]), 0.0)
+    course.stand()
+    course.along([turning, inside])
+    course.climb(up=level == UPPER)
+    return course
+
+
+def _leaving(course: Course, other: Exit, level: str, dx: float, dy: float) -> None:
+    """From inside a cabin or before the first edge to the other floor."""
+    if isinstance(other, Cabin):
+        course.face(other.out)
+        course.ride()
+        return
+    course.climb(up=level == GROUND)
+    x, y = _beside(other, OTHER[level], dx, dy)
+    course.along([(x, y), (x, y - RUN_UP) if other.inward == pi else (x - RUN_UP, y)])

@@ -1,0 +1,54 @@
+"""An emulated Movella DOT in its mode "orientation" (protocol/dot-orientation.md), for any site of the body."""
+
+from __future__ import annotations
+
+import struct
+
+import numpy as np
+from attrs import frozen
+
+from ...link.devices.dot_orientation import DRIVER
+from ...types import Site
+from ..wearers.shoe import Mounting
+from ..wearers.walker import Walker
+from .device import Notification, prepared, samplings, started
+from .parts import CRE_CC02, AttitudePart
+from .sensors import attitude_read
+from .tag_signals import HANDLING
+
+RATE = 60.0
+"""Hz that it streams after the usual setup."""
+TICK_RATE = 1e6
+BATTERY = b"\x5a\x00"
+"""90 percent, not charging."""
+
+
+@frozen
+class Dot:
+    """Sends its attitude at 60 Hz. `mounting`: on the segment that its site names, in that segment's frame (limbs.py).
+
+    `attitude`: how far off it is; as the unit of Gong et al. 2023 when nothing is said, for whose experiments it is
+    worn (MOVELLA_DOT are its own figures). `north`: how far the x axis of its world is turned from the walk's, rad.
+    `ppm` and `ticks`: rate error and reading of the clock at its first sample; drawn when None.
+    """
+
+    mounting: Mounting = Mounting((0.0, 0.0, 0.0))
+    attitude: AttitudePart = CRE_CC02
+    north: float = 0.0
+    ppm: float | None = None
+    ticks: int | None = None
+
+    def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
+        clock = started(rng, 1.0 / RATE, self.ppm)
+        drawn = int(rng.integers(0, 2**32))
+        begun = drawn if self.ticks is None else self.ticks
+        t = samplings(walker, clock, 1.0 / RATE).taken
+        true = walker.body.at(site, t, self.mounting).attitude
+        said = attitude_read(true, t, self.attitude, self.north, rng)
+        sent = prepared(DRIVER.profile, {"dot-orientation/battery": BATTERY})
+        (stream,) = DRIVER.profile.streams
+        for k, (when, quat) in enumerate(zip(t.tolist(), said.tolist(), strict=True)):
+            ticks = (begun + round(k * TICK_RATE / RATE)) % 2**32
+            data = DRIVER.write(stream, {"ticks": ticks, "quat": struct.unpack("<4f", struct.pack("<4f", *quat))})
+            sent.append(Notification(when + HANDLING, stream, data))
+        return sent

@@ -1,0 +1,190 @@
+"""A pressure insole with an IMU that speaks protocol/insole.md."""
+
+from __future__ import annotations
+
+from math import radians
+
+import numpy as np
+from attrs import frozen
+
+from ...link.profile import INSOLE
+from ...types import Foot, Layout, Sample, Site
+from ...types.vector import GRAVITY, conjugate, from_rotation_vector, multiply, rotate
+from ...wire.device import build_battery, build_firmware
+from ...wire.fragment import FRAME_IDS, split
+from ...wire.insole import build_frame
+from ...wire.insole_info import InsoleInfo, build_info
+from ..wearers.curves import Array
+from ..wearers.shoe import IN_SOLE, ON_HEEL, Mounting, Shoe
+from ..wearers.walker import Walker
+from .device import Notification, foot_of, prepared, read_imu, samplings, started
+from .insole_signal import Counts, InsoleSignal
+from .insoles import SCALE, heel_array, layout
+from .parts import HEEL_ARRAY, INERTIACUBE3, LSM6DSOX, RESISTIVE, AttitudePart, CellPart, Imu
+from .sensors import attitude_read, read_cells, sample
+
+TICK_RATE = 32768
+ACC_COUNT = 0.488e-3 * GRAVITY
+"""m/s^2 per count at +-16 g (ST DS12814, table 2)."""
+GYRO_COUNT = radians(0.070)
+"""rad/s per count at +-2000 degrees/s (the same)."""
+BATTERY = 87
+"""Percent."""
+
+
+@frozen
+class Insole:
+    """`cells` of 12 bits and an IMU at `rate` Hz (rounded to whole ticks), `batch` samples a frame.
+
+    `cells`: how many over the whole sole, or a layout for the foot that wears it (one without a scale is read at the
+    scale of the others and sent as counts). `mtu`: of the link; frames that do not fit go in fragments. `ppm` and
+    `ticks`: rate error and reading of the clock at its first sample; drawn when None. `quaternion`: send the device's
+    own attitude too, with the errors of `attitude` in a world whose x axis is turned by `north` rad from the walk's;
+    when `attitude` is None it is half a degree off in tilt, all the time, and has a heading of its own. `tells_full`:
+    a frame with a cell at its limit says so; a device whose cells are a unit of their own cannot. `broken`: cells that
+    always say the same, and the count that each says.
+    """
+
+    cells: int | Layout = 96
+    rate: float = 100.0
+    batch: int = 1
+    mtu: int = 247
+    imu: bool = True
+    quaternion: bool = False
+    attitude: AttitudePart | None = None
+    north: float = 0.0
+    mounting: Mounting = IN_SOLE
+    part: Imu = LSM6DSOX
+    cell_part: CellPart = RESISTIVE
+    ppm: float | None = None
+    ticks: int | None = None
+    firmware: str = "emulated 1"
+    tells_full: bool = True
+    broken: tuple[tuple[int, int], ...] = ()
+
+    def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
+        signal = self.measure(walker, site, rng)
+        own = {
+            "insole/info": build_info(self.info(signal)),
+            "device/firmware": build_firmware(self.firmware),
+            "device/battery": build_battery(BATTERY),
+        }
+        sent = prepared(INSOLE, own)
+        for number in range(signal.frames(self.batch)):
+            frame, ready = build_frame(signal.frame(number, self.batch)), signal.ready(number, self.batch)
+            for piece in split(frame, self.mtu - 3, number % FRAME_IDS):
+                sent.append(Notification(ready, "insole/frame", piece))
+        return sent
+
+    def measure(self, walker: Walker, site: Site, rng: np.random.Generator) -> InsoleSignal:
+        """All that the insole measures over the walk."""
+        foot = foot_of(site)
+        clock = started(rng, self.interval / TICK_RATE, self.ppm)
+        when = samplings(walker, clock, self.interval / TICK_RATE)
+        drawn, sequence, serial = (int(n) for n in rng.integers(0, (2**32, 2**16, 2**24)))
+        shape = self._layout(foot, walker.wearer.shoe)
+
+        motion = walker.kinematics(foot, when.fine, self.mounting)
+        acc, gyro = read_imu(motion, when, self.part, ACC_COUNT, GYRO_COUNT, rng, bandwidth=0.5 * self.rate)
+        lift = sample(motion.force, when) @ np.array(rotate(conjugate(self.mounting.attitude), (0.0, 0.0, 1.0)))
+        loads = read_cells(
+            walker.cell_loads(shape, when.taken), when.taken, self.cell_part, shape.scale or SCALE, rng, lift=lift
+        )
+        full = loads.saturated
+        for cell, count in self.broken:
+            loads.counts[:, cell] = count
+            full = full | (count >= 4095)
+        attitude = self._attitudes(sample(motion.attitude, when), when.taken, rng)
+        return InsoleSignal(
+            layout=shape,
+            interval=self.interval,
+            first=clock.first,
+            step=clock.interval(self.interval / TICK_RATE),
+            sequence=sequence,
+            ticks=drawn if self.ticks is None else self.ticks,
+            serial=serial,
+            cells=loads.counts.astype(np.int16),
+            imu=np.concatenate((acc.counts, gyro.counts), axis=1).astype(np.int16) if self.imu else None,
+            quats=attitude,
+            full=acc.saturated | gyro.saturated | (full & self.tells_full),
+        )
+
+    def samples(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Sample]:
+        """The same without a wire and a radio: what a perfect link makes of the walk, on the true clock."""
+        signal = self.measure(walker, site, rng)
+        scale = signal.layout.scale or 1.0
+        t = signal.first + signal.step * np.arange(len(signal.cells), dtype=np.float64)
+        cells = (scale * signal.cells).tolist()
+        imu = None if signal.imu is None else (signal.imu * ([ACC_COUNT] * 3 + [GYRO_COUNT] * 3)).tolist()
+        quats = None if signal.quats is None else (signal.quats / 16384.0).tolist()
+        found = []
+        for k, when in enumerate(t.tolist()):
+            fx, fy, fz, wx, wy, wz = imu[k] if imu is not None else (0.0,) * 6
+            found.append(
+                Sample(
+                    t=when,
+                    site=site,
+                    acc=None if imu is None else (fx, fy, fz),
+                    gyro=None if imu is None else (wx, wy, wz),
+                    pressure=tuple(cells[k]),
+                    quat=None if quats is None else tuple(quats[k]),
+                    saturated=bool(signal.full[k]),
+                )
+            )
+        return found
+
+    @property
+    def interval(self) -> int:
+        """Ticks between samples."""
+        return round(TICK_RATE / self.rate)
+
+    def info(self, signal: InsoleSignal) -> InsoleInfo:
+        """What the insole says of itself while it measures this."""
+        return InsoleInfo(
+            foot=signal.layout.foot,
+            layout=signal.layout.id,
+            serial=signal.serial,
+            tick_rate=TICK_RATE,
+            interval=signal.interval,
+            acc_scale=ACC_COUNT,
+            gyro_scale=GYRO_COUNT,
+            pressure_scale=signal.layout.scale or 0.0,
+            length=signal.layout.length,
+            cells=signal.layout.cells,
+            firmware=self.firmware,
+        )
+
+    def _layout(self, foot: Foot, shoe: Shoe) -> Layout:
+        if not isinstance(self.cells, Layout):
+            return layout(self.cells, foot, shoe.length, shoe.width)
+        if self.cells.foot is not foot:
+            raise ValueError(f"the {foot.value} foot cannot wear cells of the {self.cells.foot.value} foot")
+        return self.cells
+
+    def _attitudes(self, true: Array, t: Array, rng: np.random.Generator) -> Counts | None:
+        """The device's own idea of its attitude in Q14."""
+        if not self.quaternion:
+            return None
+        if self.attitude is not None:
+            found: Counts = np.rint(16384 * attitude_read(true, t, self.attitude, self.north, rng)).astype(np.int16)
+            return found
+        tilt = radians(0.5) * rng.standard_normal(2)
+        off = from_rotation_vector((float(tilt[0]), float(tilt[1]), float(rng.uniform(-3.0, 3.0))))
+        felt = np.array([multiply(off, (w, x, y, z)) for w, x, y, z in true.tolist()])
+        quats: Counts = np.rint(16384 * felt).astype(np.int16)
+        return quats
+
+
+def boot(foot: Foot, rate: float = 100.0) -> Insole:
+    """The sensors of Bebek et al. 2010, IEEE Trans. Instrum. Meas. 59: an array of 24 cells under the heel and a unit
+    that knows its attitude on the back of it. The unit's acceleration and rate have the errors of the other insoles:
+    the paper gives none. How often it measured is not said either."""
+    return Insole(
+        cells=heel_array(foot),
+        rate=rate,
+        quaternion=True,
+        attitude=INERTIACUBE3,
+        mounting=ON_HEEL,
+        cell_part=HEEL_ARRAY,
+        tells_full=False,
+    )

@@ -1,0 +1,211 @@
+"""Error figures of named parts, from their data sheets.
+
+A tolerance that a sheet gives as +-x is taken as two standard deviations between parts. No sheet says how a bias
+wanders; here it follows the temperature: the sheet's drift per kelvin times WARMING, slowly. Where a sheet is silent
+the comment says what is assumed. (*) marks figures that have not been compared with the sheet itself.
+"""
+
+from __future__ import annotations
+
+from math import inf, radians
+
+from attrs import evolve, frozen
+
+from ...types.vector import GRAVITY
+
+WARMING = 2.0
+"""K: how far a worn device's temperature wanders (assumed)."""
+
+_G = GRAVITY
+_MG = 1e-3 * GRAVITY
+_DPS = radians(1.0)
+
+
+@frozen
+class Triad:
+    """Three axes of one kind. m/s^2 for accelerometers, rad/s for gyroscopes, T for magnetometers; sigmas over parts.
+
+    `density`: white noise per sqrt(Hz). `bias`: at turn-on. `wander`: of the bias, first-order Gauss-Markov over
+    `memory` s. `scale`, `cross`: relative scale and cross-axis errors. `bandwidth`: of the part's own low pass
+    (second order), Hz. `bits`: of a reading. `g_effect`: output per m/s^2 of acceleration. `most`: of the bias,
+    where a sheet gives a limit that every part keeps.
+    """
+
+    density: float
+    bias: float
+    wander: float
+    scale: float
+    cross: float
+    bandwidth: float
+    memory: float = 300.0
+    bits: int = 16
+    g_effect: float = 0.0
+    most: float = inf
+
+
+@frozen
+class Imu:
+    """Accelerometer and gyroscope of a device."""
+
+    name: str
+    acc: Triad
+    gyro: Triad
+
+
+LSM6DSOX = Imu(
+    "LSM6DSOX",
+    # ST DS12814, table 2 (typical): noise density 110 ug/sqrt(Hz) at +-16 g, zero-g offset +-20 mg, 0.1 mg/K,
+    # sensitivity tolerance +-1 %; the low pass at ODR/2 is set by the device. Cross axis is not given: 1 % assumed.
+    Triad(density=110e-6 * _G, bias=10 * _MG, wander=0.1 * WARMING * _MG, scale=0.005, cross=0.005, bandwidth=400.0),
+    # Same table: 3.8 mdps/sqrt(Hz), zero-rate level +-1 dps, 0.010 dps/K, sensitivity tolerance +-1 %.
+    Triad(
+        density=3.8e-3 * _DPS, bias=0.5 * _DPS, wander=0.010 * WARMING * _DPS, scale=0.005, cross=0.005, bandwidth=400.0
+    ),
+)
+
+MPU9250 = Imu(
+    "MPU-9250",
+    # InvenSense PS-MPU-9250A-01 rev. 1.0, table 2: 300 ug/sqrt(Hz), zero-g +-60 mg (x, y) and +-80 mg (z) of which the
+    # smaller is used for all, 1.5 mg/K, initial tolerance +-3 %, cross axis +-2 %, low pass up to 260 Hz.
+    Triad(density=300e-6 * _G, bias=30 * _MG, wander=1.5 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=260.0),
+    # Table 1: 0.01 dps/sqrt(Hz), ZRO +-5 dps, +-30 dps over 125 K (0.24 dps/K as the extreme, half of it as sigma),
+    # scale +-3 %, cross axis +-2 %, low pass up to 250 Hz.
+    Triad(
+        density=0.01 * _DPS, bias=2.5 * _DPS, wander=0.12 * WARMING * _DPS, scale=0.015, cross=0.010, bandwidth=250.0
+    ),
+)
+
+MPU6050 = Imu(
+    "MPU-6050",
+    # InvenSense PS-MPU-6000A rev. 3.4, section 6.2 (*): 400 ug/sqrt(Hz), zero-g +-50 mg (x, y) and +-80 mg (z) of which
+    # the smaller is used for all, +-35 mg over 70 K (0.5 mg/K), initial tolerance +-3 %, cross axis +-2 %, low pass up
+    # to 260 Hz.
+    Triad(density=400e-6 * _G, bias=25 * _MG, wander=0.5 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=260.0),
+    # Section 6.1 (*): 0.005 dps/sqrt(Hz), the 18 degrees/h/sqrt(Hz) that Sensors 2016, 16, 1809 names; initial ZRO
+    # +-20 dps, +-20 dps over 125 K (half of the extreme as sigma), scale +-3 %, cross axis +-2 %, linear acceleration
+    # sensitivity 0.1 dps/g, low pass up to 256 Hz.
+    Triad(
+        density=0.005 * _DPS,
+        bias=10.0 * _DPS,
+        wander=0.08 * WARMING * _DPS,
+        scale=0.015,
+        cross=0.010,
+        bandwidth=256.0,
+        g_effect=0.1 * _DPS / _G,
+    ),
+)
+
+KXTJ9_IMU3000 = Imu(
+    "KXTJ9 and IMU-3000",
+    # Kionix KXTJ9 (*): 8 bits a reading; zero-g offset +-125 mg at the most, 0.2 mg/K, cross axis 2 %, ODR 50 Hz at
+    # reset, low pass at ODR/2. Noise 750 ug/sqrt(Hz) and scale +-3 % are figures of the family, and far below one
+    # count of 1/16 g. The maximum of the offset is a limit: no part that is sold is beyond it.
+    Triad(
+        density=750e-6 * _G,
+        bias=60 * _MG,
+        wander=0.2 * WARMING * _MG,
+        scale=0.015,
+        cross=0.010,
+        bandwidth=25.0,
+        bits=8,
+        most=125 * _MG,
+    ),
+    # InvenSense PS-IMU-3000A rev. 1.1 (*): 0.01 dps/sqrt(Hz), initial ZRO +-20 dps, +-0.03 dps/K, scale +-3 %,
+    # cross axis 2 %, linear acceleration sensitivity 0.1 dps/g, low pass up to 256 Hz.
+    Triad(
+        density=0.01 * _DPS,
+        bias=10.0 * _DPS,
+        wander=0.03 * WARMING * _DPS,
+        scale=0.015,
+        cross=0.010,
+        bandwidth=188.0,
+        g_effect=0.1 * _DPS / _G,
+    ),
+)
+
+AK8963 = Triad(density=0.15e-6, bias=10e-6, wander=0.2e-6, scale=0.025, cross=0.01, bandwidth=50.0)
+"""AKM MS1356-E (*) (inside the MPU-9250): 0.15 uT a count, scale +-5 %. The bias, the shoe's own iron, is assumed."""
+
+MAG3110 = Triad(density=0.25e-6, bias=10e-6, wander=0.2e-6, scale=0.025, cross=0.01, bandwidth=40.0)
+"""Freescale MAG3110 (*): 0.25 uT rms noise, 0.1 uT a count, cross axis +-1 %. The bias is assumed, as above."""
+
+
+@frozen
+class BarometerPart:
+    """`noise`: of one reading, Pa rms. `offset`: between parts, Pa. `wander`: Pa over `memory` s, weather included."""
+
+    name: str
+    noise: float
+    offset: float
+    wander: float = 8.0
+    memory: float = 600.0
+
+
+BMP280 = BarometerPart("BMP280", noise=1.3, offset=50.0)
+"""Bosch BST-BMP280-DS001: absolute accuracy +-1 hPa; 1.3 Pa rms in standard resolution without filter (*)."""
+
+T5400 = BarometerPart("T5400", noise=6.0, offset=50.0)
+"""EPCOS T5400 (*): absolute accuracy +-1 hPa; the noise of a low-power reading is taken as 6 Pa (0.5 m)."""
+
+
+@frozen
+class CellPart:
+    """One pressure cell read by a 12-bit converter; sigmas over cells.
+
+    `gain`: relative spread. `preload`: mean in-shoe load that is always there, N, spread over cells from 0 to twice of
+    it. `noise`: N rms of a reading. `lag`: rise time of the cell and its foam, s.
+
+    In the air the foot keeps touching the insole: `hang` is by how much of its preload a cell is relieved for every g
+    of specific force upwards beyond 1 g (the shoe hangs on the laces; below 1 g the cell bears more), and `rub` (N rms)
+    is what it feels as the foot shifts, with a memory of `rub_memory` s. No cell ever pulls.
+    """
+
+    name: str
+    gain: float
+    preload: float
+    noise: float
+    lag: float
+    hang: float = 0.0
+    rub: float = 0.0
+    rub_memory: float = 0.05
+
+
+RESISTIVE = CellPart("FSR", gain=0.03, preload=0.5, noise=0.12, lag=0.003)
+"""Interlink FSR 400 series integration guide (*): part-to-part repeatability +-6 %, break force 0.2 N. Noise of 2 to 3
+counts, the lag of the cover and the in-shoe preload are assumed."""
+
+CAPACITIVE = CellPart("capacitive", gain=0.025, preload=0.3, noise=0.06, lag=0.002)
+"""Accuracy +-5 % of calibrated capacitive insoles (novel pedar); the rest as above."""
+
+WORN_RESISTIVE = evolve(RESISTIVE, name="FSR in a laced shoe", hang=0.3, rub=0.2)
+WORN_CAPACITIVE = evolve(CAPACITIVE, name="capacitive in a laced shoe", hang=0.3, rub=0.12)
+"""The same cells with the contact of the foot in swing. No sheet and none of the papers gives figures: that a third of
+the preload (of about 50 N in all that a laced foot presses with) goes with each g, and that each cell's varies by 0.4
+of its mean, are assumed."""
+
+HEEL_ARRAY = evolve(WORN_CAPACITIVE, name="DigiTacts II under a heel")
+"""Pressure Profile Systems DigiTacts II: capacitive, calibrated before shipment (Bebek et al. 2010, IEEE Trans.
+Instrum. Meas. 59, section IV). They give its range alone; the errors are taken to be those of other capacitive
+cells."""
+
+
+@frozen
+class AttitudePart:
+    """How far off a device's own attitude is: standard deviations about the vertical (`heading`) and about either
+    horizontal axis (`tilt`), rad, forgotten over `memory` s. A sheet's accuracy is taken as one standard deviation, as
+    makers who say what they mean have it; that it wanders within half a minute is assumed."""
+
+    name: str
+    tilt: float
+    heading: float
+    memory: float = 30.0
+
+
+INERTIACUBE3 = AttitudePart("InertiaCube3", tilt=radians(0.25), heading=radians(1.0))
+"""InterSense InertiaCube3 (*): accuracy 1 degree in yaw, 0.25 degrees in pitch and roll at 25 degrees C."""
+
+CRE_CC02 = AttitudePart("CRE-CC02", tilt=radians(0.81), heading=radians(0.81))
+"""The nine-axis unit of Gong et al. 2023, Sensors 23, 5417, section 3.1: 0.81 degrees of absolute angle accuracy."""
+
+MOVELLA_DOT = AttitudePart("Movella DOT", tilt=radians(1.0), heading=radians(2.0))
+"""Movella DOT (*): in motion 1.0 degree in roll and pitch, 2.0 degrees in heading, one standard deviation."""

@@ -1,0 +1,219 @@
+"""From what truly happens to what a part reports: errors, low pass, saturation, counts.
+
+Signals are worked out at several instants per sample and pass the part's low pass before they are sampled, so that what
+is too fast for the sample rate aliases or is rounded off as it is in the part.
+"""
+
+from __future__ import annotations
+
+from math import ceil, cos, exp, pi, sin, sqrt
+
+import numpy as np
+from attrs import frozen
+
+from ...types.vector import GRAVITY
+from ..wearers.curves import Array
+from ..wearers.turning import multiplied
+from .parts import AttitudePart, BarometerPart, CellPart, Triad
+
+INTERNAL_RATE = 800.0
+"""Hz: instants per second at which a signal is worked out before it is filtered, at least."""
+
+
+@frozen(eq=False)
+class Instants:
+    """When a device samples: `taken` (N) in true time, s, and `fine`, the finer instants that lead up to them.
+
+    `every` fine instants make one sample, and `before` of them precede the first one for the filter to settle.
+    """
+
+    taken: Array
+    fine: Array
+    every: int
+    before: int
+
+    @property
+    def rate(self) -> float:
+        """Of the fine instants, Hz."""
+        return 1.0 / float(self.fine[1] - self.fine[0])
+
+
+def instants(first: float, interval: float, count: int) -> Instants:
+    """`count` samples from `first` at `interval` s."""
+    every = max(1, ceil(INTERNAL_RATE * interval))
+    step = interval / every
+    before = ceil(0.12 / step)
+    fine = first + step * np.arange(-before, (count - 1) * every + 1, dtype=np.float64)
+    return Instants(first + interval * np.arange(count, dtype=np.float64), fine, every, before)
+
+
+@frozen(eq=False)
+class Reading:
+    """`counts` (N, axes) as the part gives them, and where at least one axis was at its limit (N)."""
+
+    counts: np.ndarray[tuple[int, ...], np.dtype[np.int64]]
+    saturated: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+
+
+def read_triad(
+    true: Array,
+    when: Instants,
+    part: Triad,
+    count: float,
+    rng: np.random.Generator,
+    *,
+    force: Array | None = None,
+    bandwidth: float | None = None,
+) -> Reading:
+    """What a triad reports of `true` (fine instants, 3); `count` is what one count is worth.
+
+    `force` is the specific force at the same instants, for gyroscopes that feel it. `bandwidth` overrides the part's.
+    """
+    return counted(measure(true, when, part, rng, force=force, bandwidth=bandwidth), part, count)
+
+
+def measure(
+    true: Array,
+    when: Instants,
+    part: Triad,
+    rng: np.random.Generator,
+    *,
+    force: Array | None = None,
+    bandwidth: float | None = None,
+) -> Array:
+    """What a triad measures of `true` at the instants that are taken (N, 3), before it makes counts of it."""
+    return sample(low_pass(errors(true, when, part, rng, force), when.rate, bandwidth or part.bandwidth), when)
+
+
+def counted(measured: Array, part: Triad, count: float) -> Reading:
+    """The counts of what a triad measured, as far as its bits go."""
+    limit = 2 ** (part.bits - 1)
+    counts = np.rint(measured / count)
+    clipped = np.clip(counts, -limit, limit - 1)
+    return Reading(clipped.astype(np.int64), np.any(np.abs(counts) >= limit - 1, axis=1))
+
+
+def errors(true: Array, when: Instants, part: Triad, rng: np.random.Generator, force: Array | None = None) -> Array:
+    """Scale, misalignment, bias, its wander, and white noise added to `true`; nothing is filtered or clipped yet."""
+    mixing = np.eye(3) + np.diag(part.scale * rng.standard_normal(3))
+    mixing += part.cross * rng.standard_normal((3, 3)) * (1.0 - np.eye(3))
+    signal = true @ mixing.T
+    signal += np.clip(part.bias * rng.standard_normal(3), -part.most, part.most)
+    signal += part.wander * wander(when.fine, part.memory, 3, rng)
+    if force is not None and part.g_effect:
+        signal += part.g_effect * force * rng.choice([-1.0, 1.0], 3)
+    # White noise of density d has sigma d sqrt(rate / 2) when it fills the band up to half the fine rate.
+    signal += part.density * sqrt(0.5 * when.rate) * rng.standard_normal(true.shape)
+    return np.asarray(signal)
+
+
+def low_pass(signal: Array, rate: float, bandwidth: float) -> Array:
+    """A second-order Butterworth low pass as its impulse response; causal, so it delays by sqrt(2) / (2 pi f)."""
+    if bandwidth >= 0.45 * rate:
+        return signal
+    w = 2.0 * pi * bandwidth
+    t = np.arange(ceil(8.0 * sqrt(2.0) / w * rate)) / rate
+    response = np.exp(-w * t / sqrt(2.0)) * np.sin(w * t / sqrt(2.0))
+    response /= response.sum()
+    return np.stack([np.convolve(axis, response)[: len(axis)] for axis in signal.T], axis=1)
+
+
+def sample(signal: Array, when: Instants) -> Array:
+    """The values at the instants when samples are taken."""
+    return signal[when.before :: when.every]
+
+
+def wander(t: Array, memory: float, axes: int, rng: np.random.Generator) -> Array:
+    """A Gauss-Markov process of unit sigma and `memory` s that is 0 at the start, (N, axes).
+
+    Worked out ten times in `memory` and joined smoothly: temperature has no fast part, white noise is another matter.
+    """
+    nodes = np.arange(float(t[0]), float(t[-1]) + 0.2 * memory, 0.1 * memory)
+    keep = exp(-0.1)
+    kicks = sqrt(1.0 - keep * keep) * rng.standard_normal((len(nodes), axes))
+    path = np.zeros((len(nodes), axes))
+    for k in range(1, len(nodes)):
+        path[k] = keep * path[k - 1] + kicks[k]
+    at = (t - nodes[0]) / (0.1 * memory)
+    k = np.minimum(at.astype(np.int64), len(nodes) - 2)
+    s = (at - k)[:, None]
+    return np.asarray(path[k] + (path[k + 1] - path[k]) * s * s * (3.0 - 2.0 * s))
+
+
+def read_cells(
+    true: Array,
+    when: Array,
+    part: CellPart,
+    count: float,
+    rng: np.random.Generator,
+    full: int = 4095,
+    lift: Array | None = None,
+) -> Reading:
+    """What the cells of an insole report of their true loads `true` (N, cells), N, taken at `when` (N).
+
+    `lift` (N): specific force along the sole's upward normal, m/s^2, for parts that feel how the shoe hangs.
+    """
+    cells = true.shape[1]
+    gain = 1.0 + part.gain * np.clip(rng.standard_normal(cells), -3.0, 3.0)
+    preload = part.preload * np.asarray(rng.uniform(0.0, 2.0, cells))
+    lagged = true.copy()
+    interval = float(when[1] - when[0]) if len(when) > 1 else 1.0
+    if part.hang or part.rub:
+        lagged += _contact(true, interval, part, preload, lift, rng)
+        true = lagged.copy()
+    follow = 1.0 - exp(-interval / part.lag)
+    for k in range(1, len(lagged)):
+        lagged[k] = lagged[k - 1] + follow * (true[k] - lagged[k - 1])
+    counts = _in_place(lagged, gain, preload, part.noise * rng.standard_normal(true.shape), count)
+    saturated = np.any(counts >= full, axis=1)
+    return Reading(np.clip(counts, 0, full, out=counts).astype(np.int64), saturated)
+
+
+def _contact(
+    true: Array, interval: float, part: CellPart, preload: Array, lift: Array | None, rng: np.random.Generator
+) -> Array:
+    """What the foot in the air adds to the preload of each cell, (N, cells); nothing while it stands."""
+    keep = exp(-interval / part.rub_memory)
+    change = part.rub * sqrt(1.0 - keep * keep) * rng.standard_normal(true.shape)
+    for k in range(1, len(change)):
+        change[k] += keep * change[k - 1]
+    if lift is not None:
+        change += part.hang * np.outer(1.0 - lift / GRAVITY, preload)
+    np.maximum(change, -preload, out=change)
+    change[true.any(axis=1)] = 0.0
+    return change
+
+
+def _in_place(load: Array, gain: Array, preload: Array, noise: Array, count: float) -> Array:
+    """Counts where the loads were: a long walk of many cells is large enough once."""
+    load *= gain
+    load += preload
+    load += noise
+    load /= count
+    return np.rint(load, out=load)
+
+
+def air_pressure(height: Array) -> Array:
+    """Pa at a height in m, by the international standard atmosphere (ISO 2533)."""
+    return np.asarray(101325.0 * (1.0 - 2.25577e-5 * height) ** 5.25588)
+
+
+def read_barometer(height: Array, t: Array, part: BarometerPart, rng: np.random.Generator) -> Array:
+    """Pa that a barometer reports at heights (N) and instants (N)."""
+    pressure = air_pressure(height) + part.offset * rng.standard_normal()
+    pressure += part.wander * wander(t, part.memory, 1, rng)[:, 0]
+    return np.asarray(pressure + part.noise * rng.standard_normal(len(t)))
+
+
+def attitude_read(true: Array, t: Array, part: AttitudePart, north: float, rng: np.random.Generator) -> Array:
+    """What a device says of its attitudes `true` (N, 4) at instants `t`, (N, 4): sensor to its own world.
+
+    That world is the walk's turned about the vertical by `north` rad and by the part's errors, a Gauss-Markov process
+    about each axis that is as large at the start as later.
+    """
+    begun = np.exp(-(t - t[0]) / part.memory)[:, None] * rng.standard_normal(3)
+    turned = (begun + wander(t, part.memory, 3, rng)) * (part.tilt, part.tilt, part.heading)
+    angle = np.linalg.norm(turned, axis=1, keepdims=True)
+    axis = 0.5 * np.sinc(angle / (2.0 * pi)) * turned  # sin(angle / 2) / angle
+    about = np.array([[cos(0.5 * north), 0.0, 0.0, -sin(0.5 * north)]])
+    return multiplied(multiplied(about, np.concatenate((np.cos(0.5 * angle), axis), axis=1)), true)

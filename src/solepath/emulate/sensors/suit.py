@@ -1,0 +1,149 @@
+"""Seven sensors on the lower body, as samples: pelvis, thighs, shanks and feet."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ...calibration import Limbs
+from ...types import Layout, Sample, Site, Vec3
+from ...types.vector import from_rotation_vector
+from ..wearers.curves import Array
+from ..wearers.limbs import body
+from ..wearers.motion import Kinematics
+from ..wearers.shoe import ON_INSTEP, Mounting
+from ..wearers.walker import Walker
+from .device import Device
+from .dot import Dot
+from .insole_device import Insole
+from .insoles import SCALE
+from .parts import CRE_CC02, MPU9250, WORN_RESISTIVE, AttitudePart, CellPart, Imu
+from .sensors import Instants, attitude_read, instants, measure, read_cells, sample
+
+TURNED = 0.15
+"""rad: how sensors that are strapped on by hand differ from the segment's axes about each axis (assumed)."""
+
+
+def strapped(site: Site, limbs: Limbs, seed: int, turned: float = TURNED) -> Mounting:
+    """Where the sensor of a site sits on its segment, and how it is turned there: at random, but for good.
+
+    In the segment's frame: the pelvis' on the small of the back, those of thigh and shank on the front half-way down,
+    those of the feet on the instep.
+    """
+    rng = np.random.default_rng([seed, 5, list(Site).index(site)])
+    x, y, z = (turned * float(value) for value in rng.standard_normal(3))
+    return Mounting(_place(site, limbs), from_rotation_vector((x, y, z)))
+
+
+def limb_samples(
+    walker: Walker,
+    rate: float,
+    limbs: Limbs | None = None,
+    seed: int = 1,
+    *,
+    attitude: AttitudePart | None = CRE_CC02,
+    errors: Imu | None = MPU9250,
+    north: float = 0.0,
+    turned: float = TURNED,
+    layouts: Mapping[Site, Layout] | None = None,
+    cell_part: CellPart | None = None,
+) -> list[Sample]:
+    """Samples of all seven sites on the true clock at k / rate s, in the order of time and of Site; no radio, no wire.
+
+    `quat` turns from the sensor to a world whose x axis is turned by `north` rad from the walk's, with the errors of
+    `attitude`; acceleration and rate have those of `errors` (nobody gives figures for the paper's unit; another
+    nine-axis part stands for it) but neither saturate nor are they rounded. None: exact. `limbs`: the wearer's own
+    when nothing is said. With `layouts` the feet's samples carry the loads of their cells in N, exact or read by
+    `cell_part` at the scale of the layout. `seed`: of mountings and errors.
+    """
+    wearer = walker.wearer
+    known = limbs is None or limbs == wearer.limbs
+    limbs = limbs or wearer.limbs
+    made = (
+        walker.body
+        if known
+        else body(walker.plan, walker.motions, walker.loads, wearer.shoe, wearer.centre_height, limbs)
+    )
+    when = instants(0.0, 1.0 / rate, int(walker.duration * rate) + 1)
+    found = []
+    for order, site in enumerate(Site):
+        rng = np.random.default_rng([seed, 6, order])
+        mounting = strapped(site, limbs, seed, turned)
+        if errors is None:
+            true = made.at(site, when.taken, mounting)
+            acc, gyro, turn = true.force, true.rate, true.attitude
+        else:
+            true = made.at(site, when.fine, mounting)
+            acc, gyro = _felt(true, when, errors, rate, rng)
+            turn = sample(true.attitude, when)
+        if attitude is not None:
+            turn = attitude_read(turn, when.taken, attitude, north, rng)
+        cells = None
+        if site.foot is not None and layouts is not None and site in layouts:
+            cells = _pressed(walker, layouts[site], when.taken, cell_part, rng).tolist()
+        rows = zip(when.taken.tolist(), acc.tolist(), gyro.tolist(), turn.tolist(), strict=True)
+        for k, (t, a, g, (w, x, y, z)) in enumerate(rows):
+            pressure = None if cells is None else tuple(cells[k])
+            found.append((t, order, Sample(t, site, _vec(a), _vec(g), pressure, (w, x, y, z))))
+    found.sort(key=_moment)
+    return [one for _, _, one in found]
+
+
+def suit(
+    limbs: Limbs, seed: int, *, attitude: AttitudePart = CRE_CC02, north: float = 0.0, rate: float = 50.0
+) -> dict[Site, Device]:
+    """Seven devices for one session: on the feet insoles of 99 cells that know their attitude, at `rate` Hz, above them
+    DOTs, each strapped on as `strapped` has it."""
+    worn: dict[Site, Device] = {}
+    for site in Site:
+        mounting = strapped(site, limbs, seed)
+        if site.foot is None:
+            worn[site] = Dot(mounting, attitude, north)
+        else:
+            worn[site] = Insole(
+                cells=99,
+                rate=rate,
+                quaternion=True,
+                attitude=attitude,
+                north=north,
+                mounting=mounting,
+                part=MPU9250,
+                cell_part=WORN_RESISTIVE,
+            )
+    return worn
+
+
+def _felt(true: Kinematics, when: Instants, part: Imu, rate: float, rng: np.random.Generator) -> tuple[Array, Array]:
+    acc, gyro = part.acc, part.gyro
+    return (
+        measure(true.force, when, acc, rng, bandwidth=min(acc.bandwidth, 0.5 * rate)),
+        measure(true.rate, when, gyro, rng, force=true.force, bandwidth=min(gyro.bandwidth, 0.5 * rate)),
+    )
+
+
+def _pressed(walker: Walker, layout: Layout, t: Array, part: CellPart | None, rng: np.random.Generator) -> Array:
+    true = walker.cell_loads(layout, t)
+    if part is None:
+        return true
+    scale = layout.scale or SCALE
+    lift = walker.kinematics(layout.foot, t).force[:, 2]
+    return np.asarray(read_cells(true, t, part, scale, rng, lift=lift).counts * scale)
+
+
+def _place(site: Site, limbs: Limbs) -> Vec3:
+    if site is Site.PELVIS:
+        return (-0.10, 0.0, 0.05)
+    if site.foot is not None:
+        return ON_INSTEP.position
+    thigh = site in (Site.LEFT_THIGH, Site.RIGHT_THIGH)
+    return (0.06, 0.0, -0.5 * (limbs.thigh if thigh else limbs.shank))
+
+
+def _moment(one: tuple[float, int, Sample]) -> tuple[float, int]:
+    return one[:2]
+
+
+def _vec(values: list[float]) -> Vec3:
+    x, y, z = values
+    return (x, y, z)

@@ -1,0 +1,226 @@
+"""How one foot moves: exact pose, velocity, acceleration and angular rate at any instant.
+
+A foot is a rigid shoe. Between its events it does one of four things, each a curve with continuous second derivatives
+at both ends, so that specific force and angular rate follow by differentiation on paper, not by numbers:
+
+    LOADING     rolls without slip over the heel arc, pitch from strike to zero
+    STATIONARY  flat; rocks by a fraction of a milliradian
+    PUSH_OFF    rolls without slip over the forefoot arc, pitch from zero to toe-off
+    SWING       the ankle point follows a curve through the air that clears the ground
+
+The velocity of a point p on the rolling shoe is omega x (p - contact). What the curves are is in strides.py; here they
+are only evaluated.
+
+Attitude is Rz(yaw) Ry(-pitch) Rx(roll), foot to world; pitch is positive toe up.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from attrs import frozen
+from numpy.typing import NDArray
+
+from ...types import Phase
+from ...types.vector import GRAVITY
+from ..routes.lift import Ride
+from .curves import Array
+from .shoe import Mounting
+
+Rows = NDArray[np.intp]
+
+X, Y, Z, PITCH, YAW, ROLL = range(6)
+"""The channels of a piece."""
+
+BLOCK = 65536
+"""Instants worked out at once: what lies in between takes several times the memory of the result."""
+PHASES = (Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING, Phase.LOADING)
+"""In the order of their numbers in `FootMotion.phase`."""
+
+
+@frozen(eq=False)
+class Kinematics:
+    """One sensor at `t` (N). World frame for `position` (m), `velocity` (m/s) and `acceleration` (m/s^2), all (N, 3);
+    `attitude` (N, 4) turns sensor coordinates into world coordinates; `rate` (rad/s) and `force` (specific force,
+    m/s^2) are (N, 3) in the sensor frame."""
+
+    t: Array
+    position: Array
+    velocity: Array
+    acceleration: Array
+    attitude: Array
+    rate: Array
+    force: Array
+
+
+@frozen(eq=False)
+class FootMotion:
+    """The curves of one foot from the start to the end; before and after that it stands.
+
+    One row per piece: `begin` (s), `duration` (s), `curves` (rows, 6, degree + 1) of x, y, z of a carried point in the
+    world and of pitch, yaw, roll; `carried` (rows, 2) is that point's x and z in the foot frame; `radius` (rows) is
+    that of the arc that rolls, 0 in the air; `phase` (rows) indexes Phase.
+    """
+
+    begin: Array
+    duration: Array
+    curves: Array
+    carried: Array
+    radius: Array
+    phase: Array
+    rides: tuple[Ride, ...] = ()
+    """What the foot rides on; its own curves stand meanwhile, and are as much higher afterwards."""
+
+    def phases(self, t: Array) -> list[Phase]:
+        return [PHASES[int(k)] for k in self.phase[self._piece(t)]]
+
+    def pitch(self, t: Array) -> Array:
+        """Toe-up angle of the sole, rad."""
+        row = self._piece(t)
+        return self._curve(row, (t - self.begin[row]) / self.duration[row], PITCH, 0)
+
+    def contact(self, t: Array) -> Array:
+        """Where along the foot the rolling sole touches the ground, as x in the foot frame, m; nan in the air."""
+        row = self._piece(t)
+        radius = self.radius[row]
+        touched = self.carried[row, 0] - radius * np.sin(self.pitch(t))
+        return np.where(radius > 0.0, touched, np.nan)
+
+    def at(self, t: Array, mounting: Mounting) -> Kinematics:
+        """Everything about a sensor mounted on this foot. `t` is any array of instants, s."""
+        t = np.asarray(t, dtype=np.float64)
+        return joined([self._block(t[k : k + BLOCK], mounting) for k in range(0, max(len(t), 1), BLOCK)])
+
+    def _block(self, t: Array, mounting: Mounting) -> Kinematics:
+        row = self._piece(t)
+        s = (t - self.begin[row]) / self.duration[row]
+        per = 1.0 / self.duration[row]
+        value, first, second = (
+            [self._curve(row, s, channel, order) * per**order for channel in range(6)] for order in range(3)
+        )
+        pitch, yaw, roll = value[PITCH], value[YAW], value[ROLL]
+        turn = _rotation(yaw, -pitch, roll)
+        rate, rate_change = _body_rates(value, first, second)
+
+        # The carried point: its own curve, and on the ground the arc's roll of radius * pitch against the heading.
+        ahead = np.stack([np.cos(yaw), np.sin(yaw), np.zeros_like(yaw)], axis=1)
+        radius = self.radius[row]
+        centre, centre_v, centre_a = (
+            np.stack(found[:3], axis=1) - (radius * found[PITCH])[:, None] * ahead for found in (value, first, second)
+        )
+
+        # The sensor on the rigid foot: v = v_c + w x r, a = a_c + w' x r + w x (w x r), in the foot frame.
+        x, y, z = mounting.position
+        arm = np.stack([x - self.carried[row, 0], np.full_like(t, y), z - self.carried[row, 1]], axis=1)
+        swing = np.cross(rate, arm)
+        position = centre + _apply(turn, arm)
+        velocity = centre_v + _apply(turn, swing)
+        acceleration = centre_a + _apply(turn, np.cross(rate_change, arm) + np.cross(rate, swing))
+
+        for car in self.rides:
+            aboard = np.flatnonzero((t >= car.begin) & (t < car.end))
+            for total, added in zip((position, velocity, acceleration), car.at(t[aboard]), strict=True):
+                total[aboard] += added
+
+        # Specific force is acceleration less gravity, seen in the sensor's axes.
+        lifted = acceleration + np.array([0.0, 0.0, GRAVITY])
+        force = np.einsum("nij,ni->nj", turn, lifted)
+        mount = _matrix(np.array(mounting.attitude))
+        return Kinematics(
+            t=t,
+            position=position,
+            velocity=velocity,
+            acceleration=acceleration,
+            attitude=_multiply(_quaternion(yaw, -pitch, roll), np.array(mounting.attitude)),
+            rate=rate @ mount,
+            force=force @ mount,
+        )
+
+    def _piece(self, t: Array) -> Rows:
+        return np.clip(np.searchsorted(self.begin, t, side="right") - 1, 0, len(self.begin) - 1)
+
+    def _curve(self, row: Rows, s: Array, channel: int, order: int) -> Array:
+        factors = np.asarray(np.polynomial.polynomial.polyder(self.curves[:, channel, :], order, axis=1))
+        total: Array = factors[row, -1].copy()
+        for k in range(factors.shape[1] - 2, -1, -1):
+            total *= s
+            total += factors[row, k]
+        return total
+
+
+def joined(blocks: list[Kinematics]) -> Kinematics:
+    """One after the other."""
+    if len(blocks) == 1:
+        return blocks[0]
+    return Kinematics(*(np.concatenate(columns) for columns in zip(*map(_columns, blocks), strict=True)))
+
+
+def _columns(found: Kinematics) -> tuple[Array, ...]:
+    return (found.t, found.position, found.velocity, found.acceleration, found.attitude, found.rate, found.force)
+
+
+# --- turning, on stacks -----------------------------------------------------------------------------------------------
+
+
+def _body_rates(value: list[Array], first: list[Array], second: list[Array]) -> tuple[Array, Array]:
+    """Angular rate and its derivative in the foot frame for Rz(yaw) Ry(b) Rx(roll), with b = -pitch."""
+    b, b1, b2 = -value[PITCH], -first[PITCH], -second[PITCH]
+    roll, r1, r2 = value[ROLL], first[ROLL], second[ROLL]
+    y1, y2 = first[YAW], second[YAW]
+    sb, cb, sr, cr = np.sin(b), np.cos(b), np.sin(roll), np.cos(roll)
+    rate = np.stack([r1 - y1 * sb, b1 * cr + y1 * sr * cb, -b1 * sr + y1 * cr * cb], axis=1)
+    change = np.stack(
+        [
+            r2 - y2 * sb - y1 * b1 * cb,
+            b2 * cr - b1 * r1 * sr + y2 * sr * cb + y1 * r1 * cr * cb - y1 * b1 * sr * sb,
+            -b2 * sr - b1 * r1 * cr + y2 * cr * cb - y1 * r1 * sr * cb - y1 * b1 * cr * sb,
+        ],
+        axis=1,
+    )
+    return rate, change
+
+
+def _rotation(yaw: Array, b: Array, roll: Array) -> Array:
+    """Rz(yaw) Ry(b) Rx(roll) as (N, 3, 3)."""
+    sy, cy, sb, cb, sr, cr = np.sin(yaw), np.cos(yaw), np.sin(b), np.cos(b), np.sin(roll), np.cos(roll)
+    rows = [
+        [cy * cb, cy * sb * sr - sy * cr, cy * sb * cr + sy * sr],
+        [sy * cb, sy * sb * sr + cy * cr, sy * sb * cr - cy * sr],
+        [-sb, cb * sr, cb * cr],
+    ]
+    return np.stack([np.stack(row, axis=1) for row in rows], axis=1)
+
+
+def _quaternion(yaw: Array, b: Array, roll: Array) -> Array:
+    """The same turn as (N, 4), w x y z."""
+    sy, cy, sb, cb = np.sin(yaw / 2), np.cos(yaw / 2), np.sin(b / 2), np.cos(b / 2)
+    sr, cr = np.sin(roll / 2), np.cos(roll / 2)
+    return np.stack(
+        [
+            cy * cb * cr + sy * sb * sr,
+            cy * cb * sr - sy * sb * cr,
+            cy * sb * cr + sy * cb * sr,
+            sy * cb * cr - cy * sb * sr,
+        ],
+        axis=1,
+    )
+
+
+def _matrix(q: Array) -> Array:
+    w, x, y, z = q
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def _multiply(p: Array, q: Array) -> Array:
+    """Hamilton products of p (N, 4) with one q."""
+    w, x, y, z = q
+    return np.asarray(p @ np.array([[w, x, y, z], [-x, w, -z, y], [-y, z, w, -x], [-z, -y, x, w]]))
+
+
+def _apply(turn: Array, v: Array) -> Array:
+    return np.asarray(np.einsum("nij,nj->ni", turn, v))

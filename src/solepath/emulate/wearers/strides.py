@@ -1,0 +1,290 @@
+"""The curves of one foot: how a stride's event times, places and angles become a motion without a jump.
+
+On the ground the pitch decides everything (shoe.py). In the air the ankle point follows a quintic that takes over
+position, velocity and acceleration from the forefoot's roll at toe-off and hands them to the heel's roll at
+heel-strike, plus a bump that keeps the sole just clear of the ground.
+
+At heel-strike the heel still moves by some decimetres per second relative to the ground, as in life; sole and heel pad
+give way and stop it within IMPACT s, and from then on the heel rolls without slip.
+"""
+
+from __future__ import annotations
+
+from math import cos, hypot, sin
+
+import numpy as np
+from attrs import evolve
+
+from ...types import Foot, Phase
+from ..routes.lift import Ride
+from ..routes.stairs import Flight
+from ..routes.styles import Manner, style_of
+from .curves import BUMP, EVEN_OUT, Array, constant, evaluate, join, part
+from .gait import Plan, Stance, Stride
+from .motion import PHASES, FootMotion
+from .shoe import Rocker, Shoe
+
+IMPACT = 0.014
+"""How long the sole and the heel pad take to stop the heel, s."""
+SLIDE = 0.30
+"""Forward speed of the heel just before contact, relative to the walking speed."""
+SINK = 0.13
+"""Downward speed of the heel just before contact, relative to the walking speed."""
+PUSH = (2.1, -2.0)
+"""Pitch rate and acceleration at toe-off in units of pitch per push-off time: the rate peaks just before toe-off."""
+LAND = (0.5, -4.0)
+"""The same at heel-strike, of the curve from strike to flat: slow at contact, then the foot slaps down."""
+
+CRUISE = 5.0
+"""How much the swing is evened out: feet peak at 1.7 times their mean speed, a bare quintic at 1.9."""
+REVERSAL = 0.22
+"""Share of the swing in which the pitch rate turns from that of push-off to that of swinging through."""
+SWING_UP = 1.1
+"""Pitch rate after the reversal, relative to the mean rate from there to heel-strike."""
+KICK, KICKED = -1.50, 0.34
+"""A runner's heel is up by so many rad, after this share of the swing."""
+KICKING = 4.0
+"""Pitch acceleration there, in units of the way that is left per square of the time that is left."""
+_EVER = 1e6
+"""s: how long a foot stands before the first and after the last stride."""
+
+_Joint = tuple[Array, Array, Array]
+"""Position, velocity and acceleration of the ankle point in the world, (3,) each."""
+
+
+def foot_motions(plan: Plan, shoe: Shoe) -> dict[Foot, FootMotion]:
+    """Both feet of a plan."""
+    return {foot: foot_motion(plan.starts[foot], plan.strides[foot], shoe, plan.rides) for foot in Foot}
+
+
+def foot_motion(start: Stance, strides: tuple[Stride, ...], shoe: Shoe, rides: tuple[Ride, ...] = ()) -> FootMotion:
+    """One foot that stands at `start`, makes the strides, and stands; in between it may ride."""
+    pieces = _Pieces(shoe, rides)
+    leaves = [*(stride.heel_off for stride in strides), _EVER]
+    pieces.stand(start, -_EVER, leaves[0], 0.0)
+    for stride, leave in zip(strides, leaves[1:], strict=True):
+        pieces.push_off(stride)
+        pieces.swing(stride)
+        pieces.land(stride)
+        pieces.stand(stride.end, stride.foot_flat, leave, stride.settle if leave < _EVER else 0.0)
+    return pieces.done()
+
+
+class _Pieces:
+    def __init__(self, shoe: Shoe, rides: tuple[Ride, ...]) -> None:
+        self.shoe = shoe
+        self.rides = rides
+        self.rows: list[tuple[float, float, list[Array], tuple[float, float], float, int]] = []
+
+    def stand(self, at: Stance, begin: float, end: float, settle: float) -> None:
+        for car in self.rides:
+            if begin <= car.begin and car.end <= end:
+                # FootMotion adds the way of the car while it goes.
+                self._roll(Phase.STATIONARY, self.shoe.heel, at, begin, car.end, 0.0 * BUMP)
+                at, begin, settle = evolve(at, z=at.z + car.height), car.end, 0.0
+        self._roll(Phase.STATIONARY, self.shoe.heel, at, begin, end, settle * BUMP)
+
+    def push_off(self, stride: Stride) -> None:
+        pitch = -stride.toe_off_pitch * _from_rest(PUSH)
+        self._roll(Phase.PUSH_OFF, self.shoe.forefoot, stride.start, stride.heel_off, stride.toe_off, pitch)
+
+    def land(self, stride: Stride) -> None:
+        """From heel-strike to foot-flat, first the impact and then the pure roll."""
+        begin, end = stride.heel_strike, stride.foot_flat
+        pitch = _landing(stride)
+        cut = IMPACT / (end - begin)
+        give = [_give(speed) for speed in _residual(stride)]
+        arc = self._lands_on(stride)
+        self._roll(Phase.LOADING, arc, stride.end, begin, begin + IMPACT, part(pitch, 0.0, cut), give)
+        self._roll(Phase.LOADING, arc, stride.end, begin + IMPACT, end, part(pitch, cut, 1.0))
+
+    def _lands_on(self, stride: Stride) -> Rocker:
+        """The arc that touches the ground first."""
+        return self.shoe.forefoot if stride.strike_pitch < 0.0 else self.shoe.heel
+
+    def swing(self, stride: Stride) -> None:
+        shoe, duration = self.shoe, stride.heel_strike - stride.toe_off
+        push, land = -stride.toe_off_pitch * _from_rest(PUSH), _landing(stride)
+        off = _ends(push, 1.0, stride.toe_off - stride.heel_off)
+        strike = _ends(land, 0.0, stride.foot_flat - stride.heel_strike)
+        p0, v0, a0 = self._ankle(shoe.forefoot, stride.start, off)
+        p1, v1, a1 = self._ankle(self._lands_on(stride), stride.end, strike)
+        residual = np.array(_residual(stride))
+        p1, v1 = p1 - 0.5 * IMPACT * residual, v1 + residual
+        x, y, z = (join((p0[i], v0[i], a0[i]), (p1[i], v1[i], a1[i]), duration) for i in range(3))
+        yaw = join((stride.start.yaw, 0.0, 0.0), (stride.end.yaw, 0.0, 0.0), duration) + stride.weave[1] * BUMP
+        roll = stride.weave[0] * BUMP
+        sideways = 0.5 * (stride.start.yaw + stride.end.yaw)
+        cruise = CRUISE if stride.flight is None else 0.0
+        x += -sin(sideways) * stride.weave[2] * BUMP + cruise * (p1[0] - p0[0]) * EVEN_OUT
+        y += cos(sideways) * stride.weave[2] * BUMP + cruise * (p1[1] - p0[1]) * EVEN_OUT
+        swung = _kicked_pitch if stride.manner is Manner.RUN else _swing_pitch
+        pitches = swung(off, strike, duration)
+        if stride.flight is not None:
+            style = style_of(stride.manner, stride.speed)
+            way = p1 - p0
+            hold = style.hold * min(1.0, 2.0 * stride.flight.going / hypot(way[0], way[1]))
+            x += hold * way[0] * BUMP
+            y += hold * way[1] * BUMP
+            z += style.soon * 2.0 * abs(stride.flight.rise) * EVEN_OUT
+            z += self._over(stride, stride.flight, (x, y, z), pitches, yaw) * BUMP
+        else:
+            z += self._lift(stride, z, pitches, roll) * BUMP
+        ankle = (shoe.ankle[0], shoe.ankle[2])
+        turn = stride.toe_off + _reversal(stride) * duration
+        for begin, end, pitch in ((stride.toe_off, turn, pitches[0]), (turn, stride.heel_strike, pitches[1])):
+            low, high = ((t - stride.toe_off) / duration for t in (begin, end))
+            curves = [part(curve, low, high) for curve in (x, y, z)]
+            curves += [pitch, part(yaw, low, high), part(roll, low, high)]
+            self._add(begin, end, curves, ankle, 0.0, Phase.SWING)
+
+    def _lift(self, stride: Stride, z: Array, pitches: tuple[Array, Array], roll: Array) -> float:
+        """The height of the bump with which the sole's lowest point just keeps the clearance (itself a bump)."""
+        shoe, s = self.shoe, np.linspace(0.1, 0.9, 41)
+        ground = stride.start.z + (stride.end.z - stride.start.z) * s
+        angle, bump = _pitch_at(pitches, s, _reversal(stride)), evaluate(BUMP, s)
+        edge = 0.5 * shoe.width * np.abs(np.sin(evaluate(roll, s)))
+        lift = -np.inf
+        for arc in (shoe.heel, shoe.forefoot):
+            centre = np.sin(angle) * (arc.x - shoe.ankle[0]) + np.cos(angle) * (arc.radius - shoe.ankle[2])
+            low = evaluate(z, s) + centre - arc.radius - edge - ground
+            lift = max(lift, float(np.max(stride.clearance - low / bump)))
+        return lift
+
+    def _over(
+        self, stride: Stride, flight: Flight, way: tuple[Array, Array, Array], pitches: tuple[Array, Array], yaw: Array
+    ) -> float:
+        """The same over the treads and edges of a flight.
+
+        The sole is the hull of its two arcs: discs whose centre and radius go evenly from one to the other.
+        """
+        shoe, s = self.shoe, np.linspace(0.04, 0.96, 93)
+        angle, bump = _pitch_at(pitches, s, _reversal(stride)), evaluate(BUMP, s)
+        x, y, z, turned = (evaluate(curve, s) for curve in (*way, yaw))
+        lift = 0.0
+        for part_of in np.linspace(0.0, 1.0, 7):
+            radius = shoe.heel.radius + (shoe.forefoot.radius - shoe.heel.radius) * part_of
+            dx = shoe.heel.x + (shoe.forefoot.x - shoe.heel.x) * part_of - shoe.ankle[0]
+            dz = radius - shoe.ankle[2]
+            ahead, up = np.cos(angle) * dx - np.sin(angle) * dz, np.sin(angle) * dx + np.cos(angle) * dz
+            least = flight.above(x + np.cos(turned) * ahead, y + np.sin(turned) * ahead, np.full(len(s), radius))
+            lift = max(lift, float(np.max(stride.clearance + (least - z - up) / bump)))
+        return lift
+
+    def _ankle(self, arc: Rocker, at: Stance, pitch: tuple[float, float, float]) -> _Joint:
+        """The ankle point while the shoe rolls on `arc` with this pitch, rate and acceleration."""
+        angle, rate, change = pitch
+        dx, dz = self.shoe.ankle[0] - arc.x, self.shoe.ankle[2] - arc.radius
+        along = cos(angle) * dx - sin(angle) * dz  # from the arc's centre to the ankle: ahead and up
+        up = sin(angle) * dx + cos(angle) * dz
+        ahead = np.array([cos(at.yaw), sin(at.yaw), 0.0])
+        above = np.array([0.0, 0.0, 1.0])
+        place = self._centre(arc, at)
+        position = place + ahead * (along - arc.radius * angle) + above * up
+        velocity = ahead * (-up - arc.radius) * rate + above * along * rate
+        acceleration = ahead * ((-up - arc.radius) * change - along * rate**2) + above * (along * change - up * rate**2)
+        return position, velocity, acceleration
+
+    def _centre(self, arc: Rocker, at: Stance) -> Array:
+        """The centre of an arc's circle while the foot stands flat."""
+        forward = arc.x - self.shoe.ankle[0]
+        return np.array([at.x + cos(at.yaw) * forward, at.y + sin(at.yaw) * forward, at.z + arc.radius])
+
+    def _roll(
+        self,
+        phase: Phase,
+        arc: Rocker,
+        at: Stance,
+        begin: float,
+        end: float,
+        pitch: Array,
+        give: list[Array] | None = None,
+    ) -> None:
+        place = [constant(float(value)) for value in self._centre(arc, at)]
+        if give is not None:
+            place = [a + b for a, b in zip(place, give, strict=True)]
+        curves = [*place, pitch, constant(at.yaw), constant(0.0)]
+        self._add(begin, end, curves, (arc.x, arc.radius), arc.radius, phase)
+
+    def _add(
+        self, begin: float, end: float, curves: list[Array], carried: tuple[float, float], radius: float, phase: Phase
+    ) -> None:
+        self.rows.append((begin, end - begin, curves, carried, radius, PHASES.index(phase)))
+
+    def done(self) -> FootMotion:
+        begin, duration, curves, carried, radius, phase = zip(*self.rows, strict=True)
+        return FootMotion(
+            begin=np.array(begin),
+            duration=np.array(duration),
+            curves=np.array(curves),
+            carried=np.array(carried),
+            radius=np.array(radius),
+            phase=np.array(phase, dtype=np.intp),
+            rides=self.rides,
+        )
+
+
+def _from_rest(end: tuple[float, float]) -> Array:
+    """From 0 at rest to 1 with the given slope and curvature."""
+    return join((0.0, 0.0, 0.0), (1.0, end[0], end[1]), 1.0)
+
+
+def _landing(stride: Stride) -> Array:
+    """Pitch from heel-strike to foot-flat: the time reverse of a start from rest."""
+    return stride.strike_pitch * part(_from_rest(LAND), 1.0, 0.0)
+
+
+def _swing_pitch(
+    off: tuple[float, float, float], strike: tuple[float, float, float], duration: float
+) -> tuple[Array, Array]:
+    """Pitch in swing: the reversal after toe-off, then a rate that is nearly steady until the foot is braked.
+
+    With r = rate after the reversal of length a, b the rest, the pitch there is off + a (rate_off + r) / 2, and r is
+    SWING_UP times the mean rate over b: solved for r.
+    """
+    a, b = REVERSAL * duration, (1.0 - REVERSAL) * duration
+    rate = SWING_UP * (strike[0] - off[0] - 0.5 * a * off[1]) / (b + 0.5 * SWING_UP * a)
+    middle = (off[0] + 0.5 * a * (off[1] + rate), rate, 0.0)
+    return join(off, middle, a), join(middle, strike, b)
+
+
+def _kicked_pitch(
+    off: tuple[float, float, float], strike: tuple[float, float, float], duration: float
+) -> tuple[Array, Array]:
+    """Pitch in a runner's swing: the heel goes up to KICK, and then the foot swings through."""
+    a, b = KICKED * duration, (1.0 - KICKED) * duration
+    top = (KICK, 0.0, KICKING * (strike[0] - KICK) / b**2)
+    return join(off, top, a), join(top, strike, b)
+
+
+def _reversal(stride: Stride) -> float:
+    return KICKED if stride.manner is Manner.RUN else REVERSAL
+
+
+def _pitch_at(pitches: tuple[Array, Array], s: Array, turn: float) -> Array:
+    """Pitch at shares `s` of the swing; the first curve is that until `turn`."""
+    early, late = evaluate(pitches[0], s / turn), evaluate(pitches[1], (s - turn) / (1.0 - turn))
+    return np.where(s < turn, early, late)
+
+
+def _ends(curve: Array, s: float, duration: float) -> tuple[float, float, float]:
+    """Value, velocity and acceleration of a curve at s, per second."""
+    value, slope, bend = (float(evaluate(curve, s, order)) for order in range(3))
+    return value, slope / duration, bend / duration**2
+
+
+def _residual(stride: Stride) -> tuple[float, float, float]:
+    """What the heel still moves by, beyond its roll, when it touches the ground, m/s in the world."""
+    slide, sink = SLIDE * stride.speed, SINK * stride.speed
+    if stride.manner is not Manner.WALK:
+        style = style_of(stride.manner, stride.speed)
+        slide, sink = style.slide, style.sink
+    return (slide * cos(stride.end.yaw), slide * sin(stride.end.yaw), -sink)
+
+
+def _give(speed: float) -> Array:
+    """How far the heel is from where pure rolling has it, over the impact: its `speed` dies along a smooth step.
+
+    v (1 - (10 s^3 - 15 s^4 + 6 s^5)), integrated so that it ends at 0; the deceleration is the pulse 30 s^2 (1 - s)^2.
+    """
+    return -speed * IMPACT * np.array([0.5, -1.0, 0.0, 0.0, 2.5, -3.0, 1.0, 0.0])

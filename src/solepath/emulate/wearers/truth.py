@@ -1,0 +1,148 @@
+"""What really happened, for comparing with.
+
+"Position of a foot" is everywhere the position of the sensor that is mounted on it, relative to where that sensor was
+at t = 0, in the world frame (z up, x along the route's first heading, y left), m. `FootTruth.origin` says where that
+was, measured from the point between the feet, so that both feet can be drawn on one floor.
+"""
+
+from __future__ import annotations
+
+from math import atan2, cos, hypot, sin
+
+import numpy as np
+from attrs import frozen
+
+from ...types import Activity, Foot, Phase, Vec3
+from .curves import Array
+from .doing import TrueFlight, TrueRide, activities, elevation, flights, rides
+from .gait import Plan
+from .motion import FootMotion
+from .shoe import Mounting
+
+
+@frozen
+class TrueStep:
+    """One foot from foot-flat to its next foot-flat; for the first step from t = 0, when it stood already."""
+
+    foot: Foot
+    number: int
+    t_start: float
+    t_end: float
+    t_heel_off: float
+    t_toe_off: float
+    t_heel_strike: float
+    displacement: Vec3
+    """Of the sensor, m."""
+    length: float
+    """Horizontal, m."""
+    heading_change: float
+    """rad, in (-pi, pi]."""
+
+
+@frozen
+class PoseAt:
+    """Where a foot's sensor was at some instants: `position` (N, 3) m, `velocity` (N, 3) m/s, `attitude` (N, 4)
+    sensor to world."""
+
+    t: Array
+    position: Array
+    velocity: Array
+    attitude: Array
+
+
+@frozen(eq=False)
+class FootTruth:
+    """One foot. Times are true times, s; the stand before the first step has no events."""
+
+    foot: Foot
+    heel_strikes: tuple[float, ...]
+    foot_flats: tuple[float, ...]
+    heel_offs: tuple[float, ...]
+    toe_offs: tuple[float, ...]
+    steps: tuple[TrueStep, ...]
+    origin: Vec3
+    motion: FootMotion
+    mounting: Mounting
+
+    def pose(self, t: Array | float) -> PoseAt:
+        when = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        found = self.motion.at(when, self.mounting)
+        return PoseAt(when, found.position - np.array(self.origin), found.velocity, found.attitude)
+
+    def phases(self, t: Array | float) -> list[Phase]:
+        return self.motion.phases(np.atleast_1d(np.asarray(t, dtype=np.float64)))
+
+
+@frozen(eq=False)
+class Truth:
+    """The whole walk: `duration` in s, `path_length` of the route's centre line in m.
+
+    `activities`: what the wearer does from when to when, s, without a gap. `flights` and `rides` are the stairs that
+    were walked and the lifts that were taken, in order.
+    """
+
+    duration: float
+    path_length: float
+    feet: dict[Foot, FootTruth]
+    activities: tuple[tuple[float, float, Activity], ...]
+    flights: tuple[TrueFlight, ...]
+    rides: tuple[TrueRide, ...]
+    plan: Plan
+
+    def pose(self, foot: Foot, t: Array | float) -> PoseAt:
+        """Position (relative to the foot's first), velocity and attitude of a foot's sensor at any instants."""
+        return self.feet[foot].pose(t)
+
+    def steps(self, foot: Foot) -> tuple[TrueStep, ...]:
+        return self.feet[foot].steps
+
+    def activity(self, t: float) -> Activity:
+        """What the wearer does at `t` s."""
+        return next((what for begin, end, what in self.activities if begin <= t < end), Activity.STANDING)
+
+    def elevation(self, t: Array | float) -> Array:
+        """How much higher than at t = 0 the wearer is at instants `t`, (N), m: the mean of the floors or treads that
+        both feet stand on, between which a foot in the air goes evenly."""
+        return elevation(self.plan, np.atleast_1d(np.asarray(t, dtype=np.float64)))
+
+
+def truth(plan: Plan, path_length: float, feet: dict[Foot, FootTruth]) -> Truth:
+    """The truth of a plan with both of its feet."""
+    return Truth(plan.duration, path_length, feet, activities(plan), flights(plan), rides(plan), plan)
+
+
+def foot_truth(foot: Foot, plan: Plan, motion: FootMotion, mounting: Mounting) -> FootTruth:
+    """The truth of one foot for a sensor mounted like this."""
+    strides = plan.strides[foot]
+    marks = np.array([0.0, *(stride.foot_flat for stride in strides)])
+    places = motion.at(marks, mounting).position
+    steps = []
+    for k, stride in enumerate(strides):
+        dx, dy, dz = (float(v) for v in places[k + 1] - places[k])
+        turned = stride.end.yaw - stride.start.yaw
+        steps.append(
+            TrueStep(
+                foot=foot,
+                number=k + 1,
+                t_start=float(marks[k]),
+                t_end=float(marks[k + 1]),
+                t_heel_off=stride.heel_off,
+                t_toe_off=stride.toe_off,
+                t_heel_strike=stride.heel_strike,
+                displacement=(dx, dy, dz),
+                length=hypot(dx, dy),
+                heading_change=atan2(sin(turned), cos(turned)),
+            )
+        )
+    x, y, z = (float(v) for v in places[0])
+    return FootTruth(
+        foot=foot,
+        heel_strikes=tuple(s.heel_strike for s in strides),
+        foot_flats=tuple(s.foot_flat for s in strides),
+        heel_offs=tuple(s.heel_off for s in strides),
+        toe_offs=tuple(s.toe_off for s in strides),
+        steps=tuple(steps),
+        origin=(x, y, z),
+        motion=motion,
+        mounting=mounting,
+    )

@@ -1,0 +1,107 @@
+"""A wearer on a route: motion and loads of both feet, and samples of them without any radio."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from ...types import SITE_OF_FOOT, Foot, Layout, Sample, Vec3
+from ..routes.planner import plan
+from ..routes.route import Route
+from ..sensors.parts import Imu
+from ..sensors.sensors import errors, instants, low_pass, sample
+from .curves import Array
+from .gait import Wearer
+from .limbs import Body, body
+from .load import loads
+from .motion import Kinematics
+from .shoe import IN_SOLE, Mounting
+from .strides import foot_motions
+from .truth import Truth, foot_truth, truth
+
+
+class Walker:
+    """Everything about a walk that does not depend on devices. The same seed walks the same way."""
+
+    def __init__(self, route: Route, wearer: Wearer | None = None, seed: int = 1) -> None:
+        self.route = route
+        self.wearer = wearer or Wearer()
+        self.seed = seed
+        self.plan = plan(route, self.wearer, np.random.default_rng([seed, 0]))
+        self.motions = foot_motions(self.plan, self.wearer.shoe)
+        self.loads = loads(self.plan, self.wearer, np.random.default_rng([seed, 4]))
+
+    @cached_property
+    def body(self) -> Body:
+        """The wearer above the feet."""
+        wearer = self.wearer
+        return body(self.plan, self.motions, self.loads, wearer.shoe, wearer.centre_height, wearer.limbs)
+
+    @property
+    def duration(self) -> float:
+        """s."""
+        return self.plan.duration
+
+    def truth(self, mountings: dict[Foot, Mounting] | None = None) -> Truth:
+        """The truth for sensors mounted like this; in the sole where nothing is said."""
+        places = {foot: (mountings or {}).get(foot, IN_SOLE) for foot in Foot}
+        feet = {foot: foot_truth(foot, self.plan, self.motions[foot], places[foot]) for foot in Foot}
+        return truth(self.plan, self.route.length, feet)
+
+    def kinematics(self, foot: Foot, t: Array, mounting: Mounting = IN_SOLE) -> Kinematics:
+        """Exact motion of a foot's sensor at any instants."""
+        return self.motions[foot].at(t, mounting)
+
+    def cell_loads(self, layout: Layout, t: Array) -> Array:
+        """True load on each cell, (N, cells), N."""
+        return self.loads.cells(layout, self.wearer.shoe.width, self.motions[layout.foot], t)
+
+    def samples(
+        self,
+        foot: Foot,
+        rate: float,
+        errors: Imu | None = None,
+        *,
+        mounting: Mounting = IN_SOLE,
+        layout: Layout | None = None,
+    ) -> list[Sample]:
+        """Samples of one foot on the true clock, at k / rate s; no radio, no wire.
+
+        Without `errors` they are exact point values. With a part they have its errors, its low pass (at most half the
+        rate) and its noise, but neither saturate nor are they rounded. With a `layout` (of this foot) every sample
+        has the exact loads of its cells in N.
+        """
+        count = int(self.duration * rate) + 1
+        if errors is None:
+            t = np.arange(count) / rate
+            exact = self.kinematics(foot, t, mounting)
+            acc, gyro = exact.force, exact.rate
+        else:
+            t, acc, gyro = self._imperfect(foot, rate, count, errors, mounting)
+        cells = None if layout is None else self.cell_loads(layout, t).tolist()
+        site = SITE_OF_FOOT[foot]
+        found = []
+        for k, (when, force, turn) in enumerate(zip(t.tolist(), acc.tolist(), gyro.tolist(), strict=True)):
+            pressure = None if cells is None else tuple(cells[k])
+            found.append(Sample(t=when, site=site, acc=_vec(force), gyro=_vec(turn), pressure=pressure))
+        return found
+
+    def _imperfect(
+        self, foot: Foot, rate: float, count: int, part: Imu, mounting: Mounting
+    ) -> tuple[Array, Array, Array]:
+        rng = np.random.default_rng([self.seed, 1, list(Foot).index(foot)])
+        when = instants(0.0, 1.0 / rate, count)
+        true = self.kinematics(foot, when.fine, mounting)
+        acc = errors(true.force, when, part.acc, rng)
+        gyro = errors(true.rate, when, part.gyro, rng, true.force)
+        return (
+            when.taken,
+            sample(low_pass(acc, when.rate, min(part.acc.bandwidth, 0.5 * rate)), when),
+            sample(low_pass(gyro, when.rate, min(part.gyro.bandwidth, 0.5 * rate)), when),
+        )
+
+
+def _vec(values: list[float]) -> Vec3:
+    x, y, z = values
+    return (x, y, z)

@@ -1,0 +1,234 @@
+"""What maps of buildings draw, spaces rather than walls, on its way to a plan: walls are the outlines of spaces, less
+what lies between two open ones and less the doors; stairs and lifts are joined over the levels where they overlap.
+
+The readers of IMDF and OpenStreetMap draw into this; the plan does not depend on the order in which they do.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+from itertools import groupby
+from math import atan2, hypot
+
+from attrs import define, field
+
+from ..checks import MOST_LEVELS, MOST_WALLS
+from ..doors import BESIDE, Line, Openings, cut
+from ..outlines import Ring, edges, holds, middle, tidy
+from ..plan import Anchor, Connector, Door, FloorPlan, FloorPlanError, Kind, Level, Point, Stop, Wall
+from ..segments import distance
+
+_TOGETHER = 2e-3
+"""m; walls on one line lie this near to it, and touch across such a gap."""
+
+SHARED = 0.05
+"""m; borders of two spaces that lie this near to each other are one."""
+
+
+class Border(Enum):
+    """What the outline of a space is."""
+
+    WALL = "wall"  # a wall all round, but for its doors
+    OPEN = "open"  # a wall, but not towards another open or free space
+    FREE = "free"  # no wall
+    SOLID = "solid"  # a wall, and nobody can be inside
+
+
+@define
+class Space:
+    """A space on one level. `rings`: its outline, then its holes. `ring`: both in one."""
+
+    level: str
+    rings: tuple[Ring, ...]
+    ring: Ring
+    border: Border
+
+
+@define
+class Part:
+    """Stairs or a lift on one level. Parts of one `group` are the same stairs or lift wherever they lie; others are
+    where they overlap on neighbouring levels. `place`: where one steps on, None for the middle."""
+
+    kind: Kind
+    name: str
+    level: str
+    place: Point | None
+    rings: tuple[Ring, ...]
+    ring: Ring
+    group: str
+    rise: float | None = None
+
+
+@define
+class Storey:
+    """A level before anything is drawn on it."""
+
+    name: str
+    ordinal: int
+    order: float
+    """What levels are sorted by."""
+
+
+@define
+class Drawing:
+    """All that was drawn."""
+
+    name: str = ""
+    storeys: dict[str, Storey] = field(factory=dict)
+    spaces: list[Space] = field(factory=list)
+    lines: list[tuple[str, Point, Point]] = field(factory=list)
+    doors: list[tuple[str, Point, Point, str]] = field(factory=list)
+    parts: list[Part] = field(factory=list)
+    remarks: list[str] = field(factory=list)
+
+    def plan(self, anchor: Anchor, storey: float) -> FloorPlan:
+        """The plan. `storey`: m from one level to the next: none of these formats tells elevations. FloorPlanError
+        when there is more than a building has."""
+        if len(self.storeys) > MOST_LEVELS:
+            raise FloorPlanError(f"has more than {MOST_LEVELS} levels")
+        rings = [ring for space in self.spaces for ring in space.rings] + [r for part in self.parts for r in part.rings]
+        drawn = sum(map(len, rings)) + len(self.lines)
+        if drawn > MOST_WALLS:
+            raise FloorPlanError(f"has more than {MOST_WALLS} walls")
+        if len(self.doors) > MOST_WALLS or len(self.parts) > MOST_LEVELS:
+            raise FloorPlanError(f"has more than {MOST_WALLS} doors or {MOST_LEVELS} stairs and lifts")
+        ids = sorted(self.storeys, key=lambda level: (self.storeys[level].order, level))
+        levels = [
+            Level(level, self.storeys[level].name, self.storeys[level].ordinal, self.storeys[level].order * storey,
+                  self._walls(level), self._doors(level), self._rooms(level))
+            for level in ids
+        ]  # fmt: skip
+        connectors = tuple(_joined(self.parts, {level: i for i, level in enumerate(ids)}, self.storeys))
+        return FloorPlan(self.name, tuple(levels), connectors, anchor, heights_known=False, remarks=tuple(self.remarks))
+
+    def _doors(self, level: str) -> tuple[Door, ...]:
+        found = {Door(min(a, b), max(a, b), name) for at, a, b, name in self.doors if at == level}
+        return tuple(sorted(found, key=lambda door: (door.start, door.end, door.name)))
+
+    def _rooms(self, level: str) -> tuple[Ring, ...]:
+        return tuple(sorted(tidy(one.ring) for one in self.spaces
+                            if one.level == level and one.border is not Border.SOLID))  # fmt: skip
+
+    def _walls(self, level: str) -> tuple[Wall, ...]:
+        doors: list[Line] = [(start, end) for at, start, end, _ in self.doors if at == level]
+        here = [(one.rings, one.border) for one in self.spaces if one.level == level]
+        here += [(one.rings, _border_of(one, doors)) for one in self.parts if one.level == level and one.rings]
+        walls = {_wall(start, end) for at, start, end in self.lines if at == level and start != end}
+        for rings, border in here:
+            if border in (Border.WALL, Border.SOLID):
+                walls.update(_lines(rings))
+        loose = [(_lines(rings), border) for rings, border in here if border in (Border.OPEN, Border.FREE)]
+        owned = [(wall.start, wall.end, i) for i, (lines, _) in enumerate(loose) for wall in sorted(lines, key=_ends)]
+        borders = Openings([(start, end) for start, end, _ in owned], [owner for _, _, owner in owned])
+        for i, (lines, border) in enumerate(loose):
+            if border is Border.OPEN:
+                walls.update(cut(sorted(lines, key=_ends), borders, SHARED, but=i))
+        kept = cut(_merged(walls), Openings(doors), BESIDE)
+        return tuple(sorted({_wall(wall.start, wall.end) for wall in kept}, key=_ends))
+
+
+def _wall(start: Point, end: Point) -> Wall:
+    return Wall(min(start, end), max(start, end))
+
+
+def _ends(wall: Wall) -> tuple[Point, Point]:
+    return wall.start, wall.end
+
+
+def _merged(walls: set[Wall]) -> list[Wall]:
+    """Walls that lie on one line and touch, made one: most walls are drawn twice, once from either room."""
+    found: list[Wall] = []
+    for wall in sorted(walls, key=_on_line):
+        if found:
+            (ax, ay), (bx, by) = last = found[-1].start, found[-1].end
+            far = max(wall.end, last[1])
+            if (distance(ax, ay, bx, by, *wall.start) <= _TOGETHER
+                    and distance(*last[0], *far, *wall.end) <= _TOGETHER
+                    and distance(*last[0], *far, *last[1]) <= _TOGETHER):  # fmt: skip
+                found[-1] = Wall(last[0], far)
+                continue
+        found.append(wall)
+    return found
+
+
+def _on_line(wall: Wall) -> tuple[float, float, Point, Point]:
+    """Walls on one line come together: direction, distance of the line from the origin, and where they begin."""
+    (ax, ay), (bx, by) = wall.start, wall.end
+    long = hypot(bx - ax, by - ay)
+    ux, uy = (bx - ax) / long, (by - ay) / long
+    return round(atan2(uy, ux), 4), round(ux * ay - uy * ax, 3), wall.start, wall.end
+
+
+def _lines(rings: tuple[Ring, ...]) -> set[Wall]:
+    return {_wall((ax, ay), (bx, by)) for ring in rings for ax, ay, bx, by in edges(ring) if (ax, ay) != (bx, by)}
+
+
+def _border_of(part: Part, doors: list[Line]) -> Border:
+    """Stairs and cabins with a door are walled; without one they would be out of reach, so they are open."""
+    lines = [line for ring in part.rings for line in edges(ring)]
+    for start, end in doors:
+        x, y = 0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])
+        if any(distance(*line, x, y) <= BESIDE for line in lines):
+            return Border.WALL
+    return Border.OPEN
+
+
+# --- stairs and lifts -------------------------------------------------------------------------------------------------
+
+
+def _joined(parts: list[Part], numbers: dict[str, int], storeys: dict[str, Storey]) -> list[Connector]:
+    """Parts joined into connectors: those of one group, and those that lie over each other on levels whose order is one
+    apart or less, or next to each other in the list of levels."""
+    ordered = sorted(parts, key=lambda part: (part.kind.value, numbers[part.level], _corner(part), part.name))
+    middles = [_middle(part) for part in ordered]
+    leader = list(range(len(ordered)))
+
+    def lead(i: int) -> int:
+        while leader[i] != i:
+            leader[i] = leader[leader[i]]
+            i = leader[i]
+        return i
+
+    for j, upper in enumerate(ordered):
+        for i, lower in enumerate(ordered[:j]):
+            if lower.kind is not upper.kind or lead(i) == lead(j):
+                continue
+            if lower.group == upper.group or (
+                _neighbours(lower.level, upper.level, numbers, storeys)
+                and (_within(middles[i], upper) or _within(middles[j], lower))
+            ):
+                leader[max(lead(i), lead(j))] = min(lead(i), lead(j))
+    together = sorted(range(len(ordered)), key=lambda i: (lead(i), i))
+    found = [_connector([ordered[i] for i in some], numbers) for _, some in groupby(together, key=lead)]
+    return sorted(found, key=lambda one: (one.kind.value, one.name, one.stops[0].place))
+
+
+def _corner(part: Part) -> Point:
+    return min(part.ring) if part.ring else part.place or (0.0, 0.0)
+
+
+def _middle(part: Part) -> Point:
+    return middle(part.ring) if len(part.ring) >= 3 else part.place or (0.0, 0.0)
+
+
+def _within(place: Point, part: Part) -> bool:
+    return len(part.ring) >= 3 and holds(edges(part.ring), *place)
+
+
+def _neighbours(low: str, high: str, numbers: dict[str, int], storeys: dict[str, Storey]) -> bool:
+    rise = storeys[high].order - storeys[low].order
+    return rise > 0.0 and (rise <= 1.0 or numbers[high] - numbers[low] == 1)
+
+
+def _connector(parts: list[Part], numbers: dict[str, int]) -> Connector:
+    stops: dict[str, Stop] = {}
+    for part in parts:
+        outline = tidy(part.ring) if len(part.ring) >= 3 else ()
+        at = part.place if part.place is not None else middle(outline)
+        stop = Stop(part.level, (round(at[0], 3) + 0.0, round(at[1], 3) + 0.0), outline)
+        if part.level not in stops or not stops[part.level].outline:
+            stops[part.level] = stop
+    name = next((part.name for part in parts if part.name), "")
+    rise = next((part.rise for part in parts if part.rise is not None), None)
+    return Connector(parts[0].kind, name, tuple(stops[level] for level in sorted(stops, key=numbers.__getitem__)),
+                     None, rise)  # fmt: skip

@@ -1,0 +1,188 @@
+"""The Indoor Mapping Data Format 1.0.0 (OGC 20-094): an archive, or a folder, of GeoJSON files, one for each kind of
+feature. protocol/floorplan.md says what becomes of them.
+
+IMDF draws units, not walls, and no heights: walls are outlines (drawing.py), and levels lie one storey apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ..outlines import CLOSED, Ring, not_closed, ring, with_holes, without_repeats
+from ..plan import FloorPlan, FloorPlanError, Kind, Point
+from .drawing import Border, Drawing, Part, Space, Storey
+from .earth import Tangent, south_west, to_mm
+from .features import Feature, Position, features, parsed
+
+FILES = ("manifest.json", "venue.geojson", "building.geojson", "level.geojson", "unit.geojson", "opening.geojson",
+         "fixture.geojson")  # fmt: skip
+"""What of an archive is read."""
+
+_CONNECTORS = {"elevator": Kind.LIFT, "escalator": Kind.STAIRS, "stairs": Kind.STAIRS, "steps": Kind.STAIRS}
+
+_SOLID = {"brick", "column", "concrete", "drywall", "glass", "opentobelow", "structure"}
+"""Categories of units that are walls, pillars or nothing to stand on."""
+
+_OPEN = {"fieldofplay", "footbridge", "lobby", "movingwalkway", "parking", "platform", "ramp", "road", "terrace",
+         "unenclosedarea", "vegetation", "walkway"}  # fmt: skip
+"""Categories of units that have no wall towards each other."""
+
+_OBSTACLES = {"obstruction", "wall"}
+"""Categories of fixtures that one cannot walk through; desks and the like are moved."""
+
+
+def of_files(files: Mapping[str, bytes], storey: float) -> FloorPlan:
+    """The plan in the files of an archive, by name. `storey`: m from one ordinal to the next. FloorPlanError when it
+    does not fit."""
+    if "manifest.json" not in files:
+        raise FloorPlanError("has no manifest.json, which every IMDF archive has")
+    manifest = _file(files, "manifest.json")
+    version = manifest.get("version")
+    if not isinstance(version, str) or not version.startswith("1."):
+        raise FloorPlanError(f"manifest.json: is of version {version!r}; this release reads IMDF 1")
+    for needed in ("level.geojson", "unit.geojson"):
+        if needed not in files:
+            raise FloorPlanError(f"has no {needed}")
+    language = manifest.get("language")
+    return _Reader(files, language if isinstance(language, str) else "en").plan(storey)
+
+
+def _file(files: Mapping[str, bytes], name: str) -> dict[str, Any]:
+    try:
+        return parsed(files[name])
+    except FloorPlanError as error:
+        raise FloorPlanError(f"{name}: {error}") from None
+
+
+class _Reader:
+    """The features of one archive on their way into a drawing."""
+
+    def __init__(self, files: Mapping[str, bytes], language: str) -> None:
+        self._language = language
+        self._levels = self._of(files, "level")
+        self._units = self._of(files, "unit")
+        self._openings = self._of(files, "opening")
+        self._fixtures = self._of(files, "fixture")
+        buildings = self._of(files, "building") + self._of(files, "venue")
+        self._drawing = Drawing(next((name for one in buildings if (name := self._label(one, "name"))), ""))
+        every = [position for one in self._levels + self._units for part in one.lines for line in part
+                 for position in line]  # fmt: skip
+        self._anchor = south_west([(latitude, longitude) for longitude, latitude in every])
+        self._tangent = Tangent(self._anchor)
+        self._names: dict[str, str] = {}
+
+    def _of(self, files: Mapping[str, bytes], kind: str) -> list[Feature]:
+        if f"{kind}.geojson" not in files:
+            return []
+        try:
+            found = list(features(parsed(files[f"{kind}.geojson"]), "feature_type", of_properties=False))
+            for one in found:
+                if one.kind != kind:
+                    one.wrong(f"is a {one.kind[:30]!r} among the {kind}s")
+        except FloorPlanError as error:
+            raise FloorPlanError(f"{kind}.geojson: {error}") from None
+        return found
+
+    def _label(self, one: Feature, key: str) -> str:
+        """A LABELS value in the archive's language, in English, or in any."""
+        labels = one.properties.get(key)
+        if not isinstance(labels, dict):
+            return ""
+        texts = {tag: text for tag, text in labels.items() if isinstance(text, str)}
+        wanted = (self._language, self._language.split("-")[0], "en", *sorted(texts))
+        return next((texts[tag] for tag in wanted if tag in texts), "")
+
+    def plan(self, storey: float) -> FloorPlan:
+        self._storeys()
+        for one in self._units:
+            self._unit(one)
+        for one in self._fixtures:
+            if one.text("category", "") in _OBSTACLES:
+                self._space(one, self._level(one), Border.SOLID)
+        for one in self._openings:
+            self._opening(one)
+        return self._drawing.plan(self._anchor, storey)
+
+    def _storeys(self) -> None:
+        """A level goes by its short name where no other has it, and otherwise by its id."""
+        shorts = [self._label(one, "short_name") for one in self._levels]
+        for one, short in zip(self._levels, shorts, strict=True):
+            if not one.id:
+                one.wrong("a level needs an id")
+            ordinal = one.whole("ordinal")
+            if ordinal is None:
+                one.wrong("its ordinal is missing")
+            name = short if short and shorts.count(short) == 1 else one.id
+            if name in self._drawing.storeys:
+                one.wrong(f"its id is the short name of another level, {name!r}")
+            self._names[one.id] = name
+            self._drawing.storeys[name] = Storey(self._label(one, "name") or name, ordinal, float(ordinal))
+            if one.properties.get("outdoor") is not True:
+                for rings, _ in self._rings(one):
+                    for line in rings:
+                        self._drawing.lines += [(name, a, b) for a, b in zip(line, (*line[1:], line[0]), strict=True)]
+
+    def _level(self, one: Feature) -> str:
+        level = one.properties.get("level_id")
+        if not isinstance(level, str) or level not in self._names:
+            one.wrong(f"is on level {str(level)[:60]!r}, which the archive does not have")
+        return self._names[level]
+
+    def _unit(self, one: Feature) -> None:
+        level, category = self._level(one), one.text("category", "unspecified")
+        kind = _CONNECTORS.get(category)
+        if kind is None:
+            border = Border.SOLID if category in _SOLID else Border.OPEN if category in _OPEN else Border.WALL
+            self._space(one, level, border)
+            return
+        for i, (rings, whole) in enumerate(self._rings(one)):
+            self._drawing.parts.append(Part(kind, self._label(one, "name"), level, self._display_point(one) if not i
+                                            else None, rings, whole, f"{one.id or one.name}.{i}"))  # fmt: skip
+
+    def _display_point(self, one: Feature) -> Point | None:
+        told = one.properties.get("display_point")
+        if not isinstance(told, dict) or told.get("type") != "Point":
+            return None
+        shaped = list(features({"type": "FeatureCollection", "features": [
+            {"type": "Feature", "id": one.id or None, "feature_type": one.kind, "geometry": told}]},
+            "feature_type", of_properties=False))  # fmt: skip
+        return self._place(shaped[0].points[0], one)
+
+    def _space(self, one: Feature, level: str, border: Border) -> None:
+        for rings, whole in self._rings(one):
+            self._drawing.spaces.append(Space(level, rings, whole, border))
+
+    def _opening(self, one: Feature) -> None:
+        level = self._level(one)
+        if one.geometry != "LineString":
+            one.wrong("an opening is a LineString")
+        points = without_repeats([self._place(position, one) for position in one.lines[0][0]])
+        name = self._label(one, "name")
+        self._drawing.doors += [(level, a, b, name) for a, b in zip(points, points[1:], strict=False)]
+
+    def _rings(self, one: Feature) -> list[tuple[tuple[Ring, ...], Ring]]:
+        """Of each polygon: its outline and its holes, and both in one."""
+        if one.geometry not in ("Polygon", "MultiPolygon"):
+            one.wrong(f"is no Polygon but a {one.geometry}")
+        found = []
+        for polygon in one.lines:
+            rings = []
+            for line in polygon:
+                corners, open_by = ring([self._place(position, one) for position in line])
+                if len(corners) < 3:
+                    one.wrong("its outline has fewer than three corners")
+                if open_by > CLOSED:
+                    self._drawing.remarks.append(f"{one.name}: {not_closed(open_by)}")
+                rings.append(corners)
+            if rings:
+                found.append((tuple(rings), with_holes(rings[0], rings[1:])))
+        if not found:
+            one.wrong("has no outline")
+        return found
+
+    def _place(self, position: Position, one: Feature) -> Point:
+        try:
+            return to_mm(self._tangent.plan(position[1], position[0]))
+        except FloorPlanError as error:
+            one.wrong(str(error))

@@ -1,0 +1,184 @@
+"""OpenStreetMap's Simple Indoor Tagging (wiki.openstreetmap.org: Simple_Indoor_Tagging, Key:indoor, Key:repeat_on,
+Tag:highway=elevator). protocol/floorplan.md says what becomes of which tags.
+
+The tags draw rooms, not walls, and tell no heights: walls are outlines (drawing.py), and levels lie one storey apart.
+Everything in the file is taken for one building.
+"""
+
+from __future__ import annotations
+
+from math import floor
+
+from ..doors import Line, Openings
+from ..outlines import Ring, edges, holds, with_holes, without_repeats
+from ..plan import FloorPlan, FloorPlanError, Kind, Point, Wall
+from .drawing import Border, Drawing, Part, Space, Storey
+from .earth import Tangent, south_west, to_mm
+from .osm_doors import BESIDE, door_at, door_beside
+from .osm_file import Element, OsmFile, elements
+from .osm_rings import Refs, shapes_of
+from .osm_tags import BORDERS, connects, is_door, is_indoor, label, length, level_id, levels
+
+
+def of_bytes(data: bytes, storey: float) -> FloorPlan:
+    """The plan in an OSM XML file. `storey`: m from one level to the next. FloorPlanError when it does not fit."""
+    return _Reader(elements(data)).plan(storey)
+
+
+class _Reader:
+    """The elements of one file on their way into a drawing."""
+
+    def __init__(self, file: OsmFile) -> None:
+        drawn = [one for one in (*file.ways.values(), *file.relations.values()) if is_indoor(one)]
+        self._shapes = [(one, *shapes_of(one, file)) for one in drawn]
+        refs = {ref for _, shapes, lines in self._shapes for refs in (*lines, *(r for shape in shapes for r in shape))
+                for ref in refs}  # fmt: skip
+        spots = [one for one in file.nodes.values() if connects(one) is not None or is_door(one)]
+        self._spots = [one for one in spots if one.id in refs or is_indoor(one)]
+        if not refs:
+            raise FloorPlanError("has no ways or relations with indoor=* and level=*")
+        nodes = [file.nodes[ref] for ref in sorted(refs)] + [one for one in self._spots if one.id not in refs]
+        self._anchor = south_west([(node.latitude, node.longitude) for node in nodes])
+        tangent = Tangent(self._anchor)
+        self._places: dict[str, Point] = {}
+        for node in nodes:
+            try:
+                self._places[node.id] = to_mm(tangent.plan(node.latitude, node.longitude))
+            except FloorPlanError as error:
+                raise FloorPlanError(f"{node.name}: {error}") from None
+        named = [one.tags["name"] for one in (*file.relations.values(), *file.ways.values())
+                 if "building" in one.tags and one.tags.get("name")]  # fmt: skip
+        self._drawing = Drawing(named[0] if named else "")
+        self._levels = {one.id: levels(one) for one in self._spots}
+        self._next: dict[str, dict[str, list[str]]] = {}
+        """By level and node, the nodes that a wall goes on to from there."""
+        self._lines_on: dict[str, Openings] = {}
+
+    def plan(self, storey: float) -> FloorPlan:
+        self._storeys()
+        for one, shapes, lines in self._shapes:
+            self._draw(one, shapes, lines)
+        for one in self._spots:
+            self._spot(one)
+        self._without_inner_flights()
+        return self._drawing.plan(self._anchor, storey)
+
+    def _storeys(self) -> None:
+        every = sorted({level for one, *_ in self._shapes for level in levels(one)}
+                       | {level for known in self._levels.values() for level in known})  # fmt: skip
+        whole, below = all(level == floor(level) for level in every), sum(level < 0.0 for level in every)
+        for i, level in enumerate(every):
+            own = level_id(level)
+            self._drawing.storeys[own] = Storey(own, int(level) if whole else i - below, level)
+        for one, *_ in self._shapes:
+            if one.tags.get("indoor") == "level":
+                name = one.tags.get("name") or one.tags.get("level:ref")
+                for level in levels(one):
+                    if name:
+                        self._drawing.storeys[level_id(level)].name = name
+
+    # --- ways and relations -------------------------------------------------------------------------------------------
+
+    def _draw(self, one: Element, shapes: list[list[Refs]], lines: list[Refs]) -> None:
+        on = [level_id(level) for level in levels(one)]
+        kind, indoor = connects(one), one.tags.get("indoor", "")
+        if kind is not None:
+            self._connector(one, kind, on, shapes, lines)
+        elif indoor == "level" or indoor in BORDERS:
+            self._space(one, on, shapes, lines, BORDERS.get(indoor))
+        else:
+            chains = [*lines, *([*refs, refs[0]] for shape in shapes for refs in shape)]
+            self._drawing.doors += [(level, *line, label(one)) for level in on for refs in chains
+                                    for line in self._lines(refs)]  # fmt: skip
+
+    def _space(self, one: Element, on: list[str], shapes: list[list[Refs]], lines: list[Refs],
+               border: Border | None) -> None:  # fmt: skip
+        """`border`: None for the outline of a level, which is a wall and no room."""
+        if lines and one.tags["indoor"] != "wall":
+            self._drawing.remarks.append(f"{one.name}: its outline does not close")
+        outlines = self._outlines(shapes)
+        for level in on:
+            if border in (None, Border.SOLID):
+                for rings, _ in outlines:
+                    self._drawing.lines += [(level, (ax, ay), (bx, by)) for ring in rings
+                                            for ax, ay, bx, by in edges(ring)]  # fmt: skip
+            else:
+                self._drawing.spaces += [Space(level, rings, whole, border) for rings, whole in outlines if border]
+            if border is not Border.FREE:
+                self._drawing.lines += [(level, *line) for refs in lines for line in self._lines(refs)]
+                self._walled(level, shapes, lines)
+
+    def _connector(self, one: Element, kind: Kind, on: list[str], shapes: list[list[Refs]],
+                   lines: list[Refs]) -> None:  # fmt: skip
+        rise = length(one.tags.get("step:height"))
+        rise = rise if rise is not None and 0.02 <= rise <= 0.6 else None
+        for rings, whole in self._outlines(shapes):
+            self._drawing.parts += [Part(kind, label(one), level, None, rings, whole, one.name, rise) for level in on]
+        for level in on:
+            self._walled(level, shapes, [])
+        for refs in lines:
+            up = refs[::-1] if one.tags.get("incline", "up").startswith(("down", "-")) else refs
+            for i, level in enumerate(on):  # the ends are known, and what is between them lies between them
+                at = self._places[up[round(i * (len(up) - 1) / max(len(on) - 1, 1))]]
+                self._drawing.parts.append(Part(kind, label(one), level, at, (), (), one.name, rise))
+
+    def _outlines(self, shapes: list[list[Refs]]) -> list[tuple[tuple[Ring, ...], Ring]]:
+        """Of each shape: its outline and its holes, and both in one."""
+        found = []
+        for shape in shapes:
+            rings = [tuple(without_repeats([self._places[ref] for ref in refs])) for refs in shape]
+            rings = [ring for ring in rings if len(set(ring)) >= 3]
+            if rings:
+                found.append((tuple(rings), with_holes(rings[0], rings[1:])))
+        return found
+
+    def _lines(self, refs: Refs) -> list[Line]:
+        points = without_repeats([self._places[ref] for ref in refs])
+        return list(zip(points, points[1:], strict=False))
+
+    def _walled(self, level: str, shapes: list[list[Refs]], lines: list[Refs]) -> None:
+        """Remembers between which nodes there are walls."""
+        known = self._next.setdefault(level, {})
+        for refs in (*lines, *([*refs, refs[0]] for shape in shapes for refs in shape)):
+            for a, b in zip(refs, refs[1:], strict=False):
+                known.setdefault(a, []).append(b)
+                known.setdefault(b, []).append(a)
+
+    def _without_inner_flights(self) -> None:
+        """A flight drawn as a line within stairs that are drawn as an area is these stairs."""
+        stairs = [part for part in self._drawing.parts if part.kind is Kind.STAIRS]
+        areas = [(part.level, edges(part.ring)) for part in stairs if part.ring]
+        within: dict[str, bool] = {}
+        for part in stairs:
+            if part.place is not None:
+                x, y = part.place
+                held = any(level == part.level and holds(lines, x, y) for level, lines in areas)
+                within[part.group] = within.get(part.group, True) and held
+        self._drawing.parts = [part for part in self._drawing.parts if not within.get(part.group, False)]
+
+    # --- nodes --------------------------------------------------------------------------------------------------------
+
+    def _spot(self, one: Element) -> None:
+        kind, place = connects(one), self._places[one.id]
+        told = [level_id(level) for level in self._levels[one.id]]
+        if kind is not None:
+            self._drawing.parts += [Part(kind, label(one), level, place, (), (), one.name) for level in told]
+            return
+        width = length(one.tags.get("width", one.tags.get("door:width")))
+        for level in told or sorted(self._next):
+            there = [self._places[ref] for ref in self._next.get(level, {}).get(one.id, [])]
+            line = door_at(place, there, width)
+            if line is None and told:
+                line = door_beside(place, self._near(place, level), width)
+                if line is None:
+                    self._drawing.remarks.append(f"{one.name}: a door on level {level!r} that is in no wall")
+            if line is not None:
+                self._drawing.doors.append((level, *line, label(one)))
+
+    def _near(self, place: Point, level: str) -> list[Line]:
+        known = self._lines_on.get(level)
+        if known is None:
+            known = Openings([(self._places[a], self._places[b]) for a, others in self._next.get(level, {}).items()
+                              for b in others])  # fmt: skip
+            self._lines_on[level] = known
+        return known.near(Wall(place, place), BESIDE, None)

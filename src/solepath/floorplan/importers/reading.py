@@ -1,0 +1,117 @@
+"""Floor plan files: what a file is, is told by what is in it.
+
+The readers of the formats, and the libraries that they need, are loaded with the first file: most apps read none.
+"""
+
+from __future__ import annotations
+
+from io import BytesIO
+from pathlib import Path
+
+from ..checks import unusable
+from ..plan import FloorPlan, FloorPlanError
+
+LARGEST = 32_000_000
+"""Bytes of a file, and of all that is read of an archive, unpacked; a large airport has a tenth of that."""
+
+STOREY = 3.0
+"""m; from one level to the next where a file does not tell."""
+
+
+def read_floorplan(path: Path | str, storey: float = STOREY) -> FloorPlan:
+    """The plan in a file: GeoJSON of protocol/floorplan.md, an IMDF archive (a zip file or a folder), or OpenStreetMap
+    XML with Simple Indoor Tagging. `storey`: m from one level to the next where the file tells no elevations; such a
+    plan's `heights_known` is False. FloorPlanError, one line, when it cannot be read or used."""
+    try:
+        return _checked(_read(Path(path), storey))
+    except FloorPlanError as error:
+        raise FloorPlanError(f"{path}: {error}") from None
+    except OSError as error:
+        raise FloorPlanError(f"{path}: {error.strerror or error}") from None
+
+
+def plan_of_bytes(data: bytes, storey: float = STOREY) -> FloorPlan:
+    """The plan in a file's bytes. FloorPlanError when there is none that can be used."""
+    return _checked(_plan(data, storey))
+
+
+def _checked(plan: FloorPlan) -> FloorPlan:
+    why_not = unusable(plan)
+    if why_not is not None:
+        raise FloorPlanError(why_not)
+    return plan
+
+
+def _read(path: Path, storey: float) -> FloorPlan:
+    from . import imdf
+
+    if path.is_dir():
+        names = [name for name in imdf.FILES if (path / name).is_file()]
+        return imdf.of_files({name: _bounded(path / name) for name in names}, storey)
+    if path.exists() and not path.is_file():
+        raise FloorPlanError("is no regular file")
+    return _plan(_bounded(path), storey)
+
+
+def _bounded(path: Path) -> bytes:
+    with path.open("rb") as file:
+        data = file.read(LARGEST + 1)
+    if len(data) > LARGEST:
+        raise FloorPlanError(f"is larger than {LARGEST // 1_000_000} MB, too large for a floor plan")
+    return data
+
+
+def _plan(data: bytes, storey: float) -> FloorPlan:
+    from . import geojson, imdf, osm
+    from .features import parsed
+
+    if not 1.0 <= storey <= 50.0:
+        raise FloorPlanError(f"a storey of {storey:g} m cannot be")
+    if data.startswith(b"PK"):
+        return imdf.of_files(_unpacked(data), storey)
+    begin = data.lstrip(b"\xef\xbb\xbf \t\r\n")[:1]
+    if begin == b"<" or data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return osm.of_bytes(data, storey)
+    if begin != b"{":
+        raise FloorPlanError("is no floor plan: neither GeoJSON, nor an IMDF archive, nor OpenStreetMap XML")
+    told = parsed(data)
+    if told.get("format") == geojson.FORMAT:
+        return geojson.of_collection(told, storey)
+    if told.get("type") == "FeatureCollection" and isinstance(told.get("features"), list):
+        first = told["features"][0] if told["features"] else None
+        if isinstance(first, dict) and "feature_type" in first:
+            raise FloorPlanError("is one file of an IMDF archive; the archive or its folder is needed")
+        raise FloorPlanError(f"is GeoJSON, but not a floor plan: its format is not {geojson.FORMAT!r}")
+    raise FloorPlanError("is JSON, but not a floor plan")
+
+
+def _unpacked(data: bytes) -> dict[str, bytes]:
+    """The files that are read, wherever in the archive they lie, and no more of them than LARGEST."""
+    import zipfile
+    import zlib
+
+    from . import imdf
+
+    try:
+        with zipfile.ZipFile(BytesIO(data)) as archive:
+            names = set(archive.namelist())
+            manifests = [name for name in sorted(names) if name.rsplit("/", 1)[-1] == "manifest.json"]
+            folder = min(manifests, key=len, default="manifest.json").removesuffix("manifest.json")
+            found: dict[str, bytes] = {}
+            room = LARGEST
+            for name in imdf.FILES:
+                if folder + name not in names:
+                    continue
+                about = archive.getinfo(folder + name)
+                if about.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+                    raise FloorPlanError(f"{name}: is packed in a way that IMDF does not know")
+                with archive.open(about) as file:
+                    found[name] = file.read(room + 1)
+                room -= len(found[name])
+                if room < 0:
+                    raise FloorPlanError(f"unpacked it is larger than {LARGEST // 1_000_000} MB, too large for a plan")
+            return found
+    except FloorPlanError:
+        raise
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, ValueError, OSError) as error:
+        raise FloorPlanError(f"is a damaged archive ({error})") from None

@@ -1,0 +1,73 @@
+"""When the ground stopped a foot.
+
+That a foot has landed shows in how it turns, or in the speed that is gone; when it did, in the jerk. The ground stops
+it within some hundredths of a second, and heel-strike is the middle of that: the mean time weighted by the squared
+jerk, j = d acc / dt,
+
+    t_HS = sum t |j|^2 dt / sum |j|^2 dt.
+
+It needs no threshold on the force, holds at any mounting and rate, and does not come early where a sole is turned down
+well before it bears weight.
+"""
+
+from __future__ import annotations
+
+from attrs import define, field
+
+from ...types import Vec3
+
+MOST = 1e12
+"""A jolt weighs no more than this, m^2/s^5."""
+
+
+@define
+class Impact:
+    """One swing's, and what ends it. Feed it every sample of the swing."""
+
+    memory: float = 0.02
+    """What is older than about this is no part of it, s."""
+    aloft: float = 0.1
+    """A jolt nearer than this to toe-off is that of leaving the ground, s."""
+    # state
+    began: float | None = field(default=None, init=False)
+    """When the swing did, s; None: before anybody looked."""
+    shock: float = field(default=0.0, init=False)
+    """Squared jerk of the last moments, summed over time, m^2/s^5."""
+    middle: float = field(default=0.0, init=False)
+    """Its mean time, s."""
+    fastest: float = field(default=0.0, init=False)
+    """Speed of the swing, m/s."""
+    hardest: float = field(default=0.0, init=False)
+    """The largest shock since it was that fast, m^2/s^5."""
+    jolted: float = field(default=0.0, init=False)
+    """When that was, s."""
+
+    def begin(self, t: float) -> None:
+        """The toe left the ground at `t`, s."""
+        self.began = self.middle = t
+        self.shock = self.fastest = self.hardest = 0.0
+
+    def feel(self, t: float, dt: float, was: Vec3, acc: Vec3, speed: float, landing: bool) -> None:
+        """Specific force before (`was`) and now, m/s^2; `speed` in m/s; `landing`: nothing is forgotten any more."""
+        if speed > self.fastest:
+            self.fastest = speed
+            self.hardest = 0.0
+        if dt <= 0.0:
+            return
+        x, y, z = acc
+        px, py, pz = was
+        x -= px
+        y -= py
+        z -= pz
+        jolt = (x * x + y * y + z * z) / dt
+        if jolt > MOST:
+            jolt = MOST
+        shock = self.shock
+        if not landing:
+            shock = shock * (1.0 - dt / self.memory) if dt < self.memory else 0.0
+        self.shock = shock = shock + jolt
+        if jolt > 0.0:
+            self.middle += (t - 0.5 * dt - self.middle) * jolt / shock
+        if shock > self.hardest and (self.began is None or self.middle - self.began >= self.aloft):
+            self.hardest = shock
+            self.jolted = self.middle

@@ -1,0 +1,289 @@
+"""From numbers to cues: what a foot was seen to do, with hysteresis and debounce.
+
+`InertialCues` reads stillness and the sagittal angular rate (about the axis that points to the wearer's left, so that
+positive is toe down). Of a step that rate shows: a rise as the heel lifts, a peak of several rad/s as the toe pushes
+off, a long negative hump while the leg swings, and a return through zero as the heel lands. Toe-off is where the rate
+has fallen to half its peak, the steepest place of its fall. Landmarks of this kind are common in gait analysis
+(Sabatini et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Gait & Posture 37, 2013).
+The ground may stop the foot later than that, or earlier: heel-strike is the middle of the impact (impact.py).
+
+`PressureCues` reads the load on the insole.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import Final, NamedTuple
+
+from attrs import define, field
+
+from ...types import Phase, Vec3
+from ...types.vector import TIE, ZERO
+from ..phase import Cue
+from ..stance.stance import Load
+from .impact import Impact
+
+SWING: Final = Phase.SWING
+STATIONARY: Final = Phase.STATIONARY
+PUSH_OFF: Final = Phase.PUSH_OFF
+LOADING: Final = Phase.LOADING
+"""Looked up once: a word of an enum costs as much as five multiplications."""
+
+MISFITS = 3
+"""Push-offs in a row about another axis after which that one is believed."""
+
+
+class Seen(NamedTuple):
+    cue: Cue
+    t: float
+    """When it happened, s."""
+
+
+@define
+class InertialCues:
+    """Latency: toe-off one sample; heel-strike `hear_out` s, or when the foot is still where no impact shows; foot-flat
+    and heel-off `settle` s."""
+
+    settle: float = 0.009
+    """Stillness, or its loss, must last this long, s."""
+    push: float = 1.5
+    """A push-off's peak rate is at least this, rad/s."""
+    past_peak: float = 0.5
+    """Toe-off is where the rate has fallen to this share of its peak."""
+    hump: float = 1.0
+    """The swing's negative hump is at least this, rad/s."""
+    slap: float = 1.0
+    """The heel lands about when the rate comes up through this, as the ground turns the sole down, rad/s."""
+    hear_out: float = 0.04
+    """Then the impact is heard out until its middle is this long ago, s,"""
+    longest_impact: float = 0.1
+    """but not for longer than this, s."""
+    jolt: float = 1e4
+    """A foot that has lost its speed has landed if the impact's squared jerk came to this, m^2/s^5: 600 m/s^3 for
+    30 ms. Muscles that swing a leg reach half of that jerk, the ground some thousands."""
+    shortest_swing: float = 0.1
+    """No heel-strike sooner than this after toe-off, s."""
+    shuffle_speed: float = 0.35
+    """A foot that moves this fast for `shuffle_time` is in swing, however it got there, m/s."""
+    reach: float = 0.2
+    """That is this much faster for each rad/s: no sensor is further from the toes, which a foot rolls over, m."""
+    shuffle_time: float = 0.15
+    loading_time: float = 0.4
+    """The same right after heel-strike, when the sensor still swings down with the sole, s."""
+    lookback: float = 0.02
+    """Stillness is judged over a window, so it began about this long before it showed, s."""
+    rolling: float = 0.12
+    """The heel came off when the sagittal rate was last below this, rad/s."""
+    # state
+    still_since: float | None = field(default=None, init=False)
+    calm: float | None = field(default=None, init=False)
+    """The last moment of this stance at which the foot did not turn, s."""
+    moving_since: float | None = field(default=None, init=False)
+    fast_since: float | None = field(default=None, init=False)
+    axis: Vec3 | None = field(default=None, init=False)
+    """Unit vector to the wearer's left, sensor frame; learnt from how the foot turns as the heel lifts."""
+    misfits: int = field(default=0, init=False)
+    """Push-offs in a row that turned about another axis."""
+    turned: Vec3 = field(default=ZERO, init=False)
+    """Turn since the foot began to move, rad, sensor frame."""
+    peak: float = field(default=0.0, init=False)
+    trough: float = field(default=0.0, init=False)
+    toe_off: float | None = field(default=None, init=False)
+    struck: float | None = field(default=None, init=False)
+    """When the rate came up after the swing, s, until heel-strike is told."""
+    force: Vec3 | None = field(default=None, init=False)
+    """Specific force of the last sample, m/s^2."""
+    impact: Impact = field(factory=Impact, init=False)
+    sagittal: float = field(default=0.0, init=False)
+    """Sagittal rate of the last sample, rad/s; the whole rate while the axis is unknown."""
+
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase
+    ) -> Seen | None:
+        """`acc` in m/s^2, `gyro` in rad/s without bias, `still`: the evidence of zero velocity was believed, `speed` in
+        m/s."""
+        before, axis = self.sagittal, self.axis
+        gx, gy, gz = gyro
+        if axis is None:
+            now = sqrt(gx * gx + gy * gy + gz * gz)
+        else:
+            x, y, z = axis
+            now = x * gx + y * gy + z * gz
+        self.sagittal = now
+        was, self.force = self.force, acc
+        if still:
+            self.moving_since = self.fast_since = None
+            if self.still_since is None:
+                self.still_since = t
+        else:
+            self.still_since = None
+            if self.moving_since is None:
+                self.moving_since = t
+                self.turned = ZERO
+                self.peak = 0.0
+            if speed < self.shuffle_speed + self.reach * (now if now > 0.0 else -now):
+                self.fast_since = None
+            elif self.fast_since is None:
+                self.fast_since = t
+        if phase is SWING:
+            self.calm = None
+            return self._in_swing(t, dt, speed, before, now, was)
+        if now < self.rolling and (still or self.calm is None):
+            self.calm = t
+        if self.still_since is not None:
+            if phase is not STATIONARY and t - self.still_since >= self.settle - TIE:
+                return Seen(Cue.FLAT, self.still_since - self.lookback)
+            return None
+        x, y, z = self.turned
+        self.turned = (x + gx * dt, y + gy * dt, z + gz * dt)
+        if phase is STATIONARY:
+            if now > self.peak:
+                self.peak = now
+            if self.moving_since is not None and t - self.moving_since >= self.settle - TIE:
+                return Seen(Cue.LIFT, self.moving_since if self.calm is None else min(self.calm, self.moving_since))
+            return None
+        return self._in_push_off(t, dt, before, now, phase)
+
+    def _in_push_off(self, t: float, dt: float, before: float, now: float, phase: Phase) -> Seen | None:
+        if now > self.peak:
+            self.peak = now
+        limit = self.past_peak * self.peak
+        if phase is PUSH_OFF and self.peak > self.push and now < limit and self._learn_axis():
+            # between the last two samples, where a straight line meets the limit
+            share = (before - limit) / (before - now) if before > limit > now else 1.0
+            return self._clear(t - dt * (1.0 - share))
+        patience = self.loading_time if phase is LOADING else self.shuffle_time
+        if self.fast_since is not None and t - self.fast_since >= patience - TIE:
+            return self._clear(self.fast_since)
+        return None
+
+    def _in_swing(self, t: float, dt: float, speed: float, before: float, now: float, was: Vec3 | None) -> Seen | None:
+        if now < self.trough:
+            self.trough = now
+        impact = self.impact
+        struck = self.struck
+        force = self.force
+        if was is not None and force is not None:
+            impact.feel(t, dt, was, force, speed, struck is not None)
+        if struck is not None:
+            middle = max(struck, impact.middle)
+            over = t - middle >= self.hear_out - TIE or t - struck >= self.longest_impact - TIE
+            return self._landed(middle) if over or self.still_since is not None else None
+        if self.still_since is not None:
+            if t - self.still_since >= self.settle - TIE:
+                return self._landed(impact.jolted if impact.hardest > 0.0 else self.still_since - self.lookback)
+            return None
+        if self.toe_off is not None and t - self.toe_off < self.shortest_swing - TIE:
+            return None
+        if before < self.slap <= now and self.trough < -self.hump and self.axis is not None:
+            self.struck = t - dt * (now - self.slap) / (now - before)
+        elif speed < self.shuffle_speed and impact.hardest > self.jolt and t - impact.jolted >= self.hear_out - TIE:
+            return self._landed(impact.jolted)
+        return None
+
+    def _landed(self, t: float) -> Seen:
+        self.peak = 0.0
+        self.turned = ZERO
+        self.struck = self.fast_since = None
+        return Seen(Cue.CONTACT, t)
+
+    def interrupt(self) -> None:
+        """What lasts must be seen to last: a gap counts neither as stillness nor as speed."""
+        self.still_since = self.fast_since = None
+
+    def cleared(self, t: float) -> Seen:
+        """The toe left the ground at `t`, in a gap, and the swing was under way when that ended."""
+        seen = self._clear(t)
+        self.trough = -2.0 * self.hump
+        return seen
+
+    def _clear(self, t: float) -> Seen:
+        self.toe_off = t
+        self.impact.begin(t)
+        self.struck = None
+        self.trough = self.peak = 0.0
+        return Seen(Cue.CLEAR, t)
+
+    def pushed_off(self, phase: Phase) -> None:
+        """The load says that the toe has left the ground, in `phase`: how the foot has turned shows the axis all the
+        same."""
+        if phase is PUSH_OFF and self.peak > self.push:
+            self._learn_axis()
+
+    def _learn_axis(self) -> bool:
+        """The heel lifts by a turn about the axis to the left; True when it turned far enough to be a push-off."""
+        x, y, z = self.turned
+        angle = sqrt(x * x + y * y + z * z)
+        if angle < 0.25:
+            return False
+        x, y, z = x / angle, y / angle, z / angle
+        if self.axis is None:
+            self.axis = (x, y, z)
+            return True
+        u, v, w = self.axis
+        if u * x + v * y + w * z < 0.5:
+            # turned about another axis: not how this wearer pushes off, unless it keeps on doing so
+            self.misfits += 1
+            if self.misfits < MISFITS:
+                return False
+            u, v, w = x, y, z
+        self.misfits = 0
+        u, v, w = u + 0.2 * (x - u), v + 0.2 * (y - v), w + 0.2 * (z - w)
+        k = 1.0 / sqrt(u * u + v * v + w * w)
+        self.axis = (u * k, v * k, w * k)
+        return True
+
+
+@define
+class PressureCues:
+    """Contact and clear from the total load, flat and lift from heel and forefoot. Latency: one sample."""
+
+    on: float = 0.05
+    """Contact: the load rises above this share of the wearer's full load."""
+    off: float = 0.03
+    """Clear: it falls below this."""
+    area_on: float = 0.06
+    """The same for the heel and for the forefoot alone."""
+    area_off: float = 0.03
+    recent: float = 0.3
+    """The heel's last load before a lift may date it this far back, s."""
+    # state
+    before: float = field(default=0.0, init=False)
+    heel_loaded: float | None = field(default=None, init=False)
+    """When the heel was last seen to carry load, s."""
+
+    def update(self, t: float, dt: float, load: Load, phase: Phase) -> Seen | None:
+        before, now = self.before, load.total
+        self.before = now
+        if load.heel is not None and load.heel > self.area_off:
+            self.heel_loaded = t
+        if phase is SWING:
+            return Seen(Cue.CONTACT, _crossing(t, dt, before, now, self.on)) if now > self.on else None
+        if now < self.off:
+            return Seen(Cue.CLEAR, _crossing(t, dt, before, now, self.off))
+        return None
+
+    def dated(self, lift: Seen) -> Seen:
+        """The inertial sensor saw the heel lift; the cells know when it did, if the heel has any."""
+        if self.heel_loaded is None or not 0.0 <= lift.t - self.heel_loaded < self.recent:
+            return lift
+        return Seen(lift.cue, self.heel_loaded)
+
+    def areas(self, t: float, load: Load, phase: Phase) -> Seen | None:
+        """For an insole without an inertial sensor: heel and forefoot say what stillness would have said."""
+        if load.heel is None or load.forefoot is None:
+            return None
+        if phase is LOADING and load.heel > self.area_off and load.forefoot > self.area_on:
+            return Seen(Cue.FLAT, t)
+        if phase is STATIONARY and load.heel < self.area_off and load.forefoot > self.area_on:
+            return Seen(Cue.LIFT, t)
+        if phase is PUSH_OFF and load.heel > self.area_on and load.forefoot > self.area_on:
+            return Seen(Cue.FLAT, t)
+        return None
+
+
+def _crossing(t: float, dt: float, before: float, now: float, level: float) -> float:
+    """When the straight line between the last two samples met the level, s."""
+    if (before - level) * (now - level) >= 0.0:
+        return t
+    return t - dt * (now - level) / (now - before)

@@ -1,0 +1,48 @@
+"""Over a gap in the samples: what the foot did meanwhile is taken from its habit, where it has one (gap.py)."""
+
+from __future__ import annotations
+
+from ...events import Event
+from ...types import Vec3
+from ..cues.gait_cues import Cues
+from ..gait import Gait
+from ..navigate.strapdown import LONGEST_BRIDGE, Corrector
+from .gap import NoLeap, leap
+
+
+def cross(
+    gait: Gait,
+    corrector: Corrector,
+    cues: Cues,
+    last: float,
+    t: float,
+    known_at: float,
+    seen: tuple[Vec3, Vec3],
+    interval: float,
+    events: list[Event],
+) -> float:
+    """From the last sample at `last` to the one at `t`, s, that saw acc and gyro (m/s^2, rad/s; without bias).
+
+    `interval`: the usual one between samples, s. Adds the phases that the gap has hidden to `events`; returns how long
+    to integrate over, s.
+    """
+    habit = gait.habit
+    dt = t - last
+    acc, gyro = seen
+    found = leap(habit, corrector, last, t, acc, gyro)
+    if found is NoLeap.UNKNOWN:
+        habit.cross()
+        if dt > LONGEST_BRIDGE:
+            habit.interrupt()
+        return corrector.bridge(dt)
+    for _ in range(2):  # within a second a foot may land, stand, and leave again
+        if isinstance(found, NoLeap):
+            break
+        cues.interrupt()
+        corrector.leap(t - last, found.attitude, found.velocity, found.position)
+        events += gait.leapt(found, cues, known_at, corrector, interval)
+        if found.landed is None:
+            break
+        last = found.landed
+        found = leap(habit, corrector, last, t, acc, gyro)
+    return 0.0

@@ -1,0 +1,184 @@
+"""What a foot is used to doing: the last stride that was seen whole, for when nobody saw what it did (gap.py).
+
+Walking repeats itself: of the same wearer, the same part of two neighbouring strides differs by a few per cent, where a
+straight line over half a second of a swing is off by a right angle. Where the foot comes down after a gap is mended in
+the same way: it goes about as far as in the last stride, and straight on (straight.py).
+"""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import NamedTuple
+
+from attrs import define, field
+
+from ...types import Quat, Vec3
+from ...types.vector import ZERO, single, sub
+from .moment import ROW, Stride, corrected, limited, turned
+from .straight import StraightOn, share
+
+
+class Mended(NamedTuple):
+    """What a stride with a gap in it most likely was."""
+
+    turn: float
+    """To add to the heading, rad."""
+    way: Vec3
+    """From foot-flat to foot-flat, m."""
+
+
+@define
+class Habit:
+    """The last stride that was seen whole, from the heel's rise to foot-flat, and the heading kept since.
+
+    At most `most` moments of two strides are kept. Costs nothing but a comparison between moments, `spacing` s apart.
+    """
+
+    spacing: float = 0.032
+    """Between the moments that are kept, s."""
+    most: int = 40
+    least: int = 4
+    """So few moments make no stride."""
+    gap_way: float = 0.15
+    """What the end of a stride errs by after a third of a second by habit, m, and what two strides differ by:"""
+    way_sigma: float = 0.06
+    dense: float = 0.03
+    """Samples less apart than this follow a swing as it is, s."""
+    corner: float = 0.2
+    """A stride that turns further than this is not kept, rad, unless what was kept is `old` strides old."""
+    old: int = 20
+    drift: float = 0.4
+    """A stride that zero velocity moved further than this when the foot came down was not followed well, m."""
+    room: float = 1.2
+    """A stride with a gap in it is no longer than so many times the longest that was seen lately; and no higher than
+    two steps of stairs, m:"""
+    highest: float = 0.4
+    # state
+    last: Stride | None = field(default=None, init=False)
+    age: int = field(default=1000, init=False)
+    """Strides since `last`."""
+    now: bytes = field(default=b"", init=False)
+    """Moments of the stride under way (`ROW`)."""
+    origin: Vec3 = field(default=ZERO, init=False)
+    """Where the first of them was; their positions are from here, m."""
+    stance: float = field(default=0.0, init=False)
+    """How long the foot was flat before it last rose, s."""
+    stood_since: float | None = field(default=None, init=False)
+    """When the foot was last flat, s; None before the first step."""
+    lifted: float | None = field(default=None, init=False)
+    """When the heel rose, s; None while the foot stands."""
+    due: float = field(default=0.0, init=False)
+    """When the next moment is kept, s."""
+    guessed: float = field(default=0.0, init=False)
+    """Of the movement since the heel's rise, how long was not seen, s."""
+    crossed: bool = field(default=False, init=False)
+    """A gap in this stride was bridged by a straight line."""
+    landed: float | None = field(default=None, init=False)
+    """When the last stride ended, whatever came since, s."""
+    longest: float = field(default=0.0, init=False)
+    """Of the strides seen whole lately, m."""
+    straight_on: StraightOn = field(factory=StraightOn, init=False)
+
+    def lift(self, t: float) -> None:
+        """The heel rises."""
+        if self.stood_since is not None and self.guessed == 0.0:
+            self.stance = t - self.stood_since
+        self.lifted = self.due = t
+        self.now = b""
+
+    def guess(self, lifted: float, duration: float) -> None:
+        """The heel rose at `lifted`, s, and for `duration` of the stride since, s, the last one stands in."""
+        self.guessed += duration
+        self.lifted = self.due = lifted
+
+    def cross(self) -> None:
+        """A gap was bridged by a straight line."""
+        self.crossed = True
+
+    def interrupt(self) -> None:
+        """Nobody knows what the foot does now."""
+        self.lifted = self.stood_since = None
+        self.now = b""
+        self.straight_on.footfalls = 0
+
+    def keep(self, t: float, attitude: Quat, velocity: Vec3, position: Vec3, acc: Vec3, gyro: Vec3) -> None:
+        """A moment of a moving foot; call when `due` has come."""
+        if self.lifted is None:
+            return
+        self.due = t + self.spacing
+        if self.guessed > 0.0:
+            return
+        now = self.now
+        if not now:
+            self.origin = position
+        elif len(now) >= self.most * ROW.size:
+            self.now = b""
+            self.lifted = None
+            return
+        try:
+            way = sub(position, self.origin)
+            self.now = now + ROW.pack(t - self.lifted, *attitude, *velocity, *way, *gyro, hypot(*acc))
+        except OverflowError:  # float32 goes to 3e38: this is no stride
+            self.now = b""
+            self.lifted = None
+
+    def flat(
+        self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, way: Vec3, interval: float
+    ) -> Mended | None:
+        """The foot is flat again, turned by `turn` (rad) and `way` (m) off since it was so last.
+
+        `interval`, s, is the usual one between samples: where few make a swing, every stride is half gaps.
+        What a gap has spoilt of that is mended by what is usual, as far as it is likely to be so this time.
+        """
+        straight_on = self.straight_on
+        middle = straight_on.yaw + 0.5 * turn
+        self._learn(t, toe_off, heel_strike, turn, turned(way, -middle))
+        guessed, self.guessed = self.guessed, 0.0
+        crossed, self.crossed = self.crossed, False
+        lasted = None if self.landed is None else t - self.landed
+        self.landed = t
+        self.now = b""
+        self.lifted = None
+        self.stood_since = t
+        sparse = interval if interval > self.dense else 0.0
+        unsure = min(1.0, guessed / 0.3)
+        yaw, mended = 0.0, None
+        if toe_off is not None and guessed + sparse > 0.0:
+            yaw = straight_on.mend(turn, unsure, sparse)
+            x, y, z = turned(way, 0.5 * yaw)
+            if self.last is not None:
+                dx, dy, dz = sub(turned(self.last.way, middle + 0.5 * yaw), (x, y, z))
+                k = share(dx * dx + dy * dy + dz * dz, self.gap_way * unsure, self.way_sigma, 3.0, 2)
+                x, y, z = x + k * dx, y + k * dy, z + k * dz
+            mended = Mended(yaw, (x, y, z))
+        if toe_off is not None and lasted is not None and (guessed > 0.0 or crossed):
+            mended = self._bounded(Mended(0.0, way) if mended is None else mended, lasted)
+        straight_on.footfall(turn, yaw, unsure, sparse)
+        return mended
+
+    def _bounded(self, mended: Mended, lasted: float) -> Mended:
+        """Within what is possible for a stride that took so long, s."""
+        if self.last is None:
+            return mended
+        # two strides are one when a gap that was not filled hid the foot-flat between them
+        k = max(1.0, min(2.0, lasted / (self.last.lasted + self.stance)))
+        x, y, z = mended.way
+        x, y, _ = limited((x, y, 0.0), k * self.room * self.longest)
+        return Mended(mended.turn, (x, y, max(-k * self.highest, min(z, k * self.highest))))
+
+    def _learn(self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, way: Vec3) -> None:
+        """Keep the stride that ends at `t` if it was seen whole; `way` as in `Stride`."""
+        self.age = min(self.age + 1, 1000)
+        if self.lifted is None or toe_off is None or self.guessed > 0.0 or self.crossed:
+            return
+        if len(self.now) < self.least * ROW.size:
+            return
+        if corrected(self.now) > self.drift:
+            return
+        self.longest = max(0.95 * self.longest, hypot(way[0], way[1]))
+        # a stride round a corner is no habit, unless no other comes for long
+        if abs(turn) < self.corner or self.age > self.old:
+            struck = t if heel_strike is None else heel_strike
+            # rounded as the moments are, at one of which they may have been
+            self.last = Stride(self.now, single(toe_off - self.lifted), single(struck - self.lifted), way)
+            self.age = 0

@@ -1,0 +1,219 @@
+"""Where a sensor's range ends, and what it did not see there.
+
+Many gyroscopes end at 250 or 500 degrees/s, which a foot exceeds as its heel rises and again as its leg swings; and
+the blow of a heel-strike is more than the 2 g of some accelerometers. The reading then stands at the end of the range.
+How much is missed is known in part: the reading leaves the range and comes back to it as steeply as it is seen to.
+Under the cubic through both ends with these slopes lie D^2 (rise + fall) / 12 for D seconds beyond the range; the
+longer it lasts and the less alike its ends are, the flatter is what a foot really does, and so
+
+    m = D^2 sqrt(rise fall) / (6 (1 + D / FLAT))
+
+is taken: on recorded feet, cut off at 250 degrees/s, a third of m off as a rule. missed.py says what follows. Where
+the range ends is learnt: an axis that stands at its largest reading for D seconds is at its end, unless that is no more
+than what a smooth maximum does. Between ends as steep as those, it would rise by D sqrt(rise fall) / 4.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import NamedTuple
+
+from attrs import define, field
+
+from ...types import Vec3
+
+SAME = 0.025
+"""Readings at the end of a range differ by less than this share of it: calibrations mix the axes, and a bias is off."""
+NEAR = 0.85
+"""The ends of the axes' ranges are alike: none is nearer than this share of the largest rate."""
+LEAST = 2.0
+"""No gyroscope's range ends below this, rad/s;"""
+LEAST_FORCE = 15.0
+"""and no accelerometer's below this, m/s^2."""
+SPIKE = 1.5
+"""No reading is believed to be more than so many times the largest before it."""
+FADES = 0.97
+"""What is left, a step later, of the largest rate, so that what was broken is forgotten."""
+FLAT = 0.25
+"""s, as in m."""
+BULGE = 3.0
+"""An end of a range is believed when a smooth maximum would rise by so many times what readings there differ by."""
+SPREAD = 1.0
+"""What m is wrong by, as a share of it; and as a share of what was seen meanwhile:"""
+FLOOR = 0.05
+MOST = 1.0
+"""No end of a range hides more, rad."""
+TRIFLE = 0.004
+"""Less is nothing, rad: what a smooth maximum comes to."""
+TRIFLE_SPEED = 0.03
+"""The same of an accelerometer, m/s."""
+LONGEST = 0.5
+"""A reading that stands for longer than this is broken, or turns evenly, s."""
+STEEPEST = 400.0
+"""No foot's rate changes faster, rad/s^2;"""
+STEEPEST_FORCE = 4000.0
+"""nor its specific force, but when it strikes, m/s^3."""
+
+class Missed(NamedTuple):
+    """What one axis did not see."""
+
+    axis: int
+    angle: float
+    """About the sensor's axis, rad; of an accelerometer, along it, m/s."""
+    sigma: float
+    lasted: float
+    """How long it was beyond the range, s;"""
+    ago: float
+    """and how long before the last sample it came back to it, s."""
+    rise: float
+    fall: float
+    """How steeply it left the range and came back, rad/s^2."""
+
+
+@define
+class Axis:
+    """One axis of the gyroscope."""
+
+    top: float
+    """The largest reading seen, and the least, rad/s or m/s^2."""
+    bottom: float
+    ends_above: bool = False
+    """It cannot say more than `top`;"""
+    ends_below: bool = False
+    """nor less than `bottom`."""
+    side: int = 0
+    """1: above the range now, -1: below it, 0: within."""
+    lasted: float = 0.0
+    """From when it left the range to the last sample beyond it, s."""
+    rise: float = 0.0
+    """How steeply it left, rad/s^2."""
+    after: float | None = None
+    """The first sample within the range again, rad/s, and how long after the last one beyond it, s:"""
+    after_dt: float = 0.0
+
+
+@define
+class Clipping:
+    """Three axes. Latency: what was missed is known two samples after the range is entered again."""
+
+    least: float = LEAST
+    steepest: float = STEEPEST
+    trifle: float = TRIFLE
+    # state
+    axes: list[Axis] = field(init=False)
+    largest: float = field(init=False)
+    """The largest reading of any axis."""
+    watch: float = field(init=False)
+    """Square of what is measured from which on an axis may be at its end."""
+    busy: bool = field(default=False, init=False)
+    """An axis is beyond its range, or was a sample ago."""
+    def __attrs_post_init__(self) -> None:
+        self.axes = [Axis(self.least, -self.least) for _ in range(3)]
+        self._reach(self.least)
+
+    def stepped(self) -> None:
+        """A step ended."""
+        self._reach(FADES * self.largest)
+        for axis in self.axes:
+            if not axis.ends_above:
+                axis.top = max(self.least, FADES * axis.top)
+            if not axis.ends_below:
+                axis.bottom = min(-self.least, FADES * axis.bottom)
+
+    def interrupt(self) -> None:
+        """There was a gap: what was missed before it is not known."""
+        self.busy = False
+        for axis in self.axes:
+            axis.side = 0
+
+    def update(
+        self, dt: float, now: Vec3, before: Vec3, earlier: Vec3, earlier_dt: float, told: bool
+    ) -> tuple[Missed, ...]:
+        """One rate, rad/s, `dt` s after `before`, which was `earlier_dt` after `earlier`; `told`: the device says that
+        a sensor is at its end. Returns what turned out to have been missed."""
+        found: tuple[Missed, ...] = ()
+        busy = False
+        for i in (0, 1, 2):
+            axis, a = self.axes[i], now[i]
+            if axis.side == 0:
+                if abs(a) > NEAR * self.largest and not axis.bottom * (1.0 - SAME) < a < axis.top * (1.0 - SAME):
+                    _enter(axis, dt, a, before[i], earlier[i], earlier_dt, told, self.steepest)
+                    if abs(a) > self.largest:
+                        self._reach(min(abs(a), SPIKE * self.largest))
+            else:
+                missed = _follow(axis, i, dt, a, self.steepest)
+                if missed is not None and abs(missed.angle) > self.trifle:
+                    found = (*found, missed)
+            busy = busy or axis.side != 0
+        self.busy = busy
+        return found
+
+    def _reach(self, rate: float) -> None:
+        self.largest = max(self.least, rate)
+        self.watch = NEAR * NEAR * self.largest * self.largest
+
+def _enter(
+    axis: Axis, dt: float, a: float, before: float, earlier: float, earlier_dt: float, told: bool, most: float
+) -> None:
+    sign = 1 if a > 0.0 else -1
+    a, before, earlier = sign * a, sign * before, sign * earlier
+    end = axis.top if sign > 0 else -axis.bottom
+    known = axis.ends_above if sign > 0 else axis.ends_below
+    stands = a * (1.0 - SAME) <= before <= a * (1.0 + SAME)
+    if a > end * (1.0 + SAME):
+        known = told  # it can say more than was thought
+    end = max(end, min(a, SPIKE * end))
+    known = known or told
+    if sign > 0:
+        axis.top, axis.ends_above = end, known
+    else:
+        axis.bottom, axis.ends_below = -end, known
+    if not (known or stands):
+        return
+    axis.side, axis.after, axis.after_dt = sign, None, 0.0
+    axis.rise = _slope(before - earlier, earlier_dt, most)
+    if stands:
+        axis.lasted = dt
+    else:
+        axis.rise = max(_slope(a - before, dt, most), axis.rise)
+        axis.lasted = max(0.0, dt - (a - before) / axis.rise)
+
+
+def _follow(axis: Axis, i: int, dt: float, a: float, most: float) -> Missed | None:
+    sign = axis.side
+    a *= sign
+    end = axis.top if sign > 0 else -axis.bottom
+    if a > end * (1.0 + SAME):  # it was not the end
+        if sign > 0:
+            axis.top, axis.ends_above = min(a, SPIKE * end), False
+        else:
+            axis.bottom, axis.ends_below = -min(a, SPIKE * end), False
+        axis.side = 0
+        return None
+    if a >= end * (1.0 - SAME):
+        axis.lasted += dt + axis.after_dt
+        axis.after, axis.after_dt = None, 0.0
+        if axis.lasted > LONGEST:
+            axis.side = 0
+        return None
+    if axis.after is None:
+        axis.after, axis.after_dt = a, dt
+        return None
+    fall = max(_slope(end - axis.after, axis.after_dt, most), _slope(axis.after - a, dt, most))
+    if not (axis.ends_above if sign > 0 else axis.ends_below):
+        if axis.lasted * sqrt(axis.rise * fall) < 4.0 * BULGE * SAME * end:
+            axis.side, axis.after, axis.after_dt = 0, None, 0.0
+            return None
+        if sign > 0:
+            axis.ends_above = True
+        else:
+            axis.ends_below = True
+    tail = min((end - axis.after) / fall, axis.after_dt)
+    lasted = axis.lasted + axis.after_dt - tail
+    angle = min(lasted * lasted * sqrt(axis.rise * fall) / (6.0 * (1.0 + lasted / FLAT)), MOST)
+    axis.side, axis.after, axis.after_dt = 0, None, 0.0
+    return Missed(i, sign * angle, SPREAD * angle + FLOOR * end * lasted, lasted, dt + tail, axis.rise, fall)
+
+
+def _slope(more: float, dt: float, most: float) -> float:
+    return min(max(more / dt, 1.0), most) if dt > 0.0 else 1.0

@@ -1,0 +1,104 @@
+"""Linear dedrift: free integration in swing, velocity held in stance, and the drift of a swing taken out in a line.
+
+The textbook corrector (for instance Ojeda and Borenstein, "Non-GPS navigation for security personnel and first
+responders", 2007): whatever velocity is left at the end of a swing was gathered evenly over it. With e(t) = e_T t/T
+removed from the velocity, the position loses the integral, e_T T/2. Tilt drifts with the gyroscope, so in stance the
+measured direction of gravity pulls the attitude back (the proportional term of Mahony, Hamel, Pflimlin, IEEE Trans.
+Autom. Control 53, 2008).
+"""
+
+from __future__ import annotations
+
+from math import exp, sqrt
+
+from attrs import define, field
+
+from ...types import Phase, Quat, Vec3
+from ...types.vector import GRAVITY, ZERO, sub, tipped
+from ..stance.stance import Stance
+from .strapdown import LONGEST_BRIDGE, Strapdown
+
+
+@define
+class LinearDedrift(Strapdown):
+    """Strapdown navigation whose velocity is set to the evidence's in stance, the swing's drift taken out at once.
+
+    Frame and units as in `Corrector`. Latency: the position is corrected, in one jump, with the first sample of stance.
+    """
+
+    trusted: float = 0.05
+    """Evidence with a sigma above this is no stance, m/s."""
+    tilt_rate: float = 2.0
+    """How fast stance pulls the tilt towards gravity, 1/s."""
+    drift: float = 0.01
+    """What is left of a stretch after dedrift, as a share of its length."""
+    turn_drift: float = 0.002
+    """Growth of the heading error, rad/sqrt(s)."""
+    # state
+    swing: float = field(default=0.0, init=False)
+    """Time since stance, s."""
+    length: float = field(default=0.0, init=False)
+    """Way since the last anchor, m."""
+    lasted: float = field(default=0.0, init=False)
+    """Time since the last anchor, s."""
+
+    def start(self, attitude: Quat, tilt_sigma: float) -> None:
+        self.attitude = attitude
+        self.velocity = self.position = ZERO
+        self.force = self.rate = None
+        self.swing = self.length = self.lasted = 0.0
+
+    def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
+        self.integrate(dt, acc, gyro)
+        vx, vy, vz = self.velocity
+        self.length += sqrt(vx * vx + vy * vy + vz * vz) * dt
+        self.swing += dt
+        self.lasted += dt
+
+    def correct(self, t: float, stance: Stance) -> bool:
+        if stance.sigma > self.trusted or stance.hint is Phase.SWING:
+            return False
+        rx, ry, rz = stance.v_ref
+        vx, vy, vz = self.velocity
+        x, y, z = self.position
+        half = 0.5 * self.swing
+        self.position = (x + (rx - vx) * half, y + (ry - vy) * half, z + (rz - vz) * half)
+        self.velocity = stance.v_ref
+        self._level(self.swing)
+        self.swing = 0.0
+        return True
+
+    def bridge(self, dt: float) -> float:
+        # nothing is estimated from noise here; the gap only makes the stretch less certain
+        self.length += min(dt, LONGEST_BRIDGE) * 1.0
+        if dt <= LONGEST_BRIDGE:
+            return dt
+        self.velocity = ZERO
+        self.force = self.rate = None
+        self.swing = 0.0
+        return 0.0
+
+    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+        self.length += sqrt(sum(v * v for v in sub(position, self.position)))
+        self.swing += dt
+        self.lasted += dt
+        self.attitude, self.velocity, self.position = attitude, velocity, position
+        self.force = self.rate = None
+
+    def anchor(self) -> tuple[float, ...]:
+        stretch = self.covariance()
+        self.length = self.lasted = 0.0
+        return stretch
+
+    def covariance(self) -> tuple[float, ...]:
+        variance = (self.drift * self.length) ** 2
+        yaw = self.turn_drift * self.turn_drift * self.lasted
+        return (variance, 0.0, 0.0, variance, 0.0, variance, yaw)
+
+    def _level(self, dt: float) -> None:
+        """Turn the attitude about f x z so that the specific force points up, by 1 - exp(-rate dt) of the way."""
+        if self.force is None:
+            return
+        fx, fy, _ = self.force
+        share = 0.5 * (1.0 - exp(-self.tilt_rate * min(dt, 0.1))) / GRAVITY
+        self.attitude = tipped(self.attitude, share * fy, -share * fx)

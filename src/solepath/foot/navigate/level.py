@@ -1,0 +1,207 @@
+"""Whether a step was level, so that level walking stays level.
+
+A foot comes down on the floor that it left, on a slope, or on another stair. What integration says of the height is off
+by a few centimetres a step, and mostly always the same way: with nothing to hold it a level walk climbs by metres. So
+what is no stair and no slope is taken off again ("vertical error elimination": Li, Liu, Liu, Chen, Ma, Sensors 16,
+1809, 2016, section 3.4.2), softly, by how likely each of three is by Bayes' rule:
+
+    level   height = 0          pitch = 0       the foot stands as high as before, and as flat as it does on the level
+    slope   height = s way      pitch = s       it stands higher, and is pitched by the same angle; s is small
+    stair   height = anything   pitch = 0       within half a metre: a kerb, a stair, two stairs at a time
+
+with what the step before most likely was as the prior: a slope goes on, a stair is followed by another.
+
+What level steps have in common is learnt and taken off every step. `lean`: the height for each metre of way that the
+errors of this sensor make (a bias of 25 mg makes 3.5 cm of a stride of 1.4 m). `scale`: by how much heights scatter,
+as a share of what the filter expects. `upright`: how the sensor lies when the foot is flat. The pitch is measured
+against that, in the direction of the step, so neither the mounting nor an error of integration has a part in it.
+
+A slope of less than some 3 % cannot be told from a lean and is taken for one; so is any slope by a sensor whose heights
+scatter by a decimetre, until the pitch of several steps has shown it.
+"""
+
+from __future__ import annotations
+
+from math import exp, hypot, log, pi, sqrt
+
+from attrs import define, field
+
+from ...types import Quat, Vec3
+from ...types.vector import ZERO, conjugate, rotate
+
+UP = (0.0, 0.0, 1.0)
+FARTHEST = 1e3
+"""No step is longer, m, nor is anything learnt of one."""
+OUTSET = 0.05
+"""How often a walk begins on a slope."""
+SURE, RUN = 4, 20
+"""So many steps in a row show that there are two slopes, and more than these are no better proof."""
+LIKELIER = 2.0
+"""Natural logarithm of the odds at which the other one is taken for level."""
+FLATTEST = 2e-4
+"""The pitch of a flat foot is not known better than by this variance, rad^2."""
+
+
+@define
+class Level:
+    """Say of every step how high it led (`judge`). Known at its foot-flat; m and rad."""
+
+    gate: bool = True
+    """False: every height stays as it is."""
+    uneven: float = 0.01
+    """What a level floor differs by from one foot-flat to the next: the sole, the moment that is taken for flat, m."""
+    steep: float = 0.08
+    """Standard deviation of the slopes that are walked, rise for each metre."""
+    tall: float = 1.0
+    """Between the highest stair up and down that a step may take, m."""
+    seldom: tuple[float, float] = (0.01, 0.03)
+    """How often a step that was on none is followed by one on a slope, and on a stair."""
+    stays: tuple[float, float] = (0.8, 0.5)
+    """How often a slope, and a stair, is followed by another."""
+    lean_sigma: float = 0.02
+    """Standard deviation of the lean from sensor to sensor."""
+    pitch_sigma: float = 0.06
+    """How far one foot-flat tells the pitch of the others: those of a start and of a turn differ, rad."""
+    astray: float = 0.1
+    """Share of foot-flats whose pitch says nothing."""
+    least: float = 0.3
+    """A shorter step tells nothing of lean and pitch, m, nor does one that turns by more than"""
+    corner: float = 0.6
+    """rad."""
+    memory: float = 25.0
+    """Level steps that count in what is learnt."""
+    # state
+    lean: float = field(default=0.0, init=False)
+    """Height for each metre of way."""
+    leant: float = field(default=0.0, init=False)
+    """How well that is known: the inverse of its variance, without what was supposed at first."""
+    scale: float = field(default=0.25, init=False)
+    """Square of the scatter of heights as a share of what the filter expects."""
+    scaled: float = field(default=4.0, init=False)
+    """Level steps that it is known from; four stand for what was supposed."""
+    upright: Vec3 = field(default=ZERO, init=False)
+    """Up in the sensor's axes, mean over the foot-flats of level steps."""
+    stood: float = field(default=0.0, init=False)
+    """Level steps that it is known from."""
+    wobble: float = field(default=5e-4, init=False)
+    """Variance of the pitch of a flat foot from step to step, rad^2."""
+    run: int = field(default=0, init=False)
+    """Steps on a slope up to now, and their mean"""
+    grade: float = field(default=0.0, init=False)
+    """rise for each metre, and"""
+    tipped: Vec3 = field(default=ZERO, init=False)
+    """up in the sensor's axes."""
+    slope: float = field(default=0.02, init=False)
+    stair: float = field(default=0.02, init=False)
+    """How likely the last step was on a slope, and on a stair."""
+
+    def judge(self, way: Vec3, turn: float, variance: float, attitude: Quat) -> tuple[float, float]:
+        """A foot has come down flat, `way` m (z up, any heading) from where it last was, turned by `turn` rad.
+
+        `variance`: of the height as the filter has it, m^2. `attitude`: sensor to a frame with z up. Returns the height
+        that it has most likely gained, m, and how likely the step was level.
+        """
+        x, y, z = way
+        ground = hypot(x, y)
+        if not (self.gate and ground < FARTHEST and abs(z) < FARTHEST and 0.0 < variance < FARTHEST):
+            return z, 0.0
+        height = z - self.lean * ground
+        noise = self.uneven * self.uneven + self.scale * variance
+        # neither is the lean known exactly
+        spread = noise + ground * ground / (1.0 / (self.lean_sigma * self.lean_sigma) + self.leant)
+        rises = self.steep * self.steep
+        slopes = ground * ground * rises
+        gain = slopes / (spread + slopes)
+        level, slope, stair = self._expected()
+        level *= _density(height, spread)
+        slope *= _density(height, spread + slopes)
+        stair /= self.tall
+        up = rotate(conjugate(attitude), UP)
+        walked = ground > self.least and abs(turn) < self.corner
+        pitch = 0.0
+        if walked and self.stood > 0.5:
+            pitch = self._pitch(x / ground, y / ground, attitude, up)
+            known = self.pitch_sigma / self.stood
+            wobble = max(self.wobble, FLATTEST) + known * known
+            flat = self._likely(pitch, wobble)
+            level *= flat
+            stair *= flat
+            # given the height, s is gain height / way and varies by (1 - gain) of what slopes do
+            slope *= self._likely(pitch - gain * height / ground, wobble + (1.0 - gain) * rises)
+        total = level + slope + stair
+        if total > 0.0:
+            level, slope, stair = level / total, slope / total, stair / total
+        else:
+            level, slope, stair = 0.0, 0.0, 1.0
+        if ground > 0.5 * self.least:  # else the foot was lifted and put down again: still on what it was on
+            self.slope, self.stair = slope, stair
+        if walked:
+            self._learn(level, height, ground, variance, noise, up, pitch)
+            self._go_on(slope, height / ground, up)
+        return (slope + stair) * height, level
+
+    def _expected(self) -> tuple[float, float, float]:
+        """How likely each of the three is by the step before."""
+        to_slope, to_stair = self.seldom
+        slope = (1.0 - self.slope) * to_slope + self.slope * self.stays[0]
+        stair = (1.0 - self.stair) * to_stair + self.stair * self.stays[1]
+        return 1.0 - slope - stair, slope, stair
+
+    def _pitch(self, x: float, y: float, attitude: Quat, up: Vec3) -> float:
+        """Toe up against the mean, in the direction (x, y) of the step: the change of up along it, rad."""
+        fx, fy, fz = rotate(conjugate(attitude), (x, y, 0.0))
+        ux, uy, uz = up
+        rx, ry, rz = self.upright
+        return (ux - rx) * fx + (uy - ry) * fy + (uz - rz) * fz
+
+    def _likely(self, off: float, variance: float) -> float:
+        """Of a pitch; that which says nothing is as likely whatever it is, within a radian."""
+        return (1.0 - self.astray) * _density(off, variance) + self.astray
+
+    def _learn(
+        self, level: float, height: float, ground: float, variance: float, noise: float, up: Vec3, pitch: float
+    ) -> None:
+        """From a step that was level with that probability."""
+        # least squares of height = lean ground, beside a lean that is about 0
+        weight = level * ground * ground / noise
+        before = 1.0 / (self.lean_sigma * self.lean_sigma) + self.leant
+        self.lean += weight / (before + weight) * height / ground
+        self.leant = min(self.leant + weight, self.memory * ground * ground / noise)
+        self.scaled = min(self.scaled + level, self.memory)
+        self.scale += level / self.scaled * (min(height * height / max(variance, 1e-6), 2.0) - self.scale)
+        if self.stood > 0.5:
+            self.wobble += level / (self.stood + 4.0) * (min(pitch * pitch, 0.01) - self.wobble)
+        self.stood = min(self.stood + level, self.memory)
+        if self.stood > 0.0:
+            k = level / self.stood
+            x, y, z = self.upright
+            ux, uy, uz = up
+            self.upright = (x + k * (ux - x), y + k * (uy - y), z + k * (uz - z))
+
+    def _go_on(self, slope: float, grade: float, up: Vec3) -> None:
+        """A step of `grade`, rise for each metre, that was on a slope with that probability.
+
+        Who sets out on a slope has what is level and what is not the wrong way round. It shows when the slope is left:
+        with the other one for level there would be hardly any lean."""
+        if slope < 0.5:
+            self.run = 0
+            return
+        self.run = min(self.run + 1, RUN)
+        k = 1.0 / self.run
+        self.grade += k * (grade - self.grade)
+        x, y, z = self.tipped
+        ux, uy, uz = up
+        self.tipped = (x + k * (ux - x), y + k * (uy - y), z + k * (uz - z))
+        lean, other = self.lean, self.lean + self.grade
+        odds = 0.5 * (lean * lean - other * other) / (self.lean_sigma * self.lean_sigma)
+        # each step more on a slope costs the chance that it goes on; the first one, to be on it from the start or later
+        odds += log(OUTSET / self.seldom[0]) + log(self.stays[0]) * (self.stood - self.run)
+        if self.run >= SURE and odds > LIKELIER:
+            self.lean, self.upright, self.stood = other, self.tipped, float(self.run)
+            self.leant *= 0.5
+            self.slope, self.stair, self.run = 0.02, 0.02, 0
+
+
+def _density(off: float, variance: float) -> float:
+    """Of a normal distribution about 0."""
+    return exp(-0.5 * min(off * off / variance, 1400.0)) / sqrt(2.0 * pi * variance)

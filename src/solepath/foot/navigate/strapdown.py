@@ -1,0 +1,164 @@
+"""Strapdown navigation of one foot: attitude, velocity and position from specific force and angular rate.
+
+The frame is z up with the heading that the sensor had when it was levelled; the tracker turns it into the world frame.
+What keeps the integration from drifting is a corrector (`eskf.ErrorStateFilter`, `dedrift.LinearDedrift`): both
+are this strapdown plus a way of using stance evidence, and both satisfy `Corrector`.
+"""
+
+from __future__ import annotations
+
+from math import cos, sin, sqrt
+from typing import Protocol
+
+from attrs import define, field
+
+from ...types import Quat, Vec3
+from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, multiply, normalise, rotate
+from ..phase import Cue
+from ..stance.stance import Stance
+
+LONGEST_BRIDGE = 0.25
+"""A gap longer than this is not integrated over: a foot turns and turns back within it, s."""
+WIDEST_SERIES = 0.06
+"""Square of the half angle, rad^2, up to which the series below are good to 1e-12."""
+
+
+class Corrector(Protocol):
+    """What the tracker needs of a way to navigate."""
+
+    attitude: Quat
+    velocity: Vec3
+    position: Vec3
+    rate: Vec3 | None
+    """Angular rate of the last sample, sensor frame, rad/s; None when there was none or a gap since."""
+
+    @property
+    def error_index(self) -> float | None:
+        """By how much the integration missed a known velocity in the motion that ended last, m/s (StepFeatures)."""
+
+    def start(self, attitude: Quat, tilt_sigma: float) -> None:
+        """Stand still at the origin with this attitude, its tilt known to `tilt_sigma` rad."""
+
+    def told(self, attitude: Quat) -> None:
+        """The device says its own attitude at the sample that comes next: sensor to a world of its own, z up."""
+
+    def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
+        """One sample: `acc` in m/s^2 and `gyro` in rad/s, sensor frame, bias removed, `dt` s after the one before;
+        `saturated` when the device says that a sensor was at the end of its range."""
+
+    def correct(self, t: float, stance: Stance) -> bool:
+        """Use the evidence of the sample just predicted; True when it agreed with the motion so far."""
+
+    def mark(self, t: float, cue: Cue) -> None:
+        """Of all samples so far the one just corrected, at `t` s, is most likely that of heel-strike (CONTACT), or the
+        one before it that of toe-off (CLEAR)."""
+
+    def bridge(self, dt: float) -> float:
+        """`dt` s without samples lie before the next one: trust the motion accordingly less. Returns how long to
+        integrate over: all of it, or 0 after `LONGEST_BRIDGE`, when the foot is taken up where it was."""
+
+    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+        """`dt` s without samples lie before the next one, and this is where the foot is taken to be by its habit."""
+
+    def mend(self, yaw: float, position: Vec3) -> None:
+        """A gap has spoilt the stride that ends here: turn the attitude by `yaw` rad, and take `position`, m."""
+
+    def flat(self, start: Vec3, turn: float) -> None:
+        """The foot is flat again, turned by `turn` rad since it was so at `start`, m: a corrector that knows whether a
+        step was level puts the height right."""
+
+    def anchor(self) -> tuple[float, ...]:
+        """Begin a new stretch here. Returns the covariance of the stretch that ends: position xx, xy, xz, yy, yz, zz
+        (m^2) and yaw (rad^2)."""
+
+    def covariance(self) -> tuple[float, ...]:
+        """What `anchor` would return now, changing nothing."""
+
+
+@define
+class Strapdown:
+    """Attitude by the rotation vector, velocity and position by the trapezoidal rule; dt is each sample's own."""
+
+    attitude: Quat = field(default=IDENTITY, init=False)
+    velocity: Vec3 = field(default=ZERO, init=False)
+    position: Vec3 = field(default=ZERO, init=False)
+    force: Vec3 | None = field(default=None, init=False)
+    """Specific force of the last sample in this frame, m/s^2."""
+    rate: Vec3 | None = field(default=None, init=False)
+    """Angular rate of the last sample, sensor frame, rad/s."""
+
+    @property
+    def error_index(self) -> float | None:
+        """As in `Corrector`; one that knows no velocity but zero has none."""
+        return None
+
+    def told(self, attitude: Quat) -> None:
+        """As in `Corrector`; not used here."""
+
+    def mark(self, t: float, cue: Cue) -> None:
+        """As in `Corrector`; not used here."""
+
+    def mend(self, yaw: float, position: Vec3) -> None:
+        """As in `Corrector`."""
+        self.attitude = normalise(multiply(from_yaw(yaw), self.attitude))
+        self.position = position
+        self.force = None
+
+    def flat(self, start: Vec3, turn: float) -> None:
+        """As in `Corrector`; heights stay as integration has them."""
+
+    def turn_about(self, yaw: float, by: Vec3) -> None:
+        """Turn attitude, velocity and force by `yaw` rad about the foot, and move it `by` m."""
+        c, s = cos(yaw), sin(yaw)
+        self.attitude = normalise(multiply(from_yaw(yaw), self.attitude))
+        x, y, z = self.velocity
+        self.velocity = (c * x - s * y, s * x + c * y, z)
+        if self.force is not None:
+            x, y, z = self.force
+            self.force = (c * x - s * y, s * x + c * y, z)
+        (x, y, z), (dx, dy, dz) = self.position, by
+        self.position = (x + dx, y + dy, z + dz)
+
+    def integrate(self, dt: float, acc: Vec3, gyro: Vec3) -> Vec3:
+        """One sample; returns the mean acceleration over dt, m/s^2."""
+        # turn by the mean rate: half angles, sin and cos by their series (angles of a sample are small)
+        gx, gy, gz = gyro
+        if self.rate is None:
+            hx, hy, hz = 0.5 * dt * gx, 0.5 * dt * gy, 0.5 * dt * gz
+        else:
+            rx, ry, rz = self.rate
+            hx, hy, hz = 0.25 * dt * (gx + rx), 0.25 * dt * (gy + ry), 0.25 * dt * (gz + rz)
+        self.rate = gyro
+        n = hx * hx + hy * hy + hz * hz
+        if n < WIDEST_SERIES:
+            c = 1.0 - n * (0.5 - n * (1.0 / 24.0 - n * (1.0 / 720.0 - n / 40320.0)))
+            s = 1.0 - n * (1.0 / 6.0 - n * (1.0 / 120.0 - n * (1.0 / 5040.0 - n / 362880.0)))
+        else:
+            angle = sqrt(n)
+            c, s = cos(angle), sin(angle) / angle
+        hx *= s
+        hy *= s
+        hz *= s
+        w, x, y, z = self.attitude
+        qw = w * c - x * hx - y * hy - z * hz
+        qx = w * hx + x * c + y * hz - z * hy
+        qy = w * hy - x * hz + y * c + z * hx
+        qz = w * hz + x * hy - y * hx + z * c
+        k = 1.5 - 0.5 * (qw * qw + qx * qx + qy * qy + qz * qz)  # one Newton step towards length 1
+        attitude = (qw * k, qx * k, qy * k, qz * k)
+        self.attitude = attitude
+        force = rotate(attitude, acc)
+        fx, fy, fz = force
+        if self.force is None:
+            ax, ay, az = fx, fy, fz - GRAVITY
+        else:
+            px, py, pz = self.force
+            ax, ay, az = 0.5 * (fx + px), 0.5 * (fy + py), 0.5 * (fz + pz) - GRAVITY
+        self.force = force
+        vx, vy, vz = self.velocity
+        ux, uy, uz = vx + ax * dt, vy + ay * dt, vz + az * dt
+        x, y, z = self.position
+        half = 0.5 * dt
+        self.position = (x + (vx + ux) * half, y + (vy + uy) * half, z + (vz + uz) * half)
+        self.velocity = (ux, uy, uz)
+        return (ax, ay, az)

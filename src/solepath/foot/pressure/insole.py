@@ -1,0 +1,191 @@
+"""Pressure cells as the foot room uses them: tare, load, centre of pressure and areas.
+
+Nobody calibrates an insole before walking. The tare is what the cells show when the foot is in the air (a shoe presses
+on them even then), the full load what they show when it carries the body; both are learnt from the signal, so newtons
+and counts serve alike. Until the load has once fallen to a fraction of itself and risen again nothing is known and
+there is no `Load`: a load that still falls is always the least so far, and a foot about to step would be in the air.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from operator import itemgetter, mul
+
+from attrs import define, evolve, field
+
+from ...calibration import Calibration, Newtons
+from ...types import Foot, Layout
+from ...types.vector import TIE
+from ..stance.stance import Load
+
+
+@define
+class Extremes:
+    """The lowest and highest value of the last 8 to 10 s, from five spans of 2 s. O(1) a sample."""
+
+    span: float = 2.0
+    # state
+    ends: float | None = field(default=None, init=False)
+    lows: list[float] = field(factory=list, init=False)
+    highs: list[float] = field(factory=list, init=False)
+    low: float = field(default=0.0, init=False)
+    high: float = field(default=0.0, init=False)
+
+    def update(self, t: float, value: float) -> None:
+        if self.ends is None or t >= self.ends - TIE:
+            self.ends = t + self.span
+            self.lows = [*self.lows[-4:], value]
+            self.highs = [*self.highs[-4:], value]
+            self.low = min(self.lows)
+            self.high = max(self.highs)
+            return
+        if value < self.lows[-1]:
+            self.lows[-1] = value
+            self.low = min(self.low, value)
+        if value > self.highs[-1]:
+            self.highs[-1] = value
+            self.high = max(self.high, value)
+
+
+@define
+class Insole:
+    """One insole: cell values in, `Load` out.
+
+    With a calibration raw values become newtons by a cubic (calibration.Newtons), and each cell's noise in the air is
+    taken off, never below 0 (Chen et al. 2019: noise "could be removed through deleting p_noise", equation (1)).
+    """
+
+    contrast: float = 0.2
+    """Lowest and highest load must differ by this share of the highest before they mean anything."""
+    airborne: float = 0.02
+    """Below this share of the full load the foot is in the air."""
+    least: float = 0.05
+    """Below this share of the full load the centre of pressure is noise."""
+    alive: float = 0.05
+    """An area whose load varies by less than this share of the full load is no area."""
+    heel_ends: float = 0.33
+    """Cells behind this share of the insole's length are the heel's area."""
+    forefoot_begins: float = 0.55
+    """Cells in front of this share are the forefoot's area."""
+    newtons: Newtons | None = None
+    noise: tuple[float, ...] = ()
+    """Of each cell, in the unit of the samples, or N with `newtons`; not used on another number of cells."""
+    # state
+    layout: Layout | None = field(default=None, init=False)
+    tells_newtons: bool = field(default=False, init=False)
+    """The device does, so `newtons` are not used."""
+    cells: tuple[float, ...] = field(default=(), init=False)
+    """Values of the sample that is being used, noise taken off; () once it was."""
+    sum: float = field(default=0.0, init=False)
+    """Of them."""
+    heel_cells: tuple[int, ...] = field(default=(), init=False)
+    forefoot_cells: tuple[int, ...] = field(default=(), init=False)
+    total: Extremes = field(factory=Extremes, init=False)
+    heel: Extremes = field(factory=Extremes, init=False)
+    forefoot: Extremes = field(factory=Extremes, init=False)
+    highest: float = field(default=0.0, init=False)
+    tare: list[float] = field(factory=list, init=False)
+    """Each cell in the air, unit of the samples."""
+    tare_total: float = field(default=0.0, init=False)
+    unloaded: bool = field(default=False, init=False)
+    risen: bool = field(default=False, init=False)
+    """The load has come up again from its lowest."""
+
+    def calibrated(self, foot: Foot, calibration: Calibration) -> Insole:
+        """The same with what is known of this foot's insole."""
+        known = calibration.insole(foot)
+        return evolve(self, newtons=known.newtons or self.newtons, noise=known.noise or self.noise)
+
+    def wear(self, layout: Layout) -> None:
+        """The device said where its cells are."""
+        self.layout = layout
+        heel_ends, forefoot_begins = self.heel_ends * layout.length, self.forefoot_begins * layout.length
+        self.heel_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x < heel_ends])
+        if len(self.tare) != len(layout.cells):
+            self.tare = [0.0] * len(layout.cells)
+        self.forefoot_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x > forefoot_begins])
+
+    def interrupt(self) -> None:
+        """Times begin anew: the extremes are kept, but their spans end here."""
+        self.total.ends = self.heel.ends = self.forefoot.ends = None
+
+    def update(self, t: float, cells: tuple[float, ...]) -> Load | None:
+        """The load as shares of the wearer's full load, or None while that is not known."""
+        if self.newtons is not None and not self.tells_newtons:
+            cells = in_newtons(self.newtons, cells)
+        if len(self.noise) == len(cells):
+            pairs = zip(cells, self.noise, strict=True)
+            cells = tuple([value - zero if value > zero else 0.0 for value, zero in pairs])
+        self.cells = cells
+        total = self.sum = sum(cells)
+        self.total.update(t, total)
+        largest = max(cells) if cells else 0.0
+        self.highest = max(self.highest * 0.9999, largest)
+        heel = forefoot = None
+        if self.layout is not None and len(cells) == len(self.layout.cells):
+            heel = self._above_least(t, cells, self.heel_cells, self.heel)
+            forefoot = self._above_least(t, cells, self.forefoot_cells, self.forefoot)
+        low, high = self.total.low, self.total.high
+        reach = high - low
+        if reach <= self.contrast * high or reach <= 0.0:
+            self.risen = False
+            return None
+        if not self.risen:
+            self.risen = total - low > self.contrast * high
+            if not self.risen:
+                return None
+        share = (total - low) / reach
+        airborne = share < self.airborne
+        if airborne and (not self.unloaded or total < self.tare_total):  # the toe has hardly left yet at first
+            self.tare = list(cells)
+            self.tare_total = total
+        self.unloaded = airborne
+        # an area that never carries anything is dead, or there is none: nothing can be told by it
+        if heel is not None:
+            heel = heel / reach if self.heel.high - self.heel.low > self.alive * reach else None
+        if forefoot is not None:
+            forefoot = forefoot / reach if self.forefoot.high - self.forefoot.low > self.alive * reach else None
+        highest = largest / self.highest if self.highest > 0.0 else 0.0
+        centre = None if airborne else self.centre_of_pressure(cells)
+        return Load(share, heel, forefoot, highest, airborne, cells, centre)
+
+    @staticmethod
+    def _above_least(t: float, cells: tuple[float, ...], indices: tuple[int, ...], extremes: Extremes) -> float | None:
+        if not indices:
+            return None
+        value = sum(picker(indices)(cells)) if len(indices) > 1 else cells[indices[0]]
+        extremes.update(t, value)
+        return value - extremes.low
+
+    def above_tare(self, cells: tuple[float, ...]) -> tuple[float, ...]:
+        """The cells less what they show in the air, as far as that is known; unit of the samples."""
+        if len(cells) != len(self.tare):
+            return cells
+        return tuple([value - zero if value > zero else 0.0 for value, zero in zip(cells, self.tare, strict=True)])
+
+    def centre_of_pressure(self, cells: tuple[float, ...]) -> tuple[float, float] | None:
+        """(x, y) in the foot frame, m: the mean of the cells' places weighted by their load above tare. None with
+        hardly any load or without a layout. Equations (2) and (3) of "Smart insole-based indoor localization system
+        for Internet of Things applications", with load in place of pressure."""
+        layout = self.layout
+        if layout is None or not len(cells) == len(layout.cells) == len(self.tare):
+            return None
+        loads = [value - zero if value > zero else 0.0 for value, zero in zip(cells, self.tare, strict=True)]
+        load = sum(loads)
+        if load <= self.least * (self.total.high - self.total.low):
+            return None
+        return (sum(map(mul, layout.xs, loads)) / load, sum(map(mul, layout.ys, loads)) / load)
+
+
+@lru_cache(maxsize=16)
+def picker(indices: tuple[int, ...]) -> itemgetter[tuple[float, ...]]:
+    """Takes these of a tuple, two or more: in a third of the time of a loop."""
+    return itemgetter(*indices)
+
+
+def in_newtons(newtons: Newtons, cells: tuple[float, ...]) -> tuple[float, ...]:
+    """Raw values as N: 0 below the threshold, and no more than the most that was calibrated."""
+    a, b, c, d = newtons.coefficients
+    least, most = newtons.threshold, newtons.most
+    forces = [a + value * (b + value * (c + value * d)) for value in cells]
+    return tuple([0.0 if force < least else min(force, most) for force in forces])

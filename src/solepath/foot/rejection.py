@@ -1,0 +1,125 @@
+"""Which samples cannot be used, and the event that says so."""
+
+from __future__ import annotations
+
+from math import inf, isfinite
+
+from attrs import evolve
+
+from ..events import Rejection, SampleRejected
+from ..types import Sample, Vec3
+from ..types.vector import normalise
+
+ABSURD_ACC = 500.0
+"""No foot sensor measures more, m/s^2."""
+ABSURD_GYRO = 100.0
+"""Nor this, rad/s."""
+ABSURD_TOTAL = 1e7
+"""No insole measures more over all its cells, in newtons or in counts."""
+ABSURD_TIME = 1e11
+"""s; a time beyond this (or before minus this) is no time."""
+
+LEAST_ACC, LEAST_GYRO, LEAST_TOTAL, LEAST_TIME = -ABSURD_ACC, -ABSURD_GYRO, -ABSURD_TOTAL, -ABSURD_TIME
+
+SHORTEST_QUAT = 1e-12
+"""Square of the least length of an attitude."""
+
+Refusal = tuple[Rejection, str]
+
+
+def refusal(sample: Sample, newest: float | None) -> Refusal | None:
+    """Why `sample` cannot be used after one of `newest` s; None when it can."""
+    t, known_at = sample.t, sample.known_at
+    if (
+        not LEAST_TIME <= t <= ABSURD_TIME
+        or (known_at is not None and not LEAST_TIME <= known_at <= ABSURD_TIME)
+        or (newest is not None and t <= newest)
+    ):
+        return wrong_time(sample) or _wrong_order(t, t if newest is None else newest)
+    acc, gyro = sample.acc, sample.gyro
+    if acc is not None:
+        x, y, z = acc
+        if not (LEAST_ACC < x < ABSURD_ACC and LEAST_ACC < y < ABSURD_ACC and LEAST_ACC < z < ABSURD_ACC):
+            return _wrong_vector("acc", acc, ABSURD_ACC)
+    if gyro is not None:
+        x, y, z = gyro
+        if not (LEAST_GYRO < x < ABSURD_GYRO and LEAST_GYRO < y < ABSURD_GYRO and LEAST_GYRO < z < ABSURD_GYRO):
+            return _wrong_vector("gyro", gyro, ABSURD_GYRO)
+    if sample.pressure:
+        total = _total(sample.pressure)
+        if not LEAST_TOTAL < total < ABSURD_TOTAL:
+            return Rejection.ABSURD, "pressure of hundreds of digits" if abs(total) == inf else (
+                f"pressure of {_shown(total)} in all"
+            )
+    return None
+
+
+def _wrong_order(t: float, newest: float) -> Refusal:
+    if t == newest:
+        return Rejection.DUPLICATE, f"a second sample for {t:.6g} s"
+    return Rejection.TIME_BACKWARDS, f"{newest - t:.6g} s before the sample before"
+
+
+def _wrong_vector(name: str, vector: Vec3, limit: float) -> Refusal:
+    worst = next(value for value in vector if not -limit < value < limit)
+    if worst != worst or abs(worst) == inf:
+        return Rejection.NOT_FINITE, f"{name} is not a number"
+    return Rejection.ABSURD, f"{name} of {_shown(worst)}"
+
+
+def _total(cells: tuple[float, ...]) -> float:
+    """Of those cells that are numbers; the others are a matter of cell_health.py."""
+    try:
+        total = sum(cells)
+    except OverflowError:
+        return inf
+    except TypeError:
+        total = inf
+    try:
+        if isfinite(total):
+            return total
+        return sum([value for value in cells if value is not None and isfinite(value)])
+    except OverflowError:  # an int may be too large for a float
+        return inf
+
+
+def with_sound_attitude(sample: Sample) -> Sample:
+    """The same with a unit quaternion, or with none where it is not one of any length."""
+    if sample.quat is None:
+        return sample
+    w, x, y, z = sample.quat
+    square = w * w + x * x + y * y + z * z
+    if 1.0 - 1e-9 < square < 1.0 + 1e-9:
+        return sample
+    if not SHORTEST_QUAT < square < 1.0 / SHORTEST_QUAT:  # false for what is no number too
+        return evolve(sample, quat=None)
+    return evolve(sample, quat=normalise(sample.quat))
+
+
+def wrong_time(sample: Sample) -> Refusal | None:
+    """Why the times of a sample are none, whatever came before it."""
+    for t in (sample.t, sample.known_at):
+        if t is not None and not -ABSURD_TIME <= t <= ABSURD_TIME:
+            if t != t or abs(t) == inf:
+                return Rejection.NOT_FINITE, "time is not a number"
+            return Rejection.ABSURD, f"time of {_shown(t)} s"
+    return None
+
+
+def rejected(sample: Sample, why: Refusal, newest: float | None) -> SampleRejected:
+    """The event, with sound times; `newest` as in `refusal`."""
+    reason, detail = why
+    t, known_at = sample.t, sample.known_at
+    if not -ABSURD_TIME <= t <= ABSURD_TIME:
+        t = 0.0 if newest is None else newest
+    if known_at is None or not t <= known_at <= ABSURD_TIME:
+        known_at = t
+    return SampleRejected(t=t, known_at=known_at, site=sample.site, reason=reason, detail=detail)
+
+
+def _shown(value: float) -> str:
+    """A number for people; an int may be too large even for that."""
+    try:
+        return f"{value:.4g}"
+    except OverflowError:
+        return "hundreds of digits"

@@ -1,0 +1,104 @@
+"""How high a sensor sits above what the foot rolls on, learnt from the wearer's own stances.
+
+A foot on the ground is never quite still: it rolls, over its heel, its sole and its forefoot, and a sensor r away from
+the point of contact moves at v = w x r. On the instep of a brisk walker that is 5 cm/s at the stillest moment there is;
+zero velocity imposed on it makes every stride some per cent short.
+
+The height h of the sensor need not be told, since its accelerometer sees the same motion: within one stance, what the
+velocity gains is what w x r gains. With c = w x up and u = the integral of the acceleration, both horizontal, and a
+slope of u for the tilt, which is not known exactly,
+
+    u(t) = h c(t) + a + b t
+
+is fitted by least squares to each stance, and its h pooled over the stances, older ones counting ever less.
+"""
+
+from __future__ import annotations
+
+from attrs import define, field
+
+from ...types import Quat, Vec3
+from ...types.vector import TIE
+
+EMPTY = (0.0,) * 18
+
+
+@define
+class Lever:
+    """Height of the sensor above the point over which the foot rolls, m. Latency: the next stance."""
+
+    guess: float = 0.05
+    """Height until a stance says otherwise: between a sensor in the sole and one on the instep, m."""
+    trust: float = 0.005
+    """What that guess is worth as a sum of c c dt, (rad/s)^2 s: half a slow stance."""
+    memory: float = 0.95
+    """What a stance counts for at the next one."""
+    shortest: float = 0.06
+    """A stance shorter than this says nothing, s."""
+    longest: float = 0.6
+    """A longer one is told in pieces, since what is integrated drifts, s."""
+    lowest: float = -0.03
+    """The sensor lies no lower, m."""
+    highest: float = 0.2
+    """Nor higher, m."""
+    # state
+    height: float = field(init=False)
+    """As learnt so far, m."""
+    product: float = field(init=False)
+    """Sum of u c dt over the stances, m (rad/s)^2 s."""
+    square: float = field(init=False)
+    """Sum of c c dt, (rad/s)^2 s."""
+    sums: tuple[float, ...] = field(default=EMPTY, init=False)
+    """Of the stance under way: count, time, acceleration and u on x and y; sums of t, tt, cc and uc over both axes; of
+    u, tu, c and tc on x and on y."""
+
+    def __attrs_post_init__(self) -> None:
+        self.height = self.guess
+        self.square = self.trust
+        self.product = self.guess * self.trust
+
+    def roll(self, dt: float, acc: Vec3, gyro: Vec3, attitude: Quat) -> tuple[float, float]:
+        """One sample of a foot on the ground. Returns its horizontal velocity h w x up, m/s, navigation frame."""
+        w, x, y, z = attitude
+        # the first two rows of the rotation
+        xx, xy, xz = 1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)
+        yx, yy, yz = 2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)
+        wx, wy, wz = gyro
+        fx, fy, fz = acc
+        cx, cy = yx * wx + yy * wy + yz * wz, -(xx * wx + xy * wy + xz * wz)
+        ax, ay = xx * fx + xy * fy + xz * fz, yx * fx + yy * fy + yz * fz
+        n, t, bx, by, ux, uy, st, stt, scc, suc, sux, suy, stux, stuy, scx, scy, stcx, stcy = self.sums
+        if n:
+            t += dt
+            ux += 0.5 * dt * (ax + bx)
+            uy += 0.5 * dt * (ay + by)
+        self.sums = (
+            n + 1.0, t, ax, ay, ux, uy, st + t, stt + t * t, scc + cx * cx + cy * cy, suc + ux * cx + uy * cy,
+            sux + ux, suy + uy, stux + t * ux, stuy + t * uy, scx + cx, scy + cy, stcx + t * cx, stcy + t * cy,
+        )  # fmt: skip
+        if t > self.longest + TIE:
+            self.lift()
+        return self.height * cx, self.height * cy
+
+    def lift(self) -> None:
+        """The foot rolls no longer: what the stance says of the height."""
+        n, t, _, _, _, _, st, stt, scc, suc, sux, suy, stux, stuy, scx, scy, stcx, stcy = self.sums
+        self.sums = EMPTY
+        d = n * stt - st * st
+        if t < self.shortest - TIE or n < 5.0 or d <= 0.0:
+            return
+        # what is left of u c and c c when the best a + b t is taken out of both, axis by axis
+        square = scc - (
+            stt * (scx * scx + scy * scy) - 2.0 * st * (scx * stcx + scy * stcy) + n * (stcx * stcx + stcy * stcy)
+        ) / d
+        product = suc - (
+            stt * (sux * scx + suy * scy)
+            - st * (sux * stcx + stux * scx + suy * stcy + stuy * scy)
+            + n * (stux * stcx + stuy * stcy)
+        ) / d
+        if square <= 0.0 or not 2.0 * self.lowest - self.highest < product / square < 2.0 * self.highest - self.lowest:
+            return  # not a stance
+        dt = t / n
+        self.square = self.memory * self.square + square * dt
+        self.product = self.memory * self.product + product * dt
+        self.height = min(max(self.product / self.square, self.lowest), self.highest)

@@ -1,0 +1,113 @@
+"""The demonstration: an emulated wearer walks a route, and a session hears it over a bad radio."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import pi
+
+from attrs import define, evolve, field
+
+from ...emulate.radio import Radio
+from ...emulate.routes.building import BUILDING
+from ...emulate.routes.route import Route
+from ...emulate.routes.ways import Way, wandering
+from ...emulate.walk import EmulatedWalk, emulate
+from ...events import Event, Placed, PlaceLost, TurnMade
+from ...floorplan.index import IndexedPlan
+from ...session import Session
+from ...show.monitor import Monitor
+from ...types import Foot, Packet, Sample
+from ..evaluate.gathered import Gathering
+from .compare import FootComparison, compare
+from .place import PlaceScore, score
+
+RADIO = Radio(loss=0.03, duplicate=0.005, corrupt=0.005, latency=0.015, jitter=0.030)
+"""A busy 2.4 GHz band: 3 in 100 notifications never arrive, the others 15 to 45 ms late."""
+
+ROUTE = (
+    Route()
+    .stand(3.0)
+    .walk(9.0, speed=1.3)
+    .turn(pi / 2, radius=1.5)
+    .walk(4.0)
+    .turn(pi / 2, radius=1.5)
+    .walk(6.0, speed=1.1)
+    .stop(2.0)
+    .turn(-pi / 2)
+    .walk(5.0, speed=1.2)
+    .turn(-pi / 2, radius=1.0)
+    .walk(10.0, speed=1.4)
+    .stop(2.0)
+)
+"""About 40 m: a U, a halt, a turn on the spot, and away again."""
+
+
+WAY = 8
+"""Of the ways through the emulated building: down by one of four lifts, 130 m along corridors, and up the stairs."""
+
+
+@define
+class Demo:
+    """A walk on its way through a session. `play` goes on packet by packet, so that whoever shows it sets the pace;
+    `told` is for whoever feeds `monitor.session`, or one like it, himself."""
+
+    walk: EmulatedWalk
+    monitor: Monitor
+    way: Way | None = None
+    """Through the emulated building; None where there is none."""
+    plan: IndexedPlan | None = None
+    """Of that building."""
+    gathering: Gathering = field(factory=Gathering)
+    _placed: list[Event] = field(factory=list)
+
+    @property
+    def duration(self) -> float:
+        return self.walk.truth.duration
+
+    def play(self) -> Iterator[Packet]:
+        """Each packet after the session has taken it."""
+        for packet in self.walk.packets:
+            self._gather(self.monitor.take(packet))
+            yield packet
+        self._gather(self.monitor.finish())
+
+    def told(self, packet: Packet | Sample | None, events: list[Event]) -> None:
+        """What a session said of a packet; of none, at the end."""
+        self._gather(self.monitor.heard(packet, events) if isinstance(packet, Packet) else self.monitor.count(events))
+
+    def _gather(self, events: list[Event]) -> None:
+        for event in events:
+            self.gathering.add(event)
+            if isinstance(event, Placed | PlaceLost | TurnMade):
+                self._placed.append(event)
+
+    def comparison(self) -> list[FootComparison]:
+        """The session against the truth; once `play` is through."""
+        return compare(self.walk.truth, {foot: self.gathering.foot(foot) for foot in Foot})
+
+    def place(self) -> PlaceScore | None:
+        """The same of the place on the floor plan; None without one."""
+        return None if self.way is None else score(self.way, self.walk.walker, self.walk.truth, self._placed)
+
+
+def straight(distance: float) -> Route:
+    """Stand, walk so many m straight on, stand."""
+    return Route().stand(3.0).walk(distance, speed=1.3).stop(2.0)
+
+
+def radio(loss: float | None = None, jitter: float | None = None) -> Radio:
+    """RADIO with another share of lost packets or another jitter in s; None leaves it as it is."""
+    return evolve(RADIO, loss=RADIO.loss if loss is None else loss, jitter=RADIO.jitter if jitter is None else jitter)
+
+
+def make_demo(seed: int, route: Route = ROUTE, radio: Radio = RADIO, *, pressures: bool = False) -> Demo:
+    """The walk of this seed, not yet played. `pressures`: its session emits FootPressed."""
+    return Demo(emulate(route, radio=radio, seed=seed), Monitor(Session(poses=True, pressures=pressures)))
+
+
+def make_indoors(seed: int, radio: Radio = RADIO, *, pressures: bool = False) -> Demo:
+    """The same in the emulated building, whose plan the session has; nobody tells it where on it the wearer sets
+    out."""
+    way, plan = wandering(WAY), IndexedPlan(BUILDING)
+    session = Session(poses=True, pressures=pressures, floorplan=plan)
+    return Demo(emulate(way.route, radio=radio, seed=seed), Monitor(session), way, plan)

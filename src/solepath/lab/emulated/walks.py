@@ -1,0 +1,203 @@
+"""Long ways of emulated wearers, and how far off the session's position is then. Scorers are as datasets.py says.
+
+Both feet wear insoles of 96 cells (odd seeds) or 24 (even ones) with the errors of an LSM6DSOX, at 100 Hz; the session
+gets their samples as a perfect link would carry them. Everything is drawn from the seed: the way, the gait, the
+devices. Score seeds from 1 to 50; whatever is tuned is tuned on seeds from 101 on.
+
+The position is `session.position`, twice a second, against the mean of where both sensors truly are. The heading and
+the origin of a track are its own choice: one turn about the vertical and one shift, by least squares over the first
+ALIGNED m of the way, lay it over the truth. Then `position_end` is the horizontal distance at the end and
+`position_max` the largest on the way, in m, and `end_relative` and `largest_relative` the same as shares of the length
+of the way. So what the heading is off by after ALIGNED m counts over all that follows; `rms_2d` is what the best turn
+and shift over the whole way leave, as of a VICON track. Heights are compared as they
+are, from the first: `height_end` at the end, `height_max` the largest on the way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import pi
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+from attrs import frozen
+
+from ...emulate.routes.route import Route
+from ...emulate.routes.stairs import ahead
+from ...emulate.sensors.insole_device import Insole
+from ...emulate.walk import SampledWalk, sampled
+from ...emulate.wearers.gait import Wearer
+from ...emulate.wearers.truth import Truth
+from ...events import Event
+from ...session import Session
+from ...types import SITE_OF_FOOT, Foot, Site, Vec3
+from ..evaluate.gathered import FootRun, Gathering
+from ..evaluate.recorded import Meta
+from ..evaluate.run import How, recipe_of
+from ..measures.alignment import Floats, align, track_error
+from ..measures.matching import Matching
+from ..measures.score import Figures, Scored
+from ..measures.strides import StrideScore
+from .compare import compare
+
+ALIGNED = 10.0
+"""m."""
+EVERY = 0.5
+"""s between positions."""
+LONG_WAY = 500.0
+"""m."""
+HALF_HOUR = 1800.0
+"""s."""
+STILL = 3.0
+"""s of standing at the beginning, at the end, and at every halt."""
+BETWEEN_HALTS = 150.0
+"""m, about."""
+FLOORS = 4
+RISERS, RISE, GOING = 10, 0.16, 0.30
+"""Of each of the two flights of a storey: 3.2 m from floor to floor."""
+LANDING = 1.0
+"""m of a landing before and after its turn, and radius of that turn (0.7 of it)."""
+
+
+# --- ways -------------------------------------------------------------------------------------------------------------
+
+
+def long_way(seed: int) -> Route:
+    """500 m and what the last straight has more: straights of 8 to 40 m between turns."""
+    return _wandered(seed, lambda length, seconds: length >= LONG_WAY)
+
+
+def half_hour(seed: int) -> Route:
+    """The same for thirty minutes of walking and halts, about 2 km."""
+    return _wandered(seed, lambda length, seconds: seconds >= HALF_HOUR)
+
+
+def four_floors(seed: int) -> Route:
+    """Up four storeys, to and fro along the corridor there, and down again; two flights a storey, a landing between."""
+    rng = np.random.default_rng([seed, 11])
+    side = 0.5 * pi if rng.uniform() < 0.5 else -0.5 * pi
+    speed = float(rng.uniform(1.1, 1.4))
+    route = Route(speed=speed).stand(STILL).walk(12.0)
+    for up in (True, False):
+        for _ in range(FLOORS):
+            for _ in range(2):
+                route = route.walk(LANDING).stairs(RISERS, up, RISE, GOING).walk(LANDING + ahead(up, GOING))
+                route = route.turn(2.0 * side, 0.7 * LANDING)
+        if up:
+            route = route.walk(10.0).turn(pi).walk(10.0)
+    return route.walk(6.0).stop(STILL)
+
+
+def _wandered(seed: int, enough: Callable[[float, float], bool]) -> Route:
+    rng = np.random.default_rng([seed, 10])
+    speed = float(rng.uniform(1.1, 1.5))
+    route, length, seconds, halted = Route(speed=speed).stand(STILL), 0.0, STILL, 0.0
+    while True:
+        straight = float(rng.uniform(8.0, 40.0))
+        route, length, seconds = route.walk(straight), length + straight, seconds + straight / speed
+        if enough(length, seconds):
+            return route.stop(STILL)
+        if length - halted > BETWEEN_HALTS:
+            route, seconds, halted = route.stand(STILL), seconds + STILL, length
+        angle = float(rng.choice((0.5, 0.25, 1.0), p=(0.6, 0.2, 0.2)) * rng.choice((pi, -pi)))
+        radius = float(rng.uniform(0.6, 2.5))
+        route, length = route.turn(angle, radius), length + abs(angle) * radius
+        seconds += abs(angle) * radius / (speed if radius >= 1.0 else min(speed, 0.8))
+
+
+# --- scores -----------------------------------------------------------------------------------------------------------
+
+
+def score_long_way(path: Path, meta: Meta, how: How) -> Scored:
+    return _score(path, long_way(meta["seed"]), meta["seed"], how)
+
+
+def score_half_hour(path: Path, meta: Meta, how: How) -> Scored:
+    return _score(path, half_hour(meta["seed"]), meta["seed"], how)
+
+
+def score_four_floors(path: Path, meta: Meta, how: How) -> Scored:
+    return _score(path, four_floors(meta["seed"]), meta["seed"], how)
+
+
+@frozen
+class _Found:
+    """What a session said of a walk: positions (n,3) at times (n,), and the rest."""
+
+    t: Floats
+    positions: Floats
+    feet: dict[Foot, FootRun]
+    samples: int
+    seconds: float
+
+
+def worn(seed: int) -> dict[Site, Insole]:
+    """The insoles of a seed's wearer."""
+    return {SITE_OF_FOOT[foot]: Insole(cells=96 if seed % 2 else 24) for foot in Foot}
+
+
+def _score(path: Path, route: Route, seed: int, how: How) -> Scored:
+    walked = sampled(route, wearer=Wearer(), insoles=worn(seed), seed=seed)
+    found, truth = _followed(walked, how), walked.truth
+    heel_strike, toe_off, strides = Matching(), Matching(), StrideScore()
+    for foot in compare(truth, found.feet):
+        heel_strike += foot.events["heel_strike"]
+        toe_off += foot.events["toe_off"]
+        strides += StrideScore(foot.steps_true, foot.steps_found, foot.steps_invented, foot.length_errors)
+    return Scored(
+        path.stem,
+        figures=place_figures(found.t, found.positions, middle(truth, found.t)),
+        events={"heel_strike": heel_strike, "toe_off": toe_off},
+        strides=strides,
+        samples=found.samples,
+        seconds=found.seconds,
+    )
+
+
+def _followed(walked: SampledWalk, how: How) -> _Found:
+    session = Session(recipe_of(how.recipe), calibration=how.calibration)
+    said: list[list[Event]] = []
+    t: list[float] = []
+    positions: list[Vec3] = []
+    began = perf_counter()
+    for sample in walked.samples:
+        said.append(session.feed(sample))
+        if sample.t >= len(t) * EVERY and (place := session.position) is not None:
+            t.append(place.t)
+            positions.append(place.position)
+    said.append(session.finish())
+    seconds = perf_counter() - began
+    gathering = Gathering()
+    for events in said:
+        for event in events:
+            gathering.add(event)
+    feet = {foot: gathering.foot(foot) for foot in Foot}
+    return _Found(np.array(t), np.array(positions).reshape(-1, 3), feet, len(walked.samples), seconds)
+
+
+def middle(truth: Truth, t: Floats) -> Floats:
+    """Where the mean of both sensors truly is at `t` (n,), relative to where it is at 0: (n,3), m."""
+    feet = [truth.pose(foot, t).position for foot in Foot]
+    return np.asarray(0.5 * (feet[0] + feet[1]), dtype=np.float64)
+
+
+def place_figures(t: Floats, positions: Floats, truth: Floats) -> Figures:
+    """Of `positions` (n,3) at `t` (n,) against `truth` (n,3): as the module says."""
+    if len(t) < 2:
+        return {}
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(truth[:, :2], axis=0), axis=1))])
+    first = max(2, int(np.searchsorted(along, ALIGNED)) + 1)
+    off = np.linalg.norm(align(positions[:first], truth[:first]).apply(positions)[:, :2] - truth[:, :2], axis=1)
+    higher = np.abs((positions[:, 2] - positions[0, 2]) - (truth[:, 2] - truth[0, 2]))
+    path = float(along[-1])
+    return {
+        "rms_2d": track_error(positions, truth).rms_2d,
+        "position_end": float(off[-1]),
+        "end_relative": float(off[-1]) / path,
+        "position_max": float(np.max(off)),
+        "largest_relative": float(np.max(off)) / path,
+        "height_end": float(higher[-1]),
+        "height_max": float(np.max(higher)),
+        "path": path,
+    }

@@ -1,0 +1,102 @@
+"""What each part of the default recipe is worth: the main figures without it.
+
+A row is the default recipe with one part switched off by an argument of its constructor, or put back to the plainer one
+that it took the place of. Which figures are the main ones is COLUMNS.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import attrs
+from attrs import frozen
+
+from ...body.fuse.position import MeanOfFeet
+from ...foot.navigate.level import Level
+from ...recipes import DEFAULT, Recipe
+from .report import Result
+
+
+def _with(part: Any, **changes: Any) -> Any:
+    """The part, never fed, with other arguments of its constructor."""
+    return attrs.evolve(part, **changes)
+
+
+NEVER = 1e12
+"""A limit that nothing exceeds."""
+FIXED = 1e6
+"""SHOE's statistic, of 8e4, 2e5, 4e5 and 1e6 the one with which recorded walks come out best."""
+
+_DETECTOR, _CORRECTOR = DEFAULT.detector, DEFAULT.corrector
+
+WITHOUT: dict[str, Recipe] = {
+    "one threshold for all, no wearer's own cycle": attrs.evolve(
+        DEFAULT, detector=_with(_DETECTOR, floor=FIXED, ceiling=FIXED)
+    ),
+    "evidence of one noise, whatever the motion": attrs.evolve(
+        DEFAULT, detector=_with(_DETECTOR, arm=0.0, arm2=0.0, off_gravity=0.0, off_gravity2=0.0)
+    ),
+    "zero velocity, no rolling foot": attrs.evolve(DEFAULT, detector=_with(_DETECTOR, rolls=False)),
+    "no extra noise of a foot that is braked": attrs.evolve(DEFAULT, detector=_with(_DETECTOR, off_gravity2=0.0)),
+    "no refusal of unlikely evidence": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, refuse=NEVER)),
+    "no recovery of what was refused": attrs.evolve(
+        DEFAULT, corrector=_with(_CORRECTOR, patience=NEVER, lasting=NEVER)
+    ),
+    "no level, slope or stair": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, level=Level(gate=False))),
+    "no tilt aiding": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, tilt_rate=0.0)),
+    "no noise of what lies between samples": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, between=0.0)),
+    "no recovery of a clipped gyroscope": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, recover=False)),
+    "each foot by itself": attrs.evolve(DEFAULT, body=MeanOfFeet()),
+    "no heights of lifts and of the air": attrs.evolve(DEFAULT, altitude=None),
+}
+"""By what is missing."""
+
+
+def recipes() -> list[Recipe]:
+    """The default and then every row, each named by what is missing."""
+    return [DEFAULT, *(attrs.evolve(recipe, name=name) for name, recipe in WITHOUT.items())]
+
+
+@frozen
+class Column:
+    """A main figure: `figure` of the mean over, or of all that was pooled from (`pooled`), a group of a data set.
+    `unit` is m, %, ms or none."""
+
+    title: str
+    data_set: str
+    figure: str
+    unit: str = "m"
+    pooled: bool = False
+    group: str = "all"
+
+    def of(self, results: Sequence[Result], recipe: str) -> float | None:
+        """None where it was not scored."""
+        for result in results:
+            if (result.data_set.name, result.recipe) == (self.data_set, recipe):
+                for summary in result.summaries:
+                    if summary.group == self.group:
+                        return (summary.together if self.pooled else summary.mean).get(self.figure)
+        return None
+
+
+COLUMNS = (
+    Column("pyshoe ARMSE2d", "pyshoe_vicon", "armse_2d"),
+    Column("bipedal", "pyshoe_vicon", "armse_2d", group="bipedal"),
+    Column("RMS 3D", "pyshoe_vicon", "rms_3d"),
+    Column("gumushane position", "gumushane_surveyed", "position_mean"),
+    Column("strides", "gumushane_surveyed", "stride_error", "%", pooled=True),
+    Column("corner legs", "gumushane_counted", "leg_error_median", "%", pooled=True),
+    Column("height at end", "gumushane_counted", "end_height"),
+    Column("xio end", "xio_closed_walks", "end_error"),
+    Column("insole strides", "smart_insole_35", "stride_error", "%", pooled=True),
+    Column("ipol legs", "ipol_10m_uturn", "leg_error_median", "%", pooled=True),
+    Column("HS F1", "ipol_10m_uturn", "heel_strike_f1", "", pooled=True),
+    Column("TO F1", "ipol_10m_uturn", "toe_off_f1", "", pooled=True),
+    Column("gaitmap HS", "gaitmap_examples", "heel_strike_bias", "ms", pooled=True),
+    Column("tripod stride time", "tripod_treadmill", "stride_time_error_median", "ms", pooled=True),
+    Column("500 m", "emulated_long_way", "end_relative", "%"),
+    Column("30 min", "emulated_half_hour", "end_relative", "%"),
+    Column("four floors", "emulated_four_floors", "height_max"),
+)
+"""The main figures, in order."""

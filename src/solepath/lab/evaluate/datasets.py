@@ -1,0 +1,194 @@
+"""The recorded data that have a truth, and how each is scored. The folder's README says where they come from.
+
+Every scorer takes the recording's path, its entry in dataset.json and how to compute. The session gets the samples
+and nothing else. Of what is emulated the path is a name only, and the entry says the seed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from attrs import frozen
+
+from ..emulated.walks import score_four_floors, score_half_hour, score_long_way
+from ..measures.confusion import CLASSES
+from ..measures.score import Scored
+from .activity import CLIMBED, score_labelled, score_stairs
+from .recorded import Meta
+from .run import Chosen, How, recipe_of
+from .timing import score_borders, score_force, score_pressed, score_swings, score_switches, score_treadmill
+from .tracking import score_counted, score_loop, score_optitrack, score_surveyed, score_vicon
+
+
+@frozen
+class DataSet:
+    """`folders`: their names below the data directory; none of what is emulated. `has_truth`: of a recording's name and
+    entry. `figures`: what its table shows, in order."""
+
+    name: str
+    folders: tuple[str, ...]
+    title: str
+    has_truth: Callable[[str, Meta], bool]
+    score: Callable[[Path, Meta, How], Scored]
+    figures: tuple[str, ...]
+    each: bool = True
+    """Whether the table has a line for every recording."""
+    pressed: bool = False
+    """Whether the session gets pressure."""
+    folds: bool = False
+    """Whether what says the activity is taught on other wearers' recordings of this data set (learning.py)."""
+
+    def suits(self, recipe: Chosen) -> bool:
+        """Whether the recipe has something to say of these data."""
+        return self.pressed or not recipe_of(recipe).needs_pressure
+
+
+def _always(name: str, meta: Meta) -> bool:
+    return True
+
+
+# --- all of them ----------------------------------------------------------------------------------------------------
+
+
+def _surveyed_strides(name: str, meta: Meta) -> bool:
+    return bool(meta.get("every_stride_surveyed"))
+
+
+def _counted_strides(name: str, meta: Meta) -> bool:
+    return "n_true_strides" in meta and not _surveyed_strides(name, meta)
+
+
+def _closed_loop(name: str, meta: Meta) -> bool:
+    return bool(meta.get("closed_loop"))
+
+
+def _tracked(name: str, meta: Meta) -> bool:
+    return bool(meta.get("optitrack"))
+
+
+def _borders_known(name: str, meta: Meta) -> bool:
+    return "gt_borders_left" in meta["keys"]
+
+
+def _climbed(name: str, meta: Meta) -> bool:
+    return name in CLIMBED
+
+
+TRACK = ("armse_2d", "rms_2d", "rms_3d", "rms_z", "path", "relative")
+STRIDES = ("strides_found", "strides_true", "strides_invented", "stride_error", "stride_error_median")
+HEEL_STRIKE = (
+    "heel_strike_true", "heel_strike_found", "heel_strike_f1", "heel_strike_bias", "heel_strike_mad", "heel_strike_off",
+)  # fmt: skip
+ACTIVITIES = ("accuracy", "most_frequent", *(f"f1_{activity.value.lower()}" for activity in CLASSES))
+RIDES = ("rides_true", "rides_found", "rides_invented")
+TOE_OFF = ("toe_off_true", "toe_off_found", "toe_off_f1", "toe_off_bias", "toe_off_mad", "toe_off_off")
+LEGS = ("leg_error_median", "leg_error", "leg_bias")
+BODY_LEGS = ("body_leg_error_median", "body_leg_error", "body_leg_bias")
+STRIDE_TIME = ("stride_time_error_median", "stride_time_error", "stride_time_bias")
+
+DATASETS = (
+    DataSet("pyshoe_vicon", ("pyshoe_vicon",), "VICON tracks, one shoe", _always, score_vicon, TRACK + STRIDES[:4]),
+    DataSet(
+        "gumushane_surveyed",
+        ("gumushane_gcp",),
+        "every footprint surveyed, one shoe",
+        _surveyed_strides,
+        score_surveyed,
+        (
+            "position_mean", "position_max", "authors", "authors_beaten", "rms_z", "path", "relative", *STRIDES,
+            "stride_error_track",
+        ),
+    ),
+    DataSet(
+        "gumushane_counted", ("gumushane_gcp",), "strides counted, some corners surveyed, one shoe", _counted_strides,
+        score_counted, (*STRIDES[:3], *LEGS, "end_error_2d", "end_height"),
+    ),
+    DataSet(
+        "xio_closed_walks",
+        ("xio_closed_walks",),
+        "a closed loop, one shoe",
+        _closed_loop,
+        score_loop,
+        ("end_error", "end_error_2d", "end_height", "path", "relative"),
+    ),
+    DataSet(
+        "smart_insole_35", ("smart_insole_35",), "OptiTrack tracks, one insole", _tracked, score_optitrack,
+        TRACK + STRIDES, pressed=True,
+    ),
+    DataSet(
+        "ipol_10m_uturn",
+        ("ipol_10m_uturn",),
+        "10 m and back, both feet, radio losses",
+        _always,
+        score_swings,
+        HEEL_STRIKE + TOE_OFF + STRIDE_TIME + LEGS + BODY_LEGS
+        + ("end_error_2d", "end_height", "uturn_found", "uturn_angle", "uturn_invented"),
+        each=False,
+    ),
+    DataSet(
+        "tripod_treadmill", ("tripod_treadmill",), "a treadmill, both feet", _always, score_treadmill,
+        HEEL_STRIKE + TOE_OFF + STRIDE_TIME + STRIDES,
+    ),
+    DataSet(
+        "gaitmap_examples", ("gaitmap_examples",), "4 x 10 m, both feet", _borders_known, score_borders,
+        (*HEEL_STRIKE, *STRIDE_TIME, *LEGS, *BODY_LEGS, "leg_spread", "end_error_2d", "end_height"),
+    ),
+    DataSet(
+        "marpino_heel_toe",
+        ("marpino_heel_toe",),
+        "heel and toe switches, both feet, inertial samples only",
+        _always,
+        score_switches,
+        HEEL_STRIKE + TOE_OFF + LEGS,
+    ),
+    DataSet(
+        "marpino_pressed",
+        ("marpino_heel_toe",),
+        "heel and toe switches as an insole of two cells, both feet",
+        _always,
+        score_pressed,
+        HEEL_STRIKE + TOE_OFF + LEGS,
+        pressed=True,
+    ),
+    DataSet(
+        "gaitpdb_vgrf",
+        ("gaitpdb_vgrf",),
+        "eight force sensors below each foot and nothing else",
+        _always,
+        score_force,
+        HEEL_STRIKE + TOE_OFF,
+        pressed=True,
+    ),
+    DataSet(
+        "hugadb",
+        ("hugadb",),
+        "activities, both feet, five folds by wearer",
+        _always,
+        score_labelled,
+        ACTIVITIES + RIDES,
+        each=False,
+        folds=True,
+    ),
+    DataSet(
+        "stairs",
+        ("gaitmap_examples", "xio_closed_walks"),
+        "stairs and level ways, and what of them is called stairs",
+        _climbed,
+        score_stairs,
+        ("stairs_called", "stairs_direction", "level_called"),
+    ),
+)  # fmt: skip
+
+WALKED = (
+    "rms_2d", "position_end", "end_relative", "position_max", "largest_relative", "height_end", "height_max", "path",
+)  # fmt: skip
+EMULATED = tuple(
+    DataSet(name, (), title, _always, score, WALKED + STRIDES, pressed=True)
+    for name, title, score in (
+        ("emulated_long_way", "500 m with turns, emulated insoles on both feet", score_long_way),
+        ("emulated_half_hour", "30 minutes with turns, emulated insoles on both feet", score_half_hour),
+        ("emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", score_four_floors),
+    )
+)
+"""What needs no data: a recording is a seed."""

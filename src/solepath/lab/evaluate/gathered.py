@@ -1,0 +1,94 @@
+"""What a session said, kept for the scores: by foot, and what the wearer did."""
+
+from __future__ import annotations
+
+import numpy as np
+from attrs import define, field, frozen
+
+from ...events import (
+    ActivityChanged,
+    Event,
+    FootFlat,
+    FootMoved,
+    HeelOff,
+    HeelStrike,
+    LiftRidden,
+    StepTaken,
+    ToeOff,
+    TurnMade,
+)
+from ...show.timeline import Timeline
+from ...types import Foot, Vec3
+from ..measures.alignment import Floats
+
+
+@frozen(eq=False)
+class FootRun:
+    """What a session said about one foot: the live track `positions` (n,3) in m at `t` (n,), steps and event times."""
+
+    t: Floats
+    positions: Floats
+    steps: tuple[StepTaken, ...] = ()
+    heel_strikes: tuple[float, ...] = ()
+    foot_flats: tuple[float, ...] = ()
+    heel_offs: tuple[float, ...] = ()
+    toe_offs: tuple[float, ...] = ()
+
+    @property
+    def step_lengths(self) -> list[tuple[float, float]]:
+        """(t_end, stride_length) of each step."""
+        return [(step.t_end, step.stride_length) for step in self.steps]
+
+
+@define
+class _FootGathered:
+    t: list[float] = field(factory=list)
+    positions: list[Vec3] = field(factory=list)
+    steps: list[StepTaken] = field(factory=list)
+    times: dict[type, list[float]] = field(factory=dict)
+
+
+@define
+class Gathering:
+    """Takes events as they come; `foot` gives what came of one foot (nothing of a foot never heard of)."""
+
+    timeline: Timeline = field(factory=Timeline)
+    rides: list[LiftRidden] = field(factory=list)
+    turns: list[TurnMade] = field(factory=list)
+    _feet: dict[Foot, _FootGathered] = field(factory=dict)
+
+    def add(self, event: Event) -> None:
+        match event:
+            case FootMoved(foot=foot, t=t, position=position):
+                one = self._of(foot)
+                one.t.append(t)
+                one.positions.append(position)
+            case StepTaken(foot=foot, final=True):
+                self._of(foot).steps.append(event)
+            case HeelStrike(foot=foot, final=True) | FootFlat(foot=foot, final=True):
+                self._of(foot).times.setdefault(type(event), []).append(event.t)
+            case HeelOff(foot=foot, final=True) | ToeOff(foot=foot, final=True):
+                self._of(foot).times.setdefault(type(event), []).append(event.t)
+            case ActivityChanged():
+                self.timeline.add(event)
+            case LiftRidden(final=True):
+                self.rides.append(event)
+            case TurnMade(final=True):
+                self.turns.append(event)
+            case _:
+                pass
+
+    def _of(self, foot: Foot) -> _FootGathered:
+        return self._feet.setdefault(foot, _FootGathered())
+
+    def foot(self, foot: Foot) -> FootRun:
+        one = self._of(foot)
+        return FootRun(
+            t=np.array(one.t, dtype=np.float64),
+            positions=np.array(one.positions, dtype=np.float64).reshape(len(one.t), 3),
+            steps=tuple(one.steps),
+            heel_strikes=tuple(one.times.get(HeelStrike, ())),
+            foot_flats=tuple(one.times.get(FootFlat, ())),
+            heel_offs=tuple(one.times.get(HeelOff, ())),
+            toe_offs=tuple(one.times.get(ToeOff, ())),
+        )

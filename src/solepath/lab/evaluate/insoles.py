@@ -1,0 +1,71 @@
+"""Where the pressure cells of recorded insoles are; the recordings themselves do not say.
+
+Foot frame as in types.Cell: x to the toe, y to the left, m, from the heel's rear end on the midline.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+from ...calibration import Calibration, InsoleCalibration
+from ...recording import RecordingError
+from ...types import Cell, Foot, Layout
+
+HEEL_AND_TOE = 2
+"""Number of the layout of marpino_heel_toe: a switch below the toe, then one below the heel."""
+
+FORCE_SENSORS = (
+    (-500, -800), (-700, -400), (-300, -400), (-700, 0), (-300, 0), (-700, 400), (-300, 400), (-500, 800)
+)  # fmt: skip
+"""Sensors L1 to L8 below the left foot of gaitpdb: x to the wearer's right, y to the toe, in units of no known length
+("Gait in Parkinson's Disease", PhysioNet, description of the format). The right foot is the mirror image."""
+
+
+def switches() -> Calibration:
+    """Of marpino_heel_toe: where on an insole of 26 cm a toe switch and a heel switch sit."""
+    cells = (Cell(0.20, 0.0), Cell(0.03, 0.0))
+    return _of_both({foot: Layout(HEEL_AND_TOE, foot, cells, 0.26) for foot in Foot})
+
+
+def force_sensors(length: float = 0.26) -> Calibration:
+    """Of gaitpdb_vgrf, the eight sensors spread over a sole of `length` m."""
+    unit = length / 2000.0
+    layouts = {}
+    for foot in Foot:
+        side = 1.0 if foot is Foot.LEFT else -1.0
+        cells = tuple([Cell((y + 1000) * unit, -(x + 500) * side * unit) for x, y in FORCE_SENSORS])
+        layouts[foot] = Layout(len(cells), foot, cells, length, scale=1.0, full_scale=10_000.0)
+    return _of_both(layouts)
+
+
+def in_dataset(path: Path) -> Calibration:
+    """Of smart_insole_35, as its dataset.json beside `path` has them (cell_xy_mm).
+
+    There the wide end and its slanted row, the toes', have the smaller y, and the big toe the smaller x: seen from
+    above with y downwards that is a right foot. RecordingError when the file does not say.
+    """
+    about = path.parent / "dataset.json"
+    try:
+        places: Sequence[tuple[float, float]] = json.loads(about.read_text(encoding="utf-8"))["cell_xy_mm"]
+        rear = max(y for _, y in places) + MARGIN
+        front = min(y for _, y in places) - MARGIN
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise RecordingError(about, "does not say where the cells are") from error
+    layouts = {}
+    for foot in Foot:
+        side = 1.0 if foot is Foot.RIGHT else -1.0
+        cells = tuple([Cell(1e-3 * (rear - y), -1e-3 * side * (x - MIDLINE)) for x, y in places])
+        layouts[foot] = Layout(len(cells), foot, cells, 1e-3 * (rear - front))
+    return _of_both(layouts)
+
+
+MARGIN = 15.0
+"""mm from the outermost cells to the insole's ends (assumed: half the distance between their rows)."""
+MIDLINE = -8.0
+"""x of the insole's midline, mm: the middle of the rows of cells."""
+
+
+def _of_both(layouts: dict[Foot, Layout]) -> Calibration:
+    return Calibration(insoles={foot: InsoleCalibration(layout) for foot, layout in layouts.items()})

@@ -1,0 +1,154 @@
+"""Every recipe on every recording that has a truth."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import ExitStack
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+from attrs import frozen
+
+from ...calibration import Calibration
+from ...recipes import Recipe
+from ...recording import RecordingError
+from ..measures.score import Scored
+from .datasets import DATASETS, EMULATED, DataSet
+from .learning import Lesson, lessons, part_for, taught
+from .recorded import Meta
+from .report import Result
+from .run import Chosen, How, recipe_of
+
+
+@frozen
+class Job:
+    data_set: DataSet
+    how: How
+    path: Path
+    meta: Meta
+
+    def run(self) -> Scored | str:
+        """The scores, or the sentence that says why there are none."""
+        try:
+            return self.data_set.score(self.path, self.meta, self.how)
+        except RecordingError as error:
+            return str(error)
+
+
+def find(folder: Path, only: Sequence[str] = ()) -> list[DataSet]:
+    """The data sets there are in `folder`; RecordingError when there is none, or not one of those named in `only`."""
+    if not folder.is_dir():
+        raise RecordingError(folder, "is not a directory of recorded data")
+    known = [data_set.name for data_set in DATASETS]
+    for name in only:
+        if name not in known:
+            raise RecordingError(folder, f"{name} is not one of the data sets {', '.join(known)}")
+    present = [d for d in DATASETS if _abouts(folder, d) and (not only or d.name in only)]
+    missing = set(only) - {data_set.name for data_set in present}
+    if missing or not present:
+        what = ", ".join(sorted(missing)) or "any of the data sets " + ", ".join(known)
+        raise RecordingError(folder, f"does not hold {what}")
+    return present
+
+
+def _abouts(folder: Path, data_set: DataSet) -> list[Path]:
+    """The dataset.json of each of its folders that is there."""
+    abouts = [folder / name / "dataset.json" for name in data_set.folders]
+    return [about for about in abouts if about.is_file()]
+
+
+def recordings(folder: Path, data_set: DataSet) -> list[tuple[Path, Meta]]:
+    """The recordings of a data set that have a truth, and their entries."""
+    found: list[tuple[Path, Meta]] = []
+    for about in _abouts(folder, data_set):
+        try:
+            told: dict[str, Meta] = json.loads(about.read_text(encoding="utf-8"))["recordings"]
+            found += [
+                (about.with_name(f"{name}.npz"), told[name])
+                for name in sorted(told)
+                if data_set.has_truth(name, told[name])
+            ]
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise RecordingError(about, "does not say which recordings there are") from error
+    return [(path, meta) for path, meta in found if path.is_file()]
+
+
+Plan = list[tuple[DataSet, Recipe, list[tuple[Path, Meta]]]]
+
+
+def evaluate(
+    folder: Path,
+    recipes: Sequence[Chosen],
+    *,
+    only: Sequence[str] = (),
+    calibration: Calibration | None = None,
+    processes: int = 1,
+    progress: Callable[[int, int], None] | None = None,
+) -> Iterator[Result]:
+    """The result of each recipe on each data set of `folder`, as they are done; `calibration` is used for every
+    recording, and `progress` gets (done, all)."""
+    data_sets, chosen = find(folder, only), [recipe_of(one) for one in recipes]
+    plan = [(d, recipe, recordings(folder, d)) for recipe in chosen for d in data_sets if d.suits(recipe)]
+    to_learn = lessons(folder, chosen) if any(data_set.folds for data_set in data_sets) else []
+    return _scored(plan, to_learn, calibration, processes, progress)
+
+
+def evaluate_emulated(
+    recipes: Sequence[Chosen],
+    seeds: Sequence[int],
+    *,
+    only: Sequence[str] = (),
+    calibration: Calibration | None = None,
+    processes: int = 1,
+    progress: Callable[[int, int], None] | None = None,
+) -> Iterator[Result]:
+    """The same on the emulated walks of `seeds`, of all kinds or of those named in `only`."""
+    chosen = [recipe_of(one) for one in recipes]
+    walks: list[tuple[Path, Meta]] = [(Path(f"seed {seed}"), {"seed": seed}) for seed in seeds]
+    plan = [(d, recipe, walks) for recipe in chosen for d in EMULATED if not only or d.name in only]
+    return _scored(plan, [], calibration, processes, progress)
+
+
+def _scored(
+    plan: Plan,
+    to_learn: list[Lesson],
+    calibration: Calibration | None,
+    processes: int,
+    progress: Callable[[int, int], None] | None,
+) -> Iterator[Result]:
+    known = Calibration() if calibration is None else calibration
+    count = len(to_learn) + sum(len(part) for _, _, part in plan)
+    done = 0
+
+    def step() -> None:
+        nonlocal done
+        done += 1
+        if progress is not None:
+            progress(done, count)
+
+    with ExitStack() as stack:
+        pool = stack.enter_context(ProcessPoolExecutor(processes)) if processes > 1 else None
+        learnt: list[Any] = []
+        for features in (map if pool is None else pool.map)(Lesson.features, to_learn):
+            learnt.append(features)
+            step()
+        parts = taught(to_learn, learnt)
+        everything = [
+            Job(d, How(recipe, known, part_for(recipe, meta, parts) if d.folds else None), path, meta)
+            for d, recipe, part in plan
+            for path, meta in part
+        ]
+        outcomes = map(Job.run, everything) if pool is None else pool.map(Job.run, everything)
+        for data_set, recipe, part in plan:
+            scores: list[Scored] = []
+            failures: list[str] = []
+            for outcome in islice(outcomes, len(part)):
+                step()
+                if isinstance(outcome, Scored):
+                    scores.append(outcome)
+                else:
+                    failures.append(outcome)
+            yield Result(data_set, recipe.name, tuple(scores), tuple(failures))

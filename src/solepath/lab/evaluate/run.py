@@ -1,0 +1,111 @@
+"""One recording through one session, and what the scores need of what came out.
+
+Only what samples reads (t, acc, gyro, pressure) reaches the session; the truth in the same file never does.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from time import perf_counter
+
+import attrs
+import numpy as np
+from attrs import frozen
+
+from ... import recipes
+from ...calibration import Calibration, merged
+from ...events import Event, LiftRidden, TurnMade
+from ...recipes import AnyActivity, Recipe
+from ...recording.samples import load_samples
+from ...session import Session
+from ...show.timeline import Timeline
+from ...types import Foot, Vec3
+from ..measures.alignment import Floats
+from .gathered import FootRun, Gathering
+
+Chosen = str | Recipe
+"""A recipe, or the name of one of ours."""
+
+
+def recipe_of(chosen: Chosen) -> Recipe:
+    return chosen if isinstance(chosen, Recipe) else recipes.BY_NAME[chosen]
+
+
+@frozen
+class How:
+    """How a recording is computed: the recipe, and what is known beforehand.
+
+    `activity`: in the place of the recipe's own part, the same part taught on other recordings.
+    """
+
+    recipe: Chosen
+    calibration: Calibration = Calibration()
+    activity: AnyActivity | None = None
+
+
+@frozen(eq=False)
+class Track:
+    """`positions` (n,3) in m at `t` (n,) s."""
+
+    t: Floats
+    positions: Floats
+
+
+@frozen(eq=False)
+class Run:
+    feet: dict[Foot, FootRun]
+    timeline: Timeline
+    """What the wearer did."""
+    rides: tuple[LiftRidden, ...]
+    turns: tuple[TurnMade, ...]
+    samples: int
+    seconds: float
+    """Wall time that the session took."""
+    body: Track | None = None
+    """Where the session had the wearer after every sample, where that was asked for."""
+
+
+def run(
+    path: Path,
+    how: How,
+    *,
+    without_pressure: bool = False,
+    calibration: Calibration | None = None,
+    poses: bool = True,
+    body: bool = False,
+) -> Run:
+    """The recording at `path` through a session, sample by sample.
+
+    `without_pressure`: leave the pressure out, because the truth was made of it. `calibration`: where the cells are.
+    `poses`: the live position at every sample is asked for. `body`: and that of the wearer.
+    """
+    known = how.calibration if calibration is None else merged(how.calibration, calibration)
+    recipe = recipe_of(how.recipe)
+    if how.activity is not None:
+        recipe = attrs.evolve(recipe, activity=how.activity)
+    session = Session(recipe, calibration=known, poses=poses)
+    recording = load_samples(path)
+    samples = list(recording)
+    if without_pressure:
+        samples = [attrs.evolve(sample, pressure=None) for sample in samples]
+    said: list[list[Event]] = []
+    places: list[tuple[float, Vec3]] = []
+    began = perf_counter()
+    if body:
+        for sample in samples:
+            said.append(session.feed(sample))
+            if (position := session.position) is not None:
+                places.append((position.t, position.position))
+    else:
+        for sample in samples:
+            said.append(session.feed(sample))
+    said.append(session.finish())
+    seconds = perf_counter() - began
+    gathering = Gathering()
+    for events in said:
+        for event in events:
+            gathering.add(event)
+    feet = {table.foot: gathering.foot(table.foot) for table in recording.tables}
+    rides, turns = tuple(gathering.rides), tuple(gathering.turns)
+    wearer = Track(np.array([t for t, _ in places]), np.array([at for _, at in places]).reshape(-1, 3))
+    return Run(feet, gathering.timeline, rides, turns, len(samples), seconds, wearer if places else None)

@@ -1,0 +1,180 @@
+"""Scores of heel-strike and toe-off against labels, switches and force. Scorers are as datasets.py says."""
+
+from __future__ import annotations
+
+from math import hypot, pi
+from pathlib import Path
+from statistics import fmean, pstdev
+
+import numpy as np
+
+from ...types import Foot, Turn
+from ..measures.alignment import at_times
+from ..measures.contacts import force_contacts, merged, switch_contacts
+from ..measures.errors import Errors
+from ..measures.legs import leg_errors, turned_about
+from ..measures.matching import TOLERANCE, Matching, interval_errors, match
+from ..measures.score import Figures, Scored
+from ..measures.strides import StrideScore, stride_score
+from .insoles import force_sensors, switches
+from .recorded import Meta, scored, truth_of
+from .run import How, Run, run
+
+LEG = 10.0
+"""m of ipol_10m_uturn and gaitmap_examples."""
+LEGS = 4
+"""of gaitmap_examples."""
+LONGEST = 2.5
+"""s that a stride may take; between heel-strikes further apart the foot rested, or strides were not labelled."""
+
+
+def score_swings(path: Path, meta: Meta, how: How) -> Scored:
+    """Labels of every swing: it starts with toe-off and ends with heel-strike. And of the walk and its turn: a leg is
+    from the beginning of the walk to the middle of the turn, the other from there to the end of the walk, by each foot
+    (leg) and by the session's position (body_leg). Both together are a closed loop, but that the wearer stands the
+    other way round, with each foot beside where it began."""
+    truth, went = truth_of(path), run(path, how, body=True)
+    heel_strike, toe_off, strides = Matching(), Matching(), Errors()
+    for foot, ran in went.feet.items():
+        swings = truth[f"gt_{foot.value}"]
+        toe_off += match(swings[:, 0].tolist(), ran.toe_offs)
+        heel_strike += match(swings[:, 1].tolist(), ran.heel_strikes)
+        strides += interval_errors(swings[:, 1].tolist(), ran.heel_strikes, longest=LONGEST)
+    began, ended = truth["gt_trial"].tolist()
+    times = [began, float(truth["gt_uturn"].mean()), ended]
+    return scored(
+        path,
+        went,
+        figures=_about_turn(truth["gt_uturn"].tolist(), went) | _ends(went, began, ended),
+        events={"heel_strike": heel_strike, "toe_off": toe_off},
+        errors=_legs(went, times) | {"stride_time": strides},
+    )
+
+
+def _legs(went: Run, times: list[float]) -> dict[str, Errors]:
+    """Of the legs of LEG m between `times`, s."""
+    true, body = [LEG] * (len(times) - 1), went.body
+    return {
+        "leg": sum([leg_errors(times, true, ran.t, ran.positions) for ran in went.feet.values()], Errors()),
+        "body_leg": Errors() if body is None else leg_errors(times, true, body.t, body.positions),
+    }
+
+
+def _ends(went: Run, began: float, ended: float) -> Figures:
+    """How far the wearer's position is at the end from where it was at the beginning, horizontally, and how much higher
+    or lower, m."""
+    if went.body is None:
+        return {}
+    first, last = at_times(went.body.t, went.body.positions, np.array([began, ended]))
+    return {"end_error_2d": hypot(last[0] - first[0], last[1] - first[1]), "end_height": abs(float(last[2] - first[2]))}
+
+
+def _about_turn(span: list[float], went: Run) -> Figures:
+    """The wearer turned about once, in the `span` that is labelled, s. Found: an about turn was told that shares some
+    of it. Its angle is that of the largest turn that does, by how much it differs from half a turn (from 0 where none
+    was told). Invented: about turns elsewhere."""
+    began, ended = span
+    there = [turn for turn in went.turns if turn.t >= began and turn.t_start <= ended]
+    about = sum(turn.turn is Turn.ABOUT for turn in went.turns)
+    found = any(turn.turn is Turn.ABOUT for turn in there)
+    angle = max([abs(turn.angle) for turn in there], default=0.0)
+    return {
+        "uturn_found": float(found),
+        "uturn_angle": abs(pi - angle),
+        "uturn_invented": float(about - sum(turn.turn is Turn.ABOUT for turn in there)),
+    }
+
+
+def score_borders(path: Path, meta: Meta, how: How) -> Scored:
+    """Strides from heel-strike to heel-strike, known only while the walker is in view of the cameras. Four legs to and
+    fro: nothing says when the walker turned, so each track is cut where itself turned about (legs.turned_about), and
+    that it is 10 m from there to there only the protocol says. By how much the legs differ among themselves needs no
+    such number: `leg_spread` is the standard deviation of a foot's four legs relative to their mean, averaged over
+    the feet."""
+    truth, went = truth_of(path), run(path, how, body=True)
+    heel_strike, strides = Matching(), Errors()
+    for foot, ran in went.feet.items():
+        borders = [(float(a), float(b)) for a, b in truth[f"gt_borders_{foot.value}"]]
+        seen = merged(borders)
+        # a border that two strides share is one heel-strike
+        strikes = [at for at, _ in merged([(at, at) for border in borders for at in border])]
+        heel_strike += match(strikes, ran.heel_strikes, windows=seen)
+        strides += interval_errors(strikes, ran.heel_strikes, longest=LONGEST)
+    legs, figures = _legs_to_and_fro(went)
+    return scored(
+        path, went, figures=figures, events={"heel_strike": heel_strike}, errors=legs | {"stride_time": strides}
+    )
+
+
+def _legs_to_and_fro(went: Run) -> tuple[dict[str, Errors], Figures]:
+    each = {
+        foot: leg_errors(turned_about(ran.t, ran.positions, LEGS), [LEG] * LEGS, ran.t, ran.positions)
+        for foot, ran in went.feet.items()
+        if len(ran.t)
+    }
+    body = Errors()
+    if went.body is not None:
+        track = went.body
+        body = leg_errors(turned_about(track.t, track.positions, LEGS), [LEG] * LEGS, track.t, track.positions)
+    spreads = [pstdev(errors.values) / (1.0 + fmean(errors.values)) for errors in each.values()]
+    figures: Figures = {"leg_spread": fmean(spreads) if spreads else None}
+    if went.body is not None:
+        figures |= _ends(went, float(went.body.t[0]), float(went.body.t[-1]))
+    return {"leg": sum(each.values(), Errors()), "body_leg": body}, figures
+
+
+def score_treadmill(path: Path, meta: Meta, how: How) -> Scored:
+    """Contact times of a light barrier. The belt is an inertial frame of its own, in which the standing foot rests, so
+    stride lengths compare as they are; positions in the room do not."""
+    truth, went = truth_of(path), run(path, how)
+    heel_strike, toe_off, strides, times = Matching(), Matching(), StrideScore(), Errors()
+    for foot, ran in went.feet.items():
+        rows = truth["gt_foot"] == (0 if foot is Foot.LEFT else 1)
+        strikes = truth["gt_hs_t"][rows]
+        heel_strike += match(strikes.tolist(), ran.heel_strikes)
+        times += interval_errors(strikes.tolist(), ran.heel_strikes, longest=LONGEST)
+        toe_off += match((strikes + truth["gt_contact_s"][rows]).tolist(), ran.toe_offs)
+        # the stride that a heel-strike ends, ours ending at the foot-flat after it: well before the next heel-strike
+        strides += stride_score(strikes, truth["gt_stride_len"][rows][:-1], ran.step_lengths, slack=-TOLERANCE)
+    events = {"heel_strike": heel_strike, "toe_off": toe_off}
+    return scored(path, went, events=events, strides=strides, errors={"stride_time": times})
+
+
+def score_switches(path: Path, meta: Meta, how: How) -> Scored:
+    """Heel and toe switches under the foot are the truth here, so the session does without them."""
+    return _against_switches(path, meta, run(path, how, without_pressure=True))
+
+
+def score_pressed(path: Path, meta: Meta, how: How) -> Scored:
+    """The same switches as the pressure cells of an insole of two: what a session makes of them, against themselves."""
+    return _against_switches(path, meta, run(path, how, calibration=switches()))
+
+
+def _against_switches(path: Path, meta: Meta, went: Run) -> Scored:
+    """Where it was a straight walk of a known length, each foot's way from its first to its last position is a leg: the
+    wearer stood at both ends, but nobody wrote down how near to the lines."""
+    truth = truth_of(path)
+    heel_strike, toe_off, legs = Matching(), Matching(), Errors()
+    for foot, ran in went.feet.items():
+        t, counts = truth[f"t_{foot.value}"], truth[f"pressure_{foot.value}"]
+        heel, toe = switch_contacts(t, counts[:, 1]), switch_contacts(t, counts[:, 0])
+        if heel:
+            heel_strike += match([begin for begin, _ in heel], ran.heel_strikes)
+        if toe:
+            toe_off += match([end for _, end in toe], ran.toe_offs)
+        if "straight_path_m" in meta and len(ran.t):
+            ends = [float(ran.t[0]), float(ran.t[-1])]
+            legs += leg_errors(ends, [float(meta["straight_path_m"])], ran.t, ran.positions)
+    errors = {"leg": legs} if legs.values else {}
+    return scored(path, went, events={"heel_strike": heel_strike, "toe_off": toe_off}, errors=errors)
+
+
+def score_force(path: Path, meta: Meta, how: How) -> Scored:
+    """The force below each foot is the truth of contact, and its eight sensors are all that the session gets."""
+    truth, went = truth_of(path), run(path, how, calibration=force_sensors())
+    heel_strike, toe_off = Matching(), Matching()
+    for foot, ran in went.feet.items():
+        contacts = force_contacts(truth["t"], truth[f"pressure_{foot.value}"].sum(axis=1))
+        heel_strike += match([begin for begin, _ in contacts], ran.heel_strikes)
+        toe_off += match([end for _, end in contacts], ran.toe_offs)
+    return scored(path, went, events={"heel_strike": heel_strike, "toe_off": toe_off})

@@ -1,0 +1,131 @@
+"""Scores of tracks and strides against markers, surveys and closed loops. Scorers are as datasets.py says."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...types import Foot
+from ..measures.alignment import at_times, path_length, track_error
+from ..measures.errors import Errors
+from ..measures.legs import leg_errors
+from ..measures.score import Figures, Scored
+from ..measures.strides import StrideScore, marker_rests, position_errors, surveyed_score
+from .gathered import FootRun
+from .insoles import in_dataset
+from .recorded import Arrays, Meta, scored, truth_of
+from .run import How, run
+
+
+def score_vicon(path: Path, meta: Meta, how: How) -> Scored:
+    """The live position at every sample against the marker's."""
+    truth, went = truth_of(path), run(path, how)
+    foot = went.feet[Foot.RIGHT]
+    bipedal = meta.get("llio_tag") == 1
+    strides = _surveyed(truth, foot) if bipedal and "gt_stride_xy" in truth else None
+    figures = _track_figures(foot, truth["t"], truth["gt_pos"])
+    return scored(path, went, figures=figures, strides=strides, groups=("all", "bipedal") if bipedal else ("all",))
+
+
+def score_optitrack(path: Path, meta: Meta, how: How) -> Scored:
+    """The marker has a clock and a span of its own: scored where both are known."""
+    truth, went = truth_of(path), run(path, how, calibration=in_dataset(path))
+    both = (truth["gt_t"] >= truth["t"][0]) & (truth["gt_t"] <= truth["t"][-1])
+    t, places, foot = truth["gt_t"][both], truth["gt_pos"][both], went.feet[Foot.RIGHT]
+    times, rests = marker_rests(t, places)
+    strides = surveyed_score(times, rests, foot.t, foot.positions, foot.step_lengths)
+    return scored(path, went, figures=_track_figures(foot, t, places), strides=strides)
+
+
+def _track_figures(foot: FootRun, t: Any, truth: Any) -> Figures:
+    if not len(foot.t):
+        return {}
+    error, path = track_error(at_times(foot.t, foot.positions, t), truth), path_length(truth)
+    return {
+        "armse_2d": error.armse_2d,
+        "rms_2d": error.rms_2d,
+        "rms_3d": error.rms_3d,
+        "rms_z": error.rms_z,
+        "path": path,
+        "relative": error.rms_2d / path,
+    }
+
+
+def score_loop(path: Path, meta: Meta, how: How) -> Scored:
+    """From the last live position to the first: the foot ended where it began."""
+    went = run(path, how)
+    foot = went.feet[Foot.RIGHT]
+    figures: Figures = {}
+    if len(foot.t):
+        figures = _closed(foot.positions[0], foot.positions[-1])
+        figures["path"] = float(meta["path_m_about"])
+        figures["relative"] = (figures["end_error"] or 0.0) / float(meta["path_m_about"])
+    return scored(path, went, figures=figures)
+
+
+def _closed(first: Any, last: Any) -> Figures:
+    """Where a walk ended that ended where it began."""
+    away = last - first
+    return {
+        "end_error": float(np.linalg.norm(away)),
+        "end_error_2d": float(np.linalg.norm(away[:2])),
+        "end_height": abs(float(away[2])),
+    }
+
+
+# --- strides --------------------------------------------------------------------------------------------------------
+
+
+AUTHORS = {"exp31": 0.31, "exp33": 1.17, "exp37": 2.31, "exp39": 1.11, "exp41": 0.94, "exp45": 1.80}
+"""Mean position error of the authors' own system at the surveyed strides, m: INS with an LSTM as zero-velocity detector
+(log in the repository mtahakoroglu/LLIO-aided-iPyShoe). It lost strides of the other trials."""
+
+
+def score_surveyed(path: Path, meta: Meta, how: How) -> Scored:
+    truth, went = truth_of(path), run(path, how)
+    foot = went.feet[Foot.RIGHT]
+    figures: Figures = {}
+    if len(foot.t):
+        times, authors = truth["t"][truth["gt_stride_index"]], AUTHORS.get(path.stem)
+        errors = position_errors(times, truth["gt_stride_xy"], foot.t, foot.positions)
+        heights = np.interp(times, foot.t, foot.positions[:, 2])
+        surveyed = path_length(truth["gt_stride_xy"])
+        figures = {
+            "position_mean": float(np.mean(errors)),
+            "position_max": float(np.max(errors)),
+            "authors": authors,
+            "authors_beaten": None if authors is None else float(np.mean(errors) < authors),
+            "rms_z": float(np.std(heights)),
+            "path": surveyed,
+            "relative": float(np.mean(errors)) / surveyed,
+        }
+    return scored(path, went, figures=figures, strides=_surveyed(truth, foot))
+
+
+def _surveyed(truth: Arrays, foot: FootRun) -> StrideScore:
+    times, places = truth["t"][truth["gt_stride_index"]], truth["gt_stride_xy"]
+    if not len(foot.t):
+        return StrideScore(n_true=len(times) - 1)
+    return surveyed_score(times, places, foot.t, foot.positions, foot.step_lengths)
+
+
+def score_counted(path: Path, meta: Meta, how: How) -> Scored:
+    """Somebody counted the strides. Where they were is known of some corners only: the ways between those are legs, and
+    a walk that ends at the corner where it began is a closed loop, on one level."""
+    truth, went = truth_of(path), run(path, how)
+    foot = went.feet[Foot.RIGHT]
+    true, found = int(meta["n_true_strides"]), len(foot.steps)
+    strides = StrideScore(true, min(true, found), max(0, found - true))
+    if not meta["corner_points_valid"] or not len(foot.t):
+        return scored(path, went, strides=strides)
+    ends, corners = truth["t"][truth["gt_stride_index"]], truth["gt_corner_xy"].astype(np.float64)
+    legs, figures = Errors(), Figures()
+    if meta["n_detected_strides"] == true:
+        times = ends[truth["gt_corner_stride"]].tolist()
+        legs = leg_errors(times, np.linalg.norm(np.diff(corners, axis=0), axis=1).tolist(), foot.t, foot.positions)
+    if float(np.linalg.norm(corners[-1] - corners[0])) == 0.0:
+        first, last = at_times(foot.t, foot.positions, ends[[0, -1]])
+        figures = _closed(first, last)
+    return scored(path, went, figures=figures, strides=strides, errors={"leg": legs})

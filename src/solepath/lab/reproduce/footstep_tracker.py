@@ -1,0 +1,110 @@
+"""Liu et al. 2015: wearers with a 20 Hz SensorTag in each insole, in a building of 56 m by 63 m, without any anchor.
+
+What the paper measured and this walks again (footstep_walks.py): the 63 m corridor by one foot, by the common method
+and by two (fig. 13 b), steps (c), activities (a), turns (d, e), and the place on the floor plan (f to h). Most figures
+of the paper are drawn, not printed: rows without a figure of the paper's have none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import degrees
+
+from ...emulate.routes.building import BUILDING
+from ...types import Activity, Turn
+from ..measures.confusion import ActivityScore
+from . import footstep_walks, published
+from .footstep_walks import CORRIDOR, Walked, walked
+from .picture import Drawn, Floor, Track
+from .pool import Progress, each
+from .tables import Reproduction, Row, Statistics
+
+NAME = footstep_walks.NAME
+FIRST = 100_000
+"""Wearers from here on: nothing was learnt from any of them (lab/train/emulated.py)."""
+WEARERS = 8
+"""Section V-E: "we invited eight different users"."""
+
+
+def reproduce(
+    walks: int | None = None, seed: int = 1, *, processes: int = 1, progress: Progress | None = None
+) -> Reproduction:
+    """So many wearers, each of whom walks all of it."""
+    count = WEARERS if walks is None else walks
+    seeds = [FIRST + 1000 * seed + k for k in range(count)]
+    done = list(each(walked, seeds, processes=processes, progress=progress))
+    rows = [
+        _row("corridor, one foot %", [100.0 * one.one_foot / CORRIDOR for one in done]),
+        _row("corridor, by height %", [100.0 * one.by_height / CORRIDOR for one in done]),
+        _row("corridor, two feet %", [100.0 * one.two_feet / CORRIDOR for one in done]),
+        _row("step, one foot m", [abs(off) for one in done for off in one.step_one]),
+        _row("step, two feet m", [abs(off) for one in done for off in one.step_two]),
+        _row("activities %", [100.0 * (one.windows.accuracy or 0.0) for one in done]),
+        _row("turn angle deg", [off for one in done for off in one.turned.values()], digits=1),
+        _row("turn classes %", [_share(one.classes.values()) for one in done]),
+        _row("place m", [_mean(place.off) for one in done for place in one.places if place.off]),
+        _row(
+            "steps until decided",
+            [float(place.decided) for one in done for place in one.places if place.decided is not None],
+            digits=0,
+        ),
+    ]
+    return Reproduction(
+        name=NAME,
+        paper_title=published.FOOTSTEP_TRACKER_TITLE,
+        walked=f"{count} wearers with a CC2541 at 20 Hz in each insole, two floors of 56 m by 63 m",
+        unit="as named",
+        rows=tuple(rows),
+        panels=tuple(_floor(one) for one in done[:1]),
+        notes=_notes(done),
+    )
+
+
+def _row(name: str, values: list[float], digits: int = 2) -> Row:
+    return Row(name, tuple(values), published.FOOTSTEP_TRACKER.get(name, Statistics()), digits)
+
+
+def _share(counts: Iterable[tuple[int, int]]) -> float:
+    """Per cent right of (right, all) pairs."""
+    pairs = list(counts)
+    return 100.0 * sum([right for right, _ in pairs]) / max(1, sum([of for _, of in pairs]))
+
+
+def _mean(values: tuple[float, ...]) -> float:
+    return sum(values) / len(values)
+
+
+def _floor(one: Walked) -> Floor:
+    place = one.places[0]
+    walls = tuple(Track("", (wall.start, wall.end), Drawn.TRUTH) for wall in BUILDING.levels[0].walls)
+    candidates = Track("candidates", place.before, Drawn.DOTS)
+    tracks = (*walls, candidates, Track("true path", place.path), Track("place", place.track))
+    return Floor("the way of fig. 15", tracks)
+
+
+def _notes(done: list[Walked]) -> tuple[str, ...]:
+    lines = []
+    windows = sum([one.windows for one in done], ActivityScore())
+    for activity in Activity:
+        told = windows.told_of(activity)
+        if told:
+            share = 100.0 * told.get(activity, 0) / sum(told.values())
+            lines.append(f"{activity.value}: {share:.1f} % of {sum(told.values())} windows right.")
+    for turn in Turn:
+        pairs = [one.classes[turn] for one in done]
+        lines.append(f"Turn {turn.value}: {_share(pairs):.1f} % right.")
+    angles = [round(degrees(angle)) for angle in footstep_walks.INCREMENTS]
+    by_angle = [(angle, [one.turned[angle] for one in done]) for angle in angles]
+    lines.append(
+        "Mean error of the turn angle, degrees: " + ", ".join(f"{a}: {sum(v) / len(v):.1f}" for a, v in by_angle) + "."
+    )
+    places = [place for one in done for place in one.places]
+    missing, alone = (sum([how > 0 for how in of]) for of in ([p.dropped for p in places], [p.wrong for p in places]))
+    never = sum([place.decided is None for place in places])
+    lines.append(
+        f"Of {len(places)} walks on the plan, half along the way of the figure, the others along ways of their own: "
+        f"the true candidate was missing at some step in {missing}, a wrong one was alone at some step in {alone}, and "
+        f"in {never} it never came down to the true one."
+    )
+    lines.append("After how many steps it is decided is a matter of the building: six in the paper's, for one user.")
+    return tuple(lines)

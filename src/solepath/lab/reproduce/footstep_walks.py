@@ -1,0 +1,205 @@
+"""What one wearer of the footstep-tracker experiments walks: corridor, activities, turns, a way through the building.
+
+Two CC2541 in the insoles at 20 Hz (section IV, "System Deployment"), another pair of devices for every wearer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import degrees, hypot, pi, radians, remainder
+
+import numpy as np
+from attrs import frozen
+
+from ...calibration import Calibration, CalibrationError
+from ...emulate.routes.building import BUILDING
+from ...emulate.routes.route import Route
+from ...emulate.routes.ways import Way, case_study, corridor, wandering
+from ...emulate.sensors.sensortags import CC2541
+from ...emulate.walk import EmulatedWalk, emulate
+from ...emulate.wearers.gait import Wearer
+from ...emulate.wearers.shoe import IN_SOLE
+from ...emulate.wearers.wearers import wearer
+from ...events import Event, StepTaken, TurnMade
+from ...papers.footstep_tracker.toe_out import learnt, toe_out
+from ...recipes import BY_NAME, Recipe
+from ...session import Session
+from ...types import Foot, Site, Turn
+from ..emulated import activity as emulated_activity
+from ..emulated import place as emulated_place
+from ..emulated.place import PlaceScore
+from ..measures.confusion import ActivityScore
+
+NAME = "footstep-tracker"
+RATE = 20.0
+"""Hz."""
+KNOWN_WAY = 20.0
+"""m that are walked ahead for the toe-out angle (fig. 10)."""
+CORRIDOR = 63.0
+"""m."""
+BY_HEIGHT = 0.413
+"""Step length over stature: the common method of fig. 13 (b) multiplies the steps by "a step length estimated by the
+user's height"; the paper does not say how, this is the factor that pedometers use for a woman (0.415 for a man)."""
+INCREMENTS = tuple(radians(angle) for angle in range(-180, 181, 30) if angle)
+"""Of fig. 13 (d)."""
+CLASSES = {Turn.LEFT: (0.5 * pi,), Turn.RIGHT: (-0.5 * pi,), Turn.ABOUT: (pi, -pi)}
+
+
+@frozen
+class Wears:
+    """Who walks, and how long the legs are."""
+
+    who: Wearer
+    stature: float
+
+
+@frozen
+class Walked:
+    """What came of one wearer; lengths in m, angles in degrees, shares of one."""
+
+    one_foot: float
+    """Off at the end of the corridor."""
+    by_height: float
+    two_feet: float
+    step_one: tuple[float, ...]
+    """How far off the length of each step was, signed, by one foot ..."""
+    step_two: tuple[float, ...]
+    """... and by the mean of a step and the other foot's before it."""
+    windows: ActivityScore
+    """Two-second windows of another walk of somebody else, on stairs and in lifts."""
+    turned: dict[float, float]
+    """By the true turn, how far off the angle was."""
+    classes: dict[Turn, tuple[int, int]]
+    """(right, all)."""
+    places: tuple[PlaceScore, ...]
+    """Along the way of the paper's case study, and along another."""
+
+
+def wears(seed: int) -> Wears:
+    """Somebody between 1.55 m and 1.92 m tall, with toes more or less out."""
+    rng = np.random.default_rng([seed, 17])
+    stature = float(rng.uniform(1.55, 1.92))
+    return Wears(wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature), stature)
+
+
+def walked(seed: int) -> Walked:
+    """All that one wearer walks."""
+    known = wears(seed)
+    calibration = _calibrated(known, seed)
+    one_foot, by_height, two_feet, step_one, step_two = _corridor(known, calibration, seed)
+    windows = emulated_activity.score(BY_NAME[NAME], seed).windows
+    turned, classes = _turns(known, calibration, seed)
+    places = tuple(_placed(known, calibration, way, seed) for way in (case_study(), wandering(seed)))
+    return Walked(one_foot, by_height, two_feet, step_one, step_two, windows, turned, classes, places)
+
+
+def _tags(feet: Sequence[Foot] = tuple(Foot)) -> dict[Site, CC2541]:
+    sites = {Foot.LEFT: Site.LEFT_FOOT, Foot.RIGHT: Site.RIGHT_FOOT}
+    return {sites[foot]: CC2541(rate=RATE, mounting=IN_SOLE) for foot in feet}
+
+
+def _calibrated(known: Wears, seed: int) -> Calibration:
+    """The toe-out of both feet, from a walk of known length (fig. 10); none where that gives no angle."""
+    walk = emulate(
+        Route().stand(3.0).walk(KNOWN_WAY, 1.2).stop(2.0), wearer=known.who, devices=_tags(), seed=seed + 500
+    )
+    try:
+        return learnt(toe_out(walk.packets, KNOWN_WAY))
+    except CalibrationError:
+        return Calibration()
+
+
+def _heard(walk: EmulatedWalk, recipe: Recipe, calibration: Calibration, way: Way | None = None) -> list[Event]:
+    session = Session(recipe, calibration=calibration, floorplan=None if way is None else BUILDING)
+    return session.feed(walk.packets) + session.finish()
+
+
+# --- corridor, fig. 13 (b) and (c) ------------------------------------------------------------------------------------
+
+
+def _corridor(
+    known: Wears, calibration: Calibration, seed: int
+) -> tuple[float, float, float, tuple[float, ...], tuple[float, ...]]:
+    walk = emulate(corridor().route, wearer=known.who, devices=_tags(), seed=seed)
+    session = Session(BY_NAME[NAME], calibration=calibration)
+    events = session.feed(walk.packets) + session.finish()
+    here = session.position
+    two_feet = 0.0 if here is None else hypot(here.position[0], here.position[1])
+    steps = [event for event in events if isinstance(event, StepTaken)]
+    right = [step for step in steps if step.foot is Foot.RIGHT]
+    one_foot = sum([step.stride_length for step in right])
+    by_height = len(steps) * BY_HEIGHT * known.stature
+    off_one, off_two = [], []
+    before: dict[Foot, float] = {}
+    for step in steps:
+        true = _true_length(walk, step)
+        if true is None:
+            continue
+        off = step.stride_length - true
+        off_one.append(off)
+        other = before.get(Foot.LEFT if step.foot is Foot.RIGHT else Foot.RIGHT)
+        if other is not None:
+            off_two.append(0.5 * (off + other))
+        before[step.foot] = off
+    length = corridor().route.length
+    return (
+        abs(one_foot - length), abs(by_height - length), abs(two_feet - length), tuple(off_one), tuple(off_two)
+    )  # fmt: skip
+
+
+def _true_length(walk: EmulatedWalk, step: StepTaken) -> float | None:
+    """Of the step whose swing was this one's, m."""
+    if step.t_toe_off is None or step.t_heel_strike is None:
+        return None
+    middle = 0.5 * (step.t_toe_off + step.t_heel_strike)
+    for true in walk.truth.steps(step.foot):
+        if true.t_start <= middle <= true.t_end:
+            return hypot(true.displacement[0], true.displacement[1])
+    return None
+
+
+# --- turns, fig. 13 (d) and (e) ---------------------------------------------------------------------------------------
+
+
+def _turns(
+    known: Wears, calibration: Calibration, seed: int
+) -> tuple[dict[float, float], dict[Turn, tuple[int, int]]]:
+    rng = np.random.default_rng([seed, 18])
+    turned: dict[float, float] = {}
+    for angle in INCREMENTS:
+        made = _turn(known, calibration, angle, rng, seed)
+        off = sum([one.angle for one in made]) - angle
+        turned[round(degrees(angle))] = abs(degrees(remainder(off, 2.0 * pi)))  # about is about, to either side
+    classes = {}
+    for turn, angles in CLASSES.items():
+        right = 0
+        for k in range(PER_CLASS):
+            angle = angles[k % len(angles)] + float(rng.normal(0.0, TURN_SPREAD))
+            made = _turn(known, calibration, angle, rng, seed + k)
+            right += [one.turn for one in made if one.turn is not None] == [turn]
+        classes[turn] = (right, PER_CLASS)
+    return turned, classes
+
+
+PER_CLASS = 10
+"""Turns of each class and wearer; the paper has 30 of three wearers to train with, and five new ones."""
+TURN_SPREAD = radians(15.0)
+"""Nobody turns by 90 degrees exactly: standard deviation; as the classifier was trained (lab/train/turns.py)."""
+
+
+def _turn(
+    known: Wears, calibration: Calibration, angle: float, rng: np.random.Generator, seed: int
+) -> list[TurnMade]:
+    """Walk, turn, walk."""
+    radius = float(rng.uniform(0.0, 1.2))
+    route = Route(speed=float(rng.uniform(0.9, 1.3))).stand(2.5).walk(6.0).turn(angle, radius if radius > 0.4 else 0.0)
+    walk = emulate(route.walk(6.0).stop(3.0), wearer=known.who, devices=_tags(), seed=seed)
+    return [event for event in _heard(walk, BY_NAME[NAME], calibration) if isinstance(event, TurnMade)]
+
+
+# --- place, fig. 13 (f) to (h) ----------------------------------------------------------------------------------------
+
+
+def _placed(known: Wears, calibration: Calibration, way: Way, seed: int) -> PlaceScore:
+    walk = emulate(way.route, wearer=known.who, devices=_tags(), seed=seed)
+    return emulated_place.score(way, walk.walker, walk.truth, _heard(walk, BY_NAME[NAME], calibration, way))

@@ -1,0 +1,207 @@
+"""Chen et al. 2019: 20 walks of 20 m, and 91 m through a building, with two smart insoles at 30 Hz.
+
+Each walk has another pair of insoles, and the shoe is measured anew in five postures, three times each (section III-C).
+A recording is 20 s of walking for the pressure noise (section III-B), a halt, and then the 20 m; the sessions hear what
+comes after the halt. Distances are the sums of stride lengths, as in section IV-B; of the corridor the drift of that
+sum, as in section IV-C. The corridor's shape is not in the text; here it is once around the inner block of a floor
+(emulate/routes/laps.py).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+from attrs import field, frozen
+
+from ...calibration import Calibration, merged
+from ...emulate.routes.laps import corridor, straight
+from ...emulate.routes.postures import postures, write_postures
+from ...emulate.sensors.insole_device import Insole
+from ...emulate.sensors.parts import WORN_RESISTIVE
+from ...emulate.walk import emulate
+from ...emulate.wearers.truth import Truth
+from ...events import Event, StepTaken, StrideFused
+from ...papers.kupt_dfpc.noise import pressure_noise
+from ...papers.kupt_dfpc.shoe import fit_shoe
+from ...types import SITE_OF_FOOT, Foot
+from ..measures.alignment import Floats
+from . import published
+from .picture import Boxes, Drawn, Floor, Track
+from .pool import Progress, each
+from .tables import Reproduction, Row, statistics
+from .walks import cut, heard, laid, rest_after, then, thinned
+
+NAME = "kupt-dfpc"
+WALKS = 20
+RATE = 30.0
+"""Hz, section III-A."""
+SPEED = 1.3
+"""m/s: comfortable."""
+DISTANCE = 20.0
+"""m."""
+CORRIDOR = 91.0
+"""m, section IV-C."""
+EVERY = 4
+"""The paper walked its corridor once; here for every so many walks of 20 m, since one says little."""
+NOISE_WALK = straight(20.0 * SPEED, SPEED).stand(4.0)
+"""20 s for the pressure noise, and a halt."""
+FEET = {Foot.LEFT: "L", Foot.RIGHT: "R"}
+
+
+@frozen
+class Job:
+    """One walk; `corridor`: of CORRIDOR m instead of DISTANCE."""
+
+    seed: int
+    corridor: bool = False
+
+
+@frozen
+class Walked:
+    """`distances` by row and `true`, how far each foot really went, m. Of the corridor only: `tracks`, where each step
+    ended, the true path first, and `closing`, from the end of each to its start, m."""
+
+    distances: dict[str, float]
+    true: dict[Foot, float]
+    tracks: tuple[Track, ...] = ()
+    closing: dict[str, float] = field(factory=dict)
+
+
+def reproduce(
+    walks: int | None = None, seed: int = 1, *, processes: int = 1, progress: Progress | None = None
+) -> Reproduction:
+    """So many walks of 20 m, and for every EVERY of them one through the corridor, one at least."""
+    count = WALKS if walks is None else walks
+    corridors = max(1, count // EVERY)
+    jobs = [Job(1000 * seed + 500 + k, corridor=True) for k in range(corridors)]
+    jobs += [Job(1000 * seed + k) for k in range(1, count + 1)]
+    done = list(each(walk, jobs, processes=processes, progress=progress))
+    long, short = done[:corridors], done[corridors:]
+    rows = tuple(
+        Row(name, tuple(one.distances[name] for one in short), published.KUPT_DFPC[name])
+        for name in published.KUPT_DFPC
+    )
+    return Reproduction(
+        name=NAME,
+        paper_title=published.KUPT_DFPC_TITLE,
+        walked=f"{count} walks of {DISTANCE:g} m at {RATE:g} Hz, another pair of insoles each time",
+        unit="m",
+        rows=rows,
+        panels=(
+            Boxes(f"distance of {count} walks of {DISTANCE:g} m (fig. 12)", tuple(published.KUPT_DFPC), "m", DISTANCE),
+            Floor(f"{CORRIDOR:g} m of corridors (fig. 13)", long[0].tracks, marks=(("start", 0.0, 0.0),)),
+        ),
+        notes=_notes(rows, short, long),
+    )
+
+
+def _notes(rows: tuple[Row, ...], short: list[Walked], long: list[Walked]) -> tuple[str, ...]:
+    off = ", ".join(f"{row.name} {_off(row):.2f}" for row in rows)
+    paths = statistics([one.true[foot] for one in short for foot in Foot])
+    told = [
+        f"Root mean square of the error of {len(short)} walks, m: {off}.",
+        f"The feet really went {paths.mean:.2f} m on average.",
+    ]
+    for name, drift in published.CORRIDOR_DRIFT.items():
+        off_by = [one.distances[name] - _went(one, name) for one in long]
+        share = 100.0 * float(np.mean(np.abs(off_by))) / CORRIDOR
+        ends = float(np.mean([one.closing[name] for one in long]))
+        told.append(
+            f"{CORRIDOR:g} m of corridors, {name}: distance off by {', '.join(f'{off:+.2f}' for off in off_by)} m, "
+            f"{share:.2f} % of it on average, end {ends:.2f} m from the start of this closed way; paper "
+            f"{drift:.2f} m, {100.0 * drift / CORRIDOR:.2f} %."
+        )
+    told.append(
+        f"The paper contradicts itself: the mean of KUPT-L is {published.KUPT_DFPC['KUPT-L'].mean} m in table I and "
+        f"{published.KUPT_L_MEAN_IN_TEXT} m in the text below it."
+    )
+    return tuple(told)
+
+
+def _went(one: Walked, name: str) -> float:
+    """How far the foot went whose distance this is; that of both feet is the mean of theirs, m."""
+    feet = [foot for foot, letter in FEET.items() if name.endswith(f"-{letter}")] or list(Foot)
+    return float(np.mean([one.true[foot] for foot in feet]))
+
+
+def _off(row: Row) -> float:
+    return float(np.sqrt(np.mean([(value - DISTANCE) ** 2 for value in row.values])))
+
+
+def walk(job: Job) -> Walked:
+    """One walk: emulate it, calibrate on its first part, hear the second with each recipe."""
+    route = corridor(CORRIDOR, SPEED) if job.corridor else straight(DISTANCE, SPEED)
+    walked = emulate(
+        then(NOISE_WALK, route),
+        devices={SITE_OF_FOOT[foot]: Insole(rate=RATE, cell_part=WORN_RESISTIVE) for foot in Foot},
+        seed=job.seed,
+    )
+    halt = rest_after(walked.walker, NOISE_WALK)
+    parts = cut(walked, halt)
+    known = merged(merged(parts.layouts, measured_shoe(job.seed)), pressure_noise(parts.before))
+    said = {recipe: heard(recipe, parts.after, known) for recipe in ("zupt", "kupt", NAME)}
+    distances = {
+        f"{recipe.upper()}-{letter}": sum(s.stride_length for s in _steps(said[recipe], foot))
+        for recipe in ("zupt", "kupt")
+        for foot, letter in FEET.items()
+    }
+    fused = [event for event in said[NAME] if isinstance(event, StrideFused)]
+    distances["KUPT+DFPC"] = fused[-1].distance if fused else 0.0
+    true = {foot: sum(step.length for step in walked.truth.steps(foot) if step.t_heel_off > halt) for foot in Foot}
+    if not job.corridor:
+        return Walked(distances, true)
+    tracks, closing = _tracks(walked.truth, halt, said["zupt"], fused)
+    return Walked(distances, true, tracks, closing)
+
+
+def measured_shoe(seed: int) -> Calibration:
+    """What rulers and static postures tell of the shoe."""
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "postures.csv"
+        write_postures(file, postures(seed=seed))
+        return fit_shoe(file).calibration
+
+
+def _steps(events: list[Event], foot: Foot) -> list[StepTaken]:
+    return [event for event in events if isinstance(event, StepTaken) and event.final and event.foot is foot]
+
+
+def _tracks(
+    truth: Truth, halt: float, zupt: list[Event], fused: list[StrideFused]
+) -> tuple[tuple[Track, ...], dict[str, float]]:
+    """Where steps ended, laid on the floor by their first two metres, and how far each end is from its start, m."""
+    ends = {
+        f"ZUPT-{letter}": [(step.t_end, foot, step.position) for step in _steps(zupt, foot)]
+        for foot, letter in FEET.items()
+    }
+    # the place after each stride is the end of the chosen foot's path; between its own strides that stands still
+    ends["KUPT+DFPC"] = [(one.t, one.foot, one.position) for one in fused if one.foot is one.chosen]
+    path = _true_path(truth, halt)
+    start = path[0].copy()
+    tracks, closing = [Track("true path", thinned(path - start), Drawn.TRUTH)], {}
+    for name, places in ends.items():
+        if len(places) < 2:
+            continue
+        track = np.array([(0.0, 0.0), *((x, y) for _, _, (x, y, _) in places)])
+        true = np.array(
+            [_true_place(truth, places[0][1], halt), *(_true_place(truth, foot, t) for t, foot, _ in places)]
+        )
+        tracks.append(Track(name, thinned(laid(track, true) - start), Drawn.DOTS))
+        closing[name] = float(np.linalg.norm(track[-1] - track[0]))
+    return tuple(tracks), closing
+
+
+def _true_place(truth: Truth, foot: Foot, t: float) -> Floats:
+    """(x, y) on the floor, m."""
+    place: Floats = truth.pose(foot, t).position[0, :2] + truth.feet[foot].origin[:2]
+    return place
+
+
+def _true_path(truth: Truth, halt: float) -> Floats:
+    """Midway between the feet, (n, 2), m."""
+    t = np.arange(halt, truth.duration, 0.2)
+    left, right = (truth.pose(foot, t).position[:, :2] + truth.feet[foot].origin[:2] for foot in Foot)
+    middle: Floats = 0.5 * (left + right)
+    return middle

@@ -1,0 +1,183 @@
+"""Bebek et al. 2010: six half-hour walks that end where they began, a boot with 24 cells and an IMU in its heel.
+
+Each walk is one recording: laps of the calibration square on marked steps, a halt, and the half hour (fig. 13). The
+calibration comes from the laps, for each recipe from its own positions ("the same ZUPT'ing and calibration techniques
+are applied"); the sessions hear what comes after the halt. A loop-closing error is the horizontal distance between a
+track's beginning and its end.
+
+Lengths are those of table I. Of the fourth walk the paper says that it was the square, of the fifth that it was random;
+here the shorter half of the six are rounds of the square and the longer ones random. The wearer's pace is that of the
+calibration walks, 235 m in five minutes, or faster where the half hour asks for it; what is left of the half hour is
+stood. The rate of the samples is not in the paper.
+"""
+
+from __future__ import annotations
+
+from math import atan2, cos, sin
+
+import numpy as np
+from attrs import evolve, frozen
+
+from ...calibration import merged
+from ...emulate.routes.laps import field_walk, square
+from ...emulate.routes.route import Route, Stand
+from ...emulate.sensors.insole_device import boot
+from ...emulate.walk import EmulatedWalk, emulate
+from ...events import StepTaken
+from ...papers.pressure_contour.square import fit_square
+from ...recipes import BY_NAME
+from ...types import SITE_OF_FOOT, Foot
+from ..measures.alignment import Floats
+from . import published
+from .picture import Drawn, Floor, Track
+from .pool import Progress, each
+from .tables import Reproduction, Row, Statistics
+from .walks import cut, heard, laid, rest_after, then, thinned
+
+NAME = "pressure-contour"
+WALKS = 6
+RATE = 50.0
+"""Hz (assumed)."""
+HALF_HOUR = 1800.0
+"""s."""
+LASTING = HALF_HOUR
+"""s of each walk; the lengths of LOOPS go with it."""
+LAPS = 5
+"""Of the calibration square; "four to six"."""
+PACE = 0.8
+"""m/s: 235 m in 5 min (section V-D); faster where the half hour asks for more."""
+FOOT = Foot.RIGHT
+"""Whose boot it is (assumed)."""
+RECIPES = {"Gyroscope": "gyroscope", "Pressure": NAME}
+IN_FIGURES = (3, 4)
+"""Of LOOPS: the square of fig. 14 and the random walk of fig. 16; these are walked first."""
+ORDER = (*IN_FIGURES, 0, 1, 2, 5)
+
+
+@frozen
+class Job:
+    """One half hour, as the walk of this number in LOOPS."""
+
+    seed: int
+    number: int
+    lasting: float
+    laps: int
+
+    @property
+    def square(self) -> bool:
+        """Rounds of the square, else a random walk."""
+        return published.LOOPS[self.number].distance < PACE * HALF_HOUR
+
+
+@frozen
+class Walked:
+    """Loop-closing errors by row, m, of so many m walked, and the tracks, the true path first."""
+
+    number: int
+    distance: float
+    closing: dict[str, float]
+    tracks: tuple[Track, ...]
+
+
+def reproduce(
+    walks: int | None = None, seed: int = 1, *, processes: int = 1, progress: Progress | None = None
+) -> Reproduction:
+    """So many half hours."""
+    count = WALKS if walks is None else walks
+    jobs = [Job(1000 * seed + k, ORDER[k % len(ORDER)], LASTING, LAPS) for k in range(count)]
+    done = list(each(walk, jobs, processes=processes, progress=progress))
+    rows = [Row(f"{name} m", tuple(one.closing[name] for one in done), _paper(name, "m")) for name in RECIPES]
+    rows += [
+        Row(f"{name} %", tuple(100.0 * one.closing[name] / one.distance for one in done), _paper(name, "%"), digits=3)
+        for name in RECIPES
+    ]
+    panels = [
+        Floor(
+            f"{'square' if number == IN_FIGURES[0] else 'random walk'} (fig. {figure})", one.tracks, (("start", 0, 0),)
+        )
+        for number, figure in zip(IN_FIGURES, (14, 16), strict=True)
+        for one in done[: len(IN_FIGURES)]
+        if one.number == number
+    ]
+    return Reproduction(
+        name=NAME,
+        paper_title=published.PRESSURE_CONTOUR_TITLE,
+        walked=f"{count} walks of {LASTING / 60.0:g} min at {RATE:g} Hz, another device each time",
+        unit="loop-closing error",
+        rows=tuple(rows),
+        panels=tuple(panels),
+        notes=_notes(done),
+    )
+
+
+def _paper(name: str, unit: str) -> Statistics:
+    return published.PRESSURE_CONTOUR[f"{name} {unit}"]
+
+
+def _notes(done: list[Walked]) -> tuple[str, ...]:
+    lines = []
+    for one in sorted(done, key=_number):
+        paper = published.LOOPS[one.number]
+        ours = ", ".join(f"{name.lower()} {error:.2f} m" for name, error in one.closing.items())
+        lines.append(
+            f"Like experiment {one.number + 1}, {one.distance:.0f} m: {ours}; paper, {paper.distance:.0f} m: "
+            f"gyroscope {paper.gyroscope:.2f} m, pressure {paper.pressure:.2f} m."
+        )
+    lines.append(
+        "The paper's mean percentages, 0.40 and 0.35, are its mean errors over its mean distance; the table above has "
+        "the means of its six percentages."
+    )
+    return tuple(lines)
+
+
+def _number(one: Walked) -> int:
+    return one.number
+
+
+def route_of(job: Job) -> tuple[Route, Route]:
+    """The calibration laps with a halt of half a minute, and all of it."""
+    distance = published.LOOPS[job.number].distance * job.lasting / HALF_HOUR
+    before = square(job.laps, speed=PACE).stand(28.0)
+    if job.square:
+        lap = square(1, speed=PACE)
+        count = max(1, round(distance / lap.length))
+        pause = max(1.0, job.lasting / count - lap.length / PACE)
+        whole = before
+        for _ in range(count):
+            whole = then(whole, evolve(lap, actions=(*lap.actions[1:-1], Stand(pause))))
+        return before, whole
+    after = field_walk(job.lasting, distance / job.lasting, job.seed)
+    turned = after.end.heading
+    return before, then(before, after.turn(atan2(-sin(turned), cos(turned))).stand(2.0))
+
+
+def walk(job: Job) -> Walked:
+    """One half hour: emulate it, calibrate on its laps, hear the rest with either recipe."""
+    before, whole = route_of(job)
+    walked = emulate(whole, devices={SITE_OF_FOOT[FOOT]: boot(FOOT, RATE)}, seed=job.seed)
+    halt = rest_after(walked.walker, before)
+    parts = cut(walked, halt)
+    closing, tracks = {}, [_true_path(walked, halt)]
+    for name, recipe in RECIPES.items():
+        known = parts.layouts
+        drift = fit_square(parts.before, foot=FOOT, recipe=BY_NAME[recipe], calibration=known)
+        steps = [
+            one for one in heard(recipe, parts.after, merged(known, drift)) if isinstance(one, StepTaken) and one.final
+        ]
+        track = np.array([(0.0, 0.0), *((x, y) for x, y, _ in (one.position for one in steps))])
+        true = _places(walked, np.array([halt, *(one.t_end for one in steps)]))
+        closing[name] = float(np.linalg.norm(track[-1] - track[0]))
+        tracks.append(Track(name.lower(), thinned(laid(track, true, over=10.0))))
+    return Walked(job.number, whole.length - before.length, closing, tuple(tracks))
+
+
+def _places(walked: EmulatedWalk, t: Floats) -> Floats:
+    """(x, y) of the boot's sensor from where it was at the first of these instants, m."""
+    places: Floats = walked.truth.pose(FOOT, t).position[:, :2]
+    places -= places[0].copy()
+    return places
+
+
+def _true_path(walked: EmulatedWalk, halt: float) -> Track:
+    ends = [step.t_end for step in walked.truth.steps(FOOT) if step.t_end > halt]
+    return Track("true path", thinned(_places(walked, np.array([halt, *ends]))), Drawn.TRUTH)

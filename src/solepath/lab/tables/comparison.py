@@ -1,0 +1,39 @@
+"""A session against the truth of an emulated walk, as a table."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from statistics import median
+
+from ...show.tables.table import milliseconds, number, percent, table
+from ..emulated.compare import FootComparison
+from ..emulated.place import PlaceScore
+
+EVENTS = {"heel_strike": "heel-strike", "foot_flat": "foot-flat", "heel_off": "heel-off", "toe_off": "toe-off"}
+
+
+def comparison_table(comparisons: Sequence[FootComparison]) -> str:
+    rows = [
+        ["steps walked", *(str(c.steps_true) for c in comparisons)],
+        ["steps found", *(str(c.steps_found) for c in comparisons)],
+        ["steps invented", *(str(c.steps_invented) for c in comparisons)],
+        ["stride length, mean error %", *(percent(c.length_error) for c in comparisons)],
+        ["end position, error m", *(number(c.end_error) for c in comparisons)],
+    ]
+    for kind, name in EVENTS.items():
+        of = [c.events[kind] for c in comparisons]
+        rows.append([f"{name}s found", *(f"{len(m.offsets)} of {m.n_true}" for m in of)])
+        rows.append([f"{name}, median offset ms", *(milliseconds(m.bias) for m in of)])
+    return table(["against the truth", *(c.foot.value for c in comparisons)], rows)
+
+
+def place_table(score: PlaceScore) -> str:
+    """The place on the floor plan, while the wearer is on a floor."""
+    rows = [
+        ["steps placed", str(score.steps)],
+        ["one candidate, the true one, after steps", "-" if score.decided is None else str(score.decided)],
+        ["steps with one candidate, a wrong one", str(score.wrong)],
+        ["steps without the true candidate", str(score.dropped)],
+        ["from the second turn on, median error m", number(median(score.off)) if score.off else "-"],
+    ]
+    return table(["place against the truth", "wearer"], rows)

@@ -1,0 +1,130 @@
+"""Scores in short, as the Markdown table that docs/accuracy.md quotes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ...show.tables.table import milliseconds, number, percent
+from ..evaluate.report import Result
+from ..measures.confusion import CLASSES
+from ..measures.score import Figures, Summary
+
+PLACES = {
+    "rms_2d": "position error RMS, horizontal",
+    "armse_2d": "the same / sqrt 2 (ARMSE2d)",
+    "rms_3d": "position error RMS, in space",
+    "rms_z": "height error RMS",
+    "position_mean": "position error at the footprints",
+    "position_end": "off at the end, horizontal",
+    "end_error": "from end to start, in space",
+    "end_error_2d": "from end to start, horizontal",
+    "end_height": "from end to start, in height",
+}
+"""Figures that are averaged over recordings, m."""
+STAIRS = {
+    "stairs_called": "time on stairs that was called stairs",
+    "stairs_direction": "the same in the right direction",
+    "level_called": "time on the level that was called stairs",
+}
+"""Shares that are averaged over recordings."""
+LEGS = {"leg": "length of a leg, by each foot's track", "body_leg": "the same by the wearer's position"}
+"""Relative errors that are pooled."""
+EVENTS = {"heel_strike": "heel-strike", "toe_off": "toe-off"}
+
+
+def accuracy_table(results: Sequence[Result]) -> str:
+    """One line a figure over all recordings of each data set; a column for each recipe where there are several."""
+    recipes = list(dict.fromkeys(result.recipe for result in results))
+    rows: dict[tuple[str, str], dict[str, str]] = {}
+    for result in results:
+        for summary in result.summaries:
+            if summary.group != "all":
+                continue
+            count = f"{summary.count} recording{'s' * (summary.count > 1)}"
+            data = f"{result.data_set.title}: `{result.data_set.name}`, {count}"
+            bipedal = [other for other in result.summaries if other.group == "bipedal"]
+            figures = [
+                *_places(summary), *_better(summary), *(row for other in bipedal for row in _bipedal(other)),
+                *_strides(summary.together), *_legs(summary.together), *_events(summary.together), *_did(summary),
+            ]  # fmt: skip
+            for what, figure in figures:
+                rows.setdefault((data, what), {})[result.recipe] = figure
+    heads = ["came to"] if len(recipes) == 1 else [f"`{recipe}`" for recipe in recipes]
+    lines = [_line("data", "measured", *heads), "|" + "---|" * (2 + len(heads))]
+    before = ""
+    for (data, what), told in rows.items():
+        lines.append(_line("" if data == before else data, what, *(told.get(recipe, "-") for recipe in recipes)))
+        before = data
+    return "\n".join(lines)
+
+
+def _line(*cells: str) -> str:
+    return f"| {' | '.join(cells)} |"
+
+
+def _places(summary: Summary) -> list[tuple[str, str]]:
+    told = []
+    for key, what in PLACES.items():
+        if key in summary.mean:
+            mean, median = (f"{number(part[key], 3)} m" for part in (summary.mean, summary.median))
+            told.append((what, mean if summary.count == 1 else f"mean {mean}, median {median}"))
+    return told
+
+
+def _better(summary: Summary) -> list[tuple[str, str]]:
+    share = summary.mean.get("authors_beaten")
+    what = "trials in which the authors' own system is further off"
+    return [] if share is None else [(what, f"{percent(share)} %")]
+
+
+def _bipedal(summary: Summary) -> list[tuple[str, str]]:
+    mean, median = (f"{number(part['armse_2d'], 3)} m" for part in (summary.mean, summary.median))
+    return [(f"ARMSE2d of the {summary.count} bipedal trials", f"mean {mean}, median {median}")]
+
+
+def _strides(pooled: Figures) -> list[tuple[str, str]]:
+    told = []
+    if (true := pooled.get("strides_true")) is not None:
+        found, invented = (number(pooled[f"strides_{what}"], 0) for what in ("found", "invented"))
+        told.append(("strides", f"{found} of {number(true, 0)} found, {invented} invented"))
+    if (error := pooled.get("stride_error")) is not None:
+        median = percent(pooled["stride_error_median"])
+        told.append(("stride length error", f"mean {percent(error)} %, median {median} %"))
+    return told
+
+
+def _legs(pooled: Figures) -> list[tuple[str, str]]:
+    told = []
+    for kind, what in LEGS.items():
+        if pooled.get(f"{kind}_error") is not None:
+            mean, median = (percent(pooled[f"{kind}_{part}"]) for part in ("error", "error_median"))
+            told.append((f"{what} ({number(pooled[f'{kind}_count'], 0)})", f"median error {median} %, mean {mean} %"))
+    if (error := pooled.get("stride_time_error")) is not None:
+        median = milliseconds(pooled["stride_time_error_median"])
+        told.append(("stride time", f"median error {median} ms, mean {milliseconds(error)} ms"))
+    return told
+
+
+def _events(pooled: Figures) -> list[tuple[str, str]]:
+    told = []
+    for kind, what in EVENTS.items():
+        if (true := pooled.get(f"{kind}_true")) is not None:
+            bias, mad = (milliseconds(pooled[f"{kind}_{part}"]) for part in ("bias", "mad"))
+            figures = f"F1 {number(pooled[f'{kind}_f1'], 3)}, median offset {bias} ms, MAD {mad} ms"
+            told.append((f"{number(true, 0)} {what}s", figures))
+    return told
+
+
+def _did(summary: Summary) -> list[tuple[str, str]]:
+    """Activities."""
+    pooled, told = summary.together, []
+    if (accuracy := pooled.get("accuracy")) is not None:
+        told.append(("labelled time told right", f"{percent(accuracy)} %"))
+        told.append(("the same by always telling the most frequent activity", f"{percent(pooled['most_frequent'])} %"))
+        f1 = {activity: pooled[f"f1_{activity.value.lower()}"] for activity in CLASSES}
+        told += [(f"F1 of {activity.value}", number(value, 3)) for activity, value in f1.items() if value is not None]
+    if rides := pooled.get("rides_true"):
+        found, invented = (number(pooled[f"rides_{what}"], 0) for what in ("found", "invented"))
+        told.append(("lift rides, with their direction", f"{found} of {number(rides, 0)} found, {invented} invented"))
+    told += [(what, f"{percent(summary.mean[key])} %") for key, what in STAIRS.items() if key in summary.mean]
+    return told

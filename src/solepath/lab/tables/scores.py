@@ -1,0 +1,144 @@
+"""Scores on recorded data as text tables."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import degrees
+
+from ...show.tables.table import milliseconds, number, percent, table
+from ...types import Activity
+from ..evaluate.report import Result
+from ..measures.confusion import CLASSES
+from ..measures.score import Figures, Summary
+
+
+def _metres(value: float | None) -> str:
+    return number(value, 3)
+
+
+def _short_metres(value: float | None) -> str:
+    return number(value, 1)
+
+
+def _hundredths(share: float | None) -> str:
+    return percent(share, 2)
+
+
+def _count(value: float | None) -> str:
+    return number(value, 0)
+
+
+def _share(value: float | None) -> str:
+    return number(value, 3)
+
+
+def _degrees(value: float | None) -> str:
+    return number(None if value is None else degrees(value), 1)
+
+
+def _short(activity: Activity) -> str:
+    """As in `stairs up`, `lift down`."""
+    return activity.value.lower().replace("_", " ").replace("elevator", "lift")
+
+
+COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
+    "armse_2d": ("ARMSE2d m", _metres),
+    "rms_2d": ("RMS 2D m", _metres),
+    "rms_3d": ("RMS 3D m", _metres),
+    "rms_z": ("height m", _metres),
+    "path": ("path m", _short_metres),
+    "relative": ("of path %", percent),
+    "position_mean": ("error m", _metres),
+    "position_max": ("largest m", _metres),
+    "largest_relative": ("of path %", _hundredths),
+    "authors": ("authors' m", _metres),
+    "authors_beaten": ("better %", percent),
+    "end_error": ("end error m", _metres),
+    "end_error_2d": ("in 2D m", _metres),
+    "end_height": ("in height m", _metres),
+    "position_end": ("at the end m", _metres),
+    "end_relative": ("of path %", _hundredths),
+    "height_end": ("height at end m", _metres),
+    "height_max": ("height, largest m", _metres),
+    "strides_found": ("found", _count),
+    "strides_true": ("of strides", _count),
+    "strides_invented": ("invented", _count),
+    "stride_error": ("length MAE %", percent),
+    "stride_error_median": ("median %", percent),
+    "stride_error_track": ("live track %", percent),
+    "heel_strike_true": ("HS true", _count),
+    "heel_strike_found": ("found", _count),
+    "heel_strike_f1": ("F1", _share),
+    "heel_strike_bias": ("bias ms", milliseconds),
+    "heel_strike_mad": ("MAD ms", milliseconds),
+    "heel_strike_off": ("off ms", milliseconds),
+    "toe_off_true": ("TO true", _count),
+    "toe_off_found": ("found", _count),
+    "toe_off_f1": ("F1", _share),
+    "toe_off_bias": ("bias ms", milliseconds),
+    "toe_off_mad": ("MAD ms", milliseconds),
+    "toe_off_off": ("off ms", milliseconds),
+    "stride_time_error_median": ("stride time: median ms", milliseconds),
+    "stride_time_error": ("MAE ms", milliseconds),
+    "stride_time_bias": ("bias ms", milliseconds),
+    "leg_error_median": ("a foot's legs: median %", percent),
+    "leg_error": ("MAE %", percent),
+    "leg_bias": ("bias %", percent),
+    "body_leg_error_median": ("the wearer's: median %", percent),
+    "body_leg_error": ("MAE %", percent),
+    "body_leg_bias": ("bias %", percent),
+    "leg_spread": ("spread %", percent),
+    "uturn_found": ("U-turn found %", percent),
+    "uturn_angle": ("off by degrees", _degrees),
+    "uturn_invented": ("invented", _share),
+    "accuracy": ("right %", percent),
+    "most_frequent": ("most freq %", percent),
+    **{f"f1_{activity.value.lower()}": (f"F1 {_short(activity)}", _share) for activity in CLASSES},
+    "rides_true": ("rides", _count),
+    "rides_found": ("found", _count),
+    "rides_invented": ("invented", _count),
+    "stairs_called": ("on stairs: called so %", percent),
+    "stairs_direction": ("direction right %", percent),
+    "level_called": ("on the level: called stairs %", percent),
+}
+"""Every figure by its name in JSON: how its column is headed, and how it is written."""
+
+
+def score_table(result: Result) -> str:
+    """Title, table with a line a recording (where there are few) and the averages, and what failed."""
+    data_set = result.data_set
+    header = ["recording", *(COLUMNS[key][0] for key in data_set.figures)]
+    rows: list[Sequence[str]] = []
+    if data_set.each:
+        rows += [_row(score.recording, score.flat(), data_set.figures) for score in result.scores]
+        rows.append([])
+    for summary in result.summaries:
+        name = "" if summary.group == "all" else f" {summary.group}"
+        if summary.mean:
+            rows.append(_row(f"mean of {summary.count}{name}", summary.mean | summary.together, data_set.figures))
+            rows.append(_row("median", summary.median, data_set.figures))
+        else:
+            rows.append(_row(f"together {summary.count}{name}", summary.together, data_set.figures))
+    seconds, samples = sum(s.seconds for s in result.scores), sum(s.samples for s in result.scores)
+    speed = f"{samples} samples, {1e6 * seconds / samples:.1f} us each" if samples else "no samples"
+    title = f"{data_set.name}: {data_set.title} ({result.recipe}; {speed})"
+    lines = [title, table(header, rows)]
+    lines += [_confusion(summary) for summary in result.summaries if summary.group == "all" and summary.confusion]
+    return "\n".join([*lines, *(f"failed: {sentence}" for sentence in result.failures)])
+
+
+def _confusion(summary: Summary) -> str:
+    """What was told of the labelled samples of each activity, %."""
+    counts = summary.confusion or {}
+    told = [activity for activity in Activity if any(activity.value in row for row in counts.values())]
+    rows = []
+    for activity in CLASSES:
+        if (row := counts.get(activity.value)) is not None:
+            every = sum(row.values())
+            shares = [percent(row.get(other.value, 0) / every) for other in told]
+            rows.append([_short(activity), *shares, number(float(every), 0)])
+    return table(["% of what was, told as", *map(_short, told), "samples"], rows)
+
+
+def _row(name: str, figures: Figures, keys: Sequence[str]) -> list[str]:
+    return [name, *(COLUMNS[key][1](figures.get(key)) for key in keys)]

@@ -1,0 +1,304 @@
+"""Learns the network of `Activities` from blocks of half a second whose activity is known.
+
+    python -m solepath.lab.train.activities DATA_DIR [--out FILE] [--without FOLD]
+
+writes activities.json beside the part, or FILE. Same data, same file. `--without`: leave out the wearers of a fold
+of hugadb (folds.py, from 0), for who wants to score on them.
+
+Learnt from: hugadb, as recorded and at other rates; level walks of other wearers, sensors and mountings (walking is all
+that is known of them, so only blocks with a step count); emulated wearers with seeds from 101. Neither the recorded
+stairs of gaitmap_examples nor those of xio_closed_walks are among them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from copy import deepcopy
+from pathlib import Path
+
+import attrs
+import numpy as np
+from attrs import frozen
+from numpy.typing import NDArray
+
+from ... import recipes
+from ...body.activity import motion
+from ...body.activity.features import BLOCK, COUNT, REACH, STEP, FootWindow
+from ...body.activity.motion import MotionModel, to_json
+from ...body.activity.ride import Felt
+from ...body.activity.votes import felt
+from ...emulate.sensors.device import Device
+from ...emulate.sensors.parts import LSM6DSOX, MPU6050, MPU9250, Imu
+from ...emulate.sensors.sensortags import CC2541, CC2650
+from ...emulate.walk import emulate
+from ...emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
+from ...emulate.wearers.walker import Walker
+from ...foot.navigate.dedrift import LinearDedrift
+from ...foot.stance.stance import Shoe
+from ...foot.tracker import FootTracker
+from ...link.decoder import Decoder
+from ...recipes import Recipe
+from ...recording.samples import load_samples
+from ...types import SITE_OF_FOOT, Activity, Foot, Sample, Site
+from ...types.vector import TIE
+from . import emulated
+from .activities_course import Course, Said, Span, chances, shifts, spans
+from .activities_net import CLASSES, networks, usual
+from .folds import FOLDS
+from .hugadb import labels, recordings
+
+Floats = NDArray[np.float64]
+Label = Callable[[float], Activity | None]
+
+STRAPDOWN = Recipe("strapdown", Shoe(), LinearDedrift())
+"""Steps as a plain zero-velocity method sees them: the features of a step must not be one recipe's."""
+WAYS: tuple[tuple[float | None, Recipe], ...] = (
+    (None, recipes.DEFAULT),
+    (100.0, recipes.DEFAULT),
+    (20.0, recipes.DEFAULT),
+    (10.0, recipes.DEFAULT),
+    (None, STRAPDOWN),
+    (20.0, STRAPDOWN),
+)
+"""Rate in Hz (None: as recorded) and recipe in which each recording is seen."""
+MISTAKEN = ("various_03_05", "various_03_06")
+"""Labelled as going down, but each stride rises by 0.4 m and swings as two steps up at a time do with other wearers:
+the label is taken for a slip, and nothing is learnt from them."""
+LEVEL_WALKS = ("ipol_10m_uturn", "gumushane_gcp", "felius_2min_walk", "tripod_treadmill")
+EMULATED = range(emulated.FIRST_TO_LEARN_FROM, emulated.FIRST_TO_LEARN_FROM + 16)
+WORN: tuple[tuple[float, Imu, Mounting] | CC2650 | CC2541, ...] = (
+    (100.0, LSM6DSOX, IN_SOLE),
+    CC2650(),
+    (20.0, MPU6050, IN_SOLE),
+    CC2541(),
+    (100.0, MPU9250, ON_INSTEP),
+    CC2541(rate=20.0),
+    (50.0, MPU6050, ON_INSTEP),
+    (10.0, MPU9250, IN_SOLE),
+)
+"""What the emulated wearers wear, in turn: rate in Hz, inertial sensor and where it sits, or a device as it is sold."""
+EMULATOR = 2000
+"""The number of all emulated wearers together."""
+AFOOT = 0.0
+"""Feature 1 (the stillest block of five) of a foot that walks all the time: a variance of |acc| above 1 (m/s^2)^2."""
+PURE = 0.9
+"""A block of which less has one label is left out."""
+
+
+@frozen(eq=False)
+class Blocks:
+    """Features (n, COUNT), classes (n) and whose they are (n): a number for each wearer and source."""
+
+    features: Floats
+    classes: NDArray[np.int64]
+    wearers: NDArray[np.int64]
+    course: Course | None = None
+    """The whole recording, where what follows what is learnt from it."""
+
+
+def blocks_of(
+    samples: Sequence[Sample],
+    label: Label,
+    recipe: Recipe,
+    wearer: int,
+    only_steps: bool = False,
+    followed: Sequence[Span] | None = None,
+) -> Blocks:
+    """The labelled blocks of both feet. `only_steps`: those with a step in them. `followed`: what was done when, of a
+    recording whose course is learnt from."""
+    rows: list[list[float]] = []
+    classes: list[int] = []
+    begin = samples[0].t
+    seen: dict[int, dict[Foot, Said]] = {}
+    for foot in Foot:
+        own = [sample for sample in samples if sample.site.foot is foot and sample.acc is not None]
+        for index, features, force in _features(foot, own, begin, recipe):
+            seen.setdefault(index, {})[foot] = features, force
+            now = _pure(label, begin + index * BLOCK)
+            if now is not None and (not only_steps or (features[STEP] and features[1] > AFOOT)):
+                rows.append(features)
+                classes.append(CLASSES[now])
+    n = len(rows)
+    course = None if followed is None else Course(begin, seen, tuple(followed), wearer != EMULATOR)
+    return Blocks(np.array(rows).reshape(n, COUNT), np.array(classes, dtype=np.int64), np.full(n, wearer), course)
+
+
+def _features(
+    foot: Foot, samples: Sequence[Sample], begin: float, recipe: Recipe
+) -> Iterator[tuple[int, list[float], Felt | None]]:
+    parts = deepcopy(recipe)
+    tracker = FootTracker(foot, parts.detector, parts.corrector, cues=parts.cues)
+    window = FootWindow()
+    for sample in samples:
+        events = tracker.feed(sample)
+        index = int((sample.t - begin + TIE) / BLOCK)
+        if window.index is None or index > window.index:
+            if window.index is not None:
+                window.close()
+                yield from _judged(window, window.index - REACH, begin)
+            window.begin(index, tracker)
+        if sample.acc is not None:
+            window.add(sample.acc, sample.gyro, tracker.corrector if tracker.levelled else None)
+        if events:
+            window.heard(events, tracker.corrector.position[2])
+
+
+def _judged(
+    window: FootWindow, index: int, begin: float
+) -> Iterator[tuple[int, list[float], Felt | None]]:
+    features = window.features(index, begin + (index + 0.5) * BLOCK)
+    if features is not None:
+        yield index, features, felt(window.block(index), window.grain)
+
+
+def _pure(label: Label, begin: float) -> Activity | None:
+    """The label of nearly all of a block that begins then; None when it changes or is none."""
+    n = 20
+    found = [label(begin + BLOCK * (k + 0.5) / n) for k in range(n)]
+    most = max(set(found), key=found.count)
+    return most if found.count(most) >= PURE * n else None
+
+
+# --- sources ----------------------------------------------------------------------------------------------------------
+
+
+def hugadb(folder: Path, without: frozenset[int]) -> Iterator[Blocks]:
+    """All wearers but these, in every of `WAYS`."""
+    for one in recordings(folder):
+        if one.subject in without or one.path.stem in MISTAKEN:
+            continue
+        times, told = labels(one.path)
+        at = np.array(times)
+
+        def label(t: float, at: Floats = at, told: list[Activity | None] = told) -> Activity | None:
+            k = int(np.searchsorted(at, t))
+            return told[k] if k < len(told) else None
+
+        samples = list(load_samples(one.path))
+        done = spans(times, told)
+        for rate, recipe in WAYS:
+            seen = samples if rate is None else resampled(samples, rate)
+            followed = done if (rate, recipe) == WAYS[0] else None
+            yield blocks_of(seen, label, recipe, one.subject, followed=followed)
+
+
+def level_walks(data: Path) -> Iterator[Blocks]:
+    """Recorded walks without stairs, every other one."""
+    for number, folder in enumerate(LEVEL_WALKS):
+        for path in sorted((data / folder).glob("*.npz"))[::2]:
+            samples = sorted(load_samples(path), key=_time)
+            yield blocks_of(samples, _walking, recipes.DEFAULT, 1000 + number, only_steps=True)
+
+
+def emulated_walks(seeds: Iterable[int] = EMULATED) -> Iterator[Blocks]:
+    """Each of another wearer."""
+    for seed in seeds:
+        walker = emulated.walker(seed, jogging=True)
+        samples = _worn(walker, WORN[seed % len(WORN)], seed)
+        truth = walker.truth()
+        yield blocks_of(samples, truth.activity, recipes.DEFAULT, EMULATOR, followed=truth.activities)
+        yield blocks_of(samples, truth.activity, STRAPDOWN, EMULATOR)
+
+
+def _worn(walker: Walker, device: tuple[float, Imu, Mounting] | CC2650 | CC2541, seed: int) -> list[Sample]:
+    if isinstance(device, tuple):
+        rate, part, mounting = device
+        found = [one for foot in Foot for one in walker.samples(foot, rate, part, mounting=mounting)]
+        return sorted(found, key=_time)
+    devices: dict[Site, Device] = {site: attrs.evolve(device) for site in SITE_OF_FOOT.values()}
+    walk = emulate(walker.route, wearer=walker.wearer, devices=devices, seed=seed)
+    found = []
+    for site in devices:
+        decoder = Decoder(site)
+        outputs = [one for packet in walk.packets if packet.site is site for one in decoder.feed(packet)]
+        found += [one for one in outputs if isinstance(one, Sample)]
+    return sorted(found, key=_time)
+
+
+def _walking(t: float) -> Activity:
+    return Activity.WALKING
+
+
+def _time(sample: Sample) -> float:
+    return sample.t
+
+
+def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
+    """The same at another rate, Hz: smoothed over half an interval where that is longer, as sensors do, and linear
+    between samples."""
+    found: list[Sample] = []
+    for foot in Foot:
+        own = [one for one in samples if one.site.foot is foot and one.acc is not None]
+        if len(own) < 2:
+            continue
+        t = np.array([one.t for one in own])
+        width = max(1, round(0.5 / rate / float(np.median(np.diff(t)))))
+        when = np.arange(t[0], t[-1], 1.0 / rate)
+
+        def channel(values: Iterable[float], t: Floats = t, when: Floats = when, width: int = width) -> Floats:
+            smooth = np.convolve(list(values), np.ones(width) / width, "same")
+            return np.asarray(np.interp(when, t, smooth))
+
+        acc = [channel([one.acc[i] for one in own if one.acc is not None]) for i in range(3)]
+        turns = all([one.gyro is not None for one in own])
+        gyro = [channel([one.gyro[i] for one in own if one.gyro is not None]) for i in range(3)] if turns else None
+        for k, at in enumerate(when.tolist()):
+            force = (float(acc[0][k]), float(acc[1][k]), float(acc[2][k]))
+            turn = None if gyro is None else (float(gyro[0][k]), float(gyro[1][k]), float(gyro[2][k]))
+            found.append(attrs.evolve(own[0], t=at, acc=force, gyro=turn))
+    return sorted(found, key=_time)
+
+
+# --- all of it --------------------------------------------------------------------------------------------------------
+
+
+def learnt(parts: Iterable[Blocks], note: str) -> MotionModel:
+    """The model of all of them."""
+    held = [part for part in parts if len(part.classes)]
+    features = np.concatenate([part.features for part in held])
+    classes = np.concatenate([part.classes for part in held])
+    whole, alone = networks(features, classes, np.concatenate([part.wearers for part in held]))
+    means, deviations = usual(features, classes)
+    courses = [part.course for part in held if part.course is not None]
+    model = MotionModel(note, whole, alone, means, deviations, chances(courses), ())
+    return attrs.evolve(model, shifts=shifts(courses, model))
+
+
+def trained(data: Path, without: int | None) -> MotionModel:
+    """The model without the wearers of that fold."""
+    left_out = frozenset[int]() if without is None else FOLDS[without]
+    fold = "all wearers" if without is None else f"the wearers but {sorted(left_out)}"
+    note = (
+        f"{fold} of HuGaDB (without {' and '.join(MISTAKEN)}) as recorded and at 100, 20 and 10 Hz; level walks of "
+        f"{', '.join(LEVEL_WALKS)}; emulated wearers, seeds {EMULATED[0]} to {EMULATED[-1]}"
+    )
+    return learnt([*hugadb(data / "hugadb", left_out), *level_walks(data), *emulated_walks()], note)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(prog="python -m solepath.lab.train.activities", description=__doc__)
+    parser.add_argument("data", type=Path)
+    parser.add_argument("--out", type=Path, default=Path(motion.__file__).with_name("activities.json"))
+    parser.add_argument("--without", type=int, choices=range(len(FOLDS)))
+    told = parser.parse_args(arguments)
+    model = trained(told.data, told.without)
+    told.out.write_text(_lines(to_json(model), 0) + "\n", encoding="utf-8")
+    return 0
+
+
+def _lines(value: object, depth: int) -> str:
+    """JSON with a line for each row of numbers."""
+    inner, close = "\n" + " " * (depth + 1), "\n" + " " * depth
+    if isinstance(value, dict):
+        rows = [f"{json.dumps(key)}: {_lines(one, depth + 1)}" for key, one in value.items()]
+        return "{" + inner + ("," + inner).join(rows) + close + "}"
+    if isinstance(value, list) and value and isinstance(value[0], list):
+        return "[" + inner + ("," + inner).join([json.dumps(row) for row in value]) + close + "]"
+    return json.dumps(value)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,148 @@
+"""The classifier of turns (body/gait/turns.py): `python -m solepath.lab.train.turns` prints its weights.
+
+As in Liu et al. 2015 (IEEE MASS), section V.E: wearers turn 30 times to the left, to the right and about, and a linear
+SVM learns to tell these by the degrees of both feet. The turns are emulated (turns.csv beside this file, one a line:
+seed, class, degrees of the left foot and of the right one): a wearer of some size with a 20 Hz SensorTag in either sole
+walks 4 m, turns on the spot or along an arc of up to 1.2 m, and walks on. What is said here of a turn is what the
+recipe footstep-tracker measured. `--emulate` makes turns.csv anew, from seeds that nothing is scored on.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+from collections.abc import Iterable
+from math import degrees, radians
+from pathlib import Path
+
+import numpy as np
+from attrs import frozen
+
+from ...body.gait.direction import Direction, Turned
+from ...body.gait.turns import features
+from ...emulate.routes.route import Route
+from ...emulate.sensors.sensortags import CC2541
+from ...emulate.walk import EmulatedWalk, emulate
+from ...emulate.wearers.gait import Wearer
+from ...emulate.wearers.shoe import IN_SOLE
+from ...emulate.wearers.wearers import wearer
+from ...events import StepTaken
+from ...recipes import FOOTSTEP_TRACKER
+from ...session import Session
+from ...types import SITE_OF_FOOT, Turn
+
+DATA = Path(__file__).with_name("turns.csv")
+FIRST_TO_LEARN_FROM = 101
+EACH = 30
+"""Turns of each class (section V.E)."""
+WEARERS = 3
+ANGLES = {Turn.LEFT: 90.0, Turn.RIGHT: -90.0, Turn.ABOUT: 180.0}
+SPREAD = 15.0
+"""Nobody turns by 90 degrees exactly: standard deviation, degrees."""
+ROUNDS = 20_000
+SLACK = 1e-3
+"""Weight of the margin against the errors."""
+
+
+@frozen
+class Example:
+    """One turn: what was walked, and what each foot turned, degrees."""
+
+    seed: int
+    turn: Turn
+    left: float
+    right: float
+
+
+def walk(seed: int, turn: Turn) -> EmulatedWalk:
+    """Somebody walks, turns and walks on; the same for the same seed."""
+    rng = np.random.default_rng([seed, 7, list(Turn).index(turn)])
+    angle = radians(float(rng.normal(ANGLES[turn], SPREAD)))
+    if turn is Turn.ABOUT and rng.uniform() < 0.5:
+        angle = -angle
+    radius = 0.0 if rng.uniform() < 0.3 else float(rng.uniform(0.3, 1.2))
+    route = Route().stand(2.5).walk(4.0, float(rng.uniform(0.9, 1.4))).turn(angle, radius).walk(4.0).stop(2.0)
+    devices = {site: CC2541(rate=20.0, mounting=IN_SOLE) for site in SITE_OF_FOOT.values()}
+    return emulate(route, wearer=_wearer(seed), devices=devices, seed=seed)
+
+
+def _wearer(seed: int) -> Wearer:
+    """One of `WEARERS` in each hundred of seeds, by turns."""
+    rng = np.random.default_rng([seed // 100, seed % WEARERS, 11])
+    stature = float(rng.uniform(1.55, 1.92))
+    return wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature)
+
+
+def measured(walked: EmulatedWalk) -> Turned | None:
+    """The largest turn that the recipe found in a walk."""
+    session, direction = Session(FOOTSTEP_TRACKER), Direction()
+    steps = [event for packet in walked.packets for event in session.feed(packet) if isinstance(event, StepTaken)]
+    found = [direction.step(step) for step in steps]
+    if steps:
+        found.append(direction.stood(steps[-1].t_end + 1e3))
+    turns = [one for one in found if one is not None]
+    return max(turns, key=lambda one: abs(one.angle), default=None)
+
+
+def emulated(seeds: Iterable[int]) -> list[Example]:
+    """A turn of each class for every seed, but for those of which the recipe saw nothing."""
+    examples = []
+    for seed in seeds:
+        for turn in ANGLES:
+            found = measured(walk(seed, turn))
+            if found is not None and found.left is not None and found.right is not None:
+                examples.append(Example(seed, turn, round(degrees(found.left), 1), round(degrees(found.right), 1)))
+    return examples
+
+
+def trained(examples: list[Example]) -> dict[Turn, tuple[float, ...]]:
+    """One linear function for each class against the others: least SLACK |w|^2 / 2 + mean hinge loss, by subgradient
+    steps over all examples at once (Shalev-Shwartz et al. 2011, Pegasos), of which the second half is averaged."""
+    examples = [*examples, *(_mirrored(one) for one in examples)]
+    x = np.array([features(radians(one.left), radians(one.right)) for one in examples])
+    found: dict[Turn, tuple[float, ...]] = {}
+    for turn in ANGLES:
+        y = np.array([1.0 if one.turn is turn else -1.0 for one in examples])
+        share = np.where(y > 0.0, 0.5 / np.sum(y > 0.0), 0.5 / np.sum(y < 0.0))
+        w, mean = np.zeros(x.shape[1]), np.zeros(x.shape[1])
+        for k in range(1, ROUNDS + 1):
+            wrong = y * (x @ w) < 1.0
+            w = w - (SLACK * w - (share * y * wrong) @ x) / (SLACK * (k + 100.0))
+            if 2 * k > ROUNDS:
+                mean += w / (ROUNDS - ROUNDS // 2)
+        found[turn] = tuple(round(float(value), 2) for value in mean)
+    return found
+
+
+def _mirrored(one: Example) -> Example:
+    """The same turn to the other side, by feet that have changed places: no wearer's left is special."""
+    other = {Turn.LEFT: Turn.RIGHT, Turn.RIGHT: Turn.LEFT, Turn.ABOUT: Turn.ABOUT}
+    return Example(one.seed, other[one.turn], -one.right, -one.left)
+
+
+def read(path: Path = DATA) -> list[Example]:
+    """The turns in a file."""
+    with path.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return [Example(int(r["seed"]), Turn[r["class"]], float(r["left"]), float(r["right"])) for r in rows]
+
+
+def write(examples: list[Example], path: Path = DATA) -> None:
+    """The file of these turns."""
+    with path.open("w", encoding="utf-8", newline="") as file:
+        rows = csv.writer(file, lineterminator="\n")
+        rows.writerow(["seed", "class", "left", "right"])
+        rows.writerows([[one.seed, one.turn.name, one.left, one.right] for one in examples])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="python -m solepath.lab.train.turns", description=__doc__)
+    parser.add_argument("--emulate", action="store_true", help="make turns.csv anew")
+    if parser.parse_args().emulate:
+        write(emulated(range(FIRST_TO_LEARN_FROM, FIRST_TO_LEARN_FROM + EACH)))
+    for turn, weights in trained(read()).items():
+        print(f"    Turn.{turn.name}: {weights},")
+
+
+if __name__ == "__main__":
+    main()

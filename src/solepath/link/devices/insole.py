@@ -1,0 +1,230 @@
+"""One insole: frames to samples, by the rules of protocol/clock.md; INFO to scales and layout."""
+
+from __future__ import annotations
+
+from hashlib import blake2b
+from math import radians, sqrt
+
+from attrs import define, field
+
+from ...events import (
+    ClockReset,
+    LayoutKnown,
+    Limitation,
+    LinkEvent,
+    PacketRejected,
+    PacketsLost,
+    Rejection,
+    ScaleSuspect,
+)
+from ...types import Layout, Quat, Sample, Site, shared
+from ...types.vector import GRAVITY
+from ...wire.error import WireError
+from ...wire.fragment import is_fragment, parse_fragment
+from ...wire.insole import InsoleFrame, InsoleSample, parse_frame
+from ...wire.insole_control import parse_control
+from ...wire.insole_info import InsoleInfo, parse_info
+from ..rest import RestCheck, suggestion
+from ..run import Counted, Run
+from .reassembly import Reassembly
+
+COUNTS = 32768
+"""Counts of a full scale, IMU."""
+ASSUMED_ACC = 16.0 * GRAVITY / COUNTS
+"""m/s^2 per count until INFO says otherwise."""
+ASSUMED_GYRO = radians(2000.0) / COUNTS
+"""rad/s per count until INFO says otherwise."""
+TICK_RATE = 32768
+"""Ticks per second until INFO says otherwise."""
+SEQUENCES, ALL_TICKS = 1 << 16, 1 << 32
+"""Where the counters of a frame wrap."""
+FULL_PRESSURE = 4095.0
+
+Output = list[Sample | LinkEvent]
+
+
+@define
+class InsoleLink:
+    """Feeds on the channels insole/frame, insole/info and insole/control of one foot.
+
+    `feed` raises WireError for what cannot be used, and then nothing has changed but the fragments under way.
+    Latency none. Before INFO came, counts are taken for 16 g and 2000 degrees/s full scale and pressure stays in
+    counts; the layout of the first frame is then the only one accepted.
+    """
+
+    site: Site
+    info: bytes = b""
+    """Eight bytes that tell the INFO record in force from others; none before any."""
+    layout: int | None = None
+    cells: int = 0
+    rate: int = TICK_RATE
+    acc_scale: float = ASSUMED_ACC
+    gyro_scale: float = ASSUMED_GYRO
+    pressure_scale: float = 0.0
+    told: bool = False
+    """The Limitation was said."""
+    run: Run = field(factory=Run)
+    fragments: Reassembly = field(factory=Reassembly)
+    rest: RestCheck = field(factory=lambda: RestCheck(ASSUMED_ACC))
+
+    @property
+    def name(self) -> str:
+        return "insole"
+
+    @property
+    def silence_is_legal(self) -> bool:
+        return False
+
+    @property
+    def doubt(self) -> float | None:
+        """The newest time that is not to be compared with those of other devices (clock.py), s."""
+        return None if self.run.clock is None else self.run.clock.doubt
+
+    def feed(self, channel: str, data: bytes, arrival: float) -> Output:
+        if channel == "insole/frame":
+            return self._fragment(data, arrival) if is_fragment(data) else self._whole(data, arrival)
+        if channel == "insole/info":
+            return self._info(data, arrival)
+        parse_control(data)  # insole/control, as it was written: frames and INFO say what became of it
+        return []
+
+    def forget_clock(self) -> None:
+        """The receiver's clock was set back: fit anew, and let times begin anew too."""
+        self.run.clock = None
+
+    def reconnected(self) -> None:
+        """A new connection: the rest of a frame in fragments will not come, and nothing can be overtaken."""
+        self.fragments.drop()
+        self.run.fresh = True
+
+    def flush(self, known_at: float) -> Output:
+        return []
+
+    def _fragment(self, data: bytes, arrival: float) -> Output:
+        whole, dropped = self.fragments.feed(parse_fragment(data))
+        out = self._dropped(dropped, arrival)
+        if whole is not None:
+            try:
+                out += self._frame(parse_frame(whole), arrival)
+            except WireError as error:
+                out.append(self._rejected(error.reason, error.detail, arrival))
+        return out
+
+    def _whole(self, data: bytes, arrival: float) -> Output:
+        out = self._frame(parse_frame(data), arrival)
+        dropped = self.fragments.drop()
+        return self._dropped(dropped, arrival) + out if dropped else out
+
+    def _dropped(self, detail: str | None, arrival: float) -> Output:
+        return [] if detail is None else [self._rejected(Rejection.TRUNCATED, detail, arrival)]
+
+    def _rejected(self, reason: Rejection, detail: str, arrival: float) -> PacketRejected:
+        return PacketRejected(
+            t=arrival, known_at=arrival, site=self.site, channel="insole/frame", reason=reason, detail=detail
+        )
+
+    # --- INFO ---------------------------------------------------------------------------------------------------
+
+    def _info(self, data: bytes, arrival: float) -> Output:
+        info = parse_info(data)
+        if info.foot is not self.site.foot:
+            raise WireError(Rejection.WRONG_SITE, f"INFO of a {info.foot.value} insole")
+        _check_scales(info)
+        digest = blake2b(data, digest_size=8).digest()
+        if digest == self.info:
+            return []
+        self.info = digest
+        self.layout, self.cells, self.rate = info.layout, len(info.cells), info.tick_rate
+        if info.acc_scale != self.acc_scale:
+            self.rest = RestCheck(info.acc_scale)
+        self.acc_scale, self.gyro_scale, self.pressure_scale = info.acc_scale, info.gyro_scale, info.pressure_scale
+        known = info.pressure_scale > 0.0
+        layout = Layout(
+            id=info.layout,
+            foot=info.foot,
+            cells=info.cells,
+            length=info.length,
+            scale=info.pressure_scale if known else None,
+            full_scale=FULL_PRESSURE * info.pressure_scale if known else FULL_PRESSURE,
+        )
+        return [LayoutKnown(t=arrival, known_at=arrival, site=self.site, layout=shared(layout))]
+
+    # --- frames -------------------------------------------------------------------------------------------------
+
+    def _frame(self, frame: InsoleFrame, arrival: float) -> Output:
+        if frame.foot is not self.site.foot:
+            raise WireError(Rejection.WRONG_SITE, f"a frame of a {frame.foot.value} insole")
+        cells = len(frame.samples[0].cells)
+        if self.layout is not None and (frame.layout != self.layout or cells != self.cells):
+            raise WireError(
+                Rejection.WRONG_LAYOUT,
+                f"layout {frame.layout} of {cells} cells, not layout {self.layout} of {self.cells}",
+            )
+        run = self.run
+        e = run.ahead(frame.ticks, ALL_TICKS)
+        d, m = run.packets(frame.sequence, SEQUENCES, e / run.covers)
+        counted = Counted(frame.sequence, frame.ticks, frame.interval, len(frame.samples), d, m, e, frame.retransmitted)
+        taken = run.take(counted, float(self.rate), arrival)
+        out: Output = []
+        if taken.lost:
+            t = taken.t_missing
+            known_at = max(arrival, t)
+            out.append(PacketsLost(t=t, known_at=known_at, site=self.site, channel="insole/frame", count=taken.lost))
+        if self.layout is None:
+            self.layout, self.cells = frame.layout, cells
+        if not self.info and not self.told:
+            self.told = True
+            what = "no INFO from the insole: 16 g and 2000 degrees/s full scale assumed, pressure in counts"
+            out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=what))
+        if taken.restarted is not None:
+            t = run.expected()
+            out.append(ClockReset(t=t, known_at=max(arrival, t), site=self.site, restarted=taken.restarted))
+        for j, sample in enumerate(frame.samples):
+            self._sample(sample, run.time(j), arrival, frame.saturated, out)
+        return out
+
+    def _sample(self, raw: InsoleSample, t: float, arrival: float, saturated: bool, out: Output) -> None:
+        acc = gyro = pressure = None
+        if raw.imu is not None:
+            ax, ay, az, gx, gy, gz = raw.imu
+            a, g = self.acc_scale, self.gyro_scale
+            if a > 0.0:
+                acc = (ax * a, ay * a, az * a)
+            if g > 0.0:
+                gyro = (gx * g, gy * g, gz * g)
+        if raw.cells:
+            n = self.pressure_scale
+            pressure = tuple([c * n for c in raw.cells]) if n > 0.0 else tuple(map(float, raw.cells))
+        quat = None if raw.quat is None else _unit(raw.quat)
+        known_at = arrival if arrival > t else t
+        out.append(Sample(t, self.site, acc, gyro, pressure, quat, known_at=known_at, saturated=saturated))
+        if acc is not None and not self.rest.done:
+            magnitude = self.rest.feed(t, acc)
+            if magnitude is not None:
+                words = suggestion(magnitude, self.acc_scale * COUNTS / GRAVITY)
+                out.append(ScaleSuspect(t=t, known_at=known_at, site=self.site, magnitude=magnitude, suggestion=words))
+
+
+def _unit(quat: tuple[int, int, int, int]) -> Quat | None:
+    """A Q14 quaternion at length 1; None for zero."""
+    w, x, y, z = quat
+    length = sqrt(w * w + x * x + y * y + z * z)
+    return (w / length, x / length, y / length, z / length) if length > 0.0 else None
+
+
+def _check_scales(info: InsoleInfo) -> None:
+    """WireError for what no insole is: full scales out of 1 to 1000 g, 10 to 100,000 degrees/s, over 100 kN, a tick
+    rate under 100 Hz. Zero is legal and says that there is no such sensor, or no calibration."""
+    full_acc = info.acc_scale * COUNTS / GRAVITY
+    full_gyro = info.gyro_scale * COUNTS
+    if (
+        (full_acc != 0.0 and not 0.99 <= full_acc <= 1000.0)
+        or (full_gyro != 0.0 and not radians(10.0) <= full_gyro <= radians(1e5))
+        or info.pressure_scale * FULL_PRESSURE > 1e5
+        or info.tick_rate < 100
+    ):
+        raise WireError(
+            Rejection.ABSURD,
+            f"scales of {info.acc_scale:g} m/s^2, {info.gyro_scale:g} rad/s, {info.pressure_scale:g} N per count "
+            f"and {info.tick_rate} ticks per second",
+        )

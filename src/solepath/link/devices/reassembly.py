@@ -1,0 +1,65 @@
+"""Fragments of an insole frame put together again (protocol/insole.md, "Fragments")."""
+
+from __future__ import annotations
+
+from attrs import define
+
+from ...events import Rejection
+from ...wire.error import WireError
+from ...wire.fields import LONGEST_VALUE
+from ...wire.fragment import Fragment
+
+
+@define
+class Reassembly:
+    """Collects the fragments of one frame; whatever does not follow drops the frame. Never more than 512 bytes."""
+
+    frame_id: int = 0
+    expected: int = 0
+    """Index of the next fragment; 0 when no frame is under way."""
+    skipping: bool = False
+    """The frame `frame_id` was dropped; the rest of it is passed over without a word."""
+    body: bytes = b""
+    newest: Fragment | None = None
+    """The fragment joined last, as long as nothing else came."""
+
+    def drop(self) -> str | None:
+        """Forget a frame under way, because something else came; says what was dropped."""
+        self.newest = None
+        if self.expected == 0:
+            return None
+        detail = f"frame dropped: its fragment {self.expected} never came"
+        self.expected, self.body = 0, b""
+        return detail
+
+    def feed(self, fragment: Fragment) -> tuple[bytes | None, str | None]:
+        """(the whole frame when this was its last fragment, what had to be dropped or None).
+
+        WireError, and nothing has changed, when the fragment is the newest one again, body and all.
+        """
+        if fragment == self.newest:
+            raise WireError(Rejection.DUPLICATE, f"fragment {fragment.index} again")
+        known = fragment.frame_id == self.frame_id
+        if known and self.skipping and fragment.index > 0:
+            return None, None
+        follows = known and self.expected > 0 and fragment.index == self.expected
+        dropped = None
+        if not follows:
+            differs = known and self.expected > 0 and fragment.index == self.expected - 1
+            dropped = self.drop()
+            if differs:
+                dropped = f"frame dropped: its fragment {fragment.index} came twice, not the same"
+            self.frame_id = fragment.frame_id
+            self.skipping = fragment.index > 0
+            if self.skipping:
+                return None, dropped or f"frame dropped: its fragment 0 never came, {fragment.index} did"
+        if len(self.body) + len(fragment.body) > LONGEST_VALUE:
+            self.expected, self.body, self.skipping, self.newest = 0, b"", True, None
+            return None, f"frame dropped: longer than {LONGEST_VALUE} bytes"
+        self.body += fragment.body
+        self.newest = fragment
+        if fragment.last:
+            whole, self.body, self.expected = self.body, b"", 0
+            return whole, dropped
+        self.expected = fragment.index + 1
+        return None, dropped

@@ -1,0 +1,311 @@
+"""Activities of windows of two seconds, by a tree and a hidden Markov model.
+
+After Liu et al. 2015, "Track Your Foot Step: Anchor-free Indoor Localization based on Sensing Users' Foot Steps",
+section IV.A, fig. 5: a threshold on the variance of a_z parts {standing, hypergravity, weightlessness} from {walking,
+stairs up, stairs down}; thresholds on its mean part the first three; a hidden Markov model parts the others. "If we
+estimate the user's activity as EHG, then we wait for an EWL, and we say the user is under EA. If the user is under EWL,
+we wait for an EHG, and we say the user is under ED."
+
+What the paper leaves open, and what is taken here:
+
+- What the hidden Markov model observes. Features of the window (window_model.FEATURES: log variance and skewness of
+  a_z, the mean force, the log energies across a_z and of the turning; section V.C has "accelerometer and gyroscope
+  data") under a mixture of Gaussians for each state, as Mannini and Sabatini 2010 (Sensors 10, 1154) classify
+  activities by a continuous-emission model of window features. Windows that slide by a quarter see each instant four
+  times, so a window's log-likelihood counts a quarter.
+- The mean of standing. A threshold on the mean itself needs sensors without offset, but offsets are as large as a
+  lift's pulse. So the mean counts against that of the foot's own standing (`Standing`).
+- In fig. 4 a_z is about -9.8 at rest, so its "smaller" in hypergravity is larger downwards. Here specific force counts
+  upwards: hypergravity is above.
+- Waiting for the other pulse ends when the wearer walks off, and after `LONGEST_RIDE`; then there was no ride.
+- Two feet. Both are asked about the same window: the mean of their variances and of their means counts, and their
+  log-likelihoods add up.
+- Running is none of the paper's activities. It comes out as WALKING.
+
+When a change was. A window moves if any part of it does: so movement began in the newest half-second of the first
+window that moves, and ended at the beginning of the first one that does not; the same holds of a lift's pulses. Between
+walking and stairs it is the middle of the window that counts. The first windows of a movement hold some standing too,
+which looks like stairs: the hidden Markov model begins with the first that holds none, and a movement is told when a
+window more has moved, so a foot that is put elsewhere within half a second has not walked. So a label is known within
+0.5 s after the beginning of a pulse, 2.5 s of movement, 2 s of standing, 1.5 s of stairs after walking. A lift that has
+set off is told as not final until its second pulse.
+"""
+
+from __future__ import annotations
+
+from attrs import define, field
+
+from ....events import ActivityChanged, Event, LiftRidden
+from ....foot.tracker import FootTracker
+from ....types import Activity, Foot, Sample, Site
+from .hmm import forward, spread, weighed
+from .window_model import WindowModel, shipped
+from .windows import BLOCKS, HOP, WINDOW, FootWindows, Window
+
+MOVING = (Activity.WALKING, Activity.STAIRS_UP, Activity.STAIRS_DOWN)
+"""The states of the hidden Markov model."""
+LIFT = {True: Activity.ELEVATOR_UP, False: Activity.ELEVATOR_DOWN}
+UNIFORM = (1.0 / 3.0,) * 3
+SILENT = 4
+"""A foot this many half-seconds behind the other is not waited for."""
+LOST = 8
+"""After this many half-seconds without a window nobody knows what the wearer does."""
+QUICK, SLOW = 0.5, 0.05
+"""Share that a window has in the mean of standing: the second after a movement, and in the long run."""
+LONGEST_PULSE = 10
+"""Half-seconds. A mean that is off for longer is no lift's pulse: the foot stands otherwise than before."""
+LONGEST_RIDE = 120
+"""Half-seconds from the first pulse to the second."""
+WHOLE = BLOCKS
+"""The first window of a movement in which nothing stands still."""
+SURE = WHOLE + 1
+"""The one that makes it a movement: fewer are a foot that was put elsewhere."""
+
+
+@define
+class Standing:
+    """The mean specific force of a foot that stands, m/s^2."""
+
+    mean: float | None = None
+    share: float = 1.0
+    """That the next window of standing will have in it."""
+    windows: int = 0
+
+    def learn(self, mean: float) -> None:
+        """Another window of standing."""
+        self.windows += 1
+        self.mean = mean if self.mean is None else self.mean + self.share * (mean - self.mean)
+        self.share = max(SLOW, self.share / (1.0 + self.share))
+
+    def moved(self) -> None:
+        """The foot may stand otherwise from now on."""
+        self.share = max(self.share, QUICK)
+
+
+@define
+class Ride:
+    """One pulse of a lift was felt, or both."""
+
+    began: float
+    """s."""
+    index: int
+    up: bool
+    braking: bool = False
+    """The second pulse has come."""
+    newest: int = 0
+    """The last window with a pulse."""
+    first_pulse: int = 1
+    """Windows of it."""
+
+
+@define
+class TwoSecondWindows:
+    """The activity part of footstep-tracker. `model`: what it was taught; None is what comes with this release."""
+
+    model: WindowModel | None = None
+    # state
+    activity: Activity = field(default=Activity.UNKNOWN, init=False)
+    """The newest that it told."""
+    origin: float | None = field(default=None, init=False)
+    """The beginning of all windows, s."""
+    feet: dict[Foot, FootWindows] = field(factory=dict, init=False)
+    standing: dict[Foot, Standing] = field(factory=dict, init=False)
+    decided: int | None = field(default=None, init=False)
+    """The newest window that was."""
+    belief: tuple[float, ...] | None = field(default=None, init=False)
+    """Of the hidden Markov model; None while the wearer stands."""
+    ride: Ride | None = field(default=None, init=False)
+    moved: int = field(default=0, init=False)
+    """Windows of movement since the last without."""
+    told: float | None = field(default=None, init=False)
+    """`t` of the newest event."""
+
+    def interrupt(self, site: Site) -> None:
+        """The clock of the samples of a site begins anew: so do all windows."""
+        if site.foot is not None:
+            self.origin = self.decided = self.belief = self.ride = self.told = None
+            self.activity = Activity.UNKNOWN
+            self.feet, self.standing = {}, {}
+
+    def finish(self, known_at: float) -> list[Event]:
+        """As in `ActivityPart`: half a window tells nothing."""
+        return []
+
+    def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
+        """A foot has used `sample`."""
+        acc = sample.acc
+        if acc is None:
+            return []
+        t = sample.t
+        windows = self.feet.get(foot.foot)
+        if windows is None or self.origin is None:
+            if self.origin is None:
+                self.origin = t
+            windows = FootWindows()
+            self.feet = {**self.feet, foot.foot: windows}
+            self.feet = {one: self.feet[one] for one in Foot if one in self.feet}
+            self.standing.setdefault(foot.foot, Standing())
+        if not windows.update(t - self.origin, acc, sample.gyro):
+            return []
+        return self._full(t if sample.known_at is None else max(t, sample.known_at))
+
+    def _full(self, known_at: float) -> list[Event]:
+        """A half-second of one foot is over: decide about every window that no foot will add to."""
+        told: list[Event] = []
+        while True:
+            waiting = [w.ready[0].index for w in self.feet.values() if w.ready]
+            if not waiting:
+                return told
+            index = min(waiting)
+            newest = [w.newest for w in self.feet.values() if w.newest is not None]
+            if any(index >= one >= max(newest) - SILENT for one in newest):
+                return told
+            seen: dict[Foot, Window] = {}
+            for foot, windows in self.feet.items():
+                if windows.ready and windows.ready[0].index == index:
+                    seen[foot] = windows.ready.popleft()
+            if self.decided is None or index > self.decided:
+                self._decide(index, seen, known_at, told)
+
+    # --- one window ---
+
+    def _decide(self, index: int, seen: dict[Foot, Window], known_at: float, told: list[Event]) -> None:
+        if self.decided is not None and index - self.decided > LOST:
+            self._lost(known_at, told)
+        self.decided = index
+        model = shipped() if self.model is None else self.model
+        if sum([w.variance for w in seen.values()]) > model.moving * len(seen):
+            self.moved += 1
+            for foot in seen:
+                self.standing[foot].moved()
+            if self.moved >= WHOLE:
+                state = self._state(model, seen)
+                if self.moved >= SURE:
+                    self._moves(index, state, known_at, told)
+            return
+        self.moved, self.belief = 0, None
+        off = 0.0
+        for foot, window in seen.items():
+            mean = self.standing[foot].mean
+            off += 0.0 if mean is None else window.mean - mean
+        off /= len(seen)
+        pulse = 0 if abs(off) < model.pulse else 1 if off > 0.0 else -1
+        if pulse == 0:
+            for foot, window in seen.items():
+                self.standing[foot].learn(window.mean)
+        self._stands(index, pulse, seen, known_at, told)
+
+    def _state(self, model: WindowModel, seen: dict[Foot, Window]) -> Activity:
+        """What kind of movement the hidden Markov model believes in, with this window."""
+        feet = [model.log_likelihoods(window) for window in seen.values()]
+        share = 1.0 / BLOCKS
+        likely = spread([share * sum(values) for values in zip(*feet, strict=True)])
+        before = self.belief
+        self.belief = weighed(UNIFORM, likely) if before is None else forward(before, model.transitions, likely)
+        return MOVING[self.belief.index(max(self.belief))]
+
+    # --- what follows ---
+
+    def _moves(self, index: int, state: Activity, known_at: float, told: list[Event]) -> None:
+        began = self._newest(index - self.moved + 1)
+        if self.ride is not None:
+            if self.ride.braking:
+                self._arrive(self.ride, began, known_at, told)
+            else:
+                self._no_ride(self.ride, known_at, told)
+        self._tell(self._middle(index) if self.activity in MOVING else began, state, known_at, told)
+
+    def _stands(self, index: int, pulse: int, seen: dict[Foot, Window], known_at: float, told: list[Event]) -> None:
+        ride = self.ride
+        if ride is not None:
+            forth = 1 if ride.up else -1
+            if pulse == -forth:
+                if not ride.braking:
+                    self._tell(ride.began, self.activity, known_at, told, revises=ride.began)
+                ride.braking, ride.newest = True, index
+                if index - ride.index < LONGEST_RIDE + LONGEST_PULSE:
+                    return
+                pulse = 0
+            if ride.braking:
+                self._arrive(ride, self._start(index), known_at, told)
+                pulse = 0  # a lift that brakes hard swings back
+            elif pulse == forth and index - ride.newest <= BLOCKS:
+                ride.newest, ride.first_pulse = index, ride.first_pulse + 1
+                if ride.first_pulse <= LONGEST_PULSE:
+                    return
+                first = all(self.standing[foot].windows <= LONGEST_PULSE for foot in seen)
+                for foot, window in seen.items():
+                    self.standing[foot] = Standing(window.mean, QUICK, LONGEST_PULSE)
+                if first:  # what seemed to be standing at the very first was the pulse, and what lasts is standing
+                    ride.up, ride.first_pulse = not ride.up, 1
+                    self._tell(ride.began, LIFT[ride.up], known_at, told, final=False, revises=ride.began)
+                    return
+                pulse = 0
+                self._no_ride(ride, known_at, told)
+            elif pulse == forth or index - ride.index > LONGEST_RIDE:
+                self._no_ride(ride, known_at, told)  # the other pulse of that one never came
+            else:
+                return
+        if pulse == 0:
+            self._tell(self._start(index), Activity.STANDING, known_at, told)
+            return
+        began = self._after(self._newest(index))
+        self.ride = Ride(began, index, pulse > 0, newest=index)
+        self._tell(began, LIFT[pulse > 0], known_at, told, final=False)
+
+    def _arrive(self, ride: Ride, t: float, known_at: float, told: list[Event]) -> None:
+        self.ride = None
+        t = self._after(t)
+        told.append(LiftRidden(t=t, known_at=known_at, t_start=ride.began, up=ride.up, height=None))
+        self._tell(t, Activity.STANDING, known_at, told)
+
+    def _no_ride(self, ride: Ride, known_at: float, told: list[Event]) -> None:
+        self.ride = None
+        self._tell(ride.began, Activity.STANDING, known_at, told, revises=ride.began)
+
+    def _lost(self, known_at: float, told: list[Event]) -> None:
+        """Too long without a window."""
+        if self.ride is not None:
+            self._no_ride(self.ride, known_at, told)
+        self.belief = None
+        if self.decided is not None:
+            self._tell(self._newest(self.decided) + HOP, Activity.UNKNOWN, known_at, told)
+
+    def _tell(
+        self,
+        t: float,
+        activity: Activity,
+        known_at: float,
+        told: list[Event],
+        *,
+        final: bool = True,
+        revises: float | None = None,
+    ) -> None:
+        if activity is self.activity and revises is None:
+            return
+        if revises is None:
+            t = self._after(t)
+        if self.told is None and self.origin is not None:
+            t = self.origin  # the first window speaks for the half-second that it was levelled in
+        self.activity, self.told = activity, t
+        told.append(
+            ActivityChanged(
+                t=t, known_at=known_at, final=final, activity=activity, probability=None, revises=revises
+            )
+        )
+
+    def _after(self, t: float) -> float:
+        """`t`, but not before what was told already."""
+        return t if self.told is None else max(t, self.told)
+
+    def _start(self, index: int) -> float:
+        """When window `index` begins, s."""
+        return self._newest(index) + HOP - WINDOW
+
+    def _newest(self, index: int) -> float:
+        """When its newest half-second begins."""
+        return (0.0 if self.origin is None else self.origin) + index * HOP
+
+    def _middle(self, index: int) -> float:
+        """When the half-second in its middle begins."""
+        return self._newest(index) + 0.5 * (HOP - WINDOW)

@@ -1,0 +1,156 @@
+"""The feet calibrate each other (Liu et al. 2015, IEEE MASS, section IV.C, "Double feet based calibration").
+
+"If the difference of displacement for each foot is more than one meter, we chose the mean of them as the displacement,
+and restart the estimation process." The feet's ways are added up since the last restart; each step goes in the common
+direction, which is the mean of what both feet turned (section IV.D). What the paper leaves open:
+
+- Up to a restart the wearer is at the mean of both ways, too. A restart moves nothing then: what it ends is the
+  difference, which would otherwise tell of ever older steps.
+- Half a stride lies between the feet. The difference is the mean of those after the newest step of either foot, which
+  does not swing to and fro with it.
+- A foot that took no step while the other took `AWAY` is absent: it counts as if it had gone with the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import cos, hypot, pi, sin
+
+from attrs import define, field
+
+from ...body.fuse.position import Position
+from ...events import Event, StepTaken
+from ...foot.tracker import FootTracker
+from ...types import Foot, Sample, Site, Vec3
+from ...types.vector import ZERO
+
+FURTHEST_APART = 1.0
+"""The paper's one metre."""
+AWAY = 3
+
+Flat = tuple[float, float]
+"""Horizontal, m."""
+
+
+@define
+class Way:
+    """What one foot went since the last restart."""
+
+    heard: bool = False
+    here: Flat = (0.0, 0.0)
+    turned: float = 0.0
+    """Sum of the turns of all of its steps, rad."""
+    own: float = 0.0
+    """The same without what it was given while it was absent, rad: the heading of its own track."""
+    ahead: Flat = (0.0, 0.0)
+    """What it went since the other foot's last step,"""
+    ahead_turned: float = 0.0
+    """and what it turned, rad,"""
+    ahead_steps: int = 0
+    """and in how many steps."""
+    beside: Flat = (0.0, 0.0)
+    """The left way less the right one after its newest step."""
+    stood: Vec3 = ZERO
+    """Where its own track had it then, world frame, m."""
+
+
+@define
+class Footsteps:
+    """Where the wearer is by the steps of both feet; between them it goes on with half of what the track of either foot
+    has moved since its last step. World frame, height 0. Latency: none beyond the steps' own."""
+
+    # state
+    left: Way = field(factory=Way, init=False)
+    right: Way = field(factory=Way, init=False)
+    base: Flat = field(default=(0.0, 0.0), init=False)
+    """Where the wearer was at the last restart."""
+    restarts: int = field(default=0, init=False)
+    """How often the feet were a metre apart."""
+
+    @property
+    def sites(self) -> tuple[Site, ...]:
+        """None: it takes feet only."""
+        return ()
+
+    def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
+        """Nothing follows; the steps among `events` are taken."""
+        way = self._way(foot.foot)
+        if not way.heard and sample.acc is not None and sample.gyro is not None:
+            way.heard = True
+        for event in events:
+            if isinstance(event, StepTaken):
+                self.step(event)
+        return []
+
+    def limb_moved(self, sample: Sample) -> list[Event]:
+        """Never called: it has no such sites."""
+        return []
+
+    def interrupt(self, site: Site) -> None:
+        """Steps are taken as they come: no time is kept."""
+
+    def step(self, taken: StepTaken) -> None:
+        """One step of either foot."""
+        this, other = (self.left, self.right) if taken.foot is Foot.LEFT else (self.right, self.left)
+        this.heard = True
+        turn = taken.heading_change
+        heading = 0.5 * (this.turned + other.turned)
+        x, y = _turned((taken.displacement[0], taken.displacement[1]), heading - this.own - 0.25 * turn)
+        this.own += turn
+        this.turned += turn
+        if abs(this.turned - other.turned) > pi:  # it is known but for whole turns
+            this.turned -= 2.0 * pi * round((this.turned - other.turned) / (2.0 * pi))
+        this.here = (this.here[0] + x, this.here[1] + y)
+        this.ahead = (this.ahead[0] + x, this.ahead[1] + y)
+        this.ahead_turned += turn
+        this.ahead_steps += 1
+        this.stood = taken.position
+        other.ahead, other.ahead_turned, other.ahead_steps = (0.0, 0.0), 0.0, 0
+        if not other.heard or this.ahead_steps >= AWAY:
+            other.here = (other.here[0] + this.ahead[0], other.here[1] + this.ahead[1])
+            other.turned += this.ahead_turned
+            this.ahead, this.ahead_turned = (0.0, 0.0), 0.0
+        (lx, ly), (rx, ry) = self.left.here, self.right.here
+        this.beside = (lx - rx, ly - ry)
+        (ax, ay), (bx, by) = this.beside, other.beside
+        if 0.5 * hypot(ax + bx, ay + by) > FURTHEST_APART:
+            self._restart()
+
+    def _restart(self) -> None:
+        self.base = self._mean()
+        for way in (self.left, self.right):
+            way.here = way.beside = (0.0, 0.0)
+        self.restarts += 1
+
+    def _mean(self) -> Flat:
+        (lx, ly), (rx, ry), (x, y) = self.left.here, self.right.here, self.base
+        return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
+
+    def _way(self, foot: Foot) -> Way:
+        return self.left if foot is Foot.LEFT else self.right
+
+    def position(self, feet: Mapping[Foot, FootTracker]) -> Position | None:
+        """None before any sample."""
+        known = [foot for foot in feet.values() if foot.t is not None]
+        if not known:
+            return None
+        x, y = self._mean()
+        heading = 0.5 * (self.left.turned + self.right.turned)
+        present = [f for f in known if self._way(f.foot).heard and self._other(f.foot).ahead_steps < AWAY] or known
+        k = 1.0 / len(present)
+        for foot in present:
+            way, (px, py, _) = self._way(foot.foot), foot.position
+            dx, dy = _turned((px - way.stood[0], py - way.stood[1]), heading - way.own)
+            x, y = x + k * dx, y + k * dy
+        covariances = [foot.covariance for foot in present]
+        xx, xy, xz, yy, yz, zz = (sum([c[i] for c in covariances]) * k * k for i in range(6))
+        t = max([foot.t for foot in known if foot.t is not None])
+        return Position(t, (x, y, 0.0), (xx, xy, xz, yy, yz, zz))
+
+    def _other(self, foot: Foot) -> Way:
+        return self.right if foot is Foot.LEFT else self.left
+
+
+def _turned(v: Flat, yaw: float) -> Flat:
+    c, s = cos(yaw), sin(yaw)
+    return (c * v[0] - s * v[1], s * v[0] + c * v[1])

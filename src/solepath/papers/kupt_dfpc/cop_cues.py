@@ -1,0 +1,272 @@
+"""Toe-off and heel-strike from the centre of pressure; the phases that follow from them.
+
+After Chen et al. 2019 (IEEE Internet of Things Journal 6), section III.C.2 and fig. 4. In the air the centre of
+pressure is set to the foot's centre. Along the foot it jumps there from the toes when the foot leaves the ground (from
+sample A to B of the figure), rests there in the air, and jumps from there to the heel when it lands (C to D).
+
+- Toe-off is the sample before the largest jump from motion start to the first sample of swing (point A).
+- Heel-strike is the sample after the largest jump from swing to motion end (point D).
+- Motion ends and starts with the first and after the last sample that the detector calls stationary.
+- A swing is normal when the centre of pressure rested at the foot's centre for `rest` s. A step without one is abnormal
+  (section IV.A): "toe-off and heel-strike were not extracted for that step". Its phases go on all the same, without a
+  heel-strike, and no mark is set, so that nothing is calibrated by it.
+
+Where there is no load yet (it is not known before it has fallen and risen once) the inertial cues speak. A foot that
+slides away without ever leaving the ground has cleared it when it has been fast for `shuffle_time`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import Enum
+
+from attrs import define, evolve, field
+
+from ...foot.cues.inertial import InertialCues, Seen
+from ...foot.cues.touch import Touch
+from ...foot.phase import Cue
+from ...foot.pressure.centre import centre
+from ...foot.stance.stance import Load, Stance
+from ...types import Layout, Phase, Vec3
+from ...types.vector import TIE
+
+FARTHEST = 1e3
+"""No centre of pressure jumps so far, m."""
+
+
+class Stage(Enum):
+    """What the cells have seen of a step; not the phase, which is told late."""
+
+    STANDING = "standing"  # stationary
+    LEAVING = "leaving"  # motion has started, the foot is on the ground or was so a moment ago
+    FLYING = "flying"  # in the air
+    LANDING = "landing"  # on the ground again after a normal swing
+
+
+@define
+class CopCues:
+    """Latency: toe-off one sample; heel-strike and foot-flat at the first stationary sample, as the paper has it;
+    heel-off one sample."""
+
+    rest: float = 0.1
+    """For so long the centre of pressure rests at the foot's centre in a normal swing, s."""
+    longest_landing: float = 0.4
+    """A heel-strike is told after this long even when the foot is not stationary yet, s."""
+    shuffle_time: float = 0.25
+    """How long a foot must be fast (InertialCues.shuffle_speed) to have left without ever being in the air, s."""
+    area_on: float = 0.05
+    """For an insole alone: heel and forefoot both above this share of the full load make a foot flat,"""
+    area_off: float = 0.03
+    """and one of them below this ends that."""
+    stale: float = 0.05
+    """Samples without cells, where those come more slowly, are no matter for so long, s."""
+    inertial: InertialCues = field(factory=InertialCues)
+    touch: Touch = field(factory=Touch)
+    # state
+    mark: Cue | None = field(default=None, init=False)
+    """CLEAR: the sample before the last is the best candidate so far for toe-off. CONTACT: the last sample is that for
+    heel-strike."""
+    middle: float | None = field(default=None, init=False)
+    """x of the foot's centre, m; None without a layout."""
+    stage: Stage = field(default=Stage.LEAVING, init=False)
+    cop: float | None = field(default=None, init=False)
+    """x of the centre of pressure in the last sample, m."""
+    pressed_at: float | None = field(default=None, init=False)
+    """The last sample with a load, s."""
+    jump: float = field(default=-1.0, init=False)
+    """The largest so far of those looked for, m."""
+    moment: float | None = field(default=None, init=False)
+    """When it was: the best candidate for toe-off or heel-strike, s."""
+    loaded_at: float | None = field(default=None, init=False)
+    """The last sample on the ground, s."""
+    since: float = field(default=0.0, init=False)
+    """When the stage began, s."""
+    airborne_since: float | None = field(default=None, init=False)
+    told: bool = field(default=False, init=False)
+    """The heel-strike of this landing was told."""
+    fast_since: float | None = field(default=None, init=False)
+    flat: bool = field(default=False, init=False)
+    """For an insole alone: both areas are loaded."""
+
+    @property
+    def axis(self) -> Vec3 | None:
+        """As in `Cues`."""
+        return self.inertial.axis
+
+    @property
+    def sagittal(self) -> float:
+        """As in `Cues`."""
+        return 0.0 if self.inertial.axis is None else self.inertial.sagittal
+
+    def wear(self, layout: Layout) -> None:
+        """The device said where its cells are."""
+        self.middle = centre(layout)
+        self.touch.wear(layout)
+
+    def update(
+        self,
+        t: float,
+        dt: float,
+        acc: Vec3,
+        gyro: Vec3,
+        still: bool,
+        speed: float,
+        phase: Phase,
+        load: Load | None,
+        stance: Stance,
+    ) -> Sequence[Seen]:
+        """As in `Cues`."""
+        self.mark = None
+        seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)
+        if load is None and self.pressed_at is not None and t - self.pressed_at < self.stale:
+            return ()
+        stationary = still and stance.hint is Phase.STATIONARY
+        airborne = self.touch.update(t, load, stationary)
+        if load is None or not self.touch.known:
+            self._forget(t)
+            return () if seen is None else (seen,)
+        found = self._begin(t, airborne, phase) if self.pressed_at is None else []
+        found += self._step(t, stationary, airborne, load)
+        if self.stage is Stage.LEAVING and phase is not Phase.SWING and speed >= self.inertial.shuffle_speed:
+            if self.fast_since is None:
+                self.fast_since = t
+            elif t - self.fast_since >= self.shuffle_time - TIE:
+                found.append(Seen(Cue.CLEAR, self.fast_since))
+        else:
+            self.fast_since = None
+        return found
+
+    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[Seen]:
+        """As in `Cues`: both areas loaded say what the detector would have said. Without a layout there are no areas;
+        a heel-strike is then told at once, and nothing of the sole lying flat."""
+        if load.heel is None or load.forefoot is None:
+            self.flat = False
+            found = self._step(t, False, self.touch.update(t, load), load)
+            if self.stage is Stage.LANDING:
+                found += self._strike()
+            return found
+        self.flat = min(load.heel, load.forefoot) >= (self.area_off if self.flat else self.area_on)
+        return self._step(t, self.flat, self.touch.update(t, load), load)
+
+    def _begin(self, t: float, airborne: bool, phase: Phase) -> list[Seen]:
+        """The cells are believed from here on, in a swing or at its end."""
+        if airborne:
+            left = self.touch.moving_since
+            self.stage = Stage.FLYING
+            self.airborne_since = t - self.rest
+            return [] if phase is Phase.SWING else [Seen(Cue.CLEAR, t if left is None else left)]
+        if phase is Phase.SWING:
+            self._enter(Stage.LANDING, t)
+            self.jump, self.moment = FARTHEST, t  # it was the first of its load that was seen: told, but no mark
+        return []
+
+    def _step(self, t: float, stationary: bool, airborne: bool, load: Load) -> list[Seen]:
+        was, before = self.cop, self.pressed_at
+        self.pressed_at = t
+        on_ground = was if load.centre is None else load.centre[0]
+        now = self.middle if airborne else on_ground
+        self.cop = now
+        jump = 0.0 if was is None or now is None else abs(now - was)
+        if stationary and not airborne:
+            self.loaded_at = t
+            return self._stationary(t)
+        found: list[Seen] = []
+        if self.stage is Stage.STANDING:
+            found.append(Seen(Cue.LIFT, t))
+            self._enter(Stage.LEAVING, t)
+        if self.stage is Stage.LEAVING:
+            if before is not None and jump > self.jump:
+                self.jump = jump
+                self.moment = before
+                self.mark = Cue.CLEAR
+            if airborne:
+                toe_off = self.moment if self.moment is not None else self.loaded_at
+                found.append(Seen(Cue.CLEAR, t if toe_off is None else toe_off))
+                self.stage = Stage.FLYING
+                self.airborne_since = t
+        elif self.stage is Stage.FLYING:
+            rested = self.airborne_since is not None and t - self.airborne_since >= self.rest - TIE
+            if not airborne and rested:
+                self._enter(Stage.LANDING, t)
+            elif not airborne:
+                self.stage = Stage.LEAVING  # it was not in the air yet: the best candidate may still come
+        if self.stage is Stage.LANDING:
+            found += self._landing(t, airborne, jump)
+        if not airborne:
+            self.loaded_at = t
+        return found
+
+    def _landing(self, t: float, airborne: bool, jump: float) -> list[Seen]:
+        if airborne:
+            if self.airborne_since is None:
+                self.airborne_since = t
+            elif t - self.airborne_since >= self.rest - TIE:
+                # it flies again and was never flat: toe walking, running
+                found = self._strike()
+                found.append(Seen(Cue.CLEAR, self.airborne_since if self.loaded_at is None else self.loaded_at))
+                self.stage = Stage.FLYING
+                return found
+            return []
+        self.airborne_since = None
+        if not self.told and jump > self.jump:
+            self.jump = jump
+            self.moment = t
+            self.mark = Cue.CONTACT
+        return self._strike() if t - self.since >= self.longest_landing - TIE else []
+
+    def _stationary(self, t: float) -> list[Seen]:
+        """The foot stands: motion end, or a stance that goes on."""
+        if self.stage is Stage.STANDING:
+            return []
+        found: list[Seen] = []
+        since = self.airborne_since
+        if self.stage is Stage.FLYING and since is not None and t - since >= self.rest - TIE:
+            # it came down flat: the first sample of stance is the one after the jump
+            self._enter(Stage.LANDING, t)
+            self.moment = t
+            self.mark = Cue.CONTACT
+        if self.stage is Stage.LANDING:
+            found += self._strike()
+        found.append(Seen(Cue.FLAT, t))
+        self._enter(Stage.STANDING, t)
+        return found
+
+    def _strike(self) -> list[Seen]:
+        if self.told or self.moment is None:
+            return []
+        self.told = True
+        return [Seen(Cue.CONTACT, self.moment)]
+
+    def _enter(self, stage: Stage, t: float) -> None:
+        self.stage = stage
+        self.since = t
+        self.jump = -1.0
+        self.moment = self.airborne_since = None
+        self.told = False
+
+    def _forget(self, t: float) -> None:
+        """Nothing is known of the load: the step under way is not a normal one."""
+        if self.pressed_at is not None or self.stage is not Stage.LEAVING:
+            self._enter(Stage.LEAVING, t)
+        self.pressed_at = self.cop = self.loaded_at = None
+
+    def cleared(self, t: float) -> Seen:
+        """As in `Cues`."""
+        return self.inertial.cleared(t)
+
+    def interrupt(self) -> None:
+        """As in `Cues`."""
+        self.inertial.interrupt()
+        self.fast_since = None
+        if self.pressed_at is not None:
+            self._forget(self.pressed_at)
+
+    def anew(self) -> None:
+        """As in `Cues`."""
+        axis = self.inertial.axis
+        self.inertial = evolve(self.inertial)
+        self.inertial.axis = axis
+        self.touch = self.touch.anew()
+        self._enter(Stage.LEAVING, 0.0)
+        self.cop = self.pressed_at = self.loaded_at = self.fast_since = self.mark = None
+        self.flat = False

@@ -1,0 +1,97 @@
+"""The attitude of a foot as Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section
+3.2, have it: posture from gravity by its vector product, and the quaternion by Runge and Kutta's fourth-order method.
+
+Q turns the sensor's coordinates into those of the reference frame, whose gravitational vector is aR = [0, 0, 1]: what
+an accelerometer at rest measures, upwards. gb is that vector as Q has it in the sensor's coordinates, g'R the measured
+one, both of length 1; e = gb x g'R is the axis and, while small, the angle by which Q is off.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from ...types import Quat, Vec3
+from ...types.vector import IDENTITY, from_rotation_vector, levelling, multiply, normalise
+
+POINTS = 400
+"""The initialisation "will converge in about 4 s (i.e., 400 points)" (fig. 7)."""
+POINT = 0.01
+"""s."""
+GAIN = 2.0
+"""Kp of the initialisation, 1/s: tan of half the error falls by exp(-Kp t), to a thousandth within fig. 7's 4 s."""
+SETTLED = 2e-3
+"""rad: a posture that is off by more when the points are through did not converge."""
+WIDEST_TURN = 1.0
+"""Square of the turn within one sample, rad^2, that Runge and Kutta's polynomial follows to 1e-3 rad; of slow samples a
+wider one is taken exactly."""
+
+
+def gravity_error(attitude: Quat, acc: Vec3) -> Vec3:
+    """e = gb x g'R, sensor frame: `acc` is the measured specific force, in any unit; zero where it has no length."""
+    q0, q1, q2, q3 = attitude
+    x, y, z = acc
+    length = sqrt(x * x + y * y + z * z)
+    if length < 1e-9:
+        return (0.0, 0.0, 0.0)
+    k = 1.0 / length
+    x, y, z = x * k, y * k, z * k
+    bx, by, bz = 2.0 * (q1 * q3 - q0 * q2), 2.0 * (q2 * q3 + q0 * q1), q0 * q0 - q1 * q1 - q2 * q2 + q3 * q3
+    return (by * z - bz * y, bz * x - bx * z, bx * y - by * x)
+
+
+def posture(acc: Vec3) -> Quat:
+    """Fig. 6: the posture of a foot at rest, from Q = [1, 0, 0, 0] by repeating the vector product until it is zero.
+
+    `acc` is the mean specific force of a rest. Each of 400 points turns Q by what the feedback of stance would, with a
+    gyroscope that reads nothing; the paper's P, "the solution process of the quaternion", is not told further. About an
+    upside-down sensor the vector product says nothing of the way, so that one begins upside down.
+    """
+    whole = levelling(acc)
+    q = IDENTITY if abs(whole[0]) > 0.1 else whole
+    for _ in range(POINTS):
+        ex, ey, ez = gravity_error(q, acc)
+        rate = (-GAIN * ex, -GAIN * ey, -GAIN * ez)
+        q = turned(q, rate, rate, POINT)
+    ex, ey, ez = gravity_error(q, acc)
+    return q if ex * ex + ey * ey + ez * ez < SETTLED * SETTLED else whole
+
+
+def turned(q: Quat, before: Vec3, after: Vec3, h: float) -> Quat:
+    """Q after `h` s in which the rate went from `before` to `after`, sensor frame, rad/s.
+
+    Q' = 1/2 Q w, of which the paper prints the matrix, by
+    Q_n+1 = Q_n + h/6 (k1 + 2 k2 + 2 k3 + k4), normalised; the paper has 3 k3, a misprint: the weights of the classical
+    method add up to 6; with 3 they add up to 7, and every turn comes out a sixth too wide. Its f(w_n + h/2, ...) is the
+    rate half an interval later: the mean of both.
+    """
+    ax, ay, az = before
+    cx, cy, cz = after
+    half = 0.5 * h
+    ax, ay, az, cx, cy, cz = ax * half, ay * half, az * half, cx * half, cy * half, cz * half
+    bx, by, bz = 0.5 * (ax + cx), 0.5 * (ay + cy), 0.5 * (az + cz)
+    if 4.0 * (bx * bx + by * by + bz * bz) > WIDEST_TURN:
+        return normalise(multiply(q, from_rotation_vector((2.0 * bx, 2.0 * by, 2.0 * bz))))
+    # the k are of whole intervals: h k1 and so on
+    w, x, y, z = q
+    k1w = -ax * x - ay * y - az * z
+    k1x = ax * w + az * y - ay * z
+    k1y = ay * w - az * x + ax * z
+    k1z = az * w + ay * x - ax * y
+    pw, px, py, pz = w + 0.5 * k1w, x + 0.5 * k1x, y + 0.5 * k1y, z + 0.5 * k1z
+    k2w = -bx * px - by * py - bz * pz
+    k2x = bx * pw + bz * py - by * pz
+    k2y = by * pw - bz * px + bx * pz
+    k2z = bz * pw + by * px - bx * py
+    pw, px, py, pz = w + 0.5 * k2w, x + 0.5 * k2x, y + 0.5 * k2y, z + 0.5 * k2z
+    k3w = -bx * px - by * py - bz * pz
+    k3x = bx * pw + bz * py - by * pz
+    k3y = by * pw - bz * px + bx * pz
+    k3z = bz * pw + by * px - bx * py
+    pw, px, py, pz = w + k3w, x + k3x, y + k3y, z + k3z
+    sixth = 1.0 / 6.0
+    w += (k1w + 2.0 * (k2w + k3w) - cx * px - cy * py - cz * pz) * sixth
+    x += (k1x + 2.0 * (k2x + k3x) + cx * pw + cz * py - cy * pz) * sixth
+    y += (k1y + 2.0 * (k2y + k3y) + cy * pw - cz * px + cx * pz) * sixth
+    z += (k1z + 2.0 * (k2z + k3z) + cz * pw + cy * px - cx * py) * sixth
+    k = 1.0 / sqrt(w * w + x * x + y * y + z * z)
+    return (w * k, x * k, y * k, z * k)

@@ -1,0 +1,200 @@
+"""A wearer's own compensation of touchdowns, from walks over marks on the floor.
+
+After Gong et al. 2023 (Sensors 23, 5417), section 3.3: the wearer steps on a marked point with each footfall, straight
+on and along bends of 4 m and 2 m, and the mean of (marked point - measured) is the compensation of that foot in that
+mode. Each step counts by itself: where a foot should have come down, seen from where the other one stood on its mark,
+so errors do not accumulate. The marks' frame is any on the floor; how it lies to the session's is found from all steps
+together. A mark is where the point of the ground below the ankle comes to be.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import atan2, cos, hypot, sin
+from pathlib import Path
+
+from attrs import evolve, frozen
+
+from ...calibration import Calibration, CalibrationError
+from ...events import TouchedDown
+from ...foot.navigate.error_state import ErrorStateFilter
+from ...foot.stance.cycle import Cycle
+from ...recipes import Recipe
+from ...recording.decoded import Recorded
+from ...session import Session
+from ...types import Foot, WalkingMode
+from .modes import Modes
+from .rows import read_rows
+
+NEAR = 0.3
+"""A mark that names a time is that of the touchdown within so many s of it."""
+MODES = tuple(mode for mode in WalkingMode if mode is not WalkingMode.STANDING)
+
+
+@frozen
+class Mark:
+    """A point on the floor, m, that a foot stepped on in this mode: at about `t` s, or with its `step`-th touchdown."""
+
+    where: str
+    foot: Foot
+    x: float
+    y: float
+    mode: WalkingMode
+    t: float | None = None
+    step: int | None = None
+
+
+@frozen
+class StepError:
+    """Marked less measured of one step, in the direction of walking half a step before it ended, m."""
+
+    foot: Foot
+    mode: WalkingMode
+    forward: float
+    left: float
+
+
+def read_marks(path: Path | str) -> list[Mark]:
+    """The marks of a csv file with the columns foot (left, right), x, y (m), mode, and t (s) or step (from 1).
+    CalibrationError that names file and line."""
+    rows = read_rows(path, ("foot", "x", "y", "mode"))
+    if not rows:
+        raise CalibrationError(f"{path}: no marks")
+    marks = []
+    for row in rows:
+        foot = Foot(row.one_of("foot", [foot.value for foot in Foot]))
+        mode = WalkingMode[row.one_of("mode", [mode.name for mode in MODES])]
+        mark = Mark(row.where, foot, row.number("x"), row.number("y"), mode)
+        if row.has("t"):
+            mark = evolve(mark, t=row.number("t"))
+        elif row.has("step"):
+            step = row.number("step")
+            if step != int(step) or step < 1:
+                raise CalibrationError(f"{row.where}: step is {step:g}, not a whole number from 1")
+            mark = evolve(mark, step=int(step))
+        else:
+            raise CalibrationError(f"{row.where}: neither t nor step says which touchdown it is")
+        marks.append(mark)
+    return marks
+
+
+def touchdowns(walk: Recorded, known: Calibration, heading: float | None = None) -> list[TouchedDown]:
+    """What method III makes of a walk, without any compensation, in the order of time. `heading`: as in `Modes`."""
+    insoles = dict(known.insoles)
+    for foot, layout in walk.layouts.items():
+        insole = known.insole(foot)
+        insoles[foot] = insole if insole.layout is not None else evolve(insole, layout=layout)
+    recipe = Recipe("marked walk", Cycle(), ErrorStateFilter(), body=Modes(heading=heading))
+    session = Session(recipe, calibration=evolve(known, insoles=insoles))
+    events = [*session.feed(walk.samples), *session.finish()]
+    return sorted([event for event in events if isinstance(event, TouchedDown)], key=_time)
+
+
+def step_errors(marks: Iterable[Mark], downs: list[TouchedDown]) -> list[StepError]:
+    """Every step from a mark of one foot to a mark of the other, with a mark of each before them to tell the direction.
+    CalibrationError for a mark that no touchdown belongs to, or two marks of one."""
+    at: dict[int, Mark] = {}
+    for mark in marks:
+        k = _touchdown_of(mark, downs)
+        if k in at:
+            raise CalibrationError(f"{mark.where}: the same touchdown as at {at[k].where}")
+        at[k] = mark
+    steps = []
+    for k in range(3, len(downs)):
+        four = [at.get(j) for j in range(k - 3, k + 1)]
+        earliest, earlier, before, newest = four
+        if earliest is None or earlier is None or before is None or newest is None:
+            continue
+        if not downs[k - 1].final:  # told before the first heading was settled: in another frame
+            continue
+        if not earliest.foot is before.foot is not newest.foot is earlier.foot:
+            continue
+        (x, y, _), (px, py, _) = downs[k].position, downs[k - 1].position
+        # the chord of a foot's stride is the tangent a step back, that of the other's two; half a step back it is
+        ahead = atan2(newest.y - earlier.y, newest.x - earlier.x)
+        behind = atan2(before.y - earliest.y, before.x - earliest.x)
+        ahead += 0.5 * atan2(sin(ahead - behind), cos(ahead - behind))
+        steps.append((newest, (newest.x - before.x, newest.y - before.y), (x - px, y - py), ahead))
+    # the turn from the session's frame to the marks', least squares over the steps
+    turn = atan2(
+        sum([mx * true[1] - my * true[0] for _, true, (mx, my), _ in steps]),
+        sum([mx * true[0] + my * true[1] for _, true, (mx, my), _ in steps]),
+    )
+    c, s = cos(turn), sin(turn)
+    found = []
+    for reached, (tx, ty), (mx, my), ahead in steps:
+        ex, ey = tx - (c * mx - s * my), ty - (s * mx + c * my)
+        ca, sa = cos(ahead), sin(ahead)
+        found.append(StepError(reached.foot, reached.mode, ca * ex + sa * ey, ca * ey - sa * ex))
+    return found
+
+
+def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tuple[float, float]]]:
+    """(forward, left), m, by foot and mode, of those that there are; without what is a heading."""
+    gathered: dict[Foot, dict[WalkingMode, list[StepError]]] = {}
+    for error in errors:
+        gathered.setdefault(error.foot, {}).setdefault(error.mode, []).append(error)
+    means = {
+        foot: {
+            mode: (sum([e.forward for e in some]) / len(some), sum([e.left for e in some]) / len(some))
+            for mode, some in gathered[foot].items()
+        }
+        for foot in Foot
+        if foot in gathered
+    }
+    without_heading(means)
+    return means
+
+
+def without_heading(means: dict[Foot, dict[WalkingMode, tuple[float, float]]]) -> None:
+    """Take out of both feet what they are off to the same side, mode by mode: that turns the way as a whole, as the
+    heading of a sensor does that errs on one walk this way and on the next that way. Where a touchdown is misplaced,
+    the feet are off against each other."""
+    left, right = means.get(Foot.LEFT, {}), means.get(Foot.RIGHT, {})
+    for mode in left.keys() & right.keys():
+        aside = 0.5 * (left[mode][1] + right[mode][1])
+        left[mode] = (left[mode][0], left[mode][1] - aside)
+        right[mode] = (right[mode][0], right[mode][1] - aside)
+
+
+def fit_modes(
+    walks: Iterable[tuple[Recorded, Path | str]], known: Calibration | None = None, heading: float | None = None
+) -> Calibration:
+    """A calibration with the compensation that marked walks show, each a recording and its csv file of marks
+    (`read_marks`). `known`: limbs and insoles of the wearer. `heading`: where the wearer looks at the start of each
+    walk in the world that the sensors share, rad; without it the first step has to tell, and should not go round a
+    bend. CalibrationError when no step lies between two marks."""
+    known = Calibration() if known is None else known
+    errors: list[StepError] = []
+    for walk, path in walks:
+        found = step_errors(read_marks(path), touchdowns(walk, known, heading))
+        if not found:
+            raise CalibrationError(f"{path}: no four marks one after the other, left and right in turn")
+        errors += found
+    return Calibration(modes=mean_errors(errors))
+
+
+def spread(errors: Iterable[StepError], compensation: dict[Foot, dict[WalkingMode, tuple[float, float]]]) -> float:
+    """What single steps differ by from the means, rms, m."""
+    squares = [
+        hypot(error.forward - forward, error.left - left) ** 2
+        for error in errors
+        for forward, left in [compensation[error.foot][error.mode]]
+    ]
+    return float((sum(squares) / len(squares)) ** 0.5) if squares else 0.0
+
+
+def _touchdown_of(mark: Mark, downs: list[TouchedDown]) -> int:
+    of_foot = [k for k, down in enumerate(downs) if down.foot is mark.foot]
+    if mark.t is not None:
+        near = [(abs(downs[k].t - mark.t), k) for k in of_foot if abs(downs[k].t - mark.t) <= NEAR]
+        if not near:
+            raise CalibrationError(f"{mark.where}: the {mark.foot.value} foot did not come down at {mark.t:g} s")
+        return min(near)[1]
+    if mark.step is None or mark.step > len(of_foot):
+        raise CalibrationError(f"{mark.where}: the {mark.foot.value} foot came down {len(of_foot)} times only")
+    return of_foot[mark.step - 1]
+
+
+def _time(down: TouchedDown) -> float:
+    return down.t

@@ -1,0 +1,63 @@
+"""From counts to newtons: a cubic per insole, fitted to what a gauge pressed and the insole said.
+
+After Gong et al. 2023 (Sensors 23, 5417), section 3.1 and fig. 6: a gauge presses a cell with 0 to 200 N, and "the
+mathematical relationship between the pressure value and the AD value of the insole is a cubic polynomial"; what is
+below 5 N is not recorded, and 200 N is the most.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+from attrs import frozen
+
+from ...calibration import Calibration, CalibrationError, InsoleCalibration, Newtons
+from ...types import Foot
+from .rows import read_rows
+
+THRESHOLD, MOST = 5.0, 200.0
+"""N: the range of the paper's insole."""
+LEAST_POINTS = 5
+"""A cubic goes through any four."""
+
+
+@frozen
+class GaugeFit:
+    """`residual`: rms of what the cubic misses the `points` by, N; `worst`: the most."""
+
+    newtons: Newtons
+    residual: float
+    worst: float
+    points: int
+
+
+def fit_gauge(path: Path | str) -> GaugeFit:
+    """The cubic of a csv file with the columns `counts` and `newtons`, least squares. CalibrationError for a file that
+    cannot be read, too few points, or counts that do not rise with the force."""
+    rows = [(row.where, row.number("counts"), row.number("newtons")) for row in read_rows(path, ("counts", "newtons"))]
+    for where, _, force in rows:
+        if not 0.0 <= force <= MOST:
+            raise CalibrationError(f"{where}: {force:g} N, and the range is 0 to {MOST:g} N")
+    counts = np.array([count for _, count, _ in rows])
+    forces = np.array([force for *_, force in rows])
+    different = len(set(counts.tolist()))
+    if different < LEAST_POINTS:
+        raise CalibrationError(f"{path}: {different} different counts, and a cubic wants {LEAST_POINTS} or more")
+    unit = float(np.abs(counts).max())
+    # in shares of the largest count: the third power of 14 bits would cost half of the digits
+    scaled = np.polynomial.polynomial.polyfit(counts / unit, forces, 3)
+    steps = np.polynomial.polynomial.polyval(np.linspace(counts.min(), counts.max(), 200) / unit, scaled)
+    if not (np.diff(steps[steps > THRESHOLD]) > 0.0).all() or steps[-1] <= THRESHOLD:
+        raise CalibrationError(f"{path}: the fitted force does not rise with the counts")
+    missed = forces - np.polynomial.polynomial.polyval(counts / unit, scaled)
+    a, b, c, d = (float(value) / unit**power for power, value in enumerate(scaled))
+    newtons = Newtons((a, b, c, d), THRESHOLD, MOST)
+    return GaugeFit(newtons, float(np.sqrt(np.mean(missed**2))), float(np.abs(missed).max()), len(rows))
+
+
+def fit_newtons(path: Path | str, feet: Iterable[Foot] = tuple(Foot)) -> Calibration:
+    """A calibration with the cubic of `path` (`fit_gauge`) for the insoles of `feet`."""
+    found = fit_gauge(path)
+    return Calibration(insoles={foot: InsoleCalibration(newtons=found.newtons) for foot in feet})

@@ -1,0 +1,67 @@
+"""Tables that somebody measured: a csv file with named columns, every mistake told with its line."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Collection
+from io import StringIO
+from math import isfinite
+from pathlib import Path
+
+from attrs import frozen
+
+from ...calibration import CalibrationError, bounded_text
+
+
+@frozen
+class Row:
+    """One line of a table; `where` names it in a sentence."""
+
+    where: str
+    cells: dict[str, str]
+
+    def has(self, column: str) -> bool:
+        """Whether something stands there."""
+        return bool(self.cells.get(column, ""))
+
+    def number(self, column: str) -> float:
+        """A finite number. CalibrationError when there is none."""
+        text = self.cells.get(column, "")
+        try:
+            value = float(text)
+        except ValueError:
+            raise CalibrationError(f"{self.where}: {column} is {text!r}, not a number") from None
+        if not isfinite(value):
+            raise CalibrationError(f"{self.where}: {column} is {text!r}, not a finite number")
+        return value
+
+    def one_of(self, column: str, allowed: Collection[str]) -> str:
+        """One of these words. CalibrationError when it is another."""
+        text = self.cells.get(column, "")
+        if text not in allowed:
+            raise CalibrationError(f"{self.where}: {column} is {text!r}, not one of {', '.join(allowed)}")
+        return text
+
+
+def read_rows(path: Path | str, columns: Collection[str]) -> list[Row]:
+    """The lines of a csv file below its header, empty ones left out. CalibrationError when the file cannot be read,
+    lacks one of `columns`, or has a line of another length."""
+    try:
+        text = StringIO(bounded_text(Path(path), "utf-8-sig"), newline="")
+        lines = [[cell.strip() for cell in line] for line in csv.reader(text)]
+    except OSError as error:
+        raise CalibrationError(f"{path}: {error.strerror}") from None
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise CalibrationError(f"{path}: is not a csv file ({error})") from None
+    header = lines[0] if lines else []
+    missing = [column for column in columns if column not in header]
+    if missing:
+        raise CalibrationError(f"{path}, line 1: no column {' and no column '.join(missing)}")
+    rows = []
+    for number, line in enumerate(lines[1:], 2):
+        if not any(line):
+            continue
+        if len(line) != len(header):
+            raise CalibrationError(f"{path}, line {number}: {len(line)} values, and the header has {len(header)}")
+        rows.append(Row(f"{path}, line {number}", dict(zip(header, line, strict=True))))
+    return rows

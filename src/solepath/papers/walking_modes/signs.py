@@ -1,0 +1,75 @@
+"""What both feet show, and which of them is down by it: a method's sign (touchdown.py) as far as it can be believed."""
+
+from __future__ import annotations
+
+from math import hypot
+
+from attrs import define, field
+
+from ...events import Event, FootFlat, Limitation, StepTaken
+from ...foot.tracker import FootTracker
+from ...types import SITE_OF_FOOT, Foot, Phase, Sample
+from ...types.vector import GRAVITY, rotate
+from .evidence import Evidence
+from .touchdown import AnyTouchdown, Flags, FootState, Height, MaximumPressure, NetAcceleration
+
+NOBODY = FootState()
+"""What a foot shows that was never heard."""
+
+
+@define
+class Signs:
+    """Feed it `moved`, and `pressed` for cells that can be used, before `down`."""
+
+    method: AnyTouchdown
+    # state
+    shown: dict[Foot, FootState] = field(factory=dict, init=False)
+    """What each foot shows; of those heard so far."""
+    evidence: dict[Foot, Evidence] = field(init=False)
+
+    def __attrs_post_init__(self) -> None:
+        self.evidence = {foot: Evidence() for foot in Foot}
+
+    def moved(self, foot: FootTracker, sample: Sample, events: list[Event], height: float) -> bool:
+        """A sample of a foot, and what came of it; `height` of its own track, m. Whether it has cells to be used."""
+        state, evidence = self.shown.get(foot.foot), self.evidence[foot.foot]
+        if state is None:
+            state = self.shown[foot.foot] = FootState()
+        state.swings = foot.phase is Phase.SWING
+        if events:
+            for event in events:
+                if isinstance(event, StepTaken):
+                    evidence.stepped()
+                elif isinstance(event, FootFlat):
+                    state.floor = height
+        if isinstance(self.method, NetAcceleration) and foot.levelled and sample.acc is not None:
+            x, y, z = rotate(foot.corrector.attitude, sample.acc)
+            state.acceleration = hypot(x, y, z - GRAVITY)
+        usable = bool(sample.pressure) and bool(foot.sole.health.usable(sample.pressure or ()))
+        evidence.heard(sample.t, usable or not isinstance(self.method, MaximumPressure))
+        return usable
+
+    def pressed(self, foot: FootTracker) -> FootState:
+        """The cells of the foot's newest sample can be used. Returns what it shows."""
+        state, insole = self.shown[foot.foot], foot.insole
+        state.pressure = max(insole.cells)
+        newtons = insole.newtons is not None or (insole.layout is not None and insole.layout.scale is not None)
+        state.full = None if newtons else insole.highest
+        return state
+
+    def down(self, t: float, alone: Foot | None, known_at: float, events: list[Event]) -> Flags:
+        """TD_L and TD_R, by the method or, where that cannot tell, by the foot's own steps, which is said once.
+        `alone`: the only foot that is heard."""
+        left, right = self.shown.get(Foot.LEFT, NOBODY), self.shown.get(Foot.RIGHT, NOBODY)
+        flags = self.method.update(t, left, right)
+        none = alone is not None and isinstance(self.method, Height)  # one foot is lower than no other
+        down = []
+        for foot, state, flag in ((Foot.LEFT, left, flags[0]), (Foot.RIGHT, right, flags[1])):
+            evidence = self.evidence[foot]
+            down.append(evidence.down(flag, state.swings, none) and (alone is None or alone is foot))
+            if evidence.own and not evidence.said and state is not NOBODY:
+                evidence.said = True
+                sign = "insole" if isinstance(self.method, MaximumPressure) else "foot's motion"
+                what = f"the {foot.value} {sign} does not tell when it is down: its own steps stand for touchdowns"
+                events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[foot], what=what))
+        return down[0], down[1]

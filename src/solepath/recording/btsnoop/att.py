@@ -1,0 +1,235 @@
+"""The attribute protocol as it goes by: which handle is which characteristic, and the values that were notified, read
+and written (Bluetooth Core, vol 3 part F, 3.4).
+
+Either end of a link may be the server: in a phone's log the peer is, in the log of a device's own host the host is.
+Services are of no interest: a characteristic's UUID says enough.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from enum import Enum, IntEnum
+from typing import Any
+from uuid import UUID
+
+from attrs import define, field, frozen
+from construct import Bytes, GreedyBytes, GreedyRange, Int8ul, Int16ul, Prefixed, Struct, Terminated, this
+
+from ...wire.error import WireError
+from ...wire.fields import LONGEST_VALUE, malformed, parse_whole
+
+
+class Op(IntEnum):
+    """The first byte of a PDU; not all that there are."""
+
+    ERROR = 0x01
+    MTU_REQUEST = 0x02
+    MTU_RESPONSE = 0x03
+    FIND_INFORMATION = 0x04
+    INFORMATION = 0x05
+    FIND_BY_VALUE = 0x06
+    READ_BY_TYPE = 0x08
+    VALUES_BY_TYPE = 0x09
+    READ = 0x0A
+    VALUE = 0x0B
+    READ_BLOB = 0x0C
+    BLOB = 0x0D
+    READ_SEVERAL = 0x0E
+    READ_BY_GROUP = 0x10
+    WRITE = 0x12
+    WRITTEN = 0x13
+    PREPARE_WRITE = 0x16
+    EXECUTE_WRITE = 0x18
+    NOTIFICATION = 0x1B
+    INDICATION = 0x1D
+    CONFIRMATION = 0x1E
+    READ_SEVERAL_VARIABLE = 0x20
+    NOTIFICATIONS = 0x23
+    WRITE_COMMAND = 0x52
+    SIGNED_WRITE_COMMAND = 0xD2
+
+
+REQUESTS = frozenset({Op.MTU_REQUEST, Op.FIND_INFORMATION, Op.FIND_BY_VALUE, Op.READ_BY_TYPE, Op.READ, Op.READ_BLOB,
+                      Op.READ_SEVERAL, Op.READ_BY_GROUP, Op.WRITE, Op.PREPARE_WRITE, Op.EXECUTE_WRITE,
+                      Op.READ_SEVERAL_VARIABLE})  # fmt: skip
+"""What a client sends to be answered, one at a time."""
+FROM_CLIENT = REQUESTS | {Op.WRITE_COMMAND, Op.CONFIRMATION, Op.SIGNED_WRITE_COMMAND}
+"""And what is not answered: commands and confirmations."""
+
+DECLARATION_TYPE = "00002803-0000-1000-8000-00805f9b34fb"
+"""Of the attributes that declare a characteristic."""
+SMALLEST_MTU = 23
+
+PDU = Struct("opcode" / Int8ul, "body" / GreedyBytes)
+ERROR_RESPONSE = Struct("request" / Int8ul, "handle" / Int16ul, "code" / Int8ul, Terminated)
+MTU = Struct("mtu" / Int16ul, Terminated)
+HANDLE = Struct("handle" / Int16ul, Terminated)
+HANDLE_VALUE = Struct("handle" / Int16ul, "value" / GreedyBytes)
+BLOB_REQUEST = Struct("handle" / Int16ul, "offset" / Int16ul, Terminated)
+TYPE_REQUEST = Struct("first" / Int16ul, "last" / Int16ul, "type" / GreedyBytes)
+
+
+def _uuid_size(context: Any) -> int:
+    return 2 if context._.format == 1 else 16
+
+
+INFORMATION = Struct(
+    "format" / Int8ul,
+    "entries" / GreedyRange(Struct("handle" / Int16ul, "type" / Bytes(_uuid_size))),
+    Terminated,
+)
+TYPE_RESPONSE = Struct(
+    "size" / Int8ul,
+    "entries" / GreedyRange(Struct("handle" / Int16ul, "value" / Bytes(this._.size - 2))),
+    Terminated,
+)
+DECLARATION = Struct("properties" / Int8ul, "handle" / Int16ul, "type" / GreedyBytes)
+SEVERAL_VALUES = Struct(
+    "entries" / GreedyRange(Struct("handle" / Int16ul, "value" / Prefixed(Int16ul, GreedyBytes))), Terminated
+)
+
+
+class How(Enum):
+    """How a value went by."""
+
+    NOTIFIED = "notified"
+    READ = "read"
+    WRITTEN = "written"
+
+
+@frozen
+class Told:
+    """One value of the attribute with this handle."""
+
+    how: How
+    handle: int
+    value: bytes
+
+
+def uuid_text(octets: bytes) -> str:
+    """A UUID of 16 or 128 bits in full, lower case. WireError when it is neither."""
+    if len(octets) == 2:
+        return f"0000{octets[1]:02x}{octets[0]:02x}-0000-1000-8000-00805f9b34fb"
+    if len(octets) != 16:
+        raise malformed(f"a UUID of {len(octets)} bytes")
+    return str(UUID(bytes=octets[::-1]))
+
+
+@define
+class Conversation:
+    """One client and one server on one link. `types`: handle -> UUID as discovered, shared by all with
+    the same server. `flaws` counts what was not understood."""
+
+    types: dict[int, str]
+    flaws: Counter[str]
+    mtu: int = SMALLEST_MTU
+    _asked: tuple[int, Any] | None = None
+    """The request that waits for its answer."""
+    _begun: Told | None = None
+    """A value that was read as far as one answer could hold; more of it may be asked for."""
+    _values: list[Told] = field(factory=list)
+
+    def feed(self, data: bytes) -> list[Told]:
+        """What one PDU tells, of either direction."""
+        self._values = []
+        try:
+            pdu = parse_whole(PDU, data)
+            if pdu.opcode in FROM_CLIENT:
+                self._client(pdu.opcode, pdu.body)
+            else:
+                self._server(pdu.opcode, pdu.body)
+        except WireError:
+            self.flaws["PDUs that are not of the attribute protocol"] += 1
+        return self._values
+
+    def finish(self) -> list[Told]:
+        """The link is gone: what was read and not asked on was whole."""
+        self._values = []
+        self._end_read()
+        return self._values
+
+    def _client(self, opcode: int, body: bytes) -> None:
+        match opcode:
+            case Op.WRITE_COMMAND:
+                said = parse_whole(HANDLE_VALUE, body)
+                self._values.append(Told(How.WRITTEN, said.handle, said.value))
+            case Op.PREPARE_WRITE:
+                self.flaws["long writes, which are passed over"] += 1
+        if opcode not in REQUESTS:
+            return
+        asked: Any = None
+        match opcode:
+            case Op.MTU_REQUEST:
+                asked = parse_whole(MTU, body)
+            case Op.READ_BY_TYPE:
+                asked = parse_whole(TYPE_REQUEST, body)
+            case Op.READ:
+                asked = parse_whole(HANDLE, body)
+            case Op.READ_BLOB:
+                asked = parse_whole(BLOB_REQUEST, body)
+            case Op.WRITE:
+                asked = parse_whole(HANDLE_VALUE, body)
+        begun = self._begun
+        goes_on = (
+            opcode == Op.READ_BLOB
+            and begun is not None
+            and (asked.handle, asked.offset) == (begun.handle, len(begun.value))
+        )
+        if not goes_on:
+            self._end_read()
+        self._asked = opcode, asked
+
+    def _server(self, opcode: int, body: bytes) -> None:
+        match opcode:
+            case Op.NOTIFICATION | Op.INDICATION:
+                said = parse_whole(HANDLE_VALUE, body)
+                self._values.append(Told(How.NOTIFIED, said.handle, said.value))
+                return
+            case Op.NOTIFICATIONS:
+                for said in parse_whole(SEVERAL_VALUES, body).entries:
+                    self._values.append(Told(How.NOTIFIED, said.handle, said.value))
+                return
+        if self._asked is None:
+            return  # asked before the log began
+        request, asked = self._asked
+        self._asked = None
+        match opcode, request:
+            case Op.ERROR, _:
+                if parse_whole(ERROR_RESPONSE, body).request == Op.WRITE:
+                    self.flaws["writes that were refused"] += 1
+                self._end_read()
+            case Op.MTU_RESPONSE, Op.MTU_REQUEST:
+                self.mtu = max(SMALLEST_MTU, min(parse_whole(MTU, body).mtu, asked.mtu))
+            case Op.INFORMATION, Op.FIND_INFORMATION:
+                for entry in parse_whole(INFORMATION, body).entries:
+                    self.types[entry.handle] = uuid_text(entry.type)
+            case Op.VALUES_BY_TYPE, Op.READ_BY_TYPE:
+                self._found(uuid_text(asked.type), parse_whole(TYPE_RESPONSE, body))
+            case Op.VALUE, Op.READ:
+                self._read(asked.handle, body)
+            case Op.BLOB, Op.READ_BLOB if self._begun is not None:
+                self._read(asked.handle, self._begun.value + body, len(body))
+            case Op.WRITTEN, Op.WRITE:
+                self._values.append(Told(How.WRITTEN, asked.handle, asked.value))
+
+    def _found(self, kind: str, answer: Any) -> None:
+        """Declarations of characteristics, or values of the characteristics of one kind."""
+        for entry in answer.entries:
+            if kind == DECLARATION_TYPE:
+                declared = parse_whole(DECLARATION, entry.value)
+                self.types[declared.handle] = uuid_text(declared.type)
+            else:
+                self.types[entry.handle] = kind
+                self._values.append(Told(How.READ, entry.handle, entry.value))
+
+    def _read(self, handle: int, value: bytes, newest: int | None = None) -> None:
+        """`newest`: bytes of the last answer, when it was not the first. One that is full may not be all."""
+        self._begun = Told(How.READ, handle, value)
+        size = len(value) if newest is None else newest
+        if size < self.mtu - 1 or len(value) >= LONGEST_VALUE:
+            self._end_read()
+
+    def _end_read(self) -> None:
+        if self._begun is not None:
+            self._values.append(self._begun)
+            self._begun = None

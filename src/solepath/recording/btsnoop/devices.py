@@ -1,0 +1,153 @@
+"""Which device of a log is what, which of its attributes are channels, and where it was worn."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from attrs import define, field
+
+from ...link.devices import DECLARED
+from ...link.known import PROFILES
+from ...link.profile import Channel, Profile
+from ...link.profile import How as Use
+from ...types import SITE_OF_FOOT, Foot, Site
+from ...wire.error import WireError
+from .att import How
+from .evidence import Evidence
+
+Handles = Mapping[tuple[str, int], str]
+"""(device, or "" for any; attribute handle) -> channel."""
+
+CHANNELS = frozenset(channel.name for profile in PROFILES for channel in profile.channels)
+CHARACTERISTICS = frozenset(channel.characteristic for profile in PROFILES for channel in profile.channels)
+DRIVERS = {driver.name: driver for driver in DECLARED}
+USES = {
+    How.NOTIFIED: (Use.NOTIFY, Use.READ),
+    How.READ: (Use.READ, Use.NOTIFY, Use.WRITE),
+    How.WRITTEN: (Use.WRITE,),
+}
+"""How a value went by -> what its channel is used for, the likeliest first: a characteristic may be one channel where
+it is read and another where it is written, and what is subscribed or written may be read as well."""
+
+
+@define
+class Device:
+    """One device of a log. `address`: or what else tells it from others. `profile`: None when its discovery is not in
+    the log, or it is of no use here. `channels`: attribute handle, and how the value went by -> channel."""
+
+    address: str
+    site: Site | None = None
+    profile: Profile | None = None
+    channels: dict[tuple[int, How], str] = field(factory=dict)
+    seen: dict[int, Evidence] = field(factory=dict)
+    """Attribute handle -> what its values are like."""
+
+    @property
+    def count(self) -> int:
+        """Notified values that are a channel's."""
+        return sum(evidence.count for handle, evidence in self.seen.items() if (handle, How.NOTIFIED) in self.channels)
+
+
+def upper(address: str) -> str:
+    """Addresses are the same in either case."""
+    return address.upper()
+
+
+def name_attributes(device: Device, types: Mapping[int, str], handles: Handles) -> set[tuple[str, int]]:
+    """Which of its attributes are channels: by what the caller says, by discovery, by proof. What of `handles` was of
+    use: what is said of any device counts where discovery says nothing, and no word makes one device of another."""
+    device.profile = _profile(set(types.values()))
+    used: set[tuple[str, int]] = set()
+    for handle, evidence in device.seen.items():
+        said = None
+        for wish in ((upper(device.address), handle), ("", handle)):
+            if wish in handles and _may_be(handles[wish], wish, device, types):
+                said = said or handles[wish]
+                used.add(wish)
+        if said is None and handle not in types:
+            said = evidence.channel
+        if said is not None:
+            same = _same_characteristic(said)
+        elif device.profile is not None:
+            same = [each for each in device.profile.channels if each.characteristic == types.get(handle)]
+        else:
+            same = []
+        for how in How:
+            channel = next((each.name for use in USES[how] for each in same if each.how is use), None)
+            if channel is not None:
+                device.channels[handle, how] = channel
+    return used
+
+
+def _may_be(channel: str, wish: tuple[str, int], device: Device, types: Mapping[int, str]) -> bool:
+    """Whether discovery leaves it open, or agrees, that the attribute is this channel."""
+    address, handle = wish
+    if device.profile is not None and not device.profile.has(channel):
+        return False
+    same = {each.characteristic for each in _same_characteristic(channel)}
+    uuid = types.get(handle)
+    return uuid is None or uuid in same or (address != "" and uuid not in CHARACTERISTICS)
+
+
+def no_use(
+    wish: tuple[str, int], channel: str, devices: Mapping[str, Device], types: Mapping[str, Mapping[int, str]]
+) -> str:
+    """Why what was said of an attribute is of no use."""
+    address, handle = wish
+    there = [device for device in devices.values() if address in ("", upper(device.address))]
+    if not there:
+        return f"holds no device {address}, whose {handle:#06x} was said to be {channel}"
+    with_it = [device for device in there if handle in device.seen]
+    if not with_it:
+        of = f" of {there[0].address}" if address else ""
+        return f"holds no value of an attribute {handle:#06x}{of}, which was said to be {channel}"
+    device = with_it[0]
+    uuid = types.get(device.address, {}).get(handle)
+    kind = f"is of {one(device.profile.name)}" if device.profile is not None else f"is {uuid}"
+    found = sorted({name for (number, _), name in device.channels.items() if number == handle})
+    if uuid is not None and found:
+        kind = f"is {' and '.join(found)}"
+    return f"{handle:#06x} of {device.address} {kind}, as its discovery says, not {channel}"
+
+
+def _same_characteristic(name: str) -> list[Channel]:
+    """The channels, of the device that has this one, that share its characteristic."""
+    profile = next(profile for profile in PROFILES if profile.has(name))
+    return [each for each in profile.channels if each.characteristic == profile.channel(name).characteristic]
+
+
+def _profile(uuids: set[str]) -> Profile | None:
+    """The device that has most of these characteristics, and at least one that streams; the first of equals."""
+    best, most = None, 0
+    for profile in PROFILES:
+        matches = sum(channel.characteristic in uuids for channel in profile.channels)
+        if matches > most and any(profile.channel(name).characteristic in uuids for name in profile.streams):
+            best, most = profile, matches
+    return best
+
+
+def place(device: Device, places: Mapping[str, Site]) -> None:
+    """Where the caller says, else the foot that it says itself."""
+    device.site = places.get(upper(device.address))
+    for (handle, how), channel in device.channels.items():
+        foot = _foot(channel, how, device.seen[handle])
+        if device.site is None and foot is not None:
+            device.site = SITE_OF_FOOT[foot]
+
+
+def _foot(channel: str, how: How, evidence: Evidence) -> Foot | None:
+    """Whose insole it is, where a channel's values say it."""
+    if channel in ("insole/frame", "insole/info"):
+        return evidence.foot
+    driver = DRIVERS.get(channel.partition("/")[0])
+    if how is not How.READ or driver is None or channel not in driver.readers or evidence.read is None:
+        return None
+    try:
+        return driver.read(channel, evidence.read, {}).foot
+    except WireError:
+        return None
+
+
+def one(noun: str) -> str:
+    """With its article."""
+    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"

@@ -1,0 +1,73 @@
+"""What an attribute that nobody declared may be: told from its values, as far as they prove it.
+
+Only an insole's do: its frames and its INFO carry a magic and a CRC. Of other devices the length is all that there is
+to go by, which proves nothing; those must be named by whoever knows.
+"""
+
+from __future__ import annotations
+
+from attrs import define, field
+
+from ...link.devices.reassembly import Reassembly
+from ...types import Foot
+from ...wire.error import WireError
+from ...wire.fragment import is_fragment, parse_fragment
+from ...wire.insole import parse_frame
+from ...wire.insole_info import parse_info
+from .att import How
+
+LOOKED_AT = 300
+"""Values of one attribute; the sixteen fragments of a frame are among them many times."""
+PROOF = 2
+"""Frames with a sound CRC: one in 2^16 arbitrary values that begin with the magic has it by chance."""
+
+
+@define
+class Evidence:
+    """The values of one attribute: how many, how long, and what the first ones decode as."""
+
+    count: int = 0
+    """Values that were notified."""
+    lengths: set[int] = field(factory=set)
+    frames: int = 0
+    foot: Foot | None = None
+    """Whose insole it is, by its own word."""
+    is_info: bool = False
+    read: bytes | None = None
+    """The value that was read last."""
+    _pieces: Reassembly = field(factory=Reassembly)
+
+    def see(self, how: How, data: bytes) -> None:
+        if how is How.WRITTEN:
+            return
+        if how is How.READ:
+            self.read = data
+            self._read(data)
+            return
+        self.count += 1
+        if self.count > LOOKED_AT:
+            return
+        self.lengths.add(len(data))
+        try:
+            whole: bytes | None = data
+            if is_fragment(data):
+                whole, _ = self._pieces.feed(parse_fragment(data))
+            if whole is not None:
+                self.foot = parse_frame(whole).foot
+                self.frames += 1
+        except WireError:
+            pass
+
+    def _read(self, data: bytes) -> None:
+        try:
+            self.foot = parse_info(data).foot
+            self.is_info = True
+        except WireError:
+            pass
+
+    @property
+    def channel(self) -> str | None:
+        """What the values prove the attribute to be."""
+        if self.is_info:
+            return "insole/info"
+        return "insole/frame" if self.frames >= PROOF else None

@@ -1,0 +1,205 @@
+"""HCI packets into connections and the attribute protocol's PDUs (Bluetooth Core, vol 4 part E; vol 3 part A).
+
+What matters here of the two hundred commands and events: which connection handle is whose, and when that ends; and
+L2CAP PDUs put together again from the ACL packets that carry them in pieces.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+from attrs import define, field, frozen
+from construct import Bytes, GreedyBytes, Int8ul, Int16ul, Struct
+
+from ...wire.error import WireError
+from ...wire.fields import Fields, parse_whole
+from .records import Kind, Record
+
+COMMAND = Struct("opcode" / Int16ul, "size" / Int8ul, "parameters" / GreedyBytes)
+EVENT = Struct("code" / Int8ul, "size" / Int8ul, "parameters" / GreedyBytes)
+LE_CONNECTION_COMPLETE = Struct(
+    "subevent" / Int8ul,
+    "status" / Int8ul,
+    "handle" / Int16ul,
+    "role" / Int8ul,
+    "peer_type" / Int8ul,
+    "peer" / Bytes(6),
+    "rest" / GreedyBytes,
+)
+"""What the legacy event and both enhanced ones begin with; then come intervals, and addresses that are not its own."""
+DISCONNECTION_COMPLETE = Struct("status" / Int8ul, "handle" / Int16ul, "reason" / Int8ul)
+READ_ADDRESS_COMPLETE = Struct("packets" / Int8ul, "opcode" / Int16ul, "status" / Int8ul, "address" / Bytes(6))
+ACL = Fields("<HH")
+"""Handle (12 bits) with flags, length."""
+L2CAP = Fields("<HH")
+"""Length, channel."""
+
+RESET, READ_BD_ADDR, LE_SET_RANDOM_ADDRESS = 0x0C03, 0x1009, 0x2005
+DISCONNECTED, COMMAND_COMPLETE, LE_META = 0x05, 0x0E, 0x3E
+CONNECTION_SUBEVENTS = {0x01: 19, 0x0A: 31, 0x29: 34}
+"""LE Connection Complete, Enhanced v1, Enhanced v2 -> bytes of its parameters."""
+HANDLE_BITS = 0x0FFF
+"""The others are flags, or reserved."""
+CONTINUING = 1
+ATT_CHANNEL = 4
+DYNAMIC_CHANNELS = 0x40
+"""And above: opened for a purpose, the enhanced attribute protocol among them."""
+
+
+@define
+class Link:
+    """One connection, from its beginning (or the log's) to its end (or the log's).
+
+    `number`: counted through the log. `address`: the peer's; "" when the connection is older than the log.
+    """
+
+    number: int
+    adapter: int
+    handle: int
+    address: str
+    pieces: dict[bool, bytearray] = field(factory=dict)
+    """Beginnings of L2CAP PDUs, by whether they are sent."""
+
+    @property
+    def peer(self) -> str:
+        """By what the peer can be told from others: its address, or the handle where nobody knows that."""
+        return self.address or f"connection-{self.handle:#06x}" + (f"-hci{self.adapter}" if self.adapter else "")
+
+
+@frozen
+class Begun:
+    t: int
+    link: Link
+
+
+@frozen
+class Ended:
+    t: int
+    link: Link
+
+
+@frozen
+class Pdu:
+    """One PDU of the attribute protocol. `own`: the local host's address, "" when the log does not tell."""
+
+    t: int
+    link: Link
+    sent: bool
+    data: bytes
+    own: str
+
+
+def address_text(octets: bytes) -> str:
+    """As people write it: the most significant octet, which is sent last, in front."""
+    return ":".join(f"{octet:02X}" for octet in reversed(octets))
+
+
+@define
+class Controller:
+    """What a log tells of the connections of its adapters, record by record. `flaws` counts what was not understood."""
+
+    flaws: Counter[str]
+    _links: dict[tuple[int, int], Link] = field(factory=dict)
+    _public: dict[int, str] = field(factory=dict)
+    _random: dict[int, str] = field(factory=dict)
+    _count: int = 0
+
+    def feed(self, record: Record) -> Iterator[Begun | Ended | Pdu]:
+        if record.kind is not Kind.OTHER and not record.whole:
+            self.flaws["records that the logger cut short"] += 1
+        try:
+            match record.kind:
+                case Kind.COMMAND if record.whole:
+                    yield from self._command(record)
+                case Kind.EVENT if record.whole:
+                    yield from self._event(record)
+                case Kind.ACL:
+                    yield from self._acl(record)
+        except WireError:
+            self.flaws["records that are not HCI"] += 1
+
+    def _command(self, record: Record) -> Iterator[Ended]:
+        command = parse_whole(COMMAND, record.data)
+        if command.opcode == RESET:
+            for key in [key for key in self._links if key[0] == record.adapter]:
+                yield Ended(record.t, self._links.pop(key))
+        elif command.opcode == LE_SET_RANDOM_ADDRESS and len(command.parameters) == 6:
+            self._random[record.adapter] = address_text(command.parameters)
+
+    def _event(self, record: Record) -> Iterator[Begun | Ended]:
+        event = parse_whole(EVENT, record.data)
+        parameters = event.parameters
+        if event.size != len(parameters):
+            self.flaws["records that are not HCI"] += 1
+        elif event.code == LE_META and parameters and len(parameters) == CONNECTION_SUBEVENTS.get(parameters[0]):
+            made = parse_whole(LE_CONNECTION_COMPLETE, parameters)
+            if made.status == 0:
+                handle = made.handle & HANDLE_BITS
+                yield from self._end(record, handle)
+                yield Begun(record.t, self._begin(record, handle, address_text(made.peer)))
+        elif event.code == DISCONNECTED:
+            lost = parse_whole(DISCONNECTION_COMPLETE, parameters)
+            if lost.status == 0:
+                yield from self._end(record, lost.handle & HANDLE_BITS)
+        elif event.code == COMMAND_COMPLETE and len(parameters) == READ_ADDRESS_COMPLETE.sizeof():
+            told = parse_whole(READ_ADDRESS_COMPLETE, parameters)
+            if told.opcode == READ_BD_ADDR and told.status == 0:
+                self._public[record.adapter] = address_text(told.address)
+
+    def _begin(self, record: Record, handle: int, address: str) -> Link:
+        link = self._links[record.adapter, handle] = Link(self._count, record.adapter, handle, address)
+        self._count += 1
+        return link
+
+    def _end(self, record: Record, handle: int) -> Iterator[Ended]:
+        link = self._links.pop((record.adapter, handle), None)
+        if link is not None:
+            yield Ended(record.t, link)
+
+    def _acl(self, record: Record) -> Iterator[Pdu]:
+        if len(record.data) < 4:
+            self.flaws["records that are not HCI"] += 1
+            return
+        head, size = ACL.parse(record.data)
+        handle, boundary, body = head & HANDLE_BITS, head >> 12 & 3, record.data[4:]
+        link = self._links.get((record.adapter, handle))
+        if link is None:
+            link = self._begin(record, handle, "")
+        if len(body) != size:
+            if record.whole:
+                self.flaws["records that are not HCI"] += 1
+            self._give_up(link, record.sent)
+            return
+        if boundary != CONTINUING:
+            self._give_up(link, record.sent)
+            link.pieces[record.sent] = bytearray()
+        pieces = link.pieces.get(record.sent)
+        if pieces is None:
+            self.flaws["pieces of packets whose beginning is missing"] += 1
+            return
+        pieces += body
+        if len(pieces) < 4:
+            return
+        size, channel = L2CAP.parse(bytes(pieces[:4]))
+        if len(pieces) > 4 + size:
+            self._give_up(link, record.sent)
+        elif len(pieces) == 4 + size:
+            del link.pieces[record.sent]
+            if channel == ATT_CHANNEL:
+                yield Pdu(record.t, link, record.sent, bytes(pieces[4:]), self.own(record.adapter))
+            elif channel >= DYNAMIC_CHANNELS and link.address:
+                self.flaws["packets of channels that are not followed (EATT perhaps)"] += 1
+
+    def _give_up(self, link: Link, sent: bool) -> None:
+        """What was begun will not be completed."""
+        if link.pieces.pop(sent, None) is not None:
+            self.flaws["packets of which a piece is missing"] += 1
+
+    def own(self, adapter: int) -> str:
+        """The address by which peers know the adapter."""
+        return self._random.get(adapter) or self._public.get(adapter, "")
+
+    def links(self) -> list[Link]:
+        """The connections that there are now."""
+        return list(self._links.values())

@@ -1,0 +1,159 @@
+"""A btsnoop log as a recording of packets: every value that is a channel of a known device, at the site it was worn.
+
+The log is read twice: once to find out what is what, which may be said late in it or not at all, and once for the
+packets, so that an hour of a phone's log need not fit into memory.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from typing import Any
+
+from attrs import define
+
+from ...types import Packet, Site
+from ...wire.receiver import Connection, build_connected
+from ..packets import RecordingError, Report, printable, warn
+from .att import How
+from .devices import CHANNELS, Device, Handles, name_attributes, no_use, one, place, upper
+from .evidence import Evidence
+from .hci import Begun, Ended
+from .records import refuse_pipe
+from .values import Listener, Value
+
+
+@define
+class BtsnoopLog:
+    """What a btsnoop log holds for us. Iterating gives its packets in order of arrival.
+
+    `began`: us since 1970 of the first record, which is `t` = 0 s of the packets. `total`, `done`: bytes. Iterating
+    raises RecordingError where the log is damaged, after everything before that.
+    """
+
+    path: Path
+    devices: dict[str, Device]
+    began: int
+    total: int
+    done: int = 0
+
+    @property
+    def header(self) -> dict[str, Any]:
+        """For the recording: what o'clock it was, where the logger's clock said so."""
+        try:
+            moment = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=self.began)
+        except OverflowError:
+            return {"source": "btsnoop"}
+        return {"began": moment.isoformat().replace("+00:00", "Z"), "began_t": 0.0, "source": "btsnoop"}
+
+    def __iter__(self) -> Iterator[Packet]:
+        for item in Listener(self.path, _silent).listen(self._read):
+            match item:
+                case Value():
+                    device, data = self.devices.get(item.device), item.data
+                    channel = None if device is None else device.channels.get((item.attribute, item.how))
+                case Begun():
+                    # the log does not say how the host heard of it, so neither name nor signal
+                    channel, data = "receiver/connected", build_connected(Connection("", None))
+                    device = self.devices.get(item.link.peer)
+                case Ended():
+                    channel, data = "receiver/disconnected", b""
+                    device = self.devices.get(item.link.peer)
+            if device is not None and device.site is not None and channel is not None:
+                yield Packet((item.t - self.began) / 1e6, device.site, channel, data, device.address)
+
+    def _read(self, done: int) -> None:
+        self.done = done
+
+
+def _silent(sentence: str) -> None:
+    """It was reported when the log was read first."""
+
+
+def open_btsnoop(
+    path: Path | str, *, sites: Mapping[str, Site] | None = None, handles: Handles | None = None, report: Report = warn
+) -> BtsnoopLog:
+    """Find out what a btsnoop log holds.
+
+    `sites`: where each device was worn, by address; insoles say themselves which foot they are of. `handles`: what
+    attributes are whose discovery the log does not hold, because the host knew them from earlier. `report` gets one
+    sentence about each thing that is left out. RecordingError for what is no btsnoop log, or holds no packets that can
+    be placed, or not what `sites` and `handles` name; ValueError for a channel that no device has.
+    """
+    path = Path(path)
+    refuse_pipe(path)
+    handles = {(upper(device), handle): channel for (device, handle), channel in (handles or {}).items()}
+    for channel in handles.values():
+        if channel not in CHANNELS:
+            raise ValueError(f"no device has a channel {channel!r}")
+    places = {upper(device): site for device, site in (sites or {}).items()}
+    listener, devices, began = Listener(path, report), dict[str, Device](), None
+    damage: RecordingError | None = None
+    try:
+        for item in listener.listen():
+            began = item.t if began is None else began
+            if isinstance(item, Value):
+                device = devices.setdefault(item.device, Device(item.device))
+                device.seen.setdefault(item.attribute, Evidence()).see(item.how, item.data)
+    except RecordingError as error:
+        damage = error  # told once more by the iteration, after the packets before it
+    used: set[tuple[str, int]] = set()
+    for device in devices.values():
+        used |= name_attributes(device, listener.types.get(device.address, {}), handles)
+        place(device, places)
+    left_out = list(_left_out(list(devices.values()), listener.types))
+    left_out += [f"{what}: {count}" for what, count in listener.flaws.items()]
+    usable = any(device.site is not None and device.count for device in devices.values())
+    if damage is not None and not usable:
+        raise damage
+    for wish in [wish for wish in handles if wish not in used]:
+        raise RecordingError(path, no_use(wish, handles[wish], devices, listener.types))
+    if not usable:
+        raise RecordingError(path, "; ".join(["holds no packets of a device whose place is known", *left_out[:5]]))
+    strangers = [address for address in sites or {} if upper(address) not in map(upper, devices)]
+    if strangers:
+        there = ", ".join(device.address for device in devices.values() if device.channels)
+        raise RecordingError(path, f"holds no device {strangers[0]} that could be used; there is {there}")
+    for sentence in left_out:
+        report(f"{printable(str(path))}: {sentence}")
+    return BtsnoopLog(path, devices, began or 0, path.stat().st_size)
+
+
+def _left_out(devices: list[Device], types: Mapping[str, Mapping[int, str]]) -> Iterator[str]:
+    """One sentence about each thing that does not become packets, and about what a session will not take."""
+    others = 0
+    for device in devices:
+        known = types.get(device.address, {})
+        address = device.address or "the host itself"
+        nameless = {
+            handle: evidence
+            for handle, evidence in device.seen.items()
+            if evidence.count and (handle, How.NOTIFIED) not in device.channels and handle not in known
+        }
+        if nameless:
+            count = sum(evidence.count for evidence in nameless.values())
+            yield f"{_times(count, 'value')} of {address} left out: no discovery says what is {_described(nameless)}"
+        if device.site is None and device.count:
+            kind = "a device" if device.profile is None else one(device.profile.name)
+            yield f"{_times(device.count, 'value')} of {address}, {kind}, left out: nobody says where it was worn"
+        others += not device.channels and any(handle in known for handle in device.seen)
+    if others:
+        yield f"{_times(others, 'other device')} left out"
+    for site in Site:
+        there = [device.address for device in devices if device.site is site and device.count]
+        if len(there) > 1:
+            yield f"{' and '.join(there)} are at the {site.value}; a session listens to the first alone"
+
+
+def _times(count: int, noun: str) -> str:
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def _described(attributes: Mapping[int, Evidence]) -> str:
+    """The handles with the lengths of their values, a few of them."""
+    told = [
+        f"{handle:#06x} ({', '.join(map(str, sorted(evidence.lengths)[:3]))} bytes)"
+        for handle, evidence in list(attributes.items())[:4]
+    ]
+    return ", ".join(told) + (" ..." if len(attributes) > len(told) else "")

@@ -1,0 +1,169 @@
+"""The btsnoop file: a header, then records of HCI packets, each with the time at which it was logged.
+
+The format is RFC 1761's with other datalinks, as Symbian, BlueZ and Android write it. Big-endian, unlike what is in it.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+from attrs import frozen
+from construct import Const, Int32ub, Struct
+
+from ...wire.error import WireError
+from ...wire.fields import Fields, parse_whole
+from ..packets import RecordingError, Report, open_file, printable
+
+MAGIC = b"btsnoop\0"
+VERSION = 1
+YEAR_1970 = 0x00DCDDB30F2F8000
+"""us from the beginning of the year 0, from which btsnoop counts, to that of 1970."""
+LONGEST = 0x1_0000 + 64
+"""Bytes of a record: the longest ACL packet and whatever stands before it. No HCI packet is longer."""
+
+FILE_HEADER = Struct("magic" / Const(MAGIC), "version" / Int32ub, "datalink" / Int32ub)
+HEADER_SIZE = 16
+
+
+class Datalink(Enum):
+    """How the packets are wrapped."""
+
+    H1 = 1001
+    """Not at all: the record's flags tell what it is."""
+    H4 = 1002
+    """One byte in front tells: Android, bumble, hcidump."""
+    MONITOR = 2001
+    """The record's flags hold the adapter and an opcode: BlueZ's btmon."""
+
+
+class Kind(Enum):
+    """What a record holds."""
+
+    COMMAND = 1
+    ACL = 2
+    EVENT = 4
+    OTHER = 0
+    """Voice, isochronous data, the logger's own remarks."""
+
+
+@frozen
+class Record:
+    """One HCI packet. `t`: us since 1970, UTC, as the logger's clock had it. `sent`: by the host to its controller.
+    `whole`: False when the logger kept only the beginning."""
+
+    t: int
+    adapter: int
+    kind: Kind
+    sent: bool
+    data: bytes
+    whole: bool
+
+
+@frozen
+class RecordHeader:
+    """`original`, `included`: bytes of the packet, and of it in the file. `drops`: records lost since the log began."""
+
+    original: int
+    included: int
+    flags: int
+    drops: int
+    t: int
+
+
+RECORD_HEADER = Fields(">IIIIq", RecordHeader)
+RECORD_HEADER_SIZE = 24
+
+_RECEIVED, _COMMAND_OR_EVENT = 1, 2
+_MONITOR = {
+    2: (Kind.COMMAND, True),
+    3: (Kind.EVENT, False),
+    4: (Kind.ACL, True),
+    5: (Kind.ACL, False),
+}
+"""btmon's opcode -> kind, sent."""
+
+
+def is_btsnoop(path: Path) -> bool:
+    """True when the file begins as a btsnoop log does. RecordingError when it cannot be read, or only once: a look at
+    the beginning of a pipe would take it away."""
+    refuse_pipe(path)
+    with open_file(path) as file:
+        return file.read(len(MAGIC)) == MAGIC
+
+
+def refuse_pipe(path: Path) -> None:
+    """RecordingError for what is there but can be read only once."""
+    if path.exists() and not path.is_file() and not path.is_dir():
+        raise RecordingError(path, "is a pipe or a device; it is read more than once, so it has to be a file")
+
+
+def read_records(
+    path: Path, *, report: Report, flaws: Counter[str], progress: Callable[[int], None] | None = None
+) -> Iterator[Record]:
+    """The records of a log in order. `report` hears of a torn last record, `flaws` counts what the logger left out.
+
+    RecordingError, after everything before it, for what is no btsnoop log and for a record that cannot be one.
+    """
+    with open_file(path) as file:
+        datalink = _datalink(path, file.read(HEADER_SIZE))
+        number, read, drops = 0, HEADER_SIZE, 0
+        while start := file.read(RECORD_HEADER_SIZE):
+            number += 1
+            torn = f"{printable(str(path))}: record {number}: cut off in the middle; everything before it is used"
+            if len(start) < RECORD_HEADER_SIZE:
+                report(torn)
+                return
+            header: RecordHeader = RECORD_HEADER.parse(start)
+            if header.included > min(LONGEST, header.original):
+                what = f"is damaged: it claims {header.included} of {header.original} bytes"
+                raise RecordingError(path, what, f"record {number}")
+            data = file.read(header.included)
+            if len(data) < header.included:
+                report(torn)
+                return
+            read += RECORD_HEADER_SIZE + len(data)
+            if progress is not None:
+                progress(read)
+            if header.drops > drops:
+                flaws["records that the logger says it dropped"] += header.drops - drops
+            drops = header.drops
+            yield _unwrap(datalink, header, data)
+
+
+def _datalink(path: Path, start: bytes) -> Datalink:
+    if not start:
+        raise RecordingError(path, "is empty")
+    try:
+        header: Any = parse_whole(FILE_HEADER, start)
+    except WireError:
+        raise RecordingError(path, "does not begin as a btsnoop log") from None
+    if header.version != VERSION:
+        raise RecordingError(path, f"is btsnoop of version {header.version}; this release reads version {VERSION}")
+    try:
+        return Datalink(header.datalink)
+    except ValueError:
+        known = ", ".join(f"{one.value} ({one.name})" for one in Datalink)
+        raise RecordingError(path, f"is btsnoop of datalink {header.datalink}; this release reads {known}") from None
+
+
+def _unwrap(datalink: Datalink, header: RecordHeader, data: bytes) -> Record:
+    adapter, kind, sent = 0, Kind.OTHER, not header.flags & _RECEIVED
+    match datalink:
+        case Datalink.H4:
+            kind = _H4.get(data[0], Kind.OTHER) if data else Kind.OTHER
+            data = data[1:]
+        case Datalink.H1 if header.flags & _COMMAND_OR_EVENT:
+            kind = Kind.COMMAND if sent else Kind.EVENT
+        case Datalink.H1:
+            kind = Kind.ACL
+        case Datalink.MONITOR:
+            adapter = header.flags >> 16
+            kind, sent = _MONITOR.get(header.flags & 0xFFFF, (Kind.OTHER, False))
+    return Record(header.t - YEAR_1970, adapter, kind, sent, data, header.included == header.original)
+
+
+_H4 = {kind.value: kind for kind in Kind if kind is not Kind.OTHER}

@@ -1,0 +1,86 @@
+"""A log as values of attributes, each with the device that it is of."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from attrs import define, field, frozen
+
+from ..packets import RecordingError, Report
+from .att import FROM_CLIENT, Conversation, How, Told
+from .hci import Begun, Controller, Ended, Link, Pdu
+from .records import read_records
+
+
+@frozen
+class Value:
+    """One value. `t`: us since 1970. `device`: the address of the server, or what else tells it from others."""
+
+    t: int
+    link: Link
+    device: str
+    how: How
+    attribute: int
+    data: bytes
+
+
+@define
+class Listener:
+    """All values of a log, in order, with the beginnings and ends of the connections.
+
+    `types`: device -> attribute handle -> UUID, as discovered so far. It outlives a connection, since hosts remember
+    what they discovered once and do not ask again.
+    """
+
+    path: Path
+    report: Report
+    flaws: Counter[str] = field(factory=Counter)
+    types: dict[str, dict[int, str]] = field(factory=dict)
+    _talks: dict[tuple[int, bool], Conversation] = field(factory=dict)
+    """By connection and whether the peer is the server."""
+
+    def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[Value | Begun | Ended]:
+        """RecordingError, after everything before it, for what makes the log unusable."""
+        controller = Controller(self.flaws)
+        t, failure = 0, None
+        try:
+            for record in read_records(self.path, report=self.report, flaws=self.flaws, progress=progress):
+                t = record.t
+                for item in controller.feed(record):
+                    match item:
+                        case Pdu():
+                            yield from self._pdu(item)
+                        case Ended():
+                            yield from self._finish(t, item.link, controller.own(item.link.adapter))
+                            yield item
+                        case Begun():
+                            yield item
+        except RecordingError as error:
+            failure = error
+        for link in controller.links():
+            yield from self._finish(t, link, controller.own(link.adapter))
+        if failure is not None:
+            raise failure
+
+    def _pdu(self, pdu: Pdu) -> Iterator[Value]:
+        # the peer is the server when the host speaks as a client, or the peer as a server
+        of_peer = pdu.sent == (bool(pdu.data) and pdu.data[0] in FROM_CLIENT)
+        device = pdu.link.peer if of_peer else pdu.own
+        talk = self._talks.get((pdu.link.number, of_peer))
+        if talk is None:
+            types = self.types.setdefault(device, {})
+            talk = self._talks[pdu.link.number, of_peer] = Conversation(types, self.flaws)
+        yield from _values(pdu.t, pdu.link, device, talk.feed(pdu.data))
+
+    def _finish(self, t: int, link: Link, own: str) -> Iterator[Value]:
+        for of_peer, device in ((True, link.peer), (False, own)):
+            talk = self._talks.pop((link.number, of_peer), None)
+            if talk is not None:
+                yield from _values(t, link, device, talk.finish())
+
+
+def _values(t: int, link: Link, device: str, told: list[Told]) -> Iterator[Value]:
+    for one in told:
+        yield Value(t, link, device, one.how, one.handle, one.value)

@@ -1,0 +1,284 @@
+"""Export to MCAP, the container of robotics recordings (mcap.dev): opens in Foxglove. Needs the extra `mcap`.
+
+Every message is JSON with a JSON schema, and has `t`, the exact time in s on the recording's clock. Topics:
+
+| topic | what | log time |
+|---|---|---|
+| `/SITE/packets/CHANNEL` | the packets as they arrived, `data` in base64 | arrival |
+| `/SITE/samples` | the samples that the session took, SI units; `pressure` is the sum over the cells | when measured |
+| `/SITE/pose` | live position and velocity, world frame, phase by name and number | when measured |
+| `/SITE/gait` | heel-strikes, foot-flats, heel-offs, toe-offs | when it happened |
+| `/SITE/steps` | final steps | when the step ended |
+| `/events` | every event as in `events.jsonl` | when it happened |
+
+The publish time is when it was known. Log times count from 1970 where the recording says when it began, from the zero
+of the receiver's clock otherwise. The metadata record `solepath` holds the keys of the recording's header.
+"""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from datetime import UTC, datetime, timedelta
+from importlib.metadata import version
+from math import isfinite
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from mcap.writer import CompressionType, Writer
+
+from ..events import Event, FootFlat, FootMoved, HeelOff, HeelStrike, LiveEvent, StepTaken, ToeOff
+from ..link.driver import Driver
+from ..session import Session
+from ..show.output import event_record, plain
+from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Vec3
+from .packets import FORMAT, VERSION, RecordingError, began, why
+
+CHUNK = 8192
+"""Bytes before compression: a file that is torn loses about a second of two insoles, larger chunks lose more."""
+MOST_TOPICS = 1000
+LONGEST = 1e11
+"""s; what a session takes for a time."""
+LATEST = 2**63 - 1
+"""ns; a log time is an unsigned 64-bit number, and no reader wants the upper half."""
+PHASES = {phase: number for number, phase in enumerate(Phase)}
+EPOCH, MICROSECOND = datetime(1970, 1, 1, tzinfo=UTC), timedelta(microseconds=1)
+
+
+def _object(**properties: Any) -> dict[str, Any]:
+    return {"type": "object", "properties": properties}
+
+
+NUMBER, TEXT, INTEGER = {"type": "number"}, {"type": "string"}, {"type": "integer"}
+VECTOR = _object(x=NUMBER, y=NUMBER, z=NUMBER)
+SCHEMAS: dict[str, dict[str, Any]] = {
+    "solepath.Packet": _object(t=NUMBER, device=TEXT, data={"type": "string", "contentEncoding": "base64"}),
+    "solepath.Sample": _object(
+        t=NUMBER,
+        acc=VECTOR,
+        gyro=VECTOR,
+        mag=VECTOR,
+        quat=_object(w=NUMBER, x=NUMBER, y=NUMBER, z=NUMBER),
+        pressure=NUMBER,
+        air_pressure=NUMBER,
+        saturated={"type": "boolean"},
+    ),
+    "solepath.Pose": _object(t=NUMBER, position=VECTOR, velocity=VECTOR, phase=TEXT, phase_number=INTEGER),
+    "solepath.Gait": _object(t=NUMBER, event=TEXT),
+    "solepath.Step": _object(
+        t=NUMBER,
+        number=INTEGER,
+        t_start=NUMBER,
+        stride_length=NUMBER,
+        heading_change=NUMBER,
+        height_change=NUMBER,
+        position=VECTOR,
+        degraded={"type": "boolean"},
+    ),
+    "solepath.Event": _object(t=NUMBER, event=TEXT, foot=TEXT, site=TEXT),
+}
+
+
+class _Overheard(Session):
+    """A session that keeps the samples which it takes, until they are taken from `samples`."""
+
+    __slots__ = ("samples",)
+
+    def __init__(self, profiles: Iterable[Driver]) -> None:
+        super().__init__(poses=True, profiles=profiles)
+        self.samples: list[Sample] = []
+
+    def _take(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:
+        items = list(items)
+        self.samples += [item for item in items if isinstance(item, Sample)]
+        super()._take(site, items, events)
+
+
+class McapWriter:
+    """Writes packets, and what a session makes of them, as MCAP.
+
+        with McapWriter("walk.mcap", read_header("walk.jsonl")) as writer:
+            for packet in read_packets("walk.jsonl"):
+                writer.write(packet)
+
+    An existing file is replaced. `header`: of the recording that the packets come from. `profiles`: devices of the
+    app's own, as for Session. `count`: packets written.
+    `outside`: times that no log time can hold; the nearest that can stands for them. RecordingError when the file
+    cannot be written, ValueError for a packet whose time is not finite. What a session holds back comes with `close`;
+    a file that was never closed has no index, but its chunks can be read.
+    """
+
+    def __init__(self, path: Path | str, header: Mapping[str, Any] = {}, *, profiles: Iterable[Driver] = ()) -> None:
+        self.path, self.count, self.outside = Path(path), 0, 0
+        self._header = dict(header)
+        self._session = _Overheard(profiles)
+        self._schemas: dict[str, int] = {}
+        self._channels: dict[str, int] = {}
+        self._sequences: dict[int, int] = {}
+        self._zero: int | None = None
+        """ns since 1970 at `t` = 0; None until the first packet."""
+        try:
+            self._file = self.path.open("wb")  # noqa: SIM115 - this class is the context manager
+        except OSError as error:
+            raise RecordingError(self.path, why(error)) from error
+        self._writer = Writer(self._file, chunk_size=CHUNK, compression=CompressionType.ZSTD)
+        with self._told():
+            self._writer.start(profile="", library=f"solepath {version('solepath')}")
+            about = {"format": FORMAT, "version": VERSION, **self._header}
+            self._writer.add_metadata("solepath", {_sound(key): _text(value) for key, value in about.items()})
+
+    def write(self, packet: Packet) -> None:
+        """The packet, the samples in it and the events that it brings."""
+        if not isfinite(packet.t):
+            raise ValueError(f"a packet at {packet.t} s cannot be recorded")
+        if self._zero is None:
+            self._zero = _zero(self._header, packet.t)
+        site = packet.site.value
+        data: dict[str, Any] = {"t": packet.t, "data": b64encode(packet.data).decode()}
+        if packet.device:
+            data["device"] = packet.device
+        with self._told():
+            topic = self._packet_topic(packet)
+            about = {"site": site, "channel": _sound(packet.channel)}
+            self._put(topic, "solepath.Packet", packet.t, packet.t, data, about)
+            self.count += 1
+            self._made(self._session.feed(packet))
+
+    def close(self) -> None:
+        """What was held back, and the index."""
+        if self._file.closed:
+            return
+        try:
+            with self._told():
+                self._made(self._session.finish())
+                self._writer.finish()  # type: ignore[no-untyped-call]
+                self._file.flush()
+        finally:
+            with suppress(OSError):  # said already
+                self._file.close()
+
+    def __enter__(self) -> McapWriter:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    # --- topics ---
+
+    def _packet_topic(self, packet: Packet) -> str:
+        topic = f"/{packet.site.value}/packets/{_sound(packet.channel)}"
+        if topic in self._channels or len(self._channels) < MOST_TOPICS:
+            return topic
+        return f"/{packet.site.value}/packets"  # a damaged recording may hold any number of channels
+
+    def _made(self, events: list[Event]) -> None:
+        """What the session made of a packet, or of the end: the samples that it took, and then the events."""
+        samples, self._session.samples = self._session.samples, []
+        for sample in samples:
+            self._sample(sample)
+        for event in events:
+            self._event(event)
+
+    def _sample(self, item: Sample) -> None:
+        data: dict[str, Any] = {"t": item.t}
+        for name in ("acc", "gyro", "mag"):
+            vector: Vec3 | None = getattr(item, name)
+            if vector is not None:
+                data[name] = _xyz(vector)
+        if item.quat is not None:
+            data["quat"] = dict(zip("wxyz", item.quat, strict=True))
+        if item.pressure is not None:
+            data["pressure"] = sum(item.pressure)
+        if item.air_pressure is not None:
+            data["air_pressure"] = item.air_pressure
+        if item.saturated:
+            data["saturated"] = True
+        known_at = item.t if item.known_at is None else item.known_at
+        self._put(f"/{item.site.value}/samples", "solepath.Sample", item.t, known_at, data)
+
+    def _event(self, event: Event) -> None:
+        name, data = type(event).__name__, dict[str, Any](t=event.t)
+        if not isinstance(event, LiveEvent):
+            self._put("/events", "solepath.Event", event.t, event.known_at, event_record(event))
+        match event:
+            case FootMoved(phase=phase):
+                data |= {"position": _xyz(event.position), "velocity": _xyz(event.velocity)}
+                data |= {"phase": phase.value, "phase_number": PHASES[phase]}
+                self._put(_of(event.foot, "pose"), "solepath.Pose", event.t, event.known_at, data)
+            case HeelStrike() | FootFlat() | HeelOff() | ToeOff():
+                data["event"] = name
+                self._put(_of(event.foot, "gait"), "solepath.Gait", event.t, event.known_at, data)
+            case StepTaken(final=True):
+                data |= {"number": event.number, "t_start": event.t_start, "stride_length": event.stride_length}
+                data |= {"heading_change": event.heading_change, "height_change": event.height_change}
+                data |= {"position": _xyz(event.position), "degraded": event.degraded}
+                self._put(_of(event.foot, "steps"), "solepath.Step", event.t, event.known_at, data)
+
+    # --- messages ---
+
+    def _put(
+        self, topic: str, schema: str, t: float, known_at: float, data: Any, about: dict[str, str] | None = None
+    ) -> None:
+        channel = self._channels.get(topic)
+        if channel is None:
+            if schema not in self._schemas:
+                definition = json.dumps({"title": schema} | SCHEMAS[schema]).encode()
+                self._schemas[schema] = self._writer.register_schema(schema, "jsonschema", definition)
+            channel = self._writer.register_channel(topic, "json", self._schemas[schema], about or {})
+            self._channels[topic] = channel
+        sequence = self._sequences[channel] = (self._sequences.get(channel, 0) + 1) & 0xFFFF_FFFF
+        try:
+            text = json.dumps(data, allow_nan=False)
+        except ValueError:  # a device may send a float that is no number
+            text = json.dumps(plain(data))
+        self._writer.add_message(channel, self._ns(t), text.encode(), self._ns(known_at), sequence)
+
+    def _ns(self, t: float) -> int:
+        ns = (self._zero or 0) + round(max(-LONGEST, min(LONGEST, t)) * 1e9)
+        if 0 <= ns <= LATEST:
+            return ns
+        self.outside += 1
+        return max(0, min(LATEST, ns))
+
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        """What the system refuses, as a RecordingError."""
+        try:
+            yield
+        except OSError as error:
+            with suppress(OSError):
+                self._file.close()
+            raise RecordingError(self.path, f"{why(error)}; {self.count} packets were taken") from error
+
+
+def _of(foot: Foot, topic: str) -> str:
+    return f"/{SITE_OF_FOOT[foot].value}/{topic}"
+
+
+def _zero(header: Mapping[str, Any], first: float) -> int:
+    """ns since 1970 at `t` = 0 of a recording whose first packet is at `first`; 0 when its header does not tell."""
+    known = began(header)
+    if known is None:
+        return 0
+    moment, t = known
+    at = first if t is None else t
+    return (moment - EPOCH) // MICROSECOND * 1000 - round(max(-LONGEST, min(LONGEST, at)) * 1e9)
+
+
+def _xyz(vector: Vec3) -> dict[str, float]:
+    return {"x": vector[0], "y": vector[1], "z": vector[2]}
+
+
+def _text(value: Any) -> str:
+    """A value of a header as metadata holds it."""
+    return _sound(value) if isinstance(value, str) else json.dumps(value)
+
+
+def _sound(text: str) -> str:
+    """`text` without what UTF-8 cannot say: JSON can, by half a surrogate pair."""
+    return text.encode("utf-8", "replace").decode("utf-8")

@@ -1,0 +1,316 @@
+"""Recordings of packets: JSON Lines as protocol/recording.md says, written line by line and read back.
+
+Reading delivers everything that comes before a damage, then says in one sentence what is wrong and where.
+Samples as .npz or .csv are the subject of samples.py.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from datetime import UTC, datetime
+from math import isfinite
+from pathlib import Path
+from types import TracebackType
+from typing import Any, BinaryIO
+
+from ..types import Packet, Site
+
+__all__ = [
+    "FORMAT",
+    "VERSION",
+    "PacketWriter",
+    "RecordingError",
+    "RecordingWarning",
+    "began",
+    "read_header",
+    "read_packets",
+]
+
+FORMAT = "solepath-packets"
+VERSION = 1
+LONGEST_LINE = 65_536
+"""protocol/recording.md: "No line is longer than 65,536 bytes"."""
+
+
+class RecordingError(Exception):
+    """A recording cannot be used, or not beyond a place: one sentence naming the file, the place and what is wrong."""
+
+    def __init__(self, path: Path | str, what: str, where: str = "") -> None:
+        self.path, self.where, self.what = Path(path), where, what
+        super().__init__(": ".join([printable(str(path))] + [part for part in (where, what) if part]))
+
+
+class RecordingWarning(UserWarning):
+    """A recording has a flaw that costs nothing but what is missing (a torn last line)."""
+
+
+Report = Callable[[str], None]
+"""Takes one sentence about a flaw that does not stop the reading."""
+
+
+def warn(sentence: str) -> None:
+    """The report of those who give none: a RecordingWarning."""
+    warnings.warn(sentence, RecordingWarning, stacklevel=3)
+
+
+def printable(text: str, longest: int = 200) -> str:
+    """`text` on one line and without control codes, whatever a file or its name holds."""
+    clean = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
+    return clean if len(clean) <= longest else clean[: longest - 3] + "..."
+
+
+def why(error: OSError) -> str:
+    """What the system says of a failure, in its own words."""
+    return (error.strerror or str(error)).lower()
+
+
+def open_file(path: Path) -> BinaryIO:
+    """The file opened for reading bytes; RecordingError when there is none, it is a directory or may not be read."""
+    try:
+        if path.is_dir():
+            raise RecordingError(path, "is a directory, not a recording")
+        return path.open("rb")
+    except OSError as error:
+        raise RecordingError(path, why(error)) from error
+
+
+def read_header(path: Path | str) -> dict[str, Any]:
+    """The first line of a recording. RecordingError when it is not the header of one."""
+    path = Path(path)
+    with open_file(path) as file:
+        number = 0
+        while line := file.readline(LONGEST_LINE + 1):
+            number += 1
+            if not line.strip():
+                continue
+            try:
+                fields = _object(line)
+                _check_header(fields)
+            except _Flaw as flaw:
+                raise RecordingError(path, str(flaw), f"line {number}") from None
+            return fields
+    raise RecordingError(path, "is empty")
+
+
+def began(header: Mapping[str, Any]) -> tuple[datetime, float | None] | None:
+    """What o'clock it was at which `t` of the packets, as a header says: (UTC, s), the latter None where it is the
+    first packet's. None where the header does not say, or says what is no time."""
+    text, t = header.get("began"), header.get("began_t")
+    if not isinstance(text, str) or type(t) not in (int, float, type(None)):
+        return None
+    try:
+        moment = datetime.fromisoformat(text)
+        at = None if t is None else float(t)
+        if moment.tzinfo is None or (at is not None and not isfinite(at)):
+            return None
+        return moment.astimezone(UTC), at
+    except (ValueError, OverflowError):
+        return None
+
+
+def read_packets(
+    path: Path | str, *, report: Report = warn, progress: Callable[[int], None] | None = None
+) -> Iterator[Packet]:
+    """The packets of a recording in the order in which they arrived, read as they are asked for.
+
+    `report` gets one sentence about a torn last line. `progress` gets the number of bytes read so far, after every
+    line. RecordingError, after the packets before the damage, for anything else that protocol/recording.md refuses.
+    """
+    path = Path(path)
+    with open_file(path) as file:
+        read = number = 0
+        header_seen = False
+        while line := file.readline(LONGEST_LINE + 1):
+            number += 1
+            where = f"line {number}"
+            read += len(line)
+            if progress is not None:
+                progress(read)
+            if not line.strip():
+                continue
+            try:
+                fields = _object(line)
+                if not header_seen:
+                    _check_header(fields)
+                    header_seen = True
+                    continue
+                packet = _packet(fields)
+            except _NotAnObject as flaw:
+                # an object ends with its brace, so a line that was cut is never an object
+                if header_seen and not line.endswith(b"\n") and len(line) <= LONGEST_LINE:
+                    report(f"{printable(str(path))}: {where}: cut off in the middle; everything before it is used")
+                    return
+                hint = "" if header_seen else "; samples have names that end in .npz or .csv"
+                raise RecordingError(path, f"{flaw}{hint}", where) from None
+            except _Flaw as flaw:
+                raise RecordingError(path, str(flaw), where) from None
+            yield packet
+        if not header_seen:
+            raise RecordingError(path, "is empty")
+
+
+class _Flaw(Exception):
+    """What is wrong with one line."""
+
+
+class _NotAnObject(_Flaw):
+    """The line is not a JSON object at all."""
+
+
+def _object(line: bytes) -> dict[str, Any]:
+    if len(line) > LONGEST_LINE:
+        raise _NotAnObject(f"is longer than {LONGEST_LINE} bytes, so this is not a recording of packets")
+    try:
+        value = json.loads(line.decode("utf-8"), parse_constant=_refuse_constant)
+    except UnicodeDecodeError:
+        raise _NotAnObject("is not text, so this is not a recording of packets") from None
+    except (ValueError, RecursionError):
+        raise _NotAnObject("is not JSON") from None
+    if not isinstance(value, dict):
+        raise _NotAnObject(f"is not a JSON object but {_short(value)}")
+    return value
+
+
+def _refuse_constant(name: str) -> None:
+    raise _NotAnObject(f"{name} is not JSON")
+
+
+def _check_header(header: dict[str, Any]) -> None:
+    if header.get("format") != FORMAT:
+        raise _Flaw(f'is not the header of a recording: "format" is not "{FORMAT}"')
+    version = header.get("version")
+    if type(version) is not int or version != VERSION:
+        raise _Flaw(f"is of version {_short(version)}; this release reads version {VERSION}")
+
+
+def _packet(fields: dict[str, Any]) -> Packet:
+    for key in ("t", "site", "channel", "data"):
+        if key not in fields:
+            raise _Flaw(f'"{key}" is missing')
+    t, site, channel, data = fields["t"], fields["site"], fields["channel"], fields["data"]
+    if type(t) not in (int, float):
+        raise _Flaw(f'"t" is not a number but {_short(t)}')
+    try:
+        t = float(t)
+    except OverflowError:
+        raise _Flaw('"t" is not a finite number') from None
+    if not isfinite(t):
+        raise _Flaw('"t" is not a finite number')
+    if not isinstance(site, str) or site not in _SITES:
+        raise _Flaw(f'"site" is not one of {", ".join(_SITES)} but {_short(site)}')
+    if not isinstance(channel, str):
+        raise _Flaw(f'"channel" is not text but {_short(channel)}')
+    if not isinstance(data, str) or len(data) % 2 or not _HEX.issuperset(data):
+        raise _Flaw(f'"data" is not pairs of hexadecimal digits but {_short(data)}')
+    device = fields.get("device", "")
+    if not isinstance(device, str):
+        raise _Flaw(f'"device" is not text but {_short(device)}')
+    return Packet(t=t, site=_SITES[site], channel=channel, data=bytes.fromhex(data), device=device)
+
+
+_SITES = {site.value: site for site in Site}
+_HEX = frozenset("0123456789abcdefABCDEF")
+
+
+def _short(value: Any) -> str:
+    return printable(json.dumps(value), 40)
+
+
+def _line(fields: dict[str, Any]) -> bytes:
+    encoded = json.dumps(fields, allow_nan=False).encode("utf-8") + b"\n"
+    if len(encoded) > LONGEST_LINE:
+        raise ValueError(f"a line of {len(encoded)} bytes is too long for a recording")
+    return encoded
+
+
+class PacketWriter:
+    """Writes packets as a recording, every line handed to the operating system before the next packet is taken.
+
+        with PacketWriter("walk.jsonl", {"began": "2026-11-21T09:30:00Z", "began_t": 12.5}) as writer:
+            writer.write(packet)
+
+    An existing file is replaced. `count`: packets that are in it. A process that is killed loses nothing that was
+    written. RecordingError when the file cannot be opened or written (disk full); then it ends with its last whole
+    packet, and once there is room again writing may go on. ValueError for a packet that no recording can hold (a time
+    that is not finite, a line that would be too long) and for such a header; it leaves the file as it was.
+    """
+
+    def __init__(self, path: Path | str, header: Mapping[str, Any] = {}) -> None:
+        """`header`: further keys for the first line: `began` and `began_t` (protocol/recording.md), a note; or all that
+        `read_header` gave of another recording. ValueError when it says that this is of another format or version."""
+        self.count = 0
+        self._path = Path(path)
+        own = {"format": FORMAT, "version": VERSION}
+        try:
+            _check_header({**own, **header})
+        except _Flaw as flaw:
+            raise ValueError(f"a header that {flaw}") from None
+        first = _line({**own, **header})
+        self._size = 0
+        """Bytes of whole lines."""
+        self._torn = False
+        """True when half a line is in the file and could not be taken back."""
+        try:
+            # unbuffered: what a write did not take is known at once, and close has nothing left to lose
+            self._file: io.FileIO = self._path.open("wb", buffering=0)
+        except OSError as error:
+            raise RecordingError(self._path, why(error)) from error
+        try:
+            self._put(first)
+        except BaseException:
+            self._file.close()
+            raise
+
+    def write(self, packet: Packet) -> None:
+        if not isfinite(packet.t):
+            raise ValueError(f"a packet at {packet.t} s cannot be recorded")
+        line = {"t": packet.t, "site": packet.site.value, "channel": packet.channel, "data": packet.data.hex()}
+        if packet.device:
+            line["device"] = packet.device
+        self._put(_line(line))
+        self.count += 1
+
+    def _put(self, encoded: bytes) -> None:
+        if self._torn:
+            raise RecordingError(self._path, f"ends in the middle of a line; {self._safe()}")
+        done = 0
+        try:
+            while done < len(encoded):
+                done += self._file.write(encoded[done:]) or 0
+        except OSError as error:
+            self._take_back()
+            raise RecordingError(self._path, f"{why(error)}; {self._safe()}") from error
+        except BaseException:  # an interrupt between two halves of a line
+            self._take_back()
+            raise
+        self._size += done
+
+    def _take_back(self) -> None:
+        """The file ends with its last whole line again, whatever was written of another."""
+        try:
+            if self._file.tell() != self._size:
+                self._file.truncate(self._size)
+                self._file.seek(self._size)
+        except OSError:  # a pipe
+            self._torn = True
+
+    def _safe(self) -> str:
+        return f"the {self.count} packets before that are safe" if self.count != 1 else "the packet before that is safe"
+
+    def close(self) -> None:
+        """RecordingError when the system finds only now that it could not keep what it took."""
+        try:
+            self._file.close()
+        except OSError as error:
+            raise RecordingError(self._path, f"{why(error)} on closing; the last packets may be missing") from error
+
+    def __enter__(self) -> PacketWriter:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()

@@ -1,0 +1,74 @@
+"""A recording of either kind, packets or samples, as one stream for a session."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from attrs import define
+
+from ..types import Foot, Packet, Sample
+from .packets import RecordingError, Report, open_file, printable, read_packets, warn
+
+if TYPE_CHECKING:
+    from .samples import SampleRecording
+
+SAMPLE_FILES = (".npz", ".csv")
+
+
+@define
+class Source:
+    """What a recording holds, in the order in which a session takes it.
+
+    Iterating raises RecordingError at what cannot be used, after everything that came before it. A recording of packets
+    that ends after its header is whole: that it holds nothing is reported, and no error. `done` of `total`
+    (bytes of packets, or samples) says how far the iteration got.
+    """
+
+    path: Path
+    foot: Foot | None
+    report: Report
+    total: int = 0
+    done: int = 0
+    samples: SampleRecording | None = None
+    """None for a recording of packets."""
+
+    def __iter__(self) -> Iterator[Packet | Sample]:
+        return self._packets() if self.samples is None else self._samples(self.samples)
+
+    def _samples(self, samples: SampleRecording) -> Iterator[Sample]:
+        for sample in samples:
+            self.done += 1
+            yield sample
+
+    def _packets(self) -> Iterator[Packet]:
+        any_there = used = False
+        for packet in read_packets(self.path, report=self.report, progress=self._read):
+            any_there = True
+            if self.foot is None or packet.site.foot in (None, self.foot):
+                used = True
+                yield packet
+        if not any_there:
+            self.report(f"{printable(str(self.path))}: holds no packets")
+        elif self.foot is not None and not used:
+            raise RecordingError(self.path, f"holds no packets of the {self.foot.value} foot")
+
+    def _read(self, done: int) -> None:
+        self.done = done
+
+
+def open_source(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> Source:
+    """The recording at `path`: samples when its name ends in .npz or .csv, packets otherwise.
+
+    `foot`: whose a recording of one foot's samples is (the right one's when None); of any other, the only foot to use.
+    RecordingError when nothing in it can be used.
+    """
+    path = Path(path)
+    if path.suffix.lower() in SAMPLE_FILES:
+        from .samples import load_samples  # brings numpy, which packets do without
+
+        samples = load_samples(path, foot, report=report)
+        return Source(path, foot, report, total=len(samples), samples=samples)
+    open_file(path).close()
+    return Source(path, foot, report, total=path.stat().st_size)

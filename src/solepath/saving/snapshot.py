@@ -1,0 +1,56 @@
+"""The state of a session as plain data for JSON, and what must be there for a state to go on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from ..floorplan.index import IndexedPlan
+from ..link.known import Kinds
+from ..recipes import own
+from ..session.state import VERSION, State
+from ..session.wearer import in_order
+from ..types import Foot, Site
+from .codec import Json, SnapshotError, checksum, load, save
+
+
+def taken(state: State) -> dict[str, Json]:
+    """It carries a checksum of itself: a session made of damaged numbers could do anything later."""
+    told = save(state)
+    return {"solepath": VERSION, "check": checksum(told), "state": told}
+
+
+def restored(saved: Any, parts: Iterable[type]) -> State:
+    """The state that was taken, also by an older version. SnapshotError, TypeError and ValueError as `Session.restore`
+    has them."""
+    if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
+        raise SnapshotError("not a snapshot of a session")
+    version = saved["solepath"]
+    if type(version) is not int or not 1 <= version <= VERSION:
+        raise SnapshotError(f"snapshot version {version!r}; this release reads 1 to {VERSION}")
+    if version < VERSION:
+        from .older import restore
+
+        return restore(saved, tuple(parts))
+    state = load(State, saved["state"], parts)
+    state.decoders = in_order(state.decoders, Site)
+    state.wearer.feet = in_order(state.wearer.feet, Foot)
+    if checksum(save(state)) != saved["check"]:
+        raise SnapshotError("the snapshot was damaged: its checksum is another")
+    state.wearer.recipe = own(state.wearer.recipe)
+    return state
+
+
+def must_fit(state: State, known: Kinds, plan: IndexedPlan | None) -> None:
+    """SnapshotError where the state needs another floor plan than `plan`, or a device that is not `known`."""
+    if state.plan != (None if plan is None else plan.fingerprint):
+        with_one = "with the floor plan that it had" if state.plan is not None else "without a floor plan"
+        raise SnapshotError(f"a snapshot of a session is restored {with_one}")
+    for decoder in state.decoders.values():
+        if decoder.link is None:
+            continue
+        kind = known.get(decoder.link.name)
+        if kind is None:
+            raise SnapshotError(f"a snapshot of a device {decoder.link.name!r}: restore it with its profile")
+        if not kind.fits(decoder.link):
+            raise SnapshotError(f"a snapshot of a device {decoder.link.name!r} as another driver declared it")

@@ -1,0 +1,26 @@
+"""All that a session remembers: the wearer, and the decoders of what is worn."""
+
+from __future__ import annotations
+
+from attrs import define, field
+
+from ..link.decoder import Decoder
+from ..types import Site
+from .wearer import Wearer
+
+VERSION = 2
+"""Of all that is remembered: one more for every release that remembers something else, or has other settings
+(`python -m solepath.saving.pin` says whether; saving/upgrades.py goes from one to the next)."""
+
+
+@define
+class State:
+    """All that a session remembers."""
+
+    wearer: Wearer
+    plan: int | None = None
+    """Fingerprint of the floor plan; None without one."""
+    now: float | None = None
+    """The latest moment that anything is known of, s."""
+    decoders: dict[Site, Decoder] = field(factory=dict)
+    finished: bool = False

@@ -1,0 +1,59 @@
+"""A player on an event loop, with a page in front of it."""
+
+from __future__ import annotations
+
+import asyncio
+
+from ..messages import Command
+from ..server.server import Page
+from .player import Player
+
+SLICE = 0.02
+"""s for which the player may compute before the page gets its turn."""
+STEP = 0.02
+"""s between two looks at the clock while something moves."""
+IDLE = 0.5
+"""s, while nothing does."""
+
+
+class Playing:
+    """Plays `player` by the event loop's clock: `command` is what a Page is given, `run` the loop."""
+
+    def __init__(self, player: Player) -> None:
+        self.player = player
+        self._asked = asyncio.Event()
+
+    def command(self, command: Command) -> None:
+        self.player.command(command)
+        self._asked.set()
+
+    async def run(self, page: Page, stop: asyncio.Event, *, once: bool = False) -> None:
+        """Until `stop` is set; `once`: or until the recording was played to its end."""
+        player, loop = self.player, asyncio.get_running_loop()
+        before = loop.time()
+        while not stop.is_set():
+            now = loop.time()
+            player.passed(now - before)
+            before, end = now, now + SLICE
+            more = player.work(lambda end=end: loop.time() >= end)  # type: ignore[misc]
+            if page.scene is not player.scene:
+                page.scene = player.scene
+            if more:
+                await asyncio.sleep(0)
+            elif once and player.playback.state == "ended":
+                return
+            else:
+                await self._wait(stop)
+
+    async def _wait(self, stop: asyncio.Event) -> None:
+        """Until there may be something to do."""
+        if self.player.playback.state == "playing":
+            await asyncio.sleep(STEP)
+            return
+        self._asked.clear()
+        tasks = [asyncio.ensure_future(event.wait()) for event in (self._asked, stop)]
+        try:
+            await asyncio.wait(tasks, timeout=IDLE, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in tasks:
+                task.cancel()

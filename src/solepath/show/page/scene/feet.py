@@ -1,0 +1,159 @@
+"""One foot as a page shows it: phase, place, pressed cells, and what it did of late."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from math import dist, inf
+from typing import Any
+
+from attrs import define, field
+
+from ....events import FootMoved, FootPressed, StepTaken
+from ....types import Foot, Layout, Phase, Vec3
+from .lists import Recent, Track
+from .rounding import placed, shown
+
+Point = tuple[float | None, ...]
+"""(t, x, y, z) in s and m."""
+
+SPACING = 0.02
+"""m; a foot that is put down nearer to where it stood adds no point to its track."""
+RIBBON = 20.0
+"""s of phases that are kept."""
+MOST_PHASES = 500
+"""More than anybody's foot goes through in that time."""
+FAINT = 0.002
+"""Share of a cell's full scale that the brightest colour stands for at least: what an unloaded sole shows is noise."""
+
+
+@define
+class FootScene:
+    """Everything from events. The track has a point for where the foot was first seen and one for each step's end: live
+    positions between two steps may still drift."""
+
+    foot: Foot
+    # state
+    heard: bool = field(default=False, init=False)
+    phase: Phase | None = field(default=None, init=False)
+    phases: Recent[tuple[float, str | None]] = field(factory=lambda: Recent(MOST_PHASES), init=False)
+    """Beginning of each phase of late, s, and its name; None for a time in which the foot is not heard."""
+    position: Vec3 | None = field(default=None, init=False)
+    track: Track[Point] = field(factory=Track, init=False)
+    steps: int = field(default=0, init=False)
+    distance: float = field(default=0.0, init=False)
+    """Sum of the stride lengths, m."""
+    layout: Layout | None = field(default=None, init=False)
+    cells: tuple[float, ...] | None = field(default=None, init=False)
+    """The newest values; None while there are none."""
+    force: float = field(default=0.0, init=False)
+    centre: tuple[float, float] | None = field(default=None, init=False)
+    peak: float = field(default=0.0, init=False)
+    """What the brightest colour stands for: the highest value so far."""
+    _last: Vec3 | None = field(default=None, init=False)
+    """The newest point of the track."""
+    _map: tuple[tuple[float, ...] | None, float, str | None] = field(default=(None, 0.0, None), init=False)
+    """Cells and peak, and what they were last shown as."""
+
+    # --- events: the first two come with every sample ---
+
+    def moved(self, event: FootMoved) -> None:
+        """A live position."""
+        self.position = event.position
+        if event.phase is not self.phase:
+            self.begin(event.t, event.phase)
+        if self._last is None:
+            self._reach(event.t, event.position)
+
+    def pressed(self, event: FootPressed) -> None:
+        """Cells of one sample."""
+        values = event.values
+        self.cells, self.force, self.centre = values, event.force, event.centre
+        self.heard = True
+        largest = max(values, default=0.0)
+        if self.peak < largest < inf:
+            self.peak = largest
+
+    def begin(self, t: float, phase: Phase | None) -> None:
+        """From `t` s on the foot does this; None: it is not heard."""
+        self.heard = self.heard or phase is not None
+        if phase is self.phase:
+            return
+        self.phase = phase
+        phases, t = self.phases, round(t, 3)
+        if phases.items and t < phases.items[-1][0]:
+            t = phases.items[-1][0]  # one that was dated back behind what was said before
+        phases.add((t, None if phase is None else phase.value))
+        while len(phases.items) > 1 and phases.items[1][0] <= t - RIBBON:
+            phases.items.popleft()
+
+    def stepped(self, event: StepTaken) -> None:
+        """A step ended."""
+        if event.final:
+            self.steps += 1
+            self.distance += event.stride_length
+            self._reach(event.t, event.position)
+
+    def wear(self, layout: Layout) -> bool:
+        """Where the cells are; whether that is new."""
+        if layout == self.layout:
+            return False
+        self.layout = layout
+        self.peak = max(FAINT * layout.full_scale, 0.0) if layout.full_scale < inf else 0.0
+        return True
+
+    def began_after(self, t: float) -> bool:
+        """Whether what it does now, or that it is not heard, began after `t` s."""
+        phases = self.phases.items
+        return bool(phases) and phases[-1][0] > t
+
+    def fall_silent(self, t: float) -> None:
+        """What it does now is not known."""
+        self.begin(t, None)
+        self.cells = self.centre = None
+
+    def _reach(self, t: float, position: Vec3) -> None:
+        if self._last is None or dist(position, self._last) >= SPACING:
+            self._last = position
+            self.track.add((shown(t), *placed(position)))
+
+    # --- what a page shows ---
+
+    def frame(self, rate: float) -> dict[str, Any] | None:
+        """As "feet" of a frame; None before it was heard of. `rate`: samples a second."""
+        if not self.heard:
+            return None
+        cells = self.cells
+        return {
+            "phase": None if self.phase is None else self.phase.value,
+            "position": None if self.position is None else placed(self.position),
+            "cells": self._colours(),
+            "peak": shown(self.peak),
+            "force": None if cells is None else shown(self.force, 1),
+            "centre": None if self.centre is None or cells is None else placed(self.centre, 4),
+            "rate": rate,
+            "steps": self.steps,
+            "distance": shown(self.distance, 2),
+        }
+
+    def _colours(self) -> str | None:
+        """One byte a cell, 255 for the highest value so far, as base64."""
+        cells, peak = self.cells, self.peak
+        if cells is None:
+            return None
+        if self._map[0] is not cells or self._map[1] != peak:
+            scale = 255.0 / peak if peak > 0.0 else 0.0
+            shades = bytes([int(min(255.0, value * scale) + 0.5) if value > 0.0 else 0 for value in cells])
+            self._map = (cells, peak, b64encode(shades).decode())
+        return self._map[2]
+
+    def layout_message(self, newtons: bool) -> dict[str, Any] | None:
+        """As "layouts" of a scene. `newtons`: a calibration turns counts into N."""
+        layout = self.layout
+        if layout is None:
+            return None
+        return {
+            "length": shown(layout.length, 4),
+            "cells": [[shown(cell.x, 4), shown(cell.y, 4), shown(cell.area, 7)] for cell in layout.cells],
+            "unit": "N" if newtons or layout.scale is not None else "counts",
+            "full": None if newtons and layout.scale is None else shown(layout.full_scale),
+        }

@@ -1,0 +1,329 @@
+"""Events in, what a page shows out: a scene for who begins to watch, and then what has changed since.
+
+protocol/page.md says what the messages hold. Nothing here knows a clock, a thread or a network.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import inf, isfinite
+from typing import Any
+
+from attrs import define, field, frozen
+
+from ....events import (
+    ActivityChanged,
+    BatteryLevel,
+    ClockReset,
+    Event,
+    FootFlat,
+    FootMoved,
+    FootPressed,
+    FootSilent,
+    HeelOff,
+    HeelStrike,
+    LayoutKnown,
+    Placed,
+    PlaceLost,
+    StepTaken,
+    StrideMeasured,
+    ToeOff,
+    WearerMoved,
+)
+from ....floorplan.plan import FloorPlan
+from ....foot.phase import BEGINS, SUPPORT
+from ....types import SITE_OF_FOOT, Foot, Phase, Site
+from ..player.playback import Playback
+from .doings import Doings
+from .feet import FootScene
+from .links import Link, unheard_since
+from .lists import Recent
+from .measured import Measured
+from .pace import Pace
+from .plan_drawing import drawn
+from .rounding import shown
+from .scales import Scales
+from .sentences import LOW, sentence
+from .whereabouts import Whereabouts
+
+__all__ = ["Cursor", "Playback", "Scene"]
+
+VERSION = 1
+MOST_LINES = 50
+"""Of the log."""
+
+LogLine = tuple[float | None, str, str]
+"""(t, kind, sentence)."""
+
+
+@frozen
+class Cursor:
+    """What a watcher has been shown. `drawn`: layouts and the like when the scene was sent whole. `numbers`: of each
+    list, how many items it ever had. `values`: of each other key, what was sent last."""
+
+    drawn: int
+    numbers: dict[str, int]
+    values: dict[str, Any]
+
+
+@define
+class Scene:
+    """One session, which is to be made with `poses=True` and `pressures=True`. Times in s on the session's clock;
+    lengths in m, world frame, or the plan's for what is on `plan`. `source`: "live", "demo" or "recording".
+    `newtons`: the feet whose calibration turns counts into N. `playback`: the player writes it.
+
+    `take` is cheap: it is called for every event of every sample. `since` costs some 0.1 ms, and is for 30 times a
+    second at the most. Memory is bounded, whatever is walked. Not to be used by two threads at once.
+    """
+
+    title: str
+    recipe: str
+    source: str = "live"
+    plan: FloorPlan | None = None
+    playback: Playback | None = None
+    newtons: tuple[Foot, ...] = ()
+    # state
+    now: float = field(default=-inf, init=False)
+    """The latest moment that anything is known of, s."""
+    feet: dict[Foot, FootScene] = field(factory=lambda: {foot: FootScene(foot) for foot in Foot}, init=False)
+    links: dict[Site, Link] = field(factory=dict, init=False)
+    whereabouts: Whereabouts = field(factory=Whereabouts, init=False)
+    doings: Doings = field(factory=Doings, init=False)
+    measured: Measured = field(factory=Measured, init=False)
+    pace: Pace = field(factory=Pace, init=False)
+    scales: Scales = field(factory=Scales, init=False)
+    log: Recent[LogLine] = field(factory=lambda: Recent(MOST_LINES), init=False)
+    layouts: int = field(default=0, init=False)
+    """How often one became known: a page that drew others needs the scene anew."""
+
+    # --- in ---
+
+    def take(self, event: Event) -> None:
+        """The next event of the session, in the order in which they are told."""
+        known_at = event.known_at
+        if not (isfinite(known_at) and isfinite(event.t)):
+            return  # of no session
+        if known_at > self.now:
+            self.now = known_at
+        kind = type(event)
+        take = TAKEN.get(kind)
+        if take is not None:
+            take(self, event)
+            if kind is FootMoved or kind is FootPressed:
+                return
+        self._tell(event)
+        site = getattr(event, "site", None)
+        if site is not None:
+            self._link(site).take(event)
+            self._hush()
+
+    def tick(self, t: float) -> None:
+        """It is `t` s, on the clock of the packets, whether or not anything was heard."""
+        if self.now < t < inf:
+            self.now = t
+        self._hush()
+
+    def _hush(self) -> None:
+        """What a foot does that is not heard is not known."""
+        for foot, one in self.feet.items():
+            link = self.links.get(SITE_OF_FOOT[foot])
+            if one.phase is not None and link is not None and link.state(self.now) != "ok":
+                one.fall_silent(min(self.now, link.silent_from))
+
+    def _link(self, site: Site) -> Link:
+        link = self.links.get(site)
+        if link is None:
+            link = self.links[site] = Link(site.foot is not None)
+        return link
+
+    def _heard_again(self, event: FootMoved | FootPressed | HeelStrike | FootFlat | HeelOff | ToeOff) -> Link:
+        """The link of a foot that something is told of. Where it was silent until now that is shown, whether or not
+        somebody has looked meanwhile; once, though the phase that ends it may come before the sample."""
+        link = self._link(SITE_OF_FOOT[event.foot])
+        if event.known_at > link.silent_from and not self.feet[event.foot].began_after(link.silent_from):
+            self._hush()
+        return link
+
+    def _moved(self, event: FootMoved) -> None:
+        link = self._heard_again(event)
+        link.sampled(event.t, event.known_at, link.moves)
+        if link.lost_at is None:
+            self.feet[event.foot].moved(event)
+
+    def _pressed(self, event: FootPressed) -> None:
+        link = self._heard_again(event)
+        link.sampled(event.t, event.known_at, link.presses)
+        if link.lost_at is None:
+            self.feet[event.foot].pressed(event)
+            self.scales.press(event.foot, event.values)
+
+    def _began(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
+        if self._heard_again(event).lost_at is None:
+            self.feet[event.foot].begin(event.t, PHASES[type(event)])
+
+    def _stepped(self, event: StepTaken) -> None:
+        self.feet[event.foot].stepped(event)
+
+    def _laid_out(self, event: LayoutKnown) -> None:
+        foot = event.site.foot
+        if foot is not None and self.feet[foot].wear(event.layout):
+            self.layouts += 1
+            self.scales.wear(foot, event.layout, foot in self.newtons or event.layout.scale is not None)
+
+    def _measured(self, event: StrideMeasured) -> None:
+        self.measured.take(event)
+        self.pace.take(event)
+
+    def _reset(self, event: ClockReset) -> None:
+        if event.site.foot is not None:
+            self.measured.interrupt(event.site.foot)
+            self.pace.interrupt(event.site.foot)
+
+    def _placed(self, event: Placed) -> None:
+        level = self.whereabouts.found(event)
+        if level is not None:
+            self.log.add((shown(event.t), "place", f"on {self._level(level)}"))
+
+    def _level(self, level: str) -> str:
+        names = [] if self.plan is None else [one.name for one in self.plan.levels if one.id == level]
+        return names[0] if names and names[0] else f"level {level}"
+
+    def _tell(self, event: Event) -> None:
+        """A line of the log, where it is worth one and was not said just now."""
+        told = sentence(event)
+        if told is None:
+            return
+        if isinstance(event, FootSilent) and self._link(SITE_OF_FOOT[event.foot]).state(self.now) != "ok":
+            return
+        if isinstance(event, BatteryLevel):
+            before = self._link(event.site).health.battery
+            if before is not None and before <= LOW:
+                return
+        self.log.add((shown(event.t), *told))
+
+    # --- out ---
+
+    def whole(self) -> tuple[dict[str, Any], Cursor]:
+        """Everything: the message "scene", and what `since` goes on from."""
+        values, feet, where = self._values(), self.feet, self.whereabouts
+        left, right = feet[Foot.LEFT], feet[Foot.RIGHT]
+        message = {
+            "type": "scene",
+            "v": VERSION,
+            "title": self.title,
+            "recipe": self.recipe,
+            "source": self.source,
+            "control": False,
+            "plan": None if self.plan is None else drawn(self.plan),
+            "layouts": {foot.value: one.layout_message(foot in self.newtons) for foot, one in feet.items()},
+            "tracks": {
+                "left": list(left.track.points),
+                "right": list(right.track.points),
+                "wearer": list(where.track.points),
+            },
+            "places": list(where.places.points),
+            "phases": {foot.value: list(one.phases.items) for foot, one in feet.items()},
+            "log": list(self.log.items),
+            "frame": {
+                "type": "frame",
+                "t": self._t(),
+                **values,
+                "phases": {"left": [], "right": []},
+                "tracks": {"left": [], "right": [], "wearer": []},
+                "places": [],
+                "log": [],
+            },
+        }
+        return message, Cursor(self.layouts, self._numbers(), values)
+
+    def since(self, cursor: Cursor) -> tuple[dict[str, Any] | None, Cursor]:
+        """What has changed since `cursor`, the message "frame", or None when nothing has; the message "scene" where a
+        watcher is too far behind or has to draw anew."""
+        if cursor.drawn != self.layouts:
+            return self.whole()
+        values, numbers, known = self._values(), self._numbers(), cursor.numbers
+        message = {key: value for key, value in values.items() if value != cursor.values[key]}
+        if numbers != known:
+            where = self.whereabouts
+            tracks = {foot.value: one.track.since(known[foot.value]) for foot, one in self.feet.items()}
+            tracks["wearer"] = where.track.since(known["wearer"])
+            places = where.places.since(known["places"])
+            if places is None or None in tracks.values():
+                return self.whole()
+            phases = {foot.value: one.phases.since(known[f"phases {foot.value}"]) for foot, one in self.feet.items()}
+            message |= _filled("tracks", {name: points for name, points in tracks.items() if points})
+            message |= _filled("phases", {name: begun for name, begun in phases.items() if begun})
+            message |= _filled("places", places)
+            message |= _filled("log", self.log.since(known["log"]))
+        if not message:
+            return None, cursor
+        return {"type": "frame", "t": self._t(), **message}, Cursor(self.layouts, numbers, values)
+
+    def heartbeat(self) -> dict[str, Any]:
+        """A frame in which nothing has changed but the time."""
+        return {"type": "frame", "t": self._t()}
+
+    def _t(self) -> float:
+        return shown(self.now) or 0.0
+
+    def _numbers(self) -> dict[str, int]:
+        where, left, right = self.whereabouts, self.feet[Foot.LEFT], self.feet[Foot.RIGHT]
+        return {
+            "left": left.track.count,
+            "right": right.track.count,
+            "wearer": where.track.count,
+            "places": where.places.count,
+            "phases left": left.phases.count,
+            "phases right": right.phases.count,
+            "log": self.log.count,
+        }
+
+    def _values(self) -> dict[str, Any]:
+        now = self.now
+        links = {site: self.links[site].frame(now) for site in Site if site in self.links}
+        feet: dict[str, Any] = {}
+        for foot, one in self.feet.items():
+            link = links.get(SITE_OF_FOOT[foot])
+            feet[foot.value] = one.frame(0.0 if link is None else link["rate"])
+        unheard, (since, activity) = unheard_since(self.links, now), self.doings.last
+        return {
+            "feet": feet,
+            "wearer": self.whereabouts.wearer_frame(),
+            "place": self.whereabouts.place_frame(),
+            "activity": self.doings.frame(unheard),
+            "pace": None if unheard is not None else self.pace.frame(now, activity, since),
+            "support": self._support(),
+            "scales": self.scales.frame(),
+            "gait": self.measured.frame(),
+            "links": {site.words: link for site, link in links.items()},
+            "playback": None if self.playback is None else self.playback.frame(),
+        }
+
+    def _support(self) -> str | None:
+        left, right = self.feet[Foot.LEFT].phase, self.feet[Foot.RIGHT].phase
+        return None if left is None or right is None else SUPPORT[left][right].value
+
+
+PHASES: dict[type, Phase] = {event: phase for phase, event in BEGINS.items()}
+
+TAKEN: dict[type, Callable[[Scene, Any], None]] = {
+    FootMoved: Scene._moved,
+    FootPressed: Scene._pressed,
+    HeelStrike: Scene._began,
+    FootFlat: Scene._began,
+    HeelOff: Scene._began,
+    ToeOff: Scene._began,
+    StepTaken: Scene._stepped,
+    StrideMeasured: Scene._measured,
+    WearerMoved: lambda scene, event: scene.whereabouts.stepped(event),
+    Placed: Scene._placed,
+    PlaceLost: lambda scene, event: scene.whereabouts.lose(event),
+    ActivityChanged: lambda scene, event: scene.doings.take(event),
+    LayoutKnown: Scene._laid_out,
+    ClockReset: Scene._reset,
+}
+"""What changes the scene besides a link and the log."""
+
+
+def _filled(key: str, value: Any) -> dict[str, Any]:
+    return {key: value} if value else {}

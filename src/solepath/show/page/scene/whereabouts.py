@@ -1,0 +1,95 @@
+"""Where the wearer is: in the track's own frame, and on the floor plan."""
+
+from __future__ import annotations
+
+from math import dist
+from typing import Any
+
+from attrs import define, field
+
+from ....events import Candidate, Placed, PlaceLost, WearerMoved
+from ....types import Vec3
+from .feet import SPACING, Point
+from .lists import Track
+from .rounding import placed, shown
+
+MOST_CANDIDATES = 40
+
+PlacePoint = tuple[float | None, str, float | None, float | None, float | None]
+"""(t, level, x, y, z) in s and m."""
+
+
+@define
+class Whereabouts:
+    """The wearer's track has a point for each step, the places one for each step whose level is decided."""
+
+    moved: WearerMoved | None = None
+    track: Track[Point] = field(factory=Track)
+    place: Placed | None = None
+    """None while it is not known."""
+    places: Track[PlacePoint] = field(factory=Track)
+    level: str | None = None
+    """The last one that there was no doubt of."""
+    _last: Vec3 | None = None
+    """The newest point of the track."""
+    _told: tuple[Placed | None, dict[str, Any] | None] = (None, None)
+
+    def stepped(self, event: WearerMoved) -> None:
+        """Where the wearer is after a step."""
+        self.moved = event
+        if self._last is None or dist(event.position, self._last) >= SPACING:
+            self._last = event.position
+            self.track.add((shown(event.t), *placed(event.position)))
+
+    def found(self, event: Placed) -> str | None:
+        """A place on the plan; the level where it is another one than before, and beyond doubt."""
+        self.place = event
+        if any([one.level != event.level for one in event.candidates]):
+            return None
+        x, y, z = placed(event.position)
+        self.places.add((shown(event.t), event.level, x, y, z))
+        if event.level == self.level:
+            return None
+        self.level = event.level
+        return event.level
+
+    def lose(self, event: PlaceLost) -> None:
+        """There is no place any more."""
+        self.place = self.level = None
+
+    def wearer_frame(self) -> dict[str, Any] | None:
+        """As "wearer" of a frame."""
+        moved = self.moved
+        if moved is None:
+            return None
+        return {"t": shown(moved.t), "position": placed(moved.position), "covariance": placed(moved.covariance, 6)}
+
+    def place_frame(self) -> dict[str, Any] | None:
+        """As "place" of a frame."""
+        place = self.place
+        if place is not self._told[0]:
+            self._told = (place, None if place is None else _place(place))
+        return self._told[1]
+
+
+def _place(place: Placed) -> dict[str, Any]:
+    return {
+        "level": place.level,
+        "position": placed(place.position),
+        "decided": len(place.candidates) <= 1,
+        "spread": shown(place.spread, 2),
+        "candidates": [_candidate(one) for one in place.candidates[:MOST_CANDIDATES]],
+    }
+
+
+def _candidate(one: Candidate) -> dict[str, Any]:
+    x, y, z = placed(one.position)
+    return {
+        "level": one.level,
+        "x": x,
+        "y": y,
+        "z": z,
+        "heading": shown(one.heading),
+        "weight": shown(one.weight),
+        "origin": one.origin,
+    }

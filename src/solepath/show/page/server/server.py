@@ -1,0 +1,166 @@
+"""The page that solepath serves itself: a few files, and the session's scene over one WebSocket (protocol/page.md).
+
+    async with Page(scene) as page:
+        print(page.url)
+        ...                             # scene.take(event), from the same event loop
+
+It needs aiohttp (the extra `view`).
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import secrets
+from collections.abc import Callable
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from types import TracebackType
+from typing import cast
+
+from aiohttp import web
+
+from ..messages import Command
+from ..scene.scene import Scene
+from .access import Access, Refused
+from .address import listen, reached_at
+from .connection import HEADERS, Connection, NoRoom
+from .offences import Offences
+from .watcher import Watcher
+
+MOST_WATCHERS = 8
+MOST_CONNECTIONS = 64
+"""At once, with those that ask for files or for nothing."""
+IDLE = 10.0
+"""s after which a connection that asks for nothing, or for half of something, is closed."""
+METHODS = ("GET", "HEAD")
+KINDS = {
+    ".html": "text/html",
+    ".css": "text/css",
+    ".js": "text/javascript",
+    ".svg": "image/svg+xml",
+}
+
+
+class Page:
+    """Serves `scene` while the context lasts. `host`: where; beyond this machine whoever watches needs the token.
+    `port`: 0 for any free one, None for 8765 or, where that is taken, a free one. `token`: random when it is None.
+    `commands`: called with what a watcher who has the token asks for; None where there is nothing to play.
+
+    A watcher gets what has changed 1 to 30 times a second, less often when it is slow to read;
+    there are MOST_WATCHERS at most. `port` and `url` raise RuntimeError before it is entered. For one event loop:
+    `scene` takes events from the same.
+
+    `scene` may be replaced, as after a seek: every watcher gets the new one whole. OSError on entering when it cannot
+    listen there.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        *,
+        host: str = "127.0.0.1",
+        port: int | None = None,
+        token: str | None = None,
+        commands: Callable[[Command], None] | None = None,
+    ) -> None:
+        self.scene = scene
+        self.commands = commands
+        self.offences = Offences(logging.getLogger("solepath.show.page"))
+        self._host = host.removeprefix("[").removesuffix("]")
+        self._port = port
+        self._access = Access(self._host, secrets.token_urlsafe(16) if token is None else token)
+        self._files = _files(files(__package__) / "static")
+        self._watchers: set[Watcher] = set()
+        self._server: web.Server | None = None
+        self._listening: asyncio.Server | None = None
+
+    @property
+    def port(self) -> int:
+        """Where it listens."""
+        if self._port is None:
+            raise RuntimeError("the page is not served yet")
+        return self._port
+
+    @property
+    def url(self) -> str:
+        """For a browser; it holds the token, in the part that a browser keeps to itself."""
+        return f"http://{reached_at(self._host)}:{self.port}/#token={self._access.token}"
+
+    async def __aenter__(self) -> Page:
+        socket = listen(self._host, self._port)
+        self._port = socket.getsockname()[1]
+        self._server = web.Server(self._answer)
+        self._listening = await asyncio.get_running_loop().create_server(self._connect, sock=socket)
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._listening is not None:
+            self._listening.close()
+        if self._server is not None:
+            self._server.pre_shutdown()
+            await asyncio.gather(*[watcher.end() for watcher in self._watchers], return_exceptions=True)
+            await self._server.shutdown(1.0)
+
+    def _connect(self) -> asyncio.BaseProtocol:
+        """What talks to somebody who has just connected."""
+        if self._server is None or len(self._server.connections) >= MOST_CONNECTIONS:
+            self.offences.tell(f"more than {MOST_CONNECTIONS} connections at once: one is refused")
+            return NoRoom()
+        return Connection(self._server, IDLE)
+
+    async def _answer(self, request: web.BaseRequest) -> web.StreamResponse:
+        connection = cast(Connection, request.protocol)
+        connection.asked = True
+        try:
+            host = request.headers.get("Host")
+            self._access.check_host(host)
+            if request.method not in METHODS:
+                return web.Response(status=405, headers={**HEADERS, "Allow": ", ".join(METHODS)})
+            if request.path == "/ws":
+                with connection.watching():
+                    return await self._watched(request, host or "")
+            return self._file(request)
+        except Refused as refused:
+            self.offences.tell(f"{refused}: refused")
+            return web.Response(status=refused.status, text=f"{refused}\n", headers=HEADERS)
+        except ConnectionError:
+            return web.Response(headers=HEADERS)  # to nobody: who asked is gone
+        except Exception:
+            logging.getLogger("solepath.show.page").exception("the page could not answer")
+            return web.Response(status=500, headers=HEADERS)
+
+    def _file(self, request: web.BaseRequest) -> web.Response:
+        found = self._files.get("index.html" if request.path == "/" else request.path.removeprefix("/"))
+        if found is None:
+            return web.Response(status=404, text="there is no such file\n", headers=HEADERS)
+        body, kind = found
+        return web.Response(body=body, content_type=kind, charset="utf-8", headers=HEADERS)
+
+    async def _watched(self, request: web.BaseRequest, host: str) -> web.StreamResponse:
+        if request.method != "GET":
+            raise Refused("a request for the socket is none for a WebSocket", 400)
+        if "Sec-WebSocket-Protocol" in request.headers:
+            raise Refused("somebody wants to speak another protocol", 400)
+        self._access.check_origin(request.headers.getall("Origin", []), host)
+        steers = self._access.may_steer(request.query.getall("token", []))
+        if len(self._watchers) >= MOST_WATCHERS:
+            raise Refused(f"more than {MOST_WATCHERS} browsers want to watch", 503)
+        watcher = Watcher(self, steers)
+        self._watchers.add(watcher)
+        try:
+            return await watcher.watch(request)
+        finally:
+            self._watchers.discard(watcher)
+
+
+def _files(folder: Traversable) -> dict[str, tuple[bytes, str]]:
+    """By name: what the page is made of, and of which kind it is. Nothing else can be asked for."""
+    found = {}
+    for one in folder.iterdir():
+        kind = KINDS.get(f".{one.name.rpartition('.')[2]}")
+        if kind is not None and one.is_file():
+            found[one.name] = (one.read_bytes(), kind)
+    return found

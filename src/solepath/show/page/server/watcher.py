@@ -1,0 +1,178 @@
+"""One browser that watches: the newest state at most 30 times a second, at the pace at which it reads."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Callable
+from typing import Any, Protocol
+
+from aiohttp import WSCloseCode, WSMsgType, web
+
+from ..messages import LONGEST, Command, CommandError, encode, parse_command
+from ..scene.scene import Cursor, Scene
+from .access import Refused
+from .connection import HEADERS
+from .offences import Offences
+
+INTERVAL = 1.0 / 30.0
+"""s from one frame to the next, in the mean."""
+HEARTBEAT = 1.0
+"""s; a frame comes at least this often, so that a page knows that it is still heard."""
+PATIENCE = 10.0
+"""s for which a browser may read nothing."""
+ALIVE = 20.0
+"""s after which a browser that sends nothing is asked for a sign of life (ping)."""
+
+
+class Showing(Protocol):
+    """What a watcher needs of a page."""
+
+    scene: Scene
+    offences: Offences
+    commands: Callable[[Command], None] | None
+
+
+class Watcher:
+    """`steers`: it has shown the token."""
+
+    def __init__(self, page: Showing, steers: bool) -> None:
+        self._page = page
+        self._steers = steers
+        self._socket = web.WebSocketResponse(
+            timeout=1.0, heartbeat=ALIVE, compress=False, max_msg_size=LONGEST + 1, autoclose=True
+        )
+        self._socket.headers.update(HEADERS)
+        self._transport: asyncio.WriteTransport | None = None
+
+    async def watch(self, request: web.BaseRequest) -> web.StreamResponse:
+        """From the handshake to the end. Refused when the request is none for a WebSocket."""
+        try:
+            await self._socket.prepare(request)
+        except web.HTTPException:
+            raise Refused("a request for the socket is none for a WebSocket", 400) from None
+        transport = request.transport
+        if transport is None:
+            return self._socket
+        self._transport = transport
+        showing = asyncio.create_task(self._show(transport))
+        try:
+            await self._listen()
+        finally:
+            showing.cancel()
+            await asyncio.gather(showing, return_exceptions=True)
+        return self._socket
+
+    async def end(self) -> None:
+        """The page is going away."""
+        try:
+            async with asyncio.timeout(1.0):
+                if self._unread():
+                    self._abort()
+                else:
+                    await self._socket.close(code=WSCloseCode.GOING_AWAY, message=b"ended")
+        except (TimeoutError, ConnectionError):
+            self._abort()
+
+    # --- out ---
+
+    async def _show(self, transport: asyncio.WriteTransport) -> None:
+        try:
+            await self._show_all(transport)
+        except TimeoutError:
+            self._page.offences.tell(f"a browser that had read nothing for {PATIENCE:.0f} s was let go")
+            self._abort()
+        except ConnectionError:
+            self._abort()
+        except Exception:
+            logging.getLogger("solepath.show.page").exception("a browser could not be shown the session")
+            self._abort()
+
+    async def _show_all(self, transport: asyncio.WriteTransport) -> None:
+        """TimeoutError when the browser does not read."""
+        loop = asyncio.get_running_loop()
+        scene: Scene | None = None
+        cursor: Cursor | None = None
+        sent = due = loop.time()
+        while not self._socket.closed:
+            now = loop.time()
+            if self._unread():
+                if now - sent > PATIENCE:
+                    raise TimeoutError
+            else:
+                message, scene, cursor = self._next(scene, cursor)
+                if message is None and now - sent >= HEARTBEAT:
+                    message = self._page.scene.heartbeat()
+                if message is not None:
+                    async with asyncio.timeout(PATIENCE):
+                        await self._socket.send_str(encode(message))
+                    sent = loop.time()
+            due = max(due + INTERVAL, loop.time())  # what a sleep oversleeps does not add up
+            await asyncio.sleep(due - loop.time())
+
+    def _next(
+        self, scene: Scene | None, cursor: Cursor | None
+    ) -> tuple[dict[str, Any] | None, Scene, Cursor]:
+        """What to send, and of which scene, up to where."""
+        newest = self._page.scene
+        if cursor is None or newest is not scene:
+            message, cursor = newest.whole()
+        else:
+            changed, cursor = newest.since(cursor)
+            if changed is None:
+                return None, newest, cursor
+            message = changed
+        if message["type"] == "scene":
+            message["control"] = self._steers and self._page.commands is not None
+        return message, newest, cursor
+
+    def _unread(self) -> bool:
+        """What was sent is still here, since the browser has not read what went before."""
+        transport = self._transport
+        return transport is not None and transport.get_write_buffer_size() > 0
+
+    def _abort(self) -> None:
+        if self._transport is not None:
+            self._transport.abort()
+
+    # --- in ---
+
+    async def _listen(self) -> None:
+        offences = self._page.offences
+        async for message in self._socket:
+            if message.type is WSMsgType.TEXT:
+                wrong = self._take(message.data)
+            elif message.type is WSMsgType.BINARY:
+                wrong = WSCloseCode.UNSUPPORTED_DATA, "a browser sent bytes instead of text"
+            else:
+                code = getattr(message.data, "code", None)  # the library has closed the connection with it
+                if code in REFUSED_BY_LIBRARY:
+                    offences.tell(REFUSED_BY_LIBRARY[code])
+                return
+            if wrong is not None:
+                code, why = wrong
+                offences.tell(why)
+                await self._socket.close(code=code, message=why.encode()[:120])
+                return
+
+    def _take(self, text: str) -> tuple[int, str] | None:
+        """A message of the page; with which code and why the connection is to be closed, None when all is well."""
+        try:
+            command = parse_command(text)
+        except CommandError as error:
+            code = WSCloseCode.POLICY_VIOLATION if error.is_json else WSCloseCode.INVALID_TEXT
+            return code, f"{error}: its connection is closed"
+        if not self._steers:
+            return WSCloseCode.POLICY_VIOLATION, f"a browser without the token wants to {command.do}"
+        if self._page.commands is None:
+            return WSCloseCode.POLICY_VIOLATION, f"a browser wants to {command.do}, and there is nothing to play"
+        self._page.commands(command)
+        return None
+
+
+REFUSED_BY_LIBRARY: dict[int | None, str] = {
+    WSCloseCode.PROTOCOL_ERROR: "a browser broke the rules of WebSockets",
+    WSCloseCode.INVALID_TEXT: "a browser sent text that is not UTF-8",
+    WSCloseCode.MESSAGE_TOO_BIG: "a browser sent more than a message may hold",
+}
+"""Close code -> what was wrong before any message was whole."""

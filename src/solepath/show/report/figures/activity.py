@@ -1,0 +1,51 @@
+"""What the wearer did when."""
+
+from __future__ import annotations
+
+from xml.etree.ElementTree import Element
+
+from ....types import Activity
+from ..clock import Clock, lasted
+from ..markup import add, figure
+from .axes import Scale, drawing, px, ticks, told, write
+
+ROW = 20.0
+LEFT = 96.0
+
+
+def named(activity: Activity) -> str:
+    """In words: "stairs up"."""
+    return activity.value.replace("_", " ").lower()
+
+
+def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]], clock: Clock) -> bool:
+    """A row for every activity, a bar for every time that it was done; False where none was told."""
+    rows = [one for one in Activity if any(what is one for _, _, what in spans)]
+    if not rows:
+        return False
+    height = 8.0 + ROW * len(rows) + 36.0
+    total = {one: sum([b - a for a, b, what in spans if what is one]) for one in rows}
+    what = "; ".join([f"{named(one)} {lasted(total[one])}" for one in rows])
+    svg = drawing("activities", "Activities over time", f"How long in all: {what}.", height)
+    x = Scale(*clock.span, LEFT, 390.0)
+    bottom = 8.0 + ROW * len(rows)
+    grid = add(svg, "path", class_="grid")
+    lines = []
+    marked = ticks(*clock.span, 6)
+    for value, words in zip(marked, told(marked), strict=True):
+        lines.append(f"M{px(x.at(value))} 8V{px(bottom)}")
+        write(svg, x.at(value), bottom + 14.0, words, "tick", "middle")
+    for k, one in enumerate(rows):
+        y = 8.0 + ROW * k
+        lines.append(f"M{px(LEFT)} {px(y + ROW)}H390")
+        write(svg, LEFT - 6.0, y + 14.0, named(one), "tick", "end")
+        bars = []
+        for a, b, did in spans:
+            if did is one:
+                begin, end = x.at(clock.of(a)), x.at(clock.of(b))
+                bars.append(f"M{px(begin)} {px(y + 4.0)}H{px(max(end, begin + 0.6))}v{px(ROW - 8.0)}H{px(begin)}z")
+        add(svg, "path", d="".join(bars), class_="bar")
+    grid.set("d", "".join(lines))
+    write(svg, 0.5 * (LEFT + 390.0), bottom + 30.0, clock.label, "label", "middle")
+    figure(parent, svg, "Activities over time")
+    return True

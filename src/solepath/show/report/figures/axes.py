@@ -1,0 +1,154 @@
+"""Axes for a drawing: ticks at round numbers, a scale from values to pixels, a chart with both.
+
+A drawing is 400 px wide and scales with the page: two beside one another on a desk, one on a phone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from math import ceil, floor, isfinite, log10
+from xml.etree.ElementTree import Element
+
+from attrs import define, frozen
+
+from ..markup import add
+
+WIDTH = 400.0
+LEFT, RIGHT, TOP, BOTTOM = 40.0, 10.0, 24.0, 36.0
+"""Margins of a chart, px."""
+
+Point = tuple[float, float]
+
+
+def px(value: float) -> str:
+    """Short, and the same everywhere."""
+    short = f"{value:.1f}".removesuffix(".0")
+    return "0" if short == "-0" else short
+
+
+def ticks(low: float, high: float, most: int = 6) -> list[float]:
+    """At most so many multiples of 1, 2 or 5 times a power of ten within [low, high]; at least one value."""
+    span = high - low
+    if not (isfinite(span) and span > 1e-9 * max(abs(low), abs(high), 1e-300)):
+        return [low]
+    power = 10.0 ** floor(log10(span / most))
+    for times in (1.0, 2.0, 5.0, 10.0, 20.0):
+        step = times * power
+        first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
+        if last - first < most:
+            return [k * step for k in range(first, last + 1)] or [low]
+    return [low]
+
+
+def told(values: Sequence[float]) -> list[str]:
+    """Ticks in words: as many digits as it takes to tell them apart, the same for all."""
+    if len(values) < 2:
+        return [f"{value:.3g}" for value in values]
+    step = abs(values[1] - values[0])
+    digits = min(max(-floor(log10(step) + 1e-9), 0), 9)
+    return [f"{value if abs(value) > 1e-9 * step else 0.0:.{digits}f}" for value in values]
+
+
+def around(values: Iterable[float], *, least: float, zero: bool = False) -> tuple[float, float]:
+    """Lowest and highest with a margin, at least `least` apart, with zero among them when asked."""
+    known = list(values)
+    low, high = min(known, default=0.0), max(known, default=0.0)
+    if zero:
+        low, high = min(low, 0.0), max(high, 0.0)
+    missing = max(least - (high - low), 0.0)
+    room = 0.06 * (high - low + missing)
+    low, high = low - 0.5 * missing - room, high + 0.5 * missing + room
+    return (max(low, 0.0) if zero and min(known, default=0.0) >= 0.0 else low), high
+
+
+@frozen
+class Scale:
+    """From values to pixels."""
+
+    low: float
+    high: float
+    start: float
+    end: float
+
+    def at(self, value: float) -> float:
+        span = self.high - self.low
+        return self.start if span <= 0.0 else self.start + (value - self.low) / span * (self.end - self.start)
+
+
+def drawing(name: str, title: str, what: str, height: float, width: float = WIDTH) -> Element:
+    """An empty <svg>. `name`: its own on the page; `title` and `what`: for who cannot see it."""
+    svg = Element("svg", {"viewBox": f"0 0 {px(width)} {px(height)}", "role": "img"})
+    svg.set("aria-labelledby", f"{name}-title {name}-what")
+    add(svg, "title", title, id=f"{name}-title")
+    add(svg, "desc", what, id=f"{name}-what")
+    return svg
+
+
+def write(parent: Element, x: float, y: float, words: str, kind: str = "", anchor: str = "start") -> Element:
+    """Words at a place; `kind`: classes of the style sheet."""
+    return add(parent, "text", words, x=px(x), y=px(y), class_=kind, text_anchor=anchor)
+
+
+def line(points: Iterable[Point]) -> str:
+    """A path through the points; what would not be seen is left out."""
+    told: list[str] = []
+    last: tuple[str, str] | None = None
+    for x, y in points:
+        here = (px(x), px(y))
+        if here != last:
+            told.append(f"{'L' if told else 'M'}{here[0]} {here[1]}")
+            last = here
+    return "".join(told) if len(told) != 1 else f"{told[0]}h0"
+
+
+def marks(points: Iterable[Point], shape: str) -> str:
+    """One path with the same shape at every point."""
+    return "".join([f"M{px(x)} {px(y)}{shape}" for x, y in points])
+
+
+@define
+class Chart:
+    """A drawing with two axes. `x`, `y`: from values to its pixels."""
+
+    svg: Element
+    x: Scale
+    y: Scale
+
+    @classmethod
+    def of(
+        cls,
+        svg: Element,
+        x: tuple[float, float],
+        y: tuple[float, float],
+        labels: tuple[str, str],
+        height: float,
+    ) -> Chart:
+        """With a grid and its labels; that of y stands above the axis."""
+        made = cls(svg, Scale(*x, LEFT, WIDTH - RIGHT), Scale(*y, height - BOTTOM, TOP))
+        grid = add(svg, "path", class_="grid")
+        lines = []
+        across = ticks(*x, 6)
+        for value, words in zip(across, told(across), strict=True):
+            lines.append(f"M{px(made.x.at(value))} {px(TOP)}V{px(height - BOTTOM)}")
+            write(svg, made.x.at(value), height - BOTTOM + 14.0, words, "tick", "middle")
+        up = ticks(*y, 5)
+        for value, words in zip(up, told(up), strict=True):
+            lines.append(f"M{px(LEFT)} {px(made.y.at(value))}H{px(WIDTH - RIGHT)}")
+            write(svg, LEFT - 5.0, made.y.at(value) + 4.0, words, "tick", "end")
+        grid.set("d", "".join(lines))
+        write(svg, 0.5 * (LEFT + WIDTH - RIGHT), height - 5.0, labels[0], "label", "middle")
+        write(svg, 2.0, 12.0, labels[1], "label")
+        return made
+
+    def at(self, x: float, y: float) -> Point:
+        return self.x.at(x), self.y.at(y)
+
+    def path(self, points: Iterable[Point], kind: str) -> None:
+        """A line through the values."""
+        if d := line([self.at(x, y) for x, y in points]):
+            add(self.svg, "path", d=d, class_=kind)
+
+    def marks(self, points: Iterable[Point], shape: str, kind: str) -> None:
+        """The same shape at every value."""
+        if d := marks([self.at(x, y) for x, y in points], shape):
+            add(self.svg, "path", d=d, class_=kind)

@@ -1,0 +1,107 @@
+"""The mean gait cycle: when each foot is on the ground, from 0 to 100 % of the cycle."""
+
+from __future__ import annotations
+
+from xml.etree.ElementTree import Element
+
+from ....body.gait.means import GaitParameters
+from ....types import Foot
+from ..markup import add, figure
+from .axes import Scale, drawing, px, write
+
+BARS = (30.0, 66.0)
+"""Upper edges, px."""
+THICK = 24.0
+LEAST = 0.005
+"""Of the cycle: what is shorter is not told."""
+
+
+def spans(begin: float, share: float) -> list[tuple[float, float]]:
+    """Where within [0, 1] a contact is that begins at `begin` and lasts for `share` of the cycle, wrapped round."""
+    begin %= 1.0
+    end = begin + min(max(share, 0.0), 1.0)
+    return [(begin, end)] if end <= 1.0 else [(0.0, end - 1.0), (begin, 1.0)]
+
+
+def contacts(parameters: GaitParameters) -> dict[Foot, list[tuple[float, float]]]:
+    """Of each foot whose stance is known, shares of the cycle that begins with the left foot's contact, or with the
+    right one's where that is the only one."""
+    stance = {foot: one.share("stance_time") for foot, one in parameters.feet.items()}
+    begins = {foot: 0.0 for foot in stance}
+    left, right = parameters.feet.get(Foot.LEFT), parameters.feet.get(Foot.RIGHT)
+    if left is not None and right is not None:
+        if left.phase is not None:
+            begins[Foot.RIGHT] = left.phase.mean
+        elif right.phase is not None:
+            begins[Foot.RIGHT] = 1.0 - right.phase.mean
+        else:
+            del stance[Foot.RIGHT]  # nobody knows when it comes down
+    return {foot: spans(begins[foot], share) for foot, share in stance.items() if share is not None}
+
+
+def overlaps(one: list[tuple[float, float]], other: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """What both have in common."""
+    both = [(max(a, c), min(b, d)) for a, b in one for c, d in other]
+    return sorted([(a, b) for a, b in both if b - a > LEAST])
+
+
+def neither(one: list[tuple[float, float]], other: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """What none of them has: both feet are in the air."""
+    free, last = [], 0.0
+    for a, b in [*sorted(one + other), (1.0, 1.0)]:
+        if a > last:
+            free.append((last, a))
+        last = max(last, b)
+    return [(a, b) for a, b in free if b - a > LEAST]
+
+
+def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
+    """Bars of both feet; False where no stance is known."""
+    known = contacts(parameters)
+    if not known:
+        return False
+    how = "running" if parameters.running else "walking"
+    feet = [foot for foot in Foot if foot in known]
+    parts = [f"{foot.value} stance {100.0 * sum([b - a for a, b in known[foot]]):.0f} %" for foot in feet]
+    both = overlaps(*[known[foot] for foot in feet]) if len(feet) == 2 else []
+    flights = neither(*[known[foot] for foot in feet]) if len(feet) == 2 else []
+    parts += [f"double support {100.0 * sum([b - a for a, b in both]):.0f} %"] if len(feet) == 2 and both else []
+    parts += [f"flight {100.0 * sum([b - a for a, b in flights]):.0f} %"] if flights else []
+    bars = dict(zip(feet, BARS, strict=False))
+    x = Scale(0.0, 1.0, 44.0, 388.0)
+    top, bottom = bars[feet[0]] - 8.0, bars[feet[-1]] + THICK + 8.0
+    what = f"Shares of the cycle: {', '.join(parts)}."
+    svg = drawing(f"cycle-{how}", f"Mean gait cycle, {how}", what, bottom + 38.0)
+    for shaded, kind, word in ((both, "double", "double"), (flights, "flight", "flight")):
+        for a, b in shaded:
+            size = {"x": px(x.at(a)), "width": px(x.at(b) - x.at(a)), "y": px(top), "height": px(bottom - top)}
+            add(svg, "rect", class_=kind, **size)
+            if b - a > 0.05:
+                write(svg, 0.5 * (x.at(a) + x.at(b)), top - 4.0, word if b - a > 0.09 else word[0], "tick", "middle")
+    for foot in feet:
+        y = bars[foot]
+        add(svg, "rect", class_="swing", x=px(x.start), y=px(y), width=px(x.end - x.start), height=px(THICK))
+        write(svg, x.start - 6.0, y + 16.0, foot.value, "tick", "end")
+        stood = known[foot]
+        for a, b in stood:
+            left, wide = x.at(a), x.at(b) - x.at(a)
+            add(svg, "rect", class_=f"stance {foot.value}", x=px(left), y=px(y), width=px(wide), height=px(THICK))
+        a, b = max(stood, key=lambda span: span[1] - span[0])
+        share = sum([d - c for c, d in stood])
+        write(svg, 0.5 * (x.at(a) + x.at(b)), y + 16.0, f"stance {100.0 * share:.0f} %", "onbar", "middle")
+        c, d = max(neither(stood, []), key=lambda span: span[1] - span[0], default=(0.0, 0.0))
+        if d - c > 0.16:
+            write(svg, 0.5 * (x.at(c) + x.at(d)), y + 16.0, f"swing {100.0 * (1.0 - share):.0f} %", "tick", "middle")
+    grid = []
+    for k in range(6):
+        at = x.at(0.2 * k)
+        grid.append(f"M{px(at)} {px(bottom)}v4")
+        write(svg, at, bottom + 16.0, str(20 * k), "tick", "middle")
+    add(svg, "path", d="".join(grid), class_="axis")
+    words = f"% of the gait cycle, from the {feet[0].value} contact"
+    write(svg, 0.5 * (x.start + x.end), bottom + 31.0, words, "label", "middle")
+    notes = [", ".join(parts).capitalize() + "."]
+    if len(parameters.feet) == 2 and len(feet) == 1:
+        notes.append("The right foot is not shown: when it comes down against the left one is not known.")
+    figure(parent, svg, f"Mean gait cycle, {how}", *notes)
+    return True

@@ -1,0 +1,171 @@
+"""What the soles bore: maps of both, with the path of the centre of pressure, and the force over a contact."""
+
+from __future__ import annotations
+
+from math import hypot
+from xml.etree.ElementTree import Element
+
+from ....types import Foot, Layout
+from ..markup import add, figure, table
+from ..soles import STATIONS, Sole
+from .axes import Chart, around, drawing, line, px, write
+from .track import legend_lines
+
+SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")
+"""From no load to the highest: darker is more, on a grey printer too."""
+TALL = 250.0
+"""Of a sole, px."""
+THIRDS = ("heel", "midfoot", "forefoot")
+
+
+def shade(share: float) -> str:
+    """Of a share of the highest load, 0 to 1."""
+    at = min(max(share, 0.0), 1.0) * (len(SHADES) - 1)
+    k = min(int(at), len(SHADES) - 2)
+    low, high = SHADES[k], SHADES[k + 1]
+    pairs = [(int(low[i : i + 2], 16), int(high[i : i + 2], 16)) for i in (1, 3, 5)]
+    return "#" + "".join([f"{round(a + (at - k) * (b - a)):02x}" for a, b in pairs])
+
+
+def pressure_figures(parent: Element, soles: dict[Foot, Sole]) -> bool:
+    """Maps and curves of what is known; False where there is no pressure."""
+    pressed = {foot: soles[foot] for foot in Foot if foot in soles and soles[foot].samples}
+    if not pressed:
+        return False
+    walked = {foot: sole for foot, sole in pressed.items() if sole.contacts}
+    if walked:
+        maps = {foot: sole for foot, sole in walked.items() if sole.mapped()}
+        means = {foot: [v / sole.contacts for v in sole.means] for foot, sole in maps.items()}
+        peaks = {foot: [v / sole.contacts for v in sole.peaks] for foot, sole in maps.items()}
+        _map(parent, "mean", "Mean load of a contact", maps, means, paths=True)
+        _map(parent, "peak", "Peak load of a contact", maps, peaks, paths=False)
+        _forces(parent, walked)
+    else:
+        maps = {foot: sole for foot, sole in pressed.items() if sole.mapped()}
+        means = {foot: [v / sole.samples for v in sole.standing] for foot, sole in maps.items()}
+        _map(parent, "standing", "Mean load of the whole recording", maps, means, paths=False)
+        add(parent, "p", "No whole stride was walked: the loads are means over the whole recording.")
+    if maps:
+        _thirds(parent, maps, means)
+    unknown = [foot.value for foot in pressed if foot not in maps and (not walked or foot in walked)]
+    if unknown:
+        words = f"{' and '.join(unknown)} sole{'s' * (len(unknown) > 1)}"
+        add(parent, "p", f"Where the cells of the {words} lie is not known, so that no map can be drawn.")
+    for foot in pressed:
+        if walked and foot not in walked:
+            add(parent, "p", f"No whole stride of the {foot.value} foot was measured with its pressure.")
+    return True
+
+
+def _unit(soles: dict[Foot, Sole]) -> str:
+    return " and ".join(sorted({sole.unit for sole in soles.values()}))
+
+
+def radius(layout: Layout) -> float:
+    """As large as a cell may be drawn without hiding its neighbours, m."""
+    places = [(cell.x, cell.y) for cell in layout.cells]
+    if len(places) < 2:
+        return 0.01
+    nearest = sorted([
+        min([hypot(x - a, y - b) for k, (a, b) in enumerate(places) if k != i]) for i, (x, y) in enumerate(places)
+    ])  # fmt: skip
+    return min(max(0.55 * nearest[len(nearest) // 2], 0.002), 0.02)
+
+
+def _map(
+    parent: Element, name: str, title: str, soles: dict[Foot, Sole], loads: dict[Foot, list[float]], *, paths: bool
+) -> None:
+    if not soles:
+        return
+    highest = max([max(values) for values in loads.values()])
+    unit = _unit(soles)
+    said = []
+    for foot, values in loads.items():
+        k = max(range(len(values)), key=values.__getitem__)
+        layout = soles[foot].layout
+        x = 0.0 if layout is None else layout.cells[k].x / max(layout.length, 1e-6)
+        load = f"{values[k]:.3g} {soles[foot].unit} a cell"
+        said.append(f"{foot.value}: highest {load}, at {100.0 * x:.0f} % of the length from the heel")
+    svg = drawing(f"pressure-{name}", title, f"{'; '.join(said)}.", TALL + 66.0)
+    for foot, sole in soles.items():
+        if sole.layout is not None:
+            _sole(svg, sole, sole.layout, loads[foot], highest, 110.0 if foot is Foot.LEFT else 290.0, foot, paths)
+    y = TALL + 40.0
+    for k in range(30):
+        add(svg, "rect", x=px(110.0 + 6.0 * k), y=px(y), width="6.4", height="9", fill=shade(k / 29.0))
+    write(svg, 104.0, y + 9.0, "0", "tick", "end")
+    write(svg, 296.0, y + 9.0, f"{highest:.3g} {unit} a cell", "tick")
+    notes = [f"{one[0].upper()}{one[1:]}." for one in said]
+    if paths:
+        notes.append("Line: mean path of the centre of pressure, from heel-strike (ring) on; thin: single steps.")
+    figure(parent, svg, title, *notes)
+
+
+def _sole(
+    svg: Element,
+    sole: Sole,
+    layout: Layout,
+    loads: list[float],
+    highest: float,
+    middle: float,
+    foot: Foot,
+    paths: bool,
+) -> None:
+    """A sole seen from above, the toe up."""
+    xs, ys = [cell.x for cell in layout.cells], [cell.y for cell in layout.cells]
+    r = radius(layout)
+    scale = min((TALL - 10.0) / max(max(xs) - min(xs) + 2.0 * r, 1e-3), 150.0 / max(max(ys) - min(ys) + 2.0 * r, 1e-3))
+    centre_x, centre_y = 0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys))
+
+    def at(x: float, y: float) -> tuple[float, float]:
+        return middle - (y - centre_y) * scale, 26.0 + 0.5 * TALL - (x - centre_x) * scale
+
+    write(svg, middle, 14.0, foot.value, "label", "middle")
+    cells = add(svg, "g", class_="cells")
+    for cell, load in zip(layout.cells, loads, strict=True):
+        x, y = at(cell.x, cell.y)
+        add(cells, "circle", cx=px(x), cy=px(y), r=px(r * scale), fill=shade(load / highest if highest > 0.0 else 0.0))
+    if paths:
+        single = "".join([line([at(*one) for one in path]) for path in sole.paths if len(path) > 1])
+        if single:
+            add(svg, "path", d=single, class_="single")
+        mean = [at(*one) for one in sole.mean_path]
+        if len(mean) > 1:
+            add(svg, "path", d=line(mean), class_="under")
+            add(svg, "path", d=line(mean), class_="centre")
+            add(svg, "circle", cx=px(mean[0][0]), cy=px(mean[0][1]), r="4", class_="begin")
+
+
+def _forces(parent: Element, soles: dict[Foot, Sole]) -> None:
+    curves = {foot: [force / sole.contacts for force in sole.forces] for foot, sole in soles.items()}
+    unit = _unit(soles)
+    said = [f"{foot.value}: at most {max(curve):.0f} {soles[foot].unit}" for foot, curve in curves.items()]
+    svg = drawing("force", "Mean force over a contact", f"{'; '.join(said)}.", 190.0)
+    values = [value for curve in curves.values() for value in curve]
+    labels = ("% of the contact, from heel-strike to toe-off", f"sum of the cells, {unit}")
+    chart = Chart.of(svg, (0.0, 100.0), around(values, least=1.0, zero=True), labels, 190.0)
+    for foot, curve in curves.items():
+        chart.path([(100.0 * k / (STATIONS - 1), value) for k, value in enumerate(curve)], f"line {foot.value}")
+    legend_lines(svg, list(curves))
+    counted = ", ".join([f"{foot.value} {sole.contacts}" for foot, sole in soles.items()])
+    figure(parent, svg, "Mean force over a contact", f"Contacts: {counted}.")
+
+
+def _thirds(parent: Element, soles: dict[Foot, Sole], loads: dict[Foot, list[float]]) -> None:
+    """How the load is shared out over the thirds of the insole's length."""
+    rows = []
+    for k, name in enumerate(THIRDS):
+        row = [f"{name} third, %"]
+        for foot in Foot:
+            if foot not in soles or (layout := soles[foot].layout) is None or sum(loads[foot]) <= 0.0:
+                row.append("-")
+                continue
+            inside = [
+                load
+                for cell, load in zip(layout.cells, loads[foot], strict=True)
+                if min(max(int(3.0 * cell.x / layout.length), 0), 2) == k
+            ]
+            row.append(f"{100.0 * sum(inside) / sum(loads[foot]):.0f}")
+        rows.append(row)
+    caption = "Share of the mean load, by thirds of the insole's length"
+    table(parent, caption, ("part", "left", "right"), rows, "numbers thirds")

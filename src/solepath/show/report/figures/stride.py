@@ -1,0 +1,122 @@
+"""Stride length, stride time and speed of each foot over time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from xml.etree.ElementTree import Element
+
+from attrs import frozen
+
+from ....events import StrideMeasured
+from ....types import Foot
+from ..clock import Clock
+from ..markup import add, figure
+from .axes import TOP, Chart, around, drawing, px, write
+
+HEIGHT = 190.0
+DISC, CROSS = "h0", "m-2.6-2.6l5.2 5.2m0-5.2l-5.2 5.2"
+"""The left foot's mark and the right one's: told apart without colours too."""
+SHAPES = {Foot.LEFT: DISC, Foot.RIGHT: CROSS}
+DENSE = 240
+"""Strides of a foot."""
+TURNED = 0.35
+"""rad: a stride that turns by more is marked as one in a turn (20 degrees)."""
+
+
+@frozen
+class Stride:
+    """What is drawn of one. Times in s, length in m, speed in m/s."""
+
+    t: float
+    time: float
+    length: float | None
+    speed: float | None
+    steady: bool
+    degraded: bool
+    turns: bool
+
+    @classmethod
+    def of(cls, event: StrideMeasured) -> Stride:
+        turns = event.turning_angle is not None and abs(event.turning_angle) > TURNED
+        return cls(
+            event.t, event.stride_time, event.stride_length, event.speed, event.steady, event.degraded, turns
+        )
+
+
+PANELS = (("length", "Stride length", "m", 0.2), ("time", "Stride time", "s", 0.2), ("speed", "Speed", "m/s", 0.2))
+
+
+def stride_figures(parent: Element, strides: dict[Foot, list[Stride]], clock: Clock) -> bool:
+    """A chart for each of the three; False where there are no strides."""
+    if not any(strides.values()):
+        return False
+    for name, title, unit, least in PANELS:
+        known = {
+            foot: [(one, getattr(one, name)) for one in some if getattr(one, name) is not None]
+            for foot, some in strides.items()
+        }
+        if any(known.values()):
+            _panel(parent, name, title, unit, least, known, clock)
+    every = [one for some in strides.values() for one in some]
+    notes = ["faint, strides that do not count in the table"] if any(not one.steady for one in every) else []
+    notes += ["ticks at the bottom, strides in a turn"] if any(one.turns for one in every) else []
+    notes += ["ticks at the top, samples missing or saturated"] if any(one.degraded for one in every) else []
+    notes += ["lines, means"] if any(map(dense, strides.values())) else []
+    if notes:
+        add(parent, "p", f"In the figures of strides: {'; '.join(notes)}.", class_="note")
+    return True
+
+
+def dense(some: Sequence[object]) -> bool:
+    """Whether the marks of so many strides would hide one another."""
+    return len(some) > DENSE
+
+
+def means(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Of as many neighbours in a row as make some 60 points of all."""
+    count = max(len(points) // 60, 1)
+    groups = [points[k : k + count] for k in range(0, len(points), count)]
+    return [(sum([x for x, _ in one]) / len(one), sum([y for _, y in one]) / len(one)) for one in groups]
+
+
+def _panel(
+    parent: Element,
+    name: str,
+    title: str,
+    unit: str,
+    least: float,
+    known: dict[Foot, list[tuple[Stride, float]]],
+    clock: Clock,
+) -> None:
+    values = [value for some in known.values() for _, value in some]
+    what = f"{title} of every stride over time: {len(values)} strides, {min(values):.2f} to {max(values):.2f} {unit}."
+    svg = drawing(f"stride-{name}", f"{title} over time", what, HEIGHT)
+    if any(map(dense, known.values())):
+        svg.set("class", "dense")
+    chart = Chart.of(svg, clock.span, around(values, least=least), (clock.label, f"{title.lower()}, {unit}"), HEIGHT)
+    for foot, some in known.items():
+        for counted in (False, True):
+            points = [(clock.of(one.t), value) for one, value in some if one.steady is counted]
+            chart.marks(points, SHAPES[foot], f"mark {foot.value}{'' if counted else ' faint'}")
+        if dense(some):
+            chart.path(means([(clock.of(one.t), value) for one, value in some if one.steady]), f"line {foot.value}")
+    every = [pair for some in known.values() for pair in some]
+    turning = [clock.of(one.t) for one, _ in every if one.turns]
+    if turning:
+        bottom = chart.y.start
+        add(svg, "path", class_="turn", d="".join([f"M{px(chart.x.at(t))} {px(bottom)}v-7" for t in turning]))
+    degraded = [clock.of(one.t) for one, _ in every if one.degraded]
+    if degraded:
+        add(svg, "path", class_="missing", d="".join([f"M{px(chart.x.at(t))} {px(chart.y.end)}v5" for t in degraded]))
+    legend(svg, [foot for foot in Foot if known.get(foot)])
+    figure(parent, svg, f"{title} over time")
+
+
+def legend(svg: Element, feet: Sequence[Foot]) -> None:
+    """Which mark is whose, at the right above a chart."""
+    x, y = 390.0, TOP - 12.0
+    for foot in reversed(feet):
+        write(svg, x, y, foot.value, "tick", "end")
+        x -= 5.6 * len(foot.value) + 8.0
+        add(svg, "path", class_=f"mark {foot.value}", d=f"M{px(x)} {px(y - 4.0)}{SHAPES[foot]}")
+        x -= 12.0

@@ -1,0 +1,183 @@
+"""Where the wearer went: in the plane, on the floor plan where there is one, and in height."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Sequence
+from xml.etree.ElementTree import Element
+
+from attrs import evolve, frozen
+
+from ....events import Placed, PlaceLost
+from ....floorplan.plan import FloorPlan
+from ....types import Foot, Vec3
+from ...tables.plan import PlanPicture
+from ..clock import Clock
+from ..markup import add, figure
+from .axes import WIDTH, Chart, Scale, around, drawing, line, marks, px, ticks, told, write
+from .stride import SHAPES
+
+PRINTS = 160
+"""Footprints: more of them would hide the way."""
+TALLEST = 420.0
+"""Of the drawing of a track, px."""
+BESIDE = 1.2
+"""m: farther from the wearer's way no foot of a stride is; who has two tracks that are has tracks that drift apart."""
+SMALLEST = 4.0
+"""m that the longer side shows at least, so that standing still is not magnified."""
+
+
+@frozen
+class Stood:
+    """Where something was, world frame, m, and when, s."""
+
+    t: float
+    position: Vec3
+
+
+def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[Stood]], clock: Clock) -> bool:
+    """The way from above, x to the right and y up; False where there is none. `way`: the wearer's, or a foot's where
+    only feet are known; `prints`: where the feet stood."""
+    few = sum([len(some) for some in prints.values()]) <= PRINTS
+    off = _astray(way, prints)
+    beside = few and off <= BESIDE
+    every = [*way, *(one for some in prints.values() for one in some if beside)]
+    if len(way) < 2:
+        return False
+    xs, ys = [one.position[0] for one in every], [one.position[1] for one in every]
+    across, up = max(xs) - min(xs), max(ys) - min(ys)
+    room = max(0.06 * max(across, up), 0.4)
+    middle = 0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys))
+    wide = max(across + 2.0 * room, SMALLEST)
+    top, left, right, bottom = 10.0, 34.0, 8.0, 34.0
+    inner = WIDTH - left - right
+    high = max(up + 2.0 * room, 0.34 * wide)
+    scale = min(inner / wide, (TALLEST - top - bottom) / high)
+    wide, height = inner / scale, high * scale + top + bottom
+    x = Scale(middle[0] - 0.5 * wide, middle[0] + 0.5 * wide, left, WIDTH - right)
+    y = Scale(middle[1] - 0.5 * high, middle[1] + 0.5 * high, height - bottom, top)
+    length = sum([_apart(a, b) for a, b in zip(way, way[1:], strict=False)])
+    what = f"The track from above, {across:.1f} m by {up:.1f} m, {length:.0f} m long as drawn."
+    svg = drawing("track", "Track from above", what, height)
+    _grid(svg, x, y, height - bottom, top)
+
+    def at(one: Stood) -> tuple[float, float]:
+        return x.at(one.position[0]), y.at(one.position[1])
+
+    add(svg, "path", d=line([at(one) for one in way]), class_="way")
+    if beside:
+        for foot, some in prints.items():
+            if d := marks([at(one) for one in some], SHAPES[foot]):
+                add(svg, "path", d=d, class_=f"mark {foot.value}")
+    _times(svg, way, at, clock)
+    if way:
+        for one, word in ((way[0], "start"), (way[-1], "end")):
+            a, b = at(one)
+            add(svg, "circle", cx=px(a), cy=px(b), r="4.5", class_=word)
+            late = a > 0.85 * WIDTH
+            write(svg, a - 8.0 if late else a + 8.0, b + (13.0 if word == "end" else -6.0), word, "halo strong",
+                  "end" if late else "start")
+    notes = ["x along the first heading; the numbers along the way are times."]
+    if beside and any(prints.values()):
+        notes.append("\N{BLACK CIRCLE} where the left foot stood, \N{MULTIPLICATION SIGN} the right one.")
+    if off > BESIDE:
+        notes.append(f"The tracks of the single feet come to lie up to {off:.1f} m off it and are not shown.")
+    figure(parent, svg, "Track from above", *notes)
+    return True
+
+
+def _astray(way: Sequence[Stood], prints: dict[Foot, list[Stood]]) -> float:
+    """How far a print lies from where the wearer was then, at the most, m."""
+    times, farthest = [one.t for one in way], 0.0
+    for one in [one for some in prints.values() for one in some] if way else []:
+        k = bisect_left(times, one.t)
+        farthest = max(farthest, min([_apart(one, other) for other in way[max(k - 1, 0) : k + 1]], default=0.0))
+    return farthest
+
+
+def _apart(a: Stood, b: Stood) -> float:
+    (x, y, _), (x1, y1, _) = a.position, b.position
+    dx, dy = x1 - x, y1 - y
+    return float((dx * dx + dy * dy) ** 0.5)
+
+
+def _grid(svg: Element, x: Scale, y: Scale, bottom: float, top: float) -> None:
+    """One step for both axes."""
+    grid = add(svg, "path", class_="grid")
+    marked = ticks(x.low, x.high, 8)
+    step = marked[1] - marked[0] if len(marked) > 1 else 1.0
+    lines = []
+    for value, words in zip(marked, told(marked), strict=True):
+        lines.append(f"M{px(x.at(value))} {px(top)}V{px(bottom)}")
+        write(svg, x.at(value), bottom + 14.0, words, "tick", "middle")
+    up = [k * step for k in range(int(y.low // step) + 1, int(y.high // step) + 1)]
+    for value, words in zip(up, told(up), strict=True):
+        lines.append(f"M{px(x.start)} {px(y.at(value))}H{px(x.end)}")
+        write(svg, x.start - 5.0, y.at(value) + 4.0, words, "tick", "end")
+    grid.set("d", "".join(lines))
+    write(svg, 0.5 * (x.start + x.end), bottom + 29.0, "x and y, m", "label", "middle")
+
+
+def _times(svg: Element, way: Sequence[Stood], at: object, clock: Clock) -> None:
+    """A few times along the way."""
+    if len(way) < 3 or not callable(at):
+        return
+    wanted = ticks(clock.of(way[0].t), clock.of(way[-1].t), 7)
+    unit = "min" if clock.per_unit > 1.0 else "s"
+    taken: list[tuple[float, float]] = []
+    for value, words in zip(wanted, told(wanted), strict=True):
+        near = min(way, key=lambda one: abs(clock.of(one.t) - value))
+        a, b = at(near)
+        if all(abs(a - c) > 36.0 or abs(b - d) > 14.0 for c, d in taken):
+            taken.append((a, b))
+            add(svg, "circle", cx=px(a), cy=px(b), r="2.4", class_="time")
+            write(svg, a, b - 6.0, f"{words} {unit}", "halo tick", "middle")
+
+
+def height_figure(parent: Element, heights: dict[Foot, list[Stood]], clock: Clock) -> bool:
+    """The height of the standing foot over time; False where there is none."""
+    known = {foot: some for foot, some in heights.items() if len(some) > 1}
+    if not known:
+        return False
+    values = [one.position[2] for some in known.values() for one in some]
+    what = f"Height of the standing feet over time, {min(values):.2f} to {max(values):.2f} m from where they began."
+    svg = drawing("height", "Height over time", what, 180.0)
+    chart = Chart.of(svg, clock.span, around(values, least=1.0), (clock.label, "height, m"), 180.0)
+    for foot, some in known.items():
+        chart.path([(clock.of(one.t), one.position[2]) for one in some], f"line {foot.value}")
+    legend_lines(svg, list(known))
+    figure(parent, svg, "Height of the feet over time", "Of the foot on the ground, against where it began.")
+    return True
+
+
+def legend_lines(svg: Element, feet: Sequence[Foot]) -> None:
+    """Left solid, right dashed."""
+    x = 390.0
+    for foot in reversed(feet):
+        write(svg, x, 12.0, foot.value, "tick", "end")
+        x -= 5.6 * len(foot.value) + 8.0
+        add(svg, "path", class_=f"line {foot.value}", d=f"M{px(x - 20.0)} 8h20")
+        x -= 30.0
+
+
+def plan_figure(parent: Element, plan: FloorPlan, told_of: Sequence[Placed | PlaceLost]) -> bool:
+    """The track on the floor plan, as `solepath track` draws it: levels where the wearer was; False where no place was
+    told."""
+    places = [one for one in told_of if isinstance(one, Placed)]
+    if not places:
+        return False
+    visited = {one.level for one in places}
+    levels = tuple([level for level in plan.levels if level.id in visited])
+    shown = evolve(plan, levels=levels) if levels else plan
+    picture = PlanPicture(shown, width=380.0, height=420.0, columns=1)
+    for one in told_of:
+        picture.add(one)
+    svg = picture.drawn(plan.name or "Floor plan")
+    svg.set("role", "img")
+    svg.set("class", "plan")
+    del svg.attrib["xmlns"], svg.attrib["width"], svg.attrib["height"], svg.attrib["font-family"]
+    notes = ["Colours go from the start to the end; dots are candidates, the fainter the less they are believed."]
+    if len(levels) < len(plan.levels):
+        notes.append("Levels where the wearer was not are left out.")
+    figure(parent, svg, "Track on the floor plan", *notes)
+    return True

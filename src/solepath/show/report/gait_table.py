@@ -1,0 +1,91 @@
+"""The gait table, and what its parameters mean."""
+
+from __future__ import annotations
+
+from xml.etree.ElementTree import Element
+
+from ...body.gait.means import GaitMeans, GaitParameters, StrideFigures
+from ...types import Foot
+from ..tables.gait_rows import ENOUGH, GaitRow, gait_rows, strides_of
+from ..tables.table import number, percent
+from .markup import add, table
+
+HEADER = ("parameter", "left", "right", "both", "CV %", "asymmetry")
+
+DEFINITIONS = {
+    "stride_time": "from a contact of a foot to its next one (Hollman et al. 2011)",
+    "step_time": "from the other foot's contact to this one's",
+    "stride_length": "horizontal, from foot-flat to foot-flat of a foot (Mariani et al. 2010)",
+    "step_length": "from where the other foot stands to this one, along the stride (Huxham et al. 2006)",
+    "step_width": "distance of the other foot from the line of the stride (Huxham et al. 2006)",
+    "speed": "stride length / stride time",
+    "clearance": "highest rise of the sensor above the foot-flats; not the minimum toe clearance",
+    "toe_off_angle": "how far the heel is up at toe-off, against flat",
+    "heel_strike_angle": "how far the toe is up at the contact, against flat",
+    "stance_time": "from contact to toe-off, of the stride time (Whittle 2007)",
+    "single_support": "only this foot is on the ground",
+    "initial_double_support": "from this foot's contact to the other's toe-off; below zero a flight (Novacheck 1998)",
+    "terminal_double_support": "from the other foot's contact to this one's toe-off; below zero a flight",
+}
+"""One line each; in full where StrideMeasured is."""
+
+
+def gait_tables(parent: Element, means: GaitMeans) -> bool:
+    """A table for walking and one for running; False where there are no steady strides."""
+    known = [one for one in (means.of(False), means.of(True)) if one is not None]
+    for one in known:
+        _table(parent, one)
+    if known:
+        _notes(parent, known)
+    return bool(known)
+
+
+def _table(parent: Element, parameters: GaitParameters) -> None:
+    columns = [parameters.feet.get(foot) for foot in Foot]
+    what = "Running" if parameters.running else "Walking"
+    strides = [strides_of(parameters, foot) for foot in Foot]
+    rows = [["steady strides", *[number(one, 0) for one in strides], "-", "-", "-"]]
+    together = parameters.both if None not in columns else None
+    rows.append(["cadence, steps/min", *[_cadence(one) for one in (*columns, together)], "-", "-"])
+    rows += [_row(row) for row in gait_rows(parameters)]
+    caption = f"{what}: means of steady strides, of both feet \N{PLUS-MINUS SIGN} standard deviation"
+    table(parent, caption, HEADER, rows, "numbers gait")
+    if parameters.coordination is not None:
+        add(parent, "p", f"Phase coordination index: {percent(parameters.coordination)} % (Plotnik et al. 2007).")
+    count = sum([one for one in strides if one is not None])
+    if count < ENOUGH:
+        said = f"Of {count} strides: figures settle with {ENOUGH} and more (Galna et al. 2013)."
+        add(parent, "p", said, class_="note")
+
+
+def _row(row: GaitRow) -> list[str]:
+    """The standard deviation on a line of its own."""
+    spread = "" if row.sd is None else f"\n\N{PLUS-MINUS SIGN} {number(row.sd, row.digits)}"
+    feet = [number(one, row.digits) for one in (row.left, row.right)]
+    both = f"{number(row.both, row.digits)}{spread}"
+    return [f"{row.label}, {row.unit}", *feet, both, percent(row.cv), row.uneven]
+
+
+def _cadence(figures: StrideFigures | None) -> str:
+    return "-" if figures is None or figures.stride_time is None else number(120.0 / figures.stride_time.mean, 1)
+
+
+def _notes(parent: Element, known: list[GaitParameters]) -> None:
+    """What the words of the table mean, folded away on a screen."""
+    folded = add(parent, "details", open="open")
+    add(folded, "summary", "What the parameters mean")
+    listed = add(folded, "dl")
+    named = {row.name: row.label for one in known for row in gait_rows(one)}
+    for name, meaning in DEFINITIONS.items():
+        if name in named:
+            add(listed, "dt", named[name])
+            add(listed, "dd", meaning)
+    for word, meaning in (
+        ("steady strides", "neither first nor last of a walk, nor in a turn, on stairs or with samples missing"),
+        ("both", "mean of the feet's means; SD from the mean of their variances (Galna et al. 2013)"),
+        ("CV", "standard deviation / mean, of both feet (Hausdorff 2005)"),
+        ("asymmetry", "(right - left) / their mean; 0 of equal feet, none of a flight (Robinson et al. 1987)"),
+        ("asymmetry of angles", "right - left, in degrees, and no CV: their zero is the flat sole, not nothing"),
+    ):
+        add(listed, "dt", word)
+        add(listed, "dd", meaning)

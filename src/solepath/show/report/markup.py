@@ -1,0 +1,62 @@
+"""HTML elements. Whatever text goes in is text when it comes out: the tree is escaped where it is written."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from xml.etree.ElementTree import Element, SubElement
+
+from ...recording import printable
+
+LONGEST = 300
+"""Characters of a sentence that came from outside."""
+
+
+def add(parent: Element, tag: str, text: str = "", **attributes: str) -> Element:
+    """A new last child of `parent`. Attribute names: a trailing underscore is dropped, others become hyphens."""
+    named = {name.removesuffix("_").replace("_", "-"): printable(value, 10**6) for name, value in attributes.items()}
+    made = SubElement(parent, tag, named)
+    if text:
+        made.text = printable(text, LONGEST)
+    return made
+
+
+def sentences(parent: Element, told: Sequence[str], most: int = 40) -> None:
+    """A list of sentences, and how many more there are."""
+    if told:
+        listed = add(parent, "ul")
+        for one in told[:most]:
+            add(listed, "li", one)
+        if len(told) > most:
+            add(listed, "li", f"and {len(told) - most} more")
+
+
+def figure(parent: Element, svg: Element, caption: str, *notes: str) -> Element:
+    """A drawing with what is to be seen on it: a caption, and notes in smaller words below."""
+    made = add(parent, "figure")
+    made.append(svg)
+    told = add(made, "figcaption")
+    add(told, "strong", caption)
+    for note in notes:
+        add(told, "span", note, **{"class": "note"})
+    return made
+
+
+def table(
+    parent: Element, caption: str, header: Sequence[str], rows: Sequence[Sequence[str]], kind: str = "numbers"
+) -> Element:
+    """A table whose first column names its rows. Roles are told beside the tags: on a phone the rows are laid out as
+    grids, and a table that is no table for the style is none for a screen reader either."""
+    made = add(parent, "table", role="table", class_=kind)
+    add(made, "caption", caption)
+    top = add(add(made, "thead", role="rowgroup"), "tr", role="row")
+    for name in header:
+        add(top, "th", name, scope="col", role="columnheader")
+    body = add(made, "tbody", role="rowgroup")
+    for first, *others in rows:
+        row = add(body, "tr", role="row")
+        add(row, "th", first, scope="row", role="rowheader")
+        for cell in others:
+            told = add(row, "td", role="cell")
+            for part in cell.split("\n"):
+                add(told, "span", part)
+    return made

@@ -1,0 +1,117 @@
+"""What the soles bore: sums over the strides that were measured, whatever their number.
+
+A sample is kept until the stride that it belongs to is told, which is up to a second after the stride has ended.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections import deque
+
+from attrs import define, field
+
+from ...events import FootPressed, StrideMeasured
+from ...types import Layout
+
+KEPT = 2000
+"""Samples of a foot: 5 s at 400 Hz, and more than a stride of who walks."""
+LONGEST = 2.5
+"""s: a longer contact is not that of a step."""
+STATIONS = 51
+"""Over a contact, from heel-strike to toe-off, evenly."""
+PATHS = 20
+"""Single paths of the centre of pressure that are kept, the newest."""
+
+Pair = tuple[float, float]
+
+
+@define
+class Kept:
+    """One sample: when, the loads of the cells, their sum, the centre of pressure."""
+
+    t: float
+    values: tuple[float, ...]
+    force: float
+    centre: Pair | None
+
+
+@define
+class Sole:
+    """One foot's. Loads in the unit of the samples, places in the foot frame, m."""
+
+    layout: Layout | None = None
+    samples: int = 0
+    contacts: int = 0
+    """Strides that were added up."""
+    means: list[float] = field(factory=list)
+    """Sum over contacts of each cell's mean over the contact ..."""
+    peaks: list[float] = field(factory=list)
+    """... and of its highest value."""
+    forces: list[float] = field(factory=list)
+    """Sum over contacts of the force at each station."""
+    path: list[tuple[float, float, int]] = field(factory=list)
+    """The same of the centre of pressure, and how often it was known there."""
+    paths: deque[list[Pair]] = field(factory=lambda: deque(maxlen=PATHS))
+    standing: list[float] = field(factory=list)
+    """Sum of each cell over all samples: for who takes no stride."""
+    force: float = 0.0
+    """Of all samples, summed."""
+    newest: deque[Kept] = field(factory=lambda: deque(maxlen=KEPT))
+
+    def press(self, event: FootPressed) -> None:
+        """One sample. One of another number of cells than before begins anew."""
+        if len(self.standing) != len(event.values):
+            self._begin(len(event.values))
+        self.samples += 1
+        self.force += event.force
+        self.standing = [a + b for a, b in zip(self.standing, event.values, strict=True)]
+        if self.newest and event.t <= self.newest[-1].t:
+            self.newest.clear()
+        self.newest.append(Kept(event.t, event.values, event.force, event.centre))
+
+    def _begin(self, cells: int) -> None:
+        self.standing, self.means, self.peaks = [0.0] * cells, [0.0] * cells, [0.0] * cells
+        self.forces, self.path = [0.0] * STATIONS, [(0.0, 0.0, 0)] * STATIONS
+        self.samples, self.contacts, self.force = 0, 0, 0.0
+        self.newest.clear()
+        self.paths.clear()
+
+    def stride(self, event: StrideMeasured) -> None:
+        """The contact of a stride is added up, if it was walked and hardly any of its samples are missing."""
+        missing = event.degraded and not event.steady
+        if missing or event.running or not 0.0 < event.t_toe_off - event.t_start <= LONGEST:
+            return
+        kept = list(self.newest)
+        times = [one.t for one in kept]
+        first, last = bisect_left(times, event.t_start), bisect_right(times, event.t_toe_off)
+        contact = kept[first:last]
+        if len(contact) < 3 or first == 0:
+            return
+        count = len(contact)
+        columns = list(zip(*[one.values for one in contact], strict=True))
+        self.means = [a + sum(column) / count for a, column in zip(self.means, columns, strict=True)]
+        self.peaks = [a + max(column) for a, column in zip(self.peaks, columns, strict=True)]
+        self.contacts += 1
+        path = []
+        for k in range(STATIONS):
+            one = contact[round(k * (count - 1) / (STATIONS - 1))]
+            self.forces[k] += one.force
+            if one.centre is not None:
+                (x, y, n), (a, b) = self.path[k], one.centre
+                self.path[k] = (x + a, y + b, n + 1)
+                path.append(one.centre)
+        self.paths.append(path)
+
+    @property
+    def mean_path(self) -> list[Pair]:
+        """Of the centre of pressure, where it was known in at least half of the contacts."""
+        return [(x / n, y / n) for x, y, n in self.path if n > 0 and 2 * n >= self.contacts]
+
+    @property
+    def unit(self) -> str:
+        """Of the loads."""
+        return "N" if self.layout is not None and self.layout.scale is not None else "counts"
+
+    def mapped(self) -> bool:
+        """Whether it is known where the cells lie."""
+        return self.layout is not None and len(self.layout.cells) == len(self.standing) > 0

@@ -1,0 +1,286 @@
+"""A floor plan with the track on it, as an SVG picture: every level a panel, drawn to one scale, the plan's +y upwards.
+
+Colours of the track go from the start to the end of the recording; candidates, while there are several, are dots that
+are the fainter the less they are believed.
+"""
+
+from __future__ import annotations
+
+from math import cos, sin
+from pathlib import Path
+from xml.etree.ElementTree import Element, ElementTree, SubElement, indent
+
+from attrs import define, field
+
+from ...events import Event, Placed, PlaceLost
+from ...floorplan.plan import FloorPlan, Kind, Level, Point
+
+WIDTH = 720.0
+"""Of the drawing of a level, px, at the most, where nothing else is said ..."""
+HEIGHT = 640.0
+"""... and its height."""
+MARGIN, GAP, HEAD, FOOT = 24.0, 36.0, 64.0, 64.0
+"""Around everything, between panels, above them and below, px."""
+NARROW = 640.0
+"""A narrower picture has a legend of two lines, px."""
+PIECE = 12
+"""Steps of the track that share a colour."""
+DOTS = 4000
+"""No more candidates are drawn than about so many."""
+
+PAPER, INK, SOFT, FLOOR, EDGE = "#ffffff", "#1f2933", "#7b8794", "#f4f6f8", "#323f4b"
+DOOR, STAIRS, LIFT, CANDIDATE = "#d9b382", "#9fb3c8", "#b8a9c9", "#6b7a8c"
+START, END = "#2e7d32", "#c62828"
+COLOURS = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (240, 180, 32))
+"""From the start of the track to its end."""
+
+
+@define
+class PlanPicture:
+    """Gathers what a session says of the place, then draws it. `plan`: in whose frame it is. `width`, `height`: of the
+    drawing of a level at the most, px. `columns`: how many panels stand side by side; None for as suits their number.
+    """
+
+    plan: FloorPlan
+    width: float = WIDTH
+    height: float = HEIGHT
+    columns: int | None = None
+    places: list[Placed] = field(factory=list, init=False)
+    breaks: set[int] = field(factory=set, init=False)
+    """Where the place was lost: before the place with this number."""
+
+    def add(self, event: Event) -> None:
+        if isinstance(event, Placed):
+            self.places.append(event)
+        elif isinstance(event, PlaceLost):
+            self.breaks.add(len(self.places))
+
+    def write(self, path: Path, title: str) -> None:
+        """The picture into a file, UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
+        tree = ElementTree(self.drawn(title))
+        indent(tree, space=" ")
+        try:
+            tree.write(path, encoding="utf-8", xml_declaration=True)
+        except OSError as error:
+            raise OSError(error.errno, error.strerror, str(path)) from None
+
+    def drawn(self, title: str) -> Element:
+        """The picture as an <svg> element."""
+        frame = _Frame.around(self.plan, self.places, self.width, self.height)
+        count = max(len(self.plan.levels), 1)
+        columns = self.columns or (count if count <= 3 else 3 if count > 4 else 2)
+        rows = -(-count // columns)
+        width = 2.0 * MARGIN + columns * frame.width + (columns - 1) * GAP
+        lines = 2 if width < NARROW else 1
+        height = HEAD + rows * (frame.height + GAP) + lines * FOOT
+        size = {"width": _px(width), "height": _px(height), "viewBox": f"0 0 {_px(width)} {_px(height)}"}
+        svg = Element("svg", {"xmlns": "http://www.w3.org/2000/svg", **size, "font-family": "system-ui, sans-serif"})
+        SubElement(svg, "title").text = _plain(title)
+        SubElement(svg, "rect", {"width": "100%", "height": "100%", "fill": PAPER})
+        _text(svg, MARGIN, 30.0, title, size=17.0, weight="600")
+        for k, level in enumerate(self.plan.levels):
+            left = MARGIN + (k % columns) * (frame.width + GAP)
+            top = HEAD + (k // columns) * (frame.height + GAP)
+            name = f"level {level.id}" if level.name in ("", level.id) else f"{level.name} ({level.id})"
+            _text(svg, left, top - 8.0, f"{name}, {level.elevation:.1f} m", size=13.0, colour=SOFT)
+            move = {"transform": f"translate({_px(left)} {_px(top)})"}
+            panel = SubElement(svg, "g", move)
+            self._level(panel, level, frame)
+        self._legend(svg, frame, width, height - lines * FOOT + 14.0)
+        return svg
+
+    def _level(self, panel: Element, level: Level, frame: _Frame) -> None:
+        size = {"width": _px(frame.width), "height": _px(frame.height)}
+        SubElement(panel, "rect", {**size, "rx": "6", "fill": PAPER if level.rooms else FLOOR})
+        for room in level.rooms:
+            SubElement(panel, "polygon", {"points": frame.points(room), "fill": FLOOR})
+        for connector in self.plan.connectors:
+            for stop in connector.stops:
+                if stop.level == level.id:
+                    _connector(panel, connector.kind, connector.name, stop.place, stop.outline, frame)
+        lines = {"stroke-linecap": "round", "fill": "none"}
+        doors = "".join([frame.line(door.start, door.end) for door in level.doors])
+        if doors:
+            SubElement(panel, "path", {"d": doors, "stroke": DOOR, "stroke-width": _px(frame.pen * 0.8), **lines})
+        walls = "".join([frame.line(wall.start, wall.end) for wall in level.walls])
+        if walls:
+            SubElement(panel, "path", {"d": walls, "stroke": EDGE, "stroke-width": _px(frame.pen), **lines})
+        self._candidates(panel, level.id, frame)
+        self._track(panel, level.id, frame)
+
+    def _candidates(self, panel: Element, level: str, frame: _Frame) -> None:
+        several = [place for place in self.places if len(place.candidates) > 1]
+        every = max(1, sum([len(place.candidates) for place in several]) // DOTS)
+        group = SubElement(panel, "g", {"fill": CANDIDATE, "stroke": "none"})
+        for place in several[::every]:
+            for one in place.candidates:
+                if one.level == level:
+                    x, y = frame.at(one.position[:2])
+                    faint = f"{0.06 + 0.5 * one.weight:.2f}"
+                    SubElement(group, "circle", {"cx": _px(x), "cy": _px(y), "r": "2.2", "fill-opacity": faint})
+
+    def _track(self, panel: Element, level: str, frame: _Frame) -> None:
+        """Where it is decided solid, before that as dots only."""
+        sure = [
+            place if place.level == level and len(place.candidates) == 1 and k not in self.breaks else None
+            for k, place in enumerate(self.places)
+        ]
+        style = {"fill": "none", "stroke-width": "2.6", "stroke-linecap": "round", "stroke-linejoin": "round"}
+        piece: list[Placed] = []
+        for k, place in enumerate([*sure, None]):
+            if place is not None:
+                piece.append(place)
+            if piece and (place is None or len(piece) > PIECE):
+                if len(piece) > 1:
+                    points = frame.points(tuple([one.position[:2] for one in piece]))
+                    share = (k - 0.5 * len(piece)) / max(len(self.places), 1)
+                    SubElement(panel, "polyline", {"points": points, "stroke": colour(share), **style})
+                piece = [] if place is None else [place]
+        known = [place for place in self.places if len(place.candidates) == 1]
+        found = "start" if known[:1] == self.places[:1] else "found"
+        ends = [(known[0], START, found), (known[-1], END, "end")] if known else []
+        for end, fill, word in ends:
+            if end.level == level:
+                x, y = frame.at(end.position[:2])
+                ring = {"fill": fill, "stroke": PAPER, "stroke-width": "2"}
+                SubElement(panel, "circle", {"cx": _px(x), "cy": _px(y), "r": "6", **ring})
+                _text(panel, x + 9.0, y + 4.0, word, size=11.0, colour=fill, weight="600", halo=True)
+
+    def _legend(self, svg: Element, frame: _Frame, width: float, top: float) -> None:
+        """Scale, time, what the marks mean, and north where the plan knows it."""
+        metres = _round_length(120.0 / frame.scale)
+        bar = metres * frame.scale
+        path = f"M{_px(MARGIN)} {_px(top + 4)}v6h{_px(bar)}v-6"
+        SubElement(svg, "path", {"d": path, "fill": "none", "stroke": INK, "stroke-width": "1.5"})
+        _text(svg, MARGIN, top + 28.0, f"{metres:g} m", size=12.0)
+        left = MARGIN + max(bar, 60.0) + 40.0
+        if self.places:
+            for k in range(40):
+                piece = {"x": _px(left + 3.0 * k), "y": _px(top + 2.0), "width": "3.2", "height": "8"}
+                SubElement(svg, "rect", {**piece, "fill": colour(k / 39.0)})
+            first, last = self.places[0].t, self.places[-1].t
+            _text(svg, left, top + 28.0, f"{first:.0f} s", size=12.0)
+            _text(svg, left + 120.0, top + 28.0, f"{last:.0f} s", size=12.0, anchor="end")
+            left += 160.0
+        if width < NARROW:
+            left, top = MARGIN + 5.0, top + 0.8 * FOOT
+        for fill, opacity, word in ((CANDIDATE, "0.4", "candidate"), (STAIRS, "1", "stairs"), (LIFT, "1", "lift")):
+            dot = {"cx": _px(left), "cy": _px(top + 6.0), "r": "5", "fill": fill, "fill-opacity": opacity}
+            SubElement(svg, "circle", dot)
+            _text(svg, left + 10.0, top + 10.0, word, size=12.0)
+            left += 30.0 + 8.0 * len(word)
+        if self.plan.anchor is not None:
+            _north(svg, width - MARGIN - 16.0, top + 12.0, self.plan.anchor.bearing)
+
+
+@define
+class _Frame:
+    """From the plan's metres to a panel's pixels."""
+
+    left: float
+    top: float
+    scale: float
+    width: float
+    height: float
+
+    @classmethod
+    def around(cls, plan: FloorPlan, places: list[Placed], width: float, height: float) -> _Frame:
+        """Around all levels and the whole track, with room beside them, in no more than `width` and `height` px."""
+        corners = [end for level in plan.levels for wall in level.walls for end in (wall.start, wall.end)]
+        corners += [point for level in plan.levels for room in level.rooms for point in room]
+        corners += [stop.place for connector in plan.connectors for stop in connector.stops]
+        corners += [place.position[:2] for place in places]
+        xs, ys = [x for x, _ in corners] or [0.0], [y for _, y in corners] or [0.0]
+        across, up = max(max(xs) - min(xs), 1.0), max(max(ys) - min(ys), 1.0)
+        room = 0.02 * max(across, up) + 0.5
+        scale = min(width / (across + 2.0 * room), height / (up + 2.0 * room))
+        size = ((across + 2.0 * room) * scale, (up + 2.0 * room) * scale)
+        return cls(min(xs) - room, max(ys) + room, scale, *size)
+
+    @property
+    def pen(self) -> float:
+        """Of a wall, px."""
+        return min(max(0.14 * self.scale, 1.0), 4.0)
+
+    def at(self, point: Point) -> Point:
+        return ((point[0] - self.left) * self.scale, (self.top - point[1]) * self.scale)
+
+    def points(self, ring: tuple[Point, ...]) -> str:
+        return " ".join([f"{_px(x)},{_px(y)}" for x, y in map(self.at, ring)])
+
+    def line(self, start: Point, end: Point) -> str:
+        (x, y), (x1, y1) = self.at(start), self.at(end)
+        return f"M{_px(x)} {_px(y)}L{_px(x1)} {_px(y1)}"
+
+
+def _connector(panel: Element, kind: Kind, name: str, place: Point, outline: tuple[Point, ...], frame: _Frame) -> None:
+    fill = STAIRS if kind is Kind.STAIRS else LIFT
+    x, y = frame.at(place)
+    if outline:
+        SubElement(panel, "polygon", {"points": frame.points(outline), "fill": fill, "fill-opacity": "0.55"})
+    mark = SubElement(panel, "g", {"transform": f"translate({_px(x)} {_px(y)})"})
+    SubElement(mark, "title").text = _plain(name)
+    SubElement(mark, "circle", {"r": "7", "fill": fill, "stroke": PAPER, "stroke-width": "1.5"})
+    stairs, lift = "M-4 3h2.7v-2.3h2.7v-2.3h2.7", "M-2.6 -0.8l2.6 -3l2.6 3M-2.6 0.8l2.6 3l2.6 -3"
+    sign = {"d": stairs if kind is Kind.STAIRS else lift, "stroke": INK, "stroke-width": "1.2", "fill": "none"}
+    SubElement(mark, "path", sign)
+
+
+def _north(svg: Element, x: float, y: float, bearing: float) -> None:
+    """An arrow to true north: the plan's +y, which is up here, lies `bearing` clockwise from it."""
+    east, up = -sin(bearing), cos(bearing)
+    path = f"M{_px(x - 12 * east)} {_px(y + 12 * up)}L{_px(x + 12 * east)} {_px(y - 12 * up)}"
+    for side in (0.5, -0.5):
+        dx, dy = -sin(bearing + side), cos(bearing + side)
+        path += f"M{_px(x + 12 * east)} {_px(y - 12 * up)}l{_px(-7 * dx)} {_px(7 * dy)}"
+    SubElement(svg, "path", {"d": path, "fill": "none", "stroke": INK, "stroke-width": "1.6"})
+    _text(svg, x + 20.0 * east, y - 20.0 * up + 4.0, "N", size=11.0, weight="600", anchor="middle")
+
+
+def colour(share: float) -> str:
+    """Of the track at a share of its time, 0 to 1."""
+    at = min(max(share, 0.0), 1.0) * (len(COLOURS) - 1)
+    k = min(int(at), len(COLOURS) - 2)
+    mixed = [round(a + (at - k) * (b - a)) for a, b in zip(COLOURS[k], COLOURS[k + 1], strict=True)]
+    return "#{:02x}{:02x}{:02x}".format(*mixed)
+
+
+def _round_length(metres: float) -> float:
+    """1, 2 or 5 times a power of ten, no longer than that."""
+    power = 1.0
+    while power * 10.0 <= metres:
+        power *= 10.0
+    while power > metres > 0.0:
+        power /= 10.0
+    return max([k * power for k in (1.0, 2.0, 5.0) if k * power <= metres], default=power)
+
+
+def _text(
+    parent: Element,
+    x: float,
+    y: float,
+    words: str,
+    *,
+    size: float,
+    colour: str = INK,
+    weight: str = "400",
+    anchor: str = "start",
+    halo: bool = False,
+) -> None:
+    look = {"x": _px(x), "y": _px(y), "font-size": _px(size), "font-weight": weight, "text-anchor": anchor}
+    plain = _plain(words)
+    if halo:
+        edge = {"fill": PAPER, "stroke": PAPER, "stroke-width": "3", "stroke-linejoin": "round"}
+        SubElement(parent, "text", {**look, **edge}).text = plain
+    SubElement(parent, "text", {**look, "fill": colour}).text = plain
+
+
+def _plain(words: str) -> str:
+    """XML has no control characters and no lone surrogates, and names of levels and lifts may have any."""
+    return "".join([c if c.isprintable() else " " for c in words])
+
+
+def _px(value: float) -> str:
+    """Short, and the same everywhere."""
+    short = f"{value:.1f}".removesuffix(".0")
+    return "0" if short == "-0" else short

@@ -1,0 +1,51 @@
+"""What the wearer did when, of the events that told it: what was replaced is left out."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from itertools import pairwise
+
+from attrs import define, field
+
+from ..events import ActivityChanged
+from ..types import Activity
+
+
+@define
+class Timeline:
+    """Activities over the time so far."""
+
+    _starts: list[float] = field(factory=list)
+    """s, rising."""
+    _activities: list[Activity] = field(factory=list)
+
+    def add(self, event: ActivityChanged) -> None:
+        """The next event, in the order in which they were told."""
+        if event.revises is not None:
+            self._cut(event.revises)
+        self._cut(event.t)
+        self._starts.append(event.t)
+        self._activities.append(event.activity)
+
+    def at(self, t: float) -> Activity:
+        """What the wearer did at `t` s; UNKNOWN before anything was told."""
+        i = bisect_right(self._starts, t)
+        return self._activities[i - 1] if i else Activity.UNKNOWN
+
+    def spans(self, until: float) -> list[tuple[float, float, Activity]]:
+        """(from, to, what) up to `until` s, one after the other."""
+        edges = [*[t for t in self._starts if t < until], until]
+        return [(a, b, what) for (a, b), what in zip(pairwise(edges), self._activities, strict=False)]
+
+    def lasted(self, until: float) -> dict[Activity, float]:
+        """How long each activity took up to `until` s, those that never came left out."""
+        found: dict[Activity, float] = {}
+        for a, b, what in self.spans(until):
+            found[what] = found.get(what, 0.0) + b - a
+        return {what: found[what] for what in Activity if what in found}
+
+    def _cut(self, t: float) -> None:
+        """Forget what was told of `t` s and later."""
+        while self._starts and self._starts[-1] >= t:
+            self._starts.pop()
+            self._activities.pop()

@@ -1,0 +1,138 @@
+"""A declared device against its vectors (protocol/README.md, "Vectors"): do they say the same?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from math import isclose
+from typing import Any
+
+import attrs
+
+from ..link.driver import Driver, Reading
+from ..link.sound import check
+from ..wire.error import WireError
+
+SCHEMA = "solepath vectors 1"
+_BESIDE = ("tolerance", "known")
+"""What stands in `physical` and is no field of a Reading."""
+
+
+def disagreements(driver: Driver, file: Mapping[str, Any]) -> list[str]:
+    """A sentence for everything in which a vector file (as json.load gives it) and the driver disagree, and for every
+    mistake in the file itself; none is good.
+
+    `fields` of a valid vector are what the channel's construct parses, and build the same bytes again. `physical` may
+    name fields of the Reading, to `tolerance`, read with `known`. An invalid vector is refused for its `reason`, by the
+    construct, by the reader, or because no device can mean it (sound.py).
+    """
+    if not isinstance(file, Mapping):
+        return ["a vector file is an object"]
+    found = [] if file.get("schema") == SCHEMA else [f"the schema is {SCHEMA!r}, not {file.get('schema')!r}"]
+    channel, vectors = file.get("channel"), file.get("vectors")
+    if not isinstance(channel, str) or channel not in driver.formats:
+        return [*found, f"no channel {channel!r}"]
+    if not isinstance(vectors, list):
+        return [*found, "'vectors' is no list"]
+    if file.get("count") != len(vectors):
+        found.append(f"{len(vectors)} vectors, not {file.get('count')}")
+    seen = set[str]()
+    for k, vector in enumerate(vectors):
+        if not isinstance(vector, Mapping) or not isinstance(vector.get("id"), str):
+            found.append(f"vector {k} is no object with an id")
+            continue
+        if vector["id"] in seen:
+            found.append(f"{vector['id']}: it is there twice")
+        seen.add(vector["id"])
+        found += [f"{vector['id']}: {what}" for what in _differs(driver, channel, vector)]
+    return found
+
+
+def _differs(driver: Driver, channel: str, vector: Mapping[str, Any]) -> Iterator[str]:
+    result, physical = vector.get("result"), vector.get("physical", {})
+    try:
+        data = bytes.fromhex(vector.get("hex"))  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        yield f"no bytes in hexadecimal digits: 'hex' is {vector.get('hex')!r}"
+        return
+    if result not in ("valid", "invalid"):
+        yield f"'result' is 'valid' or 'invalid', not {result!r}"
+        return
+    if result == "invalid" and not isinstance(vector.get("reason"), str):
+        yield "no 'reason' that it is refused for"
+        return
+    if not isinstance(physical, Mapping) or not _numbers(physical.get("known", {})):
+        yield "'physical' is no object of values, with numbers in its 'known'"
+        return
+    try:
+        parsed = plain(driver.parse(channel, data))
+        reading = check(driver.read(channel, data, physical.get("known", {})))
+    except WireError as error:
+        if result == "valid" or error.reason.value != vector["reason"]:
+            yield str(error)
+        return
+    if result != "valid":
+        yield f"taken, and should be {vector['reason']}"
+        return
+    yield from _builds(driver, channel, vector, parsed, data)
+    yield from _means(reading, physical)
+
+
+def _builds(driver: Driver, channel: str, vector: Mapping[str, Any], parsed: Any, data: bytes) -> Iterator[str]:
+    if "fields" not in vector:
+        yield "no 'fields' that it says"
+        return
+    if parsed != vector["fields"]:
+        yield f"says {parsed}"
+    try:
+        built = driver.write(channel, vector["fields"])
+    except ValueError as error:
+        yield f"its fields cannot be built: {error}"
+        return
+    if built != data:
+        yield f"is built as {built.hex()}"
+
+
+def _means(reading: Reading, physical: Mapping[str, Any]) -> Iterator[str]:
+    tolerance = physical.get("tolerance")
+    if physical and not _numbers({"tolerance": tolerance}):
+        yield f"'physical' has a 'tolerance' that is a number, not {tolerance!r}"
+        return
+    for name, value in physical.items():
+        if name in _BESIDE:
+            continue
+        if name not in attrs.fields_dict(Reading):
+            yield f"a Reading has no {name!r}"
+        elif not _close(plain(getattr(reading, name)), value, physical["tolerance"]):
+            yield f"{name} is {plain(getattr(reading, name))}"
+
+
+def _numbers(named: Any) -> bool:
+    return isinstance(named, Mapping) and all([isinstance(value, int | float) for value in named.values()])
+
+
+def plain(value: Any) -> Any:
+    """As JSON has it: records and construct's Containers as dicts, sequences as lists, enums as their values."""
+    if attrs.has(type(value)):
+        return plain(attrs.asdict(value, recurse=False))
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items() if not str(key).startswith("_")}
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    return getattr(value, "value", value)
+
+
+def _close(found: Any, expected: Any, tolerance: float) -> bool:
+    """Whether `found` has all that `expected` names, numbers to `tolerance`."""
+    if isinstance(expected, Mapping):
+        return isinstance(found, dict) and all(
+            [name in found and _close(found[name], item, tolerance) for name, item in expected.items()]
+        )
+    if isinstance(expected, list):
+        return (
+            isinstance(found, list)
+            and len(found) == len(expected)
+            and all([_close(a, b, tolerance) for a, b in zip(found, expected, strict=True)])
+        )
+    if isinstance(expected, int | float) and not isinstance(expected, bool):
+        return isinstance(found, int | float) and isclose(found, expected, rel_tol=0.0, abs_tol=tolerance)
+    return bool(found == expected)

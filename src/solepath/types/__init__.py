@@ -1,0 +1,41 @@
+"""What all rooms share: feet, sites, phases and activities; packets, samples and layouts of cells; vectors."""
+
+from .records import (
+    SITE_OF_FOOT,
+    Activity,
+    Cell,
+    Foot,
+    Layout,
+    OnBody,
+    Packet,
+    Phase,
+    Quat,
+    Sample,
+    Site,
+    Support,
+    Turn,
+    Vec3,
+    WalkingMode,
+    Word,
+    shared,
+)
+
+__all__ = [
+    "Activity",
+    "Cell",
+    "Foot",
+    "Layout",
+    "OnBody",
+    "Packet",
+    "Phase",
+    "Quat",
+    "SITE_OF_FOOT",
+    "Sample",
+    "Site",
+    "Support",
+    "Turn",
+    "Vec3",
+    "WalkingMode",
+    "Word",
+    "shared",
+]
