@@ -6,7 +6,7 @@ Without addresses two emulated insoles are worn for eight seconds, behind virtua
 import asyncio
 import sys
 
-from solepath import Connected, Disconnected, LinkTrouble, Session, Site, StepTaken
+from solepath import Connected, Disconnected, LinkTrouble, Session, Site, StrideTaken
 from solepath.ble import NATIVE, Backend, BluetoothError, Devices, Wanted
 from solepath.emulate import Route
 from solepath.emulate.controllers.server import virtual_air
@@ -21,7 +21,7 @@ async def listen(left: str, right: str, backend: Backend = NATIVE, seconds: floa
         async for packet in devices:
             for event in session.feed(packet):
                 match event:
-                    case StepTaken(foot=foot, stride_length=length):
+                    case StrideTaken(foot=foot, length=length):
                         print(f"{foot.value} step of {length:.2f} m")
                     case Connected(site=site, name=name):
                         print(f"{site.value}: connected to {name}")

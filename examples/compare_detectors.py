@@ -8,7 +8,7 @@ the integration of acceleration from drifting?). Any detector goes with any corr
 
 from math import radians
 
-from solepath import Foot, Recipe, Session, StepTaken, recipes
+from solepath import Foot, Recipe, Session, StrideTaken, recipes
 from solepath.emulate import Radio, Route, emulate
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.stance.stance import Shoe
@@ -23,12 +23,12 @@ textbook = Recipe("SHOE + linear dedrift", detector=Shoe(), corrector=LinearDedr
 print(f"{'recipe':22}  {'foot':5}  steps  of  length error %  end error m")
 for recipe in (recipes.DEFAULT, textbook):
     session = Session(recipe)
-    steps = [e for e in session.feed(walk.packets) + session.finish() if isinstance(e, StepTaken)]
+    steps = [e for e in session.feed(walk.packets) + session.finish() if isinstance(e, StrideTaken)]
     for foot in Foot:
         found, true = [s for s in steps if s.foot is foot], walk.truth.steps(foot)
         # a found step belongs to the true one that ends at about the same time
         pairs = [(f, t) for f in found for t in true if abs(f.t_end - t.t_end) < 0.3]
-        error = sum(abs(f.stride_length / t.length - 1) for f, t in pairs) / len(pairs)
+        error = sum(abs(f.length / t.length - 1) for f, t in pairs) / len(pairs)
         # both are measured from where the foot stood at first, along the heading in which it set out
         (x, y, _), end = found[-1].position, walk.truth.pose(foot, walk.truth.duration).position[0]
         away = ((x - end[0]) ** 2 + (y - end[1]) ** 2) ** 0.5

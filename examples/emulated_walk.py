@@ -5,7 +5,7 @@
 
 from math import degrees, radians
 
-from solepath import FootFlat, HeelOff, HeelStrike, PacketRejected, PacketsLost, Session, StepTaken, ToeOff
+from solepath import FootFlat, HeelOff, HeelStrike, PacketRejected, PacketsLost, Session, StrideTaken, ToeOff
 from solepath.emulate import Radio, Route, emulate
 
 # Stand, walk six metres, turn left on a bend, walk on, stop. The radio loses one packet in fifty.
@@ -24,7 +24,7 @@ for packet in walk.packets:
                 # t: when it happened. known_at: when the packet came that settled it.
                 late = 1000 * (event.known_at - event.t)
                 print(f"{event.t:6.2f} s  {event.foot.value:5}  {type(event).__name__:10}  known {late:3.0f} ms later")
-            case StepTaken(t=t, foot=foot, number=number, stride_length=length, heading_change=turn):
+            case StrideTaken(t=t, foot=foot, number=number, length=length, heading_change=turn):
                 print(f"{t:6.2f} s  {foot.value:5}  step {number}: {length:.2f} m, turned {degrees(turn):+.0f} deg")
             case PacketsLost(count=count):
                 lost += count

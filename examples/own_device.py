@@ -13,7 +13,7 @@ from pathlib import Path
 
 from construct import Const, Int16ub, OneOf, Struct, Terminated
 
-from solepath import BatteryLevel, Foot, Packet, PacketsLost, Session, Site, StepTaken
+from solepath import BatteryLevel, Foot, Packet, PacketsLost, Session, Site, StrideTaken
 from solepath.emulate import Route, Walker
 from solepath.link.driver import Driver, Measured, Reading
 from solepath.link.profile import Channel, How, Profile, Write
@@ -68,7 +68,7 @@ for k, true in enumerate(Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.L
         continue  # three are lost
     for event in session.feed(Packet(true.t + 0.008, Site.LEFT_FOOT, "shoe/motion", data)):
         match event:
-            case StepTaken(t=t, number=number, stride_length=length, degraded=degraded):
+            case StrideTaken(t=t, number=number, length=length, degraded=degraded):
                 print(f"{t:6.2f} s  step {number}: {length:.2f} m{', with a gap in it' if degraded else ''}")
             case PacketsLost(t=t, count=count):
                 print(f"{t:6.2f} s  {count} packets lost")

@@ -9,7 +9,7 @@ A live source is the same loop: make a Packet of every Bluetooth notification an
 
 import sys
 
-from solepath import HeelStrike, PacketRejected, Session, StepTaken
+from solepath import HeelStrike, PacketRejected, Session, StrideTaken
 from solepath.recording import read_packets
 
 if len(sys.argv) != 2:
@@ -21,7 +21,7 @@ for packet in read_packets(sys.argv[1]):  # Packet(t, site, channel, data)
         match event:
             case HeelStrike(foot=foot, t=t):
                 print(f"{t:7.2f} s  {foot.value} heel-strike")
-            case StepTaken(foot=foot, t=t, stride_length=length, position=(x, y, _)):
+            case StrideTaken(foot=foot, t=t, length=length, position=(x, y, _)):
                 print(f"{t:7.2f} s  {foot.value} step of {length:.2f} m, now at {x:.2f}, {y:.2f}")
             case PacketRejected(t=t, reason=reason):
                 print(f"{t:7.2f} s  a packet was not used: {reason.value}")

@@ -10,7 +10,7 @@ import csv
 import sys
 from collections.abc import Iterator
 
-from solepath import Foot, Sample, SampleGap, SampleRejected, Session, Site, StepTaken
+from solepath import Foot, Sample, SampleGap, SampleRejected, Session, Site, StrideTaken
 from solepath.emulate import Route, Walker
 
 
@@ -35,7 +35,7 @@ session = Session()
 for sample in samples_of(sys.argv[1]) if len(sys.argv) > 1 else emulated_samples():
     for event in session.feed(sample):
         match event:
-            case StepTaken(t=t, number=number, stride_length=length, position=(x, y, z)):
+            case StrideTaken(t=t, number=number, length=length, position=(x, y, z)):
                 print(f"{t:7.2f} s  step {number}: {length:.2f} m, foot at ({x:.2f}, {y:.2f}, {z:.2f})")
             case SampleGap(t=t, duration=duration):
                 print(f"{t:7.2f} s  nothing for {duration:.2f} s; this step is marked degraded")

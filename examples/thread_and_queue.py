@@ -15,7 +15,7 @@ import time
 from collections.abc import Callable, Iterator
 from math import inf
 
-from solepath import Event, Foot, Packet, PacketsDropped, Session, Site, StepTaken, StreamResumed, StreamStale
+from solepath import Event, Foot, Packet, PacketsDropped, Session, Site, StreamResumed, StreamStale, StrideTaken
 from solepath.emulate import Route, emulate
 from solepath.link.known import PROFILES
 from solepath.recording import read_packets
@@ -116,7 +116,7 @@ class App:
 
 def show(event: Event) -> None:
     match event:
-        case StepTaken(t=t, foot=foot, stride_length=length, degraded=degraded, number=number):
+        case StrideTaken(t=t, foot=foot, length=length, degraded=degraded, number=number):
             print(f"{t:6.2f} s  {foot.value} step of {length:.2f} m{', with a gap in it' if degraded else ''}")
             hangs = app.clock.t + 1.6 if number == 2 and foot is Foot.LEFT else 0.0  # the screen, while packets come
             while app.clock.t < hangs and app.receiver.is_alive() and not app.receiver.must_wait:

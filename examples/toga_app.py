@@ -17,7 +17,18 @@ from toga.colors import rgb
 from toga.constants import CENTER, COLUMN, ROW
 from toga.widgets.canvas import Arc, DrawingAction, Fill, FillText, LineTo, Rect, Stroke
 
-from solepath import Event, Foot, FootPressed, Layout, LayoutKnown, LinkTrouble, Packet, Session, StepTaken, StreamStale
+from solepath import (
+    Event,
+    Foot,
+    FootPressed,
+    Layout,
+    LayoutKnown,
+    LinkTrouble,
+    Packet,
+    Session,
+    StreamStale,
+    StrideTaken,
+)
 from solepath.link.profile import INSOLE
 
 COLOURS = {Foot.LEFT: "#1f77b4", Foot.RIGHT: "#d95f02"}
@@ -89,7 +100,7 @@ class GaitApp(toga.App):
     def take(self, events: list[Event]) -> None:
         for event in events:
             match event:
-                case StepTaken(foot=foot, position=(x, y, _)):
+                case StrideTaken(foot=foot, position=(x, y, _)):
                     self.steps += 1
                     self.track[foot].append((x, y))
                 case FootPressed(foot=foot, values=values):

@@ -11,7 +11,17 @@ from random import Random
 
 from attrs import define, field
 
-from solepath import Activity, ActivityChanged, Event, FlightClimbed, Foot, LiftRidden, StepFeatures, StepTaken, Vec3
+from solepath import (
+    Activity,
+    ActivityChanged,
+    Event,
+    FlightClimbed,
+    Foot,
+    LiftRidden,
+    StrideFeatures,
+    StrideTaken,
+    Vec3,
+)
 from solepath.body.fuse.position import Position
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, Connector, FloorPlan, Kind, Level, Point, Stop, Wall
@@ -191,12 +201,12 @@ class Pedestrian:
 
 def stepped(
     t: float, foot: Foot, number: int, position: Vec3, degraded: bool = False, stride: float = 1.2
-) -> StepTaken:
-    return StepTaken(
+) -> StrideTaken:
+    return StrideTaken(
         t=t, known_at=t + 0.04, foot=foot, number=number, t_start=t - 1.0, t_end=t, displacement=(stride, 0.0, 0.0),
-        position=position, stride_length=stride, heading_change=0.0, height_change=0.0,
+        position=position, length=stride, heading_change=0.0, height_change=0.0,
         covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4), t_toe_off=t - 0.6, t_heel_strike=t - 0.1, degraded=degraded,
-        features=StepFeatures(0.1, 3.0, 1.0, None, (), None),
+        features=StrideFeatures(0.1, 3.0, 1.0, None, (), None),
     )  # fmt: skip
 
 

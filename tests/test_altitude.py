@@ -10,7 +10,7 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import Foot, LiftRidden, Sample, Session, Site, StepTaken, recipes
+from solepath import Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
 from solepath.body.fuse.position import Position
 from solepath.body.height.altitude import LEFT, MOVE, RIGHT, SCALE, STANDARD, UNKNOWN, Altitude
 from solepath.body.height.received import TICKS, Heard, Told
@@ -105,7 +105,7 @@ def test_weather_and_a_door_do_not_move_who_walks_on_the_level() -> None:
         for k, sample in enumerate(plain)
     ]
     told = Session().feed(plain)
-    assert any([isinstance(event, StepTaken) for event in told])
+    assert any([isinstance(event, StrideTaken) for event in told])
     assert heights(windy)[0] == heights(list(plain))[0]
 
 
@@ -114,7 +114,7 @@ def test_air_says_what_stairs_came_to_where_the_steps_are_wrong() -> None:
     foot = Session()
     foot.feed(list(samples(cells=0))[:2])
     tracker = foot.feet[Foot.LEFT]
-    step = next(event for event in Session().feed(samples(cells=0)) if isinstance(event, StepTaken))
+    step = next(event for event in Session().feed(samples(cells=0)) if isinstance(event, StrideTaken))
     climbing = evolve(step, height_change=0.1, covariance=(0.0, 0.0, 0.0, 0.0, 0.0, 0.04))  # known to 20 cm
     begin = tracker.position[2]
     for k in range(30):
@@ -142,7 +142,7 @@ def ride(height: float | None, lasted: float, up: bool = True) -> LiftRidden:
 )
 def test_without_air_what_no_lift_rides_has_no_height(height: float | None, lasted: float, strides: int) -> None:
     altitude = Altitude()
-    step = next(event for event in Session().feed(samples(cells=0)) if isinstance(event, StepTaken))
+    step = next(event for event in Session().feed(samples(cells=0)) if isinstance(event, StrideTaken))
     for k in range(strides):
         altitude.follow([evolve(step, t_start=101.0 + k, t_end=102.0 + k, t=102.0 + k)])
     (told,) = altitude.follow([ride(height, lasted)])

@@ -15,7 +15,7 @@ import pytest
 from attrs import define, field
 
 from airs import bumble, in_virtual_time, others
-from solepath import Connected, Disconnected, FootMoved, PacketRejected, SampleGap, Session, StepTaken
+from solepath import Connected, Disconnected, FootMoved, PacketRejected, SampleGap, Session, StrideTaken
 from solepath.ble import Devices, Wanted
 from solepath.emulate import Route, emulate
 from solepath.emulate.devices.bench import Bench
@@ -74,7 +74,7 @@ class Walked:
                 ends = self.ends(foot)
                 if done < len(ends) and t - self.began >= ends[done]:
                     self.places[foot].extend(position)
-            case StepTaken():
+            case StrideTaken():
                 self.steps += 1
             case Connected():
                 self.connected += 1

@@ -21,10 +21,10 @@ from solepath import (
     Rejection,
     SampleGap,
     Session,
-    StepTaken,
     StreamRestarted,
     StreamResumed,
     StreamStale,
+    StrideTaken,
 )
 from solepath.ble import Devices, Wanted
 from solepath.emulate import Route
@@ -147,9 +147,9 @@ def test_a_disconnection_in_mid_stride_is_told_the_gap_too_and_its_step_is_degra
     assert order[1].t == pytest.approx(8.6, abs=0.1)  # type: ignore[attr-defined]
     [gap] = of(SampleGap, found)
     assert 0.05 < gap.duration < 0.6
-    [step] = [step for step in of(StepTaken, found) if step.t_start < gap.t < step.t_end]
+    [step] = [step for step in of(StrideTaken, found) if step.t_start < gap.t < step.t_end]
     assert step.degraded
-    assert len(of(StepTaken, found)) > 8
+    assert len(of(StrideTaken, found)) > 8
     assert not of(PacketRejected, found)
     assert not of(LinkTrouble, found)
 

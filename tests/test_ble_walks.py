@@ -19,7 +19,7 @@ from solepath import (
     PacketsLost,
     SampleGap,
     Session,
-    StepTaken,
+    StrideTaken,
     ToeOff,
 )
 from solepath.ble import Devices, Wanted
@@ -125,7 +125,7 @@ def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_
 
     events = events_of(packets)
     assert events == events_of(fed)
-    assert {event.foot for event in events if isinstance(event, StepTaken)} == set(Foot)
+    assert {event.foot for event in events if isinstance(event, StrideTaken)} == set(Foot)
     assert not [event for event in events if isinstance(event, PacketsLost | PacketRejected | SampleGap)]
     if mtu == 23:
         assert len(packets) > 9 * len(arrived)

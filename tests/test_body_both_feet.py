@@ -17,7 +17,7 @@ from solepath.body.fuse.position import MeanOfFeet
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
-from solepath.events import Event, StepTaken
+from solepath.events import Event, StrideTaken
 from solepath.saving import codec as machine
 from solepath.session import Session
 from solepath.types import Foot, Sample
@@ -87,10 +87,10 @@ def test_what_is_unsure_of_the_place_of_both_feet_is_so_in_every_direction() -> 
 @pytest.mark.parametrize("askew", [-1.0, 2.0, 3.1])
 def test_a_foot_that_first_steps_aside_does_not_bend_either_track(askew: float) -> None:
     session = Session()
-    steps: list[StepTaken] = []
+    steps: list[StrideTaken] = []
     for sample in _samples(102):
         for event in session.feed(sample):
-            if isinstance(event, StepTaken):
+            if isinstance(event, StrideTaken):
                 steps.append(event)
                 if event.foot is Foot.LEFT and event.number == 1:
                     # as if its first step, which its world frame begins along, had led there
@@ -107,7 +107,7 @@ def test_corrections_make_no_stride_longer() -> None:
     _, events = _walked("both")
     _, without = _walked("mean")
     lengths, own = (
-        [event.stride_length for event in heard if isinstance(event, StepTaken)] for heard in (events, without)
+        [event.length for event in heard if isinstance(event, StrideTaken)] for heard in (events, without)
     )
     assert lengths == pytest.approx(own, abs=0.01)
 

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 import walks
 from snooped import BEGAN, H1, H4, INSOLE, LEFT, MONITOR, OTHER, RIGHT, TAG, Log, insole_uuid
 from solepath import Packet, PacketRejected, Sample, Session, Site
-from solepath.events import Connected, Disconnected, StepTaken
+from solepath.events import Connected, Disconnected, StrideTaken
 from solepath.link.decoder import Decoder
 from solepath.recording import RecordingError
 from solepath.recording.btsnoop import is_btsnoop, open_btsnoop
@@ -303,8 +303,8 @@ def test_a_walk_in_two_insoles_gives_the_same_steps_as_the_walk_itself(tmp_path)
     def steps(packets) -> list[tuple[Foot, int, float]]:
         session = Session()
         events = [event for packet in packets for event in session.feed(packet)] + session.finish()
-        taken = [event for event in events if isinstance(event, StepTaken)]
-        return [(step.foot, step.number, round(step.stride_length, 2)) for step in taken]
+        taken = [event for event in events if isinstance(event, StrideTaken)]
+        return [(step.foot, step.number, round(step.length, 2)) for step in taken]
 
     assert steps(open_btsnoop(path, report=pytest.fail)) == steps(walk.packets) != []
 

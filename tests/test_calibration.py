@@ -21,7 +21,7 @@ from solepath import (
     Sample,
     Session,
     Site,
-    StepTaken,
+    StrideTaken,
     WalkingMode,
     read_calibration,
     recipes,
@@ -241,7 +241,7 @@ def test_a_calibration_of_another_insole_is_named_and_the_walk_goes_on_without_i
         "the calibration's layout has 35 cells, the left insole has 96: it is not used",
         "the calibration's noise is of 35 cells, the left insole has 96: it is not used",
     ]
-    assert of(StepTaken, told) == of(StepTaken, plain) != []
+    assert of(StrideTaken, told) == of(StrideTaken, plain) != []
 
 
 def test_a_first_sample_that_is_cut_short_is_not_of_another_insole() -> None:
@@ -262,7 +262,7 @@ def test_cells_that_come_apart_from_the_inertial_samples_are_compared_too() -> N
     session = Session(recipes.ZUPT, calibration=OTHERS)
     told = session.feed(sorted(apart, key=attrgetter("t")))
     assert [event for event in of(Limitation, told) if "no pressure" in event.what] == []
-    assert of(StepTaken, told) != []
+    assert of(StrideTaken, told) != []
 
 
 # --- files that are no calibrations ---

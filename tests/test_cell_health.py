@@ -17,7 +17,7 @@ from solepath import Session
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import FULL_SCALE, layout
-from solepath.events import CellFault, CellsFailed, Event, InsoleNeverUnloads, SampleRejected, StepTaken
+from solepath.events import CellFault, CellsFailed, Event, InsoleNeverUnloads, SampleRejected, StrideTaken
 from solepath.foot.pressure.cell_health import CellHealth
 from solepath.foot.pressure.cells import enclosed, spacing
 from solepath.saving import codec as machine
@@ -67,11 +67,11 @@ def heard(cells: int, fault: Fault | None = None, since: float = -inf) -> tuple[
 
 
 @cache
-def clean(cells: int = 96) -> list[StepTaken]:
+def clean(cells: int = 96) -> list[StrideTaken]:
     """The steps of the same walk when nothing fails."""
     told, rest = heard(cells)
     assert told == []
-    return of(StepTaken, rest)
+    return of(StrideTaken, rest)
 
 
 def put(value: float | None) -> Fault:
@@ -121,9 +121,9 @@ def test_a_cell_that_failed_is_told_once_and_the_walk_goes_on(cells: int, kind: 
     assert isinstance(failed, CellsFailed)
     assert (failed.site, failed.fault, failed.cells) == (LEFT, kind, (among_loading_cells(cells),))
     assert failed.t < (1.1 if kind is CellFault.MISSING else 15.0)
-    steps, whole = of(StepTaken, rest), clean(cells)
+    steps, whole = of(StrideTaken, rest), clean(cells)
     assert len(steps) == len(whole)
-    assert sum(s.stride_length for s in steps) == pytest.approx(sum(s.stride_length for s in whole), rel=0.01)
+    assert sum(s.length for s in steps) == pytest.approx(sum(s.length for s in whole), rel=0.01)
     assert of(SampleRejected, rest) == []
 
 
@@ -171,7 +171,7 @@ def test_another_number_of_cells_is_told_and_the_inertial_part_goes_on(count: in
     assert failed.fault is CellFault.MISSING
     assert failed.cells == (tuple(range(count, 96)) or (96,))
     assert failed.t == pytest.approx(11.0, abs=0.1)
-    assert len(of(StepTaken, rest)) == len(clean())
+    assert len(of(StrideTaken, rest)) == len(clean())
 
 
 def test_one_sample_of_another_length_is_not_used_and_not_told() -> None:
@@ -202,13 +202,13 @@ def test_an_insole_that_never_unloads_is_told_and_steps_are_taken_by_the_inertia
     assert [type(event) for event in told] == [InsoleNeverUnloads]
     assert told[0].site is LEFT
     assert 6.0 < told[0].seconds < 16.0
-    assert abs(len(of(StepTaken, rest)) - len(clean())) <= 1
+    assert abs(len(of(StrideTaken, rest)) - len(clean())) <= 1
 
 
 def test_an_insole_that_shows_one_value_for_ever_is_told_as_one_that_never_unloads() -> None:
     told, rest = heard(24, lambda t, cells, which: (30.0,) * 24)
     assert [type(event) for event in told] == [InsoleNeverUnloads]
-    assert len(of(StepTaken, rest)) == len(clean(24))
+    assert len(of(StrideTaken, rest)) == len(clean(24))
 
 
 def test_an_insole_that_shows_nothing_at_all_is_dead_in_every_cell() -> None:
@@ -216,7 +216,7 @@ def test_an_insole_that_shows_nothing_at_all_is_dead_in_every_cell() -> None:
     assert [(event.fault, event.cells) for event in told if isinstance(event, CellsFailed)] == [
         (CellFault.DEAD, tuple(range(24)))
     ]
-    assert len(of(StepTaken, rest)) == len(clean(24))
+    assert len(of(StrideTaken, rest)) == len(clean(24))
 
 
 def test_a_wearer_who_stands_on_one_spot_has_no_stuck_cells() -> None:

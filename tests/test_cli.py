@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from solepath import Event, FootMoved, PacketsLost, Session, StepTaken
+from solepath import Event, FootMoved, PacketsLost, Session, StrideTaken
 from solepath.cli import main
 from solepath.cli.common.failure import note
 from solepath.emulate.radio import Radio
@@ -150,7 +150,7 @@ def test_the_recording_of_the_demo_gives_track_the_same_steps(demo, folder):
     done = solepath("track", folder / "demo.jsonl", "--out", folder / "demo")
     assert done.returncode == 0 and done.stderr == ""
     found = next(line for line in demo.stdout.splitlines() if line.startswith("steps found")).split()[2:]
-    feet = [row["foot"] for row in rows_in(folder / "demo" / "steps.csv")]
+    feet = [row["foot"] for row in rows_in(folder / "demo" / "strides.csv")]
     assert [str(feet.count("left")), str(feet.count("right"))] == found
 
 
@@ -205,7 +205,7 @@ def test_track_sums_up_in_plain_text(tracked, packets):
 def test_events_are_strict_json_with_their_times_and_feet(tracked):
     _, out = tracked
     events = events_in(out)
-    assert {"HeelStrike", "FootFlat", "HeelOff", "ToeOff", "StepTaken", "PacketsLost"} <= {e["event"] for e in events}
+    assert {"HeelStrike", "FootFlat", "HeelOff", "ToeOff", "StrideTaken", "PacketsLost"} <= {e["event"] for e in events}
     for event in events:
         assert list(event)[:4] == ["event", "t", "known_at", "final"]
         assert event["known_at"] >= event["t"] and event["final"] in (True, False)
@@ -215,12 +215,12 @@ def test_events_are_strict_json_with_their_times_and_feet(tracked):
 
 def test_steps_and_track_are_tables_of_the_same_walk(tracked):
     _, out = tracked
-    steps, track = rows_in(out / "steps.csv"), rows_in(out / "track.csv")
+    steps, track = rows_in(out / "strides.csv"), rows_in(out / "track.csv")
     assert list(steps[0]) == [
         "foot", "t_start", "t_end", "x", "y", "z", "stride_length", "heading_change", "height_change", "degraded",
     ]  # fmt: skip
     assert list(track[0]) == ["t", "foot", "x", "y", "z", "phase"]
-    taken = [event for event in events_in(out) if event["event"] == "StepTaken"]
+    taken = [event for event in events_in(out) if event["event"] == "StrideTaken"]
     assert [(row["foot"], float(row["t_end"])) for row in steps] == [(event["foot"], event["t_end"]) for event in taken]
     assert {row["phase"] for row in track} == {"LOADING", "STATIONARY", "PUSH_OFF", "SWING"}
     for foot in ("left", "right"):
@@ -240,13 +240,13 @@ def told(packets) -> list[Event]:
 
 
 def test_every_column_of_steps_is_what_the_session_said(tracked, told):
-    taken = [event for event in told if isinstance(event, StepTaken)]
+    taken = [event for event in told if isinstance(event, StrideTaken)]
     assert len(taken) > 8 and max(abs(step.heading_change) for step in taken) > 0.01
-    for row, step in zip(rows_in(tracked[1] / "steps.csv"), taken, strict=True):
+    for row, step in zip(rows_in(tracked[1] / "strides.csv"), taken, strict=True):
         assert row["foot"] == step.foot.value and row["degraded"] == str(int(step.degraded))
         assert (float(row["t_start"]), float(row["t_end"])) == (step.t_start, step.t_end)
         x, y, z = step.position
-        lengths = {"x": x, "y": y, "z": z, "stride_length": step.stride_length, "height_change": step.height_change}
+        lengths = {"x": x, "y": y, "z": z, "stride_length": step.length, "height_change": step.height_change}
         for column, value in (lengths | {"heading_change": step.heading_change}).items():
             assert float(row[column]) == pytest.approx(value, abs=1e-6), column
     assert any(step.degraded for step in taken)
@@ -279,7 +279,7 @@ def test_a_recording_of_one_foot_is_of_the_foot_that_is_named(one_foot, tmp_path
         assert done.returncode == 0
         assert {row["foot"] for row in rows_in(tmp_path / "track.csv")} == {foot}
         # nothing is missing of these samples; of the packets above something is in every step
-        assert {(row["foot"], row["degraded"]) for row in rows_in(tmp_path / "steps.csv")} == {(foot, "0")}
+        assert {(row["foot"], row["degraded"]) for row in rows_in(tmp_path / "strides.csv")} == {(foot, "0")}
 
 
 def test_the_times_written_are_the_recordings_own(one_foot, tmp_path):
@@ -305,7 +305,7 @@ def test_a_recording_cut_in_the_middle_of_a_line_says_so_and_loses_nothing_befor
     assert done.returncode == 0
     lines = packets.read_bytes().count(b"\n")
     assert done.stderr == f"solepath: {cut}: line {lines}: cut off in the middle; everything before it is used\n"
-    assert len(rows_in(tmp_path / "steps.csv")) == len(rows_in(tracked[1] / "steps.csv"))
+    assert len(rows_in(tmp_path / "strides.csv")) == len(rows_in(tracked[1] / "strides.csv"))
 
 
 def test_a_bad_row_ends_the_walk_there_and_what_came_before_is_written(one_foot, tmp_path):
@@ -317,7 +317,7 @@ def test_a_bad_row_ends_the_walk_there_and_what_came_before_is_written(one_foot,
     assert one_line(done).endswith("bad.npz: acc, row 700: is nan, not a finite number (t = 7 s)")
     assert "recipe default: 7.0 s" in done.stdout
     assert [float(row["t"]) for row in rows_in(tmp_path / "track.csv")][-1] == columns["t"][699]
-    assert rows_in(tmp_path / "steps.csv")
+    assert rows_in(tmp_path / "strides.csv")
 
 
 def test_a_line_that_is_not_json_ends_the_walk_there(packets, tmp_path):
@@ -357,10 +357,10 @@ def test_a_file_that_cannot_be_used_gets_one_line_and_status_2(tmp_path, name):
 @pytest.mark.parametrize("name", BAD_FILES)
 def test_a_file_that_cannot_be_used_replaces_nothing_of_an_earlier_run(tmp_path, name):
     (tmp_path / name).write_bytes(BAD_FILES[name][0])
-    (tmp_path / "steps.csv").write_text("of an earlier run\n")
+    (tmp_path / "strides.csv").write_text("of an earlier run\n")
     one_line(in_this_process("track", tmp_path / name, "--out", tmp_path))
-    assert {path.name for path in tmp_path.iterdir()} == {name, "steps.csv"}
-    assert (tmp_path / "steps.csv").read_text() == "of an earlier run\n"
+    assert {path.name for path in tmp_path.iterdir()} == {name, "strides.csv"}
+    assert (tmp_path / "strides.csv").read_text() == "of an earlier run\n"
 
 
 def test_a_header_alone_is_a_whole_recording_of_nothing(tmp_path):
@@ -368,7 +368,7 @@ def test_a_header_alone_is_a_whole_recording_of_nothing(tmp_path):
     done = in_this_process("track", tmp_path / "nothing.jsonl", "--out", tmp_path)
     assert done.returncode == 0 and done.stderr.endswith("nothing.jsonl: holds no packets\n")
     assert "nothing was heard of either foot" in done.stdout
-    assert events_in(tmp_path) == rows_in(tmp_path / "track.csv") == rows_in(tmp_path / "steps.csv") == []
+    assert events_in(tmp_path) == rows_in(tmp_path / "track.csv") == rows_in(tmp_path / "strides.csv") == []
 
 
 def test_packets_of_the_other_foot_only_are_an_error(tmp_path):

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from solepath import Connected, Disconnected, Session, StepTaken
+from solepath import Connected, Disconnected, Session, StrideTaken
 from solepath.recording import read_packets
 from solepath.types import Packet, Site
 
@@ -114,9 +114,9 @@ def test_what_record_writes_is_replayed_as_it_was_heard_live(insoles: str, tmp_p
     run("live", *options, "--record", file, "--out", out)
     replayed = tmp_path / "replayed"
     run("track", file, "--out", replayed)
-    for name in ("events.jsonl", "track.csv", "steps.csv"):
+    for name in ("events.jsonl", "track.csv", "strides.csv"):
         assert (replayed / name).read_text() == (out / name).read_text()
-    assert (replayed / "steps.csv").read_text().count("\n") > 2
+    assert (replayed / "strides.csv").read_text().count("\n") > 2
     devices = {(packet.site, packet.device) for packet in read_packets(file) if packet.device}
     assert devices == {(Site.LEFT_FOOT, "F0:5E:00:00:00:01"), (Site.RIGHT_FOOT, "F0:5E:00:00:00:02")}
 
@@ -190,7 +190,7 @@ def test_sensortags_are_told_apart_by_their_addresses(tmp_path: Path) -> None:
         sides = ["--left", "F0:5E:00:00:00:01", "--right", "F0:5E:00:00:00:02"]
         profile = ["--profile", "cc2541-20hz"]
         run("record", "--via", where, *sides, *profile, "--out", file, "--duration", 9)
-    steps = [event for event in events_of(list(read_packets(file))) if isinstance(event, StepTaken)]
+    steps = [event for event in events_of(list(read_packets(file))) if isinstance(event, StrideTaken)]
     assert {event.foot.value for event in steps} == {"left", "right"}
 
 

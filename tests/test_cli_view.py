@@ -211,7 +211,7 @@ def test_what_track_writes_does_not_depend_on_the_page_which_is_there_before_any
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=TAKES)
     assert (process.returncode, err) == (0, "")
-    for name in ("events.jsonl", "track.csv", "steps.csv", "gait.csv"):
+    for name in ("events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"):
         assert (plain / name).read_bytes() == (viewed / name).read_bytes()
     assert (tmp_path / "plain.html").read_bytes() == (tmp_path / "viewed.html").read_bytes()
     ended, rest, summed_up = out.partition("the rest of the recording")
@@ -255,7 +255,7 @@ def test_closing_the_terminal_ends_the_page_as_ctrl_c_does_and_all_is_written(re
             seen += os.read(ours, 65536).decode()
         os.close(ours)
         assert process.wait(TAKES) == 0
-    for name in ("events.jsonl", "track.csv", "steps.csv", "gait.csv"):
+    for name in ("events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"):
         assert (plain / name).read_bytes() == (closed / name).read_bytes()
     assert (tmp_path / "plain.html").read_bytes() == (tmp_path / "closed.html").read_bytes()
     assert len(list(closed.iterdir())) == 4

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from solepath import Session, StepTaken
+from solepath import Session, StrideTaken
 from solepath.calibration import Calibration
 from solepath.lab.evaluate.insoles import in_dataset
 from solepath.recipes import DEFAULT, GYROSCOPE, PRESSURE_CONTOUR, Recipe
@@ -17,9 +17,9 @@ LONGEST = 2.0
 """No stride of these walks is longer, m; two in one would be."""
 
 
-def steps(recipe: Recipe, file: Path, calibration: Calibration) -> list[StepTaken]:
+def steps(recipe: Recipe, file: Path, calibration: Calibration) -> list[StrideTaken]:
     session = Session(recipe, calibration=calibration)
-    return of(StepTaken, [*session.feed(load_samples(file)), *session.finish()])
+    return of(StrideTaken, [*session.feed(load_samples(file)), *session.finish()])
 
 
 @pytest.mark.parametrize("name", ["shape_C1", "shape_C3", "shape_I2", "shape_L1", "shape_L3", "both_20241113_105919"])
@@ -32,4 +32,4 @@ def test_hardly_a_stride_is_lost_in_feet_that_never_quite_rest(
     known = in_dataset(file) if told else Calibration()
     usual, found = steps(DEFAULT, file, known), steps(recipe, file, known)
     assert abs(len(found) - len(usual)) <= len(usual) // 10
-    assert max(one.stride_length for one in found) < LONGEST
+    assert max(one.length for one in found) < LONGEST

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath import LayoutKnown, Limitation, Session, StepTaken
+from solepath import LayoutKnown, Limitation, Session, StrideTaken
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole, boot
 from solepath.emulate.sensors.insoles import layout
@@ -291,7 +291,7 @@ def test_too_few_cells_are_said_once_and_the_walk_goes_on_by_the_gyroscope() -> 
     assert said == [
         "2 pressure cells under the heel have no contour, 4 are the fewest; the gyroscope says when the foot stands"
     ]
-    assert len(of(StepTaken, events)) >= len(walk.truth.steps(LEFT)) - 1
+    assert len(of(StrideTaken, events)) >= len(walk.truth.steps(LEFT)) - 1
 
 
 @pytest.mark.parametrize("recipe", [PRESSURE_CONTOUR, GYROSCOPE], ids=["contours", "gyroscope"])
@@ -303,7 +303,7 @@ def test_all_steps_are_found_and_a_square_ends_where_it_began(recipe: Recipe) ->
     walk = emulate(side.stop(2.0), devices={Site.LEFT_FOOT: device}, seed=108)
     session = Session(recipe)
     events = session.feed(walk.packets) + session.finish()
-    assert len(of(StepTaken, events)) == len(walk.truth.steps(LEFT))
+    assert len(of(StrideTaken, events)) == len(walk.truth.steps(LEFT))
     x, y, _ = session.feet[LEFT].position
     true = walk.truth.pose(LEFT, walk.truth.duration).position[0]
     assert np.hypot(x, y) - np.hypot(true[0], true[1]) < 0.6

@@ -24,7 +24,7 @@ from solepath import (
     Sample,
     Session,
     Site,
-    StepTaken,
+    StrideTaken,
     ToeOff,
     TouchedDown,
 )
@@ -99,7 +99,7 @@ def test_events_of_a_foot_follow_each_other_and_times_never_run_back(name: str) 
             assert after.t >= before.t and after.known_at >= before.known_at
             assert type(before) in follows.get(type(after), {type(before)})
             assert type(before) is not type(after)
-        steps = [event for event in of(StepTaken, told) if event.foot is foot]
+        steps = [event for event in of(StrideTaken, told) if event.foot is foot]
         assert [step.number for step in steps] == list(range(1, len(steps) + 1))
         for step in steps:
             assert step.t_start < step.t_toe_off < step.t_end == step.t
@@ -120,14 +120,14 @@ def test_at_100_hz_heel_strike_and_toe_off_are_known_within_60_ms_and_a_step_60_
     cells: int,
 ) -> None:
     told = Session().feed(insoles(LONGER, CLEAN, cells=cells).packets)
-    for kind in (HeelStrike, ToeOff, FootFlat, StepTaken):
+    for kind in (HeelStrike, ToeOff, FootFlat, StrideTaken):
         assert len(late(kind, told)) >= 18
         assert max(late(kind, told)) <= 0.060, kind
 
 
 def test_without_pressure_they_are_known_as_soon() -> None:
     told = Session().feed(samples(LONGER, cells=0))
-    for kind in (HeelStrike, ToeOff, FootFlat, StepTaken):
+    for kind in (HeelStrike, ToeOff, FootFlat, StrideTaken):
         assert len(late(kind, told)) >= 18
         assert max(late(kind, told)) <= 0.060, kind
 
@@ -179,7 +179,7 @@ def test_packets_and_samples_may_come_mixed() -> None:
     one, other = Session(), Session()
     told = one.feed(mixed)
     assert told == [event for item in mixed for event in other.feed(item)]
-    assert {step.foot.value for step in of(StepTaken, told)} == {"left", "right"}
+    assert {step.foot.value for step in of(StrideTaken, told)} == {"left", "right"}
 
 
 # --- 9: plain records -------------------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ from functools import cache
 import pytest
 from attrs import evolve
 
-from solepath import Packet, PacketRejected, PacketsLost, Sample, Session, Site, StepTaken
+from solepath import Packet, PacketRejected, PacketsLost, Sample, Session, Site, StrideTaken
 from solepath.emulate.radio import Radio
 from solepath.emulate.routes.route import Route
 from solepath.wire.error import WireError
@@ -67,7 +67,7 @@ def walk_on(session: Session, count: int) -> tuple[list[int], list[int]]:
     for packets in rounds(count):
         told = session.feed(packets)
         assert all(lost.count < 40 for lost in of(PacketsLost, told)[2:]), "the rounds do not join"
-        steps.append(len(of(StepTaken, told)))
+        steps.append(len(of(StrideTaken, told)))
         sizes.append(size(session))
     return sizes, steps
 
@@ -95,7 +95,7 @@ def test_a_long_walk_in_samples_leaves_nothing_behind(seconds: float) -> None:
     for k in range(int(seconds / length) + 1):
         told = session.feed([Sample(s.t + k * length, s.site, s.acc, s.gyro) for s in fed])
         sizes.append(size(session))
-        found.append(len(of(StepTaken, told)))
+        found.append(len(of(StrideTaken, told)))
     check(sizes, found)
 
 

@@ -17,7 +17,7 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 from encoded import other
-from solepath import Packet, Session, SnapshotError, StepTaken
+from solepath import Packet, Session, SnapshotError, StrideTaken
 from solepath.emulate.routes.building import BUILDING
 from solepath.saving.codec import checksum
 from solepath.session.state import VERSION
@@ -119,7 +119,7 @@ def test_a_session_goes_on_in_another_process(tmp_path: Path) -> None:
     session.feed(machine.items[:800])
     saved = machine.save(session)
     remaining = session.feed(machine.items[800:]) + session.finish()
-    assert len(of(StepTaken, remaining)) > 3
+    assert len(of(StrideTaken, remaining)) > 3
     assert elsewhere(tmp_path, saved, machine.items[800:]) == [repr(event) for event in remaining]
 
 

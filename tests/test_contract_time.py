@@ -12,7 +12,7 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import Foot, FootMoved, PacketsLost, Sample, SampleGap, Session, StepTaken, StreamResumed, StreamStale
+from solepath import Foot, FootMoved, PacketsLost, Sample, SampleGap, Session, StreamResumed, StreamStale, StrideTaken
 from solepath.emulate.radio import CLEAN
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
@@ -55,8 +55,8 @@ def test_the_same_walk_at_another_time_gives_the_same_events_at_that_time(name: 
     for before, after in zip(here, there, strict=True):
         (times, values), (shifted, others) = split(before), split(after)
         assert shifted == pytest.approx([t + by for t in times], rel=0, abs=1e-6)
-        if isinstance(before, StepTaken | FootMoved):
-            name_of = "displacement" if isinstance(before, StepTaken) else "position"
+        if isinstance(before, StrideTaken | FootMoved):
+            name_of = "displacement" if isinstance(before, StrideTaken) else "position"
             assert others[name_of] == pytest.approx(values[name_of], abs=1e-4)
 
 
@@ -133,8 +133,8 @@ def jittered(seed: int) -> list[Sample]:
     return kept
 
 
-def steps_of(fed: list[Sample]) -> list[StepTaken]:
-    return of(StepTaken, Session().feed(fed))
+def steps_of(fed: list[Sample]) -> list[StrideTaken]:
+    return of(StrideTaken, Session().feed(fed))
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -143,7 +143,7 @@ def test_jitter_of_the_sample_times_does_not_bend_the_track(seed: int) -> None:
     assert len(one) == len(other) == len(walker().truth().steps(Foot.LEFT))
     for a, b in zip(one, other, strict=True):
         assert b.t_end == pytest.approx(a.t_end, abs=0.02)
-        assert b.stride_length == pytest.approx(a.stride_length, abs=0.03)
+        assert b.length == pytest.approx(a.length, abs=0.03)
     assert other[-1].position == pytest.approx(one[-1].position, abs=0.2)
     assert not any(step.degraded for step in other)
 
@@ -152,7 +152,7 @@ def test_the_same_samples_with_regular_times_on_them_are_another_walk() -> None:
     fed = jittered(1)
     dt = (fed[-1].t - fed[0].t) / (len(fed) - 1)
     untold = [evolve(sample, t=fed[0].t + k * dt) for k, sample in enumerate(fed)]
-    lengths = [[step.stride_length for step in steps_of(one)] for one in (regular(), fed, untold)]
+    lengths = [[step.length for step in steps_of(one)] for one in (regular(), fed, untold)]
     assert max(abs(b - a) for a, b in zip(lengths[0], lengths[1], strict=True)) < 0.03
     assert max(abs(b - a) for a, b in zip(lengths[0], lengths[2], strict=False)) > 0.15
 
@@ -164,7 +164,7 @@ def test_a_gap_is_an_event_and_its_step_is_degraded(start: float, duration: floa
     (gap,) = of(SampleGap, told)
     assert gap.t == pytest.approx(start, abs=0.011) and gap.duration == pytest.approx(duration, abs=0.021)
     assert gap.known_at == pytest.approx(start + duration, abs=0.011)
-    steps = of(StepTaken, told)
+    steps = of(StrideTaken, told)
     assert steps, "a gap must not end the walk"
     for step in steps:
         inside = step.t_start <= gap.t + gap.duration and gap.t <= step.t_end
@@ -186,5 +186,5 @@ def test_lost_packets_are_counted_and_their_gap_degrades_the_step() -> None:
     (gap,) = of(SampleGap, told)
     assert lost.count == len(walk.packets) - len(kept) == round(gap.duration * 100) - 1
     assert lost.t == pytest.approx(gap.t + 0.01, abs=1e-3)
-    assert [step.degraded for step in of(StepTaken, told)].count(True) == 1
-    assert len(of(StepTaken, told)) == len(walk.truth.steps(Foot.LEFT))
+    assert [step.degraded for step in of(StrideTaken, told)].count(True) == 1
+    assert len(of(StrideTaken, told)) == len(walk.truth.steps(Foot.LEFT))

@@ -22,7 +22,7 @@ from solepath import (
     SampleRejected,
     Session,
     Site,
-    StepTaken,
+    StrideTaken,
 )
 from solepath.link.decoder import SET_BACK
 from solepath.link.known import PROFILES
@@ -161,9 +161,9 @@ def test_a_receiver_whose_clock_is_set_back_goes_on_finding_steps() -> None:
     first = session.feed(walk.packets)
     size = len(json.dumps(session.snapshot()))
     again = session.feed([evolve(packet, t=packet.t - 1e5) for packet in insoles(seed=2).packets])
-    assert len(of(StepTaken, again)) >= len(of(StepTaken, first)) - 2
+    assert len(of(StrideTaken, again)) >= len(of(StrideTaken, first)) - 2
     strict(again)
-    settled = [event for event in again if isinstance(event, StepTaken)]
+    settled = [event for event in again if isinstance(event, StrideTaken)]
     assert all(event.t < 0.0 and event.t_start < event.t_end for event in settled)
     assert len(json.dumps(session.snapshot())) < 1.2 * size
 

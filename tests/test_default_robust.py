@@ -14,7 +14,7 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import Foot, Sample, StepTaken
+from solepath import Foot, Sample, StrideTaken
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
@@ -44,19 +44,19 @@ def tracker_of(recipe: Recipe, **options: bool) -> FootTracker:
     return FootTracker(Foot.RIGHT, parts.detector, evolve(parts.corrector, **options), cues=parts.cues)
 
 
-def tracked(samples: Iterable[Sample]) -> tuple[FootTracker, list[StepTaken]]:
+def tracked(samples: Iterable[Sample]) -> tuple[FootTracker, list[StrideTaken]]:
     """One foot by the default recipe, without the body."""
     tracker = tracker_of(DEFAULT)
-    steps: list[StepTaken] = []
+    steps: list[StrideTaken] = []
     for sample in samples:
-        steps += of(StepTaken, tracker.feed(sample))
+        steps += of(StrideTaken, tracker.feed(sample))
     return tracker, steps
 
 
-def untouched(samples: Iterable[Sample]) -> list[StepTaken]:
+def untouched(samples: Iterable[Sample]) -> list[StrideTaken]:
     """The steps of a filter that takes clipped readings as they are."""
     tracker = tracker_of(DEFAULT, recover=False)
-    return [step for sample in samples for step in of(StepTaken, tracker.feed(sample))]
+    return [step for sample in samples for step in of(StrideTaken, tracker.feed(sample))]
 
 
 def clipped(samples: Iterable[Sample], rate: float = 1e3, force: float = 1e3, told: bool = False) -> list[Sample]:
@@ -83,12 +83,12 @@ def mounted(samples: Iterable[Sample], turn: Quat) -> list[Sample]:
     return turned
 
 
-def way(steps: Sequence[StepTaken]) -> float:
-    return sum(step.stride_length for step in steps)
+def way(steps: Sequence[StrideTaken]) -> float:
+    return sum(step.length for step in steps)
 
 
-def lengths(steps: Sequence[StepTaken]) -> list[float]:
-    return [step.stride_length for step in steps]
+def lengths(steps: Sequence[StrideTaken]) -> list[float]:
+    return [step.length for step in steps]
 
 
 # --- any mounting -----------------------------------------------------------------------------------------------------

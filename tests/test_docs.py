@@ -127,7 +127,7 @@ def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(played, t
     assert sorted((row["wearer"], row["number"], row["event"]) for row in rows) == sorted(
         (wearer, int(number), event) for wearer, number, event in map(str.split, told.splitlines())
     )
-    steps = [row for row in rows if row["event"] == "StepTaken"]
+    steps = [row for row in rows if row["event"] == "StrideTaken"]
     assert len(steps) == sum(len(walk.truth.steps(foot)) for foot in Foot)
 
 

@@ -10,7 +10,7 @@ from random import Random
 import pytest
 from attrs import evolve
 
-from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Packet, SampleGap, Session, Site, StepTaken, ToeOff
+from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Packet, SampleGap, Session, Site, StrideTaken, ToeOff
 from solepath.emulate.radio import CLEAN, Radio
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.device import Device
@@ -82,9 +82,9 @@ def test_of_100_m_over_a_bad_radio_strides_are_as_long_as_they_were(seed: int) -
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_steps_with_lost_packets_in_them_say_that_they_are_degraded(seed: int) -> None:
-    steps = of(StepTaken, long_walk(seed)[0])
+    steps = of(StrideTaken, long_walk(seed)[0])
     assert sum(step.degraded for step in steps) > 0.9 * len(steps)  # one packet in twenty, a hundred in a step
-    clean = of(StepTaken, heard(emulate(Route().stand(2.0).walk(8.0, 1.3).stop(1.0), radio=CLEAN, seed=seed))[0])
+    clean = of(StrideTaken, heard(emulate(Route().stand(2.0).walk(8.0, 1.3).stop(1.0), radio=CLEAN, seed=seed))[0])
     assert clean and not any(step.degraded for step in clean)
 
 
@@ -124,7 +124,7 @@ def test_slow_fast_and_turning_walks_have_all_their_steps(name: str, radio: Radi
 def test_the_steps_add_up_to_the_turn(name: str, turned: float, radio: Radio) -> None:
     told, _ = routed(name, radio)
     for foot in Foot:
-        sums = sum(step.heading_change for step in of(StepTaken, told) if step.foot is foot)
+        sums = sum(step.heading_change for step in of(StrideTaken, told) if step.foot is foot)
         assert sums == pytest.approx(radians(turned), abs=radians(8))
 
 
@@ -140,7 +140,7 @@ def test_a_wearer_who_turns_about_on_the_spot_ends_where_he_began(radio: Radio) 
 def test_who_stands_for_a_minute_takes_no_step(radio: Radio) -> None:
     few = {site: Insole(cells=24, rate=50.0) for site in (LEFT, RIGHT)}
     told, compared = heard(emulate(Route().stand(60.0), devices=few, radio=radio, seed=1))
-    assert of(StepTaken | HeelStrike | FootFlat | HeelOff | ToeOff, told) == []
+    assert of(StrideTaken | HeelStrike | FootFlat | HeelOff | ToeOff, told) == []
     assert all(one.steps_true == one.steps_invented == 0 for one in compared.values())
 
 
@@ -235,6 +235,6 @@ def test_a_link_cut_nearly_once_a_second_loses_no_step_and_little_of_its_length(
     told, compared = heard(evolve(walk, packets=tuple(cut(walk, seed, 0.9))))
     assert f1(compared) >= 0.98
     assert of(SampleGap, told)
-    assert sum(step.degraded for step in of(StepTaken, told)) > 20
+    assert sum(step.degraded for step in of(StrideTaken, told)) > 20
     for one in compared.values():
         assert one.length_error <= 0.05

@@ -37,7 +37,7 @@ def test_there_are_three_programs_and_each_fits_a_screen() -> None:
 
 def test_a_device_that_is_declared_in_forty_lines_gives_steps_and_tells_a_lost_packet() -> None:
     lines = told(DEVICE)
-    assert sum(line.startswith("StepTaken(") for line in lines) == steps(6)
+    assert sum(line.startswith("StrideTaken(") for line in lines) == steps(6)
     (lost,) = [line for line in lines if line.startswith("PacketsLost(")]
     assert "count=1" in lost
 

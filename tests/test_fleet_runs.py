@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fleets import WEARER, shown, stepped, uses, walked
-from solepath.events import PacketRejected, Rejection, StepTaken
+from solepath.events import PacketRejected, Rejection, StrideTaken
 from solepath.fleet import End, Fleet, NumbersMissing, Sent, SentRejected, Told
 from solepath.fleet.step.sent import MOST
 
@@ -108,4 +108,4 @@ def test_a_phone_that_was_started_again_with_a_clock_at_nought_is_followed_after
     again = [evolve(one, number=number, run=1) for number, one in enumerate(sent[half:])]
     told = [one.event for one in FLEET.step(WEARER, state, again)[1]]
     assert [e.reason for e in told if isinstance(e, PacketRejected)].count(Rejection.TIME_BACKWARDS) == 2 * 19
-    assert sum(isinstance(event, StepTaken) for event in told) >= 2
+    assert sum(isinstance(event, StrideTaken) for event in told) >= 2

@@ -69,7 +69,7 @@ def test_events_through_spark_are_those_of_a_session(spark, tmp_path, recipe):
     events = run(stream(spark, tmp_path / "sent"), tmp_path, Fleet(BY_NAME[recipe]))
     assert events == expected(5, recipe)
     assert list(events[0]) == list(TOLD_COLUMNS)
-    assert {"StepTaken", "HeelStrike"} <= {row["event"] for row in events}
+    assert {"StrideTaken", "HeelStrike"} <= {row["event"] for row in events}
 
 
 def test_other_readers_find_the_files_that_spark_finds(spark, tmp_path):
@@ -201,7 +201,7 @@ def test_a_state_that_cannot_go_on_is_told_and_its_wearer_begins_afresh(spark, t
     for wearer, reason in (("w1", "version 250"), ("w2", "")):
         first, *rest = of[wearer]
         assert first["event"] == "StateRefused" and reason in first["fields"]
-        assert {"StepTaken", "HeelStrike"} <= {row["event"] for row in rest}
+        assert {"StrideTaken", "HeelStrike"} <= {row["event"] for row in rest}
         assert first["number"] >= len(before[wearer]), "no identity is used twice"
 
 

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fleets import WEARER, cut, shown, stepped, uses, walked
-from solepath import StepTaken, recipes
+from solepath import StrideTaken, recipes
 from solepath.fleet import End, Fleet, Refusal, Sent, SentRejected, Tick, Unreadable
 from solepath.recipes import DEFAULT, Recipe
 from solepath.session import Session
@@ -31,7 +31,7 @@ def test_what_is_told_of_a_wearer_is_what_a_session_says_to_the_same_packets(rec
     pieces = cut(list(sent), range(0, len(sent), 61))
     state, told = stepped(fleet, pieces)
     assert tuple(one.event for one in told) == events
-    assert sum(isinstance(event, StepTaken) for event in events) >= 6
+    assert sum(isinstance(event, StrideTaken) for event in events) >= 6
     assert [(one.wearer, one.number) for one in told] == [(WEARER, number) for number in range(len(told))]
     keyed = fleet.open(WEARER, None)
     assert [one for piece in pieces for one in keyed.feed(piece)] == told

@@ -13,7 +13,7 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Sample, SampleGap, Session, StepTaken, ToeOff
+from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Sample, SampleGap, Session, StrideTaken, ToeOff
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.truth import TrueStep
@@ -58,7 +58,7 @@ def heard(samples: list[Sample] | tuple[Sample, ...]) -> tuple[list[Event], Sess
     return session.feed(samples), session
 
 
-def around(steps: tuple[StepTaken, ...] | list[StepTaken], t: float) -> StepTaken:
+def around(steps: tuple[StrideTaken, ...] | list[StrideTaken], t: float) -> StrideTaken:
     """The step that was under way at `t`, s."""
     (found,) = (step for step in steps if step.t_start < t <= step.t_end)
     return found
@@ -103,10 +103,10 @@ def test_a_stride_with_a_gap_in_it_is_degraded_whole_and_no_other_is(
     samples, steps = walked()
     a = steps[4].t_toe_off + after
     told, _ = heard(without(samples, (a, a + duration)))
-    taken = of(StepTaken, told)
+    taken = of(StrideTaken, told)
     assert len(taken) == len(steps)
     assert [step for step in taken if step.degraded] == [around(taken, a + 0.5 * duration)]
-    assert around(taken, a + 0.5 * duration).stride_length == pytest.approx(steps[4].length, rel=0.08)
+    assert around(taken, a + 0.5 * duration).length == pytest.approx(steps[4].length, rel=0.08)
 
 
 @pytest.mark.parametrize("duration", [0.05, 0.12, 0.3, 0.5, 0.7, 0.9, 1.2, 2.0])
@@ -117,7 +117,7 @@ def test_every_step_that_a_gap_reaches_into_is_degraded_wherever_in_the_stride_i
         a = steps[4].t_start - 0.02 + 0.04 * k
         told, _ = heard(without(samples, (a, a + duration)))
         (gap,) = of(SampleGap, told)
-        for step in of(StepTaken, told):
+        for step in of(StrideTaken, told):
             within = min(gap.t + gap.duration, step.t_end) - max(gap.t, step.t_start)
             assert step.degraded or within <= 0.0101
             assert not step.degraded or within > -0.1  # what a cue looks back by
@@ -127,11 +127,11 @@ def test_every_step_that_a_gap_reaches_into_is_degraded_wherever_in_the_stride_i
 
 def test_a_sample_at_the_end_of_its_range_degrades_the_step_it_is_in_even_when_flat_is_dated_back() -> None:
     samples, steps = walked()
-    uncut = of(StepTaken, heard(samples)[0])
+    uncut = of(StrideTaken, heard(samples)[0])
     for k in range(12):
         t = steps[4].t_end - 0.03 + 0.01 * k
         told, _ = heard([evolve(sample, saturated=abs(sample.t - t) < 0.005) for sample in samples])
-        taken = of(StepTaken, told)
+        taken = of(StrideTaken, told)
         assert len(taken) == len(uncut)
         (hit,) = (sample.t for sample in samples if abs(sample.t - t) < 0.005)
         assert all(step.degraded for step in taken if step.t_start < hit < step.t_end)
@@ -145,7 +145,7 @@ def test_a_foot_that_stands_through_a_gap_goes_nowhere() -> None:
     for a, b in ((0.8, 1.4), (last + 0.2, last + 0.5), (last + 0.8, last + 1.8)):
         told, session = heard(without(samples, (a, b)))
         assert of(SampleGap, told)
-        assert len(of(StepTaken, told)) == len(of(StepTaken, straight)) == len(steps)
+        assert len(of(StrideTaken, told)) == len(of(StrideTaken, straight)) == len(steps)
         swings = [type(event) for event in of(ToeOff | HeelStrike, straight)]
         assert [type(event) for event in of(ToeOff | HeelStrike, told)] == swings
         here, there = session.feet[Foot.LEFT].position, uncut.feet[Foot.LEFT].position
@@ -157,9 +157,9 @@ def test_a_gap_over_whole_strides_invents_no_more_of_them_than_there_were(durati
     samples, steps = walked()
     a = steps[3].t_toe_off
     told, _ = heard(without(samples, (a, a + duration)))
-    assert len(steps) - 3 <= len(of(StepTaken, told)) <= len(steps)
+    assert len(steps) - 3 <= len(of(StrideTaken, told)) <= len(steps)
     (gap,) = of(SampleGap, told)
-    assert len([step for step in of(StepTaken, told) if gap.t < step.t < gap.t + gap.duration]) <= 2
+    assert len([step for step in of(StrideTaken, told) if gap.t < step.t < gap.t + gap.duration]) <= 2
 
 
 def test_a_gap_is_neither_stillness_nor_speed() -> None:
@@ -197,7 +197,7 @@ def test_phases_that_nobody_saw_say_so_and_all_others_that_they_were_seen() -> N
 
 def turned(told: list[Event]) -> float:
     """Over all steps, rad."""
-    return float(sum(step.heading_change for step in of(StepTaken, told)))
+    return float(sum(step.heading_change for step in of(StrideTaken, told)))
 
 
 def gapped(samples: tuple[Sample, ...], steps: tuple[TrueStep, ...], duration: float, every: int) -> list[Sample]:
@@ -438,9 +438,9 @@ def test_however_many_gaps_there_are_no_stride_is_longer_or_higher_than_a_stride
         t += random.uniform(0.3, 4.0)
     told, _ = heard(without(tuple(walker.samples(Foot.LEFT, rate)), *holes))
     longest = max(step.length for step in walker.truth().steps(Foot.LEFT))
-    for step in of(StepTaken, told):
+    for step in of(StrideTaken, told):
         if step.degraded:
-            assert step.stride_length < 2.5 * longest
+            assert step.length < 2.5 * longest
             assert abs(step.height_change) < 0.85
 
 
@@ -479,7 +479,7 @@ def test_whatever_the_gaps_phases_follow_each_other_in_time_and_none_is_known_be
     phases = of(PHASES, told)
     assert all(a.t <= b.t for a, b in pairwise(phases))
     assert all(type(a) is not type(b) for a, b in pairwise(phases))
-    taken = of(StepTaken, told)
+    taken = of(StrideTaken, told)
     assert all(a.t_end <= b.t_start for a, b in pairwise(taken))
     for step in taken:
         assert step.t_start <= step.t_toe_off <= step.t_end

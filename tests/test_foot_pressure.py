@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import pytest
 
-from solepath import Cell, Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Session, StepTaken, ToeOff
+from solepath import Cell, Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Session, StrideTaken, ToeOff
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
@@ -151,7 +151,7 @@ def test_the_first_toe_off_of_a_walk_is_when_the_toe_leaves_the_ground() -> None
 
 
 def test_the_path_of_the_centre_of_pressure_runs_from_heel_to_toe() -> None:
-    told = of(StepTaken, Session().feed(insoles(SHORT).packets))
+    told = of(StrideTaken, Session().feed(insoles(SHORT).packets))
     paths = [step.features.cop for step in told[2:-2]]
     assert all(8 <= len(path) <= 32 for path in paths)
     for path in paths:

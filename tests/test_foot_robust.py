@@ -7,7 +7,7 @@ from math import inf, isfinite, nan
 import pytest
 from attrs import evolve
 
-from solepath import Event, Foot, FootFlat, Layout, Sample, Session, Site, StepTaken, recipes
+from solepath import Event, Foot, FootFlat, Layout, Sample, Session, Site, StrideTaken, recipes
 from solepath.emulate.sensors.insoles import layout
 from solepath.foot.pressure.guess import LayoutGuess
 from solepath.foot.pressure.insole import Insole
@@ -22,8 +22,8 @@ QUATS = [
 ]
 
 
-def steps(events: list[Event], foot: Foot) -> list[StepTaken]:
-    return [event for event in events if isinstance(event, StepTaken) and event.foot is foot]
+def steps(events: list[Event], foot: Foot) -> list[StrideTaken]:
+    return [event for event in events if isinstance(event, StrideTaken) and event.foot is foot]
 
 
 @pytest.mark.parametrize("quat", QUATS, ids=str)
@@ -100,5 +100,5 @@ def test_a_walk_whose_left_heel_is_dead_goes_on_with_what_is_left() -> None:
     clean = steps(Session(recipes.ZUPT).feed(samples()), Foot.LEFT)
     events = Session(recipes.ZUPT).feed([broken(sample) for sample in samples()])
     assert len(steps(events, Foot.LEFT)) >= len(clean) - 1
-    assert all(step.stride_length < 2.5 for step in steps(events, Foot.LEFT))
+    assert all(step.length < 2.5 for step in steps(events, Foot.LEFT))
     assert any(isinstance(event, FootFlat) and event.foot is Foot.LEFT for event in events)

@@ -24,7 +24,7 @@ from solepath import (
     ScaleSuspect,
     Session,
     Site,
-    StepTaken,
+    StrideTaken,
     ToeOff,
 )
 from solepath.emulate import emulate
@@ -67,11 +67,11 @@ def told(samples: Any, recipe: Recipe = DEFAULT, **options: Any) -> list[Any]:
 @pytest.mark.parametrize("recipe", [EXACT, LINEAR], ids=lambda recipe: recipe.name)
 def test_both_correctors_track_a_walk_of_20_m(recipe: Recipe, seed: int) -> None:
     events = told(fed(seed), recipe, poses=True)
-    true, steps = walker(seed).truth().feet[Foot.LEFT].steps, of(StepTaken, events)
+    true, steps = walker(seed).truth().feet[Foot.LEFT].steps, of(StrideTaken, events)
     assert len(steps) == len(true)
     for step, truth in zip(steps, true, strict=True):
         assert step.t_end == pytest.approx(truth.t_end, abs=0.08)
-        assert step.stride_length == pytest.approx(truth.length, abs=0.05)
+        assert step.length == pytest.approx(truth.length, abs=0.05)
         assert step.height_change == pytest.approx(0.0, abs=0.05)
         assert step.heading_change == pytest.approx(truth.heading_change, abs=0.05)
     x, y, z = of(FootMoved, events)[-1].position
@@ -84,7 +84,7 @@ def test_a_step_says_how_uncertain_it_is_and_the_way_grows_less_certain(recipe: 
     session, spread = Session(recipe), []
     for sample in fed():
         for event in session.feed(sample):
-            if isinstance(event, StepTaken):
+            if isinstance(event, StrideTaken):
                 xx, xy, xz, yy, yz, zz = event.covariance
                 assert 0.0 < xx < 0.2 and 0.0 < yy < 0.2 and 0.0 < zz < 0.2
                 assert xx * yy - xy * xy > 0.0 and xx * zz - xz * xz > 0.0 and yy * zz - yz * yz > 0.0
@@ -95,7 +95,7 @@ def test_a_step_says_how_uncertain_it_is_and_the_way_grows_less_certain(recipe: 
 
 
 def test_features_of_a_step_are_those_of_a_walk() -> None:
-    for step in of(StepTaken, told(fed()))[1:-1]:
+    for step in of(StrideTaken, told(fed()))[1:-1]:
         assert 0.01 < step.features.clearance < 0.25
         assert 2.5 < step.features.peak_speed < 7.0
         assert radians(40) < step.features.swing_pitch < radians(130)
@@ -119,12 +119,12 @@ def turned(sample: Sample, mounting: tuple[float, float, float, float]) -> Sampl
 @given(_QUATS)
 @settings(max_examples=8, deadline=None)
 def test_steps_are_the_same_however_the_sensor_is_turned(mounting: tuple[float, float, float, float]) -> None:
-    plain = of(StepTaken, told(fed()))
-    other = of(StepTaken, told(turned(sample, mounting) for sample in fed()))
+    plain = of(StrideTaken, told(fed()))
+    other = of(StrideTaken, told(turned(sample, mounting) for sample in fed()))
     assert len(other) == len(plain)
     for a, b in zip(plain, other, strict=True):
         assert b.t_end == pytest.approx(a.t_end, abs=0.015)
-        assert b.stride_length == pytest.approx(a.stride_length, abs=0.01)
+        assert b.length == pytest.approx(a.length, abs=0.01)
         assert b.displacement == pytest.approx(a.displacement, abs=0.02)
         assert b.heading_change == pytest.approx(a.heading_change, abs=0.01)
 
@@ -133,9 +133,9 @@ def test_steps_are_the_same_however_the_sensor_is_turned(mounting: tuple[float, 
     "mounting", [(0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), normalise((1.0, 1.0, 0.0, 0.0))], ids=str
 )
 def test_upside_down_or_on_edge_is_a_mounting_too(mounting: tuple[float, float, float, float]) -> None:
-    steps = of(StepTaken, told(turned(sample, mounting) for sample in fed()))
-    assert [step.stride_length for step in steps] == pytest.approx(
-        [step.stride_length for step in of(StepTaken, told(fed()))], abs=0.01
+    steps = of(StrideTaken, told(turned(sample, mounting) for sample in fed()))
+    assert [step.length for step in steps] == pytest.approx(
+        [step.length for step in of(StrideTaken, told(fed()))], abs=0.01
     )
 
 
@@ -143,10 +143,10 @@ def test_a_sensor_on_the_laces_finds_the_same_steps_as_one_in_the_sole() -> None
     mounting = Mounting(ON_INSTEP.position, normalise((0.7, 0.1, -0.4, 0.2)))
     events = told(walker().samples(Foot.LEFT, 100.0, LSM6DSOX, mounting=mounting))
     true = walker().truth({Foot.LEFT: mounting}).feet[Foot.LEFT].steps
-    steps = of(StepTaken, events)
+    steps = of(StrideTaken, events)
     assert len(steps) == len(true)
     for step, truth in zip(steps, true, strict=True):
-        assert step.stride_length == pytest.approx(truth.length, rel=0.03, abs=0.02)
+        assert step.length == pytest.approx(truth.length, rel=0.03, abs=0.02)
     assert len(of(HeelStrike, events)) == len(of(ToeOff, events)) == len(true)
 
 
@@ -178,7 +178,7 @@ def test_the_bias_of_the_gyroscope_is_learnt_while_the_wearer_stands() -> None:
 
 @pytest.mark.parametrize("recipe", [EXACT, LINEAR], ids=lambda recipe: recipe.name)
 def test_after_a_rest_a_bias_does_not_bend_the_way(recipe: Recipe) -> None:
-    plain, other = (of(StepTaken, told(items, recipe)) for items in (fed(), [biased(sample) for sample in fed()]))
+    plain, other = (of(StrideTaken, told(items, recipe)) for items in (fed(), [biased(sample) for sample in fed()]))
     assert len(other) == len(plain)
     assert other[-1].position == pytest.approx(plain[-1].position, abs=0.1)
     assert sum(step.heading_change for step in other) == pytest.approx(
@@ -188,7 +188,7 @@ def test_after_a_rest_a_bias_does_not_bend_the_way(recipe: Recipe) -> None:
 
 def test_a_turn_that_is_walked_is_not_taken_for_a_bias() -> None:
     route = Route().stand(2.0).walk(3.0, 1.2).turn(pi / 2, radius=2.0).walk(3.0).stop(1.0)
-    steps = of(StepTaken, told(Walker(route, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)))
+    steps = of(StrideTaken, told(Walker(route, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)))
     assert sum(step.heading_change for step in steps) == pytest.approx(pi / 2, abs=0.06)
 
 
@@ -214,8 +214,8 @@ def test_an_accelerometer_of_the_wrong_range_is_named_and_one_a_little_off_is_pu
     assert said.magnitude == pytest.approx(0.5 * GRAVITY, rel=0.02) and "2" in said.suggestion
     off = told(scaled(1.03))
     assert of(ScaleSuspect, off) == []
-    assert [s.stride_length for s in of(StepTaken, off)] == pytest.approx(
-        [s.stride_length for s in of(StepTaken, told(fed()))], abs=0.02
+    assert [s.length for s in of(StrideTaken, off)] == pytest.approx(
+        [s.length for s in of(StrideTaken, told(fed()))], abs=0.02
     )
 
 
@@ -226,7 +226,7 @@ def test_after_a_gap_the_walk_goes_on(recipe: Recipe, length: float) -> None:
     events = told([s for s in fed() if not start < s.t < start + length], recipe)
     (gap,) = of(SampleGap, events)
     assert gap.duration == pytest.approx(length, abs=0.02) and gap.site is LEFT
-    steps = of(StepTaken, events)
+    steps = of(StrideTaken, events)
     spoilt = [step.t_start < gap.t + gap.duration and step.t_end > gap.t for step in steps]
     assert [step.degraded for step in steps] == spoilt and True in spoilt
     true = walker().truth().feet[Foot.LEFT].steps
@@ -235,7 +235,7 @@ def test_after_a_gap_the_walk_goes_on(recipe: Recipe, length: float) -> None:
     for step, truth in after[1:]:
         assert not step.degraded
         # linear dedrift has only the pull of gravity to right the tilt that the gap cost
-        assert step.stride_length == pytest.approx(truth.length, abs=0.06 if recipe is EXACT else 0.10)
+        assert step.length == pytest.approx(truth.length, abs=0.06 if recipe is EXACT else 0.10)
 
 
 @pytest.mark.parametrize("first", [1e-6, 0.1, 5.0])
@@ -244,7 +244,7 @@ def test_a_strange_first_interval_is_soon_forgotten(first: float) -> None:
     start = evolve(begin, t=others[0].t - first)
     events = told([start, *others])
     assert len(of(SampleGap, events)) <= 10
-    assert not any(step.degraded for step in of(StepTaken, events)[1:])
+    assert not any(step.degraded for step in of(StrideTaken, events)[1:])
     with_gap = told([start, *(s for s in others if not 8.0 < s.t < 8.1)])
     assert len(of(SampleGap, with_gap)) == len(of(SampleGap, events)) + 1
 
@@ -252,12 +252,12 @@ def test_a_strange_first_interval_is_soon_forgotten(first: float) -> None:
 def test_another_rate_is_no_gap_for_long() -> None:
     events = told([s for k, s in enumerate(fed()) if s.t < 5.0 or k % 3 == 0])
     assert 1 <= len(of(SampleGap, events)) <= 12
-    assert sum(step.degraded for step in of(StepTaken, events)) <= 2
+    assert sum(step.degraded for step in of(StrideTaken, events)) <= 2
 
 
 def test_a_saturated_sample_degrades_its_step_and_no_other() -> None:
     swing = walker().truth().feet[Foot.LEFT].toe_offs[3] + 0.1
-    steps = of(StepTaken, told(evolve(s, saturated=swing < s.t < swing + 0.03) for s in fed()))
+    steps = of(StrideTaken, told(evolve(s, saturated=swing < s.t < swing + 0.03) for s in fed()))
     assert [k for k, step in enumerate(steps) if step.degraded] == [3]
 
 
@@ -282,7 +282,7 @@ def test_a_site_that_is_no_foot_is_a_limitation_once_and_disturbs_nothing(site: 
 
 def test_the_first_heading_is_the_worlds_x() -> None:
     for yaw in (0.0, 2.0, -1.0):
-        steps = of(StepTaken, told(turned(sample, from_yaw(yaw)) for sample in fed()))
+        steps = of(StrideTaken, told(turned(sample, from_yaw(yaw)) for sample in fed()))
         x, y, _ = steps[0].displacement
         assert x > 0.5 and abs(y) < 0.05
         assert steps[-1].position[0] == pytest.approx(20.0, rel=0.05)
@@ -290,5 +290,5 @@ def test_the_first_heading_is_the_worlds_x() -> None:
 
 def test_a_foot_that_only_stands_takes_no_step() -> None:
     still = Walker(Route().stand(6.0), seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
-    assert of(StepTaken, told(still)) == []
+    assert of(StrideTaken, told(still)) == []
     assert of(HeelStrike, told(still)) == of(ToeOff, told(still)) == []

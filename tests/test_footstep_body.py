@@ -22,7 +22,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.emulate.wearers.shoe import IN_SOLE
-from solepath.events import Event, StepFeatures, StepTaken, TurnMade
+from solepath.events import Event, StrideFeatures, StrideTaken, TurnMade
 from solepath.lab.train.turns import ANGLES, emulated, read, trained, walk
 from solepath.papers.footstep_tracker.footsteps import Footsteps
 from solepath.papers.footstep_tracker.projection import Projection
@@ -34,10 +34,10 @@ from solepath.types import Foot, Packet, Site, Turn
 from walks import LEFT, RIGHT, ROUGH, of, samples
 
 
-def step(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.0, 0.0)) -> StepTaken:
+def step(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.0, 0.0)) -> StrideTaken:
     """A step that ends at `t` s and turns by `turn` rad."""
     x, y = way
-    return StepTaken(
+    return StrideTaken(
         t=t,
         known_at=t,
         foot=foot,
@@ -46,11 +46,11 @@ def step(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.
         t_end=t,
         displacement=(x, y, 0.0),
         position=(x, y, 0.0),
-        stride_length=hypot(x, y),
+        length=hypot(x, y),
         heading_change=turn,
         height_change=0.0,
         covariance=(0.0,) * 6,
-        features=StepFeatures(clearance=0.0, peak_speed=0.0, swing_pitch=0.0),
+        features=StrideFeatures(clearance=0.0, peak_speed=0.0, swing_pitch=0.0),
     )
 
 
@@ -127,11 +127,11 @@ def test_both_feet_go_on_in_the_direction_of_the_mean_of_their_turns() -> None:
 # --- turning processes ------------------------------------------------------------------------------------------------
 
 
-def told(direction: Direction, steps: list[StepTaken]) -> list[Turned]:
+def told(direction: Direction, steps: list[StrideTaken]) -> list[Turned]:
     return [found for one in steps if (found := direction.step(one)) is not None]
 
 
-def both(turns: list[tuple[float, float]], first: float = 1.0) -> list[StepTaken]:
+def both(turns: list[tuple[float, float]], first: float = 1.0) -> list[StrideTaken]:
     """Steps of both feet by turns, in degrees of the left and of the right one."""
     steps = []
     for k, (left, right) in enumerate(turns):
@@ -288,7 +288,7 @@ def test_a_corridor_is_as_long_by_both_feet_as_it_is() -> None:
     session = Session(FOOTSTEP_TRACKER)
     events = [event for packet in walked.packets for event in session.feed(packet)]
     for foot in Foot:
-        taken = [one for one in of(StepTaken, events) if one.foot is foot]
+        taken = [one for one in of(StrideTaken, events) if one.foot is foot]
         assert len(taken) == len(walked.truth.steps(foot))
     assert session.position is not None
     x, y, z = session.position.position
@@ -300,7 +300,7 @@ def test_without_what_rest_tells_a_gyroscope_that_clips_makes_steps_too_short() 
 
     def length(recipe: Recipe) -> float:
         session = Session(recipe)
-        lengths: list[float] = [one.stride_length for p in walked.packets for one in of(StepTaken, session.feed(p))]
+        lengths: list[float] = [one.length for p in walked.packets for one in of(StrideTaken, session.feed(p))]
         return sum(lengths)
 
     printed = length(evolve(FOOTSTEP_TRACKER, corrector=Projection(printed=True)))
@@ -325,7 +325,7 @@ def test_a_walk_over_a_bad_radio_is_the_same_however_it_is_cut_and_saved() -> No
     whole = told_by(items)
     assert told_by(items, 97) == whole
     assert all(one.known_at >= one.t for one in whole)
-    assert of(StepTaken, whole)
+    assert of(StrideTaken, whole)
 
 
 @pytest.mark.parametrize("recipe", [DEFAULT, FOOTSTEP_TRACKER])
@@ -347,15 +347,15 @@ def test_steps_are_found_at_any_rate(rate: float) -> None:
     session = Session(FOOTSTEP_TRACKER)
     events = session.feed(samples(cells=0, rate=rate)) + session.finish()
     for foot in Foot:
-        assert 3 <= len([one for one in of(StepTaken, events) if one.foot is foot]) <= 7
+        assert 3 <= len([one for one in of(StrideTaken, events) if one.foot is foot]) <= 7
 
 
 def test_one_sensor_alone_is_followed(data_dir: Path) -> None:
     session = Session(FOOTSTEP_TRACKER)
     events = session.feed(load_samples(data_dir / "gumushane_gcp" / "exp31.npz")) + session.finish()
-    steps = of(StepTaken, events)
+    steps = of(StrideTaken, events)
     assert 31 <= len(steps) <= 37
-    assert session.position is not None and 0.85 * 47.9 < sum(one.stride_length for one in steps) < 1.15 * 47.9
+    assert session.position is not None and 0.85 * 47.9 < sum(one.length for one in steps) < 1.15 * 47.9
 
 
 # --- the toe-out angle ------------------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from solepath import Session, recipes
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
-from solepath.events import Event, FootSilent, StepFeatures, StepTaken, StrideFused
+from solepath.events import Event, FootSilent, StrideFeatures, StrideFused, StrideTaken
 from solepath.foot.pressure.centre import centre as centre_of
 from solepath.papers.kupt_dfpc.fusion import POINTS, DoubleFoot, correlation, resampled, share
 from solepath.saving import codec as machine
@@ -37,9 +37,9 @@ def step(
     lasts: float = 1.1,
     direction: tuple[float, float] = (1.0, 0.0),
     number: int = 1,
-) -> StepTaken:
+) -> StrideTaken:
     """A step that ends at `end` s, of which the last 40 % are swing."""
-    return StepTaken(
+    return StrideTaken(
         t=end,
         known_at=end,
         foot=foot,
@@ -48,17 +48,17 @@ def step(
         t_end=end,
         displacement=(length * direction[0], length * direction[1], 0.0),
         position=(0.0, 0.0, 0.0),
-        stride_length=length,
+        length=length,
         heading_change=0.0,
         height_change=0.0,
         covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4),
         t_toe_off=end - 0.5 * lasts,
         t_heel_strike=end - 0.1 * lasts,
-        features=StepFeatures(0.1, 4.0, 1.0, 400.0, cop, index),
+        features=StrideFeatures(0.1, 4.0, 1.0, 400.0, cop, index),
     )
 
 
-def walked(*steps: StepTaken) -> tuple[DoubleFoot, list[StrideFused]]:
+def walked(*steps: StrideTaken) -> tuple[DoubleFoot, list[StrideFused]]:
     body = DoubleFoot()
     return body, [body.step(one, CENTRE) for one in steps]
 
@@ -295,7 +295,7 @@ def heard(silent: bool = False) -> tuple[Session, list[Event]]:
 
 def test_every_step_of_either_foot_is_fused_once_and_in_order() -> None:
     told = heard()[1]
-    steps = [(one.foot, one.number, one.t, one.stride_length) for one in of(StepTaken, told)]
+    steps = [(one.foot, one.number, one.t, one.length) for one in of(StrideTaken, told)]
     assert [(one.foot, one.number, one.t, one.own_length) for one in of(StrideFused, told)] == steps
     assert len(steps) > 15
 
@@ -358,7 +358,7 @@ def numbers(value: Any) -> list[float]:
 @given(st.lists(st.tuples(STEPS, st.one_of(st.none(), st.just(CENTRE))), max_size=30))
 @settings(deadline=None, max_examples=150)
 def test_any_sequence_of_steps_gives_numbers_and_shares_between_zero_and_one(
-    steps: list[tuple[StepTaken, float | None]],
+    steps: list[tuple[StrideTaken, float | None]],
 ) -> None:
     body = DoubleFoot()
     size = 0
@@ -375,7 +375,7 @@ def test_any_sequence_of_steps_gives_numbers_and_shares_between_zero_and_one(
 
 @given(st.lists(STEPS, max_size=12), st.integers(0, 12))
 @settings(deadline=None, max_examples=60)
-def test_a_saved_fusion_goes_on_as_if_nothing_had_happened(steps: list[StepTaken], cut: int) -> None:
+def test_a_saved_fusion_goes_on_as_if_nothing_had_happened(steps: list[StrideTaken], cut: int) -> None:
     body, other = DoubleFoot(), DoubleFoot()
     told = [body.step(one, CENTRE) for one in steps]
     again = [other.step(one, CENTRE) for one in steps[:cut]]

@@ -8,7 +8,7 @@ from functools import cache
 import pytest
 from attrs import evolve
 
-from solepath import ClockReset, Event, Foot, GaitParameters, Packet, Session, Site, StrideMeasured
+from solepath import ClockReset, Event, Foot, GaitCycleMeasured, GaitParameters, Packet, Session, Site
 from solepath.emulate.radio import Radio
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
@@ -52,11 +52,11 @@ def heard(seed: int, jitter: float, late: float, restarts: bool) -> tuple[list[E
     return events, session.gait
 
 
-def strides(jitter: float, late: float, restarts: bool) -> list[StrideMeasured]:
-    return of(StrideMeasured, heard(1, jitter, late, restarts)[0])
+def strides(jitter: float, late: float, restarts: bool) -> list[GaitCycleMeasured]:
+    return of(GaitCycleMeasured, heard(1, jitter, late, restarts)[0])
 
 
-def compares(stride: StrideMeasured) -> bool:
+def compares(stride: GaitCycleMeasured) -> bool:
     return all(getattr(stride, name) is not None for name in TOGETHER)
 
 
@@ -68,7 +68,7 @@ def test_a_symmetric_walker_stays_one_after_a_link_was_lost(seed: int, restarts:
     assert abs(gait.asymmetry("step_time") or 1.0) < 0.03
     assert abs(gait.asymmetry("initial_double_support") or 1.0) < 0.06
     assert abs(gait.asymmetry("terminal_double_support") or 1.0) < 0.06
-    told = of(StrideMeasured, events)
+    told = of(GaitCycleMeasured, events)
     assert sum(compares(stride) for stride in told) > 0.1 * len(told)
     assert any(compares(stride) for stride in told if stride.t > BACK)
 

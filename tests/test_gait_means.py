@@ -12,7 +12,17 @@ from attrs import define
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import FootFlat, HeelOff, HeelStrike, SampleGap, Site, StepFeatures, StepTaken, StrideMeasured, ToeOff
+from solepath import (
+    FootFlat,
+    GaitCycleMeasured,
+    HeelOff,
+    HeelStrike,
+    SampleGap,
+    Site,
+    StrideFeatures,
+    StrideTaken,
+    ToeOff,
+)
 from solepath.body.gait.cycles import Strides
 from solepath.body.gait.means import MEMORY, GaitMeans, RunningMean
 from solepath.events import Event
@@ -45,31 +55,31 @@ class Walked:
     feet: dict[Foot, FootTracker]
     body: object = None
 
-    def told(self, foot: Foot, t: float, *events: Event) -> list[StrideMeasured]:
+    def told(self, foot: Foot, t: float, *events: Event) -> list[GaitCycleMeasured]:
         """The events of a sample of `t`, s."""
         self.feet[foot].t = t
         found = self.strides.foot_moved(self.feet[foot], self.feet, t, list(events), self.body)
-        return [event for event in found if isinstance(event, StrideMeasured)]
+        return [event for event in found if isinstance(event, GaitCycleMeasured)]
 
 
 def walked(*feet: Foot, body: object = None) -> Walked:
     return Walked(Strides(), {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in feet}, body)
 
 
-def taken(foot: Foot, toe_off: float, struck: float, begin: Vec3, end: Vec3) -> StepTaken:
+def taken(foot: Foot, toe_off: float, struck: float, begin: Vec3, end: Vec3) -> StrideTaken:
     way = (end[0] - begin[0], end[1] - begin[1], end[2] - begin[2])
-    return StepTaken(
+    return StrideTaken(
         t=struck + 0.1, known_at=struck + 0.1, foot=foot, number=1, t_start=toe_off - 0.3, t_end=struck + 0.1,
-        displacement=way, position=end, stride_length=abs(way[0]), heading_change=0.0, height_change=way[2],
-        covariance=(0.0,) * 6, t_toe_off=toe_off, t_heel_strike=struck, features=StepFeatures(0.1, 4.0, 1.0),
+        displacement=way, position=end, length=abs(way[0]), heading_change=0.0, height_change=way[2],
+        covariance=(0.0,) * 6, t_toe_off=toe_off, t_heel_strike=struck, features=StrideFeatures(0.1, 4.0, 1.0),
     )  # fmt: skip
 
 
 def gone(
     on: Walked, count: int, *, step: float = 0.5, late: float = 0.0, length: float | None = None, begins: float = 0.0
-) -> list[StrideMeasured]:
+) -> list[GaitCycleMeasured]:
     """Both feet walk on: the right one comes down `step` after the left one, and `late` s more."""
-    found: list[StrideMeasured] = []
+    found: list[GaitCycleMeasured] = []
     for k in range(count):
         foot = L if k % 2 == 0 else R
         struck = begins + k * step + (late if foot is R else 0.0)
@@ -114,7 +124,7 @@ def test_step_length_and_width_are_measured_along_the_stride_and_across_it() -> 
 def test_no_foot_is_cleared_by_less_than_nothing() -> None:
     """Its height was corrected at the foot-flat to above what the swing was seen to reach."""
     on, step = walked(L), taken(L, 0.6, 1.0, (0.0, 0.0, 0.0), (1.4, 0.0, 0.27))
-    step = attrs.evolve(step, features=StepFeatures(-0.02, 4.0, 1.0))
+    step = attrs.evolve(step, features=StrideFeatures(-0.02, 4.0, 1.0))
     on.told(L, 0.0, HeelStrike(t=0.0, known_at=0.0, foot=L))
     on.told(L, 0.6, ToeOff(t=0.6, known_at=0.6, foot=L))
     on.told(L, 1.0, HeelStrike(t=1.0, known_at=1.0, foot=L))
@@ -175,7 +185,7 @@ def test_the_last_stride_before_a_stop_does_not_count() -> None:
     assert left.feet[L].stride_time.strides == len([s for s in found if s.foot is L]) - 2
 
 
-KINDS = st.sampled_from([HeelStrike, FootFlat, HeelOff, ToeOff, StepTaken, SampleGap])
+KINDS = st.sampled_from([HeelStrike, FootFlat, HeelOff, ToeOff, StrideTaken, SampleGap])
 TIMES = st.one_of(st.floats(0.0, 0.7), st.sampled_from([0.0, 1e-9, 5.0, 1e9, 1e300]))
 PLACES = st.one_of(st.floats(-3.0, 3.0), st.sampled_from([1e30, -1e200, 1e308]))
 
@@ -190,7 +200,7 @@ def test_whatever_the_feet_do_strides_are_sound_and_can_be_saved(
     found: list[Event] = []
     for foot, kind, passed, place, inferred in does:
         t += passed
-        if kind is StepTaken:
+        if kind is StrideTaken:
             event: Event = taken(foot, off, t, (0.0, 0.0, 0.0), (place, 0.5 * place, 0.1))
         elif kind is SampleGap:
             event = SampleGap(t=t, known_at=t, site=SITE_OF_FOOT[foot], duration=passed)
@@ -202,9 +212,9 @@ def test_whatever_the_feet_do_strides_are_sound_and_can_be_saved(
         assert copy == on.strides
     found += on.strides.finish(on.feet, t, on.body)
     for stride in found:
-        assert isinstance(stride, StrideMeasured)
+        assert isinstance(stride, GaitCycleMeasured)
         assert stride.t_start <= stride.t_toe_off <= stride.t <= stride.known_at
-        for one in attrs.fields(StrideMeasured):
+        for one in attrs.fields(GaitCycleMeasured):
             value = getattr(stride, one.name)
             assert not isinstance(value, float) or isfinite(value)
     parameters = on.strides.parameters

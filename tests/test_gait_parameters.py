@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from solepath import Foot, GaitParameters, Sample, Session, StrideMeasured
+from solepath import Foot, GaitCycleMeasured, GaitParameters, Sample, Session
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
@@ -30,7 +30,7 @@ OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 @cache
 def walked(
     route: Route, cells: int = 0, feet: tuple[Foot, ...] = tuple(Foot)
-) -> tuple[Truth, tuple[StrideMeasured, ...], GaitParameters | None]:
+) -> tuple[Truth, tuple[GaitCycleMeasured, ...], GaitParameters | None]:
     """The truth, the strides and the running means of an emulated walk."""
     walker = Walker(route, seed=102)
     samples = [
@@ -40,7 +40,7 @@ def walked(
     ]
     session = Session()
     told = session.feed(sorted(samples, key=lambda sample: sample.t)) + session.finish()
-    return walker.truth(), tuple(event for event in told if isinstance(event, StrideMeasured)), session.gait
+    return walker.truth(), tuple(event for event in told if isinstance(event, GaitCycleMeasured)), session.gait
 
 
 def really(truth: Truth, foot: Foot) -> dict[float, dict[str, float]]:
@@ -175,7 +175,7 @@ def test_an_insole_without_an_inertial_sensor_tells_times_alone() -> None:
     both = [s for foot in Foot for s in walker.samples(foot, 100.0, LSM6DSOX, layout=layout(96, foot))]
     session = Session()
     bare = [Sample(s.t, s.site, pressure=s.pressure) for s in sorted(both, key=lambda s: s.t)]
-    strides = [event for event in session.feed(bare) if isinstance(event, StrideMeasured)]
+    strides = [event for event in session.feed(bare) if isinstance(event, GaitCycleMeasured)]
     truth = walker.truth()
     assert len(strides) >= 16
     for stride in strides:
@@ -265,7 +265,7 @@ def test_gait_csv_has_a_line_for_each_stride_and_nothing_where_nothing_could_be_
     with TrackFiles(tmp_path) as files:
         for stride in strides:
             files.write(stride)
-    with (tmp_path / "gait.csv").open(newline="") as file:
+    with (tmp_path / "gait_cycles.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == len(strides) and tuple(rows[0]) == GAIT_COLUMNS
     for row, stride in zip(rows, strides, strict=True):

@@ -136,11 +136,11 @@ LISTEN = """
 import json, sys
 import solepath
 bare = sorted(sys.modules)
-from solepath import Packet, Session, Site, StepTaken
+from solepath import Packet, Session, Site, StrideTaken
 session = Session(poses=True)
 steps = 0
 for t, site, channel, data in json.load(open(sys.argv[1])):
-    steps += sum(isinstance(e, StepTaken) for e in session.feed(Packet(t, Site(site), channel, bytes.fromhex(data))))
+    steps += sum(isinstance(e, StrideTaken) for e in session.feed(Packet(t, Site(site), channel, bytes.fromhex(data))))
 session = Session.restore(json.loads(json.dumps(session.snapshot())))
 session.finish()
 print(json.dumps([bare, sorted(sys.modules), steps]))

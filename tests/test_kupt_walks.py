@@ -16,7 +16,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
-from solepath.events import Event, FootFlat, HeelOff, HeelStrike, StepTaken, ToeOff
+from solepath.events import Event, FootFlat, HeelOff, HeelStrike, StrideTaken, ToeOff
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Quat, Sample
 from solepath.types.vector import normalise, rotate
@@ -43,8 +43,8 @@ def run(recipe: str, walk: tuple[Sample, ...]) -> list[Event]:
     return session.feed(walk) + session.finish()
 
 
-def steps(events: list[Event]) -> list[StepTaken]:
-    return [event for event in events if isinstance(event, StepTaken)]
+def steps(events: list[Event]) -> list[StrideTaken]:
+    return [event for event in events if isinstance(event, StrideTaken)]
 
 
 @cache
@@ -55,8 +55,8 @@ def strides(recipe: str, rate: float) -> tuple[list[float], list[float]]:
         for foot in Foot:
             found, true = steps(run(recipe, samples(seed, foot, rate))), walker(seed).truth().steps(foot)
             assert len(found) == len(true)
-            errors += [a.stride_length - b.length for a, b in zip(found[2:], true[2:], strict=True)]
-            distances.append(sum(a.stride_length for a in found) - sum(b.length for b in true))
+            errors += [a.length - b.length for a, b in zip(found[2:], true[2:], strict=True)]
+            distances.append(sum(a.length for a in found) - sum(b.length for b in true))
     return errors, distances
 
 
@@ -110,7 +110,7 @@ def test_how_the_sensor_is_mounted_makes_no_difference() -> None:
     turned = tuple(
         [evolve(s, acc=rotate(CROOKED, s.acc), gyro=rotate(CROOKED, s.gyro)) for s in plain if s.acc and s.gyro]
     )
-    lengths = [[step.stride_length for step in steps(run("kupt", walk))] for walk in (plain, turned)]
+    lengths = [[step.length for step in steps(run("kupt", walk))] for walk in (plain, turned)]
     indices = [[step.features.error_index for step in steps(run("kupt", walk))][2:] for walk in (plain, turned)]
     assert lengths[0] == pytest.approx(lengths[1], abs=1e-6)
     assert indices[0] == pytest.approx(indices[1], abs=1e-6)
@@ -140,7 +140,7 @@ def test_pressure_that_comes_at_half_the_rate_makes_the_same_steps() -> None:
     thinned = tuple([s if k % 2 == 0 else evolve(s, pressure=None) for k, s in enumerate(walk)])
     whole, half = steps(run("kupt", walk)), steps(run("kupt", thinned))
     assert len(whole) == len(half)
-    assert [s.stride_length for s in whole] == pytest.approx([s.stride_length for s in half], abs=0.08)
+    assert [s.length for s in whole] == pytest.approx([s.length for s in half], abs=0.08)
 
 
 def test_after_a_long_stand_on_both_feet_the_next_steps_are_found() -> None:
@@ -151,7 +151,7 @@ def test_after_a_long_stand_on_both_feet_the_next_steps_are_found() -> None:
         walk = two.samples(foot, 50.0, LSM6DSOX, layout=layout(96, foot))
         found, true = steps(run("kupt", tuple(walk))), two.truth().steps(foot)
         assert len(found) == len(true)
-        assert sum(step.stride_length for step in found) == pytest.approx(sum(s.length for s in true), abs=0.5)
+        assert sum(step.length for step in found) == pytest.approx(sum(s.length for s in true), abs=0.5)
 
 
 def test_a_foot_without_pressure_has_no_use_for_this_recipe() -> None:
@@ -169,7 +169,7 @@ def test_when_the_clock_begins_anew_the_next_steps_are_found() -> None:
     session.feet[Foot.LEFT].interrupt()
     again = steps(session.feed(walk))
     # where the first step began is a matter of the old clock
-    assert [step.stride_length for step in again] == pytest.approx([step.stride_length for step in first[1:]], abs=0.05)
+    assert [step.length for step in again] == pytest.approx([step.length for step in first[1:]], abs=0.05)
     # the direction of the toes is still known
     assert all(step.features.error_index is not None for step in again)
 
@@ -188,5 +188,5 @@ def test_insoles_that_say_nothing_of_their_cells_make_no_step_longer_than_the_we
     session = Session(recipes.BY_NAME["kupt"])
     found, true = steps(session.feed(walk) + session.finish()), walker(223).truth().steps(Foot.RIGHT)
     assert len(found) == len(true)
-    assert sum(step.stride_length for step in found) == pytest.approx(sum(step.length for step in true), abs=0.6)
-    assert max(step.stride_length for step in found) < 1.2 * max(step.length for step in true)
+    assert sum(step.length for step in found) == pytest.approx(sum(step.length for step in true), abs=0.6)
+    assert max(step.length for step in found) < 1.2 * max(step.length for step in true)

@@ -11,7 +11,7 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import Foot, Sample, Session, StepTaken
+from solepath import Foot, Sample, Session, StrideTaken
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX, MPU6050, Imu
 from solepath.emulate.sensors.ramp import Ramp
@@ -165,9 +165,9 @@ def walked(grade: float, mounting: Mounting, part: Imu, seed: int = 101) -> tupl
     return tuple(walker.samples(Foot.RIGHT, 100.0, part, mounting=mounting))
 
 
-def steps_of(samples: tuple[Sample, ...], recipe: Recipe = DEFAULT) -> list[StepTaken]:
+def steps_of(samples: tuple[Sample, ...], recipe: Recipe = DEFAULT) -> list[StrideTaken]:
     session = Session(recipe)
-    return of(StepTaken, session.feed(list(samples)) + session.finish())
+    return of(StrideTaken, session.feed(list(samples)) + session.finish())
 
 
 @pytest.mark.parametrize("part", [LSM6DSOX, MPU6050], ids=lambda part: part.name)

@@ -19,8 +19,8 @@ from solepath import (
     SampleGap,
     Session,
     Site,
-    StepTaken,
     StreamStale,
+    StrideTaken,
     recipes,
 )
 from solepath.body.fuse.position import MeanOfFeet
@@ -68,7 +68,7 @@ def test_who_was_heard_first_does_not_matter_to_a_snapshot() -> None:
 def test_final_steps_are_all_seen_from_one_frame(first: Route, seed: int) -> None:
     walk = emulate(first.walk(6, 1.2).stop(2), seed=seed)
     session = Session(evolve(recipes.DEFAULT, body=MeanOfFeet()))  # no foot is moved by the other
-    steps = [event for event in session.feed(walk.packets) if isinstance(event, StepTaken)]
+    steps = [event for event in session.feed(walk.packets) if isinstance(event, StrideTaken)]
     for foot in Foot:
         own = [step for step in steps if step.foot is foot]
         assert len(own) >= 5
@@ -120,7 +120,7 @@ def test_a_foot_that_stands_for_a_minute_takes_no_step_and_stays() -> None:
     walk = emulate(Route().stand(60), seed=4)
     session = Session()
     events = session.feed(walk.packets)
-    assert [event for event in events if isinstance(event, StepTaken | FootFlat)] == []
+    assert [event for event in events if isinstance(event, StrideTaken | FootFlat)] == []
     assert session.position is not None and max(map(abs, session.position.position)) < 0.01
 
 

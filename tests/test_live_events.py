@@ -23,7 +23,7 @@ from solepath import (
     Sample,
     Session,
     Site,
-    StepTaken,
+    StrideTaken,
     WearerMoved,
     recipes,
 )
@@ -85,7 +85,7 @@ def test_after_every_step_it_is_told_where_the_wearer_is_then(name: str) -> None
     steps = 0
     for packet in insoles().packets:
         told = session.feed(packet)
-        taken, moved = of(StepTaken, told), of(WearerMoved, told)
+        taken, moved = of(StrideTaken, told), of(WearerMoved, told)
         assert len(moved) == bool(taken)
         steps += len(taken)
         for event in moved:

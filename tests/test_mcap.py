@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 import walks
-from solepath import FootMoved, Packet, Sample, Session, Site, StepTaken
+from solepath import FootMoved, Packet, Sample, Session, Site, StrideTaken
 from solepath.events import LiveEvent
 from solepath.link.decoder import Decoder
 from solepath.recording import RecordingError
@@ -145,10 +145,10 @@ def test_the_events_in_it_are_a_sessions(exported):
     assert {(said["phase"], said["phase_number"]) for _, _, said in exported["/left_foot/pose"]} == {
         ("LOADING", 0), ("STATIONARY", 1), ("PUSH_OFF", 2), ("SWING", 3),
     }  # fmt: skip
-    steps = [e for e in events if isinstance(e, StepTaken) and e.final and e.foot.value == "left"]
+    steps = [e for e in events if isinstance(e, StrideTaken) and e.final and e.foot.value == "left"]
     rows = exported["/left_foot/steps"]
     assert [(said["number"], said["stride_length"]) for _, _, said in rows] == [
-        (step.number, step.stride_length) for step in steps
+        (step.number, step.length) for step in steps
     ] != []  # fmt: skip
     gait = Counter(said["event"] for _, _, said in exported["/left_foot/gait"])
     assert gait == Counter(

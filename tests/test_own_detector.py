@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from attrs import define, evolve, field
 
-from solepath import Foot, Phase, Session, SnapshotError, StepTaken, recipes
+from solepath import Foot, Phase, Session, SnapshotError, StrideTaken, recipes
 from solepath.emulate import Route, Walker
 from solepath.emulate.sensors.insoles import layout
 from solepath.foot.stance.stance import Load, Stance
@@ -55,7 +55,7 @@ def test_a_walk_with_a_detector_of_ones_own_is_saved_and_goes_on_when_its_class_
     walked = samples(cells=0)
     whole, half = Session(OWN), len(walked) // 2
     events = [whole.feed(sample) for sample in walked]
-    assert len(of(StepTaken, sum(events, []))) >= 6
+    assert len(of(StrideTaken, sum(events, []))) >= 6
     first = Session(OWN)
     first.feed(walked[:half])
     saved = json.loads(json.dumps(first.snapshot()))

@@ -20,13 +20,13 @@ from solepath import (
     Foot,
     FootMoved,
     FootPressed,
+    GaitCycleMeasured,
     LayoutKnown,
     PacketsLost,
     Phase,
     Placed,
     Session,
     Site,
-    StrideMeasured,
 )
 from solepath.body.gait.means import GaitMeans
 from solepath.emulate.routes.route import Route
@@ -86,7 +86,7 @@ def test_a_lost_connection_ends_what_is_known_at_once() -> None:
 
 def test_the_pace_is_that_of_the_newest_strides() -> None:
     scene = until(8.0)
-    strides = [event for event in walk() if isinstance(event, StrideMeasured) and event.known_at <= 8.0]
+    strides = [event for event in walk() if isinstance(event, GaitCycleMeasured) and event.known_at <= 8.0]
     newest = [[one for one in strides if one.foot is foot][-2:] for foot in Foot]
     assert [len(some) for some in newest] == [2, 2]
     cadences = [sum(one.cadence for one in some) / 2 for some in newest]
@@ -138,7 +138,7 @@ def test_a_scale_is_for_both_feet_and_only_grows() -> None:
     scene, tops = shown(worn()), []
     for event in walk():
         scene.take(event)
-        tops.append(frame(scene)["scales"]["kPa"]["top"] if isinstance(event, StrideMeasured) else None)
+        tops.append(frame(scene)["scales"]["kPa"]["top"] if isinstance(event, GaitCycleMeasured) else None)
     seen = [top for top in tops if top is not None]
     assert seen == sorted(seen)
     assert seen[-1] in (200.0, 400.0)
@@ -181,9 +181,9 @@ def test_a_loss_is_that_of_the_last_ten_seconds() -> None:
 # --- gait ------------------------------------------------------------------------------------------------------------
 
 
-def strides(feet: tuple[Foot, ...], count: int, angles: tuple[float, float] = (0.1, -0.05)) -> list[StrideMeasured]:
+def strides(feet: tuple[Foot, ...], count: int, angles: tuple[float, float] = (0.1, -0.05)) -> list[GaitCycleMeasured]:
     """Steady ones, one more of each foot than will count."""
-    first = next(event for event in walk() if isinstance(event, StrideMeasured) and event.steady)
+    first = next(event for event in walk() if isinstance(event, GaitCycleMeasured) and event.steady)
     angle = dict(zip(Foot, angles, strict=True))
     return [
         evolve(first, foot=foot, t_start=1.0 + k, t=2.0 + k, known_at=2.3 + k, toe_off_angle=angle[foot])

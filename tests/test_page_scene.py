@@ -45,9 +45,9 @@ from solepath import (
     SampleGap,
     Session,
     Site,
-    StepTaken,
     StreamResumed,
     StreamStale,
+    StrideTaken,
     TurnMade,
     WearerMoved,
 )
@@ -84,9 +84,9 @@ def walk() -> tuple[Session, tuple[Event, ...]]:
     return session, tuple(events)
 
 
-def step(t: float, x: float, foot: Foot = LEFT) -> StepTaken:
+def step(t: float, x: float, foot: Foot = LEFT) -> StrideTaken:
     """A step to x m."""
-    first = next(event for event in walk()[1] if isinstance(event, StepTaken))
+    first = next(event for event in walk()[1] if isinstance(event, StrideTaken))
     return evolve(first, foot=foot, t=t, known_at=t, t_start=t - 1.0, t_end=t, position=(x, 0.0, 0.0))
 
 
@@ -234,9 +234,9 @@ def test_a_page_shows_where_the_feet_and_the_wearer_are() -> None:
         one = told["feet"][foot.value]
         assert one["position"] == [round(v, 3) for v in session.feet[foot].position]
         assert one["phase"] == session.phase(foot).value  # type: ignore[union-attr]
-        taken = [event for event in events if isinstance(event, StepTaken) and event.foot is foot]
+        taken = [event for event in events if isinstance(event, StrideTaken) and event.foot is foot]
         assert one["steps"] == len(taken)
-        assert one["distance"] == round(sum(event.stride_length for event in taken), 2)
+        assert one["distance"] == round(sum(event.length for event in taken), 2)
     last = [event for event in events if isinstance(event, WearerMoved)][-1]
     assert told["wearer"]["position"] == [round(v, 3) for v in last.position]
     assert told["support"] == session.support.value  # type: ignore[union-attr]
@@ -321,7 +321,7 @@ def test_sensors_without_cells_show_steps_and_no_soles() -> None:
 def test_other_recipes_are_shown_as_well() -> None:
     _, events = fed(insoles().packets, PRESSURE_CONTOUR)
     told = frame(shown(events))
-    assert told["feet"]["left"]["steps"] == len([e for e in events if isinstance(e, StepTaken) and e.foot is LEFT])
+    assert told["feet"]["left"]["steps"] == len([e for e in events if isinstance(e, StrideTaken) and e.foot is LEFT])
     assert told["feet"]["right"]["phase"] is not None
 
 
@@ -450,7 +450,7 @@ def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
     for lap in range(500):
         for event in eventful() if lap % 125 == 124 else once:
             event = later(event, lap * length)
-            if isinstance(event, StepTaken | WearerMoved | Placed):
+            if isinstance(event, StrideTaken | WearerMoved | Placed):
                 x, y, z = event.position
                 event = evolve(event, position=(x + lap, y, z))
             scene.take(event)

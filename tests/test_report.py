@@ -21,7 +21,7 @@ from solepath.body.gait.means import GaitMeans
 from solepath.body.place.particles import Particles
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
-from solepath.events import Event, FootMoved, FootPressed, LayoutKnown, StepTaken, StrideMeasured, WearerMoved
+from solepath.events import Event, FootMoved, FootPressed, GaitCycleMeasured, LayoutKnown, StrideTaken, WearerMoved
 from solepath.floorplan.plan import Start
 from solepath.show.report import Report
 from solepath.show.report.page import text_of
@@ -75,7 +75,7 @@ def rows_of(page: Node) -> dict[str, list[str]]:
 def test_the_gait_table_has_the_numbers_of_the_session() -> None:
     means = GaitMeans(memory=10**9)
     for event in walked():
-        if isinstance(event, StrideMeasured):
+        if isinstance(event, GaitCycleMeasured):
             means.hear(event)
     parameters = means.of(False)
     assert parameters is not None
@@ -109,7 +109,7 @@ def test_the_summary_says_how_long_how_far_and_what_was_done() -> None:
 
 
 def test_runs_and_walks_have_a_table_each() -> None:
-    strides = [event for event in walked() if isinstance(event, StrideMeasured)]
+    strides = [event for event in walked() if isinstance(event, GaitCycleMeasured)]
     later = [
         evolve(one, t=one.t + 60.0, t_start=one.t_start + 60.0, t_toe_off=one.t_toe_off + 60.0, stance_time=0.3)
         for one in strides
@@ -273,10 +273,10 @@ def test_one_foot_alone_has_its_own_report() -> None:
 
 
 def test_pressure_alone_has_times_and_no_track() -> None:
-    only = (StrideMeasured, FootPressed, LayoutKnown)
+    only = (GaitCycleMeasured, FootPressed, LayoutKnown)
     lost = {"stride_length": None, "speed": None, "clearance": None, "turning_angle": None, "rise": None}
     events = [
-        evolve(event, **lost) if isinstance(event, StrideMeasured) else event
+        evolve(event, **lost) if isinstance(event, GaitCycleMeasured) else event
         for event in walked()
         if isinstance(event, only)
     ]
@@ -315,7 +315,7 @@ def test_any_events_in_any_order_make_a_page_without_a_number_that_is_none(
 
 def test_memory_does_not_grow_with_the_time_walked() -> None:
     mine = [event for event in walked() if getattr(event, "foot", Foot.LEFT) is Foot.LEFT]
-    kinds = (StrideMeasured, StepTaken, WearerMoved)
+    kinds = (GaitCycleMeasured, StrideTaken, WearerMoved)
     events = [event for kind in kinds for event in [one for one in mine if isinstance(one, kind)][-4:]]
     report, sizes = told(*walked()), []
     for k in range(1, 501):

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pages import parsed
-from solepath import ActivityChanged, FootPressed, StrideMeasured
+from solepath import ActivityChanged, FootPressed, GaitCycleMeasured
 from solepath.body.gait.means import Figure, GaitParameters, StrideFigures
 from solepath.emulate.routes.building import BUILDING
 from solepath.show.report.bounded import Thinned, coarser
@@ -112,14 +112,14 @@ def test_a_foot_that_comes_down_nobody_knows_when_is_not_drawn_beside_the_other(
 # --- soles ------------------------------------------------------------------------------------------------------------
 
 
-def stride(start: float, off: float, end: float, **other: object) -> StrideMeasured:
+def stride(start: float, off: float, end: float, **other: object) -> GaitCycleMeasured:
     nothing = dict.fromkeys(
         ("step_time", "initial_double_support", "terminal_double_support", "single_support", "phase", "stride_length",
          "speed", "step_length", "step_width", "clearance", "toe_off_angle", "heel_strike_angle", "turning_angle",
          "rise"))  # fmt: skip
     known = {"foot": L, "number": 1, "t": end, "known_at": end, "t_start": start, "t_toe_off": off}
     times = {"stride_time": end - start, "stance_time": off - start, "swing_time": end - off, "cadence": 110.0}
-    return StrideMeasured(**(nothing | known | times | {"degraded": False, "steady": True} | other))  # type: ignore[arg-type]
+    return GaitCycleMeasured(**(nothing | known | times | {"degraded": False, "steady": True} | other))  # type: ignore[arg-type]
 
 
 def pressed(sole: Sole, begin: float, heel: float) -> None:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from solepath.body.activity.flights import Flights
 from solepath.body.activity.steepness import HIGHEST_RISE
-from solepath.events import FlightClimbed, StepFeatures, StepTaken
+from solepath.events import FlightClimbed, StrideFeatures, StrideTaken
 from solepath.saving import codec as machine
 from solepath.types import Foot
 
@@ -18,8 +18,8 @@ RISER = 0.16
 FEET = (Foot.LEFT, Foot.RIGHT)
 
 
-def step(foot: Foot, t: float, height: float, ground: float = 0.6, degraded: bool = False) -> StepTaken:
-    return StepTaken(
+def step(foot: Foot, t: float, height: float, ground: float = 0.6, degraded: bool = False) -> StrideTaken:
+    return StrideTaken(
         t=t,
         known_at=t,
         foot=foot,
@@ -28,12 +28,12 @@ def step(foot: Foot, t: float, height: float, ground: float = 0.6, degraded: boo
         t_end=t,
         displacement=(ground, 0.0, height),
         position=(0.0, 0.0, 0.0),
-        stride_length=ground,
+        length=ground,
         heading_change=0.0,
         height_change=height,
         covariance=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
         degraded=degraded,
-        features=StepFeatures(0.1, 2.0, 1.0),
+        features=StrideFeatures(0.1, 2.0, 1.0),
     )
 
 

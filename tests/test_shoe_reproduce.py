@@ -6,7 +6,7 @@ import pytest
 from attrs import evolve
 
 from solepath.emulate.wearers.truth import TrueStep
-from solepath.events import StepFeatures, StepTaken
+from solepath.events import StrideFeatures, StrideTaken
 from solepath.lab.reproduce import shoe_sensing, shoe_walks
 from solepath.lab.reproduce.published import NORMALISED
 from solepath.lab.reproduce.published import SHOE_SENSING as PAPER
@@ -14,8 +14,8 @@ from solepath.lab.reproduce.shoe_walks import FOOT, STATES, heard, judged, match
 from solepath.recipes import SHOE_SENSING
 
 
-def step(t: float, lasting: float = 1.0, length: float = 1.2) -> StepTaken:
-    return StepTaken(
+def step(t: float, lasting: float = 1.0, length: float = 1.2) -> StrideTaken:
+    return StrideTaken(
         t=t,
         known_at=t,
         foot=FOOT,
@@ -24,11 +24,11 @@ def step(t: float, lasting: float = 1.0, length: float = 1.2) -> StepTaken:
         t_end=t,
         displacement=(length, 0.0, 0.0),
         position=(0.0, 0.0, 0.0),
-        stride_length=length,
+        length=length,
         heading_change=0.0,
         height_change=0.0,
         covariance=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-        features=StepFeatures(0.1, 2.0, 1.0),
+        features=StrideFeatures(0.1, 2.0, 1.0),
     )
 
 
@@ -48,15 +48,15 @@ def test_the_nearest_is_matched_though_an_earlier_one_is_near_too() -> None:
 def test_two_steps_told_as_one_are_a_merged_one_that_is_off_by_a_whole_step(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shoe_walks, "STEPS", 10)
     samples, truth = worn(route_of("walking"), 1)
-    steps = [event for event in heard(SHOE_SENSING, samples) if isinstance(event, StepTaken)]
+    steps = [event for event in heard(SHOE_SENSING, samples) if isinstance(event, StrideTaken)]
     first, second = steps[4:6]
-    both = evolve(second, t_start=first.t_start, stride_length=first.stride_length + second.stride_length)
+    both = evolve(second, t_start=first.t_start, length=first.length + second.length)
     whole = judged(steps, truth, "walking")
     told = judged([*steps[:4], both, *steps[6:]], truth, "walking")
     assert (whole.merged, told.merged, told.parted) == (0, 1, 0)
     assert len(told.whole) == len(told.lengths) - 1
     assert told.missed == whole.missed + 1
-    assert max(error for error, _ in told.lengths) == pytest.approx(first.stride_length, abs=0.15)
+    assert max(error for error, _ in told.lengths) == pytest.approx(first.length, abs=0.15)
 
 
 def test_table_2_is_the_mean_error_over_the_length_divided_by_22_5() -> None:

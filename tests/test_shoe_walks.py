@@ -16,7 +16,7 @@ from solepath.emulate.sensors.parts import MPU6050
 from solepath.emulate.wearers.shoe import ON_INSTEP
 from solepath.emulate.wearers.truth import Truth
 from solepath.emulate.wearers.walker import Walker
-from solepath.events import ActivityChanged, Event, FlightClimbed, StepTaken
+from solepath.events import ActivityChanged, Event, FlightClimbed, StrideTaken
 from solepath.foot.tracker import FootTracker
 from solepath.papers.shoe_sensing.gated_tilt import ShoeSensing
 from solepath.papers.shoe_sensing.short_time_energy import ShortTimeEnergy
@@ -50,8 +50,8 @@ def heard(route: Route, seed: int, rate: float = 100.0, energy: bool = True) -> 
     return tuple(session.feed(worn(route, seed, rate)[0]) + session.finish())
 
 
-def steps(events: tuple[Event, ...], foot: Foot) -> list[StepTaken]:
-    return [event for event in events if isinstance(event, StepTaken) and event.foot is foot]
+def steps(events: tuple[Event, ...], foot: Foot) -> list[StrideTaken]:
+    return [event for event in events if isinstance(event, StrideTaken) and event.foot is foot]
 
 
 @pytest.mark.parametrize(
@@ -65,12 +65,12 @@ def test_every_level_step_is_found_and_ends_as_high_as_it_began(route: Route, ra
             assert len(true) - (route is JOG) <= len(found) <= len(true)
             assert all(min(abs(step.t - other.t_end) for other in true) < 0.15 for step in found)
             assert abs(found[-1].position[2]) <= 0.1
-            assert sum(step.stride_length for step in found) == pytest.approx(sum(s.length for s in true), rel=0.06)
+            assert sum(step.length for step in found) == pytest.approx(sum(s.length for s in true), rel=0.06)
 
 
 def test_the_magnitude_alone_gets_the_way_wrong_where_the_energy_does_not() -> None:
     energy, magnitude = (
-        sum(step.stride_length for step in steps(heard(LEVEL, 1, energy=one), Foot.LEFT)) for one in (True, False)
+        sum(step.length for step in steps(heard(LEVEL, 1, energy=one), Foot.LEFT)) for one in (True, False)
     )
     assert abs(energy - 30.0) < 0.06 * 30.0
     assert abs(magnitude - 30.0) > 0.2 * 30.0
@@ -114,7 +114,7 @@ def test_a_foot_that_only_fidgets_is_in_the_end_unknown() -> None:
     for sample in samples[:1200]:
         events = foot.feed(sample)
         # the steps are kept from it, as if the foot had come down where it stood
-        told += part.foot_moved(foot, sample, [event for event in events if not isinstance(event, StepTaken)])
+        told += part.foot_moved(foot, sample, [event for event in events if not isinstance(event, StrideTaken)])
     kinds = [event.activity for event in told if isinstance(event, ActivityChanged)]
     assert kinds == [Activity.STANDING, Activity.UNKNOWN]
 
@@ -222,8 +222,8 @@ def test_a_step_higher_than_stairs_have_is_neither_upstairs_nor_downstairs(heigh
     for sample in worn(LEVEL, 1)[0]:
         if sample.site.foot is Foot.LEFT:
             events = [
-                evolve(event, height_change=height) if isinstance(event, StepTaken) and event.number % 3 == 0 else event
-                for event in foot.feed(sample)
+                evolve(one, height_change=height) if isinstance(one, StrideTaken) and one.number % 3 == 0 else one
+                for one in foot.feed(sample)
             ]
             told += part.foot_moved(foot, sample, events)
     assert [what for _, what in changes(told)] == [Activity.STANDING, Activity.WALKING, Activity.STANDING]

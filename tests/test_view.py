@@ -27,9 +27,9 @@ from solepath.events import (
     Rejection,
     SampleGap,
     ScaleSuspect,
-    StepFeatures,
-    StepTaken,
+    StrideFeatures,
     StrideFused,
+    StrideTaken,
     TouchedDown,
 )
 from solepath.session import Session
@@ -43,10 +43,10 @@ from solepath.show.tally import Tally
 from solepath.types import Cell, Foot, Layout, Packet, Phase, Sample, Site, WalkingMode
 from walks import SHORT, packets
 
-STEP = StepTaken(
+STEP = StrideTaken(
     t=2.0, known_at=2.0625, foot=Foot.LEFT, number=1, t_start=1.0, t_end=2.0, displacement=(1.25, 0.0, 0.0),
-    position=(1.25, 0.0, 0.0), stride_length=1.25, heading_change=0.0, height_change=0.0,
-    covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4), degraded=True, features=StepFeatures(0.125, 4.0, 1.0),
+    position=(1.25, 0.0, 0.0), length=1.25, heading_change=0.0, height_change=0.0,
+    covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4), degraded=True, features=StrideFeatures(0.125, 4.0, 1.0),
 )  # fmt: skip
 
 
@@ -186,7 +186,7 @@ def test_events_of_bodies_and_of_wear_are_strict_json_with_feet_and_modes_by_the
 def test_an_event_is_written_with_its_name_and_times_first_and_records_within_it_as_objects():
     record = event_record(STEP)
     assert list(record)[:5] == ["event", "t", "known_at", "final", "foot"]
-    assert record["event"] == "StepTaken" and record["foot"] == "left" and record["position"] == [1.25, 0.0, 0.0]
+    assert record["event"] == "StrideTaken" and record["foot"] == "left" and record["position"] == [1.25, 0.0, 0.0]
     assert record["features"]["clearance"] == 0.125 and record["t_toe_off"] is None
 
 

@@ -21,7 +21,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
-from solepath.events import FeetSwapped, FootHeard, FootSilent, StepTaken
+from solepath.events import FeetSwapped, FootHeard, FootSilent, StrideTaken
 from solepath.saving import codec as machine
 from solepath.types import Foot, Sample, Site
 from walks import LEFT, RIGHT, SHORT, of, samples
@@ -68,15 +68,15 @@ def test_a_foot_that_gives_no_samples_while_the_other_walks_on_is_silent_until_i
 def test_the_foot_that_is_left_takes_its_steps_as_before() -> None:
     left = without(RIGHT, 6.0, 1e9)
 
-    def steps(items: tuple[Sample, ...], recipe: Recipe) -> list[StepTaken]:
-        return [step for step in said(StepTaken, items, Session(recipe)) if step.foot is Foot.LEFT]
+    def steps(items: tuple[Sample, ...], recipe: Recipe) -> list[StrideTaken]:
+        return [step for step in said(StrideTaken, items, Session(recipe)) if step.foot is Foot.LEFT]
 
     assert steps(left, MEAN) == steps(walk(), MEAN)
     # where feet hold each other's heading its steps are as long
     alone, both = steps(left, recipes.DEFAULT), steps(walk(), recipes.DEFAULT)
     assert [step.t_end for step in alone] == [step.t_end for step in both]
-    lengths = [step.stride_length for step in both]
-    assert [step.stride_length for step in alone] == pytest.approx(lengths, abs=0.01)
+    lengths = [step.length for step in both]
+    assert [step.length for step in alone] == pytest.approx(lengths, abs=0.01)
 
 
 def test_a_short_silence_and_a_foot_that_was_never_heard_are_not_told() -> None:
@@ -207,7 +207,7 @@ def test_exchanged_feet_are_told_once_within_ten_steps_of_each(seed: int) -> Non
     session = Session()
     told = session.feed(exchanged(walk(seed)))
     (swapped,) = of(FeetSwapped, told)
-    before = [step.foot for step in of(StepTaken, told) if step.t <= swapped.t]
+    before = [step.foot for step in of(StrideTaken, told) if step.t <= swapped.t]
     assert 8 <= before.count(Foot.LEFT) <= 12
     assert 8 <= before.count(Foot.RIGHT) <= 12
 
@@ -239,7 +239,7 @@ def backwards(walk: tuple[Sample, ...]) -> tuple[Sample, ...]:
 @pytest.mark.parametrize("seed", [1, 2])
 def test_who_walks_backwards_has_no_feet_exchanged(seed: int) -> None:
     back = backwards(walk(seed))
-    assert len(said(StepTaken, back)) > 24
+    assert len(said(StrideTaken, back)) > 24
     assert said(FeetSwapped, back) == []
 
 
@@ -275,7 +275,7 @@ def test_layouts_of_the_other_foot_on_both_sides_are_told_after_a_step() -> None
     session = Session(calibration=mirrored)
     told = session.feed(samples(WALK, rate=50.0))
     (swapped,) = of(FeetSwapped, told)
-    assert len([step for step in of(StepTaken, told) if step.t <= swapped.t]) <= 2
+    assert len([step for step in of(StrideTaken, told) if step.t <= swapped.t]) <= 2
 
 
 _MIRRORED = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}

@@ -19,7 +19,7 @@ from typing import Any
 
 from yardstick import Tuned, Usual
 
-from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StepTaken, recipes
+from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StrideTaken, recipes
 from solepath.calibration import InsoleCalibration
 from solepath.emulate.radio import CLEAN
 from solepath.emulate.routes.building import BUILDING
@@ -274,7 +274,7 @@ def main() -> None:
     real_time = duration / seconds(both)
 
     session = Session()
-    steps = sum(isinstance(event, StepTaken) for event in session.feed(walk.packets))
+    steps = sum(isinstance(event, StrideTaken) for event in session.feed(walk.packets))
     saved = session.snapshot()
     text = json.dumps(saved)
     save, load = seconds(session.snapshot), seconds(lambda: Session.restore(saved))

@@ -17,7 +17,7 @@ from time import process_time
 
 from attrs import evolve
 
-from solepath import Calibration, Foot, Sample, Session, StepTaken
+from solepath import Calibration, Foot, Sample, Session, StrideTaken
 from solepath.calibration import InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
@@ -56,7 +56,7 @@ def main() -> None:
         began = process_time()
         for sample in samples:
             for event in feed(sample):
-                steps += isinstance(event, StepTaken)
+                steps += isinstance(event, StrideTaken)
         took = (process_time() - began) / len(samples) * 1e6
         if k in (0, 1, count - 1) or k % asked.every == 0:
             size = len(json.dumps(session.snapshot()))

@@ -46,7 +46,7 @@ def add_to(commands: Any) -> None:
         "--out",
         metavar="DIR",
         type=Path,
-        help="write events.jsonl, track.csv, steps.csv and gait.csv into it, with a floor plan places.csv and "
+        help="write events.jsonl, track.csv, strides.csv and gait_cycles.csv into it, with a floor plan places.csv and "
         "plan.svg too, once they are whole",
     )
     command.add_argument(

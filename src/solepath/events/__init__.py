@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from .activity import ActivityChanged, FlightClimbed, LiftRidden, TurnMade
 from .body import StrideFused, TouchedDown, WalkingModeChanged
-from .gait import FootFlat, HeelOff, HeelStrike, StepFeatures, StepTaken, ToeOff
+from .gait import FootFlat, HeelOff, HeelStrike, StrideFeatures, StrideTaken, ToeOff
 from .link import (
     BatteryLevel,
     ClockReset,
@@ -32,7 +32,7 @@ from .link import (
 )
 from .live import FootMoved, FootPressed, WearerMoved
 from .place import Candidate, Placed, PlaceLost
-from .stride import StrideMeasured
+from .stride import GaitCycleMeasured
 from .wear import CellFault, CellsFailed, FeetSwapped, FootHeard, FootSilent, InsoleNeverUnloads
 
 __all__ = [
@@ -75,13 +75,13 @@ __all__ = [
     "SampleGap",
     "SampleRejected",
     "ScaleSuspect",
-    "StepFeatures",
-    "StepTaken",
+    "StrideFeatures",
+    "StrideTaken",
     "StreamRestarted",
     "StreamResumed",
     "StreamStale",
     "StrideFused",
-    "StrideMeasured",
+    "GaitCycleMeasured",
     "ToeOff",
     "TouchedDown",
     "TurnMade",
@@ -90,7 +90,7 @@ __all__ = [
     "WearerMoved",
 ]
 
-GaitEvent = HeelStrike | FootFlat | HeelOff | ToeOff | StepTaken
+GaitEvent = HeelStrike | FootFlat | HeelOff | ToeOff | StrideTaken
 LinkEvent = (
     PacketRejected
     | SampleRejected
@@ -110,7 +110,7 @@ LinkEvent = (
     | KeysChanged
     | Limitation
 )
-BodyEvent = StrideMeasured | StrideFused | TouchedDown | WalkingModeChanged
+BodyEvent = GaitCycleMeasured | StrideFused | TouchedDown | WalkingModeChanged
 ActivityEvent = ActivityChanged | LiftRidden | FlightClimbed | TurnMade
 PlaceEvent = Placed | PlaceLost
 WearEvent = CellsFailed | InsoleNeverUnloads | FeetSwapped | FootSilent | FootHeard

@@ -13,12 +13,12 @@ class StrideFused(Happening):
     """The stride of one foot, calibrated by the other's, and whose path the wearer's is now (Chen et al. 2019, IEEE
     Internet of Things Journal, equations (9) to (13)).
 
-    Known with the StepTaken of the stride; `t` is the same, the foot-flat that ends it.
+    Known with the StrideTaken of the stride; `t` is the same, the foot-flat that ends it.
     """
 
     foot: Foot
     number: int
-    """Of the foot's step (StepTaken.number)."""
+    """Of the foot's step (StrideTaken.number)."""
     stride_length: float
     """Calibrated, D of (12), m."""
     own_length: float

@@ -43,7 +43,7 @@ class ToeOff(_Phase):
 
 
 @frozen
-class StepFeatures:
+class StrideFeatures:
     """What was measured along one step, for whoever compares steps; None where the sensors could not tell.
 
     `clearance`: highest rise of the sensor above the higher end of the step, m. `peak_speed`: m/s. `swing_pitch`:
@@ -69,7 +69,7 @@ class StepFeatures:
 
 
 @frozen(kw_only=True)
-class StepTaken(Happening):
+class StrideTaken(Happening):
     """One foot went from foot-flat to its next foot-flat (clinically: a stride). Known at the second foot-flat.
 
     `t` is the second foot-flat. Vectors are in the world frame (z up, x along the first heading, y left), m.
@@ -87,7 +87,7 @@ class StepTaken(Happening):
     position: Vec3
     """Where the foot stands after the step, m. A body that hands corrections back to the feet (BothFeet) moves a track
     between two steps: where this step began is `position` - `displacement`, and not always where the last one ended."""
-    stride_length: float
+    length: float
     """Horizontal length of `displacement`, m."""
     heading_change: float
     """Turn of the foot about the vertical between the two foot-flats, rad, counter-clockwise positive, in (-pi, pi]."""
@@ -101,4 +101,4 @@ class StepTaken(Happening):
     """Likewise, s."""
     degraded: bool = False
     """True when samples were missing or saturated within the step."""
-    features: StepFeatures
+    features: StrideFeatures

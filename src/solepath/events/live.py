@@ -28,7 +28,7 @@ class WearerMoved(Happening):
     """Where the wearer is after a step, the same as `Session.position` then; only from a session made with
     `poses=True`. `t` is the newest sample of either foot.
 
-    Known once with each sample that ends a step, after its StepTaken. Live, so never final: steps to come may move
+    Known once with each sample that ends a step, after its StrideTaken. Live, so never final: steps to come may move
     what is behind as well. World frame.
     """
 

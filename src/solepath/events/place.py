@@ -27,7 +27,7 @@ class Candidate:
 @frozen(kw_only=True)
 class Placed(Happening):
     """Where the wearer is on the plan after a step, or after stairs or a lift (Liu et al. 2015, IEEE MASS, section
-    IV.E). Known with the StepTaken, or the event that tells of the arrival; `t` is the newest sample then. Live:
+    IV.E). Known with the StrideTaken, or the event that tells of the arrival; `t` is the newest sample then. Live:
     more steps may show that it was somewhere else."""
 
     level: str

@@ -9,7 +9,7 @@ from .happening import Happening
 
 
 @frozen(kw_only=True)
-class StrideMeasured(Happening):
+class GaitCycleMeasured(Happening):
     """One gait cycle of a foot, from its initial contact to its next one (Perry and Burnfield, Gait Analysis, 2nd ed.
     2010, chapter 1; Whittle, Gait Analysis, 4th ed. 2007, chapter 2). `t` is the second contact. Known at the foot-flat
     after it (0.1 to 0.2 s later), or when the other foot was heard up to `t` where that is later, by at most 0.5 s.
@@ -29,7 +29,7 @@ class StrideMeasured(Happening):
 
     foot: Foot
     number: int
-    """1 for the first stride of this foot that was measured, and so on; not the number of a StepTaken."""
+    """1 for the first stride of this foot that was measured, and so on; not the number of a StrideTaken."""
     t_start: float
     """The contact at which the cycle began, s."""
     t_toe_off: float

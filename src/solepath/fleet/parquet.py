@@ -1,6 +1,6 @@
 """Events as Parquet: a directory of numbered part files that DuckDB, pandas, Polars and Spark read as one table.
 
-    SELECT wearer, count(*) FROM 'told/*.parquet' WHERE event = 'StepTaken' GROUP BY wearer       -- DuckDB
+    SELECT wearer, count(*) FROM 'told/*.parquet' WHERE event = 'StrideTaken' GROUP BY wearer       -- DuckDB
     pandas.read_parquet("told")        spark.read.parquet("told")
 
 Needs the extra `bytewax`, or pyarrow itself. It knows no engine: one writes through `Parts`, and keeps the number of

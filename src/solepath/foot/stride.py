@@ -6,7 +6,7 @@ from math import hypot
 
 from attrs import define, field
 
-from ..events import StepFeatures, StepTaken
+from ..events import StrideFeatures, StrideTaken
 from ..types import Foot, Quat, Vec3
 from ..types.vector import IDENTITY, ZERO, single, sub
 from .turn import heading_turned
@@ -183,7 +183,7 @@ class StepBuilder:
         *,
         error_index: float | None = None,
         rise: float | None = None,
-    ) -> StepTaken | None:
+    ) -> StrideTaken | None:
         """The foot is flat again: the step, if it was one. `position`, `attitude` and `stretch` as `begin` had them."""
         if self.t_start is None or self.t_toe_off is None or max(self.t_start, self.t_toe_off) > t:
             return None  # no step, or one that times beginning anew have cut in two
@@ -193,7 +193,7 @@ class StepBuilder:
         if hypot(length, dz) < self.shortest and abs(turn) < self.least_turn:
             return None
         self.number += 1
-        return StepTaken(
+        return StrideTaken(
             t=t,
             known_at=known_at,
             foot=self.foot,
@@ -202,14 +202,14 @@ class StepBuilder:
             t_end=t,
             displacement=displacement,
             position=world.vector(position),
-            stride_length=length,
+            length=length,
             heading_change=turn,
             height_change=dz,
             covariance=world.covariance(stretch[:6]),
             t_toe_off=self.t_toe_off,
             t_heel_strike=self.t_heel_strike,
             degraded=self.degraded or t - self.t_toe_off > LONGEST_SWING or length > FASTEST * (t - self.t_start),
-            features=StepFeatures(
+            features=StrideFeatures(
                 clearance=self.highest - max(position[2], self.start[2]),
                 peak_speed=self.fastest,
                 swing_pitch=self.pitch_high - self.pitch_low,

@@ -30,7 +30,7 @@ from typing import Any
 
 from mcap.writer import CompressionType, Writer
 
-from ..events import Event, FootFlat, FootMoved, HeelOff, HeelStrike, LiveEvent, StepTaken, ToeOff
+from ..events import Event, FootFlat, FootMoved, HeelOff, HeelStrike, LiveEvent, StrideTaken, ToeOff
 from ..link.driver import Driver
 from ..session import Session
 from ..show.output import event_record, plain
@@ -213,8 +213,8 @@ class McapWriter:
             case HeelStrike() | FootFlat() | HeelOff() | ToeOff():
                 data["event"] = name
                 self._put(_of(event.foot, "gait"), "solepath.Gait", event.t, event.known_at, data)
-            case StepTaken(final=True):
-                data |= {"number": event.number, "t_start": event.t_start, "stride_length": event.stride_length}
+            case StrideTaken(final=True):
+                data |= {"number": event.number, "t_start": event.t_start, "stride_length": event.length}
                 data |= {"heading_change": event.heading_change, "height_change": event.height_change}
                 data |= {"position": _xyz(event.position), "degraded": event.degraded}
                 self._put(_of(event.foot, "steps"), "solepath.Step", event.t, event.known_at, data)

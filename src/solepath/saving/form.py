@@ -20,8 +20,6 @@ from ..session.wearer import Wearer
 from ..types import Foot
 from .begun import filled
 from .codec import SnapshotError
-from .older import pinned, upgraded
-from .reading import Own
 from .records import Head, Packed, check, own_classes, packed_writer
 from .streams import Units, from_bytes, to_bytes
 from .tree import Streams
@@ -62,34 +60,29 @@ def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> State:
     for a recipe or parts that are none, or two of one name."""
     held = own(recipe)
     classes = own_classes(held, parts)
-    version, body = _opened(data)
+    body = _opened(data)
     try:
-        return _read(version, body, held, classes)
+        return filled(Streams(*from_bytes(body)), held, classes)
     except (SnapshotError, MemoryError, RecursionError):  # where room is short the state may be as good as ever
         raise
     except Exception as error:
         raise SnapshotError(f"not a packed session: {error or type(error).__name__}") from error
 
 
-def _read(version: int, body: memoryview, recipe: Recipe, classes: Own) -> State:
-    streams = Streams(*from_bytes(body))
-    return filled(streams if version == VERSION else upgraded(version, streams, classes), recipe, classes)
-
-
-def _opened(data: Any) -> tuple[int, memoryview]:
-    """The version, and the body."""
+def _opened(data: Any) -> memoryview:
+    """The body."""
     if not isinstance(data, bytes | bytearray | memoryview):
         raise SnapshotError("not a packed session")
     told = bytes(data)
     if len(told) < HEADER.size or not told.startswith(MAGIC):
         raise SnapshotError("not a packed session")
     _, form, version, made_with, found = HEADER.unpack_from(told)
-    if form != FORM or not 1 <= version <= VERSION:
-        raise SnapshotError(f"packed as version {version}, form {form}; this release reads 1 to {VERSION}, form {FORM}")
+    if (form, version) != (FORM, VERSION):
+        raise SnapshotError(f"packed as version {version}, form {form}; this release reads {VERSION}, {FORM} alone")
     start = HEADER.pack(MAGIC, form, version, made_with, 0)
     body = memoryview(told)[HEADER.size :]
     if crc32(body, crc32(start)) != found:
         raise SnapshotError("the packed session was damaged: its checksum is another")
-    if made_with != (check() if version == VERSION else pinned(version)[0].check):
+    if made_with != check():
         raise SnapshotError(f"packed by another release of version {version}: its shape is another")
-    return version, body
+    return body

@@ -21,17 +21,13 @@ def taken(state: State) -> dict[str, Json]:
 
 
 def restored(saved: Any, parts: Iterable[type]) -> State:
-    """The state that was taken, also by an older version. SnapshotError, TypeError and ValueError as `Session.restore`
+    """The state that was taken. SnapshotError, TypeError and ValueError as `Session.restore`
     has them."""
     if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
         raise SnapshotError("not a snapshot of a session")
     version = saved["solepath"]
-    if type(version) is not int or not 1 <= version <= VERSION:
-        raise SnapshotError(f"snapshot version {version!r}; this release reads 1 to {VERSION}")
-    if version < VERSION:
-        from .older import restore
-
-        return restore(saved, tuple(parts))
+    if type(version) is not int or version != VERSION:
+        raise SnapshotError(f"a snapshot of version {version!r:.80}; this release reads version {VERSION} alone")
     state = load(State, saved["state"], parts)
     state.decoders = in_order(state.decoders, Site)
     state.wearer.feet = in_order(state.wearer.feet, Foot)

@@ -253,7 +253,7 @@ class Session:
     @property
     def gait(self) -> GaitParameters | None:
         """Gait parameters as means of the steady strides so far, of walking or of running as the newest of them was;
-        None before any. Each stride's own are events (StrideMeasured)."""
+        None before any. Each stride's own are events (GaitCycleMeasured)."""
         return self._state.wearer.strides.parameters
 
     @property

@@ -23,7 +23,7 @@ from ..events import (
     LiftRidden,
     Limitation,
     SampleRejected,
-    StepTaken,
+    StrideTaken,
     TurnMade,
     WearerMoved,
 )
@@ -34,7 +34,7 @@ from ..foot.tracker import FootTracker
 from ..recipes import AnyActivity, AnyBody, AnyPlace, Recipe
 from ..types import Foot, Sample, Site
 
-LEADS = (StepTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
+LEADS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
 """What a place on a floor plan follows from."""
 
 _Key = TypeVar("_Key")
@@ -152,7 +152,7 @@ class Wearer:
     def _show(self, tracker: FootTracker, sample: Sample, events: list[Event]) -> None:
         """What is there to be drawn; last of all, since no part has a use for it."""
         known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
-        if self.poses and any([isinstance(event, StepTaken) for event in events]):
+        if self.poses and any([isinstance(event, StrideTaken) for event in events]):
             here = self.position
             if here is not None:
                 t, place, covariance = here.t, here.position, here.covariance

@@ -1,4 +1,4 @@
-"""What `track` writes: events.jsonl, track.csv, steps.csv and gait.csv, with a floor plan also places.csv.
+"""What `track` writes: events.jsonl, track.csv, strides.csv and gait_cycles.csv, with a floor plan also places.csv.
 
 Times are the recording's own, written so that reading gives the same float again; places in m to the micrometre.
 """
@@ -18,11 +18,11 @@ from typing import Any, TextIO
 import attrs
 from attrs import define, field
 
-from ..events import Event, FootMoved, LiveEvent, Placed, StepTaken, StrideMeasured
+from ..events import Event, FootMoved, GaitCycleMeasured, LiveEvent, Placed, StrideTaken
 from ..events.fleet import FleetEvent
 from ..types import Site
 
-EVENTS, TRACK, STEPS, GAIT = "events.jsonl", "track.csv", "steps.csv", "gait.csv"
+EVENTS, TRACK, STEPS, GAIT = "events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"
 PLACES, PLAN = "places.csv", "plan.svg"
 TRACK_COLUMNS = ("t", "foot", "x", "y", "z", "phase")
 STEP_COLUMNS = (
@@ -78,7 +78,7 @@ def _place_row(event: Placed) -> list[str]:
     return [repr(event.t), event.level, *numbers, heading, str(len(event.candidates)), f"{first.weight:.4f}"]
 
 
-def _gait_row(event: StrideMeasured) -> list[str]:
+def _gait_row(event: GaitCycleMeasured) -> list[str]:
     """What could not be told is left empty."""
     times = [repr(getattr(event, name)) for name in GAIT_TIMES]
     values = [getattr(event, name) for name in GAIT_MEASURES]
@@ -90,11 +90,11 @@ def _gait_row(event: StrideMeasured) -> list[str]:
 class TrackFiles:
     """The files in `directory`, which is made when there is none. Files of an earlier run are replaced.
 
-    A FootMoved is a row of track.csv, a final StepTaken one of steps.csv, a StrideMeasured one of gait.csv, a Placed
-    one of places.csv (its heaviest candidate's, and how many there are), and every event but the live ones
-    (LiveEvent) a line of events.jsonl. `places`: of a session with a floor plan; without one there is no places.csv.
-    `beside`: where to write what is to be a file's, in place of the file itself, as one that is renamed in the end.
-    OSError, naming the directory, when they cannot be made or written (the disk is full).
+    A FootMoved is a row of track.csv, a final StrideTaken one of strides.csv, a GaitCycleMeasured one of
+    gait_cycles.csv, a Placed one of places.csv (its heaviest candidate's, and how many there are), and every event but
+    the live ones (LiveEvent) a line of events.jsonl. `places`: of a session with a floor plan; without one there is no
+    places.csv. `beside`: where to write what is to be a file's, in place of the file itself, as one that is renamed in
+    the end. OSError, naming the directory, when they cannot be made or written (the disk is full).
     """
 
     directory: Path
@@ -141,12 +141,12 @@ class TrackFiles:
         if isinstance(event, LiveEvent):
             return
         self._events.write(json.dumps(event_record(event), allow_nan=False) + "\n")
-        if isinstance(event, StepTaken) and event.final:
+        if isinstance(event, StrideTaken) and event.final:
             x, y, z = event.position
-            lengths = (x, y, z, event.stride_length, event.heading_change, event.height_change)
+            lengths = (x, y, z, event.length, event.heading_change, event.height_change)
             row = [event.foot.value, repr(event.t_start), repr(event.t_end), *(f"{v:.6f}" for v in lengths)]
             self._steps.writerow([*row, int(event.degraded)])
-        elif isinstance(event, StrideMeasured):
+        elif isinstance(event, GaitCycleMeasured):
             self._gait.writerow(_gait_row(event))
         elif isinstance(event, Placed) and self._places is not None:
             self._places.writerow(_place_row(event))

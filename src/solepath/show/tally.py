@@ -18,6 +18,7 @@ from ..events import (
     FootFlat,
     FootMoved,
     FootSilent,
+    GaitCycleMeasured,
     HeelOff,
     HeelStrike,
     InsoleNeverUnloads,
@@ -30,11 +31,10 @@ from ..events import (
     SampleGap,
     SampleRejected,
     ScaleSuspect,
-    StepTaken,
     StreamRestarted,
     StreamStale,
     StrideFused,
-    StrideMeasured,
+    StrideTaken,
     ToeOff,
     TouchedDown,
     TurnMade,
@@ -196,11 +196,11 @@ class Tally:
                 one.phase, one.position = event.phase, event.position
                 if self.packets:
                     one.seen(event.t)
-            case StepTaken(final=True):
+            case StrideTaken(final=True):
                 one = self.foot(event.foot)
                 one.steps += 1
                 one.degraded += event.degraded
-                one.distance += event.stride_length
+                one.distance += event.length
             case HeelStrike(foot=foot, final=True):
                 self.foot(foot).heel_strikes += 1
             case FootFlat(foot=foot, final=True):
@@ -238,7 +238,7 @@ class Tally:
             case ScaleSuspect(site=site, magnitude=magnitude, suggestion=suggestion):
                 told = f": {suggestion}" if suggestion else ""
                 self.suspects.append(f"{site.words}: |acc| is {magnitude:.2f} m/s^2 at rest{told}")
-            case StrideMeasured():
+            case GaitCycleMeasured():
                 self.gait.hear(event)
             case StrideFused(final=True):
                 self.fused = event

@@ -19,7 +19,7 @@ from typing import Final, Protocol
 
 from attrs import define, field
 
-from ...events import ActivityChanged, Event, LiftRidden, StepFeatures, StepTaken
+from ...events import ActivityChanged, Event, LiftRidden, StrideFeatures, StrideTaken
 from ...foot.tracker import FootTracker
 from ...types import Activity, Foot, Sample, Site
 from ...types.vector import TIE, ZERO
@@ -41,7 +41,7 @@ WOBBLE = 1.0
 """What is not final is not told again because it began this little earlier or later, s."""
 WAITING = 8
 """Steps that may wait for their activity."""
-NO_MORE = StepFeatures(0.0, 0.0, 0.0)
+NO_MORE = StrideFeatures(0.0, 0.0, 0.0)
 NOWHERE = (0.0,) * 6
 """Of those that wait nobody asks for more than their times and heights."""
 AFOOT = {Activity.STAIRS_UP: 1, Activity.STAIRS_DOWN: -1}
@@ -89,7 +89,7 @@ class Activities:
     instead: float | None = field(default=None, init=False)
     """`t` of what was told after that, not final either: that what was told of then was wrong, s."""
     flights: Flights = field(factory=Flights, init=False)
-    steps: deque[StepTaken] = field(factory=deque, init=False)
+    steps: deque[StrideTaken] = field(factory=deque, init=False)
     """Steps whose activity is not known yet, without their features."""
 
     def interrupt(self, site: Site) -> None:
@@ -123,7 +123,7 @@ class Activities:
         if events:
             side.heard(events, foot.corrector.position[2])
             for event in events:
-                if isinstance(event, StepTaken):
+                if isinstance(event, StrideTaken):
                     self.steps.append(_slimmed(event, event.known_at))
                     if len(self.steps) > WAITING:
                         self.steps.popleft()
@@ -264,9 +264,9 @@ class Activities:
         events += self.flights.waited(t, known_at)
 
 
-def _slimmed(step: StepTaken, known_at: float) -> StepTaken:
+def _slimmed(step: StrideTaken, known_at: float) -> StrideTaken:
     """What flights ask for: times and heights."""
-    return StepTaken(
+    return StrideTaken(
         t=step.t,
         known_at=known_at,
         final=step.final,
@@ -276,7 +276,7 @@ def _slimmed(step: StepTaken, known_at: float) -> StepTaken:
         t_end=step.t_end,
         displacement=ZERO,
         position=ZERO,
-        stride_length=step.stride_length,
+        length=step.length,
         heading_change=step.heading_change,
         height_change=step.height_change,
         covariance=NOWHERE,

@@ -12,7 +12,7 @@ from typing import Protocol
 
 from attrs import define, field
 
-from ...events import Event, FootFlat, HeelStrike, StepTaken
+from ...events import Event, FootFlat, HeelStrike, StrideTaken
 from ...foot.tracker import FootTracker
 from ...types import Vec3
 from ...types.vector import ZERO
@@ -131,7 +131,7 @@ class FootWindow:
     def heard(self, events: list[Event], height: float) -> None:
         """What came of the sample, and how high the foot is, m."""
         for event in events:
-            if isinstance(event, StepTaken):
+            if isinstance(event, StrideTaken):
                 self._stepped(event)
             elif isinstance(event, HeelStrike):
                 self.struck = height
@@ -165,7 +165,7 @@ class FootWindow:
         if len(self.blocks) > KEPT:
             self.blocks.popleft()
 
-    def _stepped(self, step: StepTaken) -> None:
+    def _stepped(self, step: StrideTaken) -> None:
         seen = step.features
         # heights as integration has them: what is told from them was learnt so
         rise = step.height_change if seen.rise is None else seen.rise
@@ -174,7 +174,7 @@ class FootWindow:
             Stepped(
                 step.t_start,
                 step.t_end,
-                round(step.stride_length, 4),
+                round(step.length, 4),
                 round(rise, 4),
                 round(clearance, 4),
                 round(seen.peak_speed, 4),

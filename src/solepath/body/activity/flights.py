@@ -3,7 +3,7 @@
 For whoever judges strides one by one, whatever the method:
 
     flights = Flights()
-    for each StepTaken of either foot:  events += flights.stepped(step, 1 upstairs, -1 downstairs, 0 on the level,
+    for each StrideTaken of either foot:  events += flights.stepped(step, 1 upstairs, -1 downstairs, 0 on the level,
                                                                         None: its judge cannot tell)
     now and then, with the time:        events += flights.waited(t, known_at)
 
@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from attrs import define, field
 
-from ...events import FlightClimbed, StepTaken
+from ...events import FlightClimbed, StrideTaken
 from ...types import Foot
 from .steepness import LEAST_RISE, of_stairs
 
@@ -70,7 +70,7 @@ class Flights:
         self.way = 0
         self.stood, self.before, self.stepped_at = {}, {}, {}
 
-    def stepped(self, step: StepTaken, way: int | None) -> list[FlightClimbed]:
+    def stepped(self, step: StrideTaken, way: int | None) -> list[FlightClimbed]:
         """A step of either foot that goes upstairs (1), downstairs (-1), neither (0), or nobody knows (None)."""
         foot, height = step.foot, step.height_change
         believed = way is not None and of_stairs(height, step.degraded)
@@ -97,7 +97,7 @@ class Flights:
         self.stepped_at[foot] = step.t
         return events
 
-    def _stair(self, step: StepTaken, way: int, believed: bool) -> None:
+    def _stair(self, step: StrideTaken, way: int, believed: bool) -> None:
         foot, height = step.foot, step.height_change
         self.t_end = max(self.t_end, step.t)
         self.level = 0
@@ -131,7 +131,7 @@ class Flights:
             self._over(known_at, events)
         return events
 
-    def _begin(self, step: StepTaken, way: int) -> None:
+    def _begin(self, step: StrideTaken, way: int) -> None:
         self.way = way
         self.t_start, self.t_end = step.t_start, step.t
         self.strides = self.level = 0

@@ -21,7 +21,7 @@ from math import atan2, cos, hypot, sin
 
 from attrs import define, field
 
-from ...events import Event, StepTaken
+from ...events import Event, StrideTaken
 from ...foot.navigate.error_state import ErrorStateFilter
 from ...foot.navigate.shifted import shift
 from ...foot.tracker import FootTracker
@@ -110,7 +110,7 @@ class BothFeet(MeanOfFeet):
             self.agreement.beside(0 if self.newest is Foot.LEFT else 1, *BESIDE)
             self._placed_anew()
         for event in events:
-            if isinstance(event, StepTaken):
+            if isinstance(event, StrideTaken):
                 self._stride(foot, event)
         return []
 
@@ -146,7 +146,7 @@ class BothFeet(MeanOfFeet):
     def _placed_anew(self) -> None:
         self.bases = [(placed.turn, placed.offset) for placed in (self.left, self.right)]
 
-    def _stride(self, foot: FootTracker, taken: StepTaken) -> None:
+    def _stride(self, foot: FootTracker, taken: StrideTaken) -> None:
         index = 0 if taken.foot is Foot.LEFT else 1
         this = self.left if index == 0 else self.right
         numbers = (*taken.position, *taken.displacement, *taken.covariance)
@@ -172,10 +172,10 @@ class BothFeet(MeanOfFeet):
             cs * (xx - yy) + (cc - ss) * xy,
             ss * xx + 2.0 * cs * xy + cc * yy + UNEVEN,
         )
-        wild = max(0.0, taken.stride_length - self.longest)
+        wild = max(0.0, taken.length - self.longest)
         self.agreement.advance(index, stood, swung, (x, y), (dx, dy), variance, taken.degraded or wild > 0.0)
         self.agreement.doubt(index, wild)
-        self.way = min(self.settles, self.way + 0.5 * taken.stride_length)
+        self.way = min(self.settles, self.way + 0.5 * taken.length)
         x, y, _ = taken.displacement
         straight = hypot(x, y) > self.shortest and abs(taken.heading_change) < self.corner and not taken.degraded
         self.strides[index] = Stride(taken.t_end, own, atan2(y, x) if straight else None)
@@ -186,7 +186,7 @@ class BothFeet(MeanOfFeet):
                 self._hold(index, taken, (x - dx, y - dy, z), (x, y, z))
         self._hand_back(index, foot)
 
-    def _lined_up(self, index: int, taken: StepTaken) -> bool:
+    def _lined_up(self, index: int, taken: StrideTaken) -> bool:
         """Whether the tracks of both feet had to be laid beside one another anew, within the first metres."""
         this, beside = self.strides[index], self.strides[1 - index]
         if self.way >= self.settles or this is None or beside is None or not taken.t_start < beside.t_end < taken.t_end:
@@ -195,14 +195,14 @@ class BothFeet(MeanOfFeet):
         angle = self.askew.between(this, own.turn, beside, other.turn, side)
         if angle is None:
             return False
-        lay_alongside(own, this, other, beside, angle, 0.5 * taken.stride_length, side * self.walking)
+        lay_alongside(own, this, other, beside, angle, 0.5 * taken.length, side * self.walking)
         self.agreement.begin()
         self.corridor.end()
         self.way, self.facing = 0.0, [Facing(), Facing()]
         self._placed_anew()
         return True
 
-    def _compare(self, index: int, taken: StepTaken, dx: float, dy: float, stood: float, swung: float) -> None:
+    def _compare(self, index: int, taken: StrideTaken, dx: float, dy: float, stood: float, swung: float) -> None:
         """This foot's stride (dx, dy) with where the other one stood."""
         this, other = (self.left, self.right) if index == 0 else (self.right, self.left)
         turn, length = taken.heading_change, hypot(dx, dy)
@@ -251,7 +251,7 @@ class BothFeet(MeanOfFeet):
             wx, wy, _ = sub(other.here, beside.end)
             self.agreement.doubt(1 - index, max(0.0, hypot(wx, wy) - self.longest))
             if beside.t_end < taken.t_start:  # nor does one stand through strides of the other: its own were missed
-                self.agreement.doubt(1 - index, taken.stride_length)
+                self.agreement.doubt(1 - index, taken.length)
             nx, ny = (qx - ex) / apart, (qy - ey) / apart
             terms = [(other_x, nx), (other_y, ny), (this_x, -nx), (this_y, -ny)]
             self._take(self.agreement.measure(terms, self.reach - apart, self.along**2, 1e12))
@@ -269,7 +269,7 @@ class BothFeet(MeanOfFeet):
             yaw = found[first + HEADING]
             placed.correct(at, yaw, found[first + X] - yaw * (y - cy), found[first + Y] + yaw * (x - cx))
 
-    def _hold(self, index: int, taken: StepTaken, start: Vec3, end: Vec3) -> None:
+    def _hold(self, index: int, taken: StrideTaken, start: Vec3, end: Vec3) -> None:
         """The wearer walks straight on, as far as that goes."""
         held = self.corridor.stride(index, taken.t_end, start, end, taken.heading_change)
         if held is None:

@@ -15,7 +15,7 @@ from typing import Final
 
 from attrs import define, field, frozen
 
-from ...events import Event, StepTaken
+from ...events import Event, StrideTaken
 from ...foot.tracker import FootTracker
 from ...foot.world import Covariance3
 from ...types import Foot, Sample, Site, Vec3
@@ -129,7 +129,7 @@ class MeanOfFeet:
         this.t, this.alone, this.here = t, 0.0, foot.gait.world.vector(foot.corrector.position)
         if back:
             self._came_back(this, other)
-        if events and any([isinstance(event, StepTaken) for event in events]):
+        if events and any([isinstance(event, StrideTaken) for event in events]):
             xx, _, _, yy, _, zz = foot.covariance
             this.variance = (0.5 * (xx + yy), zz)
             if other.t is not None and not other.absent:

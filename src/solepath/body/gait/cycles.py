@@ -1,6 +1,6 @@
 """Events of both feet in, every stride measured as clinicians do out, and running means of the steady ones.
 
-Latency: as StrideMeasured has it. Costs nothing on a sample of which no event came.
+Latency: as GaitCycleMeasured has it. Costs nothing on a sample of which no event came.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from collections.abc import Mapping
 
 from attrs import define, field
 
-from ...events import Event, FootFlat, HeelOff, HeelStrike, SampleGap, StepTaken, ToeOff
+from ...events import Event, FootFlat, HeelOff, HeelStrike, SampleGap, StrideTaken, ToeOff
 from ...foot.tracker import FootTracker
 from ...types import SITE_OF_FOOT, Foot, Site
 from .footfalls import Footfalls
@@ -22,7 +22,7 @@ PATIENCE = 0.5
 
 @define
 class Strides:
-    """Events of both feet in, StrideMeasured out; what it adds up is in `means`."""
+    """Events of both feet in, GaitCycleMeasured out; what it adds up is in `means`."""
 
     # state
     left: Footfalls = field(factory=Footfalls, init=False)
@@ -58,7 +58,7 @@ class Strides:
             elif isinstance(event, ToeOff):
                 this.settle()
                 this.lifted(event.t, event.inferred)
-            elif isinstance(event, StepTaken):
+            elif isinstance(event, StrideTaken):
                 this.stepped(event)
             elif isinstance(event, SampleGap) and event.site is SITE_OF_FOOT[foot.foot]:
                 this.lost(event.t, event.duration)

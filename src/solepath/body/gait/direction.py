@@ -14,7 +14,7 @@ from math import pi
 
 from attrs import define, field, frozen
 
-from ...events import StepTaken
+from ...events import StrideTaken
 from ...types import Foot
 from .turning_steps import TurningSteps
 
@@ -73,7 +73,7 @@ class Direction:
     told: float | None = field(default=None, init=False)
     """When the last turn that was told was over, s."""
 
-    def step(self, taken: StepTaken) -> Turned | None:
+    def step(self, taken: StrideTaken) -> Turned | None:
         """One step of either foot, in the order in which they became known; the turn that is over by it."""
         foot, other = self._feet(taken.foot)
         angle = foot.turning.turn(taken.heading_change)
@@ -145,7 +145,7 @@ class Direction:
 
 
 def agreed(left: float | None, right: float | None) -> tuple[float | None, float | None]:
-    """What the feet turned, rad. A step's turn is known but for whole ones (StepTaken.heading_change), and who turns
+    """What the feet turned, rad. A step's turn is known but for whole ones (StrideTaken.heading_change), and who turns
     about may swing a foot by more than half of one: feet that are further apart than that do not mean it."""
     if left is None or right is None or abs(left - right) <= pi:
         return left, right

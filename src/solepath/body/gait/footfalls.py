@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from attrs import define, field
 
-from ...events import StepTaken
+from ...events import StrideTaken
 from ...types import Vec3
 
 STANDS = 2.0
@@ -38,7 +38,7 @@ class Cycle:
     """and more than a steady stride may lack."""
     flat: bool = False
     """The foot lay flat after it: without a step it has stepped on the spot."""
-    step: StepTaken | None = None
+    step: StrideTaken | None = None
 
 
 @define
@@ -104,7 +104,7 @@ class Footfalls:
             and self.silent_from < t <= self.heard_from + FOUND
         )
 
-    def stepped(self, step: StepTaken) -> None:
+    def stepped(self, step: StrideTaken) -> None:
         """The foot is flat after a step."""
         contact = step.t_end if step.t_heel_strike is None else step.t_heel_strike
         self.places = [*self.places[1 - KEPT :], (contact, step.position)]

@@ -15,7 +15,7 @@ from math import sqrt
 
 from attrs import define, field, fields, frozen
 
-from ...events import StrideMeasured
+from ...events import GaitCycleMeasured
 from ...types import Foot, Word
 
 MEMORY = 120
@@ -65,7 +65,8 @@ class Figure:
 
 @frozen
 class StrideFigures:
-    """The parameters of StrideMeasured over steady strides, of one foot or of both; None where none could be told."""
+    """The parameters of GaitCycleMeasured over steady strides, of one foot or of both; None where none could be
+    told."""
 
     stride_time: Figure | None = None
     stance_time: Figure | None = None
@@ -167,7 +168,7 @@ class StrideSums:
         """A foot's."""
         return self.left if foot is Foot.LEFT else self.right
 
-    def add(self, stride: StrideMeasured, memory: int) -> None:
+    def add(self, stride: GaitCycleMeasured, memory: int) -> None:
         """One more stride."""
         sums = self.of(stride.foot)
         for parameter in MEASURED:
@@ -206,19 +207,19 @@ class GaitMeans:
     memory: int = MEMORY
     """Strides of a foot after which old ones fade."""
     # state
-    left: StrideMeasured | None = field(default=None, init=False)
-    right: StrideMeasured | None = field(default=None, init=False)
+    left: GaitCycleMeasured | None = field(default=None, init=False)
+    right: GaitCycleMeasured | None = field(default=None, init=False)
     """The foot's newest stride."""
     walked: StrideSums = field(factory=StrideSums, init=False)
     run: StrideSums = field(factory=StrideSums, init=False)
     running: bool | None = field(default=None, init=False)
     """What the newest stride that counts was; None before any."""
 
-    def newest(self, foot: Foot) -> StrideMeasured | None:
+    def newest(self, foot: Foot) -> GaitCycleMeasured | None:
         """The foot's newest stride."""
         return self.left if foot is Foot.LEFT else self.right
 
-    def hear(self, stride: StrideMeasured) -> None:
+    def hear(self, stride: GaitCycleMeasured) -> None:
         """One more stride, of either foot in the order of its time."""
         before = self.newest(stride.foot)
         if stride.foot is Foot.LEFT:

@@ -1,5 +1,5 @@
 """A gait cycle in numbers, and whether it is a steady one. What is measured, and by whose definition, is told where
-StrideMeasured is.
+GaitCycleMeasured is.
 
 Steady strides count in the running means. A stride is steady when
 
@@ -18,7 +18,7 @@ from __future__ import annotations
 from math import hypot
 from typing import Protocol
 
-from ...events import StepTaken, StrideMeasured
+from ...events import GaitCycleMeasured, StrideTaken
 from ...types import Foot, Vec3
 from ...types.vector import sub
 from .footfalls import Cycle, Footfalls
@@ -41,7 +41,7 @@ class Shared(Protocol):
     that supposes that a foot lands half-way along the other's stride must not: all steps would be as long."""
 
     def common(self, foot: Foot, place: Vec3) -> Vec3 | None:
-        """A place on a foot's own track (StepTaken.position), m, in a frame that both feet share, z up; None while
+        """A place on a foot's own track (StrideTaken.position), m, in a frame that both feet share, z up; None while
         they share none."""
 
 
@@ -49,13 +49,13 @@ def measured(
     foot: Foot,
     number: int,
     cycle: Cycle,
-    before: StrideMeasured | None,
+    before: GaitCycleMeasured | None,
     other: Footfalls,
     tracked: bool,
     compared: bool,
     known_at: float,
     body: object,
-) -> StrideMeasured:
+) -> GaitCycleMeasured:
     """A cycle of `foot` in numbers. `before`: the foot's newest stride; `other`: the other foot; `tracked`: the foot
     has a track; `compared`: the feet's clocks can be, over the whole cycle; `body`: of the recipe."""
     start, toe_off, end, step = cycle.start, cycle.toe_off, cycle.end, cycle.step
@@ -66,11 +66,11 @@ def measured(
     if struck is not None:
         earlier = [t for t in other.toe_offs if start - 0.5 * time < t < struck]
         cleared = earlier[-1] if earlier else None
-    length = None if step is None else _sound(step.stride_length)
+    length = None if step is None else _sound(step.length)
     along, across = (None, None) if step is None or struck is None else placed(foot, step, other, struck, body)
     contact = struck if compared else None
     cleared = cleared if compared else None
-    return StrideMeasured(
+    return GaitCycleMeasured(
         t=end,
         known_at=max(known_at, end),
         foot=foot,
@@ -101,7 +101,7 @@ def measured(
     )
 
 
-def is_steady(cycle: Cycle, time: float, before: StrideMeasured | None, tracked: bool) -> bool:
+def is_steady(cycle: Cycle, time: float, before: GaitCycleMeasured | None, tracked: bool) -> bool:
     """By the rule at the top of this file; `time`: of the cycle, s."""
     if cycle.spoilt or not cycle.follows or before is None or before.t != cycle.start:
         return False
@@ -110,9 +110,9 @@ def is_steady(cycle: Cycle, time: float, before: StrideMeasured | None, tracked:
     step = cycle.step
     if step is None:
         return not (tracked and cycle.flat)
-    if abs(step.heading_change) > TURNS or abs(step.height_change) > CLIMBS * step.stride_length:
+    if abs(step.heading_change) > TURNS or abs(step.height_change) > CLIMBS * step.length:
         return False
-    return before.stride_length is None or _alike(step.stride_length, before.stride_length)
+    return before.stride_length is None or _alike(step.length, before.stride_length)
 
 
 def _alike(one: float, other: float) -> bool:
@@ -120,7 +120,7 @@ def _alike(one: float, other: float) -> bool:
 
 
 def placed(
-    foot: Foot, step: StepTaken, other: Footfalls, struck: float, body: object
+    foot: Foot, step: StrideTaken, other: Footfalls, struck: float, body: object
 ) -> tuple[float | None, float | None]:
     """Step length and step width, m: how the place where the other foot came down at `struck`, s, lies to the line of
     the step."""

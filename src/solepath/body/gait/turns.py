@@ -14,7 +14,7 @@ from math import pi
 
 from attrs import define, field
 
-from ...events import Event, FootFlat, StepTaken, TurnMade
+from ...events import Event, FootFlat, StrideTaken, TurnMade
 from ...foot.tracker import FootTracker
 from ...foot.turn import heading_turned
 from ...types import Foot, Quat, Sample, Site, Turn
@@ -74,7 +74,7 @@ class Turns:
         found: list[Turned] = []
         known_at = sample.t
         for event in events:
-            if not isinstance(event, StepTaken | FootFlat):
+            if not isinstance(event, StrideTaken | FootFlat):
                 continue
             turned = self._footfall(foot, event, events)
             if turned is not None:
@@ -87,15 +87,15 @@ class Turns:
                 found.append(turned)
         return [made(turned, known_at) for turned in found if abs(turned.angle) > 0.5 * SLIGHT]
 
-    def _footfall(self, foot: FootTracker, event: StepTaken | FootFlat, events: list[Event]) -> Turned | None:
+    def _footfall(self, foot: FootTracker, event: StrideTaken | FootFlat, events: list[Event]) -> Turned | None:
         """A step is one by itself; a foot that is flat without one may have pivoted."""
-        if isinstance(event, StepTaken):
+        if isinstance(event, StrideTaken):
             return self.direction.step(event)
         if not foot.levelled:
             return None
         lay, now = self.lain.get(event.foot), foot.gait.step.attitude
         self.lain[event.foot] = Lain(event.t, now)
-        stepped = any(isinstance(one, StepTaken) and one.t == event.t for one in events)
+        stepped = any(isinstance(one, StrideTaken) and one.t == event.t for one in events)
         if lay is None or stepped or event.t < lay.since:
             return None
         return self.direction.pivot(event.foot, lay.since, event.t, heading_turned(lay.attitude, now))

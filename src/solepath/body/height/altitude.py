@@ -23,7 +23,7 @@ from math import log
 
 from attrs import define, evolve, field
 
-from ...events import Event, LiftRidden, StepTaken
+from ...events import Event, LiftRidden, StrideTaken
 from ...foot.tracker import FootTracker
 from ...types import Foot, Site
 from ..fuse.position import Position
@@ -168,7 +168,7 @@ class Altitude:
         """The same events; a ride's height is what is made of it here."""
         told = events
         for index, event in enumerate(events):
-            if isinstance(event, StepTaken):
+            if isinstance(event, StrideTaken):
                 self._stepped(event)
             elif self.lifts and isinstance(event, LiftRidden):
                 if told is events:
@@ -198,9 +198,9 @@ class Altitude:
 
     # --- what came ---
 
-    def _stepped(self, step: StepTaken) -> None:
+    def _stepped(self, step: StrideTaken) -> None:
         self.strides.append((float(round(100.0 * step.t_start)), float(round(100.0 * step.t_end))))
-        if step.stride_length < STRODE:
+        if step.length < STRODE:
             self.strides.pop()
         elif len(self.strides) > STRIDES:
             self.strides.popleft()

@@ -12,7 +12,7 @@ from math import hypot
 
 from attrs import define, field
 
-from ...events import StepTaken
+from ...events import StrideTaken
 from ...types import Foot, Vec3
 
 GAIN = 0.06
@@ -42,15 +42,15 @@ class Pace:
     left: Side | None = field(default=None, init=False)
     right: Side | None = field(default=None, init=False)
 
-    def stepped(self, step: StepTaken, here: Vec3) -> None:
+    def stepped(self, step: StrideTaken, here: Vec3) -> None:
         """A foot took a step, and the wearer is at `here` now, m."""
         this, other = (self.left, self.right) if step.foot is Foot.LEFT else (self.right, self.left)
-        sound = step.stride_length < LONGEST
+        sound = step.length < LONGEST
         if this is not None and other is not None and sound and abs(step.heading_change) < STRAIGHT:
-            way, strides = hypot(here[0] - this.x, here[1] - this.y), 0.5 * (step.stride_length + other.stride)
+            way, strides = hypot(here[0] - this.x, here[1] - this.y), 0.5 * (step.length + other.stride)
             if way > SHORTEST and LEAST * way < strides < MOST * way:
                 self.factor += GAIN * (strides / way - self.factor)
-        side = Side(here[0], here[1], step.stride_length) if sound else None
+        side = Side(here[0], here[1], step.length) if sound else None
         if step.foot is Foot.LEFT:
             self.left = side
         else:

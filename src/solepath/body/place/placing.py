@@ -13,7 +13,7 @@ from math import hypot, isfinite, pi
 
 from attrs import define, field
 
-from ...events import Event, Placed, PlaceLost, StepTaken, TurnMade
+from ...events import Event, Placed, PlaceLost, StrideTaken, TurnMade
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
 from ..fuse.position import Position
@@ -82,7 +82,7 @@ class Placing(Levels):
             self.references.forget()
             self.arrived = None
         self.t = here.t
-        steps = [event for event in events if isinstance(event, StepTaken)]
+        steps = [event for event in events if isinstance(event, StrideTaken)]
         for step in steps:
             self.pace.stepped(step, here.position)
         if steps:
@@ -125,7 +125,7 @@ class Placing(Levels):
         self.crowd = packed(fan(self.scattered, plan, level, start.place, start.spread, start.heading, count, 0, 1.0))
 
     def _move(
-        self, plan: IndexedPlan, here: Position, steps: list[StepTaken], known_at: float, told: list[Event]
+        self, plan: IndexedPlan, here: Position, steps: list[StrideTaken], known_at: float, told: list[Event]
     ) -> None:
         """The track since the last step, for all rows."""
         x, y, _ = here.position

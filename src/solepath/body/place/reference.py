@@ -16,7 +16,7 @@ from math import hypot, isfinite
 
 from attrs import define, field, frozen
 
-from ...events import ActivityChanged, Event, FlightClimbed, LiftRidden, StepTaken
+from ...events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken
 from ...floorplan.plan import FloorPlan, Kind
 from ...types import Activity, Foot, Vec3
 from ..fuse.position import Position
@@ -126,7 +126,7 @@ class References:
             self.track.popleft()
         told: list[Reference] = []
         for event in events:
-            if isinstance(event, StepTaken):
+            if isinstance(event, StrideTaken):
                 self._stepped(event.foot)
             elif isinstance(event, ActivityChanged):
                 self._changed(event, told)

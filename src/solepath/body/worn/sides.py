@@ -27,7 +27,7 @@ from math import hypot, sqrt
 
 from attrs import define, field
 
-from ...events import Event, StepTaken, ToeOff
+from ...events import Event, StrideTaken, ToeOff
 from ...foot.tracker import FootTracker
 from ...types import Foot, Layout, Sample, Vec3
 from ...types.vector import conjugate, rotate
@@ -127,7 +127,7 @@ class Sides:
             return False
         judged = False
         for event in events:
-            if isinstance(event, StepTaken):
+            if isinstance(event, StrideTaken):
                 judged = True
                 _land(side, event, rotate(conjugate(foot.corrector.attitude), UP))
                 side.turned.keep_newest()
@@ -182,12 +182,12 @@ class Sides:
         return left.centre.beyond(self.gone, self.least) and right.centre.beyond(self.gone, self.least)
 
 
-def _land(side: Side, step: StepTaken, up: Vec3) -> None:
+def _land(side: Side, step: StrideTaken, up: Vec3) -> None:
     """A step is over, and the foot stands with `up` (sensor frame): how it was rolled as it landed."""
     begin, end = step.t_toe_off, step.t_heel_strike
     if begin is None or end is None or step.degraded:
         return
-    if step.stride_length < SHORTEST or abs(step.heading_change) > STRAIGHT:
+    if step.length < SHORTEST or abs(step.heading_change) > STRAIGHT:
         return
     turned = side.turned
     times = turned.times()

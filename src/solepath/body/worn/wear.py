@@ -6,7 +6,7 @@ from typing import Final
 
 from attrs import define, field
 
-from ...events import Event, FeetSwapped, FootHeard, FootSilent, StepTaken
+from ...events import Event, FeetSwapped, FootHeard, FootSilent, StrideTaken
 from ...foot.tracker import FootTracker
 from ...types import Foot, Layout, Sample
 from .sides import Sides
@@ -67,7 +67,7 @@ class Wear:
             found.append(FootHeard(t=t, known_at=_known_at(sample), foot=foot.foot, silent_for=silence))
         this.t = t
         this.missing = 0
-        if events and any([isinstance(event, StepTaken) for event in events]):
+        if events and any([isinstance(event, StrideTaken) for event in events]):
             other.missing += 1
         if other.missing and other.t is not None and not other.said:
             if t < other.t:

@@ -32,7 +32,7 @@ def add_to(commands: Any) -> None:
         "--out",
         metavar="DIR",
         type=Path,
-        help="write events.jsonl, track.csv, steps.csv and gait.csv into this directory, with a floor plan "
+        help="write events.jsonl, track.csv, strides.csv and gait_cycles.csv into this directory, with a floor plan "
         "places.csv too",
     )
     live.set_defaults(run=run)

@@ -34,7 +34,7 @@ class Corrector(Protocol):
 
     @property
     def error_index(self) -> float | None:
-        """By how much the integration missed a known velocity in the motion that ended last, m/s (StepFeatures)."""
+        """By how much the integration missed a known velocity in the motion that ended last, m/s (StrideFeatures)."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         """Stand still at the origin with this attitude, its tilt known to `tilt_sigma` rad."""

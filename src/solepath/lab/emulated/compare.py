@@ -48,7 +48,7 @@ def compare(truth: Truth, feet: Mapping[Foot, FootRun]) -> list[FootComparison]:
 
 def _compare(truth: FootTruth, run: FootRun) -> FootComparison:
     matched = pairs([s.t_end for s in truth.steps], [s.t_end for s in run.steps], STEP_TOLERANCE)
-    errors = [run.steps[j].stride_length / truth.steps[i].length - 1.0 for i, j in matched if truth.steps[i].length > 0]
+    errors = [run.steps[j].length / truth.steps[i].length - 1.0 for i, j in matched if truth.steps[i].length > 0]
     return FootComparison(
         foot=truth.foot,
         steps_true=len(truth.steps),

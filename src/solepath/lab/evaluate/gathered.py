@@ -13,7 +13,7 @@ from ...events import (
     HeelOff,
     HeelStrike,
     LiftRidden,
-    StepTaken,
+    StrideTaken,
     ToeOff,
     TurnMade,
 )
@@ -28,7 +28,7 @@ class FootRun:
 
     t: Floats
     positions: Floats
-    steps: tuple[StepTaken, ...] = ()
+    steps: tuple[StrideTaken, ...] = ()
     heel_strikes: tuple[float, ...] = ()
     foot_flats: tuple[float, ...] = ()
     heel_offs: tuple[float, ...] = ()
@@ -37,14 +37,14 @@ class FootRun:
     @property
     def step_lengths(self) -> list[tuple[float, float]]:
         """(t_end, stride_length) of each step."""
-        return [(step.t_end, step.stride_length) for step in self.steps]
+        return [(step.t_end, step.length) for step in self.steps]
 
 
 @define
 class _FootGathered:
     t: list[float] = field(factory=list)
     positions: list[Vec3] = field(factory=list)
-    steps: list[StepTaken] = field(factory=list)
+    steps: list[StrideTaken] = field(factory=list)
     times: dict[type, list[float]] = field(factory=dict)
 
 
@@ -63,7 +63,7 @@ class Gathering:
                 one = self._of(foot)
                 one.t.append(t)
                 one.positions.append(position)
-            case StepTaken(foot=foot, final=True):
+            case StrideTaken(foot=foot, final=True):
                 self._of(foot).steps.append(event)
             case HeelStrike(foot=foot, final=True) | FootFlat(foot=foot, final=True):
                 self._of(foot).times.setdefault(type(event), []).append(event.t)

@@ -20,7 +20,7 @@ from ...emulate.walk import EmulatedWalk, emulate
 from ...emulate.wearers.gait import Wearer
 from ...emulate.wearers.shoe import IN_SOLE
 from ...emulate.wearers.wearers import wearer
-from ...events import Event, StepTaken, TurnMade
+from ...events import Event, StrideTaken, TurnMade
 from ...papers.footstep_tracker.toe_out import learnt, toe_out
 from ...recipes import BY_NAME, Recipe
 from ...session import Session
@@ -125,9 +125,9 @@ def _corridor(
     events = session.feed(walk.packets) + session.finish()
     here = session.position
     two_feet = 0.0 if here is None else hypot(here.position[0], here.position[1])
-    steps = [event for event in events if isinstance(event, StepTaken)]
+    steps = [event for event in events if isinstance(event, StrideTaken)]
     right = [step for step in steps if step.foot is Foot.RIGHT]
-    one_foot = sum([step.stride_length for step in right])
+    one_foot = sum([step.length for step in right])
     by_height = len(steps) * BY_HEIGHT * known.stature
     off_one, off_two = [], []
     before: dict[Foot, float] = {}
@@ -135,7 +135,7 @@ def _corridor(
         true = _true_length(walk, step)
         if true is None:
             continue
-        off = step.stride_length - true
+        off = step.length - true
         off_one.append(off)
         other = before.get(Foot.LEFT if step.foot is Foot.RIGHT else Foot.RIGHT)
         if other is not None:
@@ -147,7 +147,7 @@ def _corridor(
     )  # fmt: skip
 
 
-def _true_length(walk: EmulatedWalk, step: StepTaken) -> float | None:
+def _true_length(walk: EmulatedWalk, step: StrideTaken) -> float | None:
     """Of the step whose swing was this one's, m."""
     if step.t_toe_off is None or step.t_heel_strike is None:
         return None

@@ -22,7 +22,7 @@ from ...emulate.sensors.insole_device import Insole
 from ...emulate.sensors.parts import WORN_RESISTIVE
 from ...emulate.walk import emulate
 from ...emulate.wearers.truth import Truth
-from ...events import Event, StepTaken, StrideFused
+from ...events import Event, StrideFused, StrideTaken
 from ...papers.kupt_dfpc.noise import pressure_noise
 from ...papers.kupt_dfpc.shoe import fit_shoe
 from ...types import SITE_OF_FOOT, Foot
@@ -143,7 +143,7 @@ def walk(job: Job) -> Walked:
     known = merged(merged(parts.layouts, measured_shoe(job.seed)), pressure_noise(parts.before))
     said = {recipe: heard(recipe, parts.after, known) for recipe in ("zupt", "kupt", NAME)}
     distances = {
-        f"{recipe.upper()}-{letter}": sum(s.stride_length for s in _steps(said[recipe], foot))
+        f"{recipe.upper()}-{letter}": sum(s.length for s in _steps(said[recipe], foot))
         for recipe in ("zupt", "kupt")
         for foot, letter in FEET.items()
     }
@@ -164,8 +164,8 @@ def measured_shoe(seed: int) -> Calibration:
         return fit_shoe(file).calibration
 
 
-def _steps(events: list[Event], foot: Foot) -> list[StepTaken]:
-    return [event for event in events if isinstance(event, StepTaken) and event.final and event.foot is foot]
+def _steps(events: list[Event], foot: Foot) -> list[StrideTaken]:
+    return [event for event in events if isinstance(event, StrideTaken) and event.final and event.foot is foot]
 
 
 def _tracks(

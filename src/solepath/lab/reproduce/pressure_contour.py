@@ -23,7 +23,7 @@ from ...emulate.routes.laps import field_walk, square
 from ...emulate.routes.route import Route, Stand
 from ...emulate.sensors.insole_device import boot
 from ...emulate.walk import EmulatedWalk, emulate
-from ...events import StepTaken
+from ...events import StrideTaken
 from ...papers.pressure_contour.square import fit_square
 from ...recipes import BY_NAME
 from ...types import SITE_OF_FOOT, Foot
@@ -161,9 +161,8 @@ def walk(job: Job) -> Walked:
     for name, recipe in RECIPES.items():
         known = parts.layouts
         drift = fit_square(parts.before, foot=FOOT, recipe=BY_NAME[recipe], calibration=known)
-        steps = [
-            one for one in heard(recipe, parts.after, merged(known, drift)) if isinstance(one, StepTaken) and one.final
-        ]
+        events = heard(recipe, parts.after, merged(known, drift))
+        steps = [one for one in events if isinstance(one, StrideTaken) and one.final]
         track = np.array([(0.0, 0.0), *((x, y) for x, y, _ in (one.position for one in steps))])
         true = _places(walked, np.array([halt, *(one.t_end for one in steps)]))
         closing[name] = float(np.linalg.norm(track[-1] - track[0]))

@@ -17,7 +17,7 @@ from ...emulate.sensors.parts import MPU6050
 from ...emulate.wearers.shoe import ON_INSTEP
 from ...emulate.wearers.truth import TrueStep, Truth
 from ...emulate.wearers.walker import Walker
-from ...events import Event, FlightClimbed, StepTaken
+from ...events import Event, FlightClimbed, StrideTaken
 from ...papers.shoe_sensing.gated_tilt import ShoeSensing
 from ...recipes import SHOE_MAGNITUDE, SHOE_SENSING, Recipe
 from ...session import Session
@@ -162,7 +162,7 @@ def heard(recipe: Recipe, samples: Sequence[Sample]) -> list[Event]:
 
 def judged(events: Sequence[Event], truth: Truth, state: str) -> Steps:
     """Steps found against the true ones. On the stairs, those that climb two risers count, and nothing else."""
-    steps = [event for event in events if isinstance(event, StepTaken)]
+    steps = [event for event in events if isinstance(event, StrideTaken)]
     together = matched(steps, truth.steps(FOOT))
     stairs = state in ("upstairs", "downstairs")
     way = {"upstairs": 1, "downstairs": -1}.get(state, 0)
@@ -173,11 +173,11 @@ def judged(events: Sequence[Event], truth: Truth, state: str) -> Steps:
         step for step in steps if not stairs or any(true.t_start < step.t < true.t_end for true in wanted)
     ]
     return Steps(
-        angles=tuple(degrees(angle_per_metre(step.stride_length, step.height_change)) for step, _ in counted),
-        lengths=tuple((step.stride_length - true.length, true.length) for step, true in counted),
+        angles=tuple(degrees(angle_per_metre(step.length, step.height_change)) for step, _ in counted),
+        lengths=tuple((step.length - true.length, true.length) for step, true in counted),
         heights=tuple((step.height_change - true.displacement[2], true.displacement[2]) for step, true in counted),
         courses=() if stairs else _courses(together),
-        right=tuple(steepness(step.stride_length, step.height_change) == way for step, _ in counted),
+        right=tuple(steepness(step.length, step.height_change) == way for step, _ in counted),
         late=tuple(step.t_start - true.t_start for step, true in counted),
         found=len(counted),
         missed=len(wanted) - len(counted),
@@ -186,13 +186,13 @@ def judged(events: Sequence[Event], truth: Truth, state: str) -> Steps:
     )
 
 
-def matched(steps: Sequence[StepTaken], true: Sequence[TrueStep]) -> list[tuple[StepTaken, TrueStep]]:
+def matched(steps: Sequence[StrideTaken], true: Sequence[TrueStep]) -> list[tuple[StrideTaken, TrueStep]]:
     """Each true step with the found one that ends nearest to it, one to one."""
     ends = [one.t_end for one in true], [step.t_end for step in steps]
     return [(steps[j], true[i]) for i, j in pairs(*ends, SAME)]
 
 
-def _courses(together: Sequence[tuple[StepTaken, TrueStep]]) -> tuple[float, ...]:
+def _courses(together: Sequence[tuple[StrideTaken, TrueStep]]) -> tuple[float, ...]:
     """Direction of each step less the true one, degrees, when the first two metres are laid on the truth."""
     if len(together) < 2:
         return ()
@@ -217,7 +217,7 @@ def toured(seed: int) -> Tour:
     """Five minutes, by the recipe."""
     samples, truth = worn(tour_route(), seed)
     events = heard(SHOE_SENSING, samples)
-    steps = [event for event in events if isinstance(event, StepTaken)]
+    steps = [event for event in events if isinstance(event, StrideTaken)]
     ours = np.array([(0.0, 0.0, 0.0), *(step.position for step in steps)])
     true = truth.pose(FOOT, np.array([0.0, *(step.t_end for step in steps)])).position
     true = true - true[0]

@@ -26,7 +26,7 @@ from ...emulate.walk import EmulatedWalk, emulate
 from ...emulate.wearers.gait import Wearer
 from ...emulate.wearers.shoe import IN_SOLE
 from ...emulate.wearers.wearers import wearer
-from ...events import StepTaken
+from ...events import StrideTaken
 from ...recipes import FOOTSTEP_TRACKER
 from ...session import Session
 from ...types import SITE_OF_FOOT, Turn
@@ -76,7 +76,7 @@ def _wearer(seed: int) -> Wearer:
 def measured(walked: EmulatedWalk) -> Turned | None:
     """The largest turn that the recipe found in a walk."""
     session, direction = Session(FOOTSTEP_TRACKER), Direction()
-    steps = [event for packet in walked.packets for event in session.feed(packet) if isinstance(event, StepTaken)]
+    steps = [event for packet in walked.packets for event in session.feed(packet) if isinstance(event, StrideTaken)]
     found = [direction.step(step) for step in steps]
     if steps:
         found.append(direction.stood(steps[-1].t_end + 1e3))

@@ -19,7 +19,7 @@ from math import cos, hypot, pi, sin
 from attrs import define, field
 
 from ...body.fuse.position import Position
-from ...events import Event, StepTaken
+from ...events import Event, StrideTaken
 from ...foot.tracker import FootTracker
 from ...types import Foot, Sample, Site, Vec3
 from ...types.vector import ZERO
@@ -78,7 +78,7 @@ class Footsteps:
         if not way.heard and sample.acc is not None and sample.gyro is not None:
             way.heard = True
         for event in events:
-            if isinstance(event, StepTaken):
+            if isinstance(event, StrideTaken):
                 self.step(event)
         return []
 
@@ -89,7 +89,7 @@ class Footsteps:
     def interrupt(self, site: Site) -> None:
         """Steps are taken as they come: no time is kept."""
 
-    def step(self, taken: StepTaken) -> None:
+    def step(self, taken: StrideTaken) -> None:
         """One step of either foot."""
         this, other = (self.left, self.right) if taken.foot is Foot.LEFT else (self.right, self.left)
         this.heard = True

@@ -15,7 +15,7 @@ from math import acos, isfinite
 from attrs import frozen
 
 from ...calibration import Calibration, CalibrationError
-from ...events import StepTaken
+from ...events import StrideTaken
 from ...recipes import FOOTSTEP_TRACKER
 from ...session import Session
 from ...types import Foot, Packet, Sample
@@ -45,8 +45,8 @@ def toe_out(items: Iterable[Packet | Sample], distance: float) -> list[ToeOut]:
     lengths: dict[Foot, list[float]] = {}
     for item in items:
         for event in session.feed(item):
-            if isinstance(event, StepTaken):
-                lengths.setdefault(event.foot, []).append(event.stride_length)
+            if isinstance(event, StrideTaken):
+                lengths.setdefault(event.foot, []).append(event.length)
     found = [_of(foot, lengths[foot], distance) for foot in Foot if len(lengths.get(foot, ())) >= FEWEST]
     if not found:
         most = max([len(one) for one in lengths.values()], default=0)

@@ -35,7 +35,7 @@ from math import isfinite, sqrt
 from attrs import define, field
 
 from ...body.fuse.position import Position
-from ...events import Event, StepTaken, StrideFused
+from ...events import Event, StrideFused, StrideTaken
 from ...foot.pressure.centre import centre
 from ...foot.tracker import FootTracker
 from ...types import Foot, Sample, Site, Vec3
@@ -119,7 +119,7 @@ class DoubleFoot:
 
     def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
         """The steps among `events`, fused."""
-        steps = [event for event in events if isinstance(event, StepTaken)] if events else []
+        steps = [event for event in events if isinstance(event, StrideTaken)] if events else []
         if not steps:
             return []
         layout = foot.insole.layout
@@ -134,29 +134,29 @@ class DoubleFoot:
         if site.foot is not None:
             self._path(site.foot).latest = []
 
-    def step(self, taken: StepTaken, centre: float | None) -> StrideFused:
+    def step(self, taken: StrideTaken, centre: float | None) -> StrideFused:
         """One step. `centre`: x of the insole's centre in the foot frame, m, where the centre of pressure is taken to
         be while the foot is in the air (section III.C.2); None when there is no insole."""
         foot = taken.foot
         path, others = self._path(foot), self._path(OTHER[foot])
         index = _sound(taken.features.error_index)
         rhythm = () if centre is None or index is None else resampled(taken, centre)
-        similarity, coefficient, length = None, 1.0, taken.stride_length
+        similarity, coefficient, length = None, 1.0, taken.length
         partner = self._partner(taken, others)
         paired = False
         if index is not None and partner is not None and partner.error_index is not None:
             similarity = correlation(rhythm, partner.rhythm)
-            shorter, longer = sorted((taken.stride_length, partner.length))
+            shorter, longer = sorted((taken.length, partner.length))
             if similarity is not None and shorter < self.alike * longer:
                 similarity = 0.0
             coefficient = share(similarity, index, partner.error_index)
-            length = coefficient * taken.stride_length + (1.0 - coefficient) * partner.length  # (12)
+            length = coefficient * taken.length + (1.0 - coefficient) * partner.length  # (12)
         if partner is not None and not partner.paired:
             partner.paired = paired = True
             errs = self._errs(index, partner.error_index)
             mean = 0.5 * (abs(length) + abs(partner.calibrated))
             self.weighted += (errs if foot is Foot.LEFT else -errs) * mean  # (13)
-        stepped = Stepped(taken.t_end, taken.stride_length, length, index, rhythm, paired)
+        stepped = Stepped(taken.t_end, taken.length, length, index, rhythm, paired)
         path.latest = [*path.latest[1 - KEPT :], stepped]
         self._extend(path, others, taken, length)
         self._choose(foot)
@@ -168,7 +168,7 @@ class DoubleFoot:
             foot=foot,
             number=taken.number,
             stride_length=length,
-            own_length=taken.stride_length,
+            own_length=taken.length,
             similarity=similarity,
             error_index=index,
             coefficient=coefficient,
@@ -183,7 +183,7 @@ class DoubleFoot:
             return 0.0 if other is None else self.abnormal
         return -self.abnormal if other is None else own - other
 
-    def _partner(self, taken: StepTaken, others: Path) -> Stepped | None:
+    def _partner(self, taken: StrideTaken, others: Path) -> Stepped | None:
         """The other foot's latest step before this one, unless it is too old."""
         left_at = taken.t_start if taken.t_toe_off is None else taken.t_toe_off
         for stepped in reversed(others.latest):
@@ -192,12 +192,12 @@ class DoubleFoot:
                 return stepped if fresh else None
         return None
 
-    def _extend(self, path: Path, others: Path, taken: StepTaken, length: float) -> None:
+    def _extend(self, path: Path, others: Path, taken: StrideTaken, length: float) -> None:
         """The path goes on in the step's own direction, by the calibrated length."""
         if path.missed >= self.away:
             path.end, path.distance, path.shifted = others.end, others.distance, others.shifted
         dx, dy, dz = taken.displacement
-        own = taken.stride_length
+        own = taken.length
         k = length / own if own > LEAST_WAY else 1.0
         x, y, z = path.end
         path.end = (x + k * dx, y + k * dy, z + dz)
@@ -237,13 +237,13 @@ class DoubleFoot:
         return Position(newest, (x + dx, y + dy, z + dz), (xx + sx * sx, xy + sx * sy, xz, yy + sy * sy, yz, zz))
 
 
-def resampled(taken: StepTaken, centre: float) -> tuple[float, ...]:
+def resampled(taken: StrideTaken, centre: float) -> tuple[float, ...]:
     """copY of a step (the centre of pressure along the foot, m) at POINTS instants evenly spaced over its time.
 
     Steps have unequal numbers of samples and (9) wants equal ones, so both are compared over the step's own time from
-    foot-flat to heel-strike: first the path on the ground, as `StepFeatures.cop` has it from foot-flat to toe-off, then
-    `centre` while the foot is in the air, each in proportion to its time. The loading after heel-strike is not part of
-    that path and is left out. Empty without a path, and for a step without a toe-off.
+    foot-flat to heel-strike: first the path on the ground, as `StrideFeatures.cop` has it from foot-flat to toe-off,
+    then `centre` while the foot is in the air, each in proportion to its time. The loading after heel-strike is not
+    part of that path and is left out. Empty without a path, and for a step without a toe-off.
     """
     cop, start, off = taken.features.cop, taken.t_start, taken.t_toe_off
     end = taken.t_end if taken.t_heel_strike is None else taken.t_heel_strike

@@ -25,7 +25,7 @@ import numpy as np
 from attrs import frozen
 
 from ...calibration import Calibration, CalibrationError, bounded_text
-from ...events import StepTaken
+from ...events import StrideTaken
 from ...recipes import PRESSURE_CONTOUR, Recipe
 from ...session import Session
 from ...types import Foot, Packet, Sample, Vec3
@@ -109,9 +109,9 @@ def square_drift(
         raise CalibrationError(f"recipe {recipe.name} takes no drift off")
     known = Calibration() if calibration is None else calibration
     session = Session(recipe, calibration=_without_drift(known))
-    steps: dict[Foot, list[StepTaken]] = {one: [] for one in Foot}
+    steps: dict[Foot, list[StrideTaken]] = {one: [] for one in Foot}
     for event in [*session.feed(items), *session.finish()]:
-        if isinstance(event, StepTaken):
+        if isinstance(event, StrideTaken):
             steps[event.foot].append(event)
     chosen = foot or (Foot.RIGHT if steps[Foot.RIGHT] else Foot.LEFT)
     if not steps[chosen]:
@@ -169,7 +169,7 @@ Visits = dict[str, list[tuple[float, Vec3]]]
 """By mark: when it was stood on and where that seemed to be, world frame, m."""
 
 
-def _counted(steps: Sequence[StepTaken], steps_per_lap: int) -> Visits:
+def _counted(steps: Sequence[StrideTaken], steps_per_lap: int) -> Visits:
     if steps_per_lap < 4:
         raise CalibrationError(f"{steps_per_lap} marks are no square")
     if len(steps) < FEWEST_LAPS * steps_per_lap:
@@ -180,7 +180,7 @@ def _counted(steps: Sequence[StepTaken], steps_per_lap: int) -> Visits:
     return visits
 
 
-def _marked(steps: Sequence[StepTaken], marks: Sequence[Mark]) -> Visits:
+def _marked(steps: Sequence[StrideTaken], marks: Sequence[Mark]) -> Visits:
     visits: Visits = {}
     ends = np.array([step.t for step in steps])
     for mark in marks:

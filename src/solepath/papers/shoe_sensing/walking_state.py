@@ -8,7 +8,7 @@ from attrs import define, field
 
 from ...body.activity.flights import Flights
 from ...body.activity.steepness import of_stairs, steepness
-from ...events import ActivityChanged, Event, StepTaken
+from ...events import ActivityChanged, Event, StrideTaken
 from ...foot.tracker import FootTracker
 from ...types import Activity, Foot, Phase, Sample, Site
 from ...types.vector import TIE
@@ -78,12 +78,12 @@ class AnglePerMetre:
         known_at = t if sample.known_at is None else max(t, sample.known_at)
         told: list[Event] = []
         for event in events:
-            if isinstance(event, StepTaken):
+            if isinstance(event, StrideTaken):
                 began = event.t_start if event.t_toe_off is None else max(event.t_start, event.t_toe_off)
                 self.stepped_at = max(self.stepped_at, event.t)
                 way = None
                 if of_stairs(event.height_change, event.degraded):
-                    way = steepness(event.stride_length, event.height_change)
+                    way = steepness(event.length, event.height_change)
                     self._tell(_OF_STEP[way], began, known_at, told)
                 elif self.activity is Activity.STANDING:
                     self._tell(Activity.UNKNOWN, began, known_at, told)

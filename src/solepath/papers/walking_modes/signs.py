@@ -6,7 +6,7 @@ from math import hypot
 
 from attrs import define, field
 
-from ...events import Event, FootFlat, Limitation, StepTaken
+from ...events import Event, FootFlat, Limitation, StrideTaken
 from ...foot.tracker import FootTracker
 from ...types import SITE_OF_FOOT, Foot, Phase, Sample
 from ...types.vector import GRAVITY, rotate
@@ -38,7 +38,7 @@ class Signs:
         state.swings = foot.phase is Phase.SWING
         if events:
             for event in events:
-                if isinstance(event, StepTaken):
+                if isinstance(event, StrideTaken):
                     evidence.stepped()
                 elif isinstance(event, FootFlat):
                     state.floor = height

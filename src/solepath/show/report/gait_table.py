@@ -27,7 +27,7 @@ DEFINITIONS = {
     "initial_double_support": "from this foot's contact to the other's toe-off; below zero a flight (Novacheck 1998)",
     "terminal_double_support": "from the other foot's contact to this one's toe-off; below zero a flight",
 }
-"""One line each; in full where StrideMeasured is."""
+"""One line each; in full where GaitCycleMeasured is."""
 
 
 def gait_tables(parent: Element, means: GaitMeans) -> bool:

@@ -13,11 +13,11 @@ from ...events import (
     Event,
     FootMoved,
     FootPressed,
+    GaitCycleMeasured,
     LayoutKnown,
     Placed,
     PlaceLost,
-    StepTaken,
-    StrideMeasured,
+    StrideTaken,
     WearerMoved,
 )
 from ...floorplan.plan import FloorPlan
@@ -115,12 +115,12 @@ class Report:
                 self.sampled = _wider(self.sampled, event.t)
                 self._sole(event.foot).press(event)
                 return
-            case StrideMeasured():
+            case GaitCycleMeasured():
                 if event.stride_time < 1e-3:
                     return
                 self.strides[event.foot].add(Stride.of(event))
                 self._sole(event.foot).stride(event)
-            case StepTaken(final=True):
+            case StrideTaken(final=True):
                 self.prints[event.foot].add(Stood(event.t, event.position))
             case WearerMoved():
                 self.way.add(Stood(event.t, event.position))

@@ -10,7 +10,7 @@ from collections import deque
 
 from attrs import define, field
 
-from ...events import FootPressed, StrideMeasured
+from ...events import FootPressed, GaitCycleMeasured
 from ...types import Layout
 
 KEPT = 2000
@@ -76,7 +76,7 @@ class Sole:
         self.newest.clear()
         self.paths.clear()
 
-    def stride(self, event: StrideMeasured) -> None:
+    def stride(self, event: GaitCycleMeasured) -> None:
         """The contact of a stride is added up, if it was walked and hardly any of its samples are missing."""
         missing = event.degraded and not event.steady
         if missing or event.running or not 0.0 < event.t_toe_off - event.t_start <= LONGEST:

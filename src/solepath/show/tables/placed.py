@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from attrs import define, field
 
-from ...events import Event, Placed, PlaceLost, StepTaken
+from ...events import Event, Placed, PlaceLost, StrideTaken
 from ...recording import printable
 from .table import number
 
@@ -31,7 +31,7 @@ class Places:
 
     def add(self, event: Event) -> None:
         match event:
-            case StepTaken(final=True):
+            case StrideTaken(final=True):
                 self.steps += 1
             case Placed():
                 self.last = event

@@ -8,7 +8,7 @@ from typing import Any
 
 from attrs import define, field
 
-from ....events import FootMoved, FootPressed, StepTaken
+from ....events import FootMoved, FootPressed, StrideTaken
 from ....types import Foot, Layout, Phase, Vec3
 from .lists import Recent, Track
 from .rounding import placed, shown
@@ -86,11 +86,11 @@ class FootScene:
         while len(phases.items) > 1 and phases.items[1][0] <= t - RIBBON:
             phases.items.popleft()
 
-    def stepped(self, event: StepTaken) -> None:
+    def stepped(self, event: StrideTaken) -> None:
         """A step ended."""
         if event.final:
             self.steps += 1
-            self.distance += event.stride_length
+            self.distance += event.length
             self._reach(event.t, event.position)
 
     def wear(self, layout: Layout) -> bool:

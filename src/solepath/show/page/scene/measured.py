@@ -7,7 +7,7 @@ from typing import Any
 from attrs import asdict, define, field
 
 from ....body.gait.means import GaitMeans, GaitParameters
-from ....events import StrideMeasured
+from ....events import GaitCycleMeasured
 from ....types import Foot
 from ...tables.gait_rows import ENOUGH, GaitRow, gait_rows, strides_of
 from .rounding import shown
@@ -22,7 +22,7 @@ class Measured:
     _new: bool = False
     """A stride came since it was told."""
 
-    def take(self, stride: StrideMeasured) -> None:
+    def take(self, stride: GaitCycleMeasured) -> None:
         """One more stride."""
         self.means.hear(stride)
         self._new = True

@@ -6,7 +6,7 @@ from typing import Any
 
 from attrs import define, field
 
-from ....events import StrideMeasured
+from ....events import GaitCycleMeasured
 from ....types import Activity, Foot
 from .rounding import shown
 
@@ -23,9 +23,9 @@ STILL = (Activity.STANDING, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN)
 class Pace:
     """The newest strides of each foot. Times in s."""
 
-    strides: dict[Foot, tuple[StrideMeasured, ...]] = field(factory=dict)
+    strides: dict[Foot, tuple[GaitCycleMeasured, ...]] = field(factory=dict)
 
-    def take(self, stride: StrideMeasured) -> None:
+    def take(self, stride: GaitCycleMeasured) -> None:
         """One more stride."""
         before = self.strides.get(stride.foot, ())
         follows = bool(before) and before[-1].t == stride.t_start

@@ -20,13 +20,13 @@ from ....events import (
     FootMoved,
     FootPressed,
     FootSilent,
+    GaitCycleMeasured,
     HeelOff,
     HeelStrike,
     LayoutKnown,
     Placed,
     PlaceLost,
-    StepTaken,
-    StrideMeasured,
+    StrideTaken,
     ToeOff,
     WearerMoved,
 )
@@ -161,7 +161,7 @@ class Scene:
         if self._heard_again(event).lost_at is None:
             self.feet[event.foot].begin(event.t, PHASES[type(event)])
 
-    def _stepped(self, event: StepTaken) -> None:
+    def _stepped(self, event: StrideTaken) -> None:
         self.feet[event.foot].stepped(event)
 
     def _laid_out(self, event: LayoutKnown) -> None:
@@ -170,7 +170,7 @@ class Scene:
             self.layouts += 1
             self.scales.wear(foot, event.layout, foot in self.newtons or event.layout.scale is not None)
 
-    def _measured(self, event: StrideMeasured) -> None:
+    def _measured(self, event: GaitCycleMeasured) -> None:
         self.measured.take(event)
         self.pace.take(event)
 
@@ -313,8 +313,8 @@ TAKEN: dict[type, Callable[[Scene, Any], None]] = {
     FootFlat: Scene._began,
     HeelOff: Scene._began,
     ToeOff: Scene._began,
-    StepTaken: Scene._stepped,
-    StrideMeasured: Scene._measured,
+    StrideTaken: Scene._stepped,
+    GaitCycleMeasured: Scene._measured,
     WearerMoved: lambda scene, event: scene.whereabouts.stepped(event),
     Placed: Scene._placed,
     PlaceLost: lambda scene, event: scene.whereabouts.lose(event),

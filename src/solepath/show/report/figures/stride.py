@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element
 
 from attrs import frozen
 
-from ....events import StrideMeasured
+from ....events import GaitCycleMeasured
 from ....types import Foot
 from ..clock import Clock
 from ..markup import add, figure
@@ -36,7 +36,7 @@ class Stride:
     turns: bool
 
     @classmethod
-    def of(cls, event: StrideMeasured) -> Stride:
+    def of(cls, event: GaitCycleMeasured) -> Stride:
         turns = event.turning_angle is not None and abs(event.turning_angle) > TURNED
         return cls(
             event.t, event.stride_time, event.stride_length, event.speed, event.steady, event.degraded, turns
