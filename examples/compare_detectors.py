@@ -11,14 +11,14 @@ from math import radians
 from solepath import Foot, Recipe, Session, StrideTaken, recipes
 from solepath.emulate import Radio, Route, emulate
 from solepath.foot.navigate.dedrift import LinearDedrift
-from solepath.foot.stance.stance import Shoe
+from solepath.foot.stance.stance import ShoeDetector
 
 # Walking slowly and fast, with a bend: what one threshold finds hard to serve.
 route = Route().stand(2).walk(15, speed=0.9).turn(radians(180), radius=2).walk(15, speed=1.6).stop(2)
 walk = emulate(route, radio=Radio(loss=0.02), seed=4)
 
 # A part is an object that was never fed; a session begins with copies, so a recipe can be used many times.
-textbook = Recipe("SHOE + linear dedrift", detector=Shoe(), corrector=LinearDedrift())
+textbook = Recipe("SHOE + linear dedrift", detector=ShoeDetector(), corrector=LinearDedrift())
 
 print(f"{'recipe':22}  {'foot':5}  steps  of  length error %  end error m")
 for recipe in (recipes.DEFAULT, textbook):

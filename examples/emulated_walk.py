@@ -1,6 +1,6 @@
 """A walk without hardware: an emulated wearer in two pressure insoles, and what solepath makes of the packets.
 
-    python examples/emulated_walk.py
+python examples/emulated_walk.py
 """
 
 from math import degrees, radians

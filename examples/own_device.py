@@ -16,7 +16,7 @@ from construct import Const, Int16ub, OneOf, Struct, Terminated
 from solepath import BatteryLevel, Foot, Packet, PacketsLost, Session, Site, StrideTaken
 from solepath.emulate import Route, Walker
 from solepath.link.driver import Driver, Measured, Reading
-from solepath.link.profile import Channel, How, Profile, Write
+from solepath.link.profile import Access, Channel, Profile, Write
 from solepath.testing.vectors import disagreements
 from solepath.wire.fields import Fields
 
@@ -26,8 +26,8 @@ PROFILE = Profile(
     names=("My shoe",),  # as it advertises
     services=(SERVICE,),
     channels=(
-        Channel("shoe/motion", SERVICE, "5d1e0002-9c60-4cf1-a1b3-1a2b3c4d5e6f", How.NOTIFY),
-        Channel("shoe/start", SERVICE, "5d1e0003-9c60-4cf1-a1b3-1a2b3c4d5e6f", How.WRITE),
+        Channel("shoe/motion", SERVICE, "5d1e0002-9c60-4cf1-a1b3-1a2b3c4d5e6f", Access.NOTIFY),
+        Channel("shoe/start", SERVICE, "5d1e0003-9c60-4cf1-a1b3-1a2b3c4d5e6f", Access.WRITE),
     ),
     setup=(Write("shoe/start", b"\xc2"),),
     reads=(),

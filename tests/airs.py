@@ -12,7 +12,7 @@ import looptime
 from solepath.ble import Backend, Devices
 from solepath.emulate.controllers.server import virtual_air
 from solepath.emulate.devices.bench import Bench
-from solepath.emulate.devices.memory import Air
+from solepath.emulate.devices.memory import MemoryRadio
 from solepath.types import Packet
 
 T = TypeVar("T")
@@ -27,7 +27,7 @@ def in_virtual_time(main: Callable[[], Coroutine[Any, Any, T]]) -> T:
 @asynccontextmanager
 async def memory(bench: Bench) -> AsyncIterator[Backend]:
     """The devices on the in-memory tier."""
-    yield Air(bench.peripherals).backend
+    yield MemoryRadio(bench.peripherals).backend
 
 
 def bumble(bench: Bench, interval: float | None = None) -> AbstractAsyncContextManager[Backend]:

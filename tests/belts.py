@@ -9,9 +9,9 @@ from bleak.backends.characteristic import BleakGATTCharacteristic
 
 from solepath.ble import Backend
 from solepath.emulate.devices.faults import parse_faults
-from solepath.emulate.devices.memory import Air
+from solepath.emulate.devices.memory import MemoryRadio
 from solepath.emulate.devices.peripheral import Peripheral
-from solepath.link.profile import Channel, How, Profile, Write
+from solepath.link.profile import Access, Channel, Profile, Write
 from strap import BATTERY, BEAT, CONTROL, HEART_RATE, LEVEL, LOG, PAGE, Strap
 
 RATE = 10
@@ -21,10 +21,10 @@ STRAP = Profile(
     names=(),
     services=(HEART_RATE,),
     channels=(
-        Channel("strap/beat", HEART_RATE, BEAT, How.NOTIFY),
-        Channel("strap/control", HEART_RATE, CONTROL, How.WRITE),
-        Channel("strap/page", LOG, PAGE, How.READ),
-        Channel("device/battery", BATTERY, LEVEL, How.NOTIFY),
+        Channel("strap/beat", HEART_RATE, BEAT, Access.NOTIFY),
+        Channel("strap/control", HEART_RATE, CONTROL, Access.WRITE),
+        Channel("strap/page", LOG, PAGE, Access.READ),
+        Channel("device/battery", BATTERY, LEVEL, Access.NOTIFY),
     ),
     setup=(Write("strap/control", bytes([RATE])),),
     reads=("device/battery",),
@@ -48,7 +48,7 @@ def strap(number: int = 1, name: str | None = None, faults: str = "", **given: A
 class Asked:
     """An in-memory Bluetooth, and every request that was made of it: (address, what, channel)."""
 
-    air: Air
+    air: MemoryRadio
     log: list[tuple[str, str, str]] = field(factory=list)
     paired: list[bool] = field(factory=list)
     scanning: int = 0
@@ -101,4 +101,4 @@ class Asked:
 
 
 def asked(*devices: Peripheral) -> Asked:
-    return Asked(Air(devices))
+    return Asked(MemoryRadio(devices))

@@ -10,7 +10,7 @@ from solepath.emulate.devices.peripheral import AttError, Outgoing, Peripheral
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.device import Device
 from solepath.emulate.wearers.walker import Walker
-from solepath.link.profile import How, Profile
+from solepath.link.profile import Access, Profile
 from solepath.types import Site
 
 ROUTE = Route().stand(2.0).walk(8.0, 1.2).stop(2.0)
@@ -41,7 +41,7 @@ def begin(device: Peripheral, *channels: str, now: float = 0.0, mtu: int = 247) 
 
 def set_up(device: Peripheral, profile: Profile, now: float = 0.0, mtu: int = 247) -> Peripheral:
     """Connect, subscribe and write as the profile says."""
-    begin(device, *(c.name for c in profile.channels if c.how is How.NOTIFY), now=now, mtu=mtu)
+    begin(device, *(c.name for c in profile.channels if c.how is Access.NOTIFY), now=now, mtu=mtu)
     for write in profile.setup:
         assert device.write(write.channel, write.value, now)
     return device

@@ -17,7 +17,7 @@ from dbus_fast import Variant
 
 import bus
 from bus import Refused
-from solepath.emulate.devices.link import Link
+from solepath.emulate.devices.link import LoopbackLink
 from solepath.emulate.devices.peripheral import Characteristic, Peripheral, Service
 
 ADAPTER = "/org/bluez/hci0"
@@ -49,7 +49,7 @@ class Bluez(bus.Service):
     def __init__(self, peripherals: Iterable[Peripheral], *, adapter: bool = True, powered: bool = True) -> None:
         super().__init__()
         self._devices = {f"{ADAPTER}/dev_{one.address.replace(':', '_')}": one for one in peripherals}
-        self._links: dict[str, Link] = {}
+        self._links: dict[str, LoopbackLink] = {}
         self._channels: dict[str, tuple[str, str]] = {}
         """Of a characteristic, the device's path and the channel."""
         self._scanning: set[str] = set()
@@ -188,7 +188,7 @@ class Bluez(bus.Service):
         loop = asyncio.get_running_loop()
         while not device.visible(loop.time()):
             await asyncio.sleep(HEARD)  # until it is cancelled
-        self._links[path] = Link(device, device.mtu, 0.01, lambda: self._lost(path))
+        self._links[path] = LoopbackLink(device, device.mtu, 0.01, lambda: self._lost(path))
         device.encryption_changed(self.objects[path][_DEVICE]["Paired"].value)
         self.change(path, _DEVICE, Connected=Variant("b", True))
         await asyncio.sleep(0.05)

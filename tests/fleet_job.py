@@ -1,6 +1,6 @@
 """A job on bytewax for a process of its own: what phones sent, from files of lines, through the fleet into files.
 
-    python fleet_job.py SENT DIRECTORY STORE [--die-at N]
+python fleet_job.py SENT DIRECTORY STORE [--die-at N]
 """
 
 from __future__ import annotations

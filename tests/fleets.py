@@ -12,7 +12,7 @@ from solepath import recipes
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import emulate
 from solepath.events import Event, PacketRejected
-from solepath.fleet import End, Fleet, NumbersMissing, Sent, SentRejected, Told, Unreadable
+from solepath.fleet import End, Fleet, NumberedEvent, NumbersMissing, Sent, SentRejected, Unreadable
 from solepath.session import Session
 from solepath.types import Packet
 from walks import LEFT, RIGHT, ROUGH, SHORT
@@ -45,9 +45,11 @@ def shown(number: int, run: int = 0, wearer: str = WEARER) -> Sent:
     return Sent(wearer, number, Packet(0.25 * number, LEFT, f"story/{run}-{number}", b""), run)
 
 
-def stepped(fleet: Fleet, cuts: Iterable[Iterable[Item]], state: bytes | None = None) -> tuple[bytes, list[Told]]:
+def stepped(
+    fleet: Fleet, cuts: Iterable[Iterable[Item]], state: bytes | None = None
+) -> tuple[bytes, list[NumberedEvent]]:
     """What `Fleet.step` makes of each piece, with the state carried as bytes from one to the next."""
-    told: list[Told] = []
+    told: list[NumberedEvent] = []
     for piece in cuts:
         state, some = fleet.step(WEARER, state, piece)
         told += some
@@ -60,7 +62,7 @@ def cut(items: list[Item], at: Iterable[int]) -> list[list[Item]]:
     return [items[begin:end] for begin, end in pairwise(ends)]
 
 
-def uses(told: Iterable[Told]) -> list[tuple[str, int | None, int | None, object]]:
+def uses(told: Iterable[NumberedEvent]) -> list[tuple[str, int | None, int | None, object]]:
     """Of rows as `shown` makes them: (what, run, number, how many or why)."""
     found: list[tuple[str, int | None, int | None, object]] = []
     for one in told:

@@ -11,7 +11,7 @@ from typing import Any
 from hypothesis import strategies as st
 
 from solepath.floorplan.doors import with_doors_cut
-from solepath.floorplan.plan import Anchor, Connector, Door, FloorPlan, Kind, Level, Stop, Wall
+from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Wall
 
 FILES = Path(__file__).parent.parent / "protocol" / "floorplans"
 
@@ -50,8 +50,8 @@ def plans(draw: st.DrawFn) -> FloorPlan:
     connectors = []
     for _ in range(draw(st.integers(0, 3))):
         stops_at = [own for own in ids if draw(st.booleans())] or ids[:1]
-        stops = tuple(Stop(own, draw(places), draw(st.just(()) | outlines)) for own in stops_at)
+        stops = tuple(ConnectorStop(own, draw(places), draw(st.just(()) | outlines)) for own in stops_at)
         flights, rise = draw(st.none() | st.integers(1, 4)), draw(st.none() | st.floats(0.1, 0.3))
-        connectors.append(Connector(draw(st.sampled_from(Kind)), draw(names), stops, flights, rise))
+        connectors.append(Connector(draw(st.sampled_from(ConnectorKind)), draw(names), stops, flights, rise))
     anchor = draw(st.none() | st.builds(Anchor, st.floats(-80.0, 80.0), st.floats(-180.0, 180.0), st.floats(-3.2, 3.2)))
     return FloorPlan(draw(names), tuple(levels), tuple(connectors), anchor, draw(st.booleans()))

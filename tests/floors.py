@@ -24,7 +24,7 @@ from solepath import (
 )
 from solepath.body.fuse.position import Position
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import Anchor, Connector, FloorPlan, Kind, Level, Point, Stop, Wall
+from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Point, Wall
 
 STOREY = 3.6
 WIDE, DEEP = 40.0, 30.0
@@ -77,8 +77,8 @@ def _walls(exit_door: bool) -> tuple[Wall, ...]:
     wall(walls, (east, south), (east, north), (4.0, 5.2))
     for x0, y0, x1, y1 in (*CABINS.values(), *WELLS.values()):
         for start, end in (((x0, y0), (x0, y1)), ((x1, y0), (x1, y1)), ((x0, y0), (x1, y0)), ((x0, y1), (x1, y1))):
-            across = (abs(start[0] - end[0]) < 0.01 and min(abs(start[0] - west), abs(start[0] - east)) < 0.01)
-            along = (abs(start[1] - end[1]) < 0.01 and min(abs(start[1] - south), abs(start[1] - north)) < 0.01)
+            across = abs(start[0] - end[0]) < 0.01 and min(abs(start[0] - west), abs(start[0] - east)) < 0.01
+            along = abs(start[1] - end[1]) < 0.01 and min(abs(start[1] - south), abs(start[1] - north)) < 0.01
             if not across and not along:
                 wall(walls, start, end)
     # the rest of the block: rooms that nobody enters
@@ -91,12 +91,12 @@ def office(anchor: Anchor | None = None) -> FloorPlan:
         Level(name, f"floor {name}", k, STOREY * k, _walls(exit_door=k == 0)) for k, name in enumerate(("0", "1"))
     )
     connectors = []
-    for kind, places, outlines in ((Kind.LIFT, LIFTS, CABINS), (Kind.STAIRS, STAIRS, WELLS)):
+    for kind, places, outlines in ((ConnectorKind.LIFT, LIFTS, CABINS), (ConnectorKind.STAIRS, STAIRS, WELLS)):
         for name, place in places.items():
             x0, y0, x1, y1 = outlines[name]
             ring = ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
-            stops = tuple(Stop(level.id, place, ring) for level in levels)
-            connectors.append(Connector(kind, name, stops, 2 if kind is Kind.STAIRS else None))
+            stops = tuple(ConnectorStop(level.id, place, ring) for level in levels)
+            connectors.append(Connector(kind, name, stops, 2 if kind is ConnectorKind.STAIRS else None))
     return FloorPlan("office", levels, tuple(connectors), anchor)
 
 

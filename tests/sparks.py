@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from solepath.emulate.routes.route import Route
-from solepath.fleet import End, Sent, Told, sent_row, told_row
+from solepath.fleet import End, NumberedEvent, Sent, sent_row, told_row
 from solepath.fleet.spark_files import committed
 from solepath.recipes import BY_NAME, DEFAULT
 from solepath.session import Session
@@ -74,7 +74,7 @@ def says(walk: int, recipe: str) -> tuple[Row, ...]:
     """Rows of what a bare session says of the same walk."""
     session = Session(BY_NAME[recipe])
     events = session.feed(insoles(ROUTE, seed=walk, cells=48).packets) + session.finish()
-    return tuple(told_row(Told("", number, event)) for number, event in enumerate(events))
+    return tuple(told_row(NumberedEvent("", number, event)) for number, event in enumerate(events))
 
 
 def expected(wearers: int, recipe: str = DEFAULT.name) -> list[Row]:

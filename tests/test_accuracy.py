@@ -1,6 +1,6 @@
 """How accurate the default recipe is on recorded data: the figures that docs/accuracy.md quotes, with their bounds.
 
-    python -m pytest -m "soak or not soak" tests/test_accuracy*.py      # those too that take longest: two minutes
+python -m pytest -m "soak or not soak" tests/test_accuracy*.py      # those too that take longest: two minutes
 """
 
 from __future__ import annotations

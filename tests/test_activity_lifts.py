@@ -22,9 +22,7 @@ def pulse(t: float, begin: float, size: float) -> float:
     return size * max(0.0, min(1.0, 2.0 * (t - begin), 2.0 * (begin + 2.0 - t)))
 
 
-def stood(
-    lift: Callable[[float], float], until: float, shuffles: tuple[tuple[float, float], ...] = ()
-) -> list[Event]:
+def stood(lift: Callable[[float], float], until: float, shuffles: tuple[tuple[float, float], ...] = ()) -> list[Event]:
     """What comes of two feet that stand in a lift with this acceleration, and shuffle from and to these times, s."""
     part = Activities()
     feet = {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in Foot}

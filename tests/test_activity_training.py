@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import isclose
 
 from solepath.body.activity.chain import STAND, SUPPOSED, UP, WALK, chain_of
-from solepath.lab.train.activities_course import Course, chances, changes, spans
+from solepath.lab.train.activities_course import LabelledCourse, chances, changes, spans
 from solepath.types import Activity
 
 STOOD, WALKED, CLIMBED = Activity.STANDING, Activity.WALKING, Activity.STAIRS_UP
@@ -20,7 +20,7 @@ def test_labels_become_spans_and_a_gap_parts_them() -> None:
 
 def test_who_climbs_often_makes_stairs_likelier() -> None:
     done = [(10.0 * k, 10.0 * k + 10.0, (WALKED, CLIMBED)[k % 2]) for k in range(100)]
-    learnt = chances([Course(0.0, {}, tuple(done))])
+    learnt = chances([LabelledCourse(0.0, {}, tuple(done))])
     assert all(isclose(sum(row), 1.0, abs_tol=1e-4) for row in learnt)
     assert SUPPOSED[WALK][UP] < learnt[WALK][UP] < 1.0 / 20.0 + 1e-3  # ten seconds are twenty blocks
 

@@ -16,9 +16,9 @@ from benches import LEFT, RIGHT
 from solepath.ble import Backend, Devices, Wanted
 from solepath.emulate import Route
 from solepath.emulate.devices.bench import Bench
-from solepath.emulate.devices.memory import Air
+from solepath.emulate.devices.memory import MemoryRadio
 from solepath.emulate.sensors.insole_device import Insole
-from solepath.link.profile import How
+from solepath.link.profile import Access
 from solepath.types import Packet, Site
 
 PELVIS = Site.PELVIS
@@ -90,7 +90,7 @@ def test_what_is_refused_beside_the_stream_under_any_name_is_told_with_its_chann
 ) -> None:
     for request in ("read_gatt_char", "start_notify"):
         bench = Bench(Route().stand(9.0), devices={LEFT: Insole(cells=8)})
-        backend = raising(Air(bench.peripherals).backend, request, error, where="device/battery")
+        backend = raising(MemoryRadio(bench.peripherals).backend, request, error, where="device/battery")
         packets = got(backend, Wanted(LEFT, bench[LEFT].address), seconds=8.0)
         if request == "read_gatt_char":
             [(_, words)] = troubles(packets)
@@ -102,7 +102,7 @@ def test_what_is_refused_beside_the_stream_under_any_name_is_told_with_its_chann
 
 
 def test_a_setting_that_is_refused_under_any_name_is_told_and_what_was_to_be_read_after_it_too() -> None:
-    more = evolve(STRAP.channel("strap/page"), name="strap/beside", how=How.WRITE)
+    more = evolve(STRAP.channel("strap/page"), name="strap/beside", how=Access.WRITE)
     profile = evolve(
         READ_AFTER,
         channels=(*READ_AFTER.channels, more),
@@ -125,7 +125,7 @@ def test_a_stream_that_is_refused_is_no_connection(error: Exception) -> None:
 
 def test_an_insole_whose_info_nobody_understands_is_named_and_told_what_can_be_done() -> None:
     bench = Bench(Route().stand(9.0), devices={LEFT: Insole(cells=8)})
-    base: Any = Air(bench.peripherals).backend
+    base: Any = MemoryRadio(bench.peripherals).backend
 
     class Client(base.client):  # type: ignore[misc]
         async def read_gatt_char(self, one: Any, **more: Any) -> bytearray:

@@ -15,14 +15,14 @@ from airs import hear, in_virtual_time, others
 from belts import RATE, READ_AFTER, STRAP, Asked, address, asked, strap
 from benches import LEFT, RIGHT, ROUTE
 from solepath import BatteryLevel, LayoutKnown, PacketRejected, PacketsDropped, Session
-from solepath.ble import Backend, BluetoothError, Devices, State, Wanted
+from solepath.ble import Backend, BluetoothError, ConnectionState, Devices, Wanted
 from solepath.emulate import Route
 from solepath.emulate.devices.bench import Bench
-from solepath.emulate.devices.memory import Air
+from solepath.emulate.devices.memory import MemoryRadio
 from solepath.emulate.devices.peripheral import Characteristic, Service
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650 as Tag
-from solepath.link.profile import CC2650, INSOLE, How, Write
+from solepath.link.profile import CC2650, INSOLE, Access, Write
 from solepath.types import Packet, Site
 from solepath.wire.receiver import parse_dropped
 from strap import BATTERY, BEAT, CONTROL, HEART_RATE, LEVEL, Strap
@@ -60,7 +60,7 @@ def test_a_device_is_read_then_subscribed_then_written() -> None:
     got(heard, Wanted(LEFT, "F0:5E:00:00:00:01"), Wanted(RIGHT, "F0:5E:00:00:00:02"))
     for device, profile in ((bench[LEFT], INSOLE), (bench[RIGHT], CC2650)):
         did = heard.of(device, "read", "subscribe", "write")
-        notify = {channel.name for channel in profile.channels if channel.how is How.NOTIFY}
+        notify = {channel.name for channel in profile.channels if channel.how is Access.NOTIFY}
         assert {channel for what, channel in did if what == "subscribe"} == notify
         assert [what for what, _ in did] == sorted((what for what, _ in did), key=["read", "subscribe", "write"].index)
         assert [channel for what, channel in did if what == "write"] == [write.channel for write in profile.setup]
@@ -204,7 +204,7 @@ def taken_late(capacity: int, wait: float) -> list[Packet]:
     async def main() -> list[Packet]:
         bench = Bench(Route().stand(25.0), seed=3)
         wanted = [Wanted(peripheral.site, peripheral.address) for peripheral in bench.peripherals]
-        async with Devices(wanted, backend=Air(bench.peripherals).backend, capacity=capacity) as devices:
+        async with Devices(wanted, backend=MemoryRadio(bench.peripherals).backend, capacity=capacity) as devices:
             await asyncio.sleep(wait)
             sent.extend(sum(p.sent.values()) for p in bench.peripherals)
         return [packet async for packet in devices]
@@ -280,7 +280,7 @@ def test_to_leave_disconnects_and_leaves_no_task_behind() -> None:
 
     async def main() -> list[Packet]:
         wanted = [Wanted(LEFT, address(1), STRAP), Wanted(RIGHT, address(2), STRAP), Wanted(PELVIS, "absent", STRAP)]
-        async with Devices(wanted, backend=Air(devices).backend) as heard:
+        async with Devices(wanted, backend=MemoryRadio(devices).backend) as heard:
             await hear(heard, 3.0)
             assert all(device.is_connected for device in devices)
         assert not any(device.is_connected for device in devices)
@@ -288,7 +288,7 @@ def test_to_leave_disconnects_and_leaves_no_task_behind() -> None:
         rest = [packet async for packet in heard]
         assert [packet async for packet in heard] == []
         await asyncio.sleep(0.0)
-        assert {one.state for one in heard.connections} == {State.SEEKING}
+        assert {one.state for one in heard.connections} == {ConnectionState.SEEKING}
         return rest
 
     rest = in_virtual_time(main)
@@ -310,7 +310,7 @@ def test_to_leave_at_any_moment_leaves_nothing_behind(moment: float) -> None:
 
 def test_who_is_still_listening_when_the_devices_are_left_hears_them_go_and_comes_to_an_end() -> None:
     async def main() -> list[Packet]:
-        devices = Devices([ONE, Wanted(LEFT, address(2), STRAP)], backend=Air([strap(1), strap(2)]).backend)
+        devices = Devices([ONE, Wanted(LEFT, address(2), STRAP)], backend=MemoryRadio([strap(1), strap(2)]).backend)
         async with devices:
 
             async def take() -> list[Packet]:
@@ -326,7 +326,7 @@ def test_who_is_still_listening_when_the_devices_are_left_hears_them_go_and_come
 
 def test_devices_that_were_left_can_be_entered_again_but_not_twice_at_once() -> None:
     async def main() -> None:
-        devices = Devices([ONE], backend=Air([strap()]).backend)
+        devices = Devices([ONE], backend=MemoryRadio([strap()]).backend)
         for _ in range(2):
             async with devices:
                 packets = await hear(devices, 2.0)
@@ -447,7 +447,7 @@ def failing(beneath: Backend, errors: list[Exception | None]) -> Backend:
 
 def test_a_scan_that_fails_later_is_told_where_something_is_sought_and_is_begun_anew() -> None:
     errors: list[Exception | None] = [None, None, BleakDBusError("org.bluez.Error.NotReady", []), BleakError("odd")]
-    backend = failing(Air([strap(1, faults="3 * disconnect"), strap(2)]).backend, errors)
+    backend = failing(MemoryRadio([strap(1, faults="3 * disconnect"), strap(2)]).backend, errors)
 
     async def main() -> list[Packet]:
         async with Devices([ONE, Wanted(LEFT, address(2), STRAP)], backend=backend) as devices:
@@ -465,7 +465,7 @@ def test_a_scan_that_fails_later_is_told_where_something_is_sought_and_is_begun_
 def test_a_scan_that_hears_nothing_any_more_is_begun_anew() -> None:
     """As after Bluetooth was switched off and on, on systems that do not tell."""
     device = strap(faults="5 * disconnect")
-    beneath = Air([device]).backend
+    beneath = MemoryRadio([device]).backend
     scanner: Any = beneath.scanner
 
     class Scanner(scanner):
@@ -490,7 +490,7 @@ def test_a_scan_that_hears_nothing_any_more_is_begun_anew() -> None:
 
 
 def test_a_signal_that_no_radio_measures_and_a_name_that_is_no_text_are_no_fault() -> None:
-    beneath = Air([strap()]).backend
+    beneath = MemoryRadio([strap()]).backend
     scanner: Any = beneath.scanner
 
     class Scanner(scanner):

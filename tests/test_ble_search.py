@@ -9,11 +9,11 @@ import pytest
 from airs import hear, in_virtual_time
 from belts import STRAP, address, asked, strap
 from benches import LEFT, RIGHT, ROUTE
-from solepath.ble import Backend, Devices, State, Wanted, scan
+from solepath.ble import Backend, ConnectionState, Devices, Wanted, scan
 from solepath.emulate.devices import cc2650
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
-from solepath.emulate.devices.memory import Air
+from solepath.emulate.devices.memory import MemoryRadio
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.insole_device import Insole
@@ -31,7 +31,7 @@ def feet(device: Device, faults: str = "") -> Bench:
 
 def got(peripherals: tuple[Peripheral, ...], wanted: list[Wanted], seconds: float = 6.0, **more: float) -> list[Packet]:
     async def main() -> list[Packet]:
-        async with Devices(wanted, backend=Air(peripherals).backend, **more) as devices:  # type: ignore[arg-type]
+        async with Devices(wanted, backend=MemoryRadio(peripherals).backend, **more) as devices:  # type: ignore[arg-type]
             return await hear(devices, seconds)
 
     return in_virtual_time(main)
@@ -284,7 +284,7 @@ def test_only_one_scanner_works_at_a_time_and_none_once_all_are_found() -> None:
     async def main() -> None:
         async with Devices(wanted, backend=heard.backend) as devices:
             await hear(devices, 3.0)
-            assert {one.state for one in devices.connections} == {State.LISTENING}
+            assert {one.state for one in devices.connections} == {ConnectionState.LISTENING}
             assert heard.scanning == 0
             await hear(devices, 10.0)
         assert heard.scanning == 0
@@ -297,7 +297,7 @@ def test_a_scan_tells_of_known_devices_and_of_strangers() -> None:
     bench = feet(Insole())
 
     async def main() -> dict[str, str | None]:
-        backend: Backend = Air((*bench.peripherals, strap())).backend
+        backend: Backend = MemoryRadio((*bench.peripherals, strap())).backend
         began = asyncio.get_running_loop().time()
         found = await scan(2.0, backend=backend)
         assert asyncio.get_running_loop().time() - began == pytest.approx(2.0)

@@ -19,7 +19,7 @@ from airs import hear, in_virtual_time, others
 from belts import STRAP, address, asked
 from solepath.ble import Backend, BluetoothError, Devices, Wanted, scan
 from solepath.ble.trouble import sentence
-from solepath.emulate.devices.memory import Air
+from solepath.emulate.devices.memory import MemoryRadio
 from solepath.emulate.devices.peripheral import Outgoing
 from solepath.link.profile import CC2650
 from solepath.types import Packet, Site
@@ -44,7 +44,7 @@ NOT_IN_TIME = "the device did not answer in time: it is sought again; if this go
 
 
 def without_bluetooth(error: Exception) -> Backend:
-    beneath: Any = Air([]).backend.scanner
+    beneath: Any = MemoryRadio([]).backend.scanner
 
     class Scanner(beneath):
         async def start(self) -> None:
@@ -148,7 +148,7 @@ def test_a_request_that_is_never_answered_ends_the_attempt() -> None:
 
     async def main() -> list[Packet]:
         device = Mute("strap 1", address(1))
-        async with Devices([Wanted(PELVIS, address(1), STRAP)], backend=Air([device]).backend) as devices:
+        async with Devices([Wanted(PELVIS, address(1), STRAP)], backend=MemoryRadio([device]).backend) as devices:
             return await hear(devices, 20.0)
 
     packets = in_virtual_time(main)

@@ -106,9 +106,7 @@ def test_a_foot_that_first_steps_aside_does_not_bend_either_track(askew: float) 
 def test_corrections_make_no_stride_longer() -> None:
     _, events = _walked("both")
     _, without = _walked("mean")
-    lengths, own = (
-        [event.length for event in heard if isinstance(event, StrideTaken)] for heard in (events, without)
-    )
+    lengths, own = ([event.length for event in heard if isinstance(event, StrideTaken)] for heard in (events, without))
     assert lengths == pytest.approx(own, abs=0.01)
 
 

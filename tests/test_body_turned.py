@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath.body.worn.sides import HIDDEN, REMEMBERED
-from solepath.body.worn.turned import Turned
+from solepath.body.worn.turned import RateIntegral
 from solepath.types import Vec3
 
 RATES = st.tuples(*[st.floats(-30.0, 30.0)] * 3)
@@ -16,7 +16,7 @@ RATES = st.tuples(*[st.floats(-30.0, 30.0)] * 3)
 @given(st.floats(0.0, 1e6), st.lists(st.tuples(st.floats(0.015, HIDDEN), RATES), min_size=1, max_size=60))
 @settings(max_examples=40, deadline=None)
 def test_what_is_kept_of_the_turn_of_a_foot_is_its_integral(start: float, rates: list[tuple[float, Vec3]]) -> None:
-    turned = Turned()
+    turned = RateIntegral()
     turned.begin(start)
     t, times, turns = start, [start], [(0.0, 0.0, 0.0)]
     for dt, gyro in rates:
@@ -31,7 +31,7 @@ def test_what_is_kept_of_the_turn_of_a_foot_is_its_integral(start: float, rates:
 
 
 def test_of_a_foot_that_never_lands_only_the_newest_instants_are_kept() -> None:
-    turned = Turned()
+    turned = RateIntegral()
     turned.begin(0.0)
     for k in range(1, 1000):
         turned.add(0.02 * k, 0.02, (9.0, -9.0, 0.0), REMEMBERED)

@@ -21,8 +21,8 @@ from solepath.events import Connected, Disconnected, StrideTaken
 from solepath.link.decoder import Decoder
 from solepath.recording import RecordingError
 from solepath.recording.btsnoop import is_btsnoop, open_btsnoop
-from solepath.recording.btsnoop.att import How, Op
-from solepath.recording.btsnoop.values import Listener, Value
+from solepath.recording.btsnoop.att import AttOperation, Op
+from solepath.recording.btsnoop.values import Value, ValueListener
 from solepath.types import Foot
 from solepath.types.vector import GRAVITY
 from solepath.wire.fragment import split
@@ -93,8 +93,8 @@ def heard_by_tshark(path: Path) -> list[tuple[int, int, int, bytes]]:
 
 
 def heard_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
-    listener = Listener(path, pytest.fail)
-    values = [item for item in listener.listen() if isinstance(item, Value) and item.how is How.NOTIFIED]
+    listener = ValueListener(path, pytest.fail)
+    values = [item for item in listener.listen() if isinstance(item, Value) and item.how is AttOperation.NOTIFIED]
     assert not listener.flaws
     return [(value.t, value.link.handle, value.attribute, value.data) for value in values]
 
@@ -123,7 +123,7 @@ def test_every_notification_is_what_tshark_says_it_is(tmp_path, datalink, piece)
     assert ours == theirs
 
 
-def told_by_tshark(path: Path) -> list[tuple[How, int, bytes]]:
+def told_by_tshark(path: Path) -> list[tuple[AttOperation, int, bytes]]:
     """(how, attribute handle, value) of every value that was read, joined by the offsets, and every one that was
     written and taken. Of each PDU by itself tshark says handle, offset and value; values that it knows have a field of
     their own."""
@@ -132,7 +132,7 @@ def told_by_tshark(path: Path) -> list[tuple[How, int, bytes]]:
     wanted = [word for name in fields for word in ("-e", f"btatt.{name}")]
     only = "btatt.opcode in {0x0a, 0x0b, 0x0c, 0x0d, 0x12, 0x13, 0x52}"
     command = ["tshark", "-r", path, "-Y", only, "-T", "fields", *wanted]
-    told: list[tuple[How, int, bytes]] = []
+    told: list[tuple[AttOperation, int, bytes]] = []
     offset, pending = 0, b""
     for line in subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines():
         opcode, attribute, plain, at, battery, firmware, client = line.split("\t")
@@ -141,25 +141,25 @@ def told_by_tshark(path: Path) -> list[tuple[How, int, bytes]]:
         handle = int(attribute, 16)
         match int(opcode, 16):
             case 0x0B:
-                told.append((How.READ, handle, data))
+                told.append((AttOperation.READ, handle, data))
             case 0x0C:
                 offset = int(at)
             case 0x0D:
                 how, of, begun = told.pop()
-                assert (how, of, len(begun)) == (How.READ, handle, offset)
+                assert (how, of, len(begun)) == (AttOperation.READ, handle, offset)
                 told.append((how, of, begun + data))
             case 0x12:
                 pending = data
             case 0x13:
-                told.append((How.WRITTEN, handle, pending))
+                told.append((AttOperation.WRITTEN, handle, pending))
             case 0x52:
-                told.append((How.WRITTEN, handle, data))
+                told.append((AttOperation.WRITTEN, handle, data))
     return told
 
 
-def told_to_us(path: Path) -> list[tuple[How, int, bytes]]:
-    values = [item for item in Listener(path, pytest.fail).listen() if isinstance(item, Value)]
-    return [(value.how, value.attribute, value.data) for value in values if value.how is not How.NOTIFIED]
+def told_to_us(path: Path) -> list[tuple[AttOperation, int, bytes]]:
+    values = [item for item in ValueListener(path, pytest.fail).listen() if isinstance(item, Value)]
+    return [(value.how, value.attribute, value.data) for value in values if value.how is not AttOperation.NOTIFIED]
 
 
 @needs_tshark
@@ -258,7 +258,7 @@ def test_of_real_traffic_of_a_host_every_value_is_what_tshark_says_it_is(bumble_
         ours = heard_by_us(path)
         assert len(ours) == 300 and ours == heard_by_tshark(path)
         told = told_to_us(path)
-        assert (How.READ, info()) in [(how, data) for how, _, data in told]
+        assert (AttOperation.READ, info()) in [(how, data) for how, _, data in told]
         assert told == told_by_tshark(path)
 
 

@@ -26,13 +26,13 @@ import pyarrow.compute
 from solepath.cli.fleet_demo import verdict
 from solepath.cli.fleet_table import of_kills, of_worth
 from solepath.events import HeelStrike
-from solepath.fleet import Told
+from solepath.fleet import NumberedEvent
 from solepath.fleet.demo.child import _told
 from solepath.fleet.demo.compare import Torn, differences, files, holes, of_sessions, read_told, remarked
 from solepath.fleet.demo.kills import Cost, Kill, Outcome, compared, draw
 from solepath.fleet.demo.stage import Engine
 from solepath.fleet.demo.wearers import Wearers
-from solepath.fleet.parquet import Parts
+from solepath.fleet.parquet import PartFiles
 from solepath.types import Foot
 
 SMALL = ("--wearers", "12", "--seconds", "4", "--processes", "1")
@@ -123,9 +123,7 @@ def test_one_event_less_in_one_part_is_named_and_the_status_is_1(
     assert f"killed run 1: {found}" in capsys.readouterr().out
 
 
-def test_a_part_that_is_damaged_is_named(
-    kept: tuple[subprocess.CompletedProcess[str], Path], tmp_path: Path
-) -> None:
+def test_a_part_that_is_damaged_is_named(kept: tuple[subprocess.CompletedProcess[str], Path], tmp_path: Path) -> None:
     told = shutil.copytree(kept[1] / "told", tmp_path / "told")
     expected, part = read_told(told), files(told)[0]
     part.write_bytes(part.read_bytes()[:-40])
@@ -135,12 +133,12 @@ def test_a_part_that_is_damaged_is_named(
         read_told(told)
 
 
-def heel_strike(wearer: str, number: int, t: float = 1.0) -> Told:
-    return Told(wearer, number, HeelStrike(t=t, known_at=t, foot=Foot.LEFT))
+def heel_strike(wearer: str, number: int, t: float = 1.0) -> NumberedEvent:
+    return NumberedEvent(wearer, number, HeelStrike(t=t, known_at=t, foot=Foot.LEFT))
 
 
-def write(directory: Path, *told: Told) -> Path:
-    parts = Parts(directory)
+def write(directory: Path, *told: NumberedEvent) -> Path:
+    parts = PartFiles(directory)
     parts.write(told)
     parts.close()
     return directory

@@ -17,7 +17,7 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import AttitudePart
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.papers.pressure_contour.bias_zupt import BiasZupt
-from solepath.papers.pressure_contour.square import Mark, check, fit_square, fitted, read_marks, square_drift
+from solepath.papers.pressure_contour.square import CornerMark, check, fit_square, fitted, read_marks, square_drift
 from solepath.recipes import DEFAULT, GYROSCOPE, Recipe
 from solepath.recording.decoded import recorded
 from solepath.types import Foot, Packet, Sample, Site, Vec3
@@ -109,7 +109,7 @@ def test_the_slope_is_the_mean_of_the_marks_lines() -> None:
 def test_marks_by_time_say_the_same_as_counted_steps() -> None:
     session = Session(GYROSCOPE)
     steps = [event for event in session.feed(samples()) + session.finish() if isinstance(event, StrideTaken)]
-    marks = [Mark(str(k % PER_LAP), step.t + 0.1) for k, step in enumerate(steps)]
+    marks = [CornerMark(str(k % PER_LAP), step.t + 0.1) for k, step in enumerate(steps)]
     counted = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
     assert square_drift(samples(), marks=marks, recipe=GYROSCOPE) == counted
 
@@ -184,15 +184,15 @@ def test_what_cannot_be_used_is_said_in_one_line() -> None:
     assert refused(items=()) == "no step of the left foot in the recording"
     assert refused(foot=Foot.RIGHT) == "no step of the right foot in the recording"
     assert refused(recipe=DEFAULT) == "recipe default takes no drift off"
-    assert refused(marks=[Mark("a", 1e4)]) == "no step ends at mark a near 10000.00 s"
-    assert refused(marks=[Mark("a", 5.0)]) == "no mark was stood on 3 times"
+    assert refused(marks=[CornerMark("a", 1e4)]) == "no step ends at mark a near 10000.00 s"
+    assert refused(marks=[CornerMark("a", 5.0)]) == "no mark was stood on 3 times"
     assert refused(steps_per_lap=0) == "0 marks are no square"
 
 
 def test_marks_are_read_from_a_table(tmp_path: Path) -> None:
     file = tmp_path / "marks.csv"
     file.write_text("mark,t\nA1,3.5\nA2,4.75\n")
-    assert read_marks(file) == (Mark("A1", 3.5), Mark("A2", 4.75))
+    assert read_marks(file) == (CornerMark("A1", 3.5), CornerMark("A2", 4.75))
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from solepath.emulate.sensors.insole_device import Insole, boot
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import INERTIACUBE3
 from solepath.emulate.walk import EmulatedWalk, emulate
-from solepath.foot.pressure.insole import Insole as Cells
+from solepath.foot.pressure.insole import InsoleLoads as Cells
 from solepath.foot.stance.stance import Load
 from solepath.link.decoder import Decoder
 from solepath.papers.pressure_contour.contour_stance import ContourVelocity, GyroscopeMagnitude

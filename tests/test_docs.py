@@ -25,8 +25,8 @@ from solepath import emulate as sim
 from solepath.body.height.altitude import Altitude
 from solepath.cli.main import parser
 from solepath.emulate import Route, emulate
-from solepath.fleet import Sent, Told, sent_line, told_row
-from solepath.foot.pressure.insole import Insole
+from solepath.fleet import NumberedEvent, Sent, sent_line, told_row
+from solepath.foot.pressure.insole import InsoleLoads
 from solepath.foot.stance.stance import Detector
 from solepath.foot.tracker import AnyCorrector, AnyCues, AnyDetector
 from solepath.recipes import AnyActivity, AnyBody, AnyPlace
@@ -150,7 +150,9 @@ def test_what_comes_out_of_a_wearer_of_a_fleet_is_counted():
     session = Session()
     events = session.feed(packets) + session.finish()
     last = packets[-1].t - packets[0].t
-    rows = sum(len(json.dumps(told_row(Told("w-00017", number, event)))) for number, event in enumerate(events))
+    rows = sum(
+        len(json.dumps(told_row(NumberedEvent("w-00017", number, event)))) for number, event in enumerate(events)
+    )
     assert f" {len(events) / last:.0f} events/s, {rows / last / 1000:.0f} kB/s as rows" in PAGES["docs/fleet.md"]
 
 
@@ -262,7 +264,7 @@ def test_the_table_of_parts_has_them_all():
     parts = re.findall(r"^\| (`[A-Z].*?) \| `(solepath[\w.]+)` \|", PAGES["docs/parts.md"], re.MULTILINE)
     told = {getattr(import_module(module), name) for names, module in parts for name in re.findall(r"`(\w+)`", names)}
     kinds = (AnyDetector, AnyCorrector, AnyCues, AnyBody, AnyActivity, AnyPlace)
-    assert told == {Insole, Altitude, *(part for kind in kinds for part in get_args(kind))} - {Detector}
+    assert told == {InsoleLoads, Altitude, *(part for kind in kinds for part in get_args(kind))} - {Detector}
 
 
 def test_the_demonstration_of_100_m_comes_to_what_is_quoted():

@@ -90,9 +90,13 @@ def test_a_recipe_that_is_on_one_side_only_is_said():
 @pytest.mark.parametrize(
     "text",
     [
-        "", "[1, 2]", '{"default": 3}', '{"default": {"loops": {}}}',
+        "",
+        "[1, 2]",
+        '{"default": 3}',
+        '{"default": {"loops": {}}}',
         '{"default": {"loops": {"recordings": {"a": 1}}}}',
-        "[" * 100_000, json.dumps(OLD).replace("60.0", "1" + "0" * 400),
+        "[" * 100_000,
+        json.dumps(OLD).replace("60.0", "1" + "0" * 400),
     ],  # fmt: skip
     ids=range(7),
 )

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from solepath.emulate.routes.route import Stairs, Stand, Turn
+from solepath.emulate.routes.route import Stairs, Stand, TurnAction
 from solepath.emulate.wearers.walker import Walker
 from solepath.lab.emulated.walks import FLOORS, HALF_HOUR, four_floors, half_hour, long_way, middle, place_figures
 from solepath.types import Foot
@@ -49,7 +49,7 @@ def test_ways_are_as_long_as_they_are_called():
     for seed in (101, 102, 103):
         route = long_way(seed)
         assert 500.0 <= route.length <= 540.0
-        assert sum(isinstance(action, Turn) for action in route.actions) >= 10
+        assert sum(isinstance(action, TurnAction) for action in route.actions) >= 10
         stood = sum(action.duration for action in half_hour(seed).actions if isinstance(action, Stand))
         assert 0.9 * HALF_HOUR <= stood + half_hour(seed).length / half_hour(seed).speed <= 1.05 * HALF_HOUR
 
@@ -58,7 +58,7 @@ def test_four_floors_lead_up_and_down_again():
     actions = four_floors(101).actions
     heights = np.cumsum([action.steps * action.rise for action in actions if isinstance(action, Stairs)])
     assert heights.max() == pytest.approx(FLOORS * 3.2) and heights[-1] == pytest.approx(0.0)
-    turned = sum(action.angle for action in actions if isinstance(action, Turn))
+    turned = sum(action.angle for action in actions if isinstance(action, TurnAction))
     assert remainder(turned, pi) == pytest.approx(0.0, abs=1e-9)
 
 

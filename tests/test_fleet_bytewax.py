@@ -23,7 +23,7 @@ from bytewax.recovery import RecoveryConfig, init_db_dir
 from bytewax.testing import TestingSink, TestingSource, cluster_main, run_main
 
 from sites import RECIPES, mixed, site
-from solepath.fleet import End, Fleet, Keyed, Refusal, Sent, StateRefused, Tick, Told, Unreadable
+from solepath.fleet import End, Fleet, Keyed, NumberedEvent, Refusal, Sent, StateRefused, Tick, Unreadable
 from solepath.fleet.bytewax import gait, purge
 from solepath.session import Session
 from solepath.types import Packet, Site
@@ -31,7 +31,10 @@ from solepath.types import Packet, Site
 OFTEN = timedelta(milliseconds=20)
 """Between two snapshots."""
 
-def job(items: Iterable[Any], told: list[tuple[str, Told]], recipe: str = "default", **options: Any) -> Dataflow:
+
+def job(
+    items: Iterable[Any], told: list[tuple[str, NumberedEvent]], recipe: str = "default", **options: Any
+) -> Dataflow:
     """From a list to a list. The source keeps its place in the recovery store, the sink keeps none."""
     flow = Dataflow("job")
     sent = operators.input("sent", flow, TestingSource(items, batch_size=50))
@@ -39,7 +42,7 @@ def job(items: Iterable[Any], told: list[tuple[str, Told]], recipe: str = "defau
     return flow
 
 
-def by_wearer(told: Iterable[tuple[str, Told]]) -> dict[str, list[Any]]:
+def by_wearer(told: Iterable[tuple[str, NumberedEvent]]) -> dict[str, list[Any]]:
     """The events of each in the order of their numbers, which have no holes; what was told twice was the same."""
     found: dict[str, dict[int, Any]] = {}
     for wearer, one in told:
@@ -63,7 +66,7 @@ def test_each_wearer_has_the_events_of_a_session_of_their_own_also_when_the_job_
     items: list[Any] = list(sent)
     for place in sorted(Random(1).sample(range(len(items)), 3), reverse=True):
         items.insert(place, TestingSource.ABORT())
-    told: list[tuple[str, Told]] = []
+    told: list[tuple[str, NumberedEvent]] = []
     flow = job(items, told, recipe)
     for _ in range(3):
         run_main(flow, epoch_interval=OFTEN, recovery_config=store)
@@ -76,7 +79,7 @@ def test_wearers_are_divided_among_workers_and_move_when_their_number_changes(st
     sent, events = site()
     third = len(sent) // 3
     pause = TestingSource.EOF()
-    told: list[tuple[str, Told]] = []
+    told: list[tuple[str, NumberedEvent]] = []
     flow = job([*sent[:third], pause, *sent[third : 2 * third], pause, *sent[2 * third :]], told)
     for workers in (2, 3, 1):
         cluster_main(flow, [], 0, epoch_interval=OFTEN, recovery_config=store, worker_count_per_proc=workers)
@@ -100,7 +103,7 @@ def test_what_was_sent_may_come_in_lists_and_sessions_are_put_away_while_nothing
                     break
             left.append(living() - before)
 
-    told: list[tuple[str, Told]] = []
+    told: list[tuple[str, NumberedEvent]] = []
     run_main(job(lists(), told, idle=timedelta(milliseconds=1)))
     assert by_wearer(told) == events
     assert left and set(left) == {0}
@@ -152,7 +155,7 @@ def test_what_no_phone_can_have_sent_is_told_and_stalls_nobody_else() -> None:
         for n, channel in enumerate(["insole/frame", "cc2650/movement", "insole/info", "\x00"] * 100)
     ]
     clean = {name: [one for wearer, one in sent if wearer == name] for name in events}
-    told: list[tuple[str, Told]] = []
+    told: list[tuple[str, NumberedEvent]] = []
     run_main(job(mixed({**clean, "poison": junk}), told))
     found = by_wearer(told)
     said = found.pop("poison")
@@ -172,7 +175,7 @@ def test_states_that_cannot_go_on_are_told_and_begin_afresh_and_the_others_go_on
 ) -> None:
     sent, events = site()
     half = len(sent) // 2
-    told: list[tuple[str, Told]] = []
+    told: list[tuple[str, NumberedEvent]] = []
     flow = job([*sent[:half], TestingSource.EOF(), *sent[half:]], told)
     run_main(flow, recovery_config=store)
     before = by_wearer(told)

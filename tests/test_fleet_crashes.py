@@ -19,7 +19,7 @@ pytest.importorskip("bytewax", reason="bytewax is not installed: it has no wheel
 from pyarrow import parquet
 
 from sites import site
-from solepath.fleet import Told, sent_line, told_row
+from solepath.fleet import NumberedEvent, sent_line, told_row
 
 JOB = [sys.executable, str(Path(__file__).with_name("fleet_job.py"))]
 QUIET = {**os.environ, "RUST_BACKTRACE": "0"}
@@ -40,7 +40,7 @@ def sent(tmp_path: Path) -> Path:
 def expected() -> list[dict[str, Any]]:
     """Rows of a session fed by hand for every wearer."""
     each = sorted(site()[1].items())
-    return [told_row(Told(wearer, n, event)) for wearer, events in each for n, event in enumerate(events)]
+    return [told_row(NumberedEvent(wearer, n, event)) for wearer, events in each for n, event in enumerate(events)]
 
 
 def held(directory: Path) -> list[dict[str, Any]]:

@@ -16,7 +16,7 @@ from fleets import WEARER, stepped, walked
 from solepath import Calibration, CalibrationError, recipes
 from solepath.calibration import ShoeGeometry
 from solepath.emulate.routes.building import BUILDING
-from solepath.fleet import End, Fleet, Sent, Tick, Told, Unreadable, WearerFailed
+from solepath.fleet import End, Fleet, NumberedEvent, Sent, Tick, Unreadable, WearerFailed
 from solepath.link.driver import Reading
 from solepath.session import Session
 from solepath.types import Packet
@@ -126,7 +126,7 @@ def test_a_job_with_devices_of_its_own_goes_to_its_workers_by_name() -> None:
 
 def test_what_is_sent_and_told_can_be_sent_between_workers() -> None:
     _, told = FLEET.step(WEARER, None, walked().sent[:350])
-    both: list[Sent | Told | Unreadable] = [*walked().sent[:10], *told, Unreadable(WEARER, "no JSON", 1, 2)]
+    both: list[Sent | NumberedEvent | Unreadable] = [*walked().sent[:10], *told, Unreadable(WEARER, "no JSON", 1, 2)]
     assert pickle.loads(pickle.dumps(both)) == both
 
 

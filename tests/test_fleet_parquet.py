@@ -19,21 +19,21 @@ pytest.importorskip("pyarrow", reason="pyarrow is not installed (extra: bytewax)
 from pyarrow import parquet
 
 from solepath.events import ActivityChanged, HeelStrike
-from solepath.fleet import TOLD_COLUMNS, StateRefused, Told, told_row
-from solepath.fleet.parquet import GROUPS, Parts
+from solepath.fleet import TOLD_COLUMNS, NumberedEvent, StateRefused, told_row
+from solepath.fleet.parquet import GROUPS, PartFiles
 from solepath.types import Activity, Foot
 
 FIRST = "part-0-00000000.parquet"
 
 
-def told(count: int, wearers: int = 3) -> list[Told]:
+def told(count: int, wearers: int = 3) -> list[NumberedEvent]:
     """Events of a few wearers by turns."""
     events = [
         HeelStrike(t=0.1, known_at=0.12, foot=Foot.LEFT),
         ActivityChanged(t=0.1 + 0.2, known_at=0.5, activity=Activity.WALKING, probability=0.9),
         StateRefused(t=0.0, known_at=0.0, detail='wearer "7" \x00 \N{FOOTPRINTS} \ud800'),
     ]
-    return [Told(f"w{n % wearers}", n // wearers, events[n % len(events)]) for n in range(count)]
+    return [NumberedEvent(f"w{n % wearers}", n // wearers, events[n % len(events)]) for n in range(count)]
 
 
 def rows(directory: Path) -> list[dict[str, Any]]:
@@ -56,7 +56,7 @@ def file(directory: Path, name: str = FIRST) -> Path:
 
 
 def test_a_part_holds_the_rows_of_its_events_wearer_by_wearer(tmp_path: Path) -> None:
-    parts = Parts(tmp_path)
+    parts = PartFiles(tmp_path)
     parts.write(told(20))
     assert names(tmp_path) == []
     assert parts.close() == (parts.run, 1)
@@ -70,13 +70,13 @@ def test_a_part_holds_the_rows_of_its_events_wearer_by_wearer(tmp_path: Path) ->
 
 
 def test_a_part_without_events_is_no_file_and_has_no_number(tmp_path: Path) -> None:
-    parts = Parts(tmp_path)
+    parts = PartFiles(tmp_path)
     assert [parts.close(), parts.close()] == [(parts.run, 0)] * 2
     assert names(tmp_path) == []
 
 
 def test_a_part_that_grows_too_long_is_closed_by_itself(tmp_path: Path) -> None:
-    parts = Parts(tmp_path, group=2)
+    parts = PartFiles(tmp_path, group=2)
     parts.write(told(2 * GROUPS + 1))
     assert names(tmp_path) == [FIRST]
     assert parts.close() == (parts.run, 2)
@@ -87,7 +87,7 @@ def test_a_part_that_grows_too_long_is_closed_by_itself(tmp_path: Path) -> None:
 def test_parts_from_the_resumed_number_on_are_removed_and_no_other_file_is(tmp_path: Path) -> None:
     runs = {}
     for partition in ("0", "1"):
-        parts = Parts(tmp_path, partition)
+        parts = PartFiles(tmp_path, partition)
         for one in told(3):
             parts.write([one])
             parts.close()
@@ -95,12 +95,12 @@ def test_parts_from_the_resumed_number_on_are_removed_and_no_other_file_is(tmp_p
     mine = [".part-1-00000009.parquet.writing", "notes.txt"]
     for name in (".part-1-7-00000009.parquet.writing", ".part-0-7-00000003.parquet.writing", "notes.txt"):
         (tmp_path / name).write_bytes(b"half")
-    assert Parts(tmp_path, "0", (runs["0"], 1)).close() == (runs["0"], 1)
+    assert PartFiles(tmp_path, "0", (runs["0"], 1)).close() == (runs["0"], 1)
     assert names(tmp_path) == sorted([*mine, FIRST, *(f"part-1-0000000{n}.parquet" for n in range(3))])
 
 
 def test_what_is_half_written_is_found_by_no_reader(tmp_path: Path) -> None:
-    parts = Parts(tmp_path)
+    parts = PartFiles(tmp_path)
     parts.write(told(1))
     parts.close()
     whole = file(tmp_path)
@@ -114,7 +114,7 @@ def test_who_remembers_nothing_sets_the_parts_of_a_run_before_aside_and_says_so(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     for count in (1, 2, 3):
-        parts = Parts(tmp_path)
+        parts = PartFiles(tmp_path)
         parts.write(told(count))
         parts.close()
         assert rows(tmp_path) == by_identity([told_row(one) for one in told(count)])
@@ -128,16 +128,16 @@ def test_who_remembers_nothing_sets_the_parts_of_a_run_before_aside_and_says_so(
 def test_who_forgot_once_what_was_remembered_has_it_all_back_with_the_next_start(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    parts, all_told = Parts(tmp_path), told(4)
+    parts, all_told = PartFiles(tmp_path), told(4)
     for one in all_told[:3]:
         parts.write([one])
         known = parts.close()
-    forgetful = Parts(tmp_path)
+    forgetful = PartFiles(tmp_path)
     forgetful.write(all_told[:1])
     forgetful.close()
     assert rows(tmp_path) == [told_row(all_told[0])]
     caplog.clear()
-    parts = Parts(tmp_path, "0", (known[0], 2))
+    parts = PartFiles(tmp_path, "0", (known[0], 2))
     assert rows(tmp_path) == [told_row(one) for one in all_told[:2]]
     parts.write(all_told[2:])
     parts.close()
@@ -147,7 +147,7 @@ def test_who_forgot_once_what_was_remembered_has_it_all_back_with_the_next_start
     ]
     assert names(tmp_path)[0] == f".{FIRST}.replaced"
     caplog.clear()
-    Parts(tmp_path, "0", parts.close())
+    PartFiles(tmp_path, "0", parts.close())
     assert caplog.messages == []
 
 
@@ -164,7 +164,7 @@ def files_of_at_most(size: int) -> Iterator[None]:
 
 
 def test_a_part_that_cannot_be_written_is_named_and_leaves_nothing(tmp_path: Path) -> None:
-    parts = Parts(tmp_path)
+    parts = PartFiles(tmp_path)
     parts.write(told(1))
     number = parts.close()
     parts.write(told(20)[1:])
@@ -173,7 +173,7 @@ def test_a_part_that_cannot_be_written_is_named_and_leaves_nothing(tmp_path: Pat
     assert refused.value.errno == errno.EFBIG
     assert refused.value.filename == str(tmp_path / f"part-0-{parts.run}-00000001.parquet")
     assert names(tmp_path) == [FIRST]
-    again = Parts(tmp_path, "0", number)
+    again = PartFiles(tmp_path, "0", number)
     again.write(told(20)[1:])
     again.close()
     assert by_identity(rows(tmp_path)) == by_identity([told_row(one) for one in told(20)])
@@ -182,7 +182,7 @@ def test_a_part_that_cannot_be_written_is_named_and_leaves_nothing(tmp_path: Pat
 def test_a_partition_is_a_word(tmp_path: Path) -> None:
     for partition in ("", "a/b", "0-1", "..", "a b", "0\n"):
         with pytest.raises(ValueError, match="partition"):
-            Parts(tmp_path, partition)
+            PartFiles(tmp_path, partition)
 
 
 @given(st.lists(st.sampled_from(["write", "write many", "close", "count", "crash"]), max_size=15))
@@ -191,7 +191,7 @@ def test_however_often_it_crashes_each_event_is_there_once(steps: list[str]) -> 
     """What the engine remembers is what a `close` gave, perhaps not the last: it was killed before it could."""
     all_told, at = told(60), 0
     with TemporaryDirectory() as name:
-        parts = Parts(Path(name), group=5)
+        parts = PartFiles(Path(name), group=5)
         counts = (parts.close(), 0)
         for step in steps:
             if step.startswith("write"):
@@ -199,7 +199,7 @@ def test_however_often_it_crashes_each_event_is_there_once(steps: list[str]) -> 
                 parts.write(all_told[at:upto])
                 at = upto
             elif step == "crash":
-                parts, at = Parts(Path(name), "0", counts[0], group=5), counts[1]
+                parts, at = PartFiles(Path(name), "0", counts[0], group=5), counts[1]
             else:
                 number = parts.close()
                 counts = (number, at) if step == "count" else counts

@@ -12,8 +12,8 @@ pytest.importorskip("pyarrow", reason="pyarrow is not installed (extra: bytewax)
 from pyarrow import parquet
 
 from solepath.events import HeelStrike
-from solepath.fleet import Told, told_row
-from solepath.fleet.parquet import Parts
+from solepath.fleet import NumberedEvent, told_row
+from solepath.fleet.parquet import PartFiles
 from solepath.types import Foot
 
 STRIKE = HeelStrike(t=0.1, known_at=0.12, foot=Foot.LEFT)
@@ -23,9 +23,9 @@ Place = tuple[int, int]
 def written(directory: Path, resumes: list[Place | None], number: int = 0) -> list[Place]:
     """A job of so many partitions: wearers of the same names as ever, one event each."""
     partitions = [str(n) for n in range(len(resumes))]
-    parts = [Parts(directory, name, resumes[int(name)], partitions=partitions) for name in partitions]
+    parts = [PartFiles(directory, name, resumes[int(name)], partitions=partitions) for name in partitions]
     for part in parts:
-        part.write([Told(f"w{part.partition}", number, STRIKE)])
+        part.write([NumberedEvent(f"w{part.partition}", number, STRIKE)])
     return [part.close() for part in parts]
 
 
@@ -50,10 +50,10 @@ def test_who_begins_anew_with_fewer_partitions_hides_the_parts_of_those_that_are
 def test_parts_of_a_partition_that_is_no_more_are_not_taken_for_ones_own_though_their_run_began_in_the_same_ms(
     tmp_path: Path,
 ) -> None:
-    other = Parts(tmp_path, "1", (5, 0))
-    other.write([Told("w1", 0, STRIKE)])
+    other = PartFiles(tmp_path, "1", (5, 0))
+    other.write([NumberedEvent("w1", 0, STRIKE)])
     assert other.close() == (5, 1)
-    Parts(tmp_path, "0", (5, 0), partitions=["0"])
+    PartFiles(tmp_path, "0", (5, 0), partitions=["0"])
     assert [path.name for path in tmp_path.iterdir()] == [".part-1-5-00000000.parquet.replaced"]
 
 
@@ -63,15 +63,15 @@ def test_a_job_on_bytewax_hides_the_parts_of_partitions_that_it_does_not_have(tm
 
     written(tmp_path, [None] * 2)
     part = ParquetSink(tmp_path).build_part("files", "0", None)
-    part.write_batch([Told("w0", 0, STRIKE), Told("w1", 0, STRIKE)])
+    part.write_batch([NumberedEvent("w0", 0, STRIKE), NumberedEvent("w1", 0, STRIKE)])
     part.snapshot()
     assert found(tmp_path) == [("w0", 0), ("w1", 0)]
 
 
 def test_what_others_write_into_the_directory_stays_where_nobody_says_who_writes(tmp_path: Path) -> None:
     written(tmp_path, [None] * 2)
-    again = Parts(tmp_path, "0")
-    again.write([Told("w0", 7, STRIKE)])
+    again = PartFiles(tmp_path, "0")
+    again.write([NumberedEvent("w0", 7, STRIKE)])
     again.close()
     assert found(tmp_path) == [("w0", 7), ("w1", 0)]
 
@@ -80,19 +80,19 @@ def test_what_others_write_into_the_directory_stays_where_nobody_says_who_writes
 def test_a_directory_with_the_name_of_a_part_is_no_part_and_is_named_where_it_is_in_the_way(
     tmp_path: Path, name: str
 ) -> None:
-    parts = Parts(tmp_path)
-    parts.write([Told("w", 0, STRIKE)])
+    parts = PartFiles(tmp_path)
+    parts.write([NumberedEvent("w", 0, STRIKE)])
     place = parts.close()
     strange = tmp_path / name.format(run=parts.run)
     strange.mkdir()
-    parts = Parts(tmp_path, "0", place)
-    parts.write([Told("w", 1, STRIKE)])
+    parts = PartFiles(tmp_path, "0", place)
+    parts.write([NumberedEvent("w", 1, STRIKE)])
     with pytest.raises(OSError) as refused:
         parts.close()
     assert refused.value.filename == str(tmp_path / f"part-0-{parts.run}-00000001.parquet")
     strange.rmdir()
-    parts = Parts(tmp_path, "0", place)
-    parts.write([Told("w", 1, STRIKE)])
+    parts = PartFiles(tmp_path, "0", place)
+    parts.write([NumberedEvent("w", 1, STRIKE)])
     parts.close()
     assert found(tmp_path) == [("w", 0), ("w", 1)]
 
@@ -102,8 +102,8 @@ def test_a_directory_with_the_name_of_a_part_is_no_part_and_is_named_where_it_is
 )
 def test_a_wearer_of_any_name_ends_no_job(tmp_path: Path, wearer: str, name: str) -> None:
     """A key may hold half a character, as JSON lets it; a table holds UTF-8."""
-    told: list[Any] = [Told(wearer, 0, STRIKE), Told("w", 0, STRIKE)]
-    parts = Parts(tmp_path)
+    told: list[Any] = [NumberedEvent(wearer, 0, STRIKE), NumberedEvent("w", 0, STRIKE)]
+    parts = PartFiles(tmp_path)
     parts.write(told)
     parts.close()
     assert found(tmp_path) == sorted([(name, 0), ("w", 0)])

@@ -17,7 +17,7 @@ from solepath.fleet import End, Fleet, NumbersMissing, Once, Sent, SentRejected,
 from solepath.fleet.step.once import RANGES
 from solepath.fleet.step.order import HELD
 from solepath.fleet.step.sent import LONGEST_DATA
-from solepath.fleet.step.state import Identity, Rest, write_state
+from solepath.fleet.step.state import Identity, OtherState, write_state
 from solepath.session import Session
 from solepath.types import Packet, Site
 
@@ -52,7 +52,7 @@ def finished() -> Session:
 def test_a_session_that_is_finished_is_not_adopted_and_no_state_goes_on_from_it() -> None:
     with pytest.raises(SnapshotError, match="finished"):
         FLEET.adopt(finished().snapshot())
-    state = write_state(Identity(-1, 0, 0, 1.0), Rest(session=finished().pack()))
+    state = write_state(Identity(-1, 0, 0, 1.0), OtherState(session=finished().pack()))
     _, (refused, *rest) = FLEET.step(WEARER, state, [shown(0)])
     assert isinstance(refused.event, StateRefused) and "finished" in refused.event.detail
     assert uses(rest) == [("used", 0, 0, None)]

@@ -21,7 +21,7 @@ import pytest
 
 from solepath import Session, recipes
 from solepath.emulate.radio import CLEAN
-from solepath.fleet import End, Fleet, Once, Sent, Told, sent_line, told_row
+from solepath.fleet import End, Fleet, NumberedEvent, Once, Sent, sent_line, told_row
 from walks import ROUGH, insoles
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def sessions_tell(wearer: str, recipe: str) -> list[dict[str, Any]]:
     """Rows of what a session of his own says."""
     session = Session(recipes.BY_NAME[recipe])
     events = session.feed([sent.what for sent in sent_by(wearer)[:-1]]) + session.finish()
-    return [told_row(Told(wearer, number, event)) for number, event in enumerate(events)]
+    return [told_row(NumberedEvent(wearer, number, event)) for number, event in enumerate(events)]
 
 
 def messages(wearers: tuple[str, ...] = WEARERS, lines: int = 5) -> list[tuple[bytes, bytes]]:

@@ -12,7 +12,7 @@ import pytest
 from fleets import WEARER, shown, uses, walked
 from solepath.fleet import End, Fleet, StateRefused, Tick
 from solepath.fleet.step.sent import MOST
-from solepath.fleet.step.state import Identity, Rest, read_rest, write_state
+from solepath.fleet.step.state import Identity, OtherState, read_rest, write_state
 
 STATES = json.loads((Path(__file__).parent.parent / "protocol" / "fleet" / "states.json").read_text())["states"]
 FLEET = Fleet()
@@ -36,7 +36,7 @@ def test_rows_that_were_held_when_a_session_was_lost_are_used_in_their_turn() ->
     assert uses(rest) == [("used", 0, number, None) for number in (100, 101, 102, 103)]
 
 
-IN_ORDER = Rest(held={(6, 300): Tick(1.0), (6, 302): Tick(2.0), (7, 0): End()})
+IN_ORDER = OtherState(held={(6, 300): Tick(1.0), (6, 302): Tick(2.0), (7, 0): End()})
 
 
 @pytest.mark.parametrize(
@@ -48,7 +48,7 @@ def test_a_state_that_holds_what_cannot_be_held_is_refused(held: list[tuple[int,
     """Its checksum holds: whoever wrote it was wrong, or it was damaged before."""
     identity = Identity(6, 299, 1200, 12.25)
     assert read_rest(write_state(identity, IN_ORDER)) == IN_ORDER
-    state = write_state(identity, Rest(held={place: Tick(1.0) for place in held}))
+    state = write_state(identity, OtherState(held={place: Tick(1.0) for place in held}))
     after, told = Fleet(window=0).step(WEARER, state, [shown(305, 6), shown(306, 6)])
     assert isinstance(told[0].event, StateRefused)
     assert uses(told[1:]) == [("missing", 6, 299, 6), ("used", 6, 305, None), ("used", 6, 306, None)]
@@ -56,7 +56,7 @@ def test_a_state_that_holds_what_cannot_be_held_is_refused(held: list[tuple[int,
 
 
 def test_what_is_held_twice_cannot_be_held() -> None:
-    twice = write_state(Identity(6, 299, 0, 0.0), Rest(held={(6, 300): End(), (6, 301): End()}))
+    twice = write_state(Identity(6, 299, 0, 0.0), OtherState(held={(6, 300): End(), (6, 301): End()}))
     rest = twice[41:-4].replace(bytes.fromhex("06ad0202"), bytes.fromhex("06ac0202"))
     assert rest.count(bytes.fromhex("06ac0202")) == 2
     (told,) = FLEET.step(WEARER, twice[:41] + rest + crc32(rest).to_bytes(4, "little"), [])[1]

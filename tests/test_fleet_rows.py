@@ -21,11 +21,11 @@ from solepath.fleet import (
     End,
     Fleet,
     FleetEvent,
+    NumberedEvent,
     NumbersMissing,
     Refusal,
     Sent,
     Tick,
-    Told,
     Unreadable,
     read_line,
     read_sent,
@@ -125,7 +125,7 @@ def test_a_time_that_json_cannot_write_is_no_line() -> None:
 
 
 def test_an_event_is_a_row_with_its_identity_its_times_its_foot_and_the_rest_as_json() -> None:
-    told = Told("w", 7, HeelStrike(t=1.5, known_at=1.75, foot=Foot.LEFT))
+    told = NumberedEvent("w", 7, HeelStrike(t=1.5, known_at=1.75, foot=Foot.LEFT))
     row = told_row(told)
     assert row.keys() == TOLD_COLUMNS.keys()
     rest = json.loads(row.pop("fields"))
@@ -136,10 +136,10 @@ def test_an_event_is_a_row_with_its_identity_its_times_its_foot_and_the_rest_as_
 
 
 def test_an_event_without_a_foot_or_with_a_time_that_is_none_is_a_row_too() -> None:
-    missing = told_row(Told("w", 0, NumbersMissing(t=0.0, known_at=0.0, run=0, first=3, count=4)))
+    missing = told_row(NumberedEvent("w", 0, NumbersMissing(t=0.0, known_at=0.0, run=0, first=3, count=4)))
     assert missing["foot"] is None and json.loads(missing["fields"]) == {"run": 0, "first": 3, "count": 4}
     lost = PacketRejected(t=nan, known_at=1.0, site=Site.PELVIS, channel="\ud83d", reason=Rejection.NOT_FINITE)
-    row = told_row(Told("w", 1, lost))
+    row = told_row(NumberedEvent("w", 1, lost))
     assert row["t"] is None and json.loads(row["fields"])["channel"] == "\ud83d"
 
 

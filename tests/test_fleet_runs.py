@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from fleets import WEARER, shown, stepped, uses, walked
 from solepath.events import PacketRejected, Rejection, StrideTaken
-from solepath.fleet import End, Fleet, NumbersMissing, Sent, SentRejected, Told
+from solepath.fleet import End, Fleet, NumberedEvent, NumbersMissing, Sent, SentRejected
 from solepath.fleet.step.sent import MOST
 
 FLEET, NARROW = Fleet(), Fleet(window=3)
@@ -19,7 +19,7 @@ def run(of: int, count: int, first: int = 0) -> list[Sent]:
     return [shown(number, of) for number in range(first, first + count)]
 
 
-def used(told: list[Told]) -> list[tuple[int | None, int | None]]:
+def used(told: list[NumberedEvent]) -> list[tuple[int | None, int | None]]:
     return [(of, number) for what, of, number, _ in uses(told) if what == "used"]
 
 

@@ -1,8 +1,8 @@
 """A fleet on Spark: the events of sessions, also past rows of anything and states of nobody.
 
-    pip install solepath[spark,test], Java 17, then
-    python -m pytest -m "spark and not soak" tests/test_fleet_spark*.py            # about three minutes
-    python -m pytest -m "spark and soak" -s tests/test_fleet_spark*.py             # 1,000 wearers; prints its rate
+pip install solepath[spark,test], Java 17, then
+python -m pytest -m "spark and not soak" tests/test_fleet_spark*.py            # about three minutes
+python -m pytest -m "spark and soak" -s tests/test_fleet_spark*.py             # 1,000 wearers; prints its rate
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any
 
 import pytest
 
-from solepath.fleet import TOLD_COLUMNS, Fleet, Sent, Told, sent_line, sent_row, told_row
+from solepath.fleet import TOLD_COLUMNS, Fleet, NumberedEvent, Sent, sent_line, sent_row, told_row
 from solepath.recipes import BY_NAME
 from solepath.session import Session
 from solepath.types import Packet, Site
@@ -127,7 +127,7 @@ def test_a_fleet_with_a_device_of_ones_own_is_made_where_it_is_used(spark, tmp_p
     events = run(stream(spark, tmp_path / "sent"), tmp_path, of_toys)
     said = Session(profiles=[BASE]).feed(packets)
     assert {"BatteryLevel", "PacketRejected"} <= {row["event"] for row in events}
-    assert events == [told_row(Told("w0", number, event)) for number, event in enumerate(said)]
+    assert events == [told_row(NumberedEvent("w0", number, event)) for number, event in enumerate(said)]
 
 
 # --- what goes wrong --------------------------------------------------------------------------------------------------

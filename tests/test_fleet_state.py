@@ -18,14 +18,14 @@ from hypothesis import strategies as st
 from fleets import WEARER, shown, uses, walked
 from solepath import SnapshotError, recipes
 from solepath.emulate.routes.building import BUILDING
-from solepath.fleet import End, Fleet, Refusal, Sent, SentRejected, StateRefused, Tick, Told, Unreadable
+from solepath.fleet import End, Fleet, NumberedEvent, Refusal, Sent, SentRejected, StateRefused, Tick, Unreadable
 from solepath.fleet.step.keyed import first_number
-from solepath.fleet.step.order import Refused
+from solepath.fleet.step.order import RejectedItem
 from solepath.fleet.step.state import (
     READERS,
     VERSION,
     Identity,
-    Rest,
+    OtherState,
     StateError,
     read_identity,
     read_rest,
@@ -58,7 +58,7 @@ def held_as_told(place: tuple[int, int], what: Any) -> dict[str, Any]:
             return {"run": place[0], "number": place[1], "packet": packet}
         case Tick(t):
             return {"run": place[0], "number": place[1], "tick": t}
-        case Refused(reason, detail):
+        case RejectedItem(reason, detail):
             return {"run": place[0], "number": place[1], "reason": reason.value, "detail": detail}
     raise AssertionError(what)
 
@@ -215,7 +215,7 @@ def test_a_detector_of_ones_own_that_cannot_be_saved_costs_its_wearer_the_sessio
 
 
 def test_a_damaged_rest_is_named() -> None:
-    rest = Rest(held={(0, 2): Tick(1.0), (0, 5): End()})
+    rest = OtherState(held={(0, 2): Tick(1.0), (0, 5): End()})
     state = write_state(Identity(0, 1, 0, 0.0), rest)
     assert read_rest(state) == rest
     for end in range(41, len(state)):
@@ -249,7 +249,7 @@ def test_a_wearer_of_an_older_release_goes_on_from_its_state_and_from_its_snapsh
     known = session.now
     events = [event for packet in after for event in session.feed(packet)] + session.finish()
     sent = [*[Sent(WEARER, 40 + n, packet) for n, packet in enumerate(after)], Sent(WEARER, 40 + len(after), End())]
-    _, told = FLEET.step(WEARER, write_state(Identity(0, 40, 300, known), Rest(session=packed)), sent)
+    _, told = FLEET.step(WEARER, write_state(Identity(0, 40, 300, known), OtherState(session=packed)), sent)
     assert [one.event for one in told] == events and told[0].number == 300
     adopted = FLEET.adopt(json.loads(snapshot))
     _, told = FLEET.step(WEARER, adopted, [evolve(one, number=one.number - 40) for one in sent])
@@ -266,4 +266,4 @@ def test_a_snapshot_that_cannot_go_on_is_not_adopted() -> None:
 def test_told_of_a_refused_row_is_why() -> None:
     (one,) = FLEET.step(WEARER, None, [Unreadable(WEARER, "no JSON")])[1]
     refused = SentRejected(t=0.0, known_at=0.0, reason=Refusal.UNREADABLE, detail="no JSON")
-    assert one == Told(WEARER, 0, refused)
+    assert one == NumberedEvent(WEARER, 0, refused)

@@ -14,7 +14,16 @@ from solepath.floorplan.crossing import Walls
 from solepath.floorplan.enclosure import Enclosure
 from solepath.floorplan.grid import Grid
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import Connector, Door, FloorPlan, FloorPlanError, Kind, Level, Stop, Wall
+from solepath.floorplan.plan import (
+    Connector,
+    ConnectorKind,
+    ConnectorStop,
+    Door,
+    FloorPlan,
+    FloorPlanError,
+    Level,
+    Wall,
+)
 from solepath.floorplan.segments import distance, side, touch
 
 Line = tuple[tuple[float, float], tuple[float, float]]
@@ -162,8 +171,8 @@ def level(own: str, elevation: float, **more: object) -> Level:
     return Level(own, own, round(elevation / 3.0), elevation, walls, (Door((4.0, 0.0), (5.0, 0.0)),), **more)  # type: ignore[arg-type]
 
 
-LIFT = Connector(Kind.LIFT, "lift", (Stop("0", (9.0, 5.0)), Stop("1", (9.0, 5.0))))
-STAIRS = Connector(Kind.STAIRS, "stairs", (Stop("0", (1.0, 5.0)), Stop("1", (2.0, 5.0))))
+LIFT = Connector(ConnectorKind.LIFT, "lift", (ConnectorStop("0", (9.0, 5.0)), ConnectorStop("1", (9.0, 5.0))))
+STAIRS = Connector(ConnectorKind.STAIRS, "stairs", (ConnectorStop("0", (1.0, 5.0)), ConnectorStop("1", (2.0, 5.0))))
 HOUSE = FloorPlan("house", (level("0", 0.0), level("1", 3.0)), (LIFT, STAIRS))
 
 
@@ -192,7 +201,7 @@ def test_where_walls_do_not_close_one_is_inside_the_hull_of_them_all() -> None:
 
 def test_with_rooms_one_is_inside_them_and_on_doorsteps_and_in_stairwells() -> None:
     shaft = ((11.0, 2.0), (12.0, 2.0), (12.0, 3.0), (11.0, 3.0))
-    lift = Connector(Kind.LIFT, "lift", (Stop("0", (11.5, 2.5), shaft),))
+    lift = Connector(ConnectorKind.LIFT, "lift", (ConnectorStop("0", (11.5, 2.5), shaft),))
     room = ((0.0, 0.0), (10.0, 0.0), (10.0, 6.0), (6.0, 6.0), (6.0, 3.0), (0.0, 3.0))
     plan = IndexedPlan(FloorPlan("rooms", (level("0", 0.0, rooms=(room,)),), (lift,)))
     for x, y in ((1.0, 1.0), (9.0, 5.0), (5.99, 2.99), (4.5, -0.4), (11.5, 2.5)):
@@ -228,10 +237,10 @@ def test_the_nearest_stop_of_a_kind_is_found() -> None:
     plan = IndexedPlan(HOUSE)
     found = plan.nearest(1, 9.0, 4.0)
     assert found == (LIFT, LIFT.stops[1], 1.0)
-    found = plan.nearest(1, 9.0, 5.0, Kind.STAIRS)
+    found = plan.nearest(1, 9.0, 5.0, ConnectorKind.STAIRS)
     assert found == (STAIRS, STAIRS.stops[1], 7.0)
     assert plan.stops(0) == ((LIFT, LIFT.stops[0]), (STAIRS, STAIRS.stops[0]))
-    assert plan.stops(0, Kind.LIFT) == ((LIFT, LIFT.stops[0]),)
+    assert plan.stops(0, ConnectorKind.LIFT) == ((LIFT, LIFT.stops[0]),)
     assert IndexedPlan(FloorPlan("none", (level("0", 0.0),))).nearest(0, 1.0, 1.0) is None
 
 

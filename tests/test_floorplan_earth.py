@@ -34,8 +34,10 @@ def vincenty(a: tuple[float, float], b: tuple[float, float]) -> float:
         cos2_alpha = 1.0 - sin_alpha**2
         cos_2m = cos_sigma - 2.0 * math.sin(u1) * math.sin(u2) / cos2_alpha if cos2_alpha > 1e-12 else 0.0
         k = f / 16.0 * cos2_alpha * (4.0 + f * (4.0 - 3.0 * cos2_alpha))
-        before, lam = lam, difference + (1.0 - k) * f * sin_alpha * (
-            sigma + k * sin_sigma * (cos_2m + k * cos_sigma * (2.0 * cos_2m**2 - 1.0))
+        before, lam = (
+            lam,
+            difference
+            + (1.0 - k) * f * sin_alpha * (sigma + k * sin_sigma * (cos_2m + k * cos_sigma * (2.0 * cos_2m**2 - 1.0))),
         )
         if abs(lam - before) < 1e-15:
             break

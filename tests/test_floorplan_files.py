@@ -21,7 +21,7 @@ from solepath.floorplan.importers import reading
 from solepath.floorplan.importers.geojson import text_of, write_floorplan
 from solepath.floorplan.importers.reading import plan_of_bytes, read_floorplan
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import Anchor, FloorPlan, FloorPlanError, Kind
+from solepath.floorplan.plan import Anchor, ConnectorKind, FloorPlan, FloorPlanError
 
 HOUSE = read_floorplan(FILES / "house.geojson")
 INVALID = json.loads((FILES / "invalid.json").read_text(encoding="utf-8"))
@@ -40,7 +40,7 @@ def test_the_house_is_what_it_looks_like() -> None:
     assert [(level.id, level.name, level.ordinal) for level in HOUSE.levels] == [("0", "Ground floor", 0),
                                                                                ("1", "First floor", 1)]  # fmt: skip
     assert [(one.kind, one.name, [stop.level for stop in one.stops]) for one in HOUSE.connectors] == [
-        (Kind.LIFT, "Lift", ["0", "1"]), (Kind.STAIRS, "Stairs", ["0", "1"])]  # fmt: skip
+        (ConnectorKind.LIFT, "Lift", ["0", "1"]), (ConnectorKind.STAIRS, "Stairs", ["0", "1"])]  # fmt: skip
     assert not HOUSE.heights_known
     plan = IndexedPlan(HOUSE)
     assert not plan.crosses(0, -0.5, 5.0, 0.5, 5.0)  # in at the entrance,

@@ -13,7 +13,7 @@ from floorplans import FILES, archive
 from solepath.floorplan.importers.earth import Tangent
 from solepath.floorplan.importers.reading import plan_of_bytes, read_floorplan
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import Anchor, FloorPlan, FloorPlanError, Kind, Point
+from solepath.floorplan.plan import Anchor, ConnectorKind, FloorPlan, FloorPlanError, Point
 
 CORNER = Tangent(Anchor(48.15, 11.57))
 HOUSE = read_floorplan(FILES / "house.geojson")
@@ -108,9 +108,9 @@ def test_lifts_are_joined_where_they_lie_over_each_other_and_stop_where_they_are
     units += [unit("s", "stairs", box(2, 2, 4, 4), "L1")]
     found = plan_of(units, levels).connectors
     assert [(one.kind, one.name, [(stop.level, stop.place) for stop in one.stops]) for one in found] == [
-        (Kind.LIFT, "A", [("G", (3.5, 2.5)), ("1", (3.5, 2.5)), ("2", (3.5, 2.5))]),
-        (Kind.LIFT, "B", [("G", (5.0, 3.0)), ("1", (5.0, 3.0))]),
-        (Kind.STAIRS, "", [("1", (3.0, 3.0))]),
+        (ConnectorKind.LIFT, "A", [("G", (3.5, 2.5)), ("1", (3.5, 2.5)), ("2", (3.5, 2.5))]),
+        (ConnectorKind.LIFT, "B", [("G", (5.0, 3.0)), ("1", (5.0, 3.0))]),
+        (ConnectorKind.STAIRS, "", [("1", (3.0, 3.0))]),
     ]
 
 

@@ -14,7 +14,7 @@ from solepath.floorplan.importers.earth import Tangent
 from solepath.floorplan.importers.osm_tags import levels_told
 from solepath.floorplan.importers.reading import plan_of_bytes
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import Anchor, Door, FloorPlan, FloorPlanError, Kind, Point
+from solepath.floorplan.plan import Anchor, ConnectorKind, Door, FloorPlan, FloorPlanError, Point
 
 CORNER = Tangent(Anchor(48.15, 11.57))
 
@@ -160,9 +160,9 @@ def test_stairs_and_lifts_stop_at_all_their_levels() -> None:
     drawn.way(box(6, 2, 9, 4), indoor="room", stairs="yes", level="0-1", repeat_on="2", step__height="0.17")
     found = drawn.node((15.0, 5.0), highway="elevator", level="0;2").plan().connectors
     assert [(one.kind, one.name, one.rise, [(stop.level, stop.place) for stop in one.stops]) for one in found] == [
-        (Kind.LIFT, "", None, [("0", (15.0, 5.0)), ("2", (15.0, 5.0))]),
-        (Kind.LIFT, "L1", None, [("0", (3.0, 3.0)), ("1", (3.0, 3.0)), ("2", (3.0, 3.0))]),
-        (Kind.STAIRS, "", 0.17, [("0", (7.5, 3.0)), ("1", (7.5, 3.0)), ("2", (7.5, 3.0))]),
+        (ConnectorKind.LIFT, "", None, [("0", (15.0, 5.0)), ("2", (15.0, 5.0))]),
+        (ConnectorKind.LIFT, "L1", None, [("0", (3.0, 3.0)), ("1", (3.0, 3.0)), ("2", (3.0, 3.0))]),
+        (ConnectorKind.STAIRS, "", 0.17, [("0", (7.5, 3.0)), ("1", (7.5, 3.0)), ("2", (7.5, 3.0))]),
     ]
 
 

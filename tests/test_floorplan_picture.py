@@ -13,7 +13,7 @@ from commands import run
 from floorplans import FILES
 from solepath.cli.common.failure import Failure
 from solepath.cli.common.floorplan import start_of
-from solepath.floorplan.plan import Connector, FloorPlan, Kind, Level, Stop, Wall
+from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Wall
 from solepath.recording import PacketWriter
 from solepath.show.tables.plan import PlanPicture
 from walks import insoles
@@ -25,7 +25,7 @@ any_text = st.text(st.characters(), min_size=1, max_size=12) | st.sampled_from(
 
 def named(level: str, lift: str) -> FloorPlan:
     walls = (Wall((0.0, 0.0), (20.0, 0.0)), Wall((20.0, 0.0), (20.0, 10.0)))
-    one = Connector(Kind.LIFT, lift, (Stop(level, (5.0, 5.0)),))
+    one = Connector(ConnectorKind.LIFT, lift, (ConnectorStop(level, (5.0, 5.0)),))
     return FloorPlan(level, (Level(level, lift, 0, 0.0, walls),), (one,))
 
 

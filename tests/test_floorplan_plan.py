@@ -17,14 +17,14 @@ from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import (
     Anchor,
     Connector,
+    ConnectorKind,
+    ConnectorStop,
     Door,
     FloorPlan,
     FloorPlanError,
-    Kind,
     Level,
     Point,
     Start,
-    Stop,
     Wall,
 )
 from solepath.session import Session
@@ -37,8 +37,8 @@ def with_level(**changes: object) -> FloorPlan:
     return evolve(HOUSE, levels=(evolve(GROUND, **changes), *HOUSE.levels[1:]))  # type: ignore[arg-type]
 
 
-def stairs(*stops: Stop, **more: object) -> FloorPlan:
-    return evolve(HOUSE, connectors=(Connector(Kind.STAIRS, "A", stops, **more),))  # type: ignore[arg-type]
+def stairs(*stops: ConnectorStop, **more: object) -> FloorPlan:
+    return evolve(HOUSE, connectors=(Connector(ConnectorKind.STAIRS, "A", stops, **more),))  # type: ignore[arg-type]
 
 
 def box(x0: float, y0: float, x1: float, y1: float) -> tuple[Wall, ...]:
@@ -70,7 +70,7 @@ def test_a_plan_knows_a_round_place_near_which_it_is_with_walls_or_rooms_or_stop
     walled = Level("0", "", 0, 0.0, (Wall(far[0], far[1]),))
     roomed = Level("0", "", 0, 0.0, (), (), (far,))
     bare = Level("0", "", 0, 0.0, ())
-    lift = Connector(Kind.LIFT, "", (Stop("0", far[0]),))
+    lift = Connector(ConnectorKind.LIFT, "", (ConnectorStop("0", far[0]),))
     for plan in (FloorPlan("", (walled,)), FloorPlan("", (bare, roomed)), FloorPlan("", (bare,), (lift,))):
         assert plan.origin == (1e6, -2e6 - 1.0)
     assert FloorPlan("", (bare,)).origin == (0.0, 0.0)
@@ -94,15 +94,16 @@ UNUSABLE = [
     (FloorPlan("", (Level("0", "", 0, 0.0, (Wall((11.57, 48.15), (11.5706, 48.1503)),)),)),
      "the plan is 0.0006 wide; it must be in metres, is it in degrees or another unit?"),
     (stairs(), "stairs 'A': has no stops"),
-    (stairs(Stop("2", (1.0, 1.0))), "stairs 'A': stops at level '2', which the plan does not have"),
-    (stairs(Stop("1", (1.0, 1.0)), Stop("0", (1.0, 1.0))),
+    (stairs(ConnectorStop("2", (1.0, 1.0))), "stairs 'A': stops at level '2', which the plan does not have"),
+    (stairs(ConnectorStop("1", (1.0, 1.0)), ConnectorStop("0", (1.0, 1.0))),
      "stairs 'A': its stops are not from the lowest to the highest"),
-    (stairs(Stop("0", (1.0, 1.0)), Stop("0", (2.0, 1.0))),
+    (stairs(ConnectorStop("0", (1.0, 1.0)), ConnectorStop("0", (2.0, 1.0))),
      "stairs 'A': its stops are not from the lowest to the highest"),
-    (stairs(Stop("0", (math.nan, 1.0))), "stairs 'A': its stop at level '0' is at (nan, 1)"),
-    (stairs(Stop("0", (1.0, 1.0), ((0.0, 0.0), (1.0, 1.0)))), "stairs 'A': its outline at level '0' has 2 corners"),
-    (stairs(Stop("0", (1.0, 1.0)), flights=0), "stairs 'A': has 0 flights a storey"),
-    (stairs(Stop("0", (1.0, 1.0)), rise=17.0), "stairs 'A': its steps rise 17 m"),
+    (stairs(ConnectorStop("0", (math.nan, 1.0))), "stairs 'A': its stop at level '0' is at (nan, 1)"),
+    (stairs(ConnectorStop("0", (1.0, 1.0), ((0.0, 0.0), (1.0, 1.0)))),
+     "stairs 'A': its outline at level '0' has 2 corners"),
+    (stairs(ConnectorStop("0", (1.0, 1.0)), flights=0), "stairs 'A': has 0 flights a storey"),
+    (stairs(ConnectorStop("0", (1.0, 1.0)), rise=17.0), "stairs 'A': its steps rise 17 m"),
     (evolve(HOUSE, anchor=Anchor(91.0, 0.0)), "the anchor is at latitude 91, longitude 0"),
     (evolve(HOUSE, anchor=Anchor(0.0, 0.0, math.nan)), "the anchor's bearing is nan rad"),
 ]  # fmt: skip
@@ -160,7 +161,9 @@ def test_free_standing_walls_indoors_are_no_open_walls() -> None:
 
 
 def test_connectors_that_lead_nowhere_and_levels_that_nothing_leads_to_are_said() -> None:
-    plan = evolve(HOUSE, heights_known=True, connectors=(Connector(Kind.LIFT, "L", (Stop("1", (14.0, 7.0)),)),))
+    plan = evolve(
+        HOUSE, heights_known=True, connectors=(Connector(ConnectorKind.LIFT, "L", (ConnectorStop("1", (14.0, 7.0)),)),)
+    )
     assert warnings(plan) == ("lift 'L': stops at level '1' only", "level '0': neither stairs nor a lift lead there",
                               "level '1': neither stairs nor a lift lead there")  # fmt: skip
 
@@ -241,11 +244,11 @@ MISSHAPEN = [
     (with_level(doors=(Door((0, 0), (True, 1)),)),
      "level '0': door 0 is ((0, 0), (True, 1)), not from (x, y) to (x, y)"),
     (with_level(rooms=(((0, 0), (1, 0), (1, None)),)), "level '0': room 0 has a corner (1, None), not (x, y)"),
-    (stairs(Stop("0", None)), "stairs 'A': a stop has a place None, not (x, y)"),
-    (stairs(Stop(["0"], (1.0, 1.0))), "stairs 'A': the level of a stop is a list, not a text"),
-    (stairs(Stop("0", (1.0, 1.0)), flights=1.5), "stairs 'A': has 1.5 flights, not a whole number"),
-    (stairs(Stop("0", (1.0, 1.0)), flights=10**5000), "stairs 'A': has a huge number flights a storey"),
-    (stairs(Stop("0", (1.0, 1.0)), rise=HUGE), "stairs 'A': its steps rise a huge number m"),
+    (stairs(ConnectorStop("0", None)), "stairs 'A': a stop has a place None, not (x, y)"),
+    (stairs(ConnectorStop(["0"], (1.0, 1.0))), "stairs 'A': the level of a stop is a list, not a text"),
+    (stairs(ConnectorStop("0", (1.0, 1.0)), flights=1.5), "stairs 'A': has 1.5 flights, not a whole number"),
+    (stairs(ConnectorStop("0", (1.0, 1.0)), flights=10**5000), "stairs 'A': has a huge number flights a storey"),
+    (stairs(ConnectorStop("0", (1.0, 1.0)), rise=HUGE), "stairs 'A': its steps rise a huge number m"),
 ]  # fmt: skip
 
 
@@ -288,8 +291,8 @@ def test_a_start_that_cannot_be_is_refused_by_the_session_in_one_line(start: Sta
 def test_a_plan_has_no_more_levels_stops_walls_and_corners_than_are_good_for_a_session() -> None:
     def lifts(count: int, stops: int) -> FloorPlan:
         levels = tuple(Level(str(k), "", k, 3.0 * k, box(0.0, 0.0, 20.0, 10.0)) for k in range(stops))
-        each = tuple(Stop(str(k), (1.0, 1.0)) for k in range(stops))
-        return FloorPlan("", levels, tuple(Connector(Kind.LIFT, str(k), each) for k in range(count)))
+        each = tuple(ConnectorStop(str(k), (1.0, 1.0)) for k in range(stops))
+        return FloorPlan("", levels, tuple(Connector(ConnectorKind.LIFT, str(k), each) for k in range(count)))
 
     too_many = "the plan's stairs and lifts have more than 2000 stops"
     assert unusable(lifts(66_000, 1)) == unusable(lifts(1001, 2)) == unusable(lifts(250, 300)) == too_many

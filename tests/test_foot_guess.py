@@ -11,14 +11,14 @@ from hypothesis import strategies as st
 from solepath import Foot, Layout
 from solepath.emulate.sensors.insoles import layout
 from solepath.foot.pressure.guess import LayoutGuess
-from solepath.foot.pressure.insole import Insole
+from solepath.foot.pressure.insole import InsoleLoads
 from walks import samples
 
 
 @cache
 def guessed(cells: int) -> Layout | None:
     """What is made of the left insole of a short walk that does not say where its cells are."""
-    insole, guess = Insole(), LayoutGuess(Foot.LEFT)
+    insole, guess = InsoleLoads(), LayoutGuess(Foot.LEFT)
     for sample in samples(cells=cells):
         if sample.site.foot is Foot.LEFT and sample.pressure:
             load = insole.update(sample.t, sample.pressure)

@@ -10,7 +10,7 @@ from solepath import Cell, Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
-from solepath.foot.pressure.insole import Extremes, Insole
+from solepath.foot.pressure.insole import Extremes, InsoleLoads
 from walks import LEFT, SHORT, insoles, of
 
 SOLE = Layout(7, Foot.LEFT, (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.13, 0.0), Cell(0.20, 0.02)), 0.26)
@@ -23,9 +23,9 @@ def above(*loads: float) -> tuple[float, ...]:
     return tuple(zero + load for zero, load in zip(TARE, loads, strict=True))
 
 
-def worn(*frames: tuple[float, ...]) -> Insole:
+def worn(*frames: tuple[float, ...]) -> InsoleLoads:
     """An insole that has been through some frames at 100 Hz."""
-    insole = Insole()
+    insole = InsoleLoads()
     insole.wear(SOLE)
     for k, cells in enumerate(frames):
         insole.update(0.01 * k, cells)
@@ -37,7 +37,7 @@ STEP = (above(100, 100, 50, 150), above(0, 0, 0, 200), TARE, above(30, 30, 0, 0)
 
 
 def test_nothing_is_known_until_the_load_has_fallen_and_risen_again() -> None:
-    insole = Insole()
+    insole = InsoleLoads()
     insole.wear(SOLE)
     said = [insole.update(0.01 * k, cells) for k, cells in enumerate(STEP)]
     assert [load is None for load in said] == [True, True, True, True, False]
@@ -45,7 +45,7 @@ def test_nothing_is_known_until_the_load_has_fallen_and_risen_again() -> None:
 
 def test_a_load_that_only_falls_is_not_a_foot_in_the_air() -> None:
     """Weight goes over to the other foot before the first step: the least load so far is still a load."""
-    insole = Insole()
+    insole = InsoleLoads()
     insole.wear(SOLE)
     for k in range(60):
         share = 1.0 - 0.01 * k
@@ -64,7 +64,7 @@ def test_the_load_is_a_share_of_the_wearers_own() -> None:
 
 
 def test_newtons_and_counts_serve_alike() -> None:
-    one, other = worn(*STEP), Insole()
+    one, other = worn(*STEP), InsoleLoads()
     other.wear(SOLE)
     for k, cells in enumerate(STEP):
         other.update(0.01 * k, tuple(4.7 * value for value in cells))
@@ -92,7 +92,7 @@ def test_the_centre_of_pressure_is_the_mean_place_of_the_load_above_tare() -> No
 
 
 def test_without_a_layout_there_is_a_load_but_no_place() -> None:
-    insole = Insole()
+    insole = InsoleLoads()
     for k, cells in enumerate(STEP):
         insole.update(0.01 * k, cells)
     load = insole.update(0.05, above(50, 50, 25, 75))

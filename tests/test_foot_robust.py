@@ -10,7 +10,7 @@ from attrs import evolve
 from solepath import Event, Foot, FootFlat, Layout, Sample, Session, Site, StrideTaken, recipes
 from solepath.emulate.sensors.insoles import layout
 from solepath.foot.pressure.guess import LayoutGuess
-from solepath.foot.pressure.insole import Insole
+from solepath.foot.pressure.insole import InsoleLoads
 from walks import samples
 
 QUATS = [
@@ -59,7 +59,7 @@ def test_numbers_that_no_float_holds_are_refused_or_missing_and_raise_nothing(ce
 def test_an_area_that_never_carries_anything_tells_nothing() -> None:
     sole = layout(24, Foot.LEFT)
     dead = {k for k, cell in enumerate(sole.cells) if cell.x < 0.33 * sole.length}
-    insole = Insole()
+    insole = InsoleLoads()
     insole.wear(sole)
     loads = []
     for sample in samples():

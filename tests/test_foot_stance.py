@@ -13,7 +13,7 @@ from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
-from solepath.foot.stance.stance import AngularRate, Graph, Load, MovingVariance, Shoe, Stance, soften
+from solepath.foot.stance.stance import AngularRate, Graph, Load, MovingVariance, ShoeDetector, Stance, soften
 from solepath.types import Foot, Phase
 from solepath.types.vector import GRAVITY
 
@@ -63,8 +63,8 @@ def run(detector: Any, acc: Rows, gyro: Rows, dt: float = 0.01) -> list[Stance]:
 @pytest.mark.parametrize(
     ("detector", "formula", "length"),
     [
-        (Shoe(window=0.035), shoe, 4),
-        (Shoe(window=0.025), shoe, 3),
+        (ShoeDetector(window=0.035), shoe, 4),
+        (ShoeDetector(window=0.025), shoe, 3),
         (AngularRate(window=0.035), are, 4),
         (AngularRate(window=0.025), are, 3),
         (MovingVariance(window=0.035), mv, 4),
@@ -86,7 +86,7 @@ def test_by_hand() -> None:
     gyro: Rows = [(0.03, 0.0, 0.0), (0.0, 0.04, 0.0)]
     assert run(MovingVariance(), acc, gyro)[-1].statistic == pytest.approx(0.1**2 / 1e-4)
     assert run(AngularRate(), acc, gyro)[-1].statistic == pytest.approx((0.0009 + 0.0016) / 2 / SIGMA_GYRO**2)
-    assert run(Shoe(), acc, gyro)[-1].statistic == pytest.approx(0.04 / 2 / 1e-4 + 0.0025 / 2 / SIGMA_GYRO**2)
+    assert run(ShoeDetector(), acc, gyro)[-1].statistic == pytest.approx(0.04 / 2 / 1e-4 + 0.0025 / 2 / SIGMA_GYRO**2)
     three: Rows = [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 3.0, 4.0)]  # one stands apart by 5
     # cuts (0, 1): (0 + 5) / (1 x 3); (0, 2): 5 / (2 x 2); (1, 2): (5 + 5) / (1 x 2)
     assert run(Graph(), three, [(0.0, 0.0, 0.0)] * 3)[-1].statistic == pytest.approx(5.0)
@@ -94,7 +94,13 @@ def test_by_hand() -> None:
 
 @pytest.mark.parametrize(
     ("detector", "formula", "length"),
-    [(Shoe(), shoe, 3), (AngularRate(), are, 3), (MovingVariance(), mv, 5), (Graph(), mbgtd, 5), (Cycle(), shoe, 3)],
+    [
+        (ShoeDetector(), shoe, 3),
+        (AngularRate(), are, 3),
+        (MovingVariance(), mv, 5),
+        (Graph(), mbgtd, 5),
+        (Cycle(), shoe, 3),
+    ],
     ids=lambda value: type(value).__name__ if hasattr(value, "update") else None,
 )
 def test_running_sums_are_the_direct_computation_after_ten_thousand_samples(
@@ -116,12 +122,12 @@ def test_running_sums_are_the_direct_computation_after_ten_thousand_samples(
 
 def test_a_window_is_so_many_seconds_whatever_the_rate() -> None:
     for rate, held in ((50.0, 2), (100.0, 3), (200.0, 5), (400.0, 10)):
-        detector = Shoe()
+        detector = ShoeDetector()
         run(detector, [(0.0, 0.0, GRAVITY)] * 50, [(0.0, 0.0, 0.0)] * 50, 1.0 / rate)
         assert len(detector.entries) == held
 
 
-@pytest.mark.parametrize("detector", [Shoe(), AngularRate(), MovingVariance(), Graph(), Cycle()], ids=type)
+@pytest.mark.parametrize("detector", [ShoeDetector(), AngularRate(), MovingVariance(), Graph(), Cycle()], ids=type)
 def test_a_foot_that_rests_is_certainly_still(detector: Any) -> None:
     last = run(detector, [(0.0, 0.0, GRAVITY)] * 20, [(0.0, 0.0, 0.0)] * 20)[-1]
     assert last.hint is Phase.STATIONARY and last.sigma == pytest.approx(0.01, rel=0.01)
@@ -147,9 +153,9 @@ def shares(detector: Any) -> tuple[float, float]:
     truth = WALKER.truth().feet[Foot.LEFT]
     stance = [(flat + 0.02, off - 0.02) for flat, off in zip(truth.foot_flats, truth.heel_offs[1:], strict=False)]
     swing = [(a + 0.15, b - 0.10) for a, b in zip(truth.toe_offs, truth.heel_strikes, strict=True)]
-    from solepath.foot.pressure.insole import Insole
+    from solepath.foot.pressure.insole import InsoleLoads
 
-    insole, found = Insole(), []
+    insole, found = InsoleLoads(), []
     insole.wear(layout(96, Foot.LEFT))
     for sample in fed:
         load = insole.update(sample.t, sample.pressure)
@@ -165,7 +171,9 @@ def shares(detector: Any) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize(
-    "detector", [Cycle(), Shoe(), AngularRate(), MovingVariance(), Graph(), TwoArea(), MaximumPressure()], ids=type
+    "detector",
+    [Cycle(), ShoeDetector(), AngularRate(), MovingVariance(), Graph(), TwoArea(), MaximumPressure()],
+    ids=type,
 )
 def test_in_mid_stance_there_is_evidence_and_in_mid_swing_there_is_little(detector: Any) -> None:
     standing, swinging = shares(detector)

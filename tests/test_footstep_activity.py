@@ -18,10 +18,10 @@ from solepath.lab.reproduce import footstep_tracker
 from solepath.lab.train import activities, emulated
 from solepath.lab.train import footstep_activity as footstep_training
 from solepath.lab.train import turns as turns_training
-from solepath.lab.train.footstep_activity import Taught, Told, threshold, train
+from solepath.lab.train.footstep_activity import LabelledWindow, Taught, threshold, train
 from solepath.papers.footstep_tracker.activity.two_second_windows import LONGEST_RIDE, MOVING, TwoSecondWindows
 from solepath.papers.footstep_tracker.activity.window_model import FEATURES, Gaussian, WindowModel, seen, shipped
-from solepath.papers.footstep_tracker.activity.windows import BLOCKS, FootWindows, Window
+from solepath.papers.footstep_tracker.activity.windows import BLOCKS, FootWindow, FootWindows
 from solepath.recipes import FOOTSTEP_TRACKER
 from solepath.saving.codec import load, save
 from solepath.show.timeline import Timeline
@@ -363,7 +363,7 @@ def test_a_threshold_leaves_as_few_as_can_be_on_the_wrong_side():
 
 
 def test_training_needs_every_activity_of_the_paper():
-    standing = Told(0, STILL, STILL, (Window(0, GRAVITY, 1e-4, 0.0, 0.0, None),))
+    standing = LabelledWindow(0, STILL, STILL, (FootWindow(0, GRAVITY, 1e-4, 0.0, 0.0, None),))
     with pytest.raises(ValueError, match="none of walking"):
         train([Taught("one", (standing,))], "too little")
 
@@ -380,7 +380,7 @@ def test_the_shipped_model_is_sound_and_says_what_it_was_taught_on():
 
 
 def test_features_are_in_the_order_of_their_names():
-    window = Window(0, 9.5, 2.0, 0.25, 3.0, 4.0)
+    window = FootWindow(0, 9.5, 2.0, 0.25, 3.0, 4.0)
     assert seen(window) == pytest.approx((log(2.0), 0.25, 9.5, log(3.0), log(4.0)), abs=1e-5)
     assert len(seen(attrs.evolve(window, turning=None))) == len(FEATURES) - 1
 

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath import Session
-from solepath.body.gait.direction import Direction, Turned, agreed
+from solepath.body.gait.direction import Direction, TurnProcess, agreed
 from solepath.body.gait.turns import WEIGHTS, Turns, classified
 from solepath.calibration import Calibration, CalibrationError, merged, read_calibration, unusable, write_calibration
 from solepath.cli.main import main
@@ -127,7 +127,7 @@ def test_both_feet_go_on_in_the_direction_of_the_mean_of_their_turns() -> None:
 # --- turning processes ------------------------------------------------------------------------------------------------
 
 
-def told(direction: Direction, steps: list[StrideTaken]) -> list[Turned]:
+def told(direction: Direction, steps: list[StrideTaken]) -> list[TurnProcess]:
     return [found for one in steps if (found := direction.step(one)) is not None]
 
 

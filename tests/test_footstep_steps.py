@@ -15,7 +15,7 @@ from solepath.foot.stance.stance import Stance
 from solepath.papers.footstep_tracker.critical_cues import CriticalCues
 from solepath.papers.footstep_tracker.critical_times import CriticalTimes, Row, critical_times
 from solepath.papers.footstep_tracker.projection import Projection
-from solepath.papers.footstep_tracker.segment import FootAxes, Segment, turned_to, with_offset
+from solepath.papers.footstep_tracker.segment import FootAxes, StepSegment, turned_to, with_offset
 from solepath.papers.footstep_tracker.static_zones import StaticZones
 from solepath.papers.footstep_tracker.step_length import (
     closed_step_length,
@@ -341,13 +341,13 @@ def test_one_odd_step_does_not_turn_the_axes() -> None:
 # --- from segments to steps and cues ----------------------------------------------------------------------------------
 
 
-def swung(turn: float = 0.0) -> Segment:
+def swung(turn: float = 0.0) -> StepSegment:
     """1 m in 1 s, turning left by `turn` rad, x of the sensor forward."""
     drawn = tuple([(0.01 * k, 0.0, 4.0 if k < 50 else -4.0 if k > 50 else 0.0, -G, 0.0, 0.0, turn) for k in range(101)])
-    return Segment(drawn, CriticalTimes(0.0, 0.0, 1.0, 1.0), (1.0, 0.0, 0.0), 0.01)
+    return StepSegment(drawn, CriticalTimes(0.0, 0.0, 1.0, 1.0), (1.0, 0.0, 0.0), 0.01)
 
 
-def stepped(projection: Projection, segment: Segment) -> None:
+def stepped(projection: Projection, segment: StepSegment) -> None:
     projection.predict(0.01, (0.0, 0.0, G), ZERO)
     projection.correct(1.0, Stance(ZERO, 0.01, 0.0, Phase.STATIONARY, segment))
 
@@ -378,13 +378,13 @@ def test_a_step_with_a_hole_in_its_samples_is_not_integrated() -> None:
     projection = Projection()
     projection.start((1.0, 0.0, 0.0, 0.0), 0.0)
     segment = swung()
-    stepped(projection, Segment(segment.rows, segment.times, segment.forward, 0.5))
+    stepped(projection, StepSegment(segment.rows, segment.times, segment.forward, 0.5))
     assert abs(projection.position[0]) < 0.01  # the live track went nowhere
 
 
 def test_the_cues_of_a_step_come_all_at_once_with_their_own_times() -> None:
     cues = CriticalCues()
-    segment = Segment((), CriticalTimes(1.0, 1.2, 1.6, 1.7), (1.0, 0.0, 0.0), 0.01)
+    segment = StepSegment((), CriticalTimes(1.0, 1.2, 1.6, 1.7), (1.0, 0.0, 0.0), 0.01)
     stance = Stance(ZERO, 0.01, 0.0, Phase.STATIONARY, segment)
     seen = cues.update(1.8, 0.01, ZERO, ZERO, True, 0.0, Phase.STATIONARY, None, stance)
     assert [(one.cue, one.t) for one in seen] == [

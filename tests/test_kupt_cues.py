@@ -12,9 +12,9 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.foot.cues.inertial import Seen
 from solepath.foot.cues.touch import Touch
 from solepath.foot.phase import PHASES, Cue
-from solepath.foot.pressure.insole import Insole
+from solepath.foot.pressure.insole import InsoleLoads
 from solepath.foot.stance.stance import Load, Stance
-from solepath.papers.kupt_dfpc.cop_cues import CopCues, Stage
+from solepath.papers.kupt_dfpc.cop_cues import CopCues, StepStage
 from solepath.types import Cell, Foot, Layout, Phase, Vec3
 from solepath.types.vector import GRAVITY, ZERO
 
@@ -37,7 +37,7 @@ def believed() -> CopCues:
     cues = CopCues(touch=Touch())
     cues.wear(FOUR)
     cues.touch.known, cues.touch.blind = True, False
-    cues.stage = Stage.STANDING
+    cues.stage = StepStage.STANDING
     return cues
 
 
@@ -71,7 +71,7 @@ def told(rows: list[Row]) -> list[tuple[Cue, int, int]]:
 def test_the_centre_of_pressure_is_the_mean_of_places_weighted_by_pressure() -> None:
     # (2): (0.05 x 10 + 0.05 x 30 + 0.20 x 40) / 80 = 10 / 80; (3): (0.01 x 10 - 0.01 x 30 + 0.02 x 40) / 80 = 0.6 / 80
     cells = (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.20, 0.02))
-    insole = Insole()
+    insole = InsoleLoads()
     insole.wear(Layout(3, Foot.LEFT, cells, 0.26))
     for k, total in enumerate((0.0, 90.0, 0.0, 90.0)):
         insole.update(0.01 * k, (total, total, total))
@@ -167,7 +167,7 @@ WALK = Route().stand(2.0).walk(12.0, 1.2).stop(1.5)
 def alone(cells: Layout, walker: Walker) -> list[Seen]:
     """The cues of an insole without an inertial sensor."""
     foot = cells.foot
-    insole, cues = Insole(), CopCues()
+    insole, cues = InsoleLoads(), CopCues()
     insole.wear(cells)
     cues.wear(cells)
     seen: list[Seen] = []

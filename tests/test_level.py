@@ -19,14 +19,14 @@ from solepath.emulate.wearers.motion import Kinematics
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.navigate.covariance import HEIGHT, believed_height
-from solepath.foot.navigate.level import Level
+from solepath.foot.navigate.level import LevelGround
 from solepath.recipes import DEFAULT, Recipe
 from solepath.saving import codec as machine
 from solepath.types import Quat
 from solepath.types.vector import IDENTITY, from_rotation_vector, multiply, normalise
 from walks import of
 
-UNGATED = evolve(DEFAULT, corrector=evolve(DEFAULT.corrector, level=Level(gate=False)))
+UNGATED = evolve(DEFAULT, corrector=evolve(DEFAULT.corrector, level=LevelGround(gate=False)))
 LENGTH = 1.35
 """m: a stride."""
 SPREAD = 0.02
@@ -40,7 +40,12 @@ def pitched(angle: float, heading: float = 0.0, mounted: Quat = IDENTITY) -> Qua
 
 
 def judged(
-    level: Level, heights: list[float], grade: float = 0.0, lean: float = 0.01, length: float = LENGTH, seed: int = 0
+    level: LevelGround,
+    heights: list[float],
+    grade: float = 0.0,
+    lean: float = 0.01,
+    length: float = LENGTH,
+    seed: int = 0,
 ) -> list[float]:
     """What `level` says of steps that rise by `heights` m, on ground that slopes by `grade`, with a sensor that makes
     `lean` of every metre and errs by a centimetre."""
@@ -58,14 +63,14 @@ def judged(
 
 @pytest.mark.parametrize("lean", [-0.03, -0.01, 0.0, 0.02, 0.03])
 def test_level_strides_are_level_whatever_lean_the_sensor_has(lean: float) -> None:
-    assert abs(sum(judged(Level(), [0.0] * 60, lean=lean))) < 0.12
-    raw = sum(judged(Level(gate=False), [0.0] * 60, lean=lean))
+    assert abs(sum(judged(LevelGround(), [0.0] * 60, lean=lean))) < 0.12
+    raw = sum(judged(LevelGround(gate=False), [0.0] * 60, lean=lean))
     assert raw == pytest.approx(60 * lean * LENGTH, abs=0.2)
 
 
 @pytest.mark.parametrize("grade", [0.05, -0.05, 0.08, -0.12])
 def test_a_ramp_after_level_strides_keeps_nine_tenths_of_its_height(grade: float) -> None:
-    level = Level()
+    level = LevelGround()
     judged(level, [0.0] * 8)
     on = judged(level, [grade * LENGTH] * 12, grade=grade, seed=1)
     after = judged(level, [0.0] * 12, seed=2)
@@ -75,7 +80,7 @@ def test_a_ramp_after_level_strides_keeps_nine_tenths_of_its_height(grade: float
 
 @pytest.mark.parametrize("kerb", [0.10, -0.10, 0.15])
 def test_a_single_kerb_keeps_its_height(kerb: float) -> None:
-    level = Level()
+    level = LevelGround()
     judged(level, [0.0] * 10)
     heights = judged(level, [kerb, 0.0, 0.0, -kerb, 0.0, 0.0], seed=3)
     assert heights[0] == pytest.approx(kerb, abs=0.04)
@@ -85,7 +90,7 @@ def test_a_single_kerb_keeps_its_height(kerb: float) -> None:
 
 @pytest.mark.parametrize("riser", [0.10, 0.16, 0.20, -0.10, -0.17])
 def test_stairs_keep_their_height_and_the_landing_between_them_is_level(riser: float) -> None:
-    level = Level()
+    level = LevelGround()
     judged(level, [0.0] * 6)
     first = judged(level, [riser] + [2.0 * riser] * 5, lean=0.0, length=0.6, seed=4)
     landing = judged(level, [0.0] * 3, length=0.9, seed=5)
@@ -94,13 +99,13 @@ def test_stairs_keep_their_height_and_the_landing_between_them_is_level(riser: f
 
 
 def test_a_stride_of_which_the_filter_is_unsure_must_rise_by_more_to_be_no_level_one() -> None:
-    sure, unsure = Level(), Level()
+    sure, unsure = LevelGround(), LevelGround()
     assert sure.judge((LENGTH, 0.0, 0.13), 0.0, 0.02**2, IDENTITY)[0] > 0.1
     assert unsure.judge((LENGTH, 0.0, 0.13), 0.0, 0.2**2, IDENTITY)[0] < 0.03
 
 
 def test_who_sets_out_on_a_ramp_walks_on_the_level_again_some_strides_after_it() -> None:
-    level = Level()
+    level = LevelGround()
     judged(level, [0.05 * LENGTH] * 9, grade=0.05, lean=0.0)
     judged(level, [0.0] * 6, lean=0.0, seed=1)
     assert abs(sum(judged(level, [0.0] * 20, lean=0.0, seed=2))) < 0.08
@@ -108,7 +113,7 @@ def test_who_sets_out_on_a_ramp_walks_on_the_level_again_some_strides_after_it()
 
 def test_a_ladder_and_a_foot_that_is_put_up_keep_their_height() -> None:
     """They go up without going along, which no level step does."""
-    level = Level()
+    level = LevelGround()
     judged(level, [0.0] * 5)
     assert sum(judged(level, [0.3] * 6, lean=0.0, length=0.05)) == pytest.approx(1.8, rel=0.05)
 
@@ -119,10 +124,10 @@ def test_a_ladder_and_a_foot_that_is_put_up_keep_their_height() -> None:
 )
 @settings(max_examples=60, deadline=None)
 def test_whatever_is_judged_the_state_stays_finite(rows: list[tuple[float, ...]], tilt: float) -> None:
-    level = Level()
+    level = LevelGround()
     for x, y, z, turn, variance in rows:
         level.judge((x, y, z), turn, variance, pitched(tilt))
-    assert machine.load(Level, machine.save(level)) == level
+    assert machine.load(LevelGround, machine.save(level)) == level
     assert abs(judged(level, [0.0])[0]) < 1.0
 
 

@@ -482,14 +482,14 @@ def test_a_cc2650_is_scaled_by_its_configuration() -> None:
 
 def test_air_pressure_rides_on_the_next_movement_sample_once() -> None:
     decoder = Decoder(site=LEFT)
-    air = cc2650.build_barometer(cc2650.Barometer(20.0, 101325.0))
+    air = cc2650.build_barometer(cc2650.Cc2650Barometer(20.0, 101325.0))
     outputs = feed(decoder, movement(0), packet(10.05, "cc2650/barometer", air), movement(1), movement(2))
     assert [sample.air_pressure for sample in outputs] == [None, 101325.0, None]
 
 
 def test_air_pressure_alone_makes_samples_of_its_own() -> None:
     decoder = Decoder(site=LEFT)
-    air = cc2650.build_barometer(cc2650.Barometer(20.0, 101325.0))
+    air = cc2650.build_barometer(cc2650.Cc2650Barometer(20.0, 101325.0))
     outputs = feed(decoder, packet(1.0, "cc2650/barometer", air), packet(2.0, "cc2650/barometer", air))
     assert outputs == [
         Sample(1.0, LEFT, air_pressure=101325.0, known_at=1.0),

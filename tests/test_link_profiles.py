@@ -10,7 +10,7 @@ import pytest
 from solepath.link.decoder import Decoder
 from solepath.link.devices import dot, dot_orientation, orphe, thingy
 from solepath.link.known import BY_NAME, PROFILES
-from solepath.link.profile import CC2541, CC2541_20HZ, CC2650, INSOLE, How, Profile, Write
+from solepath.link.profile import CC2541, CC2541_20HZ, CC2650, INSOLE, Access, Profile, Write
 from solepath.types import Packet, Site
 from solepath.wire.cc2541 import (
     AccelerometerConfig,
@@ -19,7 +19,7 @@ from solepath.wire.cc2541 import (
     parse_gyroscope_config,
 )
 from solepath.wire.cc2650 import MovementConfig, parse_movement_config
-from solepath.wire.insole_control import Start, parse_control
+from solepath.wire.insole_control import StartSampling, parse_control
 from solepath.wire.period import parse_period
 
 PROTOCOL = Path(__file__).parent.parent / "protocol"
@@ -131,10 +131,10 @@ def test_a_declared_device_has_the_uuids_of_its_document(profile: Profile) -> No
 @pytest.mark.parametrize("profile", PROFILES, ids=lambda profile: profile.name)
 def test_a_profile_refers_only_to_its_own_channels_and_uses_them_as_they_can_be_used(profile: Profile) -> None:
     for write in profile.setup:
-        assert profile.channel(write.channel).how is How.WRITE
-        assert all(profile.channel(name).how is How.READ for name in write.then_read)
-    assert all(profile.channel(name).how in (How.READ, How.NOTIFY) for name in profile.reads)
-    assert all(profile.channel(name).how is How.NOTIFY for name in profile.streams)
+        assert profile.channel(write.channel).how is Access.WRITE
+        assert all(profile.channel(name).how is Access.READ for name in write.then_read)
+    assert all(profile.channel(name).how in (Access.READ, Access.NOTIFY) for name in profile.reads)
+    assert all(profile.channel(name).how is Access.NOTIFY for name in profile.streams)
     uuids = [(channel.service, channel.characteristic) for channel in profile.channels]
     assert len({(*pair, channel.how) for pair, channel in zip(uuids, profile.channels, strict=True)}) == len(uuids)
     assert all(len(uuid) == 36 and uuid == uuid.lower() for pair in uuids for uuid in pair)
@@ -169,7 +169,7 @@ def test_setup_says_what_the_wire_room_makes_of_it() -> None:
     def value(profile: Profile, channel: str) -> bytes:
         return next(write.value for write in profile.setup if write.channel == channel)
 
-    assert parse_control(value(INSOLE, "insole/control")) == Start()
+    assert parse_control(value(INSOLE, "insole/control")) == StartSampling()
     assert parse_movement_config(value(CC2650, "cc2650/movement-config")) == MovementConfig(range=8)
     for profile in (CC2541, CC2541_20HZ):
         assert parse_accelerometer_config(value(profile, "cc2541/accelerometer-config")) == AccelerometerConfig(3)

@@ -23,7 +23,7 @@ from solepath import (
 from solepath.link.decoder import Decoder
 from solepath.types import Foot, Sample
 from solepath.wire.insole import InsoleFrame, InsoleSample, build_frame
-from solepath.wire.receiver import Connection, build_connected, build_dropped, build_words
+from solepath.wire.receiver import ConnectionFrame, build_connected, build_dropped, build_words
 
 LEFT = Site.LEFT_FOOT
 CHARGED = b"\x64"
@@ -41,7 +41,7 @@ def frame(sequence: int, ticks: int) -> bytes:
 def test_what_the_receiver_says_becomes_events() -> None:
     session = Session()
     said = [
-        ("receiver/connected", build_connected(Connection("solepath L", -61))),
+        ("receiver/connected", build_connected(ConnectionFrame("solepath L", -61))),
         ("receiver/trouble", build_words("the battery is low")),
         ("receiver/dropped", build_dropped(7)),
         ("receiver/restarted", build_words("insole/frame")),
@@ -158,7 +158,7 @@ def test_an_insole_that_begins_anew_soon_after_its_start_is_not_taken_for_late()
     for k in range(60):
         decoder.feed(packet(0.01 * k, "insole/frame", frame(k, 328 * k)))
     decoder.feed(packet(0.7, "receiver/disconnected"))
-    decoder.feed(packet(0.9, "receiver/connected", build_connected(Connection("", None))))
+    decoder.feed(packet(0.9, "receiver/connected", build_connected(ConnectionFrame("", None))))
     first, *rest = decoder.feed(packet(1.0, "insole/frame", frame(0, 0)))
     assert isinstance(first, ClockReset) and first.restarted
     assert [type(one) for one in rest] == [Sample]
@@ -170,6 +170,6 @@ def test_counters_that_go_on_across_a_connection_tell_what_was_lost() -> None:
     decoder = Decoder(site=LEFT)
     for k in range(60):
         decoder.feed(packet(0.01 * k, "insole/frame", frame(k, 328 * k)))
-    decoder.feed(packet(0.9, "receiver/connected", build_connected(Connection("", None))))
+    decoder.feed(packet(0.9, "receiver/connected", build_connected(ConnectionFrame("", None))))
     lost, sample = decoder.feed(packet(1.0, "insole/frame", frame(100, 32800)))
     assert lost.count == 40 and isinstance(sample, Sample)  # type: ignore[union-attr]

@@ -27,7 +27,7 @@ from solepath.events import (
 )
 from solepath.link.decoder import Decoder
 from solepath.link.devices import DECLARED, orphe
-from solepath.link.driver import Axis, Driver, Reading
+from solepath.link.driver import Driver, Reading, TimeAxis
 from solepath.link.known import KINDS, kinds
 from solepath.link.profile import Write
 from solepath.saving import codec as machine
@@ -37,8 +37,14 @@ from toys import BASE, BOTH, COARSE, FORMATS, KIND, LAYOUT, LEFT, NUMBERED, PROF
 
 
 def test_the_axis_is_the_best_that_a_device_has() -> None:
-    assert [driver.axis for driver in KIND.values()] == [Axis.ARRIVAL, Axis.COUNT, Axis.TICKS, Axis.TICKS, Axis.COUNT]
-    assert [driver.axis for driver in DECLARED] == [Axis.COUNT, Axis.TICKS, Axis.TICKS, Axis.ARRIVAL]
+    assert [driver.axis for driver in KIND.values()] == [
+        TimeAxis.ARRIVAL,
+        TimeAxis.COUNT,
+        TimeAxis.TICKS,
+        TimeAxis.TICKS,
+        TimeAxis.COUNT,
+    ]
+    assert [driver.axis for driver in DECLARED] == [TimeAxis.COUNT, TimeAxis.TICKS, TimeAxis.TICKS, TimeAxis.ARRIVAL]
 
 
 @pytest.mark.parametrize("count", [1, 4])
@@ -149,7 +155,7 @@ MILLISECONDS = evolve(BASE, tick_rate=1000.0, tick_modulus=1 << 32)
 @pytest.mark.parametrize("count", [1, 4])
 def test_a_clock_of_few_ticks_a_sample_tells_no_losses_that_there_were_not(true: float, count: int) -> None:
     driver = evolve(MILLISECONDS, profile=evolve(PROFILE, nominal_rate=min(500.0, max(333.0, round(true, -2)))))
-    assert driver.axis is Axis.TICKS
+    assert driver.axis is TimeAxis.TICKS
     device, told = toy(driver), []
     for k in range(1500):
         if 1400 <= k < 1403:
@@ -166,9 +172,9 @@ def test_a_clock_of_few_ticks_a_sample_tells_no_losses_that_there_were_not(true:
 
 def test_a_clock_too_coarse_for_the_samples_is_not_what_times_are_made_of() -> None:
     for tick_rate, rate, axis in (
-        (1000.0, 600.0, Axis.ARRIVAL),
-        (100.0, 60.0, Axis.ARRIVAL),
-        (100.0, 50.0, Axis.TICKS),
+        (1000.0, 600.0, TimeAxis.ARRIVAL),
+        (100.0, 60.0, TimeAxis.ARRIVAL),
+        (100.0, 50.0, TimeAxis.TICKS),
     ):
         driver = evolve(MILLISECONDS, tick_rate=tick_rate, profile=evolve(PROFILE, nominal_rate=rate))
         assert driver.axis is axis

@@ -16,7 +16,7 @@ from bleak.exc import BleakCharacteristicNotFoundError, BleakDeviceNotFoundError
 from benches import LEFT, RIGHT, ROUTE, walker
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
-from solepath.emulate.devices.memory import Air
+from solepath.emulate.devices.memory import MemoryRadio
 from solepath.emulate.devices.peripheral import Characteristic, Peripheral, Service
 from solepath.emulate.devices.standard import standard
 from solepath.emulate.sensors.device import Device, device_numbers
@@ -43,12 +43,12 @@ def now() -> float:
     return asyncio.get_running_loop().time()
 
 
-def air(devices: dict[Site, Device], faults: str = "", **more: Any) -> Air:
+def air(devices: dict[Site, Device], faults: str = "", **more: Any) -> MemoryRadio:
     bench = Bench(ROUTE, devices=devices, seed=3, faults=parse_faults(faults))
-    return Air(bench.peripherals, **more)
+    return MemoryRadio(bench.peripherals, **more)
 
 
-async def client(reach: Air, name: str, gone: Callable[[BleakClient], None] | None = None) -> BleakClient:
+async def client(reach: MemoryRadio, name: str, gone: Callable[[BleakClient], None] | None = None) -> BleakClient:
     """A client of the device of this name, not connected yet."""
     device = await BleakScanner.find_device_by_name(name, timeout=5.0, backend=reach.backend.scanner)
     assert device is not None
@@ -196,7 +196,7 @@ def test_a_notification_longer_than_the_mtu_is_cut_without_a_word() -> None:
     async def main() -> None:
         heard: list[bytes] = []
         for mtu in (247, 43, 42, 23):
-            reach = Air([Talker()], mtu=mtu)
+            reach = MemoryRadio([Talker()], mtu=mtu)
             async with await client(reach, "talker") as talker:
                 assert talker.mtu_size == mtu
                 await talker.start_notify("2a58", lambda _, data: heard.append(bytes(data)))

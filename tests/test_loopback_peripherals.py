@@ -16,7 +16,7 @@ from solepath.emulate.sensors.insole_device import TICK_RATE, Insole
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.link import profile
 from solepath.link.decoder import Decoder
-from solepath.link.profile import How, Profile
+from solepath.link.profile import Access, Profile
 from solepath.types import Packet, Sample, Site
 from solepath.wire import cc2541, cc2650
 from solepath.wire.insole import InsoleFrame, parse_frame
@@ -44,7 +44,7 @@ def test_a_device_has_the_attributes_of_its_profile_and_what_else_it_has(device:
     for channel in known.channels:
         served = table[channel.service, channel.characteristic]
         assert served.channel == channel.name
-        assert ("write" if channel.how is How.WRITE else channel.how.value) in served.properties
+        assert ("write" if channel.how is Access.WRITE else channel.how.value) in served.properties
     assert any(c.channel == "device/manufacturer" for c in table.values())
     assert len({c.channel for c in table.values()}) == len(table)
 
@@ -52,7 +52,7 @@ def test_a_device_has_the_attributes_of_its_profile_and_what_else_it_has(device:
 @pytest.mark.parametrize(("device", "known"), DEVICES)
 def test_what_was_set_up_decodes_to_samples_and_nothing_else_odd(device: Device, known: Profile) -> None:
     tag, decoder, out = worn(device), Decoder(site=LEFT), []
-    begin(tag, *(c.name for c in known.channels if c.how is How.NOTIFY))
+    begin(tag, *(c.name for c in known.channels if c.how is Access.NOTIFY))
     said = [(name, tag.read(name, 0.0)) for name in known.reads]
     for write in known.setup:
         tag.write(write.channel, write.value, 0.0)
@@ -474,7 +474,7 @@ def test_the_gyroscope_measures_the_axes_of_its_mask(mask: int) -> None:
 
 
 def test_each_sensor_has_a_period_of_its_own() -> None:
-    tag = begin(worn(CC2541()), *(c.name for c in profile.CC2541.channels if c.how is How.NOTIFY))
+    tag = begin(worn(CC2541()), *(c.name for c in profile.CC2541.channels if c.how is Access.NOTIFY))
     tag.write("cc2541/accelerometer-period", b"\x05", 0.0)
     tag.write("cc2541/gyroscope-period", b"\x14", 0.0)
     for sensor, on in (("accelerometer", 3), ("gyroscope", 7), ("magnetometer", 1), ("barometer", 1)):

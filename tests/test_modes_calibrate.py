@@ -16,7 +16,7 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.events import TouchedDown
 from solepath.foot.pressure.insole import in_newtons
 from solepath.papers.walking_modes.calibrate import (
-    Mark,
+    ModeMark,
     fit_modes,
     mean_errors,
     read_marks,
@@ -107,14 +107,14 @@ def down(foot: Foot, t: float, x: float, y: float) -> TouchedDown:
     )
 
 
-def straight(short: float, turned: float = 0.0) -> tuple[list[Mark], list[TouchedDown]]:
+def straight(short: float, turned: float = 0.0) -> tuple[list[ModeMark], list[TouchedDown]]:
     """Nine steps of 0.6 m on marks, every one measured `short` m too short, on a floor turned by `turned` rad."""
     found, downs = [], []
     for k in range(9):
         foot, y = (Foot.LEFT, 0.1) if k % 2 == 0 else (Foot.RIGHT, -0.1)
         x = 0.6 * k
         c, s = cos(turned), sin(turned)
-        found.append(Mark(f"line {k}", foot, c * x - s * y, s * x + c * y, WalkingMode.STRAIGHT, t=float(k)))
+        found.append(ModeMark(f"line {k}", foot, c * x - s * y, s * x + c * y, WalkingMode.STRAIGHT, t=float(k)))
         downs.append(down(foot, k + 0.02, (0.6 - short) * k, y))
     return found, downs
 
@@ -153,7 +153,7 @@ def test_marks_that_belong_to_no_touchdown_are_named() -> None:
     twice = [*marked_points, marked_points[0]]
     with pytest.raises(CalibrationError, match="line 0: the same touchdown as at line 0"):
         step_errors(twice, downs)
-    beyond = [Mark("line 9", Foot.LEFT, 0.0, 0.0, WalkingMode.STRAIGHT, step=6)]
+    beyond = [ModeMark("line 9", Foot.LEFT, 0.0, 0.0, WalkingMode.STRAIGHT, step=6)]
     with pytest.raises(CalibrationError, match="line 9: the left foot came down 5 times only"):
         step_errors(beyond, downs)
 

@@ -13,8 +13,8 @@ from solepath.papers.walking_modes.touchdown import (
     Carrier,
     FootState,
     Height,
-    MaximumPressure,
     NetAcceleration,
+    PressureTouchdown,
     suspended,
     v_change,
 )
@@ -62,18 +62,18 @@ _ACCELERATIONS = list(enumerate((9.0, 0.9, 0.5, 0.2, 0.3, 0.8, 1.0)))
 
 
 def test_a_foot_is_down_when_one_cell_bears_more_than_five_newtons() -> None:
-    method = MaximumPressure()
+    method = PressureTouchdown()
     assert method.update(0.0, FootState(pressure=5.1), FootState(pressure=4.9)) == (True, False)  # (6)
 
 
 def test_where_nobody_knows_what_a_newton_is_a_share_of_the_most_counts() -> None:
-    method = MaximumPressure()
+    method = PressureTouchdown()
     left, right = FootState(pressure=401.0, full=4000.0), FootState(pressure=399.0, full=4000.0)
     assert method.update(0.0, left, right) == (True, False)
 
 
 def test_a_cell_that_flickers_about_the_threshold_is_one_touchdown() -> None:
-    method, carrier = MaximumPressure(), Carrier()
+    method, carrier = PressureTouchdown(), Carrier()
     came = []
     for k, force in enumerate((0.0, 0.0, 4.0, 5.5, 4.5, 5.5, 4.0, 20.0)):
         taken = carrier.update(method.update(0.01 * k, FootState(pressure=force), FootState(pressure=50.0)))
@@ -114,7 +114,7 @@ values = st.none() | st.floats(-1e6, 1e6)
 
 @given(st.lists(st.tuples(st.floats(-10.0, 10.0), *[values] * 8), max_size=30))
 def test_whatever_the_feet_show_somebody_carries_or_nobody(samples: list[tuple[float | None, ...]]) -> None:
-    methods: list[AnyTouchdown] = [Height(), NetAcceleration(), MaximumPressure()]
+    methods: list[AnyTouchdown] = [Height(), NetAcceleration(), PressureTouchdown()]
     carriers = [Carrier() for _ in methods]
     for t, *shown in samples:
         left, right = FootState(*shown[:4]), FootState(*shown[4:])

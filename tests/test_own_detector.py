@@ -22,9 +22,7 @@ from solepath.types import Quat, Vec3
 from solepath.types.vector import IDENTITY, ZERO
 from walks import of, samples
 
-WALKED = tuple(
-    Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.LEFT, 100.0, layout=layout(24, Foot.LEFT))
-)
+WALKED = tuple(Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.LEFT, 100.0, layout=layout(24, Foot.LEFT)))
 
 
 @define

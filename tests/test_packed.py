@@ -21,7 +21,7 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.emulate.walk import emulate
-from solepath.foot.stance.stance import Load, Shoe, Stance
+from solepath.foot.stance.stance import Load, ShoeDetector, Stance
 from solepath.types import Quat, Vec3, WalkingMode
 from solepath.types.vector import IDENTITY, ZERO
 from toys import NUMBERED
@@ -133,7 +133,7 @@ def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
     with pytest.raises(SnapshotError, match="packed with the recipe 'default', and this is 'kupt'"):
         Session.unpack(packed(), recipes.KUPT)
     for other, what in (
-        (evolve(recipes.DEFAULT, detector=Shoe()), "packed with Cycle, and this recipe has Shoe"),
+        (evolve(recipes.DEFAULT, detector=ShoeDetector()), "packed with Cycle, and this recipe has Shoe"),
         (evolve(recipes.DEFAULT, body=recipes.KUPT_DFPC.body), "packed with BothFeet, and this recipe has DoubleFoot"),
         (evolve(recipes.DEFAULT, altitude=None), "that this recipe does not have"),
         (OWN, "packed with the recipe 'default', and this is 'usual'"),
@@ -182,7 +182,7 @@ class Usual:
     rates: Rates = field(factory=Rates)
     raw: bytes = field(default=b"", init=False)
     load: Load | None = field(default=None, init=False)
-    inner: Shoe | Rates | None = field(factory=Shoe, init=False)
+    inner: ShoeDetector | Rates | None = field(factory=ShoeDetector, init=False)
     phase: Phase | None = field(default=None, init=False)
 
     def update(

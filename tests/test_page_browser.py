@@ -189,9 +189,7 @@ def test_a_plan_shows_the_wearer_once_that_is_decided_and_gives_up_the_way_to_wh
             Candidate(level, (at, 5.0, 0.0), 0.0, weight, "stairs")
             for at, weight in zip((x, *others), weights, strict=True)
         ]
-        return Placed(
-            t=t, known_at=t, level=level, position=(x, 5.0, 0.0), spread=1.0, candidates=tuple(candidates)
-        )
+        return Placed(t=t, known_at=t, level=level, position=(x, 5.0, 0.0), spread=1.0, candidates=tuple(candidates))
 
     async def main(chromium: Browser) -> None:
         scene = Scene("a building", "default", "live", plan=BUILDING)

@@ -12,7 +12,7 @@ from browsers import Browser, Browsing, Window
 from shown import CONNECTED, after, meanwhile, opened, placed, walked
 from solepath import Session
 from solepath.emulate.routes.route import Route
-from solepath.show.page.player.kept import Kept
+from solepath.show.page.player.kept import KeptItems
 from solepath.show.page.player.player import Player
 from solepath.show.page.player.playing import Playing
 from solepath.show.page.scene.scene import Playback, Scene
@@ -64,7 +64,7 @@ WALK = Route().stand(1.0).walk(16.0, 1.3).stop(2.0)
 @asynccontextmanager
 async def played(chromium: Browser, **given: Any) -> AsyncIterator[tuple[Window, Playback]]:
     """A recording of WALK on the page, and where its player stands. `given`: to `opened`."""
-    packets = Kept(walked(WALK, cells=16))
+    packets = KeptItems(walked(WALK, cells=16))
     player = Player(packets, Session(poses=True, pressures=True), Scene("a recording", "default", "recording"))
     playing = Playing(player)
     async with (

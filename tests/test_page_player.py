@@ -15,7 +15,7 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import emulate, sampled
 from solepath.show.page.messages import Command
 from solepath.show.page.player import player as playing
-from solepath.show.page.player.kept import CHUNK, Kept
+from solepath.show.page.player.kept import CHUNK, KeptItems
 from solepath.show.page.player.player import FASTEST, SLOWEST, Player
 from solepath.show.page.scene.scene import Scene
 
@@ -48,9 +48,11 @@ def never() -> bool:
     return False
 
 
-def player(items: Kept | None = None, **given: object) -> Player:
+def player(items: KeptItems | None = None, **given: object) -> Player:
     session = Session(poses=True, pressures=True)
-    return Player(Kept(PACKETS) if items is None else items, session, Scene("a walk", "default", "recording"), **given)
+    return Player(
+        KeptItems(PACKETS) if items is None else items, session, Scene("a walk", "default", "recording"), **given
+    )
 
 
 def play_until(one: Player, t: float) -> None:
@@ -75,8 +77,8 @@ def shown(one: Player) -> dict:
     return message
 
 
-END = Kept(PACKETS).end
-BEGIN = Kept(PACKETS).begin
+END = KeptItems(PACKETS).end
+BEGIN = KeptItems(PACKETS).begin
 STRAIGHT: dict[float, tuple[dict, dict]] = {}
 
 
@@ -223,7 +225,7 @@ def test_a_foot_is_shown_as_not_heard_from_when_it_fell_silent_whoever_looked_me
     def left(sample: Sample) -> bool:
         return sample.site is Site.LEFT_FOOT and 0.6 < sample.t < 2.9
 
-    samples = Kept(sample for sample in sampled(ROUTE, seed=5).samples if not left(sample))
+    samples = KeptItems(sample for sample in sampled(ROUTE, seed=5).samples if not left(sample))
     looks = []
     for items in (1, 9, 1000):
         one = player(samples)
@@ -258,7 +260,7 @@ def test_saved_moments_are_few_however_long_the_recording_is(monkeypatch):
 
 def test_a_damaged_recording_plays_up_to_the_damage_and_says_so():
     half = PACKETS[: len(PACKETS) // 2]
-    one = player(Kept(half), fault="walk.jsonl: line 500: is not JSON")
+    one = player(KeptItems(half), fault="walk.jsonl: line 500: is not JSON")
     assert all("line 500" not in line[2] for line in shown(one)["log"])
     while one.run_through(slices(1000)):
         pass
@@ -271,7 +273,7 @@ def test_a_damaged_recording_plays_up_to_the_damage_and_says_so():
 
 
 def test_a_recording_of_nothing_is_at_its_end_at_once():
-    one = player(Kept())
+    one = player(KeptItems())
     assert not one.work(never)
     assert one.playback.state == "ended"
     one.play()
@@ -282,7 +284,7 @@ def test_a_recording_of_nothing_is_at_its_end_at_once():
 
 def test_samples_play_like_packets():
     samples = sampled(ROUTE, seed=5).samples
-    one = player(Kept(samples))
+    one = player(KeptItems(samples))
     one.seek(samples[-1].t - 0.3)
     settle(one)
     session = Session(poses=True, pressures=True)
@@ -294,7 +296,7 @@ def test_samples_play_like_packets():
 @given(st.lists(st.floats(-1e6, 1e6), max_size=3 * CHUNK), st.integers(0, 2**32))
 def test_what_is_kept_comes_out_as_it_was_and_is_due_in_order(times, seed):
     packets = [Packet(t, Site.LEFT_FOOT, "insole/frame", bytes([k % 256]), str(seed)) for k, t in enumerate(times)]
-    kept = Kept(packets)
+    kept = KeptItems(packets)
     assert [kept[k] for k in range(len(kept))] == packets
     assert [kept[k] for k in reversed(range(len(kept)))] == packets[::-1]
     due = [kept.t(k) for k in range(len(kept))]

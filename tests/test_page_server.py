@@ -24,7 +24,7 @@ from solepath import Foot, Session
 from solepath.show.page.messages import Command, CommandError, parse_command
 from solepath.show.page.scene.scene import Scene
 from solepath.show.page.server import connection, offences, server, watcher
-from solepath.show.page.server.access import Access, Refused, host_of, on_loopback
+from solepath.show.page.server.access import Access, AccessDenied, host_of, on_loopback
 from solepath.show.page.server.address import reached_at
 from solepath.show.page.server.connection import HEADERS
 from solepath.show.page.server.server import MOST_CONNECTIONS, MOST_WATCHERS, Page
@@ -329,7 +329,7 @@ def test_any_host_is_told_or_refused(text: str) -> None:
     try:
         Access("127.0.0.1", TOKEN).check_host(text)
         Access("127.0.0.1", TOKEN).check_origin([text], "127.0.0.1:1")
-    except Refused as why:
+    except AccessDenied as why:
         assert why.status in (400, 403)
 
 

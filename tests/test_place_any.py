@@ -245,9 +245,7 @@ def moved(plan: FloorPlan, dx: float, dy: float) -> FloorPlan:
     levels = tuple(
         evolve(
             level,
-            walls=tuple(
-                Wall((w.start[0] + dx, w.start[1] + dy), (w.end[0] + dx, w.end[1] + dy)) for w in level.walls
-            ),
+            walls=tuple(Wall((w.start[0] + dx, w.start[1] + dy), (w.end[0] + dx, w.end[1] + dy)) for w in level.walls),
         )
         for level in plan.levels
     )

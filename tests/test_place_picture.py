@@ -17,9 +17,9 @@ from solepath.body.place.particles import Particles
 from solepath.cli.common.failure import Failure
 from solepath.cli.common.floorplan import start_of
 from solepath.floorplan.importers.geojson import write_floorplan
-from solepath.floorplan.plan import Anchor, Connector, FloorPlan, Kind, Level, Start, Stop, Wall
+from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall
 from solepath.recording import PacketWriter
-from solepath.show.tables.placed import Places
+from solepath.show.tables.placed import PlaceCounts
 from solepath.show.tables.plan import PlanPicture, colour
 from walks import insoles
 
@@ -88,7 +88,7 @@ def test_colours_run_from_the_start_to_the_end() -> None:
 
 
 def test_the_summary_says_when_the_wearer_was_found_and_on_which_levels() -> None:
-    part, places = Particles(), Places()
+    part, places = Particles(), PlaceCounts()
     for told in tour(7).told:
         for event in [*told.events, *part.follow(OFFICE, told.events, told.here)]:
             places.add(event)
@@ -101,7 +101,7 @@ def test_the_summary_says_when_the_wearer_was_found_and_on_which_levels() -> Non
 
 
 def test_the_summary_of_a_wearer_who_was_never_found_says_so() -> None:
-    places = Places()
+    places = PlaceCounts()
     places.add(PlaceLost(t=3.0, known_at=3.0, what="the plan is of another building"))
     assert places.lines()[0] == "place: not found; 0 steps with several candidates"
     assert places.lines()[1] == "from 3.0 s without a place: the plan is of another building"
@@ -125,8 +125,8 @@ def hall(tmp_path_factory: pytest.TempPathFactory) -> Path:
     corners = [(0.0, 0.0), (30.0, 0.0), (30.0, 20.0), (0.0, 20.0)]
     walls = tuple(Wall(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True))
     levels = tuple(Level(str(k), f"floor {k}", k, 3.0 * k, walls) for k in (0, 1))
-    stops = tuple(Stop(level.id, (28.0, 18.0)) for level in levels)
-    write_floorplan(path, FloorPlan("hall", levels, (Connector(Kind.STAIRS, "stairs", stops),)))
+    stops = tuple(ConnectorStop(level.id, (28.0, 18.0)) for level in levels)
+    write_floorplan(path, FloorPlan("hall", levels, (Connector(ConnectorKind.STAIRS, "stairs", stops),)))
     return path
 
 

@@ -183,7 +183,7 @@ def test_the_file_leads_nowhere_and_runs_nothing(tmp_path: Path) -> None:
     report = told(*walked())
     report.write(path)
     text = path.read_text(encoding="utf-8")
-    assert text.startswith("<!DOCTYPE html>\n<html lang=\"en\">")
+    assert text.startswith('<!DOCTYPE html>\n<html lang="en">')
     page = read(path)
     for one in page.all():
         assert one.tag not in {"script", "link", "iframe", "object", "embed", "img", "image", "use", "a", "base"}

@@ -11,11 +11,11 @@ from solepath import ActivityChanged, FootPressed, GaitCycleMeasured
 from solepath.body.gait.means import Figure, GaitParameters, StrideFigures
 from solepath.emulate.routes.building import BUILDING
 from solepath.show.report.bounded import Thinned, coarser
-from solepath.show.report.clock import Clock, lasted
-from solepath.show.report.figures.axes import Scale, line, ticks, told
+from solepath.show.report.clock import ReportClock, lasted
+from solepath.show.report.figures.axes import AxisScale, line, ticks, told
 from solepath.show.report.figures.cycle import contacts, neither, overlaps
 from solepath.show.report.figures.pressure import shade
-from solepath.show.report.soles import KEPT, STATIONS, Sole
+from solepath.show.report.soles import KEPT, STATIONS, ReportSole
 from solepath.show.tables.plan import PlanPicture
 from solepath.show.timeline import Timeline
 from solepath.types import Activity, Cell, Foot, Layout
@@ -35,7 +35,7 @@ def test_ticks_are_round_few_and_told_apart(low: float, span: float, most: int) 
 
 
 def test_a_scale_of_nothing_and_a_line_through_one_place_are_drawn_too() -> None:
-    assert Scale(3.0, 3.0, 10.0, 20.0).at(3.0) == 10.0
+    assert AxisScale(3.0, 3.0, 10.0, 20.0).at(3.0) == 10.0
     assert line([]) == ""
     assert line([(1.0, 2.0), (1.0, 2.04)]) == "M1 2h0"
     assert line([(1.0, 2.0), (3.0, 2.0)]) == "M1 2L3 2"
@@ -65,10 +65,10 @@ def test_a_coarser_timeline_leaves_out_what_was_short() -> None:
 
 
 def test_times_are_told_in_the_unit_that_suits_them() -> None:
-    assert Clock(0.0, 100.0).label == "time, s"
-    assert Clock(0.0, 900.0).of(120.0) == 2.0
-    assert Clock(1.7e9, 1.7e9 + 900.0).of(1.7e9 + 120.0) == 2.0
-    low, high = Clock(5.0, 5.0).span
+    assert ReportClock(0.0, 100.0).label == "time, s"
+    assert ReportClock(0.0, 900.0).of(120.0) == 2.0
+    assert ReportClock(1.7e9, 1.7e9 + 900.0).of(1.7e9 + 120.0) == 2.0
+    low, high = ReportClock(5.0, 5.0).span
     assert low < high
     assert [lasted(t) for t in (0.0, 59.6, 90.0, 3725.0)] == ["0.0 s", "1 min 0 s", "1 min 30 s", "1 h 2 min"]
 
@@ -122,7 +122,7 @@ def stride(start: float, off: float, end: float, **other: object) -> GaitCycleMe
     return GaitCycleMeasured(**(nothing | known | times | {"degraded": False, "steady": True} | other))  # type: ignore[arg-type]
 
 
-def pressed(sole: Sole, begin: float, heel: float) -> None:
+def pressed(sole: ReportSole, begin: float, heel: float) -> None:
     """A second of samples at 100 Hz, the load going from heel to toe until 0.6 s."""
     for k in range(100):
         share = min(k / 60.0, 1.0)
@@ -133,8 +133,8 @@ def pressed(sole: Sole, begin: float, heel: float) -> None:
         sole.press(FootPressed(t=t, known_at=t, foot=L, values=values, force=load, centre=centre))
 
 
-def walked() -> Sole:
-    sole = Sole(Layout(1, L, (Cell(0.05, 0.0), Cell(0.2, 0.0)), 0.25, 1.0))
+def walked() -> ReportSole:
+    sole = ReportSole(Layout(1, L, (Cell(0.05, 0.0), Cell(0.2, 0.0)), 0.25, 1.0))
     for k in range(4):
         pressed(sole, 1.0 * k, 100.0)
         if k:
@@ -171,7 +171,7 @@ def test_a_contact_that_is_run_missing_or_too_long_does_not_count(other: dict[st
 
 
 def test_soles_keep_little_however_long_they_are_walked_on() -> None:
-    sole = Sole()
+    sole = ReportSole()
     for k in range(30):
         pressed(sole, 1.0 * k, 100.0)
     assert len(sole.newest) <= KEPT

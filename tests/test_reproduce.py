@@ -13,7 +13,7 @@ from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes import ways
 from solepath.lab.reproduce import footstep_walks, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
 from solepath.lab.reproduce.experiments import EXPERIMENTS
-from solepath.lab.reproduce.picture import Boxes, Drawn, Floor, Track
+from solepath.lab.reproduce.picture import Boxes, Drawn, Floor, PictureTrack
 from solepath.lab.reproduce.pool import each
 from solepath.lab.reproduce.published import (
     CORNERS,
@@ -24,7 +24,7 @@ from solepath.lab.reproduce.published import (
     WALKING_MODES,
     corner_row,
 )
-from solepath.lab.reproduce.tables import Reproduction, Row, Statistics, as_json, statistics
+from solepath.lab.reproduce.tables import FigureRow, Reproduction, Statistics, as_json, statistics
 from solepath.lab.tables.reproduced import reproduced
 from solepath.lab.train import emulated
 
@@ -104,17 +104,17 @@ TWO_ROWS = Reproduction(
     walked="2 walks",
     unit="m",
     rows=(
-        Row("ZUPT-L", (19.0, 21.0), Statistics(20.97, 1.84, 19.74, 21.17, 22.56)),
-        Row("other", (1.0,), Statistics(3.0)),
+        FigureRow("ZUPT-L", (19.0, 21.0), Statistics(20.97, 1.84, 19.74, 21.17, 22.56)),
+        FigureRow("other", (1.0,), Statistics(3.0)),
     ),
     panels=(
         Boxes("distances", ("ZUPT-L", "other"), "m", 20.0),
         Floor(
             "the way",
             (
-                Track("true", ((0.0, 0.0), (1.0, 0.0)), Drawn.TRUTH),
-                Track("ours", ((0.0, 0.1),), Drawn.DOTS),
-                Track("line", ((0.0, 0.0), (1.0, 0.1))),
+                PictureTrack("true", ((0.0, 0.0), (1.0, 0.0)), Drawn.TRUTH),
+                PictureTrack("ours", ((0.0, 0.1),), Drawn.DOTS),
+                PictureTrack("line", ((0.0, 0.0), (1.0, 0.1))),
             ),
             marks=(("start", 0.0, 0.0),),
         ),

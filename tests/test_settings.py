@@ -15,7 +15,7 @@ from solepath.calibration import InsoleCalibration, Newtons
 from solepath.emulate.sensors.insoles import layout
 from solepath.recipes import own
 from solepath.saving import codec as machine
-from solepath.session.wearer import Wearer
+from solepath.session.wearer import WearerParts
 from walks import RECIPES, gone, machines, packets, samples
 
 BESIDES = ("fragments", "four samples a frame", "cc2541 at 20 Hz", "samples with pressure", "seven sites")
@@ -48,7 +48,7 @@ def holds_state(record: Any) -> bool:
 def changed_in(session: Session) -> list[str]:
     """The same of all of a session."""
     used = session._state.wearer
-    fresh = Wearer(used.recipe, used.calibration, used.poses, used.pressures)
+    fresh = WearerParts(used.recipe, used.calibration, used.poses, used.pressures)
     found = list(changed(fresh, used))
     for foot, tracker in used.feet.items():
         found += changed(fresh._tracker(foot), tracker, foot.value)

@@ -126,9 +126,7 @@ def test_a_hundred_small_turns_are_a_large_one() -> None:
     assert abs(q[1]) == pytest.approx(1.0, abs=1e-7)
 
 
-@given(
-    st.tuples(*[st.floats(-100.0, 100.0)] * 3), st.tuples(*[st.floats(-100.0, 100.0)] * 3), st.floats(0.0, 0.25)
-)
+@given(st.tuples(*[st.floats(-100.0, 100.0)] * 3), st.tuples(*[st.floats(-100.0, 100.0)] * 3), st.floats(0.0, 0.25))
 def test_whatever_the_rate_the_quaternion_keeps_its_length(before: Vec3, after: Vec3, h: float) -> None:
     q = turned((0.5, 0.5, -0.5, 0.5), before, after, h)
     assert sum(x * x for x in q) == pytest.approx(1.0)

@@ -14,7 +14,7 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.floorplan.checks import unusable, warnings
 from solepath.floorplan.importers.reading import read_floorplan
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import Kind
+from solepath.floorplan.plan import ConnectorKind
 from solepath.types import Activity, Foot
 from solepath.types.vector import GRAVITY
 
@@ -35,8 +35,8 @@ def test_the_building_has_two_floors_of_56_by_63_metres_with_four_lifts_and_two_
         assert (min(x for x, _ in ends), max(x for x, _ in ends)) == (0.0, EAST) == (0.0, 56.0)
         assert (min(y for _, y in ends), max(y for _, y in ends)) == (0.0, NORTH) == (0.0, 63.0)
     kinds = [one.kind for one in BUILDING.connectors]
-    assert kinds.count(Kind.LIFT) == 4 and kinds.count(Kind.STAIRS) == 2
-    assert all(one.flights == 2 for one in BUILDING.connectors if one.kind is Kind.STAIRS)
+    assert kinds.count(ConnectorKind.LIFT) == 4 and kinds.count(ConnectorKind.STAIRS) == 2
+    assert all(one.flights == 2 for one in BUILDING.connectors if one.kind is ConnectorKind.STAIRS)
     assert BUILDING.levels[1].elevation - BUILDING.levels[0].elevation == STOREY
 
 

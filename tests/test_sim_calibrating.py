@@ -8,7 +8,7 @@ import pytest
 
 from solepath.emulate.routes.postures import PITCHES, REPEATED, posture, postures, write_postures
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.gauge import MOST, RPPS_99, TWELVE_BIT, Characteristic, gauge, uncalibrated, write_gauge
+from solepath.emulate.sensors.gauge import MOST, RPPS_99, TWELVE_BIT, ForceCurve, gauge, uncalibrated, write_gauge
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.shoe import IN_SOLE, Mounting, Shoe
 from solepath.emulate.wearers.walker import Walker
@@ -66,7 +66,7 @@ def test_the_calibration_of_a_shoe_reads_the_postures_and_finds_the_shoe(tmp_pat
 
 
 @pytest.mark.parametrize("characteristic", [RPPS_99, TWELVE_BIT])
-def test_counts_rise_with_the_force_and_lead_back_to_it(characteristic: Characteristic) -> None:
+def test_counts_rise_with_the_force_and_lead_back_to_it(characteristic: ForceCurve) -> None:
     forces = np.linspace(1.0, 195.0, 50)
     counts = characteristic.counts(forces)
     assert (np.diff(counts) > 0).all() and counts.max() < characteristic.full

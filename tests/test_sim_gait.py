@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.emulate.routes.route import Pivot, Route, Turn, legs
-from solepath.emulate.wearers.gait import Stance, Wearer, cadence, step_length, step_time
+from solepath.emulate.routes.route import Pivot, Route, TurnAction, legs
+from solepath.emulate.wearers.gait import FootStand, Wearer, cadence, step_length, step_time
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
 
@@ -165,14 +165,14 @@ def test_a_route_knows_its_length_and_its_halts() -> None:
     assert hypot(route.end.x - 10, route.end.y - 1) == pytest.approx(
         0.0, abs=1e-9
     )  # the pivot turned it down the y axis
-    assert isinstance(legs(route)[2], Pivot) and isinstance(route.actions[2], Turn)
+    assert isinstance(legs(route)[2], Pivot) and isinstance(route.actions[2], TurnAction)
 
 
 def test_a_route_of_standing_only_has_no_steps() -> None:
     walker = Walker(Route().stand(4.0))
     assert walker.duration == pytest.approx(4.0)
     assert all(not walker.truth().steps(foot) for foot in Foot)
-    assert isinstance(walker.plan.starts[Foot.LEFT], Stance)
+    assert isinstance(walker.plan.starts[Foot.LEFT], FootStand)
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, float("nan"), float("inf")])

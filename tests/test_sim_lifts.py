@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.emulate.routes.lift import Lift, Ride, ride
+from solepath.emulate.routes.lift import CarRide, Lift, ride
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.emulate.walk import emulate
@@ -34,9 +34,9 @@ lifts = st.builds(
 )
 
 
-def moved(car: Ride, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def moved(car: CarRide, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Height, speed and acceleration without what shakes the car."""
-    still = Ride(car.begin, car.end, car.height, car.knots, car.state, np.zeros((3, 1, 3)) + (0.0, 1.0, 0.0))
+    still = CarRide(car.begin, car.end, car.height, car.knots, car.state, np.zeros((3, 1, 3)) + (0.0, 1.0, 0.0))
     position, velocity, acceleration = still.at(t)
     return position[:, 2], velocity[:, 2], acceleration[:, 2]
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.routes.styles import Manner
-from solepath.emulate.wearers.gait import Stride
+from solepath.emulate.wearers.gait import PlannedStride
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Activity, Foot, Site
@@ -20,7 +20,7 @@ def jogger() -> Walker:
     return Walker(Route().stand(1.0).walk(5.0).jog(30.0).walk(5.0).stop(1.0), seed=6)
 
 
-def run(walker: Walker, foot: Foot) -> list[Stride]:
+def run(walker: Walker, foot: Foot) -> list[PlannedStride]:
     """Strides at full speed."""
     return [s for s in walker.plan.strides[foot] if s.manner is Manner.RUN and s.speed > 2.59]
 

@@ -13,7 +13,7 @@ from solepath.emulate.routes.stairs import Flight
 from solepath.emulate.routes.styles import Manner
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.emulate.walk import emulate
-from solepath.emulate.wearers.gait import Stride, Wearer
+from solepath.emulate.wearers.gait import PlannedStride, Wearer
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
 from solepath.emulate.wearers.walker import Walker
 from solepath.emulate.wearers.wearers import SUBJECTS
@@ -30,7 +30,7 @@ def storey() -> Walker:
     return Walker(route, seed=4)
 
 
-def climbing(walker: Walker, foot: Foot) -> list[Stride]:
+def climbing(walker: Walker, foot: Foot) -> list[PlannedStride]:
     return [stride for stride in walker.plan.strides[foot] if stride.flight is not None]
 
 
@@ -78,9 +78,7 @@ def test_a_foot_never_goes_into_a_tread_nor_through_an_edge(storey: Walker, foot
         assert 0.005 < room[middle].min() < (0.10 if abs(stride.end.z - stride.start.z) > 0.2 else 0.25)
 
 
-flights = st.tuples(
-    st.integers(1, 6), st.booleans(), st.floats(0.12, 0.2), st.floats(0.25, 0.36), st.floats(0.4, 0.7)
-)
+flights = st.tuples(st.integers(1, 6), st.booleans(), st.floats(0.12, 0.2), st.floats(0.25, 0.36), st.floats(0.4, 0.7))
 
 
 @settings(max_examples=25, deadline=None)
@@ -127,8 +125,10 @@ def test_the_forefoot_lands_first_and_the_toes_point_down_on_the_way_down(storey
     for foot in Foot:
         for stride in climbing(storey, foot):
             touching = float(storey.motions[foot].pitch(np.array([stride.heel_strike + 1e-6]))[0])
-            assert (-0.12 if stride.manner is Manner.UP else -0.45) < touching < (
-                -0.04 if stride.manner is Manner.UP else -0.2
+            assert (
+                (-0.12 if stride.manner is Manner.UP else -0.45)
+                < touching
+                < (-0.04 if stride.manner is Manner.UP else -0.2)
             )
 
 

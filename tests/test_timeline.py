@@ -9,9 +9,7 @@ from solepath.show.timeline import Timeline
 
 
 def told(t: float, activity: Activity, revises: float | None = None, final: bool = True) -> ActivityChanged:
-    return ActivityChanged(
-        t=t, known_at=t + 3.0, activity=activity, probability=None, revises=revises, final=final
-    )
+    return ActivityChanged(t=t, known_at=t + 3.0, activity=activity, probability=None, revises=revises, final=final)
 
 
 def timeline(*events: ActivityChanged) -> Timeline:

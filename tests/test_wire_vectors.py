@@ -84,20 +84,18 @@ def command_record(fields: Any) -> Any:
 
 FORMATS = {
     "insole-frame": record(insole.InsoleFrame, insole.parse_frame, insole.build_frame),
-    "insole-fragment": Format(
-        fragment.parse_fragment, fragment.build_fragment, fragment_fields, fragment_record
-    ),
+    "insole-fragment": Format(fragment.parse_fragment, fragment.build_fragment, fragment_fields, fragment_record),
     "insole-info": Format(insole_info.parse_info, insole_info.build_info, info_fields, info_record),
     "insole-control": Format(
         insole_control.parse_control, insole_control.build_control, command_fields, command_record
     ),
     "cc2650-movement": record(cc2650.Movement, cc2650.parse_movement, cc2650.build_movement),
     "cc2650-movement-config": record(cc2650.MovementConfig, cc2650.parse_movement_config, cc2650.build_movement_config),
-    "cc2650-barometer": record(cc2650.Barometer, cc2650.parse_barometer, cc2650.build_barometer),
+    "cc2650-barometer": record(cc2650.Cc2650Barometer, cc2650.parse_barometer, cc2650.build_barometer),
     "cc2650-barometer-config": record(
-        cc2650.BarometerConfig, cc2650.parse_barometer_config, cc2650.build_barometer_config
+        cc2650.Cc2650BarometerConfig, cc2650.parse_barometer_config, cc2650.build_barometer_config
     ),
-    "cc2650-keys": record(cc2650.Keys, cc2650.parse_keys, cc2650.build_keys),
+    "cc2650-keys": record(cc2650.Cc2650Keys, cc2650.parse_keys, cc2650.build_keys),
     "cc2541-accelerometer": record(cc2541.Accelerometer, cc2541.parse_accelerometer, cc2541.build_accelerometer),
     "cc2541-accelerometer-config": record(
         cc2541.AccelerometerConfig, cc2541.parse_accelerometer_config, cc2541.build_accelerometer_config
@@ -110,14 +108,14 @@ FORMATS = {
     "cc2541-magnetometer-config": record(
         cc2541.MagnetometerConfig, cc2541.parse_magnetometer_config, cc2541.build_magnetometer_config
     ),
-    "cc2541-barometer": record(cc2541.Barometer, cc2541.parse_barometer, cc2541.build_barometer),
+    "cc2541-barometer": record(cc2541.Cc2541Barometer, cc2541.parse_barometer, cc2541.build_barometer),
     "cc2541-barometer-config": record(
-        cc2541.BarometerConfig, cc2541.parse_barometer_config, cc2541.build_barometer_config
+        cc2541.Cc2541BarometerConfig, cc2541.parse_barometer_config, cc2541.build_barometer_config
     ),
     "cc2541-barometer-calibration": record(
         cc2541.BarometerCalibration, cc2541.parse_barometer_calibration, cc2541.build_barometer_calibration
     ),
-    "cc2541-keys": record(cc2541.Keys, cc2541.parse_keys, cc2541.build_keys),
+    "cc2541-keys": record(cc2541.Cc2541Keys, cc2541.parse_keys, cc2541.build_keys),
     "device-battery": single("percent", device.parse_battery, device.build_battery),
     "device-firmware": single("firmware", device.parse_firmware, device.build_firmware),
     "receiver-connected": record(receiver.Connection, receiver.parse_connected, receiver.build_connected),

@@ -11,7 +11,7 @@ from solepath import Packet, Sample, Site
 from solepath.link.decoder import Decoder
 from solepath.link.driver import Driver, Measured, Reading
 from solepath.link.known import kinds
-from solepath.link.profile import BATTERY, Channel, How, Profile, Write
+from solepath.link.profile import BATTERY, Access, Channel, Profile, Write
 from solepath.types import Cell, Foot, Layout
 from solepath.wire.fields import Fields
 
@@ -19,7 +19,7 @@ LEFT = Site.LEFT_FOOT
 UP = (0.0, 0.0, 9.80665)
 
 
-def channel(name: str, how: How, number: int) -> Channel:
+def channel(name: str, how: Access, number: int) -> Channel:
     return Channel(f"toy/{name}", "5d1e0001-9c60-4cf1-a1b3-1a2b3c4d5e6f", f"5d1e{number:04x}-9c60-4cf1-a1b3-0", how)
 
 
@@ -28,9 +28,9 @@ PROFILE = Profile(
     names=("Toy",),
     services=(),
     channels=(
-        channel("data", How.NOTIFY, 2),
-        channel("more", How.NOTIFY, 3),
-        channel("start", How.WRITE, 4),
+        channel("data", Access.NOTIFY, 2),
+        channel("more", Access.NOTIFY, 3),
+        channel("start", Access.WRITE, 4),
         BATTERY,
     ),
     setup=(Write("toy/start", b"\x01"),),

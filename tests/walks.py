@@ -28,7 +28,7 @@ from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
-from solepath.foot.stance.stance import AngularRate, Graph, MovingVariance, Shoe
+from solepath.foot.stance.stance import AngularRate, Graph, MovingVariance, ShoeDetector
 from solepath.link.decoder import Decoder
 from solepath.recipes import DEFAULT, Recipe
 from solepath.saving import codec as machine
@@ -153,7 +153,7 @@ def machines() -> dict[str, Machine]:
     found = [_session(name, items) for name, items in packets().items()]
     found += [_decoder(name, items) for name, items in packets().items()]
     found += [_session("samples", samples(cells=0)), _session("samples with pressure", samples())]
-    for detector in (Shoe(), AngularRate(), MovingVariance(), Graph(), TwoArea(), MaximumPressure()):
+    for detector in (ShoeDetector(), AngularRate(), MovingVariance(), Graph(), TwoArea(), MaximumPressure()):
         name = type(detector).__name__
         items = pressed if isinstance(detector, TwoArea | MaximumPressure) else plain
         found.append(_session(name, items, Recipe(name, detector, ErrorStateFilter())))

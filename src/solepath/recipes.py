@@ -19,8 +19,8 @@ from .body.place.particles import Particles
 from .foot.cues.gait_cues import GaitCues
 from .foot.navigate.dedrift import LinearDedrift
 from .foot.navigate.error_state import ErrorStateFilter
-from .foot.navigate.level import Level
-from .foot.pressure.insole import Insole
+from .foot.navigate.level import LevelGround
+from .foot.pressure.insole import InsoleLoads
 from .foot.stance.cycle import Cycle
 from .foot.tracker import AnyCorrector, AnyCues, AnyDetector
 from .papers.footstep_tracker.activity.two_second_windows import TwoSecondWindows
@@ -40,7 +40,7 @@ from .papers.shoe_sensing.short_time_energy import AccelerationMagnitude, ShortT
 from .papers.shoe_sensing.walking_state import AnglePerMetre
 from .papers.walking_modes.compensation import TABLE_1
 from .papers.walking_modes.modes import Modes
-from .papers.walking_modes.touchdown import Height, MaximumPressure, NetAcceleration
+from .papers.walking_modes.touchdown import Height, NetAcceleration, PressureTouchdown
 
 AnyBody = BothFeet | MeanOfFeet | DoubleFoot | Modes | Footsteps
 AnyActivity = Activities | AnglePerMetre | TwoSecondWindows
@@ -62,7 +62,7 @@ class Recipe:
     detector: AnyDetector
     corrector: AnyCorrector
     cues: AnyCues = field(factory=GaitCues)
-    insole: Insole = field(factory=Insole)
+    insole: InsoleLoads = field(factory=InsoleLoads)
     body: AnyBody = field(factory=MeanOfFeet)
     activity: AnyActivity = field(factory=Activities)
     place: AnyPlace = field(factory=Particles)
@@ -138,7 +138,7 @@ STRAIGHT_CORRIDORS = evolve(DEFAULT, name="straight-corridors", body=BothFeet(st
 BOARD = 0.44
 """Where the circuit board parts an insole into two areas, as a share of its length: 12.5 cm of a shoe of 28.5 cm."""
 
-_TWO_AREAS = Insole(heel_ends=BOARD, forefoot_begins=BOARD)
+_TWO_AREAS = InsoleLoads(heel_ends=BOARD, forefoot_begins=BOARD)
 
 KUPT_DFPC = Recipe(
     "kupt-dfpc", KnownVelocity(), SwingDedrift(), CopCues(), _TWO_AREAS, DoubleFoot(), needs_pressure=True
@@ -157,14 +157,14 @@ PRESSURE_CONTOUR = Recipe("pressure-contour", ContourVelocity(), BiasZupt(), nee
 GYROSCOPE = Recipe("gyroscope", GyroscopeMagnitude(), BiasZupt())
 """The same with zero velocity where the gyroscope is quiet: what Bebek et al. compare with."""
 
-_OWN_HEIGHTS = ErrorStateFilter(level=Level(gate=False))
+_OWN_HEIGHTS = ErrorStateFilter(level=LevelGround(gate=False))
 """Method I goes by the height of the feet, so nothing is done about it."""
 
 WALKING_MODES = Recipe(
     "walking-modes",
     Cycle(),
     _OWN_HEIGHTS,
-    body=Modes(MaximumPressure(), TABLE_1),
+    body=Modes(PressureTouchdown(), TABLE_1),
     needs_pressure=True,
 )
 """Gong et al. 2023, method IV: touchdowns by maximum pressure, compensated by walking mode. It ships the paper's table
@@ -178,7 +178,7 @@ TOUCHDOWN_ACCELERATION = Recipe("touchdown-acceleration", Cycle(), _OWN_HEIGHTS,
 """Their method II: the foot with little net acceleration carries."""
 
 TOUCHDOWN_PRESSURE = Recipe(
-    "touchdown-pressure", Cycle(), _OWN_HEIGHTS, body=Modes(MaximumPressure()), needs_pressure=True
+    "touchdown-pressure", Cycle(), _OWN_HEIGHTS, body=Modes(PressureTouchdown()), needs_pressure=True
 )
 """Their method III: touchdowns by maximum pressure."""
 

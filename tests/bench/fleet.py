@@ -16,8 +16,8 @@ from pathlib import Path
 
 from attrs import evolve
 
-from solepath.fleet.demo.stage import Bare, Stage
-from solepath.fleet.demo.wearers import Plan
+from solepath.fleet.demo.stage import Bare, DemoStage
+from solepath.fleet.demo.wearers import DemoPlan
 from solepath.show.tables.table import number, percent, table
 
 COLUMNS = (
@@ -36,10 +36,10 @@ that bare sessions reach in as many processes. Wearers a core: both feet at 100 
 kB a wearer: memory, with packets on their way; for a few wearers the engine's own would be most of it."""
 
 
-def line(plan: Plan) -> list[str]:
+def line(plan: DemoPlan) -> list[str]:
     """One run, and the sessions alone beside it."""
     with tempfile.TemporaryDirectory(prefix="solepath-fleet-") as directory:
-        stage = Stage(Path(directory), plan)
+        stage = DemoStage(Path(directory), plan)
         stage.prepare()
         samples = sum(stage.samples)
         engine = stage.uninterrupted()
@@ -57,9 +57,9 @@ def line(plan: Plan) -> list[str]:
     ]
 
 
-def _alone(plan: Plan) -> tuple[Bare, int]:
+def _alone(plan: DemoPlan) -> tuple[Bare, int]:
     with tempfile.TemporaryDirectory(prefix="solepath-fleet-") as directory:
-        fewer = Stage(Path(directory), evolve(plan, wearers=MOST_ALONE))
+        fewer = DemoStage(Path(directory), evolve(plan, wearers=MOST_ALONE))
         fewer.prepare()
         return fewer.bare(), sum(fewer.samples)
 
@@ -72,7 +72,9 @@ def main() -> None:
     parser.add_argument("--every", type=float, default=10.0, help="s between two snapshots")
     parser.add_argument("--recipe", default="default")
     asked = parser.parse_args()
-    plans = [Plan(n, asked.seconds, recipe=asked.recipe, parts=asked.processes, every=asked.every) for n in asked.sizes]
+    plans = [
+        DemoPlan(n, asked.seconds, recipe=asked.recipe, parts=asked.processes, every=asked.every) for n in asked.sizes
+    ]
     rows = [line(plan) for plan in plans]
     machine = f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores"
     print(f"{machine}, {asked.processes} processes of bytewax\n\n{table(COLUMNS, rows)}\n")

@@ -2,7 +2,7 @@
 
 from .air import Found, scan
 from .backend import NATIVE, Backend
-from .connection import Connection, State
+from .connection import Connection, ConnectionState
 from .devices import Devices
 from .record import record
 from .trouble import BluetoothError
@@ -15,7 +15,7 @@ __all__ = [
     "Connection",
     "Devices",
     "Found",
-    "State",
+    "ConnectionState",
     "Wanted",
     "record",
     "scan",

@@ -51,7 +51,7 @@ Heard = Callable[[Found], None]
 
 
 @define(eq=False)
-class Air:
+class Scanner:
     """Scans while there are listeners, in a task of its owner that runs `run`. `complain` gets a sentence when it
     cannot."""
 

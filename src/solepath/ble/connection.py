@@ -14,8 +14,8 @@ from bleak_retry_connector import establish_connection
 
 from ..types import Site
 from ..wire.receiver import LONGEST_NAME, build_connected
-from ..wire.receiver import Connection as Made
-from .air import WEAKEST, Air, Found
+from ..wire.receiver import ConnectionFrame as Made
+from .air import WEAKEST, Found, Scanner
 from .backend import Backend
 from .calls import calling
 from .listening import Listening
@@ -42,7 +42,7 @@ RECONSIDER = 60.0
 """s after which a device that was not the one is looked at again: it may have been set to rights."""
 
 
-class State(Enum):
+class ConnectionState(Enum):
     """What a connection is at: it waits for the device's advertisement, connects to it, reads, subscribes and writes
     what the profile says, or passes on what comes."""
 
@@ -64,12 +64,12 @@ class Connection:
 
     wanted: Wanted
     backend: Backend
-    air: Air
+    air: Scanner
     voice: Voice
     siblings: Sequence[Connection]
     pair: bool
     patience: float
-    state: State = field(default=State.SEEKING, init=False)
+    state: ConnectionState = field(default=ConnectionState.SEEKING, init=False)
     name: str = field(default="", init=False)
     signal: int | None = field(default=None, init=False)
     """With which it last advertised, dBm; None when nobody knows."""
@@ -109,8 +109,8 @@ class Connection:
             except FAILURES as error:
                 self.voice.complain(sentence(error))
             finally:
-                steady = self._streamed and self.state is State.LISTENING and _now() - self._since >= STEADY
-                self._trying, self.state = "", State.SEEKING
+                steady = self._streamed and self.state is ConnectionState.LISTENING and _now() - self._since >= STEADY
+                self._trying, self.state = "", ConnectionState.SEEKING
             if self._streamed:
                 pause, self._lacking_since = PAUSE, _now()
             if not steady:
@@ -139,11 +139,11 @@ class Connection:
         name = found.name or found.address
         if profile is None:
             raise Unfit(f"{name} is of no kind that is known here: say its profile")
-        self.state = State.CONNECTING
+        self.state = ConnectionState.CONNECTING
         gone = asyncio.Event()
         client = await self._connect(found, name, gone)
         try:
-            self.state = State.SETTING_UP
+            self.state = ConnectionState.SETTING_UP
             if lacks := lacking(client, profile):
                 raise Unfit(f"{name} is no {profile.name}: it has no {lacks}")
             info = await ask_info(client, profile)
@@ -152,7 +152,7 @@ class Connection:
             self.voice.say("receiver/connected", build_connected(Made(shortened(name, LONGEST_NAME), self.signal)))
             try:
                 await listening.set_up()
-                self.state, self._since = State.LISTENING, _now()
+                self.state, self._since = ConnectionState.LISTENING, _now()
                 await listening.run()
             finally:
                 listening.closed, self._streamed = True, listening.streamed

@@ -12,9 +12,9 @@ from collections.abc import AsyncIterator, Iterable
 from types import TracebackType
 
 from ..types import Packet, Site
-from .air import Air, scanner
+from .air import Scanner, scanner
 from .backend import NATIVE, Backend
-from .connection import Connection, State
+from .connection import Connection, ConnectionState
 from .inbox import Inbox
 from .trouble import FAILURES, BluetoothError, sentence
 from .voice import Voice
@@ -58,7 +58,7 @@ class Devices:
         if capacity < 1:
             raise ValueError(f"a capacity of {capacity}")
         self._inbox = Inbox(capacity)
-        self._air = Air(backend, self._complain)
+        self._air = Scanner(backend, self._complain)
         self._backend = backend
         self._tasks: list[asyncio.Task[None]] = []
         self._connections: list[Connection] = []
@@ -162,5 +162,5 @@ class Devices:
 
     def _complain(self, what: str) -> None:
         for connection in self._connections:
-            if connection.state is State.SEEKING:
+            if connection.state is ConnectionState.SEEKING:
                 connection.voice.complain(what)

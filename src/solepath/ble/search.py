@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from attrs import define, field
 
-from .air import Air, Found
+from .air import Found, Scanner
 from .waiting import either
 from .wanted import Wanted, says_its_site
 
@@ -27,7 +27,7 @@ class Search:
     `since` may be before this search, which then listens for a moment at least.
     """
 
-    air: Air
+    air: Scanner
     wanted: Wanted
     address: str
     barred: Callable[[Found], bool]

@@ -8,7 +8,7 @@ from bleak import BleakClient
 from bleak.backends.characteristic import BleakGATTCharacteristic
 from bleak.exc import BleakDBusError, BleakError, BleakGATTProtocolError
 
-from ..link.profile import Channel, How, Profile
+from ..link.profile import Access, Channel, Profile
 from ..types import SITE_OF_FOOT, Packet, Site
 from ..wire.error import WireError
 from ..wire.insole_info import parse_info
@@ -97,7 +97,7 @@ async def subscribe(client: BleakClient, profile: Profile, hearer: Callable[[str
     """Let `hearer`'s callbacks hear whatever the device can say. What it refuses beside its streams is told and passed
     over."""
     for channel in profile.channels:
-        if channel.how is not How.NOTIFY or (one := speaking(client, channel)) is None:
+        if channel.how is not Access.NOTIFY or (one := speaking(client, channel)) is None:
             continue
         try:
             async with calling(ANSWER):

@@ -81,7 +81,7 @@ _Key = TypeVar("_Key", str, tuple[str, int])
 _Said = TypeVar("_Said")
 
 
-class _Writer(Protocol):
+class _FileWriter(Protocol):
     count: int
 
     def write(self, packet: Packet) -> None: ...
@@ -152,7 +152,7 @@ def _shown(log: BtsnoopLog, show: Callable[[int], None]) -> Iterator[Packet]:
         yield packet
 
 
-Make = Callable[[Path, Mapping[str, Any]], _Writer]
+Make = Callable[[Path, Mapping[str, Any]], _FileWriter]
 
 
 def _maker(out: Path) -> Make:

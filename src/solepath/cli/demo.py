@@ -103,13 +103,13 @@ def _view(options: argparse.Namespace) -> View | None:
 
 def _show(demo: Demo, view: View, pace: float) -> None:
     """On a page. Whatever was looked at there, the walk is heard to its end."""
-    from ..show.page.player.kept import Kept
+    from ..show.page.player.kept import KeptItems
     from ..show.page.player.player import Player
     from ..show.page.scene.scene import Scene
     from .common.view import play, run_rest
 
     scene = Scene("An emulated walk", "default", "demo", plan=None if demo.plan is None else demo.plan.plan)
-    player = Player(Kept(demo.walk.packets), demo.monitor.session, scene, demo.plan, told=demo.told)
+    player = Player(KeptItems(demo.walk.packets), demo.monitor.session, scene, demo.plan, told=demo.told)
     player.speed(pace)
     play(player, view, once=not attended())
     run_rest(player, "walk")

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from .common.failure import Failure, check_writable, count, known_recipe, positive, seed
 
 if TYPE_CHECKING:
-    from ..fleet.demo.stage import Stage
+    from ..fleet.demo.stage import DemoStage
 
 DIFFERS = 1
 """Exit status when the events of two runs differ."""
@@ -65,14 +65,14 @@ def run(options: argparse.Namespace) -> int:
     _check(options)
     from ..fleet.demo.compare import Torn
     from ..fleet.demo.run import RunFailed
-    from ..fleet.demo.stage import Stage
-    from ..fleet.demo.wearers import Plan
+    from ..fleet.demo.stage import DemoStage
+    from ..fleet.demo.wearers import DemoPlan
     from .common.loop import stopped_alike
 
     seconds = options.seconds or min(max(WALKED / options.wearers, LEAST), MOST)
-    plan = Plan(options.wearers, seconds, options.seed, options.recipe, options.processes)
+    plan = DemoPlan(options.wearers, seconds, options.seed, options.recipe, options.processes)
     with stopped_alike(), _directory(options) as directory:
-        stage = Stage(directory, plan)
+        stage = DemoStage(directory, plan)
         try:
             differences = play(stage, options.kills, keep=options.keep)
         except (RunFailed, Torn) as failed:
@@ -80,7 +80,7 @@ def run(options: argparse.Namespace) -> int:
         return conclude(stage, differences, options.out, options.json)
 
 
-def play(stage: Stage, kills: int, *, keep: bool) -> list[str]:
+def play(stage: DemoStage, kills: int, *, keep: bool) -> list[str]:
     """All runs, told as they end; what differed between an uninterrupted one and the sessions alone."""
     from .fleet_table import of_kills, of_worth
 
@@ -107,7 +107,7 @@ def play(stage: Stage, kills: int, *, keep: bool) -> list[str]:
     return differences
 
 
-def conclude(stage: Stage, differences: list[str], out: Path | None, json: Path | None) -> int:
+def conclude(stage: DemoStage, differences: list[str], out: Path | None, json: Path | None) -> int:
     """The table, the files, and the exit status."""
     from .fleet_table import figures, table_of
 
@@ -184,7 +184,7 @@ def _write(path: Path, figures: dict[str, Any]) -> None:
         file.write("\n")
 
 
-def _leave(stage: Stage, out: Path) -> None:
+def _leave(stage: DemoStage, out: Path) -> None:
     """The events of the uninterrupted run, and how to look at them."""
     from shlex import quote
 

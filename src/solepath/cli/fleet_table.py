@@ -8,7 +8,7 @@ from ..show.tables.table import number, percent, table
 
 if TYPE_CHECKING:
     from ..fleet.demo.kills import Cost, Outcome
-    from ..fleet.demo.stage import Engine, Stage
+    from ..fleet.demo.stage import DemoStage, Engine
 
 
 def of_kills(engine: Engine, run: int, outcome: Outcome) -> list[str]:
@@ -46,7 +46,7 @@ def _met(engine: Engine, cost: Cost) -> str:
     return f"{who}, {where}; {on}, {cost.reopened} went on from their states"
 
 
-def table_of(stage: Stage) -> str:
+def table_of(stage: DemoStage) -> str:
     """The figures of all runs. What was not done has a dash."""
     found = figures(stage)
     engine, bare, kills = found["engine"], found["sessions"], found["kills"]
@@ -82,7 +82,7 @@ def table_of(stage: Stage) -> str:
     return table(["a fleet on bytewax", ""], rows)
 
 
-def figures(stage: Stage) -> dict[str, Any]:
+def figures(stage: DemoStage) -> dict[str, Any]:
     """The same for programs: s, bytes, samples/s."""
     engine, bare, plan = stage.engine, stage.sessions, stage.plan
     if engine is None or bare is None:

@@ -172,11 +172,11 @@ def _played(
 
     The player tells of every item once and in order, whatever is done on the page, and what nobody has watched is run
     through at the end: what comes of the recording is the same."""
-    from ..show.page.player.kept import Kept
+    from ..show.page.player.kept import KeptItems
     from ..show.page.player.player import Player
     from ..show.page.scene.scene import Scene
 
-    items = Kept(reading)
+    items = KeptItems(reading)
     shown, fault = len(items) > 0, "" if reading.failure is None else str(reading.failure)
     if shown or not fault:
         results.begin()

@@ -11,7 +11,7 @@ from .fleet import Fleet
 from .rows import SENT_COLUMNS, TOLD_COLUMNS, read_line, read_sent, sent_line, sent_row, told_row
 from .step.keyed import Keyed
 from .step.once import Once
-from .step.sent import End, Sent, Tick, Told, Unreadable
+from .step.sent import End, NumberedEvent, Sent, Tick, Unreadable
 
 __all__ = [
     "SENT_COLUMNS",
@@ -27,7 +27,7 @@ __all__ = [
     "SentRejected",
     "StateRefused",
     "Tick",
-    "Told",
+    "NumberedEvent",
     "Unreadable",
     "WearerFailed",
     "read_line",

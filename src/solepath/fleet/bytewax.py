@@ -23,16 +23,16 @@ from bytewax.dataflow import operator
 from bytewax.operators import KeyedStream
 from bytewax.outputs import FixedPartitionedSink, StatefulSinkPartition
 
-from .bytewax_wearer import Wearer
+from .bytewax_wearer import KeyedWearer
 from .fleet import Fleet
-from .parquet import Parts
-from .step.sent import Told
+from .parquet import PartFiles
+from .step.sent import NumberedEvent
 
 
 @operator
 def gait(
     step_id: str, up: KeyedStream[Any], fleet: Fleet, idle: timedelta | None = None, forget: timedelta | None = None
-) -> KeyedStream[Told]:
+) -> KeyedStream[NumberedEvent]:
     """What the sessions of a fleet tell of what phones sent, wearer by wearer.
 
     `up`: keyed by the wearer's name; Sent and Unreadable, one at a time or in lists. In the recovery store is the state
@@ -44,7 +44,9 @@ def gait(
     events that are numbered from 0 again. bytewax keeps the name (see `purge`).
     """
     named = operators.map("named", up, lambda item: (item[0], item))  # bytewax tells a logic no key
-    return operators.stateful_batch("sessions", named, lambda kept: Wearer(fleet, idle, forget, *kept or (None, None)))
+    return operators.stateful_batch(
+        "sessions", named, lambda kept: KeyedWearer(fleet, idle, forget, *kept or (None, None))
+    )
 
 
 def purge(store: str | Path) -> None:
@@ -61,7 +63,7 @@ def purge(store: str | Path) -> None:
 
 
 @frozen
-class ParquetSink(FixedPartitionedSink[Told, tuple[int, int]]):
+class ParquetSink(FixedPartitionedSink[NumberedEvent, tuple[int, int]]):
     """Told, keyed by wearer, as Parquet files in `directory` (fleet/parquet.py), which all workers see; every snapshot
     closes a part. `partitions`: so many workers write at a time; it stays as it is for the life of a recovery store.
     The job ends with an OSError that names the file when one cannot be written."""
@@ -73,14 +75,14 @@ class ParquetSink(FixedPartitionedSink[Told, tuple[int, int]]):
         return [str(number) for number in range(self.partitions)]
 
     def build_part(self, step_id: str, for_part: str, resume_state: tuple[int, int] | None) -> _Partition:
-        return _Partition(Parts(self.directory, for_part, resume_state, partitions=self.list_parts()))
+        return _Partition(PartFiles(self.directory, for_part, resume_state, partitions=self.list_parts()))
 
 
 @frozen
-class _Partition(StatefulSinkPartition[Told, tuple[int, int]]):
-    parts: Parts
+class _Partition(StatefulSinkPartition[NumberedEvent, tuple[int, int]]):
+    parts: PartFiles
 
-    def write_batch(self, values: list[Told]) -> None:
+    def write_batch(self, values: list[NumberedEvent]) -> None:
         self.parts.write(values)
 
     def snapshot(self) -> tuple[int, int]:

@@ -12,11 +12,11 @@ from bytewax.operators import StatefulBatchLogic
 
 from .fleet import Fleet
 from .step.keyed import Keyed
-from .step.sent import Told
+from .step.sent import NumberedEvent
 
 
 @define
-class Wearer(StatefulBatchLogic[tuple[str, Any], Told, tuple[bytes | None, datetime | None]]):
+class KeyedWearer(StatefulBatchLogic[tuple[str, Any], NumberedEvent, tuple[bytes | None, datetime | None]]):
     """One wearer: a session, or its state as bytes, or both while they are the same. `ended`: when the last row came,
     once the wearer has ended."""
 
@@ -27,7 +27,7 @@ class Wearer(StatefulBatchLogic[tuple[str, Any], Told, tuple[bytes | None, datet
     ended: datetime | None
     keyed: Keyed | None = None
 
-    def on_batch(self, values: list[tuple[str, Any]]) -> tuple[Iterable[Told], bool]:
+    def on_batch(self, values: list[tuple[str, Any]]) -> tuple[Iterable[NumberedEvent], bool]:
         keyed = self.keyed = self.keyed or self.fleet.open(values[0][0], self.state)
         self.state = None
         told = [keyed.feed(sent if isinstance(sent, list | tuple) else [sent]) for _, sent in values]
@@ -38,7 +38,7 @@ class Wearer(StatefulBatchLogic[tuple[str, Any], Told, tuple[bytes | None, datet
         idle = [datetime.now(UTC) + self.idle] if self.idle is not None and self.keyed is not None else []
         return min([*idle, *self._forget_at()], default=None)
 
-    def on_notify(self) -> tuple[Iterable[Told], bool]:
+    def on_notify(self) -> tuple[Iterable[NumberedEvent], bool]:
         if any([at <= datetime.now(UTC) for at in self._forget_at()]):
             return [], self.DISCARD
         self.snapshot()

@@ -18,7 +18,7 @@ _CUT = LONGEST_LINE + 2
 
 
 @define
-class Files:
+class NamedFiles:
     """The files in `directory` whose names fit `pattern`, in the order of their names. `read`: bytes of each that were
     read by now, with the line that came last. Of one that is gone, or became shorter, nothing is known."""
 

@@ -11,9 +11,9 @@ from ..floorplan.plan import FloorPlan
 from ..link.driver import Driver
 from ..recipes import DEFAULT, Recipe
 from .step.keyed import Keyed
-from .step.sent import Sent, Told, Unreadable
+from .step.sent import NumberedEvent, Sent, Unreadable
 from .step.sessions import Sessions
-from .step.state import Identity, Rest, write_state
+from .step.state import Identity, OtherState, write_state
 
 
 class Fleet:
@@ -59,7 +59,9 @@ class Fleet:
         # what is wrong for all is wrong here, and not in a worker
         self._sessions.unpack(self._sessions.fresh("", calibrated=False).pack())
 
-    def step(self, wearer: str, state: bytes | None, sent: Iterable[Sent | Unreadable]) -> tuple[bytes, list[Told]]:
+    def step(
+        self, wearer: str, state: bytes | None, sent: Iterable[Sent | Unreadable]
+    ) -> tuple[bytes, list[NumberedEvent]]:
         """The state and the events of `wearer` after `sent`, given the state before; None for a wearer who is new.
 
         Pure: the same in gives the same out, on every machine, however it is cut into calls, where parts of the app's
@@ -85,4 +87,4 @@ class Fleet:
         session = self._sessions.restored(snapshot)
         now = session.now
         identity = Identity(-1, 0, 0, 0.0 if now is None else now)
-        return write_state(identity, Rest(session=session.pack()))
+        return write_state(identity, OtherState(session=session.pack()))

@@ -20,7 +20,7 @@ from pathlib import Path
 from attrs import define, field, frozen
 from bytewax.inputs import FixedPartitionedSource, StatefulSourcePartition
 
-from .files import Files, seen
+from .files import NamedFiles, seen
 
 _LOG = logging.getLogger(__name__)
 
@@ -56,13 +56,13 @@ class LineSource(FixedPartitionedSource[bytes, dict[str, int]]):
         return [".", *(path.name for path in seen(self.directory) if path.is_dir())]
 
     def build_part(self, step_id: str, for_part: str, resume_state: dict[str, int] | None) -> _Directory:
-        return _Directory(self, Files(self.directory / for_part, self.pattern, dict(resume_state or {})))
+        return _Directory(self, NamedFiles(self.directory / for_part, self.pattern, dict(resume_state or {})))
 
 
 @define
 class _Directory(StatefulSourcePartition[bytes, dict[str, int]]):
     source: LineSource
-    files: Files
+    files: NamedFiles
     lines: Iterator[bytes] = field(init=False)
     awake: datetime | None = field(default=None, init=False)
 

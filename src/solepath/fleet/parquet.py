@@ -3,8 +3,8 @@
     SELECT wearer, count(*) FROM 'told/*.parquet' WHERE event = 'StrideTaken' GROUP BY wearer       -- DuckDB
     pandas.read_parquet("told")        spark.read.parquet("told")
 
-Needs the extra `bytewax`, or pyarrow itself. It knows no engine: one writes through `Parts`, and keeps the number of
-the next part among its own state.
+Needs the extra `bytewax`, or pyarrow itself. It knows no engine: one writes through `PartFiles`, and keeps the number
+of the next part among its own state.
 
 A part is whole or not there: it is written under a name that readers pass over (it begins with a dot and does not end
 in `.parquet`), brought to the disk, and renamed. After a crash the engine says which part comes next, and those from it
@@ -32,7 +32,7 @@ from attrs import define, field
 from pyarrow import parquet
 
 from .rows import TOLD_COLUMNS, told_row
-from .step.sent import Told
+from .step.sent import NumberedEvent
 
 _ARROW = {str: pa.string(), int: pa.int64(), float: pa.float64(), bool: pa.bool_()}
 SCHEMA = pa.schema([(name, _ARROW[kind]) for name, kind in TOLD_COLUMNS.items()])
@@ -55,7 +55,7 @@ _TAKEN_UP = "%s: an earlier run goes on, and its parts are back (%d); those of a
 
 
 @define
-class Parts:
+class PartFiles:
     """The part files of one writer in `directory`, which is made when there is none.
 
     `partition`: letters and digits that tell this writer from others in the same directory, which may live in other
@@ -125,7 +125,7 @@ class Parts:
         elif aside or back:
             _LOG.warning(_TAKEN_UP, self.directory, back, aside)
 
-    def write(self, told: Iterable[Told]) -> None:
+    def write(self, told: Iterable[NumberedEvent]) -> None:
         """Gather events for the part that is open."""
         for one in told:
             self._rows.append(told_row(one))
@@ -150,9 +150,7 @@ class Parts:
         """A row group of what was gathered, sorted: a wearer's events stand together, and compress so."""
         if self._writer is None:
             self._buffer = pa.BufferOutputStream()
-            self._writer = parquet.ParquetWriter(
-                self._buffer, SCHEMA, compression="zstd", use_dictionary=REPEATED
-            )
+            self._writer = parquet.ParquetWriter(self._buffer, SCHEMA, compression="zstd", use_dictionary=REPEATED)
         table = pa.Table.from_pylist(self._rows, SCHEMA)
         self._rows = []
         self._writer.write_table(table.sort_by([("wearer", "ascending"), ("number", "ascending")]))

@@ -23,7 +23,7 @@ from ..events.fleet import Refusal, SentRejected
 from .fleet import Fleet
 from .rows import read_line, told_row
 from .step.keyed import Keyed
-from .step.sent import LONGEST_NAME, Sent, Told, Unreadable
+from .step.sent import LONGEST_NAME, NumberedEvent, Sent, Unreadable
 
 MOST_LINES = 4096
 """Of one message; one that has more is refused whole, since every line that cannot be read is told of."""
@@ -62,12 +62,14 @@ class _Sessions:
         wearer = _wearer(key)
         if wearer is None:  # nor has it a state, whose key in the changelog would be this one, however long
             at = message_context()
-            return [told_row(Told(f"{UNKEYED}{at.partition}", at.offset, _NO_KEY))]
+            return [told_row(NumberedEvent(f"{UNKEYED}{at.partition}", at.offset, _NO_KEY))]
         told, now = self._step(wearer, state.get_bytes("state"), _sent(wearer, value))
         state.set_bytes("state", now)
         return [told_row(one) for one in told]
 
-    def _step(self, wearer: str, before: bytes | None, sent: list[Sent | Unreadable]) -> tuple[list[Told], bytes]:
+    def _step(
+        self, wearer: str, before: bytes | None, sent: list[Sent | Unreadable]
+    ) -> tuple[list[NumberedEvent], bytes]:
         held, keyed = self._kept.pop(wearer, (None, None))
         if keyed is None or held != before:
             keyed = self._fleet.open(wearer, before)

@@ -12,7 +12,7 @@ from typing import Any
 
 from ..show.output import event_record
 from ..types import Packet, Site
-from .step.sent import LONGEST_DATA, LONGEST_NAME, MOST, End, Sent, Tick, Told, Unreadable
+from .step.sent import LONGEST_DATA, LONGEST_NAME, MOST, End, NumberedEvent, Sent, Tick, Unreadable
 
 SENT_COLUMNS: Mapping[str, type] = {
     "wearer": str, "run": int, "number": int, "t": float, "site": str, "channel": str, "data": bytes, "device": str,
@@ -29,7 +29,7 @@ LONGEST_LINE = 65_536
 """Bytes of a line, without its line feed."""
 
 
-class _Flaw(Exception):
+class _RowFlaw(Exception):
     """What is wrong with a row."""
 
 
@@ -50,12 +50,12 @@ def read_sent(row: Any) -> Sent | Unreadable:
     wearer, number, run = "", None, 0
     try:
         if not isinstance(row, Mapping):
-            raise _Flaw(f"a row is a mapping, not a {type(row).__name__}")
+            raise _RowFlaw(f"a row is a mapping, not a {type(row).__name__}")
         wearer = _name(row, "wearer")
         run = _count(row, "run", 0)
         number = _count(row, "number", None)
         return Sent(wearer, number, _what(row), run)
-    except _Flaw as flaw:
+    except _RowFlaw as flaw:
         return Unreadable(wearer, str(flaw), run, number)
 
 
@@ -66,14 +66,14 @@ def _what(row: Mapping[str, Any]) -> Packet | Tick | End:
     if site is None and channel == "tick":
         return Tick(_time(row))
     if not isinstance(site, str) or site not in _SITES:
-        raise _Flaw(f"site is not one of {', '.join(_SITES)}")
+        raise _RowFlaw(f"site is not one of {', '.join(_SITES)}")
     data = row.get("data")
     if isinstance(data, bytearray | memoryview):
         data = bytes(data)
     if not isinstance(data, bytes):
-        raise _Flaw(f"data is no bytes but a {type(data).__name__}")
+        raise _RowFlaw(f"data is no bytes but a {type(data).__name__}")
     if len(data) > LONGEST_DATA:
-        raise _Flaw(f"data of {len(data)} bytes; {LONGEST_DATA} are the most")
+        raise _RowFlaw(f"data of {len(data)} bytes; {LONGEST_DATA} are the most")
     device = "" if row.get("device") is None else _name(row, "device")
     return Packet(_time(row), _SITES[site], channel, data, device)
 
@@ -83,13 +83,13 @@ def _name(row: Mapping[str, Any], key: str) -> str:
     if type(value) is str and len(value) <= LONGEST_NAME and value.isascii():
         return value  # as nearly all are
     if not isinstance(value, str):
-        raise _Flaw(f"{key} is no text but a {type(value).__name__}")
+        raise _RowFlaw(f"{key} is no text but a {type(value).__name__}")
     if len(value) > LONGEST_NAME:
-        raise _Flaw(f"{key} of {len(value)} characters; {LONGEST_NAME} are the most")
+        raise _RowFlaw(f"{key} of {len(value)} characters; {LONGEST_NAME} are the most")
     try:
         value.encode()
     except UnicodeEncodeError:
-        raise _Flaw(f"{key} holds half a character") from None
+        raise _RowFlaw(f"{key} holds half a character") from None
     return value
 
 
@@ -101,9 +101,9 @@ def _count(row: Mapping[str, Any], key: str, default: int | None) -> int:
         try:
             value = index(_not_bool(value))
         except TypeError:
-            raise _Flaw(f"{key} is no whole number but a {type(value).__name__}") from None
+            raise _RowFlaw(f"{key} is no whole number but a {type(value).__name__}") from None
     if not 0 <= value <= MOST:
-        raise _Flaw(f"{key} is not from 0 to 2**53 - 1")
+        raise _RowFlaw(f"{key} is not from 0 to 2**53 - 1")
     return value
 
 
@@ -119,11 +119,11 @@ def _time(row: Mapping[str, Any]) -> float:
     if type(value) is float:
         return value
     if isinstance(value, bool) or not isinstance(value, float | int):
-        raise _Flaw(f"t is no number but a {type(value).__name__}")
+        raise _RowFlaw(f"t is no number but a {type(value).__name__}")
     try:
         return float(value)
     except OverflowError:
-        raise _Flaw("t is no time") from None
+        raise _RowFlaw("t is no time") from None
 
 
 def sent_line(sent: Sent) -> bytes:
@@ -139,7 +139,7 @@ def read_line(line: Any) -> Sent | Unreadable:
     """What a line says; of one that cannot be read, why. It never raises."""
     try:
         row = _object(line)
-    except _Flaw as flaw:
+    except _RowFlaw as flaw:
         return Unreadable("", str(flaw))
     data = row.get("data")
     if isinstance(data, str):
@@ -154,20 +154,20 @@ def read_line(line: Any) -> Sent | Unreadable:
 
 def _object(line: Any) -> dict[str, Any]:
     if not isinstance(line, bytes | bytearray):
-        raise _Flaw(f"a line is bytes, not a {type(line).__name__}")
+        raise _RowFlaw(f"a line is bytes, not a {type(line).__name__}")
     if len(line) > LONGEST_LINE:
-        raise _Flaw(f"a line of {len(line)} bytes; {LONGEST_LINE} are the most")
+        raise _RowFlaw(f"a line of {len(line)} bytes; {LONGEST_LINE} are the most")
     try:
         value = _DECODER.decode(line.decode())
     except (ValueError, RecursionError):
-        raise _Flaw("a line that is no JSON") from None
+        raise _RowFlaw("a line that is no JSON") from None
     if not isinstance(value, dict):
-        raise _Flaw("a line that is no JSON object")
+        raise _RowFlaw("a line that is no JSON object")
     return value
 
 
 def _refuse_constant(name: str) -> None:
-    raise _Flaw(f"a line with {name}, which is no JSON")
+    raise _RowFlaw(f"a line with {name}, which is no JSON")
 
 
 _DECODER = json.JSONDecoder(parse_constant=_refuse_constant)
@@ -175,7 +175,7 @@ _ENCODER = json.JSONEncoder(allow_nan=False, separators=(",", ":"))
 _FIELDS = json.JSONEncoder(allow_nan=False)
 
 
-def told_row(told: Told) -> dict[str, Any]:
+def told_row(told: NumberedEvent) -> dict[str, Any]:
     """The row of an event, with the columns of TOLD_COLUMNS. `fields`: what else the event has, as JSON, in the words
     of events.jsonl. Half a character in the wearer's name is written `\\ud800`: a table holds UTF-8."""
     record, wearer = event_record(told.event), told.wearer

@@ -55,7 +55,7 @@ def gait(rows: DataFrame, fleet: Fleet | Callable[[], Fleet], states: DataFrame 
         rows = rows.select(_text("wearer").alias("key"), *columns)
     keyed = rows.fillna("", ["key"]).groupBy("key")
     begin = None if states is None else states.groupBy("wearer")
-    return keyed.transformWithState(Gait(fleet), TOLD_SCHEMA, "Append", timeMode="None", initialState=begin)
+    return keyed.transformWithState(GaitProcessor(fleet), TOLD_SCHEMA, "Append", timeMode="None", initialState=begin)
 
 
 def _text(name: str) -> Column:
@@ -63,7 +63,7 @@ def _text(name: str) -> Column:
     return f.make_valid_utf8(f.col(name).cast("string")).alias(name)
 
 
-class Gait(StatefulProcessor):
+class GaitProcessor(StatefulProcessor):
     """The keyed step: its only state is the wearer's, as Fleet.step makes it."""
 
     def __init__(self, fleet: Fleet | Callable[[], Fleet]) -> None:

@@ -13,7 +13,7 @@ from .checks import unusable
 from .crossing import MOST_CELLS, Walls
 from .enclosure import MOST_PLACES, Enclosure
 from .grid import CELLS, PLACES, share
-from .plan import Connector, FloorPlan, FloorPlanError, Kind, Stop
+from .plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, FloorPlanError
 from .rooms import MOST_CELLS as MOST_ROOM_CELLS
 from .rooms import Rooms
 
@@ -41,11 +41,11 @@ class IndexedPlan:
             thickest, (x, y) = walls.thickest
             if thickest > THICKEST:
                 raise FloorPlanError(f"level {level.id!r}: {thickest} walls lie around ({x:.0f}, {y:.0f})")
-        here: list[list[tuple[Connector, Stop]]] = [[] for _ in plan.levels]
+        here: list[list[tuple[Connector, ConnectorStop]]] = [[] for _ in plan.levels]
         for one in plan.connectors:
             for stop in one.stops:
                 here[self._numbers[stop.level]].append((one, stop))
-        self._stops: list[tuple[tuple[Connector, Stop], ...]] = [tuple(pairs) for pairs in here]
+        self._stops: list[tuple[tuple[Connector, ConnectorStop], ...]] = [tuple(pairs) for pairs in here]
         room_cells = share(MOST_ROOM_CELLS, CELLS, count)
         places = share(MOST_PLACES, PLACES, sum([not level.rooms for level in plan.levels]))
         self._insides: list[Rooms | Enclosure] = [
@@ -76,13 +76,15 @@ class IndexedPlan:
             return False
         return self._insides[level].inside(x, y)
 
-    def stops(self, level: int, kind: Kind | None = None) -> tuple[tuple[Connector, Stop], ...]:
+    def stops(self, level: int, kind: ConnectorKind | None = None) -> tuple[tuple[Connector, ConnectorStop], ...]:
         """The connectors that stop at this level, of one kind or of all, each with that stop."""
         if kind is None:
             return self._stops[level]
         return tuple(pair for pair in self._stops[level] if pair[0].kind is kind)
 
-    def nearest(self, level: int, x: float, y: float, kind: Kind | None = None) -> tuple[Connector, Stop, float] | None:
+    def nearest(
+        self, level: int, x: float, y: float, kind: ConnectorKind | None = None
+    ) -> tuple[Connector, ConnectorStop, float] | None:
         """The connector whose stop at this level is the nearest to (x, y), that stop, and how far off it is as the crow
         flies, m; None when none stops here. 0.3 us for each that does."""
         best, least = None, 0.0

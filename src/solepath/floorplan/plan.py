@@ -38,7 +38,7 @@ class Door:
     name: str = ""
 
 
-class Kind(Enum):
+class ConnectorKind(Enum):
     """How a connector takes one to another level."""
 
     STAIRS = "stairs"
@@ -46,7 +46,7 @@ class Kind(Enum):
 
 
 @frozen
-class Stop:
+class ConnectorStop:
     """Where a connector meets a level. `place`: where one steps on and off. `outline`: of the stairwell or the cabin on
     this level, a ring whose last point is not the first again; empty when it is not known."""
 
@@ -60,9 +60,9 @@ class Connector:
     """Stairs or a lift. `stops`: from the lowest to the highest. `flights`: of stairs, per storey; None when it is not
     known. `rise`: m, of one step of the stairs; None when it is not known."""
 
-    kind: Kind
+    kind: ConnectorKind
     name: str
-    stops: tuple[Stop, ...]
+    stops: tuple[ConnectorStop, ...]
     flights: int | None = None
     rise: float | None = None
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from .plan import Anchor, Connector, Door, FloorPlan, Kind, Level, Start, Stop, Wall
+from .plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Start, Wall
 
 FARTHEST = 1e7
 """m; of any coordinate from the plan's origin: national grids have up to 1e7."""
@@ -62,10 +62,10 @@ def _of_level(level: Level) -> Iterator[str]:
 
 
 def _of_connector(one: Connector) -> Iterator[str]:
-    yield from _kind("a connector's kind", one.kind, Kind)
+    yield from _kind("a connector's kind", one.kind, ConnectorKind)
     yield from _text("a connector's name", one.name)
     name = f"{one.kind.value} {one.name!r}"
-    yield from _all(f"{name}: its stops", one.stops, Stop)
+    yield from _all(f"{name}: its stops", one.stops, ConnectorStop)
     for stop in one.stops:
         yield from _text(f"{name}: the level of a stop", stop.level)
         yield from _all(f"{name}: an outline", stop.outline, tuple)

@@ -21,7 +21,7 @@ EQUAL = 1e-6
 
 
 @define
-class Span:
+class SampleSpan:
     """Running sums over one span of samples."""
 
     count: int = 0
@@ -78,8 +78,8 @@ class Levelling:
     """What turns the foot at this rate, rad/s, is as loud as 1 m/s^2."""
     patience: float = 3.0
     # state
-    span: Span = field(factory=Span, init=False)
-    short: Span = field(factory=Span, init=False)
+    span: SampleSpan = field(factory=SampleSpan, init=False)
+    short: SampleSpan = field(factory=SampleSpan, init=False)
     short_start: float = field(default=0.0, init=False)
     quietest: float = field(default=1e12, init=False)
     """(m/s^2)^2."""
@@ -99,7 +99,7 @@ class Levelling:
         mean_acc, _ = self.span.means()
         acc_variance, gyro_variance = self.span.variances()
         quiet = acc_variance < self.quiet_acc**2 and gyro_variance < self.quiet_gyro**2
-        self.span = Span()
+        self.span = SampleSpan()
         self.span_start = t
         if quiet:
             return levelling(mean_acc), 0.02
@@ -118,7 +118,7 @@ class Levelling:
         off = (ax * ax + ay * ay + az * az) ** 0.5 - GRAVITY
         rate = gx * gx + gy * gy + gz * gz + gyro_variance
         loud = acc_variance + off * off + rate / (self.turning * self.turning)
-        self.short = Span()
+        self.short = SampleSpan()
         self.short_start = t
         stands = t - begun >= self.stride - TIE and loud <= self.alike * self.quietest
         self.quietest = min(self.quietest, loud)
@@ -140,7 +140,7 @@ class Rest:
     largest_change: float = 0.5
     """The same once a bias is known, for how far from that the rate is, rad/s."""
     # state
-    span: Span = field(factory=Span, init=False)
+    span: SampleSpan = field(factory=SampleSpan, init=False)
     span_start: float | None = field(default=None, init=False)
     bias: Vec3 = field(default=ZERO, init=False)
     """Of the gyroscope, rad/s."""
@@ -156,7 +156,7 @@ class Rest:
 
     def interrupt(self) -> None:
         """Times begin anew: the span under way is given up, what was learnt stays."""
-        self.span = Span()
+        self.span = SampleSpan()
         self.span_start = None
 
     def update(self, t: float, acc: Vec3, gyro: Vec3) -> bool:
@@ -191,7 +191,7 @@ class Rest:
             return False
         (ax, ay, az), (gx, gy, gz) = self.span.means()
         acc_variance, gyro_variance = self.span.variances()
-        self.span = Span()
+        self.span = SampleSpan()
         self.span_start = t
         if acc_variance > self.still_acc**2 + 0.75 * self.grain * self.grain or gyro_variance > self.still_gyro**2:
             return False

@@ -13,7 +13,7 @@ from .gaps.gap import Leap
 from .gaps.template import Habit
 from .navigate.strapdown import Corrector
 from .phase import BEGINS, PHASES, Cue
-from .stride import StepBuilder, Way
+from .stride import StepBuilder, StretchChain
 from .turn import heading_turned
 from .world import Covariance3, World
 
@@ -29,7 +29,7 @@ class Gait:
     """When the phase did, s."""
     habit: Habit = field(factory=Habit, init=False)
     step: StepBuilder = field(init=False)
-    way: Way = field(factory=Way, init=False)
+    way: StretchChain = field(factory=StretchChain, init=False)
     """In the navigation frame, up to `anchored`."""
     anchored: Vec3 = field(default=ZERO, init=False)
     """Position of the last anchor, navigation frame, m."""
@@ -76,9 +76,7 @@ class Gait:
             events += self._flat(t, known_at, corrector, interval)
         return events
 
-    def leapt(
-        self, leap: Leap, cues: Cues, known_at: float, corrector: Corrector, interval: float
-    ) -> list[Event]:
+    def leapt(self, leap: Leap, cues: Cues, known_at: float, corrector: Corrector, interval: float) -> list[Event]:
         """The phases that a gap has hidden."""
         self.habit.guess(leap.lifted, leap.lasted)
         hidden: list[Seen] = []

@@ -24,7 +24,7 @@ FASTEST = 10.0
 
 
 @define
-class Way:
+class StretchChain:
     """Covariance of position and heading along a chain of stretches, by dead-reckoning's rule.
 
     A stretch d (m) of covariance C begins with the heading uncertain by s (rad): its end errs by C and by s times d
@@ -38,7 +38,7 @@ class Way:
     mixed: tuple[float, float] = (0.0, 0.0)
     """Position x, y with yaw, m rad."""
 
-    def extended(self, displacement: Vec3, stretch: tuple[float, ...]) -> Way:
+    def extended(self, displacement: Vec3, stretch: tuple[float, ...]) -> StretchChain:
         """The way with one more stretch (`Corrector.anchor`), both in the same frame."""
         dx, dy, _ = displacement
         px, py = -dy, dx
@@ -46,7 +46,7 @@ class Way:
         xx, xy, xz, y2, yz, zz = self.position
         mx, my = self.mixed
         v = self.yaw
-        return Way(
+        return StretchChain(
             (
                 xx + sxx + 2.0 * mx * px + v * px * px,
                 xy + sxy + mx * py + my * px + v * px * py,

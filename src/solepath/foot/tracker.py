@@ -34,18 +34,18 @@ from .limits import WITHOUT, Limits
 from .navigate.dedrift import LinearDedrift
 from .navigate.error_state import ErrorStateFilter
 from .navigate.strapdown import LONGEST_BRIDGE
-from .pressure.insole import Insole
+from .pressure.insole import InsoleLoads
 from .pressure.sole import Sole
 from .rejection import refusal, rejected
 from .rhythm import Rhythm
 from .stance.cycle import Cycle
 from .stance.pressure import MaximumPressure, TwoArea
-from .stance.stance import AngularRate, Detector, Graph, Load, MovingVariance, Shoe
+from .stance.stance import AngularRate, Detector, Graph, Load, MovingVariance, ShoeDetector
 from .world import Covariance3
 
 AnyDetector = (
     Cycle
-    | Shoe
+    | ShoeDetector
     | AngularRate
     | MovingVariance
     | Graph
@@ -68,6 +68,7 @@ SWING: Final = Phase.SWING
 
 STILL = 0.35
 """A foot that is faster than this after the correction is not flat, however much noise the evidence has, m/s."""
+
 
 @define
 class FootTracker:
@@ -107,12 +108,12 @@ class FootTracker:
 
     @sole.default
     def _bare(self) -> Sole:
-        return Sole(self.foot, Insole(), self.needs_pressure)
+        return Sole(self.foot, InsoleLoads(), self.needs_pressure)
 
     # --- what it knows ---
 
     @property
-    def insole(self) -> Insole:
+    def insole(self) -> InsoleLoads:
         """What makes a load of its cells."""
         return self.sole.insole
 

@@ -38,7 +38,7 @@ from ..wire.error import WireError
 from .devices.cc2541 import Cc2541Link
 from .devices.cc2650 import Cc2650Link
 from .devices.insole import InsoleLink
-from .known import KINDS, Kind, Kinds
+from .known import KINDS, DeviceKind, Kinds
 from .receiver import said
 from .stream import StreamLink
 
@@ -159,7 +159,7 @@ class Decoder:
             self.link.learn_firmware(self.firmware)
         return []
 
-    def _heed(self, t: float, streams: Kind | None, kinds: Kinds) -> Output:
+    def _heed(self, t: float, streams: DeviceKind | None, kinds: Kinds) -> Output:
         """A packet that was used arrived at `t`; of a kind that `streams` when it breaks a silence."""
         self.arrived, self.backwards = t, 0
         if streams is None:

@@ -89,7 +89,7 @@ holds nothing. ValueError, LookupError, ArithmeticError and struct.error say tha
 that the reader is wrong, and they are not hidden. What it returns is looked at by sound.py."""
 
 
-class Axis(Enum):
+class TimeAxis(Enum):
     """What sample times are made of, the best that the device has."""
 
     TICKS = "the device's time"
@@ -105,7 +105,7 @@ class Basis:
     """A device of devices/, not one of an app's own."""
     stream: str
     nominal_rate: float
-    axis: Axis
+    axis: TimeAxis
     sequence: int
     tick_rate: float
     tick_modulus: int
@@ -166,11 +166,11 @@ class Driver:
         return self.profile.name
 
     @property
-    def axis(self) -> Axis:
+    def axis(self) -> TimeAxis:
         """Ticks, unless they are so coarse beside the samples that counting these is better, or arrivals are."""
         if self.tick_rate >= (FINE if self.sequence else COARSEST) * self.profile.nominal_rate:
-            return Axis.TICKS
-        return Axis.COUNT if self.sequence else Axis.ARRIVAL
+            return TimeAxis.TICKS
+        return TimeAxis.COUNT if self.sequence else TimeAxis.ARRIVAL
 
     def basis(self, ours: bool) -> Basis:
         (stream,) = self.profile.streams

@@ -23,7 +23,7 @@ Output = list[Sample | LinkEvent]
 DeviceLink = InsoleLink | Cc2650Link | Cc2541Link | StreamLink
 
 
-class Kind(Protocol):
+class DeviceKind(Protocol):
     """One kind of device: what is known of it, and how its link begins and is fed."""
 
     @property
@@ -39,7 +39,7 @@ class Kind(Protocol):
         """Whether this link, which was saved, is one that this kind began."""
 
 
-Kinds = Mapping[str, Kind]
+Kinds = Mapping[str, DeviceKind]
 
 
 @frozen
@@ -92,7 +92,7 @@ def _cc2650(site: Site, firmware: str) -> Cc2650Link:
     return Cc2650Link(site)
 
 
-_PROGRAMMED: dict[str, Kind] = {
+_PROGRAMMED: dict[str, DeviceKind] = {
     "insole": _Programmed(INSOLE, _insole),
     "cc2650": _Programmed(CC2650, _cc2650),
     "cc2541": _Programmed(CC2541, cc2541_link),
@@ -100,10 +100,10 @@ _PROGRAMMED: dict[str, Kind] = {
 _RESERVED = {*_PROGRAMMED, "device", "receiver"}
 
 
-def kinds(drivers: Iterable[Driver] = ()) -> dict[str, Kind]:
+def kinds(drivers: Iterable[Driver] = ()) -> dict[str, DeviceKind]:
     """The table with an app's own devices in it, which may replace declared ones of ours. TypeError for what is no
     Driver, ValueError for a name that is taken."""
-    table: dict[str, Kind] = {**_PROGRAMMED, **{driver.name: _Declared(driver, True) for driver in DECLARED}}
+    table: dict[str, DeviceKind] = {**_PROGRAMMED, **{driver.name: _Declared(driver, True) for driver in DECLARED}}
     added: set[str] = set()
     for driver in drivers:
         if not isinstance(driver, Driver):

@@ -15,7 +15,7 @@ from math import inf
 from attrs import field, frozen
 
 
-class How(Enum):
+class Access(Enum):
     """What a host does with a characteristic."""
 
     NOTIFY = "notify"
@@ -30,7 +30,7 @@ class Channel:
     name: str
     service: str
     characteristic: str
-    how: How
+    how: Access
 
 
 @frozen
@@ -74,7 +74,7 @@ class Profile:
         named = {*self.streams, *self.reads}.union(*[(write.channel, *write.then_read) for write in self.setup])
         if named - self._names:
             raise ValueError(f"{self.name}: no channel of its own: {sorted(named - self._names)}")
-        silent = [name for name in self.streams if self.channel(name).how is not How.NOTIFY]
+        silent = [name for name in self.streams if self.channel(name).how is not Access.NOTIFY]
         if silent:
             raise ValueError(f"{self.name}: a stream is notified, and {silent} are not")
         if not (0.0 < self.nominal_rate < inf and 0.0 < self.stale_after < inf):
@@ -109,8 +109,8 @@ def standard(short: int) -> str:
     return f"0000{short:04x}-0000-1000-8000-00805f9b34fb"
 
 
-FIRMWARE = Channel("device/firmware", standard(0x180A), standard(0x2A26), How.READ)
-BATTERY = Channel("device/battery", standard(0x180F), standard(0x2A19), How.NOTIFY)
+FIRMWARE = Channel("device/firmware", standard(0x180A), standard(0x2A26), Access.READ)
+BATTERY = Channel("device/battery", standard(0x180F), standard(0x2A19), Access.NOTIFY)
 """What any device may have."""
 
 INSOLE = Profile(
@@ -118,9 +118,9 @@ INSOLE = Profile(
     names=(),
     services=(_insole(1),),
     channels=(
-        Channel("insole/frame", _insole(1), _insole(2), How.NOTIFY),
-        Channel("insole/info", _insole(1), _insole(3), How.READ),
-        Channel("insole/control", _insole(1), _insole(4), How.WRITE),
+        Channel("insole/frame", _insole(1), _insole(2), Access.NOTIFY),
+        Channel("insole/info", _insole(1), _insole(3), Access.READ),
+        Channel("insole/control", _insole(1), _insole(4), Access.WRITE),
         BATTERY,
         FIRMWARE,
     ),
@@ -136,13 +136,13 @@ CC2650 = Profile(
     names=("CC2650 SensorTag", "SensorTag 2.0"),
     services=(standard(0xAA80),),
     channels=(
-        Channel("cc2650/movement", _ti(0xAA80), _ti(0xAA81), How.NOTIFY),
-        Channel("cc2650/movement-config", _ti(0xAA80), _ti(0xAA82), How.WRITE),
-        Channel("cc2650/movement-period", _ti(0xAA80), _ti(0xAA83), How.WRITE),
-        Channel("cc2650/barometer", _ti(0xAA40), _ti(0xAA41), How.NOTIFY),
-        Channel("cc2650/barometer-config", _ti(0xAA40), _ti(0xAA42), How.WRITE),
-        Channel("cc2650/barometer-period", _ti(0xAA40), _ti(0xAA44), How.WRITE),
-        Channel("cc2650/keys", standard(0xFFE0), standard(0xFFE1), How.NOTIFY),
+        Channel("cc2650/movement", _ti(0xAA80), _ti(0xAA81), Access.NOTIFY),
+        Channel("cc2650/movement-config", _ti(0xAA80), _ti(0xAA82), Access.WRITE),
+        Channel("cc2650/movement-period", _ti(0xAA80), _ti(0xAA83), Access.WRITE),
+        Channel("cc2650/barometer", _ti(0xAA40), _ti(0xAA41), Access.NOTIFY),
+        Channel("cc2650/barometer-config", _ti(0xAA40), _ti(0xAA42), Access.WRITE),
+        Channel("cc2650/barometer-period", _ti(0xAA40), _ti(0xAA44), Access.WRITE),
+        Channel("cc2650/keys", standard(0xFFE0), standard(0xFFE1), Access.NOTIFY),
         BATTERY,
         FIRMWARE,
     ),
@@ -165,20 +165,20 @@ def _cc2541(name: str, period: bytes, nominal_rate: float) -> Profile:
         names=("SensorTag", "TI BLE Sensor Tag"),
         services=(),
         channels=(
-            Channel("cc2541/accelerometer", _ti(0xAA10), _ti(0xAA11), How.NOTIFY),
-            Channel("cc2541/accelerometer-config", _ti(0xAA10), _ti(0xAA12), How.WRITE),
-            Channel("cc2541/accelerometer-period", _ti(0xAA10), _ti(0xAA13), How.WRITE),
-            Channel("cc2541/magnetometer", _ti(0xAA30), _ti(0xAA31), How.NOTIFY),
-            Channel("cc2541/magnetometer-config", _ti(0xAA30), _ti(0xAA32), How.WRITE),
-            Channel("cc2541/magnetometer-period", _ti(0xAA30), _ti(0xAA33), How.WRITE),
-            Channel("cc2541/barometer", _ti(0xAA40), _ti(0xAA41), How.NOTIFY),
-            Channel("cc2541/barometer-config", _ti(0xAA40), _ti(0xAA42), How.WRITE),
-            Channel("cc2541/barometer-calibration", _ti(0xAA40), _ti(0xAA43), How.READ),
-            Channel("cc2541/barometer-period", _ti(0xAA40), _ti(0xAA44), How.WRITE),
-            Channel("cc2541/gyroscope", _ti(0xAA50), _ti(0xAA51), How.NOTIFY),
-            Channel("cc2541/gyroscope-config", _ti(0xAA50), _ti(0xAA52), How.WRITE),
-            Channel("cc2541/gyroscope-period", _ti(0xAA50), _ti(0xAA53), How.WRITE),
-            Channel("cc2541/keys", standard(0xFFE0), standard(0xFFE1), How.NOTIFY),
+            Channel("cc2541/accelerometer", _ti(0xAA10), _ti(0xAA11), Access.NOTIFY),
+            Channel("cc2541/accelerometer-config", _ti(0xAA10), _ti(0xAA12), Access.WRITE),
+            Channel("cc2541/accelerometer-period", _ti(0xAA10), _ti(0xAA13), Access.WRITE),
+            Channel("cc2541/magnetometer", _ti(0xAA30), _ti(0xAA31), Access.NOTIFY),
+            Channel("cc2541/magnetometer-config", _ti(0xAA30), _ti(0xAA32), Access.WRITE),
+            Channel("cc2541/magnetometer-period", _ti(0xAA30), _ti(0xAA33), Access.WRITE),
+            Channel("cc2541/barometer", _ti(0xAA40), _ti(0xAA41), Access.NOTIFY),
+            Channel("cc2541/barometer-config", _ti(0xAA40), _ti(0xAA42), Access.WRITE),
+            Channel("cc2541/barometer-calibration", _ti(0xAA40), _ti(0xAA43), Access.READ),
+            Channel("cc2541/barometer-period", _ti(0xAA40), _ti(0xAA44), Access.WRITE),
+            Channel("cc2541/gyroscope", _ti(0xAA50), _ti(0xAA51), Access.NOTIFY),
+            Channel("cc2541/gyroscope-config", _ti(0xAA50), _ti(0xAA52), Access.WRITE),
+            Channel("cc2541/gyroscope-period", _ti(0xAA50), _ti(0xAA53), Access.WRITE),
+            Channel("cc2541/keys", standard(0xFFE0), standard(0xFFE1), Access.NOTIFY),
             FIRMWARE,
         ),
         setup=(

@@ -51,7 +51,7 @@ class Taken:
 
 
 @define
-class Run:
+class PacketRun:
     """Packets of one device in the order of its counters, on one clock."""
 
     clock: Clock | None = None

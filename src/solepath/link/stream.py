@@ -30,10 +30,10 @@ from ..types import Quat, Sample, Site, Vec3
 from ..types.vector import GRAVITY
 from ..wire.error import WireError
 from ..wire.fields import malformed
-from .driver import COARSEST, Axis, Basis, Driver, Measured, Reading
+from .driver import COARSEST, Basis, Driver, Measured, Reading, TimeAxis
 from .periodic import Periodic, periodic
 from .rest import RestCheck, suggestion
-from .run import Counted, Run, Taken, signed
+from .run import Counted, PacketRun, Taken, signed
 from .sound import SLOWEST, check
 
 APART = 1.0
@@ -73,7 +73,7 @@ class StreamLink:
     known: dict[str, float] = field(factory=dict)
     """What earlier values said that later ones are read with."""
     silence_is_legal: bool = False
-    run: Run = field(factory=Run)
+    run: PacketRun = field(factory=PacketRun)
     coarse: int = 0
     """The device's time of the newest packet, in ticks as sent, where it stands beside the sequence."""
     odd: int = 0
@@ -124,7 +124,7 @@ class StreamLink:
             raise WireError(Rejection.WRONG_SITE, f"of a {reading.foot.value} foot")
         if reading.samples and channel not in driver.profile.streams:
             raise malformed(f"samples on {channel!r}, which is no stream")
-        if reading.rate is not None and driver.axis is Axis.TICKS and reading.rate * COARSEST > driver.tick_rate:
+        if reading.rate is not None and driver.axis is TimeAxis.TICKS and reading.rate * COARSEST > driver.tick_rate:
             detail = f"{reading.rate:g} samples a second, too many for {driver.tick_rate:g} ticks a second"
             raise WireError(Rejection.ABSURD, detail)
         if reading.interval is not None and reading.interval * SLOWEST > driver.tick_rate > 0.0:
@@ -139,7 +139,7 @@ class StreamLink:
         if reading.silent is not None:
             self.silence_is_legal = reading.silent
         if reading.rate is not None and not reading.samples:
-            if driver.axis is Axis.TICKS:
+            if driver.axis is TimeAxis.TICKS:
                 self.run.covers *= self.rate / reading.rate
             self._change(reading.rate)
 
@@ -178,14 +178,14 @@ class StreamLink:
     def _samples(self, driver: Driver, channel: str, reading: Reading, arrival: float) -> Output:
         axis, count = driver.axis, len(reading.samples)
         rate = self.rate if reading.rate is None else reading.rate
-        if axis is Axis.ARRIVAL:
+        if axis is TimeAxis.ARRIVAL:
             self._change(rate)
             taken, times = self._by_arrival(count, rate, arrival)
         else:
-            tick_rate = driver.tick_rate if axis is Axis.TICKS else rate * PARTS
-            counted = (self._by_ticks if axis is Axis.TICKS else self._by_count)(driver, reading, rate, arrival)
+            tick_rate = driver.tick_rate if axis is TimeAxis.TICKS else rate * PARTS
+            counted = (self._by_ticks if axis is TimeAxis.TICKS else self._by_count)(driver, reading, rate, arrival)
             taken = self.run.take(
-                counted, tick_rate, arrival, axis is Axis.COUNT and self._stood_still(driver, arrival)
+                counted, tick_rate, arrival, axis is TimeAxis.COUNT and self._stood_still(driver, arrival)
             )
             self._change(rate)
             self._compare(driver, reading, counted)
@@ -247,7 +247,7 @@ class StreamLink:
 
     def _compare(self, driver: Driver, reading: Reading, counted: Counted) -> None:
         """Remember what the next packet is compared with; put the rate right when the ticks say that it was wrong."""
-        if driver.axis is Axis.COUNT:
+        if driver.axis is TimeAxis.COUNT:
             self.coarse = int(reading.ticks or 0)
             return
         if driver.sequence or reading.interval is not None or counted.e <= 0:

@@ -89,7 +89,7 @@ def read_header(path: Path | str) -> dict[str, Any]:
             try:
                 fields = _object(line)
                 _check_header(fields)
-            except _Flaw as flaw:
+            except _LineFlaw as flaw:
                 raise RecordingError(path, str(flaw), f"line {number}") from None
             return fields
     raise RecordingError(path, "is empty")
@@ -145,18 +145,18 @@ def read_packets(
                     return
                 hint = "" if header_seen else "; samples have names that end in .npz or .csv"
                 raise RecordingError(path, f"{flaw}{hint}", where) from None
-            except _Flaw as flaw:
+            except _LineFlaw as flaw:
                 raise RecordingError(path, str(flaw), where) from None
             yield packet
         if not header_seen:
             raise RecordingError(path, "is empty")
 
 
-class _Flaw(Exception):
+class _LineFlaw(Exception):
     """What is wrong with one line."""
 
 
-class _NotAnObject(_Flaw):
+class _NotAnObject(_LineFlaw):
     """The line is not a JSON object at all."""
 
 
@@ -180,34 +180,34 @@ def _refuse_constant(name: str) -> None:
 
 def _check_header(header: dict[str, Any]) -> None:
     if header.get("format") != FORMAT:
-        raise _Flaw(f'is not the header of a recording: "format" is not "{FORMAT}"')
+        raise _LineFlaw(f'is not the header of a recording: "format" is not "{FORMAT}"')
     version = header.get("version")
     if type(version) is not int or version != VERSION:
-        raise _Flaw(f"is of version {_short(version)}; this release reads version {VERSION}")
+        raise _LineFlaw(f"is of version {_short(version)}; this release reads version {VERSION}")
 
 
 def _packet(fields: dict[str, Any]) -> Packet:
     for key in ("t", "site", "channel", "data"):
         if key not in fields:
-            raise _Flaw(f'"{key}" is missing')
+            raise _LineFlaw(f'"{key}" is missing')
     t, site, channel, data = fields["t"], fields["site"], fields["channel"], fields["data"]
     if type(t) not in (int, float):
-        raise _Flaw(f'"t" is not a number but {_short(t)}')
+        raise _LineFlaw(f'"t" is not a number but {_short(t)}')
     try:
         t = float(t)
     except OverflowError:
-        raise _Flaw('"t" is not a finite number') from None
+        raise _LineFlaw('"t" is not a finite number') from None
     if not isfinite(t):
-        raise _Flaw('"t" is not a finite number')
+        raise _LineFlaw('"t" is not a finite number')
     if not isinstance(site, str) or site not in _SITES:
-        raise _Flaw(f'"site" is not one of {", ".join(_SITES)} but {_short(site)}')
+        raise _LineFlaw(f'"site" is not one of {", ".join(_SITES)} but {_short(site)}')
     if not isinstance(channel, str):
-        raise _Flaw(f'"channel" is not text but {_short(channel)}')
+        raise _LineFlaw(f'"channel" is not text but {_short(channel)}')
     if not isinstance(data, str) or len(data) % 2 or not _HEX.issuperset(data):
-        raise _Flaw(f'"data" is not pairs of hexadecimal digits but {_short(data)}')
+        raise _LineFlaw(f'"data" is not pairs of hexadecimal digits but {_short(data)}')
     device = fields.get("device", "")
     if not isinstance(device, str):
-        raise _Flaw(f'"device" is not text but {_short(device)}')
+        raise _LineFlaw(f'"device" is not text but {_short(device)}')
     return Packet(t=t, site=_SITES[site], channel=channel, data=bytes.fromhex(data), device=device)
 
 
@@ -246,7 +246,7 @@ class PacketWriter:
         own = {"format": FORMAT, "version": VERSION}
         try:
             _check_header({**own, **header})
-        except _Flaw as flaw:
+        except _LineFlaw as flaw:
             raise ValueError(f"a header that {flaw}") from None
         first = _line({**own, **header})
         self._size = 0

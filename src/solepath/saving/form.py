@@ -15,8 +15,8 @@ from struct import Struct
 from typing import Any
 
 from ..recipes import Recipe, own
-from ..session.state import VERSION, State
-from ..session.wearer import Wearer
+from ..session.state import VERSION, SessionState
+from ..session.wearer import WearerParts
 from ..types import Foot
 from .begun import filled
 from .codec import SnapshotError
@@ -29,7 +29,7 @@ FORM = 1
 HEADER = Struct("<4sHHII")
 
 
-def pack(state: State) -> bytes:
+def pack(state: SessionState) -> bytes:
     """The state as bytes. TypeError when a part of the app's own has a field of a kind that cannot be saved,
     SnapshotError when it holds a value that cannot."""
     wearer = state.wearer
@@ -47,7 +47,7 @@ def pack(state: State) -> bytes:
     return HEADER.pack(MAGIC, FORM, VERSION, check(), crc32(body, crc32(start))) + body
 
 
-def _units(wearer: Wearer) -> Units:
+def _units(wearer: WearerParts) -> Units:
     """What a count weighs: its cells' loads are multiples of that."""
     feet = [wearer.feet.get(foot) for foot in Foot]
     layouts = [None if foot is None else foot.insole.layout for foot in feet]
@@ -55,7 +55,7 @@ def _units(wearer: Wearer) -> Units:
     return left, right
 
 
-def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> State:
+def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> SessionState:
     """The state that was packed, of a session of this recipe. SnapshotError for anything else; TypeError and ValueError
     for a recipe or parts that are none, or two of one name."""
     held = own(recipe)

@@ -9,7 +9,7 @@ import attrs
 
 from ..calibration import Calibration
 from ..recipes import Recipe
-from ..session.state import State
+from ..session.state import SessionState
 from .codec import SnapshotError
 from .reading import Own, Reader, readers
 from .shape import Shape, shape_of
@@ -32,7 +32,7 @@ class Packed:
     """All that is packed."""
 
     head: Head
-    state: State
+    state: SessionState
 
 
 _ODD = {
@@ -55,7 +55,7 @@ def shape() -> Shape:
 
 def snapshot_shape() -> Shape:
     """Of a snapshot for JSON: everything, settings as well."""
-    return shape_of(State)
+    return shape_of(SessionState)
 
 
 @lru_cache(maxsize=1)
@@ -74,7 +74,7 @@ def packed_writer() -> Writer:
 def packed_readers() -> tuple[Reader, Reader]:
     """Read the head, and then the state."""
     made = readers(shape(), _own_reader)
-    return made[Head.__name__], made[State.__name__]
+    return made[Head.__name__], made[SessionState.__name__]
 
 
 # --- records of an app's own ------------------------------------------------------------------------------------------

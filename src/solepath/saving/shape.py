@@ -69,7 +69,7 @@ def shape_of(root: type, odd: Mapping[tuple[str, str], str] | None = None) -> Sh
     """The shape of `root` and all it holds. `odd`: (class, field) -> "made", "whole" or "given", where the rules above
     do not say what a field is: that what it holds is made again, is not, or is not written. TypeError for a field that
     cannot be packed."""
-    reader = _Reader({} if odd is None else dict(odd))
+    reader = _ShapeReader({} if odd is None else dict(odd))
     name = reader.record(root, whole=True)
     return Shape(name, reader.records, reader.enums, reader.classes)
 
@@ -90,7 +90,7 @@ def is_frozen(cls: type) -> bool:
     return setter is _Frozen.__setattr__
 
 
-class _Reader:
+class _ShapeReader:
     """Reads classes into records."""
 
     def __init__(self, odd: dict[tuple[str, str], str]) -> None:
@@ -147,15 +147,15 @@ class _Reader:
         if not attrs.has(cls) or is_frozen(cls):
             return False
         hints = typing.get_type_hints(cls)
-        return is_part(cls) or any(
-            [self.remembers(a) for f in attrs.fields(cls) for a in alternatives(hints[f.name])]
-        )
+        return is_part(cls) or any([self.remembers(a) for f in attrs.fields(cls) for a in alternatives(hints[f.name])])
 
     def state(self, hint: Any, begins_without: bool) -> Type:
         """Of a field that no constructor takes: parts that are there from the beginning were made with their holder."""
         kinds = alternatives(hint)
-        made = not begins_without and any([is_part(a) for a in kinds]) and all(
-            [attrs.has(a) or a is type(None) for a in kinds]
+        made = (
+            not begins_without
+            and any([is_part(a) for a in kinds])
+            and all([attrs.has(a) or a is type(None) for a in kinds])
         )
         return self.type(hint, made=made)
 

@@ -8,19 +8,19 @@ from typing import Any
 from ..floorplan.index import IndexedPlan
 from ..link.known import Kinds
 from ..recipes import own
-from ..session.state import VERSION, State
+from ..session.state import VERSION, SessionState
 from ..session.wearer import in_order
 from ..types import Foot, Site
 from .codec import Json, SnapshotError, checksum, load, save
 
 
-def taken(state: State) -> dict[str, Json]:
+def taken(state: SessionState) -> dict[str, Json]:
     """It carries a checksum of itself: a session made of damaged numbers could do anything later."""
     told = save(state)
     return {"solepath": VERSION, "check": checksum(told), "state": told}
 
 
-def restored(saved: Any, parts: Iterable[type]) -> State:
+def restored(saved: Any, parts: Iterable[type]) -> SessionState:
     """The state that was taken. SnapshotError, TypeError and ValueError as `Session.restore`
     has them."""
     if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
@@ -28,7 +28,7 @@ def restored(saved: Any, parts: Iterable[type]) -> State:
     version = saved["solepath"]
     if type(version) is not int or version != VERSION:
         raise SnapshotError(f"a snapshot of version {version!r:.80}; this release reads version {VERSION} alone")
-    state = load(State, saved["state"], parts)
+    state = load(SessionState, saved["state"], parts)
     state.decoders = in_order(state.decoders, Site)
     state.wearer.feet = in_order(state.wearer.feet, Foot)
     if checksum(save(state)) != saved["check"]:
@@ -37,7 +37,7 @@ def restored(saved: Any, parts: Iterable[type]) -> State:
     return state
 
 
-def must_fit(state: State, known: Kinds, plan: IndexedPlan | None) -> None:
+def must_fit(state: SessionState, known: Kinds, plan: IndexedPlan | None) -> None:
     """SnapshotError where the state needs another floor plan than `plan`, or a device that is not `known`."""
     if state.plan != (None if plan is None else plan.fingerprint):
         with_one = "with the floor plan that it had" if state.plan is not None else "without a floor plan"

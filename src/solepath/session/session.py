@@ -33,8 +33,8 @@ from ..recipes import DEFAULT, Recipe, own
 from ..saving.codec import Json
 from ..saving.snapshot import must_fit, restored, taken
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
-from .state import State
-from .wearer import Wearer, in_order
+from .state import SessionState
+from .wearer import WearerParts, in_order
 
 A_NUMBER = (float, int)
 
@@ -85,7 +85,7 @@ class Session:
         if why_not is not None:
             raise CalibrationError(f"calibration: {why_not}")
         self._plan = _indexed(floorplan)
-        wearer = Wearer(own(recipe), deepcopy(known), poses, pressures)
+        wearer = WearerParts(own(recipe), deepcopy(known), poses, pressures)
         if start is not None:
             if not isinstance(start, Start) or self._plan is None:
                 raise TypeError("start must be a Start, on a floor plan")
@@ -93,7 +93,7 @@ class Session:
             if why_not is not None:
                 raise FloorPlanError(f"start: {why_not}")
             wearer.place.set_out(deepcopy(start))
-        self._state = State(wearer, None if self._plan is None else self._plan.fingerprint)
+        self._state = SessionState(wearer, None if self._plan is None else self._plan.fingerprint)
         for site, device in ({} if devices is None else devices).items():
             self.bind(site, device)
 
@@ -195,7 +195,7 @@ class Session:
         self._take(packet.site, items, events)
         return events
 
-    def _sample(self, state: State, sample: Sample) -> list[Event]:
+    def _sample(self, state: SessionState, sample: Sample) -> list[Event]:
         t, site = sample.t, sample.site
         if not isinstance(site, Site) or not isinstance(t, A_NUMBER):
             raise TypeError("a sample holds a time and a Site")
@@ -321,7 +321,7 @@ class Session:
         return cls._of(unpack(data, recipe, parts), profiles, floorplan)
 
     @classmethod
-    def _of(cls, state: State, profiles: Iterable[Driver], floorplan: FloorPlan | IndexedPlan | None) -> Session:
+    def _of(cls, state: SessionState, profiles: Iterable[Driver], floorplan: FloorPlan | IndexedPlan | None) -> Session:
         """What goes on from a state. SnapshotError where that needs a floor plan or a driver that is not there."""
         session = cls.__new__(cls)
         session._kinds = kinds(profiles)

@@ -6,7 +6,7 @@ from attrs import define, field
 
 from ..link.decoder import Decoder
 from ..types import Site
-from .wearer import Wearer
+from .wearer import WearerParts
 
 VERSION = 2
 """Of all that is remembered: one more for every release that remembers something else, or has other settings
@@ -14,10 +14,10 @@ VERSION = 2
 
 
 @define
-class State:
+class SessionState:
     """All that a session remembers."""
 
-    wearer: Wearer
+    wearer: WearerParts
     plan: int | None = None
     """Fingerprint of the floor plan; None without one."""
     now: float | None = None

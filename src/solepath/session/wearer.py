@@ -43,7 +43,7 @@ _Part = TypeVar("_Part")
 
 
 @define
-class Wearer:
+class WearerParts:
     """Trackers of the feet, the body that the recipe gave them, and how all of it is worn."""
 
     recipe: Recipe

@@ -15,7 +15,7 @@ from typing import Any
 import attrs
 from attrs import evolve
 
-from ..foot.pressure.insole import Insole
+from ..foot.pressure.insole import InsoleLoads
 from ..foot.rejection import ABSURD_ACC, ABSURD_GYRO
 from ..foot.stance.stance import Detector, Load, Stance
 from ..saving.codec import Json, SnapshotError, load, save
@@ -67,7 +67,7 @@ def broken(detector: Detector, samples: Iterable[Sample], layout: Layout | None 
 
 
 def _moments(samples: Iterable[Sample], layout: Layout | None) -> Iterator[Moment]:
-    insole, last = Insole(), None
+    insole, last = InsoleLoads(), None
     if layout is not None:
         insole.wear(layout)
     for sample in samples:

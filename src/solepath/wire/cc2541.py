@@ -56,7 +56,7 @@ class MagnetometerConfig:
 
 
 @frozen
-class Barometer:
+class Cc2541Barometer:
     """One notification of the T5400, uncompensated: `temperature` i16, `pressure` u16. Needs BarometerCalibration."""
 
     temperature: int
@@ -64,7 +64,7 @@ class Barometer:
 
 
 @frozen
-class BarometerConfig:
+class Cc2541BarometerConfig:
     """What AA42 holds: 0 off, 1 on, 2 fetch the coefficients so that AA43 can be read."""
 
     code: int
@@ -83,11 +83,11 @@ class BarometerCalibration:
     c7: int
     c8: int
 
-    def celsius(self, raw: Barometer) -> float:
+    def celsius(self, raw: Cc2541Barometer) -> float:
         """Temperature in degrees Celsius: c1 t / 2^24 + c2 / 2^10."""
         return self.c1 * raw.temperature / 2**24 + self.c2 / 2**10
 
-    def pascal(self, raw: Barometer) -> float:
+    def pascal(self, raw: Cc2541Barometer) -> float:
         """Air pressure in Pa: (S p + O) / 2^14, where S = c3 + c4 t / 2^17 + c5 t^2 / 2^34 and
         O = c6 2^14 + c7 t / 2^3 + c8 t^2 / 2^19."""
         t = raw.temperature
@@ -97,7 +97,7 @@ class BarometerCalibration:
 
 
 @frozen
-class Keys:
+class Cc2541Keys:
     """What is pressed. The bits are not those of the CC2650: here the right key is bit 0."""
 
     left: bool = False
@@ -119,8 +119,8 @@ _GYROSCOPE_CONFIG = Struct(
 )
 _MAGNETOMETER = Record(Magnetometer, Struct("mag" / Fields("<3h"), Terminated))
 _MAGNETOMETER_CONFIG = Record(MagnetometerConfig, Struct("on" / Switch(), Terminated))
-_BAROMETER = Struct("raw" / Fields("<hH", Barometer), Terminated)
-_BAROMETER_CONFIG = Record(BarometerConfig, Struct("code" / Int8ul, Terminated))
+_BAROMETER = Struct("raw" / Fields("<hH", Cc2541Barometer), Terminated)
+_BAROMETER_CONFIG = Record(Cc2541BarometerConfig, Struct("code" / Int8ul, Terminated))
 _BAROMETER_CALIBRATION = Struct("coefficients" / Fields("<4H4h", BarometerCalibration), Terminated)
 _KEYS = Struct(
     "bits" / BitStruct("reserved" / BitsInteger(5), "side" / Flag, "left" / Flag, "right" / Flag),
@@ -201,26 +201,26 @@ def build_magnetometer_config(config: MagnetometerConfig) -> bytes:
     return build_whole(_MAGNETOMETER_CONFIG, config)
 
 
-def parse_barometer(data: bytes) -> Barometer:
+def parse_barometer(data: bytes) -> Cc2541Barometer:
     """AA41, 4 bytes. WireError when `data` is not that."""
-    barometer: Barometer = parse_whole(_BAROMETER, bytes(data)).raw
+    barometer: Cc2541Barometer = parse_whole(_BAROMETER, bytes(data)).raw
     return barometer
 
 
-def build_barometer(barometer: Barometer) -> bytes:
+def build_barometer(barometer: Cc2541Barometer) -> bytes:
     """The bytes of `barometer`. ValueError when a value does not fit."""
     return build_whole(_BAROMETER, {"raw": barometer})
 
 
-def parse_barometer_config(data: bytes) -> BarometerConfig:
+def parse_barometer_config(data: bytes) -> Cc2541BarometerConfig:
     """AA42, 1 byte, 0 to 2. WireError when `data` is not that."""
-    config: BarometerConfig = parse_whole(_BAROMETER_CONFIG, bytes(data))
+    config: Cc2541BarometerConfig = parse_whole(_BAROMETER_CONFIG, bytes(data))
     if config.code > 2:
         raise malformed(f"barometer configuration {config.code}")
     return config
 
 
-def build_barometer_config(config: BarometerConfig) -> bytes:
+def build_barometer_config(config: Cc2541BarometerConfig) -> bytes:
     """The byte of `config`. ValueError unless it is 0 to 2."""
     if not 0 <= config.code <= 2:
         raise ValueError(f"barometer configuration {config.code}")
@@ -238,15 +238,15 @@ def build_barometer_calibration(calibration: BarometerCalibration) -> bytes:
     return build_whole(_BAROMETER_CALIBRATION, {"coefficients": calibration})
 
 
-def parse_keys(data: bytes) -> Keys:
+def parse_keys(data: bytes) -> Cc2541Keys:
     """FFE1 of a CC2541, 1 byte. WireError when `data` is not that."""
     bits: Any = parse_whole(_KEYS, bytes(data)).bits
     if bits.reserved:
         raise malformed("bits above the side key are set")
-    return Keys(left=bits.left, right=bits.right, side=bits.side)
+    return Cc2541Keys(left=bits.left, right=bits.right, side=bits.side)
 
 
-def build_keys(keys: Keys) -> bytes:
+def build_keys(keys: Cc2541Keys) -> bytes:
     """The byte of `keys`."""
     bits = {"reserved": 0, "side": keys.side, "left": keys.left, "right": keys.right}
     return build_whole(_KEYS, {"bits": bits})

@@ -38,7 +38,7 @@ class MovementConfig:
 
 
 @frozen
-class Barometer:
+class Cc2650Barometer:
     """One notification of the BMP280, compensated by the tag: degrees Celsius in steps of 0.01, Pa in steps of 1."""
 
     temperature: float
@@ -46,14 +46,14 @@ class Barometer:
 
 
 @frozen
-class BarometerConfig:
+class Cc2650BarometerConfig:
     """What AA42 holds: whether the barometer measures."""
 
     on: bool
 
 
 @frozen
-class Keys:
+class Cc2650Keys:
     """What is pressed: the left (user) and right (power) button; `reed` is closed by a magnet."""
 
     left: bool = False
@@ -93,7 +93,7 @@ _MOVEMENT_CONFIG = Struct(
 
 _BAROMETER = Struct("temperature" / Int24sl, "pressure" / Int24ul, Terminated)
 
-_BAROMETER_CONFIG = Record(BarometerConfig, Struct("on" / Switch(), Terminated))
+_BAROMETER_CONFIG = Record(Cc2650BarometerConfig, Struct("on" / Switch(), Terminated))
 
 _KEYS = Struct(
     "bits"
@@ -153,13 +153,13 @@ def build_movement_config(config: MovementConfig) -> bytes:
     return build_whole(_MOVEMENT_CONFIG, {"bits": bits})
 
 
-def parse_barometer(data: bytes) -> Barometer:
+def parse_barometer(data: bytes) -> Cc2650Barometer:
     """AA41, 6 bytes. WireError when `data` is not that."""
     parsed = parse_whole(_BAROMETER, bytes(data))
-    return Barometer(parsed.temperature / 100, float(parsed.pressure))
+    return Cc2650Barometer(parsed.temperature / 100, float(parsed.pressure))
 
 
-def build_barometer(barometer: Barometer) -> bytes:
+def build_barometer(barometer: Cc2650Barometer) -> bytes:
     """The bytes nearest to `barometer`. ValueError when it is not finite or does not fit in 24 bits."""
     if not (isfinite(barometer.temperature) and isfinite(barometer.pressure)):
         raise ValueError(f"{barometer} is not finite")
@@ -167,26 +167,26 @@ def build_barometer(barometer: Barometer) -> bytes:
     return build_whole(_BAROMETER, counts)
 
 
-def parse_barometer_config(data: bytes) -> BarometerConfig:
+def parse_barometer_config(data: bytes) -> Cc2650BarometerConfig:
     """AA42, 1 byte, 0 or 1. WireError when `data` is not that."""
-    config: BarometerConfig = parse_whole(_BAROMETER_CONFIG, bytes(data))
+    config: Cc2650BarometerConfig = parse_whole(_BAROMETER_CONFIG, bytes(data))
     return config
 
 
-def build_barometer_config(config: BarometerConfig) -> bytes:
+def build_barometer_config(config: Cc2650BarometerConfig) -> bytes:
     """The byte of `config`."""
     return build_whole(_BAROMETER_CONFIG, config)
 
 
-def parse_keys(data: bytes) -> Keys:
+def parse_keys(data: bytes) -> Cc2650Keys:
     """FFE1 of a CC2650, 1 byte. WireError when `data` is not that."""
     bits: Any = parse_whole(_KEYS, bytes(data)).bits
     if bits.reserved:
         raise malformed("bits above the reed switch are set")
-    return Keys(left=bits.left, right=bits.right, reed=bits.reed)
+    return Cc2650Keys(left=bits.left, right=bits.right, reed=bits.reed)
 
 
-def build_keys(keys: Keys) -> bytes:
+def build_keys(keys: Cc2650Keys) -> bytes:
     """The byte of `keys`."""
     bits = {"reserved": 0, "reed": keys.reed, "right": keys.right, "left": keys.left}
     return build_whole(_KEYS, {"bits": bits})

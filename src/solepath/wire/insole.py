@@ -51,7 +51,7 @@ class InsoleFrame:
 
 
 @frozen
-class _Header:
+class _FrameHeader:
     magic: int
     kind: int
     flags: int
@@ -85,7 +85,7 @@ def _has_quat(context: Any) -> bool:
     return bool(context._.header.flags & _QUAT)
 
 
-_HEADER = Fields("<BBBBHIHBB", _Header)
+_HEADER = Fields("<BBBBHIHBB", _FrameHeader)
 _HEADER_SIZE = 14
 
 _SAMPLE = Record(
@@ -109,7 +109,7 @@ def parse_frame(data: bytes) -> InsoleFrame:
     """The frame in `data`. WireError when it is not one, whatever the bytes."""
     data = bytes(data)
     check_start(data, FRAME, _HEADER_SIZE)
-    header: _Header = _HEADER.parse(data)
+    header: _FrameHeader = _HEADER.parse(data)
     check_end(data, _HEADER_SIZE + header.samples * header.sample_size + CRC_SIZE)
     problem = _problem(header)
     if problem:
@@ -143,7 +143,7 @@ def build_frame(frame: InsoleFrame) -> bytes:
         | (_SATURATED if frame.saturated else 0)
         | (_RETRANSMITTED if frame.retransmitted else 0)
     )
-    header = _Header(
+    header = _FrameHeader(
         MAGIC,
         FRAME,
         flags,
@@ -160,7 +160,7 @@ def build_frame(frame: InsoleFrame) -> bytes:
     return seal(build_whole(_BODY, {"header": header, "samples": frame.samples}))
 
 
-def _problem(header: _Header) -> str:
+def _problem(header: _FrameHeader) -> str:
     """What contradicts the format although length and CRC are right; "" when nothing does."""
     if header.flags & _RESERVED_FLAGS:
         return f"reserved flags are set: {header.flags:#04x}"

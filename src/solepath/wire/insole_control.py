@@ -11,12 +11,12 @@ from .fields import Record, build_whole, malformed, parse_whole
 
 
 @frozen
-class Start:
+class StartSampling:
     """Begin to sample and notify."""
 
 
 @frozen
-class Stop:
+class StopSampling:
     """Cease to sample."""
 
 
@@ -35,15 +35,15 @@ class Resend:
     count: int
 
 
-Command = Start | Stop | SetInterval | Resend
+Command = StartSampling | StopSampling | SetInterval | Resend
 
-_START = Record(Start, Struct(Const(b"\x01"), Terminated))
-_STOP = Record(Stop, Struct(Const(b"\x02"), Terminated))
+_START = Record(StartSampling, Struct(Const(b"\x01"), Terminated))
+_STOP = Record(StopSampling, Struct(Const(b"\x02"), Terminated))
 _SET_INTERVAL = Record(SetInterval, Struct(Const(b"\x03"), "interval" / Int16ul, Terminated))
 _RESEND = Record(Resend, Struct(Const(b"\x04"), "first" / Int16ul, "count" / Int8ul, Terminated))
 
 _BY_OPCODE = {1: _START, 2: _STOP, 3: _SET_INTERVAL, 4: _RESEND}
-_BY_COMMAND = {Start: _START, Stop: _STOP, SetInterval: _SET_INTERVAL, Resend: _RESEND}
+_BY_COMMAND = {StartSampling: _START, StopSampling: _STOP, SetInterval: _SET_INTERVAL, Resend: _RESEND}
 
 
 def parse_control(data: bytes) -> Command:

@@ -46,7 +46,7 @@ class InsoleInfo:
 
 
 @frozen
-class _Header:
+class _InfoHeader:
     magic: int
     kind: int
     flags: int
@@ -88,7 +88,7 @@ def _firmware_size(context: Any) -> int:
     return int(context.header.firmware_size)
 
 
-_HEADER = Fields("<BBBBIIHfffHBBB", _Header)
+_HEADER = Fields("<BBBBIIHfffHBBB", _InfoHeader)
 _HEADER_SIZE = 31
 
 _BODY = Struct(
@@ -105,7 +105,7 @@ def parse_info(data: bytes) -> InsoleInfo:
     """The INFO record in `data`. WireError when it is not one, whatever the bytes."""
     data = bytes(data)
     check_start(data, INFO, _HEADER_SIZE)
-    header: _Header = _HEADER.parse(data)
+    header: _InfoHeader = _HEADER.parse(data)
     check_end(data, header.size)
     body = parse_whole(_BODY, data[:-CRC_SIZE])
     problem = _problem(header, body.runs)
@@ -145,7 +145,7 @@ def build_info(info: InsoleInfo) -> bytes:
     areas = [_counts(cell.area, _PER_SQUARE_METRE) for cell in info.cells]
     runs = [_Run(len(list(equal)), area) for area, equal in groupby(areas)]
     firmware = info.firmware.encode("utf-8")
-    header = _Header(
+    header = _InfoHeader(
         MAGIC,
         INFO,
         _RIGHT if info.foot is Foot.RIGHT else 0,
@@ -174,7 +174,7 @@ def _counts(value: float, per_unit: int) -> int:
     return round(value * per_unit)
 
 
-def _problem(header: _Header, runs: list[_Run]) -> str:
+def _problem(header: _InfoHeader, runs: list[_Run]) -> str:
     """What contradicts the format although length and CRC are right; "" when nothing does."""
     scales = (header.acc_scale, header.gyro_scale, header.pressure_scale)
     if header.flags & _RESERVED_FLAGS:

@@ -19,14 +19,14 @@ _COUNT = Struct("count" / Int32ul, Terminated)
 
 
 @frozen
-class Connection:
+class ConnectionFrame:
     """A device is connected and about to be set up: its name, and the signal in dBm that it was last heard with."""
 
     name: str
     signal: int | None
 
 
-def parse_connected(data: bytes) -> Connection:
+def parse_connected(data: bytes) -> ConnectionFrame:
     """receiver/connected. WireError when it is not that."""
     data = bytes(data)
     if not data:
@@ -38,10 +38,10 @@ def parse_connected(data: bytes) -> Connection:
         name = data[1:].decode("utf-8")
     except UnicodeDecodeError as error:
         raise malformed(f"not UTF-8: {error}") from error
-    return Connection(name, None if signal == UNKNOWN_SIGNAL else signal)
+    return ConnectionFrame(name, None if signal == UNKNOWN_SIGNAL else signal)
 
 
-def build_connected(connection: Connection) -> bytes:
+def build_connected(connection: ConnectionFrame) -> bytes:
     """The bytes of a connection. ValueError when the name is too long or the signal is no i8."""
     name = connection.name.encode("utf-8")
     if len(name) > LONGEST_NAME or connection.signal == UNKNOWN_SIGNAL:

@@ -23,10 +23,10 @@ from ...events import ActivityChanged, Event, LiftRidden, StrideFeatures, Stride
 from ...foot.tracker import FootTracker
 from ...types import Activity, Foot, Sample, Site
 from ...types.vector import TIE, ZERO
-from .air import NOTHING, Air
+from .air import NOTHING, PressureHeight
 from .features import BLOCK, REACH, FootWindow
 from .flights import Flights
-from .hypotheses import Evidence, Hypotheses, Segment
+from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses
 from .motion import MotionModel, shipped
 from .votes import felt, motions
 
@@ -82,9 +82,9 @@ class Activities:
     """The block that is judged next."""
     left: FootWindow = field(factory=FootWindow, init=False)
     right: FootWindow = field(factory=FootWindow, init=False)
-    air: Air = field(factory=Air, init=False)
+    air: PressureHeight = field(factory=PressureHeight, init=False)
     courses: Hypotheses = field(factory=Hypotheses, init=False)
-    told: list[Segment] = field(factory=list, init=False)
+    told: list[ActivitySegment] = field(factory=list, init=False)
     """What was told and is not final, in the order of time."""
     instead: float | None = field(default=None, init=False)
     """`t` of what was told after that, not final either: that what was told of then was wrong, s."""
@@ -172,7 +172,7 @@ class Activities:
         air = self.air
         climbs = air.climbs(index, BLOCK) if air.blocks else NOTHING
         self.courses.update(
-            Evidence(
+            BlockEvidence(
                 t=t,
                 motions=motions(model, said),
                 felt=tuple([felt(side.block(index), side.grain) for side in sides]),
@@ -190,7 +190,7 @@ class Activities:
     def _anew(self) -> None:
         self.origin = None
         self.next = 0
-        self.air = Air()
+        self.air = PressureHeight()
         self.courses = Hypotheses()
         self.told, self.instead = [], None
 
@@ -228,12 +228,12 @@ class Activities:
     def _go_on(self, same: int, t: float, known_at: float, final: bool, events: list[Event]) -> None:
         """What was told of `t`, s, was wrong, and what went before it goes on."""
         settled = Activity.UNKNOWN if self.courses.settled is None else self.courses.settled
-        on = Segment(t, self.told[same - 1].activity if same else settled)
+        on = ActivitySegment(t, self.told[same - 1].activity if same else settled)
         events.append(self._changed(on, known_at, final, t, self.courses.probability(on)))
         self.instead = None if final else t
 
     def _changed(
-        self, segment: Segment, known_at: float, final: bool, revises: float | None, probability: float
+        self, segment: ActivitySegment, known_at: float, final: bool, revises: float | None, probability: float
     ) -> ActivityChanged:
         self.activity = segment.activity
         return ActivityChanged(
@@ -251,7 +251,7 @@ class Activities:
         """The steps up to the block that was judged last, each with what the wearer did in its middle."""
         until = self._time(self.next)
         best = self.courses.best
-        path: Sequence[Segment] = () if best is None else best.path
+        path: Sequence[ActivitySegment] = () if best is None else best.path
         while self.steps and 0.5 * (self.steps[0].t_start + self.steps[0].t_end) < until:
             step = self.steps.popleft()
             middle = 0.5 * (max(step.t_start, step.t_end - 1.6) + step.t_end)
@@ -287,9 +287,7 @@ def _slimmed(step: StrideTaken, known_at: float) -> StrideTaken:
     )
 
 
-def _ridden(ride: Segment, over: float, known_at: float) -> LiftRidden:
+def _ridden(ride: ActivitySegment, over: float, known_at: float) -> LiftRidden:
     start = ride.t if ride.from_ is None else ride.from_
     end = max(start, over if ride.to is None else ride.to)
-    return LiftRidden(
-        t=end, known_at=max(known_at, end), t_start=start, up=RIDDEN[ride.activity], height=ride.height
-    )
+    return LiftRidden(t=end, known_at=max(known_at, end), t_start=start, up=RIDDEN[ride.activity], height=ride.height)

@@ -64,7 +64,7 @@ NOTHING = (0.0,) * len(_ORDERED)
 
 
 @define
-class Air:
+class PressureHeight:
     """Feed it every pressure; `climbs` and `height` look back a few seconds."""
 
     # state

@@ -6,7 +6,7 @@ from attrs import define
 
 
 @define
-class Block:
+class ActivityBlock:
     """Means and shares over the samples of one block."""
 
     index: int
@@ -32,7 +32,7 @@ class Block:
 
 
 @define
-class Stepped:
+class BlockStride:
     """What counts of a step: times in s, lengths in m, m/s, rad."""
 
     start: float

@@ -16,7 +16,7 @@ from ...events import Event, FootFlat, HeelStrike, StrideTaken
 from ...foot.tracker import FootTracker
 from ...types import Vec3
 from ...types.vector import ZERO
-from .block import Block, Stepped
+from .block import ActivityBlock, BlockStride
 
 BLOCK = 0.5
 """s."""
@@ -45,7 +45,7 @@ STEP = TRACK + 6
 COUNT = STEP + 11
 
 
-class Track(Protocol):
+class FootTrack(Protocol):
     """Where a foot is: position in m and velocity in m/s, z up."""
 
     position: Vec3
@@ -78,9 +78,9 @@ class FootWindow:
     top: float = 0.0
     bottom: float = 0.0
     struck: float | None = None
-    blocks: deque[Block] = field(factory=deque)
+    blocks: deque[ActivityBlock] = field(factory=deque)
     """The newest, at most `KEPT`, oldest first."""
-    steps: deque[Stepped] = field(factory=deque)
+    steps: deque[BlockStride] = field(factory=deque)
 
     def begin(self, index: int, foot: FootTracker) -> None:
         """A block begins."""
@@ -93,7 +93,7 @@ class FootWindow:
         self.tracked = False
         self.climb = self.sink = self.speed = 0.0
 
-    def add(self, acc: Vec3, gyro: Vec3 | None, track: Track | None) -> None:
+    def add(self, acc: Vec3, gyro: Vec3 | None, track: FootTrack | None) -> None:
         """A sample of the block under way. `track`: where the foot is after it; None when nobody knows."""
         x, y, z = acc
         square = x * x + y * y + z * z
@@ -147,7 +147,7 @@ class FootWindow:
             return
         mean = self.force / n
         self.blocks.append(
-            Block(
+            ActivityBlock(
                 self.index,
                 n,
                 round(mean, 6),
@@ -171,7 +171,7 @@ class FootWindow:
         rise = step.height_change if seen.rise is None else seen.rise
         clearance = seen.clearance + max(step.height_change, 0.0) - max(rise, 0.0)
         self.steps.append(
-            Stepped(
+            BlockStride(
                 step.t_start,
                 step.t_end,
                 round(step.length, 4),
@@ -194,7 +194,7 @@ class FootWindow:
         self.blocks.clear()
         self.steps.clear()
 
-    def block(self, index: int) -> Block | None:
+    def block(self, index: int) -> ActivityBlock | None:
         """The block of that number; None when nothing was heard in it."""
         for block in self.blocks:
             if block.index == index:
@@ -209,7 +209,12 @@ class FootWindow:
             return None
         near = [block for block in self.blocks if -REACH <= block.index - index <= REACH]
         told = [0.0] * COUNT
-        earlier, later, turned, tracked = list[Block](), list[Block](), list[Block](), list[Block]()
+        earlier, later, turned, tracked = (
+            list[ActivityBlock](),
+            list[ActivityBlock](),
+            list[ActivityBlock](),
+            list[ActivityBlock](),
+        )
         whole, forces, squares = 0, 0.0, 0.0
         least = most = here.variance
         for block in near:
@@ -286,7 +291,7 @@ class FootWindow:
             told[STEP + 10] = 2.0 * min(max(step.strike, -0.6), 0.6)
         return told
 
-    def _step(self, t: float) -> Stepped | None:
+    def _step(self, t: float) -> BlockStride | None:
         """The step that was under way at `t` s, or was a quarter of a second off."""
         best, nearest = None, 0.5 * BLOCK
         for step in self.steps:

@@ -17,7 +17,7 @@ from ...types import Activity
 from ...types.vector import TIE
 from .chain import ACTIVITIES, BEGIN, CRUISES, HALTS, LIFTS, PULSES, RIDES, STAND, Chain
 from .features import BLOCK
-from .ride import DWELLS, HALT, HALT_VARIES, HASTE, USUAL, VARIES, Beside, Felt, Level, Levels, Ride
+from .ride import DWELLS, HALT, HALT_VARIES, HASTE, USUAL, VARIES, Beside, Felt, Levels, LiftRide, RestLevel
 
 FORGOTTEN = 13.0
 """A token that is so much less likely than the best (natural logarithm) is dropped."""
@@ -34,7 +34,7 @@ LONGEST = 8
 
 
 @define
-class Segment:
+class ActivitySegment:
     """From `t` s on the wearer does `activity`; never changed. Of a ride: when its pulses were felt, s, and its height,
     m, as far as it is known."""
 
@@ -51,13 +51,13 @@ class Token:
 
     state: int
     score: float
-    path: tuple[Segment, ...]
+    path: tuple[ActivitySegment, ...]
     """What is not settled yet, and the last that is."""
-    ride: Ride
+    ride: LiftRide
 
 
 @define
-class Evidence:
+class BlockEvidence:
     """What half a second from `t` s on looks like."""
 
     t: float
@@ -86,7 +86,7 @@ class Hypotheses:
         """The likeliest; None before any evidence."""
         return max(self.tokens, key=_score, default=None)
 
-    def update(self, seen: Evidence, chain: Chain) -> None:
+    def update(self, seen: BlockEvidence, chain: Chain) -> None:
         """Half a second more."""
         scores, stops = [-inf] * len(ACTIVITIES), [0.0] * len(ACTIVITIES)
         held: list[Token | None] = [None] * len(ACTIVITIES)
@@ -126,11 +126,11 @@ class Hypotheses:
                 path, ride = _gone_on(token, state, seen, chain, levels, taken)
                 self.tokens.append(Token(state, score, path, ride))
 
-    def settle(self, now: float) -> list[tuple[Segment, Segment | None, float]]:
+    def settle(self, now: float) -> list[tuple[ActivitySegment, ActivitySegment | None, float]]:
         """What is settled from now on, `now` s: each activity that was begun, with the one before it that it ends, and
         how likely it is of the courses that were held."""
         best = self.best
-        found: list[tuple[Segment, Segment | None, float]] = []
+        found: list[tuple[ActivitySegment, ActivitySegment | None, float]] = []
         if best is None:
             return found
         old = _old(best.path, now)
@@ -151,7 +151,7 @@ class Hypotheses:
             i = 1
         return found
 
-    def probability(self, segment: Segment) -> float:
+    def probability(self, segment: ActivitySegment) -> float:
         """That the wearer did this then, of the courses that are held."""
         those = whole = 0.0
         for token in self.tokens:
@@ -170,7 +170,7 @@ def _score(token: Token) -> float:
     return token.score
 
 
-def _old(path: Sequence[Segment], now: float) -> float:
+def _old(path: Sequence[ActivitySegment], now: float) -> float:
     """What began up to then is settled for want of time, s."""
     old = now - DECIDED
     for before, after in pairwise(path):
@@ -179,7 +179,7 @@ def _old(path: Sequence[Segment], now: float) -> float:
     return old
 
 
-def _agrees(token: Token, i: int, begun: Segment) -> bool:
+def _agrees(token: Token, i: int, begun: ActivitySegment) -> bool:
     if len(token.path) <= i:
         return False
     other = token.path[i]
@@ -187,7 +187,7 @@ def _agrees(token: Token, i: int, begun: Segment) -> bool:
 
 
 def _scored(
-    token: Token, score: float, state: int, seen: Evidence, beside: Beside
+    token: Token, score: float, state: int, seen: BlockEvidence, beside: Beside
 ) -> tuple[float, int, Token, Levels, float]:
     """How likely the course of `token`, that far, is after half a second in the state; with the levels of its feet at
     rest, and the acceleration of the lift, m/s^2."""
@@ -211,8 +211,8 @@ def _scored(
 
 
 def _gone_on(
-    token: Token, state: int, seen: Evidence, chain: Chain, levels: Levels, taken: float
-) -> tuple[tuple[Segment, ...], Ride]:
+    token: Token, state: int, seen: BlockEvidence, chain: Chain, levels: Levels, taken: float
+) -> tuple[tuple[ActivitySegment, ...], LiftRide]:
     """The course of the token and its ride after half a second in the state."""
     ride, path, activity = token.ride, token.path, ACTIVITIES[state]
     if path and path[-1].activity is activity:
@@ -220,23 +220,25 @@ def _gone_on(
             return path, ride.goes(levels, taken, BLOCK)
         if state == STAND:
             return path, ride.stands(levels, BLOCK)
-        return path, Ride(levels, stood=ride.stood).stands(levels, BLOCK)
+        return path, LiftRide(levels, stood=ride.stood).stands(levels, BLOCK)
     t = seen.t
     if path:
         last = path[-1]
         if token.state in RIDES and state not in RIDES:
-            ended = Segment(last.t, last.activity, last.from_, t, ride.risen(seen.after))
+            ended = ActivitySegment(last.t, last.activity, last.from_, t, ride.risen(seen.after))
             path = (*path[:-1], ended)
             ride = ride.over()
         t = max(t + chain.late[token.state][state], last.t + TIE)
     if state in RIDES:
         whole = state in PULSES and bool(path)
-        return (*path, Segment(t, activity, seen.t)), ride.begins(whole, seen.before, levels, taken, BLOCK)
-    path = (*path, Segment(t, activity))
+        return (*path, ActivitySegment(t, activity, seen.t)), ride.begins(whole, seen.before, levels, taken, BLOCK)
+    path = (*path, ActivitySegment(t, activity))
     if state == STAND:
         return path, ride.stands(levels, BLOCK)
-    return path, Ride(levels, stood=ride.stood).stands(levels, BLOCK)
+    return path, LiftRide(levels, stood=ride.stood).stands(levels, BLOCK)
 
 
-BEGUN = tuple([Token(state, log(chance), (), Ride((Level(), Level()))) for state, chance in enumerate(BEGIN)])
+BEGUN = tuple(
+    [Token(state, log(chance), (), LiftRide((RestLevel(), RestLevel()))) for state, chance in enumerate(BEGIN)]
+)
 """A course that has done nothing yet, for each state."""

@@ -62,14 +62,14 @@ class Felt:
 
 
 @define
-class Level:
+class RestLevel:
     """|acc| of one foot at rest, m/s^2."""
 
     value: float = GRAVITY
     variance: float = LEVEL * LEVEL
 
 
-Levels = tuple[Level, ...]
+Levels = tuple[RestLevel, ...]
 """Of the left foot and the right one."""
 
 
@@ -137,7 +137,7 @@ class Beside:
             [
                 level
                 if one is None or not one.moved or level.variance >= MOVED * MOVED
-                else Level(level.value, MOVED * MOVED)
+                else RestLevel(level.value, MOVED * MOVED)
                 for level, one in zip(levels, self.felt, strict=True)
             ]
         )
@@ -184,12 +184,12 @@ class Beside:
                 variance = max(variance, MOVED * MOVED)
             gain = variance / (variance + one.variance + uncertain)
             off = one.force - acceleration - level.value
-            learnt.append(Level(round(level.value + gain * off, 7), round((1.0 - gain) * variance, 9)))
+            learnt.append(RestLevel(round(level.value + gain * off, 7), round((1.0 - gain) * variance, 9)))
         return tuple(learnt)
 
 
 @define
-class Ride:
+class LiftRide:
     """What a hypothesis has of a lift: all upwards positive."""
 
     levels: Levels
@@ -209,20 +209,18 @@ class Ride:
     """Since the last ride ended, s."""
 
     @staticmethod
-    def begins(whole: bool, air: float | None, levels: Levels, acceleration: float, block: float) -> Ride:
+    def begins(whole: bool, air: float | None, levels: Levels, acceleration: float, block: float) -> LiftRide:
         """The first `block` s of a ride, `whole` when with its first pulse, at the height `air` in m; the others as in
         `goes`."""
         velocity = round(0.0 + acceleration * block, 6)
-        return Ride(
-            levels, velocity, abs(velocity), round(0.0 + 0.5 * velocity * block, 6), block, whole, air
-        )
+        return LiftRide(levels, velocity, abs(velocity), round(0.0 + 0.5 * velocity * block, 6), block, whole, air)
 
-    def goes(self, levels: Levels, acceleration: float, block: float) -> Ride:
+    def goes(self, levels: Levels, acceleration: float, block: float) -> LiftRide:
         """`block` s more with this acceleration, m/s^2, and the levels after it."""
         before = self.velocity
         velocity = round(before + acceleration * block, 6)
         fast = abs(velocity)
-        return Ride(
+        return LiftRide(
             levels,
             velocity,
             fast if fast > self.fastest else self.fastest,
@@ -233,20 +231,18 @@ class Ride:
             self.stood,
         )
 
-    def stands(self, levels: Levels, block: float) -> Ride:
+    def stands(self, levels: Levels, block: float) -> LiftRide:
         """`block` s more without a ride: the levels after it. What there was of one is kept."""
         stood = self.stood
         if stood < DWELLS:
             stood += block
         elif levels is self.levels:
             return self
-        return Ride(
-            levels, self.velocity, self.fastest, self.height, self.lasted, self.whole, self.air, stood
-        )
+        return LiftRide(levels, self.velocity, self.fastest, self.height, self.lasted, self.whole, self.air, stood)
 
-    def over(self) -> Ride:
+    def over(self) -> LiftRide:
         """The same levels, no ride."""
-        return Ride(self.levels, stood=0.0)
+        return LiftRide(self.levels, stood=0.0)
 
     def stopped(self) -> float:
         """Logarithm of how likely it is that a lift that moved like this stands now."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .block import Block
+from .block import ActivityBlock
 from .motion import MOTIONS, MotionModel
 from .ride import SWAY, Felt
 
@@ -38,7 +38,7 @@ def motions(model: MotionModel, feet: Sequence[Sequence[float] | None]) -> tuple
     return (*said, unknown) if heard else (*[-1.0] * len(MOTIONS), 0.0)
 
 
-def felt(block: Block | None, grain: float) -> Felt | None:
+def felt(block: ActivityBlock | None, grain: float) -> Felt | None:
     """What a lift would be felt in; None of a foot that was not heard. `grain`: what a count of its accelerometer is
     worth, m/s^2."""
     if block is None or block.force >= MOST:

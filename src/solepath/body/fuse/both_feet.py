@@ -29,7 +29,7 @@ from ...types import Foot, Sample, Site, Vec3
 from ...types.vector import ZERO, sub
 from .agreement import HEADING, RATE, STATES, WIDTH, Agreement, Term, X, Y
 from .corridor import Corridor
-from .facing import Askew, Facing, Stride, lay_alongside
+from .facing import Askew, Facing, FacingStride, lay_alongside
 from .position import MeanOfFeet, Position
 
 FARTHEST = 1e6
@@ -87,7 +87,7 @@ class BothFeet(MeanOfFeet):
     """Up to `settles`, m."""
     width: float = field(default=0.0, init=False)
     """Walking width, m."""
-    strides: list[Stride | None] = field(factory=lambda: [None, None], init=False)
+    strides: list[FacingStride | None] = field(factory=lambda: [None, None], init=False)
     """Left and right."""
     askew: Askew = field(factory=Askew, init=False)
     facing: list[Facing] = field(factory=lambda: [Facing(), Facing()], init=False)
@@ -178,7 +178,7 @@ class BothFeet(MeanOfFeet):
         self.way = min(self.settles, self.way + 0.5 * taken.length)
         x, y, _ = taken.displacement
         straight = hypot(x, y) > self.shortest and abs(taken.heading_change) < self.corner and not taken.degraded
-        self.strides[index] = Stride(taken.t_end, own, atan2(y, x) if straight else None)
+        self.strides[index] = FacingStride(taken.t_end, own, atan2(y, x) if straight else None)
         if not self._lined_up(index, taken):
             self._compare(index, taken, dx, dy, stood, swung)
             if self.straight_corridors:

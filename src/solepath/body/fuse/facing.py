@@ -8,11 +8,11 @@ from attrs import define, field
 
 from ...types import Vec3
 from .corridor import wrapped
-from .position import Placed
+from .position import PlacedTrack
 
 
 @define
-class Stride:
+class FacingStride:
     """The newest one of a foot."""
 
     t_end: float
@@ -59,7 +59,9 @@ class Askew:
     found: float | None = field(default=None, init=False)
     """The last angle, rad."""
 
-    def between(self, this: Stride, turn: float, beside: Stride, others: float, side: float) -> float | None:
+    def between(
+        self, this: FacingStride, turn: float, beside: FacingStride, others: float, side: float
+    ) -> float | None:
         """A stride, the other foot's that ended within it, and by how much their tracks are turned, rad. `side`: 1 of
         the left foot, -1 of the right one. Returns by how much this one leads further round when that is much and as
         much as the last time, rad; None while there is nothing to mend."""
@@ -74,7 +76,13 @@ class Askew:
 
 
 def lay_alongside(
-    own: Placed, this: Stride, other: Placed, beside: Stride, angle: float, half: float, aside: float
+    own: PlacedTrack,
+    this: FacingStride,
+    other: PlacedTrack,
+    beside: FacingStride,
+    angle: float,
+    half: float,
+    aside: float,
 ) -> None:
     """Turn each of two tracks by half the `angle`, rad, that the one leads further round, and move both as much: then
     the other foot stands beside the middle of the stride, `half` m before its end and `aside` m to the right."""

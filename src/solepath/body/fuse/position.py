@@ -42,7 +42,7 @@ class Position:
 
 
 @define
-class Placed:
+class PlacedTrack:
     """How one foot's own track lies among both: turned by `turn` rad and then moved by `offset` m."""
 
     t: float | None = None
@@ -98,8 +98,8 @@ class MeanOfFeet:
     """
 
     # state
-    left: Placed = field(factory=Placed, init=False)
-    right: Placed = field(factory=Placed, init=False)
+    left: PlacedTrack = field(factory=PlacedTrack, init=False)
+    right: PlacedTrack = field(factory=PlacedTrack, init=False)
     newest: Foot | None = field(default=None, init=False)
     """The foot that was set beside the other last."""
     steps: list[tuple[bool, Vec3, Vec3]] = field(factory=list, init=False)
@@ -181,13 +181,11 @@ class MeanOfFeet:
         there = [
             foot
             for foot in moving
-            if not (
-                self._placed(foot.foot).absent and foot.moved_at is not None and newest - foot.moved_at >= ABSENT
-            )
+            if not (self._placed(foot.foot).absent and foot.moved_at is not None and newest - foot.moved_at >= ABSENT)
         ]
         return [foot for foot in there if not self._placed(foot.foot).waits] or there or moving
 
-    def _placed(self, foot: Foot) -> Placed:
+    def _placed(self, foot: Foot) -> PlacedTrack:
         return self.left if foot is LEFT else self.right
 
     def _place(self, foot: FootTracker) -> Vec3:
@@ -203,7 +201,7 @@ class MeanOfFeet:
 
     # --- who comes back ---
 
-    def _came_back(self, this: Placed, other: Placed) -> None:
+    def _came_back(self, this: PlacedTrack, other: PlacedTrack) -> None:
         """It waits. Should the other fall silent meanwhile, it goes on from where that one is now."""
         lx, ly, lz = self._lean(LEFT if other is self.left else Foot.RIGHT)
         x, y, z = other.offset
@@ -214,7 +212,7 @@ class MeanOfFeet:
         this.waits, other.waits = True, False
         self.steps = []
 
-    def _stepped(self, is_left: bool, this: Placed) -> None:
+    def _stepped(self, is_left: bool, this: PlacedTrack) -> None:
         """A foot has taken a step, and both are heard."""
         left, right = self.left, self.right
         if not left.waits and not right.waits:
@@ -239,7 +237,7 @@ class MeanOfFeet:
         self.steps = []
 
     @staticmethod
-    def _doubt(this: Placed, other: Placed) -> None:
+    def _doubt(this: PlacedTrack, other: PlacedTrack) -> None:
         """What its place is uncertain by from now on: as the other's is."""
         across, up = other.variance or (0.0, 0.0)
         own_across, own_up = this.variance or (0.0, 0.0)

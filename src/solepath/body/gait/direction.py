@@ -29,7 +29,7 @@ the other turns."""
 
 
 @frozen
-class Turned:
+class TurnProcess:
     """A turning process that is over. `left`, `right`: sum of each foot's turns, rad; None of a foot not heard."""
 
     t_start: float
@@ -73,7 +73,7 @@ class Direction:
     told: float | None = field(default=None, init=False)
     """When the last turn that was told was over, s."""
 
-    def step(self, taken: StrideTaken) -> Turned | None:
+    def step(self, taken: StrideTaken) -> TurnProcess | None:
         """One step of either foot, in the order in which they became known; the turn that is over by it."""
         foot, other = self._feet(taken.foot)
         angle = foot.turning.turn(taken.heading_change)
@@ -88,7 +88,7 @@ class Direction:
         both = other.straight > 0 and foot.straight + other.straight >= STRAIGHT
         return self._over() if both or foot.straight >= STRAIGHT else None
 
-    def pivot(self, foot: Foot, t_start: float, t_end: float, angle: float) -> Turned | None:
+    def pivot(self, foot: Foot, t_start: float, t_end: float, angle: float) -> TurnProcess | None:
         """A foot that took no step from one foot-flat to the next, s, has turned by `angle`, rad: as above, but when it
         is no turning step it is nothing."""
         this, other = self._feet(foot)
@@ -100,7 +100,9 @@ class Direction:
     def _feet(self, foot: Foot) -> tuple[FootTurn, FootTurn]:
         return (self.left, self.right) if foot is Foot.LEFT else (self.right, self.left)
 
-    def _turning(self, foot: FootTurn, other: FootTurn, t_start: float, t_end: float, angle: float) -> Turned | None:
+    def _turning(
+        self, foot: FootTurn, other: FootTurn, t_start: float, t_end: float, angle: float
+    ) -> TurnProcess | None:
         over = None
         if self.began is not None and t_start - self.ended > self.stands:
             over = self._over()
@@ -115,14 +117,14 @@ class Direction:
         self.stands = min(max(STANDS, 0.8 * self.stands, t_end - t_start), PATIENCE)
         return over
 
-    def stood(self, t: float) -> Turned | None:
+    def stood(self, t: float) -> TurnProcess | None:
         """It is `t` s; the turn that is over because nobody has stepped since."""
         if self.began is None or t - self.ended <= self.stands:
             return None
         newest = max(-1e12 if foot.stepped is None else foot.stepped for foot in (self.left, self.right))
         return self._over() if t - newest > self.stands else None
 
-    def finish(self) -> Turned | None:
+    def finish(self) -> TurnProcess | None:
         """The turn under way, which nobody will go on with."""
         return None if self.began is None else self._over()
 
@@ -131,9 +133,9 @@ class Direction:
         self.began = self.told = None
         (self.left if foot is Foot.LEFT else self.right).stepped = None
 
-    def _over(self) -> Turned:
+    def _over(self) -> TurnProcess:
         began = self.ended if self.began is None else self.began
-        found = Turned(began, self.ended, *agreed(self._part(self.left, began), self._part(self.right, began)))
+        found = TurnProcess(began, self.ended, *agreed(self._part(self.left, began), self._part(self.right, began)))
         self.began, self.told = None, self.ended
         self.left.angle = self.right.angle = 0.0
         self.left.straight = self.right.straight = 0

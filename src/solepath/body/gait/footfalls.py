@@ -24,7 +24,7 @@ KEPT = 4
 
 
 @define
-class Cycle:
+class PendingCycle:
     """A cycle that is over but for its foot-flat, and the step that is told with that."""
 
     start: float
@@ -52,8 +52,8 @@ class Footfalls:
     follows: bool = False
     degraded: bool = False
     spoilt: bool = False
-    ended: Cycle | None = None
-    waiting: list[Cycle] = field(factory=list)
+    ended: PendingCycle | None = None
+    waiting: list[PendingCycle] = field(factory=list)
     count: int = 0
     """Strides measured."""
     contacts: list[float] = field(factory=list)
@@ -75,7 +75,7 @@ class Footfalls:
             stride = toe_off - start <= STANDS and t - toe_off <= STANDS and t - start >= SHORTEST
             if stride:
                 lacks, spoilt = self.degraded or inferred, self.spoilt or inferred
-                self.ended = Cycle(start, toe_off, t, self.follows, lacks, spoilt)
+                self.ended = PendingCycle(start, toe_off, t, self.follows, lacks, spoilt)
             self.follows = stride
         self.contact, self.toe_off = t, None
         self.degraded = self.spoilt = inferred

@@ -21,7 +21,7 @@ from typing import Protocol
 from ...events import GaitCycleMeasured, StrideTaken
 from ...types import Foot, Vec3
 from ...types.vector import sub
-from .footfalls import Cycle, Footfalls
+from .footfalls import Footfalls, PendingCycle
 
 ALIKE = 1.5
 """Two steady strides in a row differ by less than this factor."""
@@ -48,7 +48,7 @@ class Shared(Protocol):
 def measured(
     foot: Foot,
     number: int,
-    cycle: Cycle,
+    cycle: PendingCycle,
     before: GaitCycleMeasured | None,
     other: Footfalls,
     tracked: bool,
@@ -101,7 +101,7 @@ def measured(
     )
 
 
-def is_steady(cycle: Cycle, time: float, before: GaitCycleMeasured | None, tracked: bool) -> bool:
+def is_steady(cycle: PendingCycle, time: float, before: GaitCycleMeasured | None, tracked: bool) -> bool:
     """By the rule at the top of this file; `time`: of the cycle, s."""
     if cycle.spoilt or not cycle.follows or before is None or before.t != cycle.start:
         return False

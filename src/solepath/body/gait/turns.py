@@ -18,7 +18,7 @@ from ...events import Event, FootFlat, StrideTaken, TurnMade
 from ...foot.tracker import FootTracker
 from ...foot.turn import heading_turned
 from ...types import Foot, Quat, Sample, Site, Turn
-from .direction import Direction, Turned
+from .direction import Direction, TurnProcess
 
 SLIGHT = 0.61
 """A turn by less than this is a bend and none of the three: half-way between 0 and the 70 degrees that the slightest
@@ -71,7 +71,7 @@ class Turns:
 
     def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[TurnMade]:
         """The turns that are over: `events` are what came of `sample`."""
-        found: list[Turned] = []
+        found: list[TurnProcess] = []
         known_at = sample.t
         for event in events:
             if not isinstance(event, StrideTaken | FootFlat):
@@ -87,7 +87,7 @@ class Turns:
                 found.append(turned)
         return [made(turned, known_at) for turned in found if abs(turned.angle) > 0.5 * SLIGHT]
 
-    def _footfall(self, foot: FootTracker, event: StrideTaken | FootFlat, events: list[Event]) -> Turned | None:
+    def _footfall(self, foot: FootTracker, event: StrideTaken | FootFlat, events: list[Event]) -> TurnProcess | None:
         """A step is one by itself; a foot that is flat without one may have pivoted."""
         if isinstance(event, StrideTaken):
             return self.direction.step(event)
@@ -112,7 +112,7 @@ class Turns:
             self.lain.pop(site.foot, None)
 
 
-def made(turned: Turned, known_at: float) -> TurnMade:
+def made(turned: TurnProcess, known_at: float) -> TurnMade:
     """The event of a turn that was known at `known_at`, s."""
     return TurnMade(
         t=turned.t_end,

@@ -100,7 +100,7 @@ class Heights:
 
 
 @define
-class Gathering:
+class PendingReadings:
     """Readings of one barometer that are not used yet, and how they scatter."""
 
     since: float | None = None
@@ -136,7 +136,7 @@ class Altitude:
     """As it was before what is kept."""
     kept: Heard = field(factory=Heard, init=False)
     """Of the left barometer, of the right one, or a move of the correction."""
-    sides: list[Gathering] = field(factory=lambda: [Gathering(), Gathering()], init=False)
+    sides: list[PendingReadings] = field(factory=lambda: [PendingReadings(), PendingReadings()], init=False)
     noise: float = field(default=0.04, init=False)
     """Variance of a reading that is used, learnt, m^2."""
     doubt: float = field(default=0.0, init=False)
@@ -190,7 +190,7 @@ class Altitude:
         if site.foot is None:
             return
         which = LEFT if site.foot is Foot.LEFT else RIGHT
-        self.sides[which] = Gathering()
+        self.sides[which] = PendingReadings()
         self.now.known[which] = None
         self.base = self.now.copy()
         self.kept.clear()
@@ -244,11 +244,7 @@ class Altitude:
             return False
         began, ended = 100.0 * ride.t_start, 100.0 * ride.t
         walked = sum([start > began and end < ended for start, end in self.strides])
-        return (
-            walked < 2
-            and abs(height) >= self.shortest
-            and self.slowest <= abs(height) / lasted <= self.fastest
-        )
+        return walked < 2 and abs(height) >= self.shortest and self.slowest <= abs(height) / lasted <= self.fastest
 
     # --- the filter ---
 

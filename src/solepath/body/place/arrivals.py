@@ -6,7 +6,7 @@ from collections.abc import Callable
 from math import cos, pi, sin, sqrt
 
 from ...floorplan.index import IndexedPlan
-from ...floorplan.plan import FloorPlan, FloorPlanError, Kind, Point, Start
+from ...floorplan.plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Start
 from .crowd import Row
 from .landings import Landing, landings, nearest, ways_out
 from .noise import NOISE, ROWS
@@ -20,7 +20,7 @@ TURNED = 0.07
 """Stairs and rides turn the track by this, rad."""
 ON_STAIRS = 2.0
 """Who does what one does on stairs, beside stairs, is so many times as likely to be on them as to go on along them."""
-OTHER_WAY = {Kind.STAIRS: 0.1, Kind.LIFT: 0.01}
+OTHER_WAY = {ConnectorKind.STAIRS: 0.1, ConnectorKind.LIFT: 0.01}
 """How often somebody goes up who is told to go down, or the other way round, at the least. To a foot, stairs up and
 down look much alike."""
 
@@ -55,7 +55,7 @@ def fan(
     return rows
 
 
-def changing(plan: FloorPlan, rows: list[Row], kind: Kind, since: Point) -> list[Row]:
+def changing(plan: FloorPlan, rows: list[Row], kind: ConnectorKind, since: Point) -> list[Row]:
     """Of those who are near stairs or a lift, another each that changes level; `since`: their way since then, m."""
     stops = landings(plan)
     x0, y0 = plan.origin

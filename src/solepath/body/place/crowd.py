@@ -95,8 +95,6 @@ def effective(rows: list[Row]) -> float:
     return roots * roots / total if total > 0.0 else 0.0
 
 
-
-
 def believed(
     rows: list[Row], plan: FloorPlan, heights: dict[int, float], track: float | None, agreed: float = AGREED
 ) -> tuple[tuple[Candidate, ...], float]:
@@ -183,5 +181,3 @@ def _grouped(rows: list[Row], agreed: float) -> list[_Group]:
 
 def _row_weight(row: Row) -> float:
     return row[4]
-
-

@@ -6,7 +6,7 @@ from math import exp, hypot
 
 from attrs import frozen
 
-from ...floorplan.plan import FloorPlan, Kind, Point
+from ...floorplan.plan import ConnectorKind, FloorPlan, Point
 
 REACH = 5.0
 """Somebody who goes onto stairs or into a lift is within this of it as the track has it, m."""
@@ -32,7 +32,7 @@ class Landing:
     """One more than its place among all stops of the plan."""
     connector: int
     """Its connector's place in the plan."""
-    kind: Kind
+    kind: ConnectorKind
     level: int
     """Its level's place in the plan."""
     ordinal: int
@@ -57,7 +57,9 @@ def landings(plan: FloorPlan) -> list[Landing]:
     return found
 
 
-def nearest(all_of_them: list[Landing], kind: Kind, level: int, x: float, y: float) -> tuple[Landing, float] | None:
+def nearest(
+    all_of_them: list[Landing], kind: ConnectorKind, level: int, x: float, y: float
+) -> tuple[Landing, float] | None:
     """The nearest landing of a kind on a level, and how likely it is that somebody at (x, y) goes there; None where
     none is within reach."""
     best, distance = None, REACH
@@ -103,6 +105,4 @@ def _along(all_of_them: list[Landing], entered: Landing) -> list[Landing]:
 
 def beside(all_of_them: list[Landing], level: int, x: float, y: float) -> bool:
     """Whether somebody at (x, y), m, may be on stairs or in a lift already."""
-    return any(
-        [stop.level == level and hypot(stop.place[0] - x, stop.place[1] - y) < BESIDE for stop in all_of_them]
-    )
+    return any([stop.level == level and hypot(stop.place[0] - x, stop.place[1] - y) < BESIDE for stop in all_of_them])

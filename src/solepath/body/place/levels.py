@@ -11,7 +11,7 @@ from math import hypot
 from attrs import define, field
 
 from ...floorplan.index import IndexedPlan
-from ...floorplan.plan import FloorPlan, Kind, Point
+from ...floorplan.plan import ConnectorKind, FloorPlan, Point
 from ...types import Vec3
 from ...types.vector import ZERO
 from ..fuse.position import Position
@@ -19,7 +19,7 @@ from .arrivals import anew, changing, out
 from .crowd import Row, packed, resampled, unpacked
 from .landings import Landing, landings, ways_out
 from .noise import following
-from .pace import Pace
+from .pace import StrideScale
 from .readings import Readings
 from .reference import Arrived, Held, References
 
@@ -33,7 +33,7 @@ SOON = 10.0
 """Stairs that are entered so soon after others, s, are the same ones."""
 ELSEWHERE = 0.02
 """With less belief than this near any landing, the wearer was not where the plan had him."""
-DOUBT = {Kind.STAIRS: 0.85, Kind.LIFT: 0.5}
+DOUBT = {ConnectorKind.STAIRS: 0.85, ConnectorKind.LIFT: 0.5}
 """What a belief is worth then, against the landings: level steps may be taken for stairs."""
 EITHER = (0.3, 0.8)
 """Who has come so far to the next landing, as shares of the way, may be nearer to either: steps are counted."""
@@ -49,7 +49,7 @@ class Levels(Readings):
     last: Vec3 = field(default=ZERO, init=False)
     """Up to where the track has been followed, m."""
     references: References = field(factory=References, init=False)
-    pace: Pace = field(factory=Pace, init=False)
+    pace: StrideScale = field(factory=StrideScale, init=False)
     either: bool = field(default=False, init=False)
     """Only the direction in which stairs were told to lead says which level it is, and that is easily wrong."""
     arrived: float | None = field(default=None, init=False)
@@ -96,7 +96,7 @@ class Levels(Readings):
                 self.release()
                 return
             there = anew(self.scattered, plan, arrived, self.most)
-            self.either = arrived.kind is Kind.STAIRS
+            self.either = arrived.kind is ConnectorKind.STAIRS
             found = sum([row[4] for row in there])
             sure = 1.0 - DOUBT[arrived.kind]
             k = total * sure / (1.0 - sure) / found if found > 0.0 and total > 0.0 else 1.0

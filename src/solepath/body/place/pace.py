@@ -26,7 +26,7 @@ LEAST, MOST = 0.8, 1.6
 
 
 @define
-class Side:
+class PaceSide:
     """One foot: where the wearer was after its last step, m, and how long that was, m."""
 
     x: float
@@ -35,12 +35,12 @@ class Side:
 
 
 @define
-class Pace:
+class StrideScale:
     """`factor`: what the wearer's moves are to be multiplied by."""
 
     factor: float = field(default=1.0, init=False)
-    left: Side | None = field(default=None, init=False)
-    right: Side | None = field(default=None, init=False)
+    left: PaceSide | None = field(default=None, init=False)
+    right: PaceSide | None = field(default=None, init=False)
 
     def stepped(self, step: StrideTaken, here: Vec3) -> None:
         """A foot took a step, and the wearer is at `here` now, m."""
@@ -50,7 +50,7 @@ class Pace:
             way, strides = hypot(here[0] - this.x, here[1] - this.y), 0.5 * (step.length + other.stride)
             if way > SHORTEST and LEAST * way < strides < MOST * way:
                 self.factor += GAIN * (strides / way - self.factor)
-        side = Side(here[0], here[1], step.length) if sound else None
+        side = PaceSide(here[0], here[1], step.length) if sound else None
         if step.foot is Foot.LEFT:
             self.left = side
         else:

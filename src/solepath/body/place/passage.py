@@ -6,7 +6,7 @@ from math import hypot
 
 from attrs import define
 
-from ...floorplan.plan import Kind
+from ...floorplan.plan import ConnectorKind
 from ...types import Vec3
 
 RISE = 0.165
@@ -19,7 +19,7 @@ STEEP, LANDING = 2.5, 4.0
 class Passage:
     """Being on stairs or in a lift, as far as is known."""
 
-    kind: Kind
+    kind: ConnectorKind
     t: float
     begin: Vec3
     """Of the track, m."""
@@ -38,7 +38,7 @@ class Passage:
     def height(self, here: Vec3) -> float | None:
         """By the track where that says anything, else by flights or by counting steps, m, not negative."""
         track = self._track(here)
-        if self.kind is Kind.LIFT:
+        if self.kind is ConnectorKind.LIFT:
             return track if track > 1.0 else None
         return track if self.measured(here) else max(abs(self.climbed), self._counted)
 
@@ -66,11 +66,15 @@ class Passage:
     def doubt(self) -> float:
         """Share of the strides that lead the other way than most."""
         strides = self.left + self.right
-        return 0.5 * (1.0 - abs(self.up) / strides) if self.kind is Kind.STAIRS and strides > abs(self.up) else 0.0
+        return (
+            0.5 * (1.0 - abs(self.up) / strides)
+            if self.kind is ConnectorKind.STAIRS and strides > abs(self.up)
+            else 0.0
+        )
 
     def leads_away(self, here: Vec3) -> bool:
         """Further than stairs of that height do."""
-        if self.kind is Kind.LIFT:
+        if self.kind is ConnectorKind.LIFT:
             return False
         end = here if self.end is None else self.end
         away = hypot(end[0] - self.begin[0], end[1] - self.begin[1])

@@ -177,12 +177,11 @@ class Placing(Levels):
         rows = unpacked(self.crowd)
         known = plan.plan.heights_known
         shown, heights = self.shown(plan.plan, rows, here)
-        candidates, spread = believed(shown, plan.plan, heights, None if known else here.position[2],
-            AGREED if self.wide == 0 else APART)
+        candidates, spread = believed(
+            shown, plan.plan, heights, None if known else here.position[2], AGREED if self.wide == 0 else APART
+        )
         first = candidates[0]
-        if len(candidates) == 1 and not plan.inside(
-            plan.number(first.level), first.position[0], first.position[1]
-        ):
+        if len(candidates) == 1 and not plan.inside(plan.number(first.level), first.position[0], first.position[1]):
             self.outside += 1
             if self.outside >= OUTSIDE and self.references.passage is None:
                 self._forget()
@@ -217,7 +216,6 @@ class Placing(Levels):
             candidates=candidates,
         )
         return self.newest
-
 
 
 def _stay(rows: list[Row], before: list[Row]) -> bool:

@@ -17,7 +17,7 @@ from math import hypot, isfinite
 from attrs import define, field, frozen
 
 from ...events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken
-from ...floorplan.plan import FloorPlan, Kind
+from ...floorplan.plan import ConnectorKind, FloorPlan
 from ...types import Activity, Foot, Vec3
 from ..fuse.position import Position
 from .landings import HIGH, LOW
@@ -45,10 +45,10 @@ TRACK = 24
 """Places of the track that are kept."""
 
 UPWARDS = {
-    Activity.STAIRS_UP: (Kind.STAIRS, True),
-    Activity.STAIRS_DOWN: (Kind.STAIRS, False),
-    Activity.ELEVATOR_UP: (Kind.LIFT, True),
-    Activity.ELEVATOR_DOWN: (Kind.LIFT, False),
+    Activity.STAIRS_UP: (ConnectorKind.STAIRS, True),
+    Activity.STAIRS_DOWN: (ConnectorKind.STAIRS, False),
+    Activity.ELEVATOR_UP: (ConnectorKind.LIFT, True),
+    Activity.ELEVATOR_DOWN: (ConnectorKind.LIFT, False),
 }
 """What an activity is a reference to, and whether it leads up."""
 
@@ -57,7 +57,7 @@ UPWARDS = {
 class Held:
     """From `t` on, s, the wearer may be on stairs or in a lift."""
 
-    kind: Kind
+    kind: ConnectorKind
     t: float
 
 
@@ -71,7 +71,7 @@ class Arrived:
     """At `t`, s, the wearer has left stairs or a lift on another level, having set out at `t_start`. `height`: m, None
     when it cannot be told."""
 
-    kind: Kind
+    kind: ConnectorKind
     up: bool
     height: float | None
     t_start: float
@@ -136,9 +136,9 @@ class References:
                 if self.ridden is None or event.t > self.ridden + SAME_RIDE:
                     height = None if event.height is None or not isfinite(event.height) else abs(event.height)
                     t_start = min(event.t_start, event.t)
-                    told.append(Arrived(Kind.LIFT, event.up, height, t_start, event.t, sure=SURE_RIDE))
+                    told.append(Arrived(ConnectorKind.LIFT, event.up, height, t_start, event.t, sure=SURE_RIDE))
                     self.ridden = event.t
-                if self.passage is not None and self.passage.kind is Kind.LIFT:
+                if self.passage is not None and self.passage.kind is ConnectorKind.LIFT:
                     self.passage = None
         if self.passage is not None:
             if self.passage.t_left is not None:
@@ -155,7 +155,7 @@ class References:
         reference = UPWARDS.get(self.activity)
         if passage.t_left is not None or reference is None:
             passage.since += 1
-        elif passage.kind is Kind.STAIRS:
+        elif passage.kind is ConnectorKind.STAIRS:
             passage.up += 1 if reference[1] else -1
             if foot is Foot.LEFT:
                 passage.left += 1
@@ -174,7 +174,7 @@ class References:
                     passage.t_left, passage.end, passage.since = event.t, self.at(event.t), 0
             return
         kind, up = reference
-        if kind is Kind.LIFT and self.ridden is not None and event.t < self.ridden:
+        if kind is ConnectorKind.LIFT and self.ridden is not None and event.t < self.ridden:
             return
         if passage is not None and passage.kind is kind:
             passage.t_left = passage.end = None
@@ -183,18 +183,18 @@ class References:
                 told.append(Released())
             passage = self.passage = Passage(kind, event.t, self.at(event.t))
             told.append(Held(kind, event.t))
-        if kind is Kind.LIFT:
+        if kind is ConnectorKind.LIFT:
             passage.up += 1 if up else -1
 
     def _climbed(self, event: FlightClimbed, told: list[Reference]) -> None:
         """A flight belongs to the stairs that one is on or has just left; without them, it is one's being there."""
         passage = self.passage
-        if passage is not None and passage.kind is not Kind.STAIRS:
+        if passage is not None and passage.kind is not ConnectorKind.STAIRS:
             return
         if passage is None:
             t = min(event.t_start, event.t)
-            self.passage = passage = Passage(Kind.STAIRS, t, self.at(t), t_left=event.t, end=self.at(event.t))
-            told.append(Held(Kind.STAIRS, t))
+            self.passage = passage = Passage(ConnectorKind.STAIRS, t, self.at(t), t_left=event.t, end=self.at(event.t))
+            told.append(Held(ConnectorKind.STAIRS, t))
             passage.up = 1 if event.up else -1
         passage.climbed += event.height if abs(event.height) < 100.0 else 0.0
         if passage.t_left is not None and event.t > passage.t_left:
@@ -204,7 +204,7 @@ class References:
         """Stairs or a lift were left: for another level, for a landing, or they never were any."""
         up, height = passage.up > 0, passage.height(here.position)
         waited = here.t - left
-        if passage.kind is Kind.LIFT:
+        if passage.kind is ConnectorKind.LIFT:
             if waited > RIDE_OVER or passage.since >= 2:
                 self.passage = None
                 self.ridden = left
@@ -220,7 +220,10 @@ class References:
             height = passage.told_both_ways  # half of them told wrong, or up and down again
         real = height >= LEAST * least
         possible = SOME * least <= height <= MOST * most and not passage.leads_away(end)
-        fits = plan.heights_known and min([abs(height - rise) for rise in rises(plan, Kind.STAIRS)]) <= FIT * least
+        fits = (
+            plan.heights_known
+            and min([abs(height - rise) for rise in rises(plan, ConnectorKind.STAIRS)]) <= FIT * least
+        )
         # counted steps are those of landings, too: a flight and a landing are not a storey
         soon = real and possible and fits and (measured or height >= COUNTED * least)
         if waited > WAIT or hypot(here.position[0] - end[0], here.position[1] - end[1]) > AWAY or soon:
@@ -233,7 +236,7 @@ class References:
 
 def storeys(plan: FloorPlan) -> tuple[float, float]:
     """The least and the greatest height, m, that stairs of the plan may lead to; 0 where there are none."""
-    found = rises(plan, Kind.STAIRS)
+    found = rises(plan, ConnectorKind.STAIRS)
     if not found:
         return (0.0, 0.0)
     if plan.heights_known:
@@ -242,7 +245,7 @@ def storeys(plan: FloorPlan) -> tuple[float, float]:
     return (LOW, HIGH * max(max(ordinals) - min(ordinals), 1))
 
 
-def rises(plan: FloorPlan, kind: Kind) -> list[float]:
+def rises(plan: FloorPlan, kind: ConnectorKind) -> list[float]:
     """Every difference of height, m, over which a connector of a kind leads, least first."""
     found = set()
     for connector in plan.connectors:

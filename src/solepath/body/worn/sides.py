@@ -31,7 +31,7 @@ from ...events import Event, StrideTaken, ToeOff
 from ...foot.tracker import FootTracker
 from ...types import Foot, Layout, Sample, Vec3
 from ...types.vector import conjugate, rotate
-from .turned import Turned
+from .turned import RateIntegral
 
 UP: Vec3 = (0.0, 0.0, 1.0)
 RARELY = 0.0195
@@ -83,7 +83,7 @@ class Average:
 
 
 @define
-class Side:
+class SideSigns:
     """What speaks for one foot being the other. Positive: it does."""
 
     roll: Average = field(factory=Average)
@@ -96,7 +96,7 @@ class Side:
     """The device says that it is this foot's."""
     across: Vec3 | None = None
     """To the left, as the foot turns over its toes, sensor frame."""
-    turned: Turned = field(factory=Turned)
+    turned: RateIntegral = field(factory=RateIntegral)
     seen_at: float | None = None
     """When the centre of pressure was last looked at, s."""
     sideways: list[float] = field(factory=list)
@@ -115,8 +115,8 @@ class Sides:
     gone: float = 0.002
     """m."""
     # state
-    left: Side = field(factory=Side, init=False)
-    right: Side = field(factory=Side, init=False)
+    left: SideSigns = field(factory=SideSigns, init=False)
+    right: SideSigns = field(factory=SideSigns, init=False)
 
     def swapped(self, foot: FootTracker, sample: Sample, events: list[Event]) -> bool:
         """`foot` has used `sample` and said `events`; True once both feet look like the other."""
@@ -140,7 +140,7 @@ class Sides:
         side.mirrored = layout is not None and layout.foot is not foot.foot
         return self._agree()
 
-    def keep(self, side: Side, foot: FootTracker, sample: Sample) -> None:
+    def keep(self, side: SideSigns, foot: FootTracker, sample: Sample) -> None:
         """What `sample` of the foot on that side adds to the evidence."""
         if self.left.told or self.right.told:
             return
@@ -182,7 +182,7 @@ class Sides:
         return left.centre.beyond(self.gone, self.least) and right.centre.beyond(self.gone, self.least)
 
 
-def _land(side: Side, step: StrideTaken, up: Vec3) -> None:
+def _land(side: SideSigns, step: StrideTaken, up: Vec3) -> None:
     """A step is over, and the foot stands with `up` (sensor frame): how it was rolled as it landed."""
     begin, end = step.t_toe_off, step.t_heel_strike
     if begin is None or end is None or step.degraded:
@@ -225,7 +225,7 @@ def _ahead(left: Vec3, up: Vec3) -> Vec3 | None:
     return (x / length, y / length, z / length) if length > 0.5 else None
 
 
-def _press(side: Side, t: float, foot: FootTracker) -> None:
+def _press(side: SideSigns, t: float, foot: FootTracker) -> None:
     """Look at the centre of pressure of an insole without an inertial sensor."""
     if side.seen_at is not None and 0.0 <= t - side.seen_at < LATE:
         return
@@ -239,7 +239,7 @@ def _press(side: Side, t: float, foot: FootTracker) -> None:
         del side.sideways[: CONTACT // 2]
 
 
-def _leave(side: Side, is_left: bool) -> None:
+def _leave(side: SideSigns, is_left: bool) -> None:
     """A contact is over: which way the centre of pressure went, from the middle of the contact to its end."""
     ys, side.sideways = side.sideways, []
     n = len(ys)

@@ -22,7 +22,7 @@ _pack = ROW.pack
 
 
 @define
-class Turned:
+class RateIntegral:
     """The integral of the angular rate, rad, sensor frame: its parts along axes that are fixed in the foot."""
 
     t: float | None = None

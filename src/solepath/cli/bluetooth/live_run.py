@@ -21,7 +21,7 @@ from ...session import Session
 from ...show.monitor import Monitor
 from ...show.output import EVENTS, PLACES, STEPS, TRACK, TrackFiles
 from ...show.page.scene.scene import Scene
-from ...show.tables.placed import Places
+from ...show.tables.placed import PlaceCounts
 from ...show.tables.summary import summary
 from ...types import Packet
 from ..common.failure import Failure, note
@@ -49,7 +49,7 @@ async def listen(
         recipe, calibration=calibration, poses=True, pressures=view is not None, floorplan=plan, start=start
     )
     monitor = Monitor(session)
-    places = None if plan is None else Places()
+    places = None if plan is None else PlaceCounts()
     scene: Scene | None = None
     async with AsyncExitStack() as stack:
         async with unless_told(stop):
@@ -63,7 +63,7 @@ async def listen(
             scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration))
             await stack.enter_async_context(page_of(scene, view))
         # not before: a search in vain replaces nothing of an earlier run
-        files = Files(options.record, options.out, plan is not None)
+        files = LiveFiles(options.record, options.out, plan is not None)
         try:
             with shown(monitor, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
                 async for packet in until(heard, stop, seconds):
@@ -100,7 +100,7 @@ async def listen(
 
 
 @define(init=False)
-class Files:
+class LiveFiles:
     """What is written meanwhile. `failure`: why nothing is any more."""
 
     failure: str | None

@@ -14,7 +14,7 @@ from ...floorplan.plan import FloorPlan
 from ...recording import printable
 from ...show.output import PLAN, TrackFiles
 from ...show.report import Report
-from ...show.tables.placed import Places
+from ...show.tables.placed import PlaceCounts
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import summary
 from ...show.tally import Tally
@@ -39,7 +39,7 @@ class Results:
     when: str = ""
     """The recording began, to be read."""
     tally: Tally = field(factory=Tally, init=False)
-    places: Places = field(factory=Places, init=False)
+    places: PlaceCounts = field(factory=PlaceCounts, init=False)
     _picture: PlanPicture | None = field(init=False)
     _report: Report | None = field(init=False)
     _files: TrackFiles | None = field(default=None, init=False)

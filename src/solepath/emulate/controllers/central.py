@@ -24,7 +24,7 @@ from bumble.core import AdvertisingData
 from bumble.device import Advertisement, Connection, Peer
 
 from ...ble.backend import Backend
-from .radio import Radio, end_link
+from .radio import VirtualRadio, end_link
 
 _T = TypeVar("_T")
 
@@ -44,7 +44,7 @@ _SERVICE_LISTS = (
 )
 
 
-def backend_of(radio: Radio) -> Backend:
+def backend_of(radio: VirtualRadio) -> Backend:
     """The classes that bleak is given to use this radio."""
 
     class VirtualScanner(RadioScanner):
@@ -70,7 +70,7 @@ def _uuids(listed: object) -> list[str]:
 class RadioScanner(BaseBleakScanner):
     """Hears what the devices on the air advertise."""
 
-    radio: ClassVar[Radio]
+    radio: ClassVar[VirtualRadio]
 
     def __init__(
         self,
@@ -117,7 +117,7 @@ class RadioClient(BaseBleakClient):
     that is pending then ends with a BleakError.
     """
 
-    radio: ClassVar[Radio]
+    radio: ClassVar[VirtualRadio]
     scanner: ClassVar[type[RadioScanner]]
 
     def __init__(self, address_or_ble_device: BLEDevice | str, services: set[str] | None = None, **kwargs: Any) -> None:

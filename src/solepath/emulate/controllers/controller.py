@@ -26,7 +26,7 @@ if (
 RSSI = -50  # dBm; there are no distances in this air
 
 
-class Link(LocalLink):
+class VirtualAir(LocalLink):
     """The air that virtual controllers share.
 
     `interval`: s between the connection events of every link made in it; None: everything goes at once.
@@ -108,7 +108,7 @@ class VirtualController(Controller):
         | hci.LeFeatureMask.LL_PRIVACY
     )
 
-    def __init__(self, name: str, link: Link, advertisement: Callable[[], bytes | None] | None = None) -> None:
+    def __init__(self, name: str, link: VirtualAir, advertisement: Callable[[], bytes | None] | None = None) -> None:
         super().__init__(name, link=link)
         self.air = link
         self.advertisement = advertisement

@@ -30,14 +30,14 @@ RETURN = 1.0
 """s between attempts to reach a lost controller again while somebody scans."""
 
 
-class Listener(Protocol):
+class ScanListener(Protocol):
     """Whoever wants to hear advertisements."""
 
     def heard(self, advertisement: Advertisement) -> None:
         """Called for each one."""
 
 
-class Radio:
+class VirtualRadio:
     """A central behind an HCI transport.
 
     `reach` opens the transport and raises OSError when there is none; after it was lost it is asked again as soon as
@@ -56,7 +56,7 @@ class Radio:
         self._address = hci.Address(address) if address else hci.Address.generate_static_address()
         self._device: Device | None = None
         self._transport: Transport | None = None
-        self._listeners: list[Listener] = []
+        self._listeners: list[ScanListener] = []
         self._opening = asyncio.Lock()
         self._connecting = asyncio.Lock()
         self._tasks: set[asyncio.Task[Any]] = set()
@@ -120,7 +120,7 @@ class Radio:
 
     # scanning
 
-    async def listen(self, listener: Listener) -> None:
+    async def listen(self, listener: ScanListener) -> None:
         """From now on `listener` hears what is advertised. BleakError."""
         device = await self.device()
         self._listeners.append(listener)
@@ -131,7 +131,7 @@ class Radio:
                 self._listeners.remove(listener)
                 raise
 
-    async def ignore(self, listener: Listener) -> None:
+    async def ignore(self, listener: ScanListener) -> None:
         """Undoes listen."""
         if listener in self._listeners:
             self._listeners.remove(listener)

@@ -21,10 +21,10 @@ from bumble.transport.common import AsyncPipeSink, Transport
 from ...ble.backend import Backend
 from ..devices.peripheral import AttError, Peripheral
 from .central import backend_of
-from .controller import Link, VirtualController
+from .controller import VirtualAir, VirtualController
 from .gatt import advertisement, furnish
 from .pairing import just_works
-from .radio import Radio, end_link
+from .radio import VirtualRadio, end_link
 
 _T = TypeVar("_T")
 
@@ -43,14 +43,14 @@ async def virtual_air(
     events of each link, when everything goes that is ready, requests and their answers too (0.0075 to 4 s on a real
     one, often 0.03); None: nothing waits.
     """
-    link = Link(interval)
+    link = VirtualAir(interval)
     controller = VirtualController("central", link)
 
     async def reach() -> Transport:
         return Transport(controller, AsyncPipeSink(controller))
 
     async with on_air(peripherals, link):
-        radio = Radio(reach, "the virtual controller", mtu, _CENTRAL)
+        radio = VirtualRadio(reach, "the virtual controller", mtu, _CENTRAL)
         try:
             yield backend_of(radio)
         finally:
@@ -59,7 +59,7 @@ async def virtual_air(
 
 
 @asynccontextmanager
-async def on_air(peripherals: Iterable[Peripheral], link: Link) -> AsyncIterator[None]:
+async def on_air(peripherals: Iterable[Peripheral], link: VirtualAir) -> AsyncIterator[None]:
     """The devices advertise and serve on this link."""
     servers = [Server(device, link) for device in peripherals]
     try:
@@ -76,7 +76,7 @@ class Server:
     """Serves one Peripheral: asks it at the times it names, and obeys it."""
 
     peripheral: Peripheral
-    air: Link
+    air: VirtualAir
     _served: dict[str, Characteristic[bytes]] = field(init=False)
     _controller: VirtualController = field(init=False)
     _device: Device = field(init=False)

@@ -21,8 +21,8 @@ from bumble.transport.common import PacketParser, Transport
 from ...ble.backend import Backend
 from ..devices.peripheral import Peripheral
 from .central import backend_of
-from .controller import Link, VirtualController
-from .radio import Radio
+from .controller import VirtualAir, VirtualController
+from .radio import VirtualRadio
 from .server import on_air
 
 _SCHEME = "tcp:"
@@ -38,10 +38,10 @@ async def serve(peripherals: Iterable[Peripheral], host: str, port: int) -> Asyn
     client goes away its links are lost as by a supervision timeout, and its devices advertise again. OSError when the
     address cannot be listened at.
     """
-    link = Link()
-    clients: set[_Client] = set()
+    link = VirtualAir()
+    clients: set[_TcpClient] = set()
     async with on_air(peripherals, link):
-        listening = await asyncio.get_running_loop().create_server(lambda: _Client(link, clients), host, port)
+        listening = await asyncio.get_running_loop().create_server(lambda: _TcpClient(link, clients), host, port)
         try:
             address = listening.sockets[0].getsockname()
             yield address[0], address[1]
@@ -52,10 +52,10 @@ async def serve(peripherals: Iterable[Peripheral], host: str, port: int) -> Asyn
             await listening.wait_closed()
 
 
-class _Client(asyncio.Protocol):
+class _TcpClient(asyncio.Protocol):
     """One client's controller, at the other end of its TCP connection."""
 
-    def __init__(self, link: Link, clients: set[_Client]) -> None:
+    def __init__(self, link: VirtualAir, clients: set[_TcpClient]) -> None:
         self._air = link
         self._clients = clients
         self._parser = PacketParser(self)
@@ -136,7 +136,7 @@ async def reach(where: str, mtu: int = 247) -> AsyncIterator[Backend]:
     async def opened() -> Transport:
         return await open_transport(f"tcp-client:{host}:{port}")
 
-    radio = Radio(opened, where, mtu)
+    radio = VirtualRadio(opened, where, mtu)
     try:
         await radio.device()
         yield backend_of(radio)

@@ -24,7 +24,7 @@ from ..sensors.sensortags import (
     mag_bytes,
     raw_air,
 )
-from ..sensors.tag_signals import LATE_AIR, LATE_MAG, Series, Worn
+from ..sensors.tag_signals import LATE_AIR, LATE_MAG, Series, WornTag
 from ..wearers.walker import Walker
 from .faults import Fault
 from .peripheral import READ_NOT_PERMITTED, AttError
@@ -80,7 +80,7 @@ class CC2541Peripheral(Tag):
             faults=faults,
         )
         self._numbers = partial(device_numbers, seed, site)
-        self._worn = Worn(walker, foot_of(site), device.mounting, clock)
+        self._worn = WornTag(walker, foot_of(site), device.mounting, clock)
         self._series: dict[tuple[str, float], Series] = {}
 
     def prepare(self) -> None:
@@ -90,7 +90,7 @@ class CC2541Peripheral(Tag):
             self._measured(sensor, 1.0)
 
     def begin(self) -> None:
-        down, up = (cc2541.build_keys(cc2541.Keys(left=left)) for left in (True, False))
+        down, up = (cc2541.build_keys(cc2541.Cc2541Keys(left=left)) for left in (True, False))
         self.flow("cc2541/keys", Presses(self.device.presses, down, up), self.walk_time)
 
     def stop(self) -> None:

@@ -19,7 +19,7 @@ from ...wire import cc2650
 from ..sensors.device import device_numbers, foot_of, started
 from ..sensors.parts import AK8963, BMP280
 from ..sensors.sensortags import AK8963_COUNT, BATTERY, CC2650, GYRO_COUNT, cc2650_air, range_count
-from ..sensors.tag_signals import LATE_AIR, Series, Worn
+from ..sensors.tag_signals import LATE_AIR, Series, WornTag
 from ..wearers.walker import Walker
 from .faults import Fault
 from .standard import Battery, information
@@ -77,7 +77,7 @@ class CC2650Peripheral(Tag):
             faults=faults,
         )
         self._numbers = partial(device_numbers, seed, site)
-        self._worn = Worn(walker, foot_of(site), device.mounting, clock)
+        self._worn = WornTag(walker, foot_of(site), device.mounting, clock)
         self._movements: dict[float, tuple[Series, Series, Series]] = {}
         self._airs: dict[float, Series] = {}
         self._moved: dict[float, list[int]] = {}
@@ -88,7 +88,7 @@ class CC2650Peripheral(Tag):
         self._air(1.0)
 
     def begin(self) -> None:
-        down, up = (cc2650.build_keys(cc2650.Keys(left=left)) for left in (True, False))
+        down, up = (cc2650.build_keys(cc2650.Cc2650Keys(left=left)) for left in (True, False))
         self.flow("cc2650/keys", Presses(self.device.presses, down, up), self.walk_time)
         self.flow("device/battery", self._battery, self.walk_time)
 

@@ -9,7 +9,7 @@ from typing import Protocol
 from attrs import define, field
 
 
-class Source(Protocol):
+class ValueSource(Protocol):
     """What a channel has to tell: values with numbers, each at its time."""
 
     def after(self, t: float) -> int:
@@ -24,7 +24,7 @@ class Source(Protocol):
 
 @define(eq=False)
 class _Flow:
-    source: Source
+    source: ValueSource
     number: int
 
 
@@ -35,7 +35,7 @@ class Flows:
     _flows: dict[str, _Flow] = field(factory=dict, init=False)
     _subscribed: set[str] = field(factory=set, init=False)
 
-    def put(self, channel: str, source: Source | None, t: float) -> None:
+    def put(self, channel: str, source: ValueSource | None, t: float) -> None:
         """From `t` on the channel tells what `source` has, or nothing."""
         if source is None:
             self._flows.pop(channel, None)
@@ -77,7 +77,7 @@ class Flows:
         """When any of them has something to tell; inf when none does."""
         return self.first(inf)[1]
 
-    def take(self, channel: str) -> tuple[Source, int]:
+    def take(self, channel: str) -> tuple[ValueSource, int]:
         """The channel's source and the number of its next value, which is taken by this."""
         flow = self._flows[channel]
         number, flow.number = flow.number, flow.number + 1

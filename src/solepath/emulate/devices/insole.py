@@ -13,7 +13,7 @@ from ...types import Site
 from ...wire.error import WireError
 from ...wire.fragment import FRAME_IDS, MAX_FRAGMENTS, split
 from ...wire.insole import InsoleFrame, build_frame
-from ...wire.insole_control import Resend, SetInterval, Start, Stop, parse_control
+from ...wire.insole_control import Resend, SetInterval, StartSampling, StopSampling, parse_control
 from ...wire.insole_info import build_info
 from ..sensors.device import device_numbers
 from ..sensors.insole_device import BATTERY, TICK_RATE, Insole
@@ -179,10 +179,10 @@ class InsolePeripheral(Peripheral):
         except WireError:
             raise AttError(WRONG_VALUE if not value or value[0] in _OPCODES else UNKNOWN_OPCODE) from None
         match command:
-            case Start():
+            case StartSampling():
                 if self._frames is None:
                     self._measure(self._frames_from(t), t)
-            case Stop():
+            case StopSampling():
                 self._frames = None
                 self.flow("insole/frame", None, t)
             case SetInterval(interval=interval):

@@ -14,7 +14,7 @@ from .peripheral import AttError, Outgoing, Peripheral
 T = TypeVar("T")
 
 
-class Link:
+class LoopbackLink:
     """A connection: carries requests one after the other, and notifications when they are due."""
 
     def __init__(self, device: Peripheral, mtu: int, round_trip: float, lost: Callable[[], None]) -> None:

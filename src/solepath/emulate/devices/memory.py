@@ -26,7 +26,7 @@ from bleak.backends.service import BleakGATTService, BleakGATTServiceCollection
 from bleak.exc import BleakDeviceNotFoundError, BleakError, BleakGATTProtocolError
 
 from ...ble.backend import Backend
-from .link import Link
+from .link import LoopbackLink
 from .peripheral import SMALLEST_MTU, WRITE_NOT_PERMITTED, Characteristic, Peripheral
 from .standard import standard
 
@@ -37,7 +37,7 @@ SIGNAL = -50
 _SUBSCRIPTION = standard(0x2902)
 
 
-class Air:
+class MemoryRadio:
     """The devices within reach. `mtu`: what the host asks for; `round_trip`: of a request, s."""
 
     def __init__(self, peripherals: Iterable[Peripheral], *, mtu: int = 247, round_trip: float = 0.015) -> None:
@@ -47,7 +47,7 @@ class Air:
         self.paired: set[str] = set()
         """Addresses of the devices that the host is paired with."""
 
-        class MemoryClient(_Client):
+        class MemoryClient(_MemoryClient):
             air = self
 
         class MemoryScanner(_Scanner):
@@ -60,15 +60,15 @@ class Air:
         return [device for device in self.peripherals if not device.is_connected and device.visible(now)]
 
 
-class _Client(BaseBleakClient):
-    air: ClassVar[Air]
+class _MemoryClient(BaseBleakClient):
+    air: ClassVar[MemoryRadio]
 
     def __init__(self, address_or_ble_device: BLEDevice | str, **kwargs: Any) -> None:
         wanted: set[str] | None = kwargs.pop("services", None)
         super().__init__(address_or_ble_device, **kwargs)
         self._wanted = wanted
         self._name = address_or_ble_device.name if isinstance(address_or_ble_device, BLEDevice) else None
-        self._link: Link | None = None
+        self._link: LoopbackLink | None = None
         self._established = False
         self._device: Peripheral | None = None
 
@@ -89,7 +89,7 @@ class _Client(BaseBleakClient):
             raise BleakError("already connected")
         device = await self._found(float(kwargs.get("timeout", self._timeout)))
         self._device, self._name = device, device.name
-        link = self._link = Link(device, min(self.air.mtu, device.mtu), self.air.round_trip, self._on_lost)
+        link = self._link = LoopbackLink(device, min(self.air.mtu, device.mtu), self.air.round_trip, self._on_lost)
         try:
             await self._encrypt(pair)
         except BaseException:
@@ -186,14 +186,14 @@ class _Client(BaseBleakClient):
         await link.request(lambda now: _subscribed(device, channel, False, now))
         link.callbacks.pop(channel, None)
 
-    def _up(self) -> tuple[Link, Peripheral]:
+    def _up(self) -> tuple[LoopbackLink, Peripheral]:
         if self._link is None or self._device is None:
             raise BleakError("not connected")
         return self._link, self._device
 
 
 class _Scanner(BaseBleakScanner):
-    air: ClassVar[Air]
+    air: ClassVar[MemoryRadio]
 
     def __init__(
         self,

@@ -22,7 +22,7 @@ from attrs import frozen
 from ...types import Site
 from .advertisement import check_fits
 from .faults import PAIRING, Fault, Misfortune, What
-from .flows import Flows, Source
+from .flows import Flows, ValueSource
 
 READ_NOT_PERMITTED = 0x02
 WRITE_NOT_PERMITTED = 0x03
@@ -130,7 +130,7 @@ class Peripheral:
     def prepare(self) -> None:
         """Work out now what would otherwise be worked out when a host first asks for it."""
 
-    def flow(self, channel: str, source: Source | None, t: float) -> None:
+    def flow(self, channel: str, source: ValueSource | None, t: float) -> None:
         """From `t` of the walk on the channel tells what `source` has, or nothing."""
         self._flows.put(channel, source, t)
 

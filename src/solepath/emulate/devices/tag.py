@@ -9,7 +9,7 @@ from attrs import define, frozen
 
 from ...link.profile import Profile
 from ...types import Site
-from ..sensors.device import Clock
+from ..sensors.device import DeviceClock
 from ..sensors.sensortags import PRESS
 from ..sensors.tag_signals import HANDLING
 from .faults import Fault
@@ -49,7 +49,7 @@ class _State:
 
 
 @frozen(eq=False)
-class Timed:
+class TimedSource:
     """A Source: what `make` gives for the numbers of samples taken at `first` + k `step` s; None is not sent."""
 
     first: float
@@ -96,7 +96,7 @@ class Tag(Peripheral):
         sensors: Iterable[Sensor],
         others: Mapping[str, int],
         said: Mapping[str, bytes],
-        clock: Clock,
+        clock: DeviceClock,
         *,
         site: Site,
         address: str,
@@ -160,10 +160,10 @@ class Tag(Peripheral):
         self._states[name] = new
         self.flow(name, source, t)
 
-    def _source(self, name: str, state: _State) -> Timed | None:
+    def _source(self, name: str, state: _State) -> TimedSource | None:
         period = 0.01 * state.period
         made = self.make(name, state.config, period)
-        return None if made is None else Timed(self.clock.first + made[0], self.clock.interval(period), made[1])
+        return None if made is None else TimedSource(self.clock.first + made[0], self.clock.interval(period), made[1])
 
     def _allowed(self, channel: str) -> frozenset[str]:
         name, kind = _split(channel)

@@ -14,7 +14,7 @@ from math import pi
 from attrs import frozen
 
 from ...floorplan.doors import with_doors_cut
-from ...floorplan.plan import Connector, Door, FloorPlan, Kind, Level, Point, Stop, Wall
+from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Point, Wall
 
 EAST, NORTH = 56.0, 63.0
 HALF = 1.2
@@ -180,12 +180,12 @@ def _level(name: str, title: str, ordinal: int, ways_out: bool) -> Level:
 def _connectors() -> tuple[Connector, ...]:
     found = []
     for cabin in CABINS:
-        stops = tuple(Stop(level, cabin.middle, _ring(_cabin(cabin))) for level in (GROUND, UPPER))
-        found.append(Connector(Kind.LIFT, cabin.name, stops))
+        stops = tuple(ConnectorStop(level, cabin.middle, _ring(_cabin(cabin))) for level in (GROUND, UPPER))
+        found.append(Connector(ConnectorKind.LIFT, cabin.name, stops))
     for well in WELLS:
         below, above = ends(well)
-        stops = tuple(Stop(level, at, _ring(_well(well))) for level, at in ((GROUND, below), (UPPER, above)))
-        found.append(Connector(Kind.STAIRS, well.name, stops, flights=2, rise=RISE))
+        stops = tuple(ConnectorStop(level, at, _ring(_well(well))) for level, at in ((GROUND, below), (UPPER, above)))
+        found.append(Connector(ConnectorKind.STAIRS, well.name, stops, flights=2, rise=RISE))
     return tuple(found)
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ...types import Foot, Vec3, WalkingMode
-from ..wearers.gait import Stride
+from ..wearers.gait import PlannedStride
 from ..wearers.walker import Walker
 from .planner import plan
 from .route import Route
@@ -58,7 +58,7 @@ FIELD = (60.0, 40.0)
 
 
 @frozen
-class Mark:
+class FloorMark:
     """A mark on the floor at (x, y), m, and who stepped on it: step `step` (from 1) of `foot`, flat on it from `t` s.
 
     `lap` and `number` count from 0: which of the foot's marks it is.
@@ -75,7 +75,7 @@ class Mark:
 
 
 @frozen
-class Corner:
+class LapCorner:
     """A corner of a rectangle at `place` (m), passed at `t` s, when the body is nearest to it or stands on it.
 
     `body`: where the middle of the body is then, on the ground. `steps`: the step of each foot (from 1) that comes down
@@ -189,7 +189,7 @@ def through(route: Route, points: Sequence[Point], speed: float, corner: float) 
 # --- what was true of them --------------------------------------------------------------------------------------------
 
 
-def mode_of(stride: Stride) -> WalkingMode:
+def mode_of(stride: PlannedStride) -> WalkingMode:
     """How one step was walked, by the bend where the foot came down."""
     if hypot(stride.end.x - stride.start.x, stride.end.y - stride.start.y) < IN_PLACE:
         return WalkingMode.STANDING
@@ -206,7 +206,7 @@ def modes(walker: Walker) -> dict[Foot, tuple[WalkingMode, ...]]:
     return {foot: tuple(mode_of(stride) for stride in walker.plan.strides[foot]) for foot in Foot}
 
 
-def marks(walker: Walker, per_lap: int | None = None) -> tuple[Mark, ...]:
+def marks(walker: Walker, per_lap: int | None = None) -> tuple[FloorMark, ...]:
     """The marks of a walker on a paced route and who stepped on them, in the order of time; closing steps have none.
 
     `per_lap`: how many marks a foot has before it comes to the first one again.
@@ -223,11 +223,11 @@ def marks(walker: Walker, per_lap: int | None = None) -> tuple[Mark, ...]:
             if stride.heel_strike not in closing:
                 lap, number = (0, k) if per_lap is None else divmod(k, per_lap)
                 at = aimed.end
-                found.append(Mark(foot, k + 1, stride.foot_flat, at.x, at.y, mode_of(stride), lap, number))
+                found.append(FloorMark(foot, k + 1, stride.foot_flat, at.x, at.y, mode_of(stride), lap, number))
     return tuple(sorted(found, key=_moment))
 
 
-def corners(walker: Walker) -> tuple[Corner, ...]:
+def corners(walker: Walker) -> tuple[LapCorner, ...]:
     """B, C, D and A of one round of a rectangle, with the instants at which they were passed."""
     t = np.arange(0.0, walker.duration, 0.01)
     track = walker.body.pelvis(t)[0]
@@ -238,7 +238,7 @@ def corners(walker: Walker) -> tuple[Corner, ...]:
     return (*found, _corner(walker, "A", walker.plan.bouts[-1][1], (0.0, 0.0, 0.0)))
 
 
-def _corner(walker: Walker, name: str, t: float, place: Vec3) -> Corner:
+def _corner(walker: Walker, name: str, t: float, place: Vec3) -> LapCorner:
     x, y, _ = (float(value) for value in walker.body.pelvis(np.array([t]))[0][0])
     steps, feet = {}, {}
     for foot in Foot:
@@ -246,10 +246,10 @@ def _corner(walker: Walker, name: str, t: float, place: Vec3) -> Corner:
         k = min(range(len(strides)), key=[abs(stride.foot_flat - t) for stride in strides].__getitem__)
         steps[foot] = k + 1
         feet[foot] = (strides[k].end.x, strides[k].end.y, strides[k].end.z)
-    return Corner(name, t, place, (x, y, 0.0), steps, feet)
+    return LapCorner(name, t, place, (x, y, 0.0), steps, feet)
 
 
-def write_marks(path: Path | str, found: Iterable[Mark]) -> None:
+def write_marks(path: Path | str, found: Iterable[FloorMark]) -> None:
     """Marks as `solepath calibrate modes` reads them: a csv file with the columns foot, x, y, mode and t; steps in
     place are left out."""
     with Path(path).open("w", newline="", encoding="utf-8") as file:
@@ -270,5 +270,5 @@ def _wrapped(angle: float) -> float:
     return atan2(sin(angle), cos(angle))
 
 
-def _moment(mark: Mark) -> float:
+def _moment(mark: FloorMark) -> float:
     return mark.t

@@ -48,7 +48,7 @@ class Lift:
 
 
 @frozen(eq=False)
-class Ride:
+class CarRide:
     """A car that moves from `begin` to `end` (s) and is then `height` m higher, negative: lower.
 
     `knots` (n) s after `begin` where the jerk changes; `state` (n, 4) height, speed, acceleration and jerk there.
@@ -96,7 +96,7 @@ class Ride:
         )
 
 
-def ride(lift: Lift, begin: float, rng: np.random.Generator) -> Ride:
+def ride(lift: Lift, begin: float, rng: np.random.Generator) -> CarRide:
     """The ride of `lift` when the car starts at `begin` s; `rng` draws how it shakes."""
     up = 1.0 if lift.height > 0.0 else -1.0
     knots, rows = [0.0], [(0.0, 0.0, 0.0, 0.0)]
@@ -111,7 +111,7 @@ def ride(lift: Lift, begin: float, rng: np.random.Generator) -> Ride:
     turning = 2.0 * np.pi * np.asarray(rng.uniform(*BAND, (3, WAVES)))
     phase = np.asarray(rng.uniform(0.0, 2.0 * np.pi, (3, WAVES)))
     waves = np.stack((size, turning, phase), axis=2)
-    return Ride(begin, begin + knots[-1], lift.height, np.array(knots), up * np.array(rows), waves)
+    return CarRide(begin, begin + knots[-1], lift.height, np.array(knots), up * np.array(rows), waves)
 
 
 def _ramps(lift: Lift) -> list[_Ramp]:

@@ -56,7 +56,7 @@ class Piece:
 
 
 @frozen
-class Path:
+class WalkPath:
     """What is walked from one halt to the next."""
 
     pieces: tuple[Piece, ...]
@@ -81,7 +81,7 @@ class Path:
         return piece.at(rest), piece.speed
 
     @property
-    def sections(self) -> tuple[Path, ...]:
+    def sections(self) -> tuple[WalkPath, ...]:
         """Its flights one by one, and what is level between them."""
         found: list[list[Piece]] = []
         for piece in self.pieces:
@@ -89,7 +89,7 @@ class Path:
                 found[-1].append(piece)
             else:
                 found.append([piece])
-        return tuple(Path(tuple(pieces)) for pieces in found)
+        return tuple(WalkPath(tuple(pieces)) for pieces in found)
 
     def pace(self, s: float) -> tuple[float, bool]:
         """The speed after `s` m, and whether that is running.

@@ -11,9 +11,19 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ...types import Foot
-from ..wearers.gait import SETTLING, Climb, Plan, Stance, Stride, Wearer, double_support, step_length, step_time
-from .lift import Ride, ride
-from .path import Lifted, Path, Piece, Pivot, Pose
+from ..wearers.gait import (
+    SETTLING,
+    Climb,
+    FootStand,
+    PlannedStride,
+    WalkPlan,
+    Wearer,
+    double_support,
+    step_length,
+    step_time,
+)
+from .lift import CarRide, ride
+from .path import Lifted, Piece, Pivot, Pose, WalkPath
 from .route import Leg, Route, Stand, legs
 from .stairs import Flight
 from .styles import Manner, running_cadence, style_of
@@ -22,7 +32,7 @@ LEVEL = 1e-6
 """m: floors that differ by less are the same."""
 
 
-def plan(route: Route, wearer: Wearer, rng: np.random.Generator) -> Plan:
+def plan(route: Route, wearer: Wearer, rng: np.random.Generator) -> WalkPlan:
     """Lay out the footfalls of `route` and time them; all randomness of the gait is drawn here."""
     return _Planner(wearer, rng).run(legs(route))
 
@@ -54,19 +64,19 @@ class _Planner:
         self.climbing: float | None = None  # since when
         self.bouts: list[tuple[float, float]] = []
         self.climbs: list[Climb] = []
-        self.rides: list[Ride] = []
+        self.rides: list[CarRide] = []
         origin = Pose(0.0, 0.0, 0.0, 0.0)
         self.at = {foot: self._stance(origin, foot, 0.0, 0.0) for foot in Foot}
         self.starts = dict(self.at)
-        self.strides: dict[Foot, list[Stride]] = {foot: [] for foot in Foot}
+        self.strides: dict[Foot, list[PlannedStride]] = {foot: [] for foot in Foot}
 
-    def run(self, todo: list[Leg]) -> Plan:
+    def run(self, todo: list[Leg]) -> WalkPlan:
         for leg in todo:
             match leg:
                 case Stand(duration=duration):
                     self._halt()
                     self.t += duration
-                case Path():
+                case WalkPath():
                     self._walk(self._along(leg))
                 case Pivot():
                     self._walk(self._on_the_spot(leg))
@@ -75,7 +85,7 @@ class _Planner:
                     self._ride(leg)
         self._halt()
         strides = {foot: tuple(found) for foot, found in self.strides.items()}
-        return Plan(self.t, self.starts, strides, tuple(self.bouts), tuple(self.climbs), tuple(self.rides))
+        return WalkPlan(self.t, self.starts, strides, tuple(self.bouts), tuple(self.climbs), tuple(self.rides))
 
     def _ride(self, leg: Lifted) -> None:
         """The doors close, the car goes, the doors open."""
@@ -93,7 +103,7 @@ class _Planner:
 
     # --- where ------------------------------------------------------------------------------------------------------
 
-    def _along(self, path: Path) -> list[_Footfall]:
+    def _along(self, path: WalkPath) -> list[_Footfall]:
         """Flight by flight, and what lies between them by itself; at the end the feet are set together."""
         falls: list[_Footfall] = []
         for section in path.sections:
@@ -106,7 +116,7 @@ class _Planner:
                 falls += self._naturally(section)
         return [*falls, _closing(falls[-1])]
 
-    def _naturally(self, path: Path) -> list[_Footfall]:
+    def _naturally(self, path: WalkPath) -> list[_Footfall]:
         """Steps of natural length with a few per cent of variation, stretched to end exactly at the path's end."""
         ends: list[float] = []
         s = 0.0
@@ -129,7 +139,7 @@ class _Planner:
             before = end
         return falls
 
-    def _on_marks(self, path: Path, spacing: float) -> list[_Footfall]:
+    def _on_marks(self, path: WalkPath, spacing: float) -> list[_Footfall]:
         count = max(1, round(path.length / spacing))
         each = path.length / count
         falls = []
@@ -159,11 +169,11 @@ class _Planner:
         ]
         return [*falls, falls[-1]]
 
-    def _stance(self, pose: Pose, foot: Foot, width: float, turned: float) -> Stance:
+    def _stance(self, pose: Pose, foot: Foot, width: float, turned: float) -> FootStand:
         side = 1.0 if foot is Foot.LEFT else -1.0
         out = side * (0.5 * self.wearer.step_width + width)
         yaw = pose.heading + side * (self.wearer.toe_out + turned)
-        return Stance(pose.x - out * sin(pose.heading), pose.y + out * cos(pose.heading), pose.z, yaw)
+        return FootStand(pose.x - out * sin(pose.heading), pose.y + out * cos(pose.heading), pose.z, yaw)
 
     # --- when -------------------------------------------------------------------------------------------------------
 
@@ -218,7 +228,7 @@ class _Planner:
         leave = wearer.toe_off_pitch * max(reach, 0.08) ** 0.55 if style is None else style.toe_off_pitch
         strike = wearer.strike_pitch * max(reach, 0.05) ** 0.9 if style is None else style.strike_pitch
         before.append(
-            Stride(
+            PlannedStride(
                 number=len(before) + 1,
                 heel_off=heel_off,
                 toe_off=toe_off,
@@ -247,7 +257,7 @@ class _Planner:
             self.flight = flight
             self.climbing = None
 
-    def _step_off(self, stride: Stride) -> None:
+    def _step_off(self, stride: PlannedStride) -> None:
         """A climb is over when both feet are beyond the flight."""
         flight = self.flight
         if flight is None:

@@ -18,7 +18,7 @@ from math import inf, isfinite
 from attrs import evolve, frozen
 
 from .lift import Lift
-from .path import Lifted, Path, Piece, Pivot, Pose
+from .path import Lifted, Piece, Pivot, Pose, WalkPath
 from .stairs import Flight, ahead
 from .styles import SPEED_DOWN, SPEED_UP
 
@@ -44,7 +44,7 @@ class Walk:
 
 
 @frozen
-class Turn:
+class TurnAction:
     """Turn by `angle` rad, counter-clockwise positive, along an arc of `radius` m, or on the spot when it is 0."""
 
     angle: float
@@ -63,7 +63,7 @@ class Stairs:
     speed: float
 
 
-Action = Stand | Walk | Turn | Stairs | Lift
+Action = Stand | Walk | TurnAction | Stairs | Lift
 
 
 @frozen
@@ -133,12 +133,12 @@ class Route:
             raise ValueError(f"turn: angle must be finite and radius not negative, got {angle}, {radius}")
         if speed is None:
             speed = min(self.speed, TIGHT_TURN if radius < 1.0 else inf)
-        return self._then(Turn(angle, radius, _positive("speed", speed), self.spacing))
+        return self._then(TurnAction(angle, radius, _positive("speed", speed), self.spacing))
 
     @property
     def length(self) -> float:
         """Length of the path's centre line, m."""
-        return sum(piece.length for leg in legs(self) if isinstance(leg, Path) for piece in leg.pieces)
+        return sum(piece.length for leg in legs(self) if isinstance(leg, WalkPath) for piece in leg.pieces)
 
     @property
     def end(self) -> Pose:
@@ -159,7 +159,7 @@ def _positive(name: str, value: float) -> float:
     return value
 
 
-Leg = Stand | Path | Pivot | Lifted
+Leg = Stand | WalkPath | Pivot | Lifted
 
 
 def legs(route: Route) -> list[Leg]:
@@ -170,7 +170,7 @@ def legs(route: Route) -> list[Leg]:
 
     def close() -> None:
         if pieces:
-            found.append(Path(tuple(pieces)))
+            found.append(WalkPath(tuple(pieces)))
             pieces.clear()
 
     for action in route.actions:
@@ -179,7 +179,7 @@ def legs(route: Route) -> list[Leg]:
                 close()
                 found.append(action)
                 continue
-            case Turn(angle=angle, radius=0.0):
+            case TurnAction(angle=angle, radius=0.0):
                 close()
                 pivot = Pivot(pose, angle, action.speed)
                 found.append(pivot)
@@ -191,7 +191,7 @@ def legs(route: Route) -> list[Leg]:
                 found.append(ridden)
                 pose = ridden.end
                 continue
-            case Turn(angle=angle, radius=radius):
+            case TurnAction(angle=angle, radius=radius):
                 bend = (1.0 if angle > 0.0 else -1.0) / radius
                 piece = Piece(pose, abs(angle) * radius, bend, action.speed, action.spacing)
             case Walk(distance=distance):

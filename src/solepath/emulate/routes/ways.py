@@ -1,9 +1,9 @@
 """Walks through BUILDING, with the truth of where the wearer is on its plan.
 
-    way = wandering(seed=7)
-    walker = Walker(way.route, seed=7)
-    session = Session(recipe, floorplan=BUILDING, start=way.start)
-    way.places(walker, t)
+way = wandering(seed=7)
+walker = Walker(way.route, seed=7)
+session = Session(recipe, floorplan=BUILDING, start=way.start)
+way.places(walker, t)
 """
 
 from __future__ import annotations

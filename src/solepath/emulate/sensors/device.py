@@ -15,7 +15,7 @@ from ..wearers.motion import Kinematics
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
 from .parts import Imu
-from .sensors import Instants, Reading, instants, read_triad
+from .sensors import CountReading, Instants, instants, read_triad
 
 CRYSTAL_PPM = 30.0
 """Standard deviation of a crystal's rate between devices: the usual 32 kHz tuning fork is within +-50 ppm or so."""
@@ -37,7 +37,7 @@ class Notification:
 
 
 @frozen
-class Clock:
+class DeviceClock:
     """A device's own time: it runs fast by `ppm` millionths, and `first` is the true time of its first sample, s."""
 
     ppm: float
@@ -83,13 +83,13 @@ def foot_of(site: Site) -> Foot:
     return site.foot
 
 
-def started(rng: np.random.Generator, interval: float, ppm: float | None = None) -> Clock:
+def started(rng: np.random.Generator, interval: float, ppm: float | None = None) -> DeviceClock:
     """A clock that begins to sample at some moment within one `interval` after the setup."""
     drawn = CRYSTAL_PPM * float(rng.standard_normal())
-    return Clock(drawn if ppm is None else ppm, SETUP + interval * float(rng.uniform()))
+    return DeviceClock(drawn if ppm is None else ppm, SETUP + interval * float(rng.uniform()))
 
 
-def samplings(walker: Walker, clock: Clock, nominal: float, first: float | None = None) -> Instants:
+def samplings(walker: Walker, clock: DeviceClock, nominal: float, first: float | None = None) -> Instants:
     """The instants of a sensor that measures every `nominal` s of the device's time until the walk ends."""
     begin, interval = clock.first if first is None else first, clock.interval(nominal)
     return instants(begin, interval, max(2, int((walker.duration - begin) / interval)))
@@ -103,7 +103,7 @@ def read_imu(
     gyro_count: float,
     rng: np.random.Generator,
     bandwidth: float | None = None,
-) -> tuple[Reading, Reading]:
+) -> tuple[CountReading, CountReading]:
     """Counts of accelerometer and gyroscope; `bandwidth` (Hz) where the device sets the part's low pass."""
     acc = read_triad(motion.force, when, part.acc, acc_count, rng, bandwidth=bandwidth)
     gyro = read_triad(motion.rate, when, part.gyro, gyro_count, rng, force=motion.force, bandwidth=bandwidth)

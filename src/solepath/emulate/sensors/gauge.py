@@ -22,7 +22,7 @@ MOST = 200.0
 
 
 @frozen
-class Characteristic:
+class ForceCurve:
     """`coefficients`: N = a + b c + c2 c^2 + c3 c^3 of counts c, constant first; `full`: the largest count."""
 
     coefficients: tuple[float, float, float, float]
@@ -37,9 +37,9 @@ class Characteristic:
         return np.rint(np.interp(newtons, self.newtons(table), table))
 
 
-RPPS_99 = Characteristic((0.0, 6.0e-3, -4.0e-7, 4.7e-11), full=16383)
+RPPS_99 = ForceCurve((0.0, 6.0e-3, -4.0e-7, 4.7e-11), full=16383)
 """14 bits, as the paper's insole; 0 to 197 N. The coefficients are assumed."""
-TWELVE_BIT = Characteristic((0.0, 2.4e-2, -6.4e-6, 3.008e-9), full=4095)
+TWELVE_BIT = ForceCurve((0.0, 2.4e-2, -6.4e-6, 3.008e-9), full=4095)
 """The same curve for a converter of 12 bits, as the insoles of protocol/insole.md have."""
 
 
@@ -52,7 +52,7 @@ class Pressing:
 
 
 def gauge(
-    characteristic: Characteristic = RPPS_99,
+    characteristic: ForceCurve = RPPS_99,
     seed: int = 1,
     *,
     forces: Iterable[float] = tuple(np.arange(5.0, 196.0, 5.0).tolist()),
@@ -82,7 +82,7 @@ def write_gauge(path: Path | str, pressed: Iterable[Pressing]) -> None:
         rows.writerows((f"{one.counts:.0f}", f"{one.newtons:.2f}") for one in pressed)
 
 
-def uncalibrated(samples: Iterable[Sample], characteristic: Characteristic = RPPS_99) -> list[Sample]:
+def uncalibrated(samples: Iterable[Sample], characteristic: ForceCurve = RPPS_99) -> list[Sample]:
     """The same samples with counts where they had newtons."""
     found = []
     for sample in samples:

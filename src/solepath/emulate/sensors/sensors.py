@@ -48,7 +48,7 @@ def instants(first: float, interval: float, count: int) -> Instants:
 
 
 @frozen(eq=False)
-class Reading:
+class CountReading:
     """`counts` (N, axes) as the part gives them, and where at least one axis was at its limit (N)."""
 
     counts: np.ndarray[tuple[int, ...], np.dtype[np.int64]]
@@ -64,7 +64,7 @@ def read_triad(
     *,
     force: Array | None = None,
     bandwidth: float | None = None,
-) -> Reading:
+) -> CountReading:
     """What a triad reports of `true` (fine instants, 3); `count` is what one count is worth.
 
     `force` is the specific force at the same instants, for gyroscopes that feel it. `bandwidth` overrides the part's.
@@ -85,12 +85,12 @@ def measure(
     return sample(low_pass(errors(true, when, part, rng, force), when.rate, bandwidth or part.bandwidth), when)
 
 
-def counted(measured: Array, part: Triad, count: float) -> Reading:
+def counted(measured: Array, part: Triad, count: float) -> CountReading:
     """The counts of what a triad measured, as far as its bits go."""
     limit = 2 ** (part.bits - 1)
     counts = np.rint(measured / count)
     clipped = np.clip(counts, -limit, limit - 1)
-    return Reading(clipped.astype(np.int64), np.any(np.abs(counts) >= limit - 1, axis=1))
+    return CountReading(clipped.astype(np.int64), np.any(np.abs(counts) >= limit - 1, axis=1))
 
 
 def errors(true: Array, when: Instants, part: Triad, rng: np.random.Generator, force: Array | None = None) -> Array:
@@ -148,7 +148,7 @@ def read_cells(
     rng: np.random.Generator,
     full: int = 4095,
     lift: Array | None = None,
-) -> Reading:
+) -> CountReading:
     """What the cells of an insole report of their true loads `true` (N, cells), N, taken at `when` (N).
 
     `lift` (N): specific force along the sole's upward normal, m/s^2, for parts that feel how the shoe hangs.
@@ -166,7 +166,7 @@ def read_cells(
         lagged[k] = lagged[k - 1] + follow * (true[k] - lagged[k - 1])
     counts = _in_place(lagged, gain, preload, part.noise * rng.standard_normal(true.shape), count)
     saturated = np.any(counts >= full, axis=1)
-    return Reading(np.clip(counts, 0, full, out=counts).astype(np.int64), saturated)
+    return CountReading(np.clip(counts, 0, full, out=counts).astype(np.int64), saturated)
 
 
 def _contact(

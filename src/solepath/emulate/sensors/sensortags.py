@@ -17,7 +17,7 @@ from ..wearers.shoe import ON_INSTEP, Mounting
 from ..wearers.walker import Walker
 from .device import Notification, foot_of, prepared, started
 from .parts import AK8963, BMP280, KXTJ9_IMU3000, MAG3110, MPU9250, T5400, Imu
-from .tag_signals import HANDLING, LATE_MAG, SLOW, Series, Worn
+from .tag_signals import HANDLING, LATE_MAG, SLOW, Series, WornTag
 
 GYRO_COUNT = radians(500.0 / 65536.0)
 """rad/s per count of both tags: +-250 degrees/s, which a swinging foot exceeds."""
@@ -50,7 +50,7 @@ class CC2650:
 
     def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
         period = 1.0 / self.rate
-        worn = Worn(walker, foot_of(site), self.mounting, started(rng, period, self.ppm))
+        worn = WornTag(walker, foot_of(site), self.mounting, started(rng, period, self.ppm))
         when = worn.when(period)
         motion = worn.motion(when)
         acc = worn.series(when, period, worn.acc(motion, when, self.part, rng))
@@ -68,7 +68,7 @@ class CC2650:
         air = worn.air(SLOW, BMP280, rng)
         for k, (pascal,) in enumerate(air.values.tolist()):
             sent.append(Notification(air.taken(k) + HANDLING, "cc2650/barometer", cc2650_air(pascal)))
-        down, up = (cc2650.build_keys(cc2650.Keys(left=left)) for left in (True, False))
+        down, up = (cc2650.build_keys(cc2650.Cc2650Keys(left=left)) for left in (True, False))
         sent += _keys("cc2650/keys", self.presses, down, up)
         return sorted(sent, key=_when)
 
@@ -108,7 +108,7 @@ class CC2541:
 
     def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
         period = 1.0 / self.rate
-        worn = Worn(walker, foot_of(site), self.mounting, started(rng, period, self.ppm))
+        worn = WornTag(walker, foot_of(site), self.mounting, started(rng, period, self.ppm))
         acc_when = worn.when(period)
         gyro_when = worn.when(period, period * float(rng.uniform()))
         mag_when = worn.when(SLOW, LATE_MAG)
@@ -124,7 +124,7 @@ class CC2541:
         sent += _each(gyro, "gyroscope", [gyro_bytes(row) for row in gyro.counts(self.part.gyro, GYRO_COUNT)])
         sent += _each(mag, "magnetometer", [mag_bytes(row) for row in mag.counts(MAG3110, MAG3110_COUNT)])
         sent += _each(air, "barometer", [cc2541.build_barometer(raw_air(pascal)) for (pascal,) in air.values.tolist()])
-        down, up = (cc2541.build_keys(cc2541.Keys(left=left)) for left in (True, False))
+        down, up = (cc2541.build_keys(cc2541.Cc2541Keys(left=left)) for left in (True, False))
         sent += _keys("cc2541/keys", self.presses, down, up)
         return sorted(sent, key=_when)
 
@@ -143,12 +143,12 @@ class CC2541:
         return prepared(profile.CC2541, own)
 
 
-def raw_air(pascal: float) -> cc2541.Barometer:
+def raw_air(pascal: float) -> cc2541.Cc2541Barometer:
     """What the T5400 reports raw at this pressure: the inverse of its compensation."""
     c = T5400_CALIBRATION
     t = round((TEMPERATURE - c.c2 / 2**10) * 2**24 / c.c1)
-    low, high = (c.pascal(cc2541.Barometer(t, p)) for p in (0, 1))
-    return cc2541.Barometer(t, round((pascal - low) / (high - low)))
+    low, high = (c.pascal(cc2541.Cc2541Barometer(t, p)) for p in (0, 1))
+    return cc2541.Cc2541Barometer(t, round((pascal - low) / (high - low)))
 
 
 def _keys(channel: str, presses: tuple[float, ...], down: bytes, up: bytes) -> list[Notification]:
@@ -161,7 +161,7 @@ def _each(series: Series, sensor: str, values: list[bytes]) -> list[Notification
 
 def cc2650_air(pascal: float) -> bytes:
     """What the barometer of a CC2650 says of this pressure."""
-    return cc2650.build_barometer(cc2650.Barometer(TEMPERATURE, pascal))
+    return cc2650.build_barometer(cc2650.Cc2650Barometer(TEMPERATURE, pascal))
 
 
 def range_count(gravities: int) -> float:

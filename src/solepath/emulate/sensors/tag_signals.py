@@ -10,7 +10,7 @@ from ..wearers.curves import Array
 from ..wearers.motion import Kinematics
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .device import FIELD, Clock, samplings, seen_from
+from .device import FIELD, DeviceClock, samplings, seen_from
 from .parts import BarometerPart, Imu, Triad
 from .sensors import Instants, counted, measure, read_barometer
 
@@ -54,13 +54,13 @@ class Series:
 
 
 @frozen(eq=False)
-class Worn:
+class WornTag:
     """A tag on a foot: `clock` is its own."""
 
     walker: Walker
     foot: Foot
     mounting: Mounting
-    clock: Clock
+    clock: DeviceClock
 
     def when(self, period: float, late: float = 0.0) -> Instants:
         """The instants of a sensor that measures every `period` s, `late` s after the first sample."""

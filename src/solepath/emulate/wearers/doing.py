@@ -8,7 +8,7 @@ from attrs import frozen
 from ...types import Activity, Foot
 from ..routes.styles import Manner
 from .curves import Array
-from .gait import Plan
+from .gait import WalkPlan
 
 
 @frozen
@@ -32,18 +32,18 @@ class TrueRide:
     height: float
 
 
-def flights(plan: Plan) -> tuple[TrueFlight, ...]:
+def flights(plan: WalkPlan) -> tuple[TrueFlight, ...]:
     return tuple(
         TrueFlight(climb.begin, climb.end, climb.flight.rise > 0.0, climb.flight.steps, climb.flight.height)
         for climb in plan.climbs
     )
 
 
-def rides(plan: Plan) -> tuple[TrueRide, ...]:
+def rides(plan: WalkPlan) -> tuple[TrueRide, ...]:
     return tuple(TrueRide(car.begin, car.end, car.height) for car in plan.rides)
 
 
-def activities(plan: Plan) -> tuple[tuple[float, float, Activity], ...]:
+def activities(plan: WalkPlan) -> tuple[tuple[float, float, Activity], ...]:
     """One after the other from 0 to the plan's end. Turning on the spot is walking. Running lasts from where its first
     swing begins to where its last foot comes down, so that stretches of walking in between count as walking."""
     found = [(begin, end, Activity.WALKING) for begin, end in plan.bouts]
@@ -65,7 +65,7 @@ def activities(plan: Plan) -> tuple[tuple[float, float, Activity], ...]:
     return tuple(told)
 
 
-def _runs(plan: Plan) -> list[tuple[float, float, Activity]]:
+def _runs(plan: WalkPlan) -> list[tuple[float, float, Activity]]:
     steps = sorted((s.heel_strike, s.toe_off, s.manner is Manner.RUN) for foot in Foot for s in plan.strides[foot])
     found: list[tuple[float, float, Activity]] = []
     running = False
@@ -78,7 +78,7 @@ def _runs(plan: Plan) -> list[tuple[float, float, Activity]]:
     return found
 
 
-def elevation(plan: Plan, t: Array) -> Array:
+def elevation(plan: WalkPlan, t: Array) -> Array:
     """How much higher than at t = 0 the wearer is, m: the mean of what both feet stand on."""
     total = np.zeros(len(t))
     for foot in Foot:

@@ -13,7 +13,7 @@ from attrs import frozen
 
 from ...calibration import Limbs
 from ...types import Foot
-from ..routes.lift import Ride
+from ..routes.lift import CarRide
 from ..routes.stairs import Flight
 from ..routes.styles import Manner
 from .shoe import Shoe
@@ -60,7 +60,7 @@ class Wearer:
 
 
 @frozen
-class Stance:
+class FootStand:
     """Where a foot stands flat: the ground point under the ankle, m, and the yaw of the foot, rad (not wrapped)."""
 
     x: float
@@ -70,7 +70,7 @@ class Stance:
 
 
 @frozen
-class Stride:
+class PlannedStride:
     """One foot from one place to the next. Times in s: it leaves with `heel_off` and `toe_off`, and lands with
     `heel_strike` and `foot_flat`."""
 
@@ -79,8 +79,8 @@ class Stride:
     toe_off: float
     heel_strike: float
     foot_flat: float
-    start: Stance
-    end: Stance
+    start: FootStand
+    end: FootStand
     toe_off_pitch: float
     """Heel-up, positive, rad."""
     strike_pitch: float
@@ -111,16 +111,16 @@ class Climb:
 
 
 @frozen
-class Plan:
+class WalkPlan:
     """Everything that is decided before a foot moves."""
 
     duration: float
-    starts: dict[Foot, Stance]
-    strides: dict[Foot, tuple[Stride, ...]]
+    starts: dict[Foot, FootStand]
+    strides: dict[Foot, tuple[PlannedStride, ...]]
     bouts: tuple[tuple[float, float], ...]
     """When walking begins and when the closing foot is down, for each stretch between stands, s."""
     climbs: tuple[Climb, ...] = ()
-    rides: tuple[Ride, ...] = ()
+    rides: tuple[CarRide, ...] = ()
 
 
 def cadence(speed: float, wearer: Wearer) -> float:

@@ -29,7 +29,7 @@ from ...types import Foot, Site, Vec3
 from ...types.vector import GRAVITY
 from ..routes.styles import Manner
 from .curves import Array
-from .gait import Plan
+from .gait import WalkPlan
 from .load import Loads
 from .motion import BLOCK, FootMotion, Kinematics, joined
 from .shoe import Mounting, Shoe
@@ -185,7 +185,9 @@ def ankle_place(shoe: Shoe, limbs: Limbs) -> Vec3:
     return (shoe.ankle[0], 0.0, limbs.ankle_height)
 
 
-def body(plan: Plan, motions: dict[Foot, FootMotion], loads: Loads, shoe: Shoe, height: float, limbs: Limbs) -> Body:
+def body(
+    plan: WalkPlan, motions: dict[Foot, FootMotion], loads: Loads, shoe: Shoe, height: float, limbs: Limbs
+) -> Body:
     """The body that goes with a plan; its centre of mass stands `height` m high."""
     t = np.arange(-_AROUND, plan.duration + _AROUND, STEP)
     pressed = _pressed(plan, loads, shoe, t)
@@ -220,7 +222,7 @@ def body(plan: Plan, motions: dict[Foot, FootMotion], loads: Loads, shoe: Shoe, 
     return Body(limbs, shoe, motions, float(t[0]), track, slips)
 
 
-def _stretch(plan: Plan, t: Array) -> Array:
+def _stretch(plan: WalkPlan, t: Array) -> Array:
     """How much of a leg's length hip and ankle are apart, at the most."""
     least = np.full(len(t), STRETCH)
     runs = [s for foot in Foot for s in plan.strides[foot] if s.manner is Manner.RUN]
@@ -231,7 +233,7 @@ def _stretch(plan: Plan, t: Array) -> Array:
     return np.asarray(np.minimum(_hanned(least[:, None], 2.0 * FOLLOWING)[:, 0], least))
 
 
-def _pressed(plan: Plan, loads: Loads, shoe: Shoe, t: Array) -> Array:
+def _pressed(plan: WalkPlan, loads: Loads, shoe: Shoe, t: Array) -> Array:
     """Where the load of both feet together presses on the ground, (N, 2), m."""
     total = np.zeros((len(t), 2))
     for foot in Foot:

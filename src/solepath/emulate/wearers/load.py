@@ -28,10 +28,10 @@ from numpy.typing import NDArray
 
 from ...types import Foot, Layout
 from ...types.vector import GRAVITY
-from ..routes.lift import Ride
+from ..routes.lift import CarRide
 from ..routes.styles import Manner, style_of
 from .curves import Array
-from .gait import SETTLING, Plan, Stride, Wearer
+from .gait import SETTLING, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, pattern
 
@@ -71,7 +71,7 @@ class Loads:
     stances: dict[Foot, Array]
     leans: dict[Foot, Array]
     fronts: dict[Foot, Array]
-    rides: tuple[Ride, ...] = ()
+    rides: tuple[CarRide, ...] = ()
 
     def total(self, foot: Foot, t: Array) -> Array:
         """Load under one foot, N."""
@@ -175,7 +175,7 @@ class Loads:
         return 1.0 - rolled - 0.5 * middle, middle, front - toes, toes
 
 
-def loads(plan: Plan, wearer: Wearer, rng: np.random.Generator) -> Loads:
+def loads(plan: WalkPlan, wearer: Wearer, rng: np.random.Generator) -> Loads:
     """The loads that go with a plan. `rng`: for what varies between steps, where the wearer says that it does."""
     hand_overs, beats = _hand_overs(plan)
     table = np.array(hand_overs).reshape(-1, 4)
@@ -196,12 +196,12 @@ def loads(plan: Plan, wearer: Wearer, rng: np.random.Generator) -> Loads:
     )
 
 
-def _front(stride: Stride) -> float:
+def _front(stride: PlannedStride) -> float:
     """Share of the load that lands on the forefoot."""
     return 0.0 if stride.manner is Manner.WALK else style_of(stride.manner, stride.speed).front
 
 
-def _like(stride: Stride) -> float:
+def _like(stride: PlannedStride) -> float:
     """The walking speed at which the load swings as it does in a stride, m/s."""
     if stride.manner is Manner.WALK or stride.manner is Manner.RUN:
         return stride.speed
@@ -214,7 +214,7 @@ def hand_over(s: Array) -> Array:
     return np.asarray(0.5 * s + s * s * (1.5 - s))
 
 
-def _hand_overs(plan: Plan) -> tuple[list[tuple[float, ...]], list[tuple[float, ...]]]:
+def _hand_overs(plan: WalkPlan) -> tuple[list[tuple[float, ...]], list[tuple[float, ...]]]:
     """Rows for `begin`, `end`, `before`, `after`, and for `beat`, the speed that the bounce goes by, and `runs`."""
     strides = sorted((s.heel_strike, foot.value, s, foot) for foot in Foot for s in plan.strides[foot])
     steps = [(stride, foot) for _, _, stride, foot in strides]
@@ -249,14 +249,14 @@ def _hand_overs(plan: Plan) -> tuple[list[tuple[float, ...]], list[tuple[float, 
     return hand_overs, beats
 
 
-def _stances(plan: Plan, foot: Foot) -> Array:
+def _stances(plan: WalkPlan, foot: Foot) -> Array:
     strides = plan.strides[foot]
     lands = [(-_EVER, -_EVER), *((s.heel_strike, s.foot_flat) for s in strides)]
     leaves = [*((s.heel_off, s.toe_off) for s in strides), (_EVER, _EVER + 1.0)]
     return np.array([(*land, *leave) for land, leave in zip(lands, leaves, strict=True)])
 
 
-def _leans(plan: Plan, foot: Foot, wearer: Wearer, rng: np.random.Generator) -> Array:
+def _leans(plan: WalkPlan, foot: Foot, wearer: Wearer, rng: np.random.Generator) -> Array:
     """For every stance: the way asked of the load, and the last heel-strike of its walk."""
     rows = [(0.0, -_EVER)]
     for stride in plan.strides[foot]:

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from ...types import Phase
 from ...types.vector import GRAVITY
-from ..routes.lift import Ride
+from ..routes.lift import CarRide
 from .curves import Array
 from .shoe import Mounting
 
@@ -67,7 +67,7 @@ class FootMotion:
     carried: Array
     radius: Array
     phase: Array
-    rides: tuple[Ride, ...] = ()
+    rides: tuple[CarRide, ...] = ()
     """What the foot rides on; its own curves stand meanwhile, and are as much higher afterwards."""
 
     def phases(self, t: Array) -> list[Phase]:

@@ -16,11 +16,11 @@ import numpy as np
 from attrs import evolve
 
 from ...types import Foot, Phase
-from ..routes.lift import Ride
+from ..routes.lift import CarRide
 from ..routes.stairs import Flight
 from ..routes.styles import Manner, style_of
 from .curves import BUMP, EVEN_OUT, Array, constant, evaluate, join, part
-from .gait import Plan, Stance, Stride
+from .gait import FootStand, PlannedStride, WalkPlan
 from .motion import PHASES, FootMotion
 from .shoe import Rocker, Shoe
 
@@ -52,12 +52,14 @@ _Joint = tuple[Array, Array, Array]
 """Position, velocity and acceleration of the ankle point in the world, (3,) each."""
 
 
-def foot_motions(plan: Plan, shoe: Shoe) -> dict[Foot, FootMotion]:
+def foot_motions(plan: WalkPlan, shoe: Shoe) -> dict[Foot, FootMotion]:
     """Both feet of a plan."""
     return {foot: foot_motion(plan.starts[foot], plan.strides[foot], shoe, plan.rides) for foot in Foot}
 
 
-def foot_motion(start: Stance, strides: tuple[Stride, ...], shoe: Shoe, rides: tuple[Ride, ...] = ()) -> FootMotion:
+def foot_motion(
+    start: FootStand, strides: tuple[PlannedStride, ...], shoe: Shoe, rides: tuple[CarRide, ...] = ()
+) -> FootMotion:
     """One foot that stands at `start`, makes the strides, and stands; in between it may ride."""
     pieces = _Pieces(shoe, rides)
     leaves = [*(stride.heel_off for stride in strides), _EVER]
@@ -71,12 +73,12 @@ def foot_motion(start: Stance, strides: tuple[Stride, ...], shoe: Shoe, rides: t
 
 
 class _Pieces:
-    def __init__(self, shoe: Shoe, rides: tuple[Ride, ...]) -> None:
+    def __init__(self, shoe: Shoe, rides: tuple[CarRide, ...]) -> None:
         self.shoe = shoe
         self.rides = rides
         self.rows: list[tuple[float, float, list[Array], tuple[float, float], float, int]] = []
 
-    def stand(self, at: Stance, begin: float, end: float, settle: float) -> None:
+    def stand(self, at: FootStand, begin: float, end: float, settle: float) -> None:
         for car in self.rides:
             if begin <= car.begin and car.end <= end:
                 # FootMotion adds the way of the car while it goes.
@@ -84,11 +86,11 @@ class _Pieces:
                 at, begin, settle = evolve(at, z=at.z + car.height), car.end, 0.0
         self._roll(Phase.STATIONARY, self.shoe.heel, at, begin, end, settle * BUMP)
 
-    def push_off(self, stride: Stride) -> None:
+    def push_off(self, stride: PlannedStride) -> None:
         pitch = -stride.toe_off_pitch * _from_rest(PUSH)
         self._roll(Phase.PUSH_OFF, self.shoe.forefoot, stride.start, stride.heel_off, stride.toe_off, pitch)
 
-    def land(self, stride: Stride) -> None:
+    def land(self, stride: PlannedStride) -> None:
         """From heel-strike to foot-flat, first the impact and then the pure roll."""
         begin, end = stride.heel_strike, stride.foot_flat
         pitch = _landing(stride)
@@ -98,11 +100,11 @@ class _Pieces:
         self._roll(Phase.LOADING, arc, stride.end, begin, begin + IMPACT, part(pitch, 0.0, cut), give)
         self._roll(Phase.LOADING, arc, stride.end, begin + IMPACT, end, part(pitch, cut, 1.0))
 
-    def _lands_on(self, stride: Stride) -> Rocker:
+    def _lands_on(self, stride: PlannedStride) -> Rocker:
         """The arc that touches the ground first."""
         return self.shoe.forefoot if stride.strike_pitch < 0.0 else self.shoe.heel
 
-    def swing(self, stride: Stride) -> None:
+    def swing(self, stride: PlannedStride) -> None:
         shoe, duration = self.shoe, stride.heel_strike - stride.toe_off
         push, land = -stride.toe_off_pitch * _from_rest(PUSH), _landing(stride)
         off = _ends(push, 1.0, stride.toe_off - stride.heel_off)
@@ -138,7 +140,7 @@ class _Pieces:
             curves += [pitch, part(yaw, low, high), part(roll, low, high)]
             self._add(begin, end, curves, ankle, 0.0, Phase.SWING)
 
-    def _lift(self, stride: Stride, z: Array, pitches: tuple[Array, Array], roll: Array) -> float:
+    def _lift(self, stride: PlannedStride, z: Array, pitches: tuple[Array, Array], roll: Array) -> float:
         """The height of the bump with which the sole's lowest point just keeps the clearance (itself a bump)."""
         shoe, s = self.shoe, np.linspace(0.1, 0.9, 41)
         ground = stride.start.z + (stride.end.z - stride.start.z) * s
@@ -152,7 +154,12 @@ class _Pieces:
         return lift
 
     def _over(
-        self, stride: Stride, flight: Flight, way: tuple[Array, Array, Array], pitches: tuple[Array, Array], yaw: Array
+        self,
+        stride: PlannedStride,
+        flight: Flight,
+        way: tuple[Array, Array, Array],
+        pitches: tuple[Array, Array],
+        yaw: Array,
     ) -> float:
         """The same over the treads and edges of a flight.
 
@@ -171,7 +178,7 @@ class _Pieces:
             lift = max(lift, float(np.max(stride.clearance + (least - z - up) / bump)))
         return lift
 
-    def _ankle(self, arc: Rocker, at: Stance, pitch: tuple[float, float, float]) -> _Joint:
+    def _ankle(self, arc: Rocker, at: FootStand, pitch: tuple[float, float, float]) -> _Joint:
         """The ankle point while the shoe rolls on `arc` with this pitch, rate and acceleration."""
         angle, rate, change = pitch
         dx, dz = self.shoe.ankle[0] - arc.x, self.shoe.ankle[2] - arc.radius
@@ -185,7 +192,7 @@ class _Pieces:
         acceleration = ahead * ((-up - arc.radius) * change - along * rate**2) + above * (along * change - up * rate**2)
         return position, velocity, acceleration
 
-    def _centre(self, arc: Rocker, at: Stance) -> Array:
+    def _centre(self, arc: Rocker, at: FootStand) -> Array:
         """The centre of an arc's circle while the foot stands flat."""
         forward = arc.x - self.shoe.ankle[0]
         return np.array([at.x + cos(at.yaw) * forward, at.y + sin(at.yaw) * forward, at.z + arc.radius])
@@ -194,7 +201,7 @@ class _Pieces:
         self,
         phase: Phase,
         arc: Rocker,
-        at: Stance,
+        at: FootStand,
         begin: float,
         end: float,
         pitch: Array,
@@ -229,7 +236,7 @@ def _from_rest(end: tuple[float, float]) -> Array:
     return join((0.0, 0.0, 0.0), (1.0, end[0], end[1]), 1.0)
 
 
-def _landing(stride: Stride) -> Array:
+def _landing(stride: PlannedStride) -> Array:
     """Pitch from heel-strike to foot-flat: the time reverse of a start from rest."""
     return stride.strike_pitch * part(_from_rest(LAND), 1.0, 0.0)
 
@@ -257,7 +264,7 @@ def _kicked_pitch(
     return join(off, top, a), join(top, strike, b)
 
 
-def _reversal(stride: Stride) -> float:
+def _reversal(stride: PlannedStride) -> float:
     return KICKED if stride.manner is Manner.RUN else REVERSAL
 
 
@@ -273,7 +280,7 @@ def _ends(curve: Array, s: float, duration: float) -> tuple[float, float, float]
     return value, slope / duration, bend / duration**2
 
 
-def _residual(stride: Stride) -> tuple[float, float, float]:
+def _residual(stride: PlannedStride) -> tuple[float, float, float]:
     """What the heel still moves by, beyond its roll, when it touches the ground, m/s in the world."""
     slide, sink = SLIDE * stride.speed, SINK * stride.speed
     if stride.manner is not Manner.WALK:

@@ -15,7 +15,7 @@ from attrs import frozen
 from ...types import Activity, Foot, Phase, Vec3
 from .curves import Array
 from .doing import TrueFlight, TrueRide, activities, elevation, flights, rides
-from .gait import Plan
+from .gait import WalkPlan
 from .motion import FootMotion
 from .shoe import Mounting
 
@@ -87,7 +87,7 @@ class Truth:
     activities: tuple[tuple[float, float, Activity], ...]
     flights: tuple[TrueFlight, ...]
     rides: tuple[TrueRide, ...]
-    plan: Plan
+    plan: WalkPlan
 
     def pose(self, foot: Foot, t: Array | float) -> PoseAt:
         """Position (relative to the foot's first), velocity and attitude of a foot's sensor at any instants."""
@@ -106,12 +106,12 @@ class Truth:
         return elevation(self.plan, np.atleast_1d(np.asarray(t, dtype=np.float64)))
 
 
-def truth(plan: Plan, path_length: float, feet: dict[Foot, FootTruth]) -> Truth:
+def truth(plan: WalkPlan, path_length: float, feet: dict[Foot, FootTruth]) -> Truth:
     """The truth of a plan with both of its feet."""
     return Truth(plan.duration, path_length, feet, activities(plan), flights(plan), rides(plan), plan)
 
 
-def foot_truth(foot: Foot, plan: Plan, motion: FootMotion, mounting: Mounting) -> FootTruth:
+def foot_truth(foot: Foot, plan: WalkPlan, motion: FootMotion, mounting: Mounting) -> FootTruth:
     """The truth of one foot for a sensor mounted like this."""
     strides = plan.strides[foot]
     marks = np.array([0.0, *(stride.foot_flat for stride in strides)])

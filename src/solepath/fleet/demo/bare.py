@@ -16,13 +16,13 @@ from ...recipes import Recipe
 from ...session import Session
 from ...types import Packet
 from ..fleet import Fleet
-from ..parquet import Parts
-from ..step.sent import Tick, Told
+from ..parquet import PartFiles
+from ..step.sent import NumberedEvent, Tick
 from ..step.state import read_rest
 from .child import end_with_parent, settle
 from .job import TOLD
 from .sending import What
-from .wearers import Wearer, Wearers
+from .wearers import DemoWearer, Wearers
 
 MEASURED = 60
 """Wearers whose states are looked at."""
@@ -34,14 +34,14 @@ def main(run: str, part: int) -> None:
     home = Path(run)
     wearers = Wearers.read(home.parent)
     fleet = Fleet(wearers.recipe)
-    parts = Parts(home / TOLD, str(part))
+    parts = PartFiles(home / TOLD, str(part))
     settle()
     taken = cpu = 0.0
     for wearer in wearers.of_part(part):
         seconds, used, events = _through(wearers.recipe, wearer.heard())
         taken += seconds
         cpu += used
-        parts.write(Told(wearer.name, number, event) for number, event in enumerate(events))
+        parts.write(NumberedEvent(wearer.name, number, event) for number, event in enumerate(events))
     parts.close()
     states = _states(fleet, wearers.of_part(part)[:MEASURED], wearers.bundles)
     found = {"seconds": taken, "cpu": cpu, "states": states}
@@ -63,7 +63,7 @@ def _through(recipe: Recipe, heard: list[What]) -> tuple[float, float, list[Even
     return perf_counter() - began, process_time() - used, events
 
 
-def _states(fleet: Fleet, wearers: list[Wearer], bundles: int) -> list[tuple[int, int, float]]:
+def _states(fleet: Fleet, wearers: list[DemoWearer], bundles: int) -> list[tuple[int, int, float]]:
     """Bytes of the wearers' states after each bundle, rows that are held in it, and s that it took to take it: one
     wearer's after the other's, as an engine does."""
     opened, found = [fleet.open(wearer.name, None) for wearer in wearers], []

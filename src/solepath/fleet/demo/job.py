@@ -59,11 +59,11 @@ def flow(run: str) -> Dataflow:
     end_with_parent()
     home = Path(run)
     wearers = Wearers.read(home.parent)
-    report = Report()
+    report = ProcessReport()
     atexit.register(partial(report.write, home))
     dataflow = Dataflow("fleet_demo")
     sent: Any = operators.input("phones", dataflow, Phones(wearers, home, report))
-    fleet = Counted(wearers.recipe, home)
+    fleet = CountedSessions(wearers.recipe, home)
     told = gait("gait", sent, fleet)
     operators.output("files", told, ParquetSink(home / TOLD, wearers.plan.parts))
     _warm(Fleet(wearers.recipe), wearers)
@@ -78,7 +78,7 @@ def _warm(fleet: Fleet, wearers: Wearers) -> None:
         state, _ = fleet.step(first.name, state, first.bundle(number))
 
 
-class Counted(Fleet):
+class CountedSessions(Fleet):
     """Of the sessions that it opens from bytes it leaves a byte each, for whoever kills this."""
 
     __slots__ = ("_file",)
@@ -94,7 +94,7 @@ class Counted(Fleet):
 
 
 @define
-class Report:
+class ProcessReport:
     """What one process of a run used. `began`, `ended`: s of the system's clock at the first bundle and at the end of
     the work; `cpu`: s from the one to the other; `empty`, `full`: memory at the first, the most until the second."""
 
@@ -119,20 +119,20 @@ class Phones(FixedPartitionedSource[Keyed, int]):
     """Bundles of all wearers as fast as they are asked for: the first of each, then the second. They can be read again
     from any place."""
 
-    def __init__(self, wearers: Wearers, home: Path, report: Report) -> None:
+    def __init__(self, wearers: Wearers, home: Path, report: ProcessReport) -> None:
         self._wearers, self._home, self._report = wearers, home, report
 
     def list_parts(self) -> list[str]:
         return [str(part) for part in range(self._wearers.plan.parts)]
 
-    def build_part(self, step_id: str, for_part: str, resume_state: int | None) -> Part:
-        return Part(self._wearers, int(for_part), resume_state or 0, self._home, self._report)
+    def build_part(self, step_id: str, for_part: str, resume_state: int | None) -> CountingPart:
+        return CountingPart(self._wearers, int(for_part), resume_state or 0, self._home, self._report)
 
 
-class Part(StatefulSourcePartition[Keyed, int]):
+class CountingPart(StatefulSourcePartition[Keyed, int]):
     """Its state is how many bundles were read."""
 
-    def __init__(self, wearers: Wearers, part: int, at: int, home: Path, report: Report) -> None:
+    def __init__(self, wearers: Wearers, part: int, at: int, home: Path, report: ProcessReport) -> None:
         self._wearers, self._report = wearers.of_part(part), report
         self._at, self._end = at, len(self._wearers) * wearers.bundles
         began = {"part": part, "at": at, "end": self._end, "time": time()}

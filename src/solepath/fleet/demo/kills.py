@@ -15,7 +15,7 @@ import pyarrow as pa
 from attrs import evolve, frozen
 
 from .compare import Torn, differences, read_told
-from .run import LOOK, Run
+from .run import LOOK, EngineRun
 
 STARTING = 5
 """One kill in so many hits the start of a run, or the recovery from the kill before; all others hit reading."""
@@ -39,7 +39,7 @@ class Kill:
 
 
 @frozen
-class Mark:
+class KillMark:
     """A kill that was done. `when`: s of the system's clock. `started`: the job had begun to read. `reached`: bundles
     of each partition that were read by then. `reopened`: wearers who had gone on from their states by then."""
 
@@ -96,11 +96,11 @@ def draw(kills: int, starting: float, reading: float, processes: int, rng: Rando
     return found
 
 
-def play(begin: Callable[[], Run], kills: list[Kill], expected: pa.Table) -> Outcome:
+def play(begin: Callable[[], EngineRun], kills: list[Kill], expected: pa.Table) -> Outcome:
     """A run from its start, killed and restarted, to its end, and what it told beside what was `expected`. RunFailed.
     A run that was over before a kill came is begun anew, and killed sooner."""
     while True:
-        run, marks = begin(), list[Mark]()
+        run, marks = begin(), list[KillMark]()
         with closing(run):
             if _killed(run, kills, marks):
                 run.finish()
@@ -120,7 +120,7 @@ def compared(expected: pa.Table, told: Path) -> list[str]:
         return [str(torn)]
 
 
-def _killed(run: Run, kills: list[Kill], marks: list[Mark]) -> bool:
+def _killed(run: EngineRun, kills: list[Kill], marks: list[KillMark]) -> bool:
     """Kill and restart; False when the job came to its end before."""
     known = 0
     run.start()
@@ -132,13 +132,13 @@ def _killed(run: Run, kills: list[Kill], marks: list[Mark]) -> bool:
             return False
         moment = time()
         run.kill(kill.which)
-        marks.append(Mark(kill, moment, len(run.began()) > known, run.reached(), run.reopened()))
+        marks.append(KillMark(kill, moment, len(run.began()) > known, run.reached(), run.reopened()))
         known = len(run.began())
         run.start()
     return True
 
 
-def _costs(marks: list[Mark], began: list[dict[str, Any]], reopened: int) -> list[Cost]:
+def _costs(marks: list[KillMark], began: list[dict[str, Any]], reopened: int) -> list[Cost]:
     found = []
     until = [*((mark.when, mark.reopened) for mark in marks[1:]), (inf, reopened)]
     for mark, (end, by_then) in zip(marks, until, strict=True):

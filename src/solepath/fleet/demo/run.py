@@ -91,7 +91,7 @@ class Children:
 
 
 @define
-class Run:
+class EngineRun:
     """`home`: its directory, on a stage; `processes`: of the engine; `every`: s between two snapshots."""
 
     home: Path
@@ -100,7 +100,7 @@ class Run:
     children: Children = field(factory=Children)
 
     @classmethod
-    def begin(cls, home: Path, processes: int, every: float) -> Run:
+    def begin(cls, home: Path, processes: int, every: float) -> EngineRun:
         """A run that has read nothing yet."""
         (home / RECOVERY).mkdir(parents=True)
         init_db_dir(home / RECOVERY, processes)  # type: ignore[no-untyped-call]

@@ -18,8 +18,8 @@ from attrs import define, field, frozen
 
 from .compare import differences, files, holes, of_sessions, read_told, remarked
 from .kills import Outcome, draw, play
-from .run import Children, Run, start
-from .wearers import Plan, Wearers, prepare
+from .run import Children, EngineRun, start
+from .wearers import DemoPlan, Wearers, prepare
 
 SNAPSHOTS = 8
 """Snapshots in the time that sessions alone take; the engine takes longer."""
@@ -64,12 +64,12 @@ class Bare:
 
 
 @define
-class Stage:
+class DemoStage:
     """`at`: an empty directory. Used in this order: `prepare`, `bare`, `uninterrupted`, then `killed`. RunFailed when a
     process ends as it should not have."""
 
     at: Path
-    plan: Plan
+    plan: DemoPlan
     samples: list[int] = field(factory=list, init=False)
     """Of the wearers of each process."""
     poisoned: int = field(default=0, init=False)
@@ -113,7 +113,7 @@ class Stage:
     def uninterrupted(self) -> Engine:
         """The job from its start to its end."""
         began = monotonic()
-        run = Run.begin(self.told.parent, self.plan.parts, self.every)
+        run = EngineRun.begin(self.told.parent, self.plan.parts, self.every)
         with closing(run):
             run.start()
             reports = run.finish()
@@ -169,7 +169,7 @@ class Stage:
         planned = draw(kills, starting, engine.seconds, self.plan.parts, Random(f"kills {self.plan.seed}"))
         for number, of_run in enumerate(planned, 1):
             home = self.at / f"killed-{number}"
-            outcome = play(partial(Run.begin, home, self.plan.parts, self.every), of_run, expected)
+            outcome = play(partial(EngineRun.begin, home, self.plan.parts, self.every), of_run, expected)
             self.outcomes.append(outcome)
             if not keep:
                 shutil.rmtree(home)

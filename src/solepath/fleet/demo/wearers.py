@@ -30,7 +30,7 @@ FIRST_RUN = 1_790_000_000_000
 
 
 @frozen
-class Plan:
+class DemoPlan:
     """What decides every byte of a demonstration. `seconds`: of walking. `bundle`: s of it that a phone sends at a
     time. `parts`: of the source and of the files, and processes. `every`: s between two snapshots; None:
     as fits the run."""
@@ -44,7 +44,7 @@ class Plan:
     every: float | None = None
 
 
-def prepare(stage: Path, plan: Plan) -> None:
+def prepare(stage: Path, plan: DemoPlan) -> None:
     """Emulate the walks and write them and the plan into `stage`, a directory. OSError, RecordingError."""
     for number, name in enumerate(DEVICES):
         with PacketWriter(_recording(stage, number)) as writer:
@@ -58,7 +58,7 @@ def _recording(stage: Path, number: int) -> Path:
 
 
 @frozen
-class Wearer:
+class DemoWearer:
     """One of them. `shift`: s from the walk's time to his. `run`: of his phone."""
 
     name: str
@@ -105,18 +105,18 @@ def _later(what: What, shift: float) -> What:
 class Wearers:
     """All of them."""
 
-    plan: Plan
+    plan: DemoPlan
     sendings: list[Sending]
     """Of those who are sound."""
     poisons: list[Sending]
     gaps: list[Sending]
     """None where walks are too short for one."""
-    all: list[Wearer]
+    all: list[DemoWearer]
 
     @classmethod
     def read(cls, stage: Path) -> Wearers:
         """Those of a stage."""
-        plan = Plan(**json.loads((stage / "plan.json").read_text(encoding="utf-8")))
+        plan = DemoPlan(**json.loads((stage / "plan.json").read_text(encoding="utf-8")))
         walks = [list(read_packets(_recording(stage, number))) for number in range(len(DEVICES))]
         rng = Random(f"sendings {plan.seed}")
         sendings = list(
@@ -137,7 +137,7 @@ class Wearers:
             kind = poisons if number % POISONED == 3 else (gaps or sendings) if number % GAPPED == 5 else sendings
             drawn = rng.choice(kind)
             run = FIRST_RUN + rng.randrange(10**8)
-            found.append(Wearer(f"w{number:05d}", drawn, rng.uniform(0.0, 1e5), run))
+            found.append(DemoWearer(f"w{number:05d}", drawn, rng.uniform(0.0, 1e5), run))
         return cls(plan, sendings, poisons, gaps, found)
 
     @property
@@ -163,6 +163,6 @@ class Wearers:
         """Of those of one part. Takes a moment the first time."""
         return sum(samples_of(one.sending) for one in self.of_part(part))
 
-    def of_part(self, part: int) -> list[Wearer]:
+    def of_part(self, part: int) -> list[DemoWearer]:
         """Those of one partition, or process."""
         return self.all[part :: self.plan.parts]

@@ -10,11 +10,11 @@ from ...events.fleet import FleetEvent, NumbersMissing, Refusal, SentRejected, S
 from ...saving.codec import SnapshotError
 from ...session import Session
 from ...types import Packet
-from .order import Missing, Order, Refused
-from .sent import LONGEST_DETAIL, MOST, End, Sent, Tick, Told, Unreadable
+from .order import Missing, Order, RejectedItem
+from .sent import LONGEST_DETAIL, MOST, End, NumberedEvent, Sent, Tick, Unreadable
 from .sessions import Sessions
 from .sound import is_sound, sound
-from .state import Identity, Rest, StateError, read_identity, read_rest, write_state
+from .state import Identity, OtherState, StateError, read_identity, read_rest, write_state
 
 _Kind = TypeVar("_Kind", NumbersMissing, SentRejected, StateRefused, WearerFailed)
 
@@ -50,9 +50,9 @@ class Keyed:
         """The wearer has taken the sensors off, and nothing came since that begins anew."""
         return self._order.ended
 
-    def feed(self, sent: Iterable[Sent | Unreadable]) -> list[Told]:
+    def feed(self, sent: Iterable[Sent | Unreadable]) -> list[NumberedEvent]:
         """What the wearer's session, and the fleet, say to what was sent. Latency: none for what comes in its turn."""
-        told: list[Told] = []
+        told: list[NumberedEvent] = []
         if self._pending is not None and self._numbered:
             self._tell_pending(told)
         for item in sent:
@@ -79,7 +79,7 @@ class Keyed:
                 self._pending = (WearerFailed, _said(error))
         if self._pending is not None:
             failure = self._pending[1]
-        rest = Rest(order.ended, order.left, order.strays, order.held, failure, session)
+        rest = OtherState(order.ended, order.left, order.strays, order.held, failure, session)
         return write_state(Identity(order.run, order.next, self._told, known), rest)
 
     # --- in ---
@@ -127,7 +127,7 @@ class Keyed:
             and is_sound(what)
         )
 
-    def _sort(self, item: object, told: list[Told]) -> None:
+    def _sort(self, item: object, told: list[NumberedEvent]) -> None:
         """Whatever does not simply pass."""
         wrong = self._unnumbered(item)
         if wrong is not None:
@@ -137,7 +137,7 @@ class Keyed:
         if isinstance(item, Sent):
             run, number, what = item.run, item.number, sound(item.what)
         elif isinstance(item, Unreadable) and item.number is not None:
-            run, number, what = item.run, item.number, Refused(Refusal.UNREADABLE, item.what[:LONGEST_DETAIL])
+            run, number, what = item.run, item.number, RejectedItem(Refusal.UNREADABLE, item.what[:LONGEST_DETAIL])
         else:
             return
         if not self._numbered:
@@ -146,7 +146,7 @@ class Keyed:
         for of_run, at, passed in self._order.take(run, number, what):
             if isinstance(passed, Missing):
                 self._tell(told, self._event(NumbersMissing, run=of_run, first=at, count=passed.count))
-            elif isinstance(passed, Refused):
+            elif isinstance(passed, RejectedItem):
                 why = {"reason": passed.reason, "count": passed.count, "detail": passed.detail}
                 self._tell(told, self._event(SentRejected, run=of_run, number=at, **why))
             else:
@@ -169,7 +169,7 @@ class Keyed:
             return None
         return self._event(SentRejected, reason=Refusal.NOT_SENT, detail=detail[:LONGEST_DETAIL])
 
-    def _use(self, what: Packet | Tick | End, told: list[Told]) -> None:
+    def _use(self, what: Packet | Tick | End, told: list[NumberedEvent]) -> None:
         """What is in its turn goes to the session."""
         session = self._session
         try:
@@ -192,7 +192,7 @@ class Keyed:
         if type(what) is End:
             self._drop()
 
-    def _begin(self, told: list[Told]) -> Session:
+    def _begin(self, told: list[NumberedEvent]) -> Session:
         try:
             return self._sessions.fresh(self._wearer)
         except MemoryError:
@@ -215,11 +215,11 @@ class Keyed:
         now = self._now()
         return kind(t=now, known_at=now, **fields)
 
-    def _tell(self, told: list[Told], event: Event | FleetEvent) -> None:
-        told.append(Told(self._wearer, self._told, event))
+    def _tell(self, told: list[NumberedEvent], event: Event | FleetEvent) -> None:
+        told.append(NumberedEvent(self._wearer, self._told, event))
         self._told += 1
 
-    def _tell_pending(self, told: list[Told]) -> None:
+    def _tell_pending(self, told: list[NumberedEvent]) -> None:
         if self._pending is not None:
             kind, detail = self._pending
             self._pending = self._opened = None

@@ -13,7 +13,7 @@ FORGOTTEN = 4
 
 
 @frozen
-class Span:
+class NumberSpan:
     """Numbers from `first` to before `end` that were never used. `end` beyond MOST: what was still to come of a run
     when it was left."""
 
@@ -30,13 +30,13 @@ class Span:
 class Left:
     """What was left behind. Of a run that was left, the last span is open: from there on nothing of it was used."""
 
-    spans: list[Span] = field(factory=list)
+    spans: list[NumberSpan] = field(factory=list)
     """The last that were given up, oldest first."""
     forgotten: list[tuple[int, int]] = field(factory=list)
     """From which run to which: those that were left and are not remembered. Where there are too many ranges the two
     that lie closest are taken together, and with them what is in between."""
 
-    def add(self, span: Span) -> None:
+    def add(self, span: NumberSpan) -> None:
         if len(self.spans) >= SPANS:
             oldest = self.spans.pop(0)
             if oldest.is_open:

@@ -14,7 +14,7 @@ from attrs import define, field, frozen
 
 from ...events.fleet import Refusal
 from ...types import Packet
-from .left import Left, Span, Strays
+from .left import Left, NumberSpan, Strays
 from .sent import MOST, End, Tick
 
 HELD = 65_536
@@ -22,7 +22,7 @@ HELD = 65_536
 
 
 @frozen
-class Refused:
+class RejectedItem:
     """What stands in the place of what cannot be used."""
 
     reason: Refusal
@@ -38,7 +38,7 @@ class Missing:
     count: int
 
 
-What = Packet | Tick | End | Refused
+What = Packet | Tick | End | RejectedItem
 Passed = list[tuple[int, int, What | Missing]]
 """(run, number, what), in order."""
 
@@ -105,7 +105,7 @@ class Order:
 
     def _stray(self, run: int, number: int, reason: Refusal) -> Passed:
         """What cannot be used, and is told now and then."""
-        return [(run, number, Refused(reason, count=self.strays.count))] if self.strays.add(run) else []
+        return [(run, number, RejectedItem(reason, count=self.strays.count))] if self.strays.add(run) else []
 
     def _release(self, waits: bool = True) -> Passed:
         """What is held and in its turn, or waited for too long."""
@@ -132,13 +132,13 @@ class Order:
     def _enter(self, run: int, number: int) -> None:
         """Another run, from this number on. How many were sent in the one before, nobody said."""
         if self.run >= 0:
-            self.left.add(Span(self.run, self.next, MOST + 1))
+            self.left.add(NumberSpan(self.run, self.next, MOST + 1))
         self.run, self.next, self.ended = run, number, False
 
     def _pass(self, number: int, what: What, passed: Passed) -> None:
         """What is used of the run; what is missing before it is given up."""
         if number > self.next:
-            self.left.add(Span(self.run, self.next, number))
+            self.left.add(NumberSpan(self.run, self.next, number))
             passed.append((self.run, self.next, Missing(number - self.next)))
         self.next, self.ended = number + 1, isinstance(what, End)
         passed.append((self.run, number, what))

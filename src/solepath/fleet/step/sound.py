@@ -6,7 +6,7 @@ from math import inf
 
 from ...events.fleet import Refusal
 from ...types import Packet, Site
-from .order import Refused, What
+from .order import RejectedItem, What
 from .sent import LATEST, LONGEST_DATA, LONGEST_DETAIL, LONGEST_NAME, End, Tick
 
 
@@ -31,9 +31,11 @@ def sound(what: object) -> What:
     if isinstance(what, Tick):
         t = _number(what.t)
         if t is None:
-            return Refused(Refusal.MALFORMED, "a Tick without a time")
-        return Tick(t) if -LATEST <= t <= LATEST else Refused(Refusal.NOT_FINITE, f"a Tick at {t:g} s")
-    return End() if isinstance(what, End) else Refused(Refusal.MALFORMED, f"a {type(what).__name__}"[:LONGEST_DETAIL])
+            return RejectedItem(Refusal.MALFORMED, "a Tick without a time")
+        return Tick(t) if -LATEST <= t <= LATEST else RejectedItem(Refusal.NOT_FINITE, f"a Tick at {t:g} s")
+    return (
+        End() if isinstance(what, End) else RejectedItem(Refusal.MALFORMED, f"a {type(what).__name__}"[:LONGEST_DETAIL])
+    )
 
 
 def _mended(packet: Packet) -> What:
@@ -42,16 +44,16 @@ def _mended(packet: Packet) -> What:
     if isinstance(data, bytearray | memoryview):
         data = bytes(data)
     if t is None or not isinstance(data, bytes) or not isinstance(packet.site, Site):
-        return Refused(Refusal.MALFORMED, "a packet holds a time, a Site and bytes")
+        return RejectedItem(Refusal.MALFORMED, "a packet holds a time, a Site and bytes")
     if not isinstance(packet.channel, str) or not isinstance(packet.device, str):
-        return Refused(Refusal.MALFORMED, "a packet names its channel and its device")
+        return RejectedItem(Refusal.MALFORMED, "a packet names its channel and its device")
     for name, size, most in (
         ("data", len(data), LONGEST_DATA),
         ("channel", len(packet.channel), LONGEST_NAME),
         ("device", len(packet.device), LONGEST_NAME),
     ):
         if size > most:
-            return Refused(Refusal.OVERSIZED, f"{name} of {size}; {most} are the most")
+            return RejectedItem(Refusal.OVERSIZED, f"{name} of {size}; {most} are the most")
     return Packet(t, packet.site, str(packet.channel), bytes(data), str(packet.device))
 
 

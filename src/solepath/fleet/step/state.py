@@ -17,8 +17,8 @@ from attrs import define, field, frozen
 
 from ...events.fleet import Refusal
 from ...types import Packet, Site
-from .left import Left, Span, Strays
-from .order import Refused, What
+from .left import Left, NumberSpan, Strays
+from .order import RejectedItem, What
 from .sent import MOST, End, Tick
 
 MAGIC, VERSION = b"spfl", 1
@@ -49,7 +49,7 @@ class Identity:
 
 
 @frozen
-class Rest:
+class OtherState:
     """What else there is. `failure`: what a part of the app's own raised when the session was to be saved; "" for
     nothing. `session`: None before the first packet and after the end."""
 
@@ -61,10 +61,10 @@ class Rest:
     session: bytes | None = None
 
 
-def write_state(identity: Identity, rest: Rest) -> bytes:
+def write_state(identity: Identity, rest: OtherState) -> bytes:
     """The bytes of a state."""
     first = _FIRST.pack(MAGIC, VERSION, identity.run, identity.next, identity.told, identity.known)
-    out = _Writer()
+    out = _StateWriter()
     out.put(bytes([rest.ended * _ENDED + (rest.session is not None) * _SESSION]))
     left, strays = rest.left, rest.strays
     out.count(len(left.spans))
@@ -94,21 +94,21 @@ def read_identity(state: bytes) -> Identity | None:
     return Identity(run, number, told, known)
 
 
-def read_rest(state: bytes) -> Rest:
+def read_rest(state: bytes) -> OtherState:
     """What comes after the first bytes, which are sound. StateError when it cannot be read."""
     reader = READERS.get(state[4])
     if reader is None:
         raise StateError(f"a state of version {state[4]}; this release reads {', '.join(map(str, READERS))}")
     try:
-        return reader(_Reader(state, _FIRST.size + _CHECK.size))
+        return reader(_StateReader(state, _FIRST.size + _CHECK.size))
     except (ValueError, IndexError, StructError, OverflowError) as error:
         raise StateError(str(error) if isinstance(error, StateError) else "the state was damaged") from None
 
 
-def _read_1(data: _Reader) -> Rest:
+def _read_1(data: _StateReader) -> OtherState:
     begin = data.at
     flags = data.take(1)[0]
-    spans = [Span(data.count(), data.count(), data.count()) for _ in range(data.count())]
+    spans = [NumberSpan(data.count(), data.count(), data.count()) for _ in range(data.count())]
     forgotten = [(data.count(), data.count()) for _ in range(data.count())]
     strays = Strays(data.count(), data.count(), data.count(), data.count())
     held = [((data.count(), data.count()), _read_what(data)) for _ in range(data.count())]
@@ -121,10 +121,10 @@ def _read_1(data: _Reader) -> Rest:
     if not all(low < high for low, high in pairwise(places)) or any(max(place) > MOST for place in places[1:]):
         raise StateError("the state holds what cannot be held")
     session = data.state[data.at :] if flags & _SESSION else None
-    return Rest(bool(flags & _ENDED), Left(spans, forgotten), strays, dict(held), failure, session)
+    return OtherState(bool(flags & _ENDED), Left(spans, forgotten), strays, dict(held), failure, session)
 
 
-def _write_what(out: _Writer, what: What) -> None:
+def _write_what(out: _StateWriter, what: What) -> None:
     match what:
         case Packet(t, site, channel, data, device):
             out.put(bytes([_PACKET]))
@@ -138,13 +138,13 @@ def _write_what(out: _Writer, what: What) -> None:
             out.put(_FLOAT.pack(t))
         case End():
             out.put(bytes([_END]))
-        case Refused(reason, detail):
+        case RejectedItem(reason, detail):
             out.put(bytes([_REFUSED]))
             out.text(reason.value)
             out.text(detail)
 
 
-def _read_what(data: _Reader) -> What:
+def _read_what(data: _StateReader) -> What:
     kind = data.take(1)[0]
     if kind == _PACKET:
         t, site, channel, device = data.float(), Site(data.text()), data.text(), data.text()
@@ -154,12 +154,12 @@ def _read_what(data: _Reader) -> What:
     if kind == _END:
         return End()
     if kind == _REFUSED:
-        return Refused(Refusal(data.text()), data.text())
+        return RejectedItem(Refusal(data.text()), data.text())
     raise StateError("the state was damaged")
 
 
 @define
-class _Writer:
+class _StateWriter:
     done: bytearray = field(factory=bytearray)
 
     def put(self, data: bytes) -> None:
@@ -183,7 +183,7 @@ class _Writer:
 
 
 @define
-class _Reader:
+class _StateReader:
     state: bytes
     at: int
 
@@ -210,6 +210,6 @@ class _Reader:
         return self.take(self.count()).decode("utf-8", "surrogatepass")
 
 
-READERS: Mapping[int, Callable[[_Reader], Rest]] = {1: _read_1}
+READERS: Mapping[int, Callable[[_StateReader], OtherState]] = {1: _read_1}
 """By version: each makes of its layout what the newest has. What a session remembers has versions and steps of its own
 (solepath.saving.upgrades)."""

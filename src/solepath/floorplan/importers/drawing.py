@@ -15,7 +15,7 @@ from attrs import define, field
 from ..checks import MOST_LEVELS, MOST_WALLS
 from ..doors import BESIDE, Line, Openings, cut
 from ..outlines import Ring, edges, holds, middle, tidy
-from ..plan import Anchor, Connector, Door, FloorPlan, FloorPlanError, Kind, Level, Point, Stop, Wall
+from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Point, Wall
 from ..segments import distance
 
 _TOGETHER = 2e-3
@@ -45,11 +45,11 @@ class Space:
 
 
 @define
-class Part:
+class ConnectorPart:
     """Stairs or a lift on one level. Parts of one `group` are the same stairs or lift wherever they lie; others are
     where they overlap on neighbouring levels. `place`: where one steps on, None for the middle."""
 
-    kind: Kind
+    kind: ConnectorKind
     name: str
     level: str
     place: Point | None
@@ -78,7 +78,7 @@ class Drawing:
     spaces: list[Space] = field(factory=list)
     lines: list[tuple[str, Point, Point]] = field(factory=list)
     doors: list[tuple[str, Point, Point, str]] = field(factory=list)
-    parts: list[Part] = field(factory=list)
+    parts: list[ConnectorPart] = field(factory=list)
     remarks: list[str] = field(factory=list)
 
     def plan(self, anchor: Anchor, storey: float) -> FloorPlan:
@@ -163,7 +163,7 @@ def _lines(rings: tuple[Ring, ...]) -> set[Wall]:
     return {_wall((ax, ay), (bx, by)) for ring in rings for ax, ay, bx, by in edges(ring) if (ax, ay) != (bx, by)}
 
 
-def _border_of(part: Part, doors: list[Line]) -> Border:
+def _border_of(part: ConnectorPart, doors: list[Line]) -> Border:
     """Stairs and cabins with a door are walled; without one they would be out of reach, so they are open."""
     lines = [line for ring in part.rings for line in edges(ring)]
     for start, end in doors:
@@ -176,7 +176,7 @@ def _border_of(part: Part, doors: list[Line]) -> Border:
 # --- stairs and lifts -------------------------------------------------------------------------------------------------
 
 
-def _joined(parts: list[Part], numbers: dict[str, int], storeys: dict[str, Storey]) -> list[Connector]:
+def _joined(parts: list[ConnectorPart], numbers: dict[str, int], storeys: dict[str, Storey]) -> list[Connector]:
     """Parts joined into connectors: those of one group, and those that lie over each other on levels whose order is one
     apart or less, or next to each other in the list of levels."""
     ordered = sorted(parts, key=lambda part: (part.kind.value, numbers[part.level], _corner(part), part.name))
@@ -203,15 +203,15 @@ def _joined(parts: list[Part], numbers: dict[str, int], storeys: dict[str, Store
     return sorted(found, key=lambda one: (one.kind.value, one.name, one.stops[0].place))
 
 
-def _corner(part: Part) -> Point:
+def _corner(part: ConnectorPart) -> Point:
     return min(part.ring) if part.ring else part.place or (0.0, 0.0)
 
 
-def _middle(part: Part) -> Point:
+def _middle(part: ConnectorPart) -> Point:
     return middle(part.ring) if len(part.ring) >= 3 else part.place or (0.0, 0.0)
 
 
-def _within(place: Point, part: Part) -> bool:
+def _within(place: Point, part: ConnectorPart) -> bool:
     return len(part.ring) >= 3 and holds(edges(part.ring), *place)
 
 
@@ -220,12 +220,12 @@ def _neighbours(low: str, high: str, numbers: dict[str, int], storeys: dict[str,
     return rise > 0.0 and (rise <= 1.0 or numbers[high] - numbers[low] == 1)
 
 
-def _connector(parts: list[Part], numbers: dict[str, int]) -> Connector:
-    stops: dict[str, Stop] = {}
+def _connector(parts: list[ConnectorPart], numbers: dict[str, int]) -> Connector:
+    stops: dict[str, ConnectorStop] = {}
     for part in parts:
         outline = tidy(part.ring) if len(part.ring) >= 3 else ()
         at = part.place if part.place is not None else middle(outline)
-        stop = Stop(part.level, (round(at[0], 3) + 0.0, round(at[1], 3) + 0.0), outline)
+        stop = ConnectorStop(part.level, (round(at[0], 3) + 0.0, round(at[1], 3) + 0.0), outline)
         if part.level not in stops or not stops[part.level].outline:
             stops[part.level] = stop
     name = next((part.name for part in parts if part.name), "")

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..doors import with_doors_cut
 from ..outlines import CLOSED, Ring, middle, not_closed, ring, with_holes, without_repeats
-from ..plan import Anchor, Connector, Door, FloorPlan, FloorPlanError, Kind, Level, Point, Stop, Wall
+from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Point, Wall
 from .earth import Tangent, south_west, to_mm
 from .features import Feature, Position, features, number
 
@@ -28,7 +28,7 @@ def of_collection(told: dict[str, Any], storey: float) -> FloorPlan:
     for one in known:
         if one.kind not in _KINDS:
             one.wrong(f"there is no feature {one.kind[:30]!r}, only {', '.join(_KINDS)}")
-    reader = _Reader(known, *_frame(told, known))
+    reader = _GeoJsonReader(known, *_frame(told, known))
     return reader.plan(_name(told), storey, told.get("elevations", "known"))
 
 
@@ -67,7 +67,7 @@ def _anchor(given: object) -> Anchor:
     return anchor
 
 
-class _Reader:
+class _GeoJsonReader:
     """The features of one file on their way into records."""
 
     def __init__(self, known: list[Feature], anchor: Anchor | None, place: Callable[[Position], Point]) -> None:
@@ -76,7 +76,7 @@ class _Reader:
         self._walls: dict[str, list[Wall]] = {}
         self._doors: dict[str, list[Door]] = {}
         self._rooms: dict[str, list[Ring]] = {}
-        self._stops: dict[tuple[str, str], list[tuple[Feature, Stop]]] = {}
+        self._stops: dict[tuple[str, str], list[tuple[Feature, ConnectorStop]]] = {}
 
     def plan(self, name: str, storey: float, elevations: object) -> FloorPlan:
         if elevations not in ("known", "assumed"):
@@ -159,15 +159,15 @@ class _Reader:
 
     def _stop(self, one: Feature, level: str) -> None:
         if one.geometry == "Point":
-            stop = Stop(level, self._place(one.points[0]))
+            stop = ConnectorStop(level, self._place(one.points[0]))
         elif one.geometry == "Polygon":
             outline = self._outline(one, level)
             given = one.properties.get("place")
             if given is None:
-                stop = Stop(level, middle(outline), outline)
+                stop = ConnectorStop(level, middle(outline), outline)
             elif isinstance(given, list) and len(given) == 2:
                 x, y = (number(value, f"{one.name}: its place") for value in given)
-                stop = Stop(level, self._place((x, y)), outline)
+                stop = ConnectorStop(level, self._place((x, y)), outline)
             else:
                 one.wrong("its place is no position")
         else:
@@ -178,15 +178,16 @@ class _Reader:
             one.wrong(f"is a second stop of {one.kind} {key[1]!r} at level {level!r}")
         others.append((one, stop))
 
-    def _connector(self, stops: list[tuple[Feature, Stop]], heights: dict[str, float]) -> Connector:
+    def _connector(self, stops: list[tuple[Feature, ConnectorStop]], heights: dict[str, float]) -> Connector:
         first = stops[0][0]
         ordered = sorted((stop for _, stop in stops), key=lambda stop: heights[stop.level])
         flights = [one.whole("flights") for one, _ in stops if one.figure("flights") is not None]
         rises = [one.figure("rise") for one, _ in stops if one.figure("rise") is not None]
         if len(set(flights)) > 1 or len(set(rises)) > 1:
             first.wrong("its stops tell different flights or rises")
-        return Connector(Kind.STAIRS if first.kind == "stairs" else Kind.LIFT, first.text("name", ""), tuple(ordered),
-                         flights[0] if flights else None, rises[0] if rises else None)  # fmt: skip
+        kind = ConnectorKind.STAIRS if first.kind == "stairs" else ConnectorKind.LIFT
+        name, flight, rise = first.text("name", ""), flights[0] if flights else None, rises[0] if rises else None
+        return Connector(kind, name, tuple(ordered), flight, rise)
 
 
 # --- written ----------------------------------------------------------------------------------------------------------

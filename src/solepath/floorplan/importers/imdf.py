@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..outlines import CLOSED, Ring, not_closed, ring, with_holes, without_repeats
-from ..plan import FloorPlan, FloorPlanError, Kind, Point
-from .drawing import Border, Drawing, Part, Space, Storey
+from ..plan import ConnectorKind, FloorPlan, FloorPlanError, Point
+from .drawing import Border, ConnectorPart, Drawing, Space, Storey
 from .earth import Tangent, south_west, to_mm
 from .features import Feature, Position, features, parsed
 
@@ -19,7 +19,12 @@ FILES = ("manifest.json", "venue.geojson", "building.geojson", "level.geojson", 
          "fixture.geojson")  # fmt: skip
 """What of an archive is read."""
 
-_CONNECTORS = {"elevator": Kind.LIFT, "escalator": Kind.STAIRS, "stairs": Kind.STAIRS, "steps": Kind.STAIRS}
+_CONNECTORS = {
+    "elevator": ConnectorKind.LIFT,
+    "escalator": ConnectorKind.STAIRS,
+    "stairs": ConnectorKind.STAIRS,
+    "steps": ConnectorKind.STAIRS,
+}
 
 _SOLID = {"brick", "column", "concrete", "drywall", "glass", "opentobelow", "structure"}
 """Categories of units that are walls, pillars or nothing to stand on."""
@@ -45,7 +50,7 @@ def of_files(files: Mapping[str, bytes], storey: float) -> FloorPlan:
         if needed not in files:
             raise FloorPlanError(f"has no {needed}")
     language = manifest.get("language")
-    return _Reader(files, language if isinstance(language, str) else "en").plan(storey)
+    return _ImdfReader(files, language if isinstance(language, str) else "en").plan(storey)
 
 
 def _file(files: Mapping[str, bytes], name: str) -> dict[str, Any]:
@@ -55,7 +60,7 @@ def _file(files: Mapping[str, bytes], name: str) -> dict[str, Any]:
         raise FloorPlanError(f"{name}: {error}") from None
 
 
-class _Reader:
+class _ImdfReader:
     """The features of one archive on their way into a drawing."""
 
     def __init__(self, files: Mapping[str, bytes], language: str) -> None:
@@ -137,8 +142,9 @@ class _Reader:
             self._space(one, level, border)
             return
         for i, (rings, whole) in enumerate(self._rings(one)):
-            self._drawing.parts.append(Part(kind, self._label(one, "name"), level, self._display_point(one) if not i
-                                            else None, rings, whole, f"{one.id or one.name}.{i}"))  # fmt: skip
+            point = None if i else self._display_point(one)
+            name, group = self._label(one, "name"), f"{one.id or one.name}.{i}"
+            self._drawing.parts.append(ConnectorPart(kind, name, level, point, rings, whole, group))
 
     def _display_point(self, one: Feature) -> Point | None:
         told = one.properties.get("display_point")

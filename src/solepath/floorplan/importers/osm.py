@@ -11,8 +11,8 @@ from math import floor
 
 from ..doors import Line, Openings
 from ..outlines import Ring, edges, holds, with_holes, without_repeats
-from ..plan import FloorPlan, FloorPlanError, Kind, Point, Wall
-from .drawing import Border, Drawing, Part, Space, Storey
+from ..plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Wall
+from .drawing import Border, ConnectorPart, Drawing, Space, Storey
 from .earth import Tangent, south_west, to_mm
 from .osm_doors import BESIDE, door_at, door_beside
 from .osm_file import Element, OsmFile, elements
@@ -22,10 +22,10 @@ from .osm_tags import BORDERS, connects, is_door, is_indoor, label, length, leve
 
 def of_bytes(data: bytes, storey: float) -> FloorPlan:
     """The plan in an OSM XML file. `storey`: m from one level to the next. FloorPlanError when it does not fit."""
-    return _Reader(elements(data)).plan(storey)
+    return _OsmReader(elements(data)).plan(storey)
 
 
-class _Reader:
+class _OsmReader:
     """The elements of one file on their way into a drawing."""
 
     def __init__(self, file: OsmFile) -> None:
@@ -108,19 +108,21 @@ class _Reader:
                 self._drawing.lines += [(level, *line) for refs in lines for line in self._lines(refs)]
                 self._walled(level, shapes, lines)
 
-    def _connector(self, one: Element, kind: Kind, on: list[str], shapes: list[list[Refs]],
+    def _connector(self, one: Element, kind: ConnectorKind, on: list[str], shapes: list[list[Refs]],
                    lines: list[Refs]) -> None:  # fmt: skip
         rise = length(one.tags.get("step:height"))
         rise = rise if rise is not None and 0.02 <= rise <= 0.6 else None
         for rings, whole in self._outlines(shapes):
-            self._drawing.parts += [Part(kind, label(one), level, None, rings, whole, one.name, rise) for level in on]
+            self._drawing.parts += [
+                ConnectorPart(kind, label(one), level, None, rings, whole, one.name, rise) for level in on
+            ]
         for level in on:
             self._walled(level, shapes, [])
         for refs in lines:
             up = refs[::-1] if one.tags.get("incline", "up").startswith(("down", "-")) else refs
             for i, level in enumerate(on):  # the ends are known, and what is between them lies between them
                 at = self._places[up[round(i * (len(up) - 1) / max(len(on) - 1, 1))]]
-                self._drawing.parts.append(Part(kind, label(one), level, at, (), (), one.name, rise))
+                self._drawing.parts.append(ConnectorPart(kind, label(one), level, at, (), (), one.name, rise))
 
     def _outlines(self, shapes: list[list[Refs]]) -> list[tuple[tuple[Ring, ...], Ring]]:
         """Of each shape: its outline and its holes, and both in one."""
@@ -146,7 +148,7 @@ class _Reader:
 
     def _without_inner_flights(self) -> None:
         """A flight drawn as a line within stairs that are drawn as an area is these stairs."""
-        stairs = [part for part in self._drawing.parts if part.kind is Kind.STAIRS]
+        stairs = [part for part in self._drawing.parts if part.kind is ConnectorKind.STAIRS]
         areas = [(part.level, edges(part.ring)) for part in stairs if part.ring]
         within: dict[str, bool] = {}
         for part in stairs:
@@ -162,7 +164,7 @@ class _Reader:
         kind, place = connects(one), self._places[one.id]
         told = [level_id(level) for level in self._levels[one.id]]
         if kind is not None:
-            self._drawing.parts += [Part(kind, label(one), level, place, (), (), one.name) for level in told]
+            self._drawing.parts += [ConnectorPart(kind, label(one), level, place, (), (), one.name) for level in told]
             return
         width = length(one.tags.get("width", one.tags.get("door:width")))
         for level in told or sorted(self._next):

@@ -48,7 +48,7 @@ class OsmFile:
 def elements(data: bytes) -> OsmFile:
     """Everything in an OSM XML file that is not marked as deleted. FloorPlanError when it is not one."""
     parser = expat.ParserCreate()
-    reader = _Reader()
+    reader = _OsmFileReader()
     parser.StartElementHandler = reader.start
     parser.EndElementHandler = reader.end
     parser.StartDoctypeDeclHandler = _refuse
@@ -67,7 +67,7 @@ def _refuse(*_: object) -> NoReturn:
     raise FloorPlanError("has a document type, which no OpenStreetMap file has")
 
 
-class _Reader:
+class _OsmFileReader:
     def __init__(self) -> None:
         self.found = OsmFile()
         self._open: Element | None = None

@@ -6,7 +6,7 @@ import re
 from math import floor
 
 from ..checks import MOST_LEVELS
-from ..plan import FloorPlanError, Kind
+from ..plan import ConnectorKind, FloorPlanError
 from .drawing import Border
 from .osm_file import Element
 
@@ -54,13 +54,13 @@ def level_id(level: float) -> str:
     return f"{level:g}"
 
 
-def connects(one: Element) -> Kind | None:
+def connects(one: Element) -> ConnectorKind | None:
     """Whether it is a lift or stairs; escalators are stairs."""
     tags = one.tags
     if tags.get("highway") == "elevator" or tags.get("room") == "elevator" or tags.get("elevator") == "yes":
-        return Kind.LIFT
+        return ConnectorKind.LIFT
     if tags.get("highway") == "steps" or tags.get("room") == "stairs" or tags.get("stairs") == "yes":
-        return Kind.STAIRS
+        return ConnectorKind.STAIRS
     return None
 
 

@@ -14,7 +14,7 @@ from ...types import Quat, Vec3
 from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, sub
 from ..navigate.strapdown import LONGEST_BRIDGE, Corrector
 from ..turn import heading_turned
-from .moment import Moment, Stride, at, length, limited, moments, turned
+from .moment import StrideMoment, TemplateStride, at, length, limited, moments, turned
 from .template import Habit
 
 SHORTEST = 0.06
@@ -90,7 +90,7 @@ def leap(habit: Habit, corrector: Corrector, a: float, b: float, acc: Vec3, gyro
         start, unlike = _like(last, corrector, a - habit.lifted)
         usual, expected, best = USUAL, start + b - a, 1e12
         most = expected + REACH
-    end: Moment | None = None
+    end: StrideMoment | None = None
     for moment in last:
         if moment.since > most:
             break
@@ -114,7 +114,7 @@ def leap(habit: Habit, corrector: Corrector, a: float, b: float, acc: Vec3, gyro
     return _to(habit, stride, last, corrector, start, end, a, b, gyro)
 
 
-def _like(last: list[Moment], corrector: Corrector, since: float) -> tuple[float, float]:
+def _like(last: list[StrideMoment], corrector: Corrector, since: float) -> tuple[float, float]:
     """The moment of the last stride, near `since` s after the heel's rise, at which the foot was most like this; and
     how much unlike it was then, as a sum of squares of standard deviations."""
     rate = corrector.rate
@@ -136,11 +136,11 @@ def _like(last: list[Moment], corrector: Corrector, since: float) -> tuple[float
 
 def _to(
     habit: Habit,
-    stride: Stride,
-    last: list[Moment],
+    stride: TemplateStride,
+    last: list[StrideMoment],
     corrector: Corrector,
     start: float,
-    end: Moment,
+    end: StrideMoment,
     a: float,
     b: float,
     gyro: Vec3,
@@ -176,7 +176,7 @@ def _to(
     return Leap(now, speed, here, dt, lifted, cleared, struck, max(a, lifted + end.since) if landed else None)
 
 
-def _lifted(habit: Habit, landed: bool, start: float, end: Moment, a: float, b: float) -> float:
+def _lifted(habit: Habit, landed: bool, start: float, end: StrideMoment, a: float, b: float) -> float:
     """When the heel rose, s."""
     if not landed:
         return b - end.since

@@ -11,12 +11,13 @@ from ...types import Quat, Vec3
 from ...types.vector import normalise, sub
 
 ROW = Struct("<15f")
-"""A moment as it is kept: all numbers of `Moment` in their order, rounded to float32. That is 60 bytes rather than some
+"""A moment as it is kept: all numbers of `StrideMoment` in their order, rounded to float32. That is 60 bytes rather
+than some
 700 as objects, and changes by less than 1e-6 of itself what is good for some per cent."""
 
 
 @frozen
-class Moment:
+class StrideMoment:
     """One moment of a stride, in the navigation frame; `rate` in the sensor's."""
 
     since: float
@@ -31,7 +32,7 @@ class Moment:
 
 
 @define
-class Stride:
+class TemplateStride:
     """A stride that was seen whole."""
 
     rows: bytes
@@ -49,15 +50,15 @@ class Stride:
         return since
 
 
-def moments(rows: bytes) -> list[Moment]:
+def moments(rows: bytes) -> list[StrideMoment]:
     """What was kept, in order."""
     return [
-        Moment(t, (qw, qx, qy, qz), (vx, vy, vz), (px, py, pz), (rx, ry, rz), force)
+        StrideMoment(t, (qw, qx, qy, qz), (vx, vy, vz), (px, py, pz), (rx, ry, rz), force)
         for t, qw, qx, qy, qz, vx, vy, vz, px, py, pz, rx, ry, rz, force in ROW.iter_unpack(rows)
     ]
 
 
-def at(moments: list[Moment], since: float) -> Moment:
+def at(moments: list[StrideMoment], since: float) -> StrideMoment:
     """The stride `since` s after the heel's rise, between the moments that were kept; within its first and last."""
     before = moments[0]
     for moment in moments:
@@ -65,7 +66,7 @@ def at(moments: list[Moment], since: float) -> Moment:
             if moment is before:
                 return moment
             k = (since - before.since) / (moment.since - before.since)
-            return Moment(
+            return StrideMoment(
                 since,
                 normalise(_mixed(before.attitude, moment.attitude, k)),
                 _between(before.velocity, moment.velocity, k),

@@ -14,7 +14,7 @@ from attrs import define, field
 
 from ...types import Quat, Vec3
 from ...types.vector import ZERO, single, sub
-from .moment import ROW, Stride, corrected, limited, turned
+from .moment import ROW, TemplateStride, corrected, limited, turned
 from .straight import StraightOn, share
 
 
@@ -54,7 +54,7 @@ class Habit:
     two steps of stairs, m:"""
     highest: float = 0.4
     # state
-    last: Stride | None = field(default=None, init=False)
+    last: TemplateStride | None = field(default=None, init=False)
     age: int = field(default=1000, init=False)
     """Strides since `last`."""
     now: bytes = field(default=b"", init=False)
@@ -167,7 +167,7 @@ class Habit:
         return Mended(mended.turn, (x, y, max(-k * self.highest, min(z, k * self.highest))))
 
     def _learn(self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, way: Vec3) -> None:
-        """Keep the stride that ends at `t` if it was seen whole; `way` as in `Stride`."""
+        """Keep the stride that ends at `t` if it was seen whole; `way` as in `TemplateStride`."""
         self.age = min(self.age + 1, 1000)
         if self.lifted is None or toe_off is None or self.guessed > 0.0 or self.crossed:
             return
@@ -180,5 +180,5 @@ class Habit:
         if abs(turn) < self.corner or self.age > self.old:
             struck = t if heel_strike is None else heel_strike
             # rounded as the moments are, at one of which they may have been
-            self.last = Stride(self.now, single(toe_off - self.lifted), single(struck - self.lifted), way)
+            self.last = TemplateStride(self.now, single(toe_off - self.lifted), single(struck - self.lifted), way)
             self.age = 0

@@ -54,6 +54,7 @@ STEEPEST = 400.0
 STEEPEST_FORCE = 4000.0
 """nor its specific force, but when it strikes, m/s^3."""
 
+
 class Missed(NamedTuple):
     """What one axis did not see."""
 
@@ -71,7 +72,7 @@ class Missed(NamedTuple):
 
 
 @define
-class Axis:
+class GyroscopeAxis:
     """One axis of the gyroscope."""
 
     top: float
@@ -100,15 +101,16 @@ class Clipping:
     steepest: float = STEEPEST
     trifle: float = TRIFLE
     # state
-    axes: list[Axis] = field(init=False)
+    axes: list[GyroscopeAxis] = field(init=False)
     largest: float = field(init=False)
     """The largest reading of any axis."""
     watch: float = field(init=False)
     """Square of what is measured from which on an axis may be at its end."""
     busy: bool = field(default=False, init=False)
     """An axis is beyond its range, or was a sample ago."""
+
     def __attrs_post_init__(self) -> None:
-        self.axes = [Axis(self.least, -self.least) for _ in range(3)]
+        self.axes = [GyroscopeAxis(self.least, -self.least) for _ in range(3)]
         self._reach(self.least)
 
     def stepped(self) -> None:
@@ -152,8 +154,9 @@ class Clipping:
         self.largest = max(self.least, rate)
         self.watch = NEAR * NEAR * self.largest * self.largest
 
+
 def _enter(
-    axis: Axis, dt: float, a: float, before: float, earlier: float, earlier_dt: float, told: bool, most: float
+    axis: GyroscopeAxis, dt: float, a: float, before: float, earlier: float, earlier_dt: float, told: bool, most: float
 ) -> None:
     sign = 1 if a > 0.0 else -1
     a, before, earlier = sign * a, sign * before, sign * earlier
@@ -179,7 +182,7 @@ def _enter(
         axis.lasted = max(0.0, dt - (a - before) / axis.rise)
 
 
-def _follow(axis: Axis, i: int, dt: float, a: float, most: float) -> Missed | None:
+def _follow(axis: GyroscopeAxis, i: int, dt: float, a: float, most: float) -> Missed | None:
     sign = axis.side
     a *= sign
     end = axis.top if sign > 0 else -axis.bottom

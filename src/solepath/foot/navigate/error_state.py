@@ -32,7 +32,7 @@ from .covariance import (
     believed_height,
     update,
 )
-from .level import Level
+from .level import LevelGround
 from .propagated import Carried
 from .recovery import Recovery
 from .strapdown import LONGEST_BRIDGE, WIDEST_SERIES, Strapdown
@@ -89,7 +89,7 @@ class ErrorStateFilter(Carried):
     """What a stride taken by habit may differ by, m/s, rad and rad."""
     leap_tilt: float = 0.1
     leap_yaw: float = 0.06
-    level: Level = field(factory=Level)
+    level: LevelGround = field(factory=LevelGround)
     """What keeps level walking level."""
     # state
     stretch: float = field(default=0.0, init=False)

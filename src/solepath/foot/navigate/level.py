@@ -43,7 +43,7 @@ FLATTEST = 2e-4
 
 
 @define
-class Level:
+class LevelGround:
     """Say of every step how high it led (`judge`). Known at its foot-flat; m and rad."""
 
     gate: bool = True

@@ -20,8 +20,8 @@ from attrs import define, field
 from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads
 from ...types import Layout, Phase, Site, Vec3
 from ..rejection import ABSURD_TOTAL
-from .cell_window import USED_TO_ALONE, Window, unloads
-from .cells import Span
+from .cell_window import USED_TO_ALONE, CellWindow, unloads
+from .cells import CellSpan
 
 RARELY = 0.0795
 """Cells are looked at this often, s: a load under the toes lasts about 0.15 s."""
@@ -45,7 +45,7 @@ class CellHealth:
     # state
     count: int = field(default=0, init=False)
     """How many cells there are; 0 before any."""
-    span: Span = field(factory=Span, init=False)
+    span: CellSpan = field(factory=CellSpan, init=False)
     looked: float | None = field(default=None, init=False)
     """When the cells were last looked at, s."""
     began: float | None = field(default=None, init=False)
@@ -77,7 +77,7 @@ class CellHealth:
     def interrupt(self) -> None:
         """Times begin anew: windows do too. What has failed stays failed."""
         self.looked = self.began = self.swing = None
-        self.span, self.swung, self.numberless, self.odd = Span(), 0, [], None
+        self.span, self.swung, self.numberless, self.odd = CellSpan(), 0, [], None
 
     def update(
         self,
@@ -104,13 +104,13 @@ class CellHealth:
         if self.looked is None or not 0.0 <= t - self.looked < RARELY:
             self.looked = t
             if self.began is None or not 0.0 <= t - self.began < LONGEST:
-                self.began, self.swung, self.span = t, 0, Span()
+                self.began, self.swung, self.span = t, 0, CellSpan()
             self.span.add(cells, self.out)
         if self._swings(t, phase, gyro):
             self.swung += 1
             if self.swung >= self.swings and self.began is not None and t - self.began >= SHORTEST:
                 self._judge(t, known_at, self.began, layout, events)
-                self.began, self.swung, self.span = t, 0, Span()
+                self.began, self.swung, self.span = t, 0, CellSpan()
         return events
 
     def usable(self, cells: tuple[float, ...]) -> tuple[float, ...]:
@@ -132,9 +132,7 @@ class CellHealth:
 
     # --- missing ones ---
 
-    def _counted(
-        self, t: float, known_at: float, count: int, layout: Layout | None, events: list[Event]
-    ) -> bool:
+    def _counted(self, t: float, known_at: float, count: int, layout: Layout | None, events: list[Event]) -> bool:
         """Samples have another number of cells; True when that is right from now on."""
         if self.count == 0:
             if count == 0:
@@ -191,7 +189,7 @@ class CellHealth:
         span = self.span
         if not span.lows:
             return
-        window = Window.of(span, self.out)
+        window = CellWindow.of(span, self.out)
         if not window.moves:
             self._nothing_moves(t, known_at, began, window, events)
             return
@@ -209,9 +207,7 @@ class CellHealth:
         self.suspects = faults
         self._follow(window)
 
-    def _nothing_moves(
-        self, t: float, known_at: float, began: float, window: Window, events: list[Event]
-    ) -> None:
+    def _nothing_moves(self, t: float, known_at: float, began: float, window: CellWindow, events: list[Event]) -> None:
         working = window.working
         if window.highest > 0.0:
             self._hold(t, known_at, began, events)
@@ -230,7 +226,7 @@ class CellHealth:
             seconds = t - self.held_since
             events.append(InsoleNeverUnloads(t=t, known_at=known_at, site=self.site, seconds=seconds))
 
-    def _follow(self, window: Window) -> None:
+    def _follow(self, window: CellWindow) -> None:
         """Which cells were lively; those that had failed and are, twice in a row, are used again."""
         if len(self.lively) != self.count:
             self.lively = [0] * self.count

@@ -16,7 +16,7 @@ from attrs import frozen
 
 from ...events import CellFault
 from ...types import Layout
-from .cells import Span, enclosed, spacing
+from .cells import CellSpan, enclosed, spacing
 
 LIVELY = 0.15
 """A cell that varies by more than this share of what the most lively one does loads and unloads."""
@@ -42,7 +42,7 @@ UNMOVED = 0.01
 
 
 @frozen
-class Window:
+class CellWindow:
     """What the cells showed in a window; of `working`, those that have not failed, the others are judged."""
 
     lows: list[float]
@@ -56,7 +56,7 @@ class Window:
     """What any of them showed."""
 
     @classmethod
-    def of(cls, span: Span, out: list[int]) -> Window:
+    def of(cls, span: CellSpan, out: list[int]) -> CellWindow:
         """`out`: the cells that failed."""
         ranges = [high - low for low, high in zip(span.lows, span.highs, strict=True)]
         working = [i for i in range(len(ranges)) if i not in out]
@@ -103,7 +103,7 @@ class Window:
         return all_around or (used_to >= USED_TO and some)
 
 
-def unloads(span: Span, layout: Layout | None) -> bool:
+def unloads(span: CellSpan, layout: Layout | None) -> bool:
     """The insole bears much less at some time in the window than at others, or nothing at all."""
     in_newtons = layout is not None and layout.scale is not None
     share = HELD if in_newtons else HELD_IN_COUNTS

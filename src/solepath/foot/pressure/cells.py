@@ -16,7 +16,7 @@ OPEN = 2.6
 
 
 @define
-class Span:
+class CellSpan:
     """The lowest and highest value of each cell, and of their sum, over a stretch of time."""
 
     lows: list[float] = field(factory=list)

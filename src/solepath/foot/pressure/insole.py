@@ -48,7 +48,7 @@ class Extremes:
 
 
 @define
-class Insole:
+class InsoleLoads:
     """One insole: cell values in, `Load` out.
 
     With a calibration raw values become newtons by a cubic (calibration.Newtons), and each cell's noise in the air is
@@ -91,7 +91,7 @@ class Insole:
     risen: bool = field(default=False, init=False)
     """The load has come up again from its lowest."""
 
-    def calibrated(self, foot: Foot, calibration: Calibration) -> Insole:
+    def calibrated(self, foot: Foot, calibration: Calibration) -> InsoleLoads:
         """The same with what is known of this foot's insole."""
         known = calibration.insole(foot)
         return evolve(self, newtons=known.newtons or self.newtons, noise=known.noise or self.noise)

@@ -12,7 +12,7 @@ from ..limits import Limits
 from ..stance.stance import Load
 from .cell_health import CellHealth
 from .guess import LayoutGuess
-from .insole import Insole
+from .insole import InsoleLoads
 
 
 @define
@@ -20,7 +20,7 @@ class Sole:
     """Cells that failed are left out. Where nobody says where the cells are, it is learnt if that is `needed`."""
 
     foot: Foot
-    insole: Insole
+    insole: InsoleLoads
     needed: bool = False
     # state
     pressed: bool = field(default=False, init=False)

@@ -18,7 +18,7 @@ from attrs import define, field
 from ...types import Phase, Quat, Vec3
 from ...types.vector import GRAVITY, IDENTITY, TIE, ZERO
 from .sensor_height import EMPTY, Lever
-from .stance import SIGMA_ACC, SIGMA_GYRO, Load, Shoe, Stance
+from .stance import SIGMA_ACC, SIGMA_GYRO, Load, ShoeDetector, Stance
 
 ACC_SQUARE = SIGMA_ACC**2
 GYRO_SQUARE = SIGMA_GYRO**2
@@ -62,7 +62,7 @@ class Cycle:
     """The velocity that the sensor ought to have is that of a foot that rolls (`lever`); otherwise zero."""
     # state
     lever: Lever = field(factory=Lever, init=False)
-    shoe: Shoe = field(factory=Shoe, init=False)
+    shoe: ShoeDetector = field(factory=ShoeDetector, init=False)
     bucket_end: float | None = field(default=None, init=False)
     lows: tuple[float, float, float] = field(default=(1e12, 1e12, 1e12), init=False)
     highs: tuple[float, float, float] = field(default=(0.0, 0.0, 0.0), init=False)

@@ -88,14 +88,20 @@ class Lever:
         if t < self.shortest - TIE or n < 5.0 or d <= 0.0:
             return
         # what is left of u c and c c when the best a + b t is taken out of both, axis by axis
-        square = scc - (
-            stt * (scx * scx + scy * scy) - 2.0 * st * (scx * stcx + scy * stcy) + n * (stcx * stcx + stcy * stcy)
-        ) / d
-        product = suc - (
-            stt * (sux * scx + suy * scy)
-            - st * (sux * stcx + stux * scx + suy * stcy + stuy * scy)
-            + n * (stux * stcx + stuy * stcy)
-        ) / d
+        square = (
+            scc
+            - (stt * (scx * scx + scy * scy) - 2.0 * st * (scx * stcx + scy * stcy) + n * (stcx * stcx + stcy * stcy))
+            / d
+        )
+        product = (
+            suc
+            - (
+                stt * (sux * scx + suy * scy)
+                - st * (sux * stcx + stux * scx + suy * stcy + stuy * scy)
+                + n * (stux * stcx + stuy * stcy)
+            )
+            / d
+        )
         if square <= 0.0 or not 2.0 * self.lowest - self.highest < product / square < 2.0 * self.highest - self.lowest:
             return  # not a stance
         dt = t / n

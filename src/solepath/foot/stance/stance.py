@@ -20,7 +20,7 @@ from typing import NamedTuple, Protocol
 
 from attrs import define, field, frozen
 
-from ...papers.footstep_tracker.segment import Segment
+from ...papers.footstep_tracker.segment import StepSegment
 from ...types import Phase, Quat, Vec3
 from ...types.vector import GRAVITY, IDENTITY, ZERO
 
@@ -54,7 +54,7 @@ class Stance(NamedTuple):
     hint: Phase | None
     """STATIONARY where the detector is certain, SWING where it is certain of the opposite, LOADING or PUSH_OFF where
     v_ref is that of a shoe that rolls over heel or forefoot, otherwise None."""
-    segment: Segment | None = None
+    segment: StepSegment | None = None
     """The step that ends with this sample, from a detector that cuts the samples into steps."""
 
 
@@ -97,7 +97,7 @@ def soften(statistic: float, sigma: float, base: float, gate: float) -> Stance:
 
 
 @define
-class Shoe:
+class ShoeDetector:
     """SHOE: stance hypothesis optimal estimation. T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2)."""
 
     window: float = 0.025

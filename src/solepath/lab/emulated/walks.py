@@ -34,7 +34,7 @@ from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Site, Vec3
 from ..evaluate.gathered import FootRun, Gathering
 from ..evaluate.recorded import Meta
-from ..evaluate.run import How, recipe_of
+from ..evaluate.run import RunSettings, recipe_of
 from ..measures.alignment import Floats, align, track_error
 from ..measures.matching import Matching
 from ..measures.score import Figures, Scored
@@ -109,15 +109,15 @@ def _wandered(seed: int, enough: Callable[[float, float], bool]) -> Route:
 # --- scores -----------------------------------------------------------------------------------------------------------
 
 
-def score_long_way(path: Path, meta: Meta, how: How) -> Scored:
+def score_long_way(path: Path, meta: Meta, how: RunSettings) -> Scored:
     return _score(path, long_way(meta["seed"]), meta["seed"], how)
 
 
-def score_half_hour(path: Path, meta: Meta, how: How) -> Scored:
+def score_half_hour(path: Path, meta: Meta, how: RunSettings) -> Scored:
     return _score(path, half_hour(meta["seed"]), meta["seed"], how)
 
 
-def score_four_floors(path: Path, meta: Meta, how: How) -> Scored:
+def score_four_floors(path: Path, meta: Meta, how: RunSettings) -> Scored:
     return _score(path, four_floors(meta["seed"]), meta["seed"], how)
 
 
@@ -137,7 +137,7 @@ def worn(seed: int) -> dict[Site, Insole]:
     return {SITE_OF_FOOT[foot]: Insole(cells=96 if seed % 2 else 24) for foot in Foot}
 
 
-def _score(path: Path, route: Route, seed: int, how: How) -> Scored:
+def _score(path: Path, route: Route, seed: int, how: RunSettings) -> Scored:
     walked = sampled(route, wearer=Wearer(), insoles=worn(seed), seed=seed)
     found, truth = _followed(walked, how), walked.truth
     heel_strike, toe_off, strides = Matching(), Matching(), StrideScore()
@@ -155,7 +155,7 @@ def _score(path: Path, route: Route, seed: int, how: How) -> Scored:
     )
 
 
-def _followed(walked: SampledWalk, how: How) -> _Found:
+def _followed(walked: SampledWalk, how: RunSettings) -> _Found:
     session = Session(recipe_of(how.recipe), calibration=how.calibration)
     said: list[list[Event]] = []
     t: list[float] = []

@@ -13,7 +13,7 @@ import attrs
 from attrs import frozen
 
 from ...body.fuse.position import MeanOfFeet
-from ...foot.navigate.level import Level
+from ...foot.navigate.level import LevelGround
 from ...recipes import DEFAULT, Recipe
 from .report import Result
 
@@ -43,7 +43,7 @@ WITHOUT: dict[str, Recipe] = {
     "no recovery of what was refused": attrs.evolve(
         DEFAULT, corrector=_with(_CORRECTOR, patience=NEVER, lasting=NEVER)
     ),
-    "no level, slope or stair": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, level=Level(gate=False))),
+    "no level, slope or stair": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, level=LevelGround(gate=False))),
     "no tilt aiding": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, tilt_rate=0.0)),
     "no noise of what lies between samples": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, between=0.0)),
     "no recovery of a clipped gyroscope": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, recover=False)),

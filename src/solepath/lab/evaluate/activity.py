@@ -16,7 +16,7 @@ from ..measures.score import Figures, Scored
 from ..train.folds import FOLDS, fold_of
 from ..train.hugadb import labels
 from .recorded import Meta, scored
-from .run import How, run
+from .run import RunSettings, run
 
 Span = tuple[float, float, Activity]
 """From, to (s), and what the wearer did between."""
@@ -80,7 +80,7 @@ def windows(true: Sequence[Span], timeline: Timeline, length: float = 2.0) -> Ac
 # --- hugadb -----------------------------------------------------------------------------------------------------------
 
 
-def score_labelled(path: Path, meta: Meta, how: How) -> Scored:
+def score_labelled(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """The label that the experimenter pressed at each sample."""
     went = run(path, how, poses=False)
     t, true = labels(path)
@@ -106,7 +106,7 @@ stairs are 0.3 m high and 0.65 m long (one, on the spiral: 0.2 m and 0.3 m), lev
 Strides at the edges, of which one foot is on the level, are left out."""
 
 
-def score_stairs(path: Path, meta: Meta, how: How) -> Scored:
+def score_stairs(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """How much of the time on stairs is called stairs, and how much of the time on the level."""
     went = run(path, how, poses=False)
     t: list[float] = []

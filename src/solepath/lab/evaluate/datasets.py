@@ -16,7 +16,7 @@ from ..measures.confusion import CLASSES
 from ..measures.score import Scored
 from .activity import CLIMBED, score_labelled, score_stairs
 from .recorded import Meta
-from .run import Chosen, How, recipe_of
+from .run import Chosen, RunSettings, recipe_of
 from .timing import score_borders, score_force, score_pressed, score_swings, score_switches, score_treadmill
 from .tracking import score_counted, score_loop, score_optitrack, score_surveyed, score_vicon
 
@@ -30,7 +30,7 @@ class DataSet:
     folders: tuple[str, ...]
     title: str
     has_truth: Callable[[str, Meta], bool]
-    score: Callable[[Path, Meta, How], Scored]
+    score: Callable[[Path, Meta, RunSettings], Scored]
     figures: tuple[str, ...]
     each: bool = True
     """Whether the table has a line for every recording."""

@@ -20,13 +20,13 @@ from .datasets import DATASETS, EMULATED, DataSet
 from .learning import Lesson, lessons, part_for, taught
 from .recorded import Meta
 from .report import Result
-from .run import Chosen, How, recipe_of
+from .run import Chosen, RunSettings, recipe_of
 
 
 @frozen
-class Job:
+class EvaluationJob:
     data_set: DataSet
-    how: How
+    how: RunSettings
     path: Path
     meta: Meta
 
@@ -137,11 +137,11 @@ def _scored(
             step()
         parts = taught(to_learn, learnt)
         everything = [
-            Job(d, How(recipe, known, part_for(recipe, meta, parts) if d.folds else None), path, meta)
+            EvaluationJob(d, RunSettings(recipe, known, part_for(recipe, meta, parts) if d.folds else None), path, meta)
             for d, recipe, part in plan
             for path, meta in part
         ]
-        outcomes = map(Job.run, everything) if pool is None else pool.map(Job.run, everything)
+        outcomes = map(EvaluationJob.run, everything) if pool is None else pool.map(EvaluationJob.run, everything)
         for data_set, recipe, part in plan:
             scores: list[Scored] = []
             failures: list[str] = []

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..measures.score import Scored
-from .run import Run
+from .run import RecordingRun
 
 Meta = dict[str, Any]
 """A recording's entry in dataset.json."""
@@ -20,5 +20,5 @@ def truth_of(path: Path) -> Arrays:
         return {key: archive[key] for key in archive.files if key == "t" or key.startswith(("t_", "gt_", "pressure"))}
 
 
-def scored(path: Path, went: Run, **parts: Any) -> Scored:
+def scored(path: Path, went: RecordingRun, **parts: Any) -> Scored:
     return Scored(path.stem, samples=went.samples, seconds=went.seconds, **parts)

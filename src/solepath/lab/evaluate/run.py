@@ -32,7 +32,7 @@ def recipe_of(chosen: Chosen) -> Recipe:
 
 
 @frozen
-class How:
+class RunSettings:
     """How a recording is computed: the recipe, and what is known beforehand.
 
     `activity`: in the place of the recipe's own part, the same part taught on other recordings.
@@ -44,7 +44,7 @@ class How:
 
 
 @frozen(eq=False)
-class Track:
+class ScoredTrack:
     """`positions` (n,3) in m at `t` (n,) s."""
 
     t: Floats
@@ -52,7 +52,7 @@ class Track:
 
 
 @frozen(eq=False)
-class Run:
+class RecordingRun:
     feet: dict[Foot, FootRun]
     timeline: Timeline
     """What the wearer did."""
@@ -61,19 +61,19 @@ class Run:
     samples: int
     seconds: float
     """Wall time that the session took."""
-    body: Track | None = None
+    body: ScoredTrack | None = None
     """Where the session had the wearer after every sample, where that was asked for."""
 
 
 def run(
     path: Path,
-    how: How,
+    how: RunSettings,
     *,
     without_pressure: bool = False,
     calibration: Calibration | None = None,
     poses: bool = True,
     body: bool = False,
-) -> Run:
+) -> RecordingRun:
     """The recording at `path` through a session, sample by sample.
 
     `without_pressure`: leave the pressure out, because the truth was made of it. `calibration`: where the cells are.
@@ -107,5 +107,5 @@ def run(
             gathering.add(event)
     feet = {table.foot: gathering.foot(table.foot) for table in recording.tables}
     rides, turns = tuple(gathering.rides), tuple(gathering.turns)
-    wearer = Track(np.array([t for t, _ in places]), np.array([at for _, at in places]).reshape(-1, 3))
-    return Run(feet, gathering.timeline, rides, turns, len(samples), seconds, wearer if places else None)
+    wearer = ScoredTrack(np.array([t for t, _ in places]), np.array([at for _, at in places]).reshape(-1, 3))
+    return RecordingRun(feet, gathering.timeline, rides, turns, len(samples), seconds, wearer if places else None)

@@ -18,7 +18,7 @@ from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore, stride_score
 from .insoles import force_sensors, switches
 from .recorded import Meta, scored, truth_of
-from .run import How, Run, run
+from .run import RecordingRun, RunSettings, run
 
 LEG = 10.0
 """m of ipol_10m_uturn and gaitmap_examples."""
@@ -28,7 +28,7 @@ LONGEST = 2.5
 """s that a stride may take; between heel-strikes further apart the foot rested, or strides were not labelled."""
 
 
-def score_swings(path: Path, meta: Meta, how: How) -> Scored:
+def score_swings(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """Labels of every swing: it starts with toe-off and ends with heel-strike. And of the walk and its turn: a leg is
     from the beginning of the walk to the middle of the turn, the other from there to the end of the walk, by each foot
     (leg) and by the session's position (body_leg). Both together are a closed loop, but that the wearer stands the
@@ -51,7 +51,7 @@ def score_swings(path: Path, meta: Meta, how: How) -> Scored:
     )
 
 
-def _legs(went: Run, times: list[float]) -> dict[str, Errors]:
+def _legs(went: RecordingRun, times: list[float]) -> dict[str, Errors]:
     """Of the legs of LEG m between `times`, s."""
     true, body = [LEG] * (len(times) - 1), went.body
     return {
@@ -60,7 +60,7 @@ def _legs(went: Run, times: list[float]) -> dict[str, Errors]:
     }
 
 
-def _ends(went: Run, began: float, ended: float) -> Figures:
+def _ends(went: RecordingRun, began: float, ended: float) -> Figures:
     """How far the wearer's position is at the end from where it was at the beginning, horizontally, and how much higher
     or lower, m."""
     if went.body is None:
@@ -69,7 +69,7 @@ def _ends(went: Run, began: float, ended: float) -> Figures:
     return {"end_error_2d": hypot(last[0] - first[0], last[1] - first[1]), "end_height": abs(float(last[2] - first[2]))}
 
 
-def _about_turn(span: list[float], went: Run) -> Figures:
+def _about_turn(span: list[float], went: RecordingRun) -> Figures:
     """The wearer turned about once, in the `span` that is labelled, s. Found: an about turn was told that shares some
     of it. Its angle is that of the largest turn that does, by how much it differs from half a turn (from 0 where none
     was told). Invented: about turns elsewhere."""
@@ -85,7 +85,7 @@ def _about_turn(span: list[float], went: Run) -> Figures:
     }
 
 
-def score_borders(path: Path, meta: Meta, how: How) -> Scored:
+def score_borders(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """Strides from heel-strike to heel-strike, known only while the walker is in view of the cameras. Four legs to and
     fro: nothing says when the walker turned, so each track is cut where itself turned about (legs.turned_about), and
     that it is 10 m from there to there only the protocol says. By how much the legs differ among themselves needs no
@@ -106,7 +106,7 @@ def score_borders(path: Path, meta: Meta, how: How) -> Scored:
     )
 
 
-def _legs_to_and_fro(went: Run) -> tuple[dict[str, Errors], Figures]:
+def _legs_to_and_fro(went: RecordingRun) -> tuple[dict[str, Errors], Figures]:
     each = {
         foot: leg_errors(turned_about(ran.t, ran.positions, LEGS), [LEG] * LEGS, ran.t, ran.positions)
         for foot, ran in went.feet.items()
@@ -123,7 +123,7 @@ def _legs_to_and_fro(went: Run) -> tuple[dict[str, Errors], Figures]:
     return {"leg": sum(each.values(), Errors()), "body_leg": body}, figures
 
 
-def score_treadmill(path: Path, meta: Meta, how: How) -> Scored:
+def score_treadmill(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """Contact times of a light barrier. The belt is an inertial frame of its own, in which the standing foot rests, so
     stride lengths compare as they are; positions in the room do not."""
     truth, went = truth_of(path), run(path, how)
@@ -140,17 +140,17 @@ def score_treadmill(path: Path, meta: Meta, how: How) -> Scored:
     return scored(path, went, events=events, strides=strides, errors={"stride_time": times})
 
 
-def score_switches(path: Path, meta: Meta, how: How) -> Scored:
+def score_switches(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """Heel and toe switches under the foot are the truth here, so the session does without them."""
     return _against_switches(path, meta, run(path, how, without_pressure=True))
 
 
-def score_pressed(path: Path, meta: Meta, how: How) -> Scored:
+def score_pressed(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """The same switches as the pressure cells of an insole of two: what a session makes of them, against themselves."""
     return _against_switches(path, meta, run(path, how, calibration=switches()))
 
 
-def _against_switches(path: Path, meta: Meta, went: Run) -> Scored:
+def _against_switches(path: Path, meta: Meta, went: RecordingRun) -> Scored:
     """Where it was a straight walk of a known length, each foot's way from its first to its last position is a leg: the
     wearer stood at both ends, but nobody wrote down how near to the lines."""
     truth = truth_of(path)
@@ -169,7 +169,7 @@ def _against_switches(path: Path, meta: Meta, went: Run) -> Scored:
     return scored(path, went, events={"heel_strike": heel_strike, "toe_off": toe_off}, errors=errors)
 
 
-def score_force(path: Path, meta: Meta, how: How) -> Scored:
+def score_force(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """The force below each foot is the truth of contact, and its eight sensors are all that the session gets."""
     truth, went = truth_of(path), run(path, how, calibration=force_sensors())
     heel_strike, toe_off = Matching(), Matching()

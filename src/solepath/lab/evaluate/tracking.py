@@ -16,10 +16,10 @@ from ..measures.strides import StrideScore, marker_rests, position_errors, surve
 from .gathered import FootRun
 from .insoles import in_dataset
 from .recorded import Arrays, Meta, scored, truth_of
-from .run import How, run
+from .run import RunSettings, run
 
 
-def score_vicon(path: Path, meta: Meta, how: How) -> Scored:
+def score_vicon(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """The live position at every sample against the marker's."""
     truth, went = truth_of(path), run(path, how)
     foot = went.feet[Foot.RIGHT]
@@ -29,7 +29,7 @@ def score_vicon(path: Path, meta: Meta, how: How) -> Scored:
     return scored(path, went, figures=figures, strides=strides, groups=("all", "bipedal") if bipedal else ("all",))
 
 
-def score_optitrack(path: Path, meta: Meta, how: How) -> Scored:
+def score_optitrack(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """The marker has a clock and a span of its own: scored where both are known."""
     truth, went = truth_of(path), run(path, how, calibration=in_dataset(path))
     both = (truth["gt_t"] >= truth["t"][0]) & (truth["gt_t"] <= truth["t"][-1])
@@ -53,7 +53,7 @@ def _track_figures(foot: FootRun, t: Any, truth: Any) -> Figures:
     }
 
 
-def score_loop(path: Path, meta: Meta, how: How) -> Scored:
+def score_loop(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """From the last live position to the first: the foot ended where it began."""
     went = run(path, how)
     foot = went.feet[Foot.RIGHT]
@@ -83,7 +83,7 @@ AUTHORS = {"exp31": 0.31, "exp33": 1.17, "exp37": 2.31, "exp39": 1.11, "exp41": 
 (log in the repository mtahakoroglu/LLIO-aided-iPyShoe). It lost strides of the other trials."""
 
 
-def score_surveyed(path: Path, meta: Meta, how: How) -> Scored:
+def score_surveyed(path: Path, meta: Meta, how: RunSettings) -> Scored:
     truth, went = truth_of(path), run(path, how)
     foot = went.feet[Foot.RIGHT]
     figures: Figures = {}
@@ -111,7 +111,7 @@ def _surveyed(truth: Arrays, foot: FootRun) -> StrideScore:
     return surveyed_score(times, places, foot.t, foot.positions, foot.step_lengths)
 
 
-def score_counted(path: Path, meta: Meta, how: How) -> Scored:
+def score_counted(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """Somebody counted the strides. Where they were is known of some corners only: the ways between those are legs, and
     a walk that ends at the corner where it began is a closed loop, on one level."""
     truth, went = truth_of(path), run(path, how)

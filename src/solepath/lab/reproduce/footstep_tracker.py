@@ -14,10 +14,10 @@ from ...emulate.routes.building import BUILDING
 from ...types import Activity, Turn
 from ..measures.confusion import ActivityScore
 from . import footstep_walks, published
-from .footstep_walks import CORRIDOR, Walked, walked
-from .picture import Drawn, Floor, Track
+from .footstep_walks import CORRIDOR, FootstepWalked, walked
+from .picture import Drawn, Floor, PictureTrack
 from .pool import Progress, each
-from .tables import Reproduction, Row, Statistics
+from .tables import FigureRow, Reproduction, Statistics
 
 NAME = footstep_walks.NAME
 FIRST = 100_000
@@ -60,8 +60,8 @@ def reproduce(
     )
 
 
-def _row(name: str, values: list[float], digits: int = 2) -> Row:
-    return Row(name, tuple(values), published.FOOTSTEP_TRACKER.get(name, Statistics()), digits)
+def _row(name: str, values: list[float], digits: int = 2) -> FigureRow:
+    return FigureRow(name, tuple(values), published.FOOTSTEP_TRACKER.get(name, Statistics()), digits)
 
 
 def _share(counts: Iterable[tuple[int, int]]) -> float:
@@ -74,15 +74,15 @@ def _mean(values: tuple[float, ...]) -> float:
     return sum(values) / len(values)
 
 
-def _floor(one: Walked) -> Floor:
+def _floor(one: FootstepWalked) -> Floor:
     place = one.places[0]
-    walls = tuple(Track("", (wall.start, wall.end), Drawn.TRUTH) for wall in BUILDING.levels[0].walls)
-    candidates = Track("candidates", place.before, Drawn.DOTS)
-    tracks = (*walls, candidates, Track("true path", place.path), Track("place", place.track))
+    walls = tuple(PictureTrack("", (wall.start, wall.end), Drawn.TRUTH) for wall in BUILDING.levels[0].walls)
+    candidates = PictureTrack("candidates", place.before, Drawn.DOTS)
+    tracks = (*walls, candidates, PictureTrack("true path", place.path), PictureTrack("place", place.track))
     return Floor("the way of fig. 15", tracks)
 
 
-def _notes(done: list[Walked]) -> tuple[str, ...]:
+def _notes(done: list[FootstepWalked]) -> tuple[str, ...]:
     lines = []
     windows = sum([one.windows for one in done], ActivityScore())
     for activity in Activity:

@@ -54,7 +54,7 @@ class Wears:
 
 
 @frozen
-class Walked:
+class FootstepWalked:
     """What came of one wearer; lengths in m, angles in degrees, shares of one."""
 
     one_foot: float
@@ -82,7 +82,7 @@ def wears(seed: int) -> Wears:
     return Wears(wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature), stature)
 
 
-def walked(seed: int) -> Walked:
+def walked(seed: int) -> FootstepWalked:
     """All that one wearer walks."""
     known = wears(seed)
     calibration = _calibrated(known, seed)
@@ -90,7 +90,7 @@ def walked(seed: int) -> Walked:
     windows = emulated_activity.score(BY_NAME[NAME], seed).windows
     turned, classes = _turns(known, calibration, seed)
     places = tuple(_placed(known, calibration, way, seed) for way in (case_study(), wandering(seed)))
-    return Walked(one_foot, by_height, two_feet, step_one, step_two, windows, turned, classes, places)
+    return FootstepWalked(one_foot, by_height, two_feet, step_one, step_two, windows, turned, classes, places)
 
 
 def _tags(feet: Sequence[Foot] = tuple(Foot)) -> dict[Site, CC2541]:
@@ -161,9 +161,7 @@ def _true_length(walk: EmulatedWalk, step: StrideTaken) -> float | None:
 # --- turns, fig. 13 (d) and (e) ---------------------------------------------------------------------------------------
 
 
-def _turns(
-    known: Wears, calibration: Calibration, seed: int
-) -> tuple[dict[float, float], dict[Turn, tuple[int, int]]]:
+def _turns(known: Wears, calibration: Calibration, seed: int) -> tuple[dict[float, float], dict[Turn, tuple[int, int]]]:
     rng = np.random.default_rng([seed, 18])
     turned: dict[float, float] = {}
     for angle in INCREMENTS:
@@ -187,9 +185,7 @@ TURN_SPREAD = radians(15.0)
 """Nobody turns by 90 degrees exactly: standard deviation; as the classifier was trained (lab/train/turns.py)."""
 
 
-def _turn(
-    known: Wears, calibration: Calibration, angle: float, rng: np.random.Generator, seed: int
-) -> list[TurnMade]:
+def _turn(known: Wears, calibration: Calibration, angle: float, rng: np.random.Generator, seed: int) -> list[TurnMade]:
     """Walk, turn, walk."""
     radius = float(rng.uniform(0.0, 1.2))
     route = Route(speed=float(rng.uniform(0.9, 1.3))).stand(2.5).walk(6.0).turn(angle, radius if radius > 0.4 else 0.0)

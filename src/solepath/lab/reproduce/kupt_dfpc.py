@@ -28,9 +28,9 @@ from ...papers.kupt_dfpc.shoe import fit_shoe
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
 from . import published
-from .picture import Boxes, Drawn, Floor, Track
+from .picture import Boxes, Drawn, Floor, PictureTrack
 from .pool import Progress, each
-from .tables import Reproduction, Row, statistics
+from .tables import FigureRow, Reproduction, statistics
 from .walks import cut, heard, laid, rest_after, then, thinned
 
 NAME = "kupt-dfpc"
@@ -51,7 +51,7 @@ FEET = {Foot.LEFT: "L", Foot.RIGHT: "R"}
 
 
 @frozen
-class Job:
+class KuptJob:
     """One walk; `corridor`: of CORRIDOR m instead of DISTANCE."""
 
     seed: int
@@ -59,13 +59,13 @@ class Job:
 
 
 @frozen
-class Walked:
+class KuptWalked:
     """`distances` by row and `true`, how far each foot really went, m. Of the corridor only: `tracks`, where each step
     ended, the true path first, and `closing`, from the end of each to its start, m."""
 
     distances: dict[str, float]
     true: dict[Foot, float]
-    tracks: tuple[Track, ...] = ()
+    tracks: tuple[PictureTrack, ...] = ()
     closing: dict[str, float] = field(factory=dict)
 
 
@@ -75,12 +75,12 @@ def reproduce(
     """So many walks of 20 m, and for every EVERY of them one through the corridor, one at least."""
     count = WALKS if walks is None else walks
     corridors = max(1, count // EVERY)
-    jobs = [Job(1000 * seed + 500 + k, corridor=True) for k in range(corridors)]
-    jobs += [Job(1000 * seed + k) for k in range(1, count + 1)]
+    jobs = [KuptJob(1000 * seed + 500 + k, corridor=True) for k in range(corridors)]
+    jobs += [KuptJob(1000 * seed + k) for k in range(1, count + 1)]
     done = list(each(walk, jobs, processes=processes, progress=progress))
     long, short = done[:corridors], done[corridors:]
     rows = tuple(
-        Row(name, tuple(one.distances[name] for one in short), published.KUPT_DFPC[name])
+        FigureRow(name, tuple(one.distances[name] for one in short), published.KUPT_DFPC[name])
         for name in published.KUPT_DFPC
     )
     return Reproduction(
@@ -97,7 +97,7 @@ def reproduce(
     )
 
 
-def _notes(rows: tuple[Row, ...], short: list[Walked], long: list[Walked]) -> tuple[str, ...]:
+def _notes(rows: tuple[FigureRow, ...], short: list[KuptWalked], long: list[KuptWalked]) -> tuple[str, ...]:
     off = ", ".join(f"{row.name} {_off(row):.2f}" for row in rows)
     paths = statistics([one.true[foot] for one in short for foot in Foot])
     told = [
@@ -120,17 +120,17 @@ def _notes(rows: tuple[Row, ...], short: list[Walked], long: list[Walked]) -> tu
     return tuple(told)
 
 
-def _went(one: Walked, name: str) -> float:
+def _went(one: KuptWalked, name: str) -> float:
     """How far the foot went whose distance this is; that of both feet is the mean of theirs, m."""
     feet = [foot for foot, letter in FEET.items() if name.endswith(f"-{letter}")] or list(Foot)
     return float(np.mean([one.true[foot] for foot in feet]))
 
 
-def _off(row: Row) -> float:
+def _off(row: FigureRow) -> float:
     return float(np.sqrt(np.mean([(value - DISTANCE) ** 2 for value in row.values])))
 
 
-def walk(job: Job) -> Walked:
+def walk(job: KuptJob) -> KuptWalked:
     """One walk: emulate it, calibrate on its first part, hear the second with each recipe."""
     route = corridor(CORRIDOR, SPEED) if job.corridor else straight(DISTANCE, SPEED)
     walked = emulate(
@@ -151,9 +151,9 @@ def walk(job: Job) -> Walked:
     distances["KUPT+DFPC"] = fused[-1].distance if fused else 0.0
     true = {foot: sum(step.length for step in walked.truth.steps(foot) if step.t_heel_off > halt) for foot in Foot}
     if not job.corridor:
-        return Walked(distances, true)
+        return KuptWalked(distances, true)
     tracks, closing = _tracks(walked.truth, halt, said["zupt"], fused)
-    return Walked(distances, true, tracks, closing)
+    return KuptWalked(distances, true, tracks, closing)
 
 
 def measured_shoe(seed: int) -> Calibration:
@@ -170,7 +170,7 @@ def _steps(events: list[Event], foot: Foot) -> list[StrideTaken]:
 
 def _tracks(
     truth: Truth, halt: float, zupt: list[Event], fused: list[StrideFused]
-) -> tuple[tuple[Track, ...], dict[str, float]]:
+) -> tuple[tuple[PictureTrack, ...], dict[str, float]]:
     """Where steps ended, laid on the floor by their first two metres, and how far each end is from its start, m."""
     ends = {
         f"ZUPT-{letter}": [(step.t_end, foot, step.position) for step in _steps(zupt, foot)]
@@ -180,7 +180,7 @@ def _tracks(
     ends["KUPT+DFPC"] = [(one.t, one.foot, one.position) for one in fused if one.foot is one.chosen]
     path = _true_path(truth, halt)
     start = path[0].copy()
-    tracks, closing = [Track("true path", thinned(path - start), Drawn.TRUTH)], {}
+    tracks, closing = [PictureTrack("true path", thinned(path - start), Drawn.TRUTH)], {}
     for name, places in ends.items():
         if len(places) < 2:
             continue
@@ -188,7 +188,7 @@ def _tracks(
         true = np.array(
             [_true_place(truth, places[0][1], halt), *(_true_place(truth, foot, t) for t, foot, _ in places)]
         )
-        tracks.append(Track(name, thinned(laid(track, true) - start), Drawn.DOTS))
+        tracks.append(PictureTrack(name, thinned(laid(track, true) - start), Drawn.DOTS))
         closing[name] = float(np.linalg.norm(track[-1] - track[0]))
     return tuple(tracks), closing
 

@@ -16,7 +16,7 @@ class Drawn(Enum):
 
 
 @frozen
-class Track:
+class PictureTrack:
     """Places on a floor, `points` (x, y) in m, in the order in which they were walked."""
 
     name: str
@@ -29,7 +29,7 @@ class Floor:
     """Tracks or clouds of points seen from above. `marks`: named places (name, x, y)."""
 
     title: str
-    tracks: tuple[Track, ...]
+    tracks: tuple[PictureTrack, ...]
     marks: tuple[tuple[str, float, float], ...] = ()
 
 

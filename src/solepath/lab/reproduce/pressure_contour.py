@@ -29,9 +29,9 @@ from ...recipes import BY_NAME
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
 from . import published
-from .picture import Drawn, Floor, Track
+from .picture import Drawn, Floor, PictureTrack
 from .pool import Progress, each
-from .tables import Reproduction, Row, Statistics
+from .tables import FigureRow, Reproduction, Statistics
 from .walks import cut, heard, laid, rest_after, then, thinned
 
 NAME = "pressure-contour"
@@ -55,7 +55,7 @@ ORDER = (*IN_FIGURES, 0, 1, 2, 5)
 
 
 @frozen
-class Job:
+class ContourJob:
     """One half hour, as the walk of this number in LOOPS."""
 
     seed: int
@@ -70,13 +70,13 @@ class Job:
 
 
 @frozen
-class Walked:
+class ContourWalked:
     """Loop-closing errors by row, m, of so many m walked, and the tracks, the true path first."""
 
     number: int
     distance: float
     closing: dict[str, float]
-    tracks: tuple[Track, ...]
+    tracks: tuple[PictureTrack, ...]
 
 
 def reproduce(
@@ -84,11 +84,13 @@ def reproduce(
 ) -> Reproduction:
     """So many half hours."""
     count = WALKS if walks is None else walks
-    jobs = [Job(1000 * seed + k, ORDER[k % len(ORDER)], LASTING, LAPS) for k in range(count)]
+    jobs = [ContourJob(1000 * seed + k, ORDER[k % len(ORDER)], LASTING, LAPS) for k in range(count)]
     done = list(each(walk, jobs, processes=processes, progress=progress))
-    rows = [Row(f"{name} m", tuple(one.closing[name] for one in done), _paper(name, "m")) for name in RECIPES]
+    rows = [FigureRow(f"{name} m", tuple(one.closing[name] for one in done), _paper(name, "m")) for name in RECIPES]
     rows += [
-        Row(f"{name} %", tuple(100.0 * one.closing[name] / one.distance for one in done), _paper(name, "%"), digits=3)
+        FigureRow(
+            f"{name} %", tuple(100.0 * one.closing[name] / one.distance for one in done), _paper(name, "%"), digits=3
+        )
         for name in RECIPES
     ]
     panels = [
@@ -114,7 +116,7 @@ def _paper(name: str, unit: str) -> Statistics:
     return published.PRESSURE_CONTOUR[f"{name} {unit}"]
 
 
-def _notes(done: list[Walked]) -> tuple[str, ...]:
+def _notes(done: list[ContourWalked]) -> tuple[str, ...]:
     lines = []
     for one in sorted(done, key=_number):
         paper = published.LOOPS[one.number]
@@ -130,11 +132,11 @@ def _notes(done: list[Walked]) -> tuple[str, ...]:
     return tuple(lines)
 
 
-def _number(one: Walked) -> int:
+def _number(one: ContourWalked) -> int:
     return one.number
 
 
-def route_of(job: Job) -> tuple[Route, Route]:
+def route_of(job: ContourJob) -> tuple[Route, Route]:
     """The calibration laps with a halt of half a minute, and all of it."""
     distance = published.LOOPS[job.number].distance * job.lasting / HALF_HOUR
     before = square(job.laps, speed=PACE).stand(28.0)
@@ -151,7 +153,7 @@ def route_of(job: Job) -> tuple[Route, Route]:
     return before, then(before, after.turn(atan2(-sin(turned), cos(turned))).stand(2.0))
 
 
-def walk(job: Job) -> Walked:
+def walk(job: ContourJob) -> ContourWalked:
     """One half hour: emulate it, calibrate on its laps, hear the rest with either recipe."""
     before, whole = route_of(job)
     walked = emulate(whole, devices={SITE_OF_FOOT[FOOT]: boot(FOOT, RATE)}, seed=job.seed)
@@ -166,8 +168,8 @@ def walk(job: Job) -> Walked:
         track = np.array([(0.0, 0.0), *((x, y) for x, y, _ in (one.position for one in steps))])
         true = _places(walked, np.array([halt, *(one.t_end for one in steps)]))
         closing[name] = float(np.linalg.norm(track[-1] - track[0]))
-        tracks.append(Track(name.lower(), thinned(laid(track, true, over=10.0))))
-    return Walked(job.number, whole.length - before.length, closing, tuple(tracks))
+        tracks.append(PictureTrack(name.lower(), thinned(laid(track, true, over=10.0))))
+    return ContourWalked(job.number, whole.length - before.length, closing, tuple(tracks))
 
 
 def _places(walked: EmulatedWalk, t: Floats) -> Floats:
@@ -177,6 +179,6 @@ def _places(walked: EmulatedWalk, t: Floats) -> Floats:
     return places
 
 
-def _true_path(walked: EmulatedWalk, halt: float) -> Track:
+def _true_path(walked: EmulatedWalk, halt: float) -> PictureTrack:
     ends = [step.t_end for step in walked.truth.steps(FOOT) if step.t_end > halt]
-    return Track("true path", thinned(_places(walked, np.array([halt, *ends]))), Drawn.TRUTH)
+    return PictureTrack("true path", thinned(_places(walked, np.array([halt, *ends]))), Drawn.TRUTH)

@@ -14,10 +14,10 @@ import numpy as np
 from ...recipes import SHOE_SENSING
 from ..measures.strides import mean_magnitude
 from . import published
-from .picture import Drawn, Floor, Track
+from .picture import Drawn, Floor, PictureTrack
 from .pool import Progress, each
-from .shoe_walks import STATES, Steps, Walked, walked
-from .tables import Reproduction, Row, Statistics
+from .shoe_walks import STATES, ShoeWalked, Steps, walked
+from .tables import FigureRow, Reproduction, Statistics
 
 NAME = SHOE_SENSING.name
 WALKS = 20
@@ -42,11 +42,11 @@ def reproduce(
     )
 
 
-def _row(name: str, values: Iterable[float], digits: int = 3) -> Row:
-    return Row(name, tuple(values), published.SHOE_SENSING.get(name, Statistics()), digits)
+def _row(name: str, values: Iterable[float], digits: int = 3) -> FigureRow:
+    return FigureRow(name, tuple(values), published.SHOE_SENSING.get(name, Statistics()), digits)
 
 
-def _extraction(done: Sequence[Walked]) -> list[Row]:
+def _extraction(done: Sequence[ShoeWalked]) -> list[FigureRow]:
     """Figs. 21 and 22, by wearer."""
     rows = []
     for state in STATES:
@@ -60,7 +60,7 @@ def _share(right: Sequence[bool]) -> float:
     return 100.0 * sum(right) / max(1, len(right))
 
 
-def _table_1(done: Sequence[Walked]) -> list[Row]:
+def _table_1(done: Sequence[ShoeWalked]) -> list[FigureRow]:
     """Of steps whose heights were left as they are, as the paper's must have been."""
     plane = [a for one in done for state in STATES[:2] for a in one.before[state].angles]
     rows = [_row("plane deg/m", plane)]
@@ -69,7 +69,7 @@ def _table_1(done: Sequence[Walked]) -> list[Row]:
     return rows
 
 
-def _heights(done: Sequence[Walked]) -> list[Row]:
+def _heights(done: Sequence[ShoeWalked]) -> list[FigureRow]:
     rows = []
     for state in STATES[:2]:
         for name, of in (
@@ -81,7 +81,7 @@ def _heights(done: Sequence[Walked]) -> list[Row]:
     return rows
 
 
-def _lengths(done: Sequence[Walked]) -> list[Row]:
+def _lengths(done: Sequence[ShoeWalked]) -> list[FigureRow]:
     rows = []
     for state in STATES:
         steps = [one.energy[state] for one in done]
@@ -106,14 +106,14 @@ def _relative(errors: Sequence[tuple[float, float]]) -> float:
     return off / true if off is not None and true else 0.0
 
 
-def _courses(done: Sequence[Walked]) -> list[Row]:
+def _courses(done: Sequence[ShoeWalked]) -> list[FigureRow]:
     return [
         _row(f"{state}, course deg", [abs(off) for one in done for off in one.energy[state].courses], 2)
         for state in STATES[:2]
     ]
 
 
-def _tours(done: Sequence[Walked]) -> list[Row]:
+def _tours(done: Sequence[ShoeWalked]) -> list[FigureRow]:
     return [
         _row("five minutes, end off m", [one.tour.off for one in done], 2),
         _row("five minutes, height off m", [abs(one.tour.height) for one in done], 2),
@@ -123,23 +123,23 @@ def _tours(done: Sequence[Walked]) -> list[Row]:
 PARTS = (_extraction, _table_1, _heights, _lengths, _courses, _tours)
 
 
-def _panels(done: Sequence[Walked]) -> tuple[Floor, ...]:
+def _panels(done: Sequence[ShoeWalked]) -> tuple[Floor, ...]:
     """Fig. 35 from above and from the side, of the first wearer."""
     found = []
     for one in done[:1]:
         views = (("five minutes (fig. 35), from above", one.tour.above), ("height over the way", one.tour.aside))
         for title, (ours, true) in views:
-            found.append(Floor(title, (Track("true path", true, Drawn.TRUTH), Track(NAME, ours))))
+            found.append(Floor(title, (PictureTrack("true path", true, Drawn.TRUTH), PictureTrack(NAME, ours))))
     return tuple(found)
 
 
-def _notes(done: Sequence[Walked]) -> tuple[str, ...]:
+def _notes(done: Sequence[ShoeWalked]) -> tuple[str, ...]:
     return (*DEFINED, *_lengths_told(done), *_heights_told(done), *_tours_told(done), *PAPER)
 
 
 DEFINED = (
-    "Rows: length and height are errors of single steps without their signs, all wearers together; \"height of 100 "
-    "steps\" is what the track of a whole level walk gained, one figure a wearer; course is the direction of single "
+    'Rows: length and height are errors of single steps without their signs, all wearers together; "height of 100 '
+    'steps" is what the track of a whole level walk gained, one figure a wearer; course is the direction of single '
     "steps over the first 19.2 m, the first two metres laid on the truth; steps by energy or magnitude is F1 of steps "
     "that end within 0.3 s of a true one; state right is the share of the steps found whose own angle is of the state "
     "walked; table 2 is a wearer's mean error over the mean length, divided by 22.5, of the height upstairs and of the "
@@ -155,7 +155,7 @@ PAPER = (
 )
 
 
-def _lengths_told(done: Sequence[Walked]) -> list[str]:
+def _lengths_told(done: Sequence[ShoeWalked]) -> list[str]:
     lines = []
     for state in STATES:
         steps = [one.energy[state] for one in done]
@@ -178,7 +178,7 @@ def _lengths_told(done: Sequence[Walked]) -> list[str]:
     return lines
 
 
-def _heights_told(done: Sequence[Walked]) -> list[str]:
+def _heights_told(done: Sequence[ShoeWalked]) -> list[str]:
     lines = [
         "Heights after elimination say little: a step that is judged level ends exactly as high as it began, by "
         "construction, on any floor, a ramp too. What is left comes of level steps that were not judged so.",
@@ -192,7 +192,7 @@ def _heights_told(done: Sequence[Walked]) -> list[str]:
             f"drift by {np.mean(before):.2f} m on average and {max(before):.2f} m at worst."
         )
     lines.append(
-        "The paper's heights before elimination (0.12 m walking, 0.17 m jogging) are of \"100 sets of data\", and it "
+        'The paper\'s heights before elimination (0.12 m walking, 0.17 m jogging) are of "100 sets of data", and it '
         "does not say how many steps a set has; they stand beside ours of single steps. Ours of a whole walk are "
         "metres where the paper has decimetres: an offset of the accelerometer, emulated as large as its data sheet "
         "has it, tilts every step the same way, and without elimination nothing in the method finds it."
@@ -200,7 +200,7 @@ def _heights_told(done: Sequence[Walked]) -> list[str]:
     return lines
 
 
-def _tours_told(done: Sequence[Walked]) -> list[str]:
+def _tours_told(done: Sequence[ShoeWalked]) -> list[str]:
     tours = [one.tour for one in done]
     off = [one.off for one in tours]
     share = 100.0 * sum(off) / sum([one.way for one in tours])

@@ -104,7 +104,7 @@ class Tour:
 
 
 @frozen
-class Walked:
+class ShoeWalked:
     """By state: as the recipe has it, without the elimination of heights, and by the magnitude."""
 
     energy: dict[str, Steps]
@@ -137,7 +137,7 @@ def tour_route() -> Route:
     return route.stop(3.0)
 
 
-def walked(seed: int) -> Walked:
+def walked(seed: int) -> ShoeWalked:
     """All of it by one wearer."""
     plain = evolve(SHOE_SENSING, corrector=evolve(ShoeSensing(), eliminate=False))
     energy, before, magnitude = {}, {}, {}
@@ -146,7 +146,7 @@ def walked(seed: int) -> Walked:
         energy[state] = judged(heard(SHOE_SENSING, samples), truth, state)
         before[state] = judged(heard(plain, samples), truth, state)
         magnitude[state] = judged(heard(SHOE_MAGNITUDE, samples), truth, state)
-    return Walked(energy, before, magnitude, toured(10 * seed + len(STATES)))
+    return ShoeWalked(energy, before, magnitude, toured(10 * seed + len(STATES)))
 
 
 def worn(route: Route, seed: int) -> tuple[list[Sample], Truth]:
@@ -169,9 +169,7 @@ def judged(events: Sequence[Event], truth: Truth, state: str) -> Steps:
     counted = [(step, true) for step, true in together if not stairs or abs(true.displacement[2]) > 0.25]
     wanted = [true for true in truth.steps(FOOT) if not stairs or abs(true.displacement[2]) > 0.25]
     taken = [step for step, _ in together]
-    during = [
-        step for step in steps if not stairs or any(true.t_start < step.t < true.t_end for true in wanted)
-    ]
+    during = [step for step in steps if not stairs or any(true.t_start < step.t < true.t_end for true in wanted)]
     return Steps(
         angles=tuple(degrees(angle_per_metre(step.length, step.height_change)) for step, _ in counted),
         lengths=tuple((step.length - true.length, true.length) for step, true in counted),

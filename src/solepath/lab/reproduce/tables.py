@@ -40,7 +40,7 @@ def statistics(values: Sequence[float]) -> Statistics:
 
 
 @frozen
-class Row:
+class FigureRow:
     """One figure of an experiment: `values` of ours, one for each walk, and `paper`, what the paper printed of its."""
 
     name: str
@@ -62,7 +62,7 @@ class Reproduction:
     walked: str
     """What was emulated, in a sentence without its full stop."""
     unit: str
-    rows: tuple[Row, ...]
+    rows: tuple[FigureRow, ...]
     panels: tuple[Panel, ...] = ()
     """The paper's main figure."""
     notes: tuple[str, ...] = ()

@@ -18,7 +18,7 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ...calibration import Calibration, InsoleCalibration, merged
-from ...emulate.routes.laps import ACROSS, ALONG, Corner, corners, marked, rectangle
+from ...emulate.routes.laps import ACROSS, ALONG, LapCorner, corners, marked, rectangle
 from ...emulate.routes.laps import marks as marks_of
 from ...emulate.sensors.insoles import layout
 from ...emulate.sensors.parts import WORN_RESISTIVE
@@ -27,7 +27,7 @@ from ...emulate.wearers.gait import Wearer
 from ...emulate.wearers.walker import Walker
 from ...emulate.wearers.wearers import SUBJECTS
 from ...events import TouchedDown
-from ...papers.walking_modes.calibrate import MODES, Mark, mean_errors, step_errors, touchdowns
+from ...papers.walking_modes.calibrate import MODES, ModeMark, mean_errors, step_errors, touchdowns
 from ...papers.walking_modes.modes import Modes
 from ...recipes import BY_NAME
 from ...recording.decoded import Recorded
@@ -35,10 +35,10 @@ from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ...types.vector import GRAVITY
 from . import published
-from .picture import Drawn, Floor, Track
+from .picture import Drawn, Floor, PictureTrack
 from .pool import Progress, each
 from .published import corner_row
-from .tables import Reproduction, Row, statistics
+from .tables import FigureRow, Reproduction, statistics
 
 NAME = "walking-modes"
 WALKS = 40
@@ -55,7 +55,7 @@ NEAR = 0.4
 
 
 @frozen
-class Job:
+class ModesJob:
     """One rectangle of one wearer."""
 
     subject: int
@@ -74,7 +74,7 @@ class Learning:
 
 
 @frozen
-class Walked:
+class ModesWalked:
     """(x, y) where each method has the wearer, less where the wearer was, by corner, m."""
 
     off: dict[str, dict[str, tuple[float, float]]]
@@ -98,10 +98,10 @@ def reproduce(
 
     learning = [Learning(subject, 1000 * seed + 500 + 10 * subject, STEPS, REPEATS) for subject in wearers]
     known = list(each(learn, learning, processes=processes, progress=calibrating))
-    jobs = [Job(k % len(known), 1000 * seed + k, known[k % len(known)]) for k in range(count)]
+    jobs = [ModesJob(k % len(known), 1000 * seed + k, known[k % len(known)]) for k in range(count)]
     done = list(each(walk, jobs, processes=processes, progress=walking))
     rows = tuple(
-        Row(
+        FigureRow(
             corner_row(point, method, axis),
             tuple(one.off[method][point][k] for one in done),
             published.WALKING_MODES[corner_row(point, method, axis)],
@@ -122,15 +122,15 @@ def reproduce(
     )
 
 
-def _panels(done: Sequence[Walked]) -> tuple[Floor, Floor]:
+def _panels(done: Sequence[ModesWalked]) -> tuple[Floor, Floor]:
     corners = [PLACES[point] for point in "ABCDA"]
-    absolute = [Track("rectangle", tuple(corners), Drawn.TRUTH)]
+    absolute = [PictureTrack("rectangle", tuple(corners), Drawn.TRUTH)]
     net = []
     for method in METHODS:
         off = [(point, one.off[method][point]) for one in done for point in PLACES]
         there = tuple((PLACES[point][0] + dx, PLACES[point][1] + dy) for point, (dx, dy) in off)
-        absolute.append(Track(method, there, Drawn.DOTS))
-        net.append(Track(method, tuple(place for _, place in off), Drawn.DOTS))
+        absolute.append(PictureTrack(method, there, Drawn.DOTS))
+        net.append(PictureTrack(method, tuple(place for _, place in off), Drawn.DOTS))
     marks = tuple((point, x, y) for point, (x, y) in PLACES.items())
     return (
         Floor("where four methods have the corners (fig. 15a)", tuple(absolute), marks),
@@ -138,7 +138,7 @@ def _panels(done: Sequence[Walked]) -> tuple[Floor, Floor]:
     )
 
 
-def _notes(done: Sequence[Walked]) -> tuple[str, ...]:
+def _notes(done: Sequence[ModesWalked]) -> tuple[str, ...]:
     told = []
     for point in PLACES:
         ours, theirs = [], []
@@ -185,7 +185,7 @@ def learn(job: Learning) -> Calibration:
         for k, mode in enumerate(MODES):
             walker = Walker(marked(mode, job.steps), wearer, 10 * strapped + k)
             marks = [
-                Mark(f"mark {n}", mark.foot, mark.x, mark.y, mark.mode, t=mark.t)
+                ModeMark(f"mark {n}", mark.foot, mark.x, mark.y, mark.mode, t=mark.t)
                 for n, mark in enumerate(marks_of(walker), 1)
                 if mark.mode is mode
             ]
@@ -194,7 +194,7 @@ def learn(job: Learning) -> Calibration:
     return merged(known, Calibration(modes=mean_errors(errors)))
 
 
-def walk(job: Job) -> Walked:
+def walk(job: ModesJob) -> ModesWalked:
     """One rectangle by all methods."""
     walker = Walker(rectangle(), SUBJECTS[job.subject], job.seed)
     samples = worn(walker, job.calibration, job.seed)
@@ -203,7 +203,7 @@ def walk(job: Job) -> Walked:
     for method, recipe in METHODS.items():
         down = _touchdowns(recipe, samples, job.calibration)
         off[method] = {corner.name: _deviation(walker, corner, down) for corner in passed}
-    return Walked(off)
+    return ModesWalked(off)
 
 
 def _touchdowns(recipe: str, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
@@ -216,7 +216,7 @@ def _touchdowns(recipe: str, samples: Sequence[Sample], calibration: Calibration
     return {foot: [e for e in said if isinstance(e, TouchedDown) and e.final and e.foot is foot] for foot in Foot}
 
 
-def _deviation(walker: Walker, corner: Corner, down: dict[Foot, list[TouchedDown]]) -> tuple[float, float]:
+def _deviation(walker: Walker, corner: LapCorner, down: dict[Foot, list[TouchedDown]]) -> tuple[float, float]:
     """Of the middle between the two footprints at a corner, m."""
     dx = dy = 0.0
     for foot in Foot:

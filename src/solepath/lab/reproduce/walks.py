@@ -36,7 +36,7 @@ def rest_after(walker: Walker, first: Route) -> float:
 
 
 @frozen(eq=False)
-class Parts:
+class WalkParts:
     """A walk decoded and cut in two: samples `before` and `after`, and where the cells are, which an app that hears the
     devices from the beginning would know too."""
 
@@ -45,13 +45,13 @@ class Parts:
     layouts: Calibration
 
 
-def cut(walk: EmulatedWalk, t: float) -> Parts:
+def cut(walk: EmulatedWalk, t: float) -> WalkParts:
     """The samples of a walk's packets, measured before and after `t` s."""
     heard = recorded(walk.packets)
     insoles = {foot: InsoleCalibration(layout=layout) for foot, layout in heard.layouts.items()}
     before = tuple([sample for sample in heard.samples if sample.t < t])
     after = tuple([sample for sample in heard.samples if sample.t >= t])
-    return Parts(before, after, Calibration(insoles=insoles))
+    return WalkParts(before, after, Calibration(insoles=insoles))
 
 
 def heard(recipe: str, samples: Sequence[Sample], calibration: Calibration) -> list[Event]:

@@ -9,7 +9,7 @@ from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ..reproduce.picture import Boxes, Drawn, Floor, Track
+from ..reproduce.picture import Boxes, Drawn, Floor, PictureTrack
 from ..reproduce.tables import Reproduction, Statistics
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
@@ -100,5 +100,5 @@ def _floor(ax: Axes, panel: Floor) -> None:
     ax.legend(fontsize=8, loc="center" if len(panel.marks) > 1 else "best")
 
 
-def _columns(track: Track) -> tuple[list[float], list[float]]:
+def _columns(track: PictureTrack) -> tuple[list[float], list[float]]:
     return [x for x, _ in track.points], [y for _, y in track.points]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...show.tables.table import number, table
-from ..reproduce.tables import STATISTICS, Reproduction, Row, Statistics, statistics
+from ..reproduce.tables import STATISTICS, FigureRow, Reproduction, Statistics, statistics
 
 
 def reproduced(done: Reproduction) -> str:
@@ -15,5 +15,5 @@ def reproduced(done: Reproduction) -> str:
     return "\n".join([title, "", table(header, rows), *([""] if done.notes else []), *done.notes])
 
 
-def _cells(of: Statistics, row: Row) -> list[str]:
+def _cells(of: Statistics, row: FigureRow) -> list[str]:
     return [number(getattr(of, key), row.digits) for key in STATISTICS]

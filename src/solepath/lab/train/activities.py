@@ -37,7 +37,7 @@ from ...emulate.walk import emulate
 from ...emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
 from ...emulate.wearers.walker import Walker
 from ...foot.navigate.dedrift import LinearDedrift
-from ...foot.stance.stance import Shoe
+from ...foot.stance.stance import ShoeDetector
 from ...foot.tracker import FootTracker
 from ...link.decoder import Decoder
 from ...recipes import Recipe
@@ -45,7 +45,7 @@ from ...recording.samples import load_samples
 from ...types import SITE_OF_FOOT, Activity, Foot, Sample, Site
 from ...types.vector import TIE
 from . import emulated
-from .activities_course import Course, Said, Span, chances, shifts, spans
+from .activities_course import LabelledCourse, Said, Span, chances, shifts, spans
 from .activities_net import CLASSES, networks, usual
 from .folds import FOLDS
 from .hugadb import labels, recordings
@@ -53,7 +53,7 @@ from .hugadb import labels, recordings
 Floats = NDArray[np.float64]
 Label = Callable[[float], Activity | None]
 
-STRAPDOWN = Recipe("strapdown", Shoe(), LinearDedrift())
+STRAPDOWN = Recipe("strapdown", ShoeDetector(), LinearDedrift())
 """Steps as a plain zero-velocity method sees them: the features of a step must not be one recipe's."""
 WAYS: tuple[tuple[float | None, Recipe], ...] = (
     (None, recipes.DEFAULT),
@@ -95,7 +95,7 @@ class Blocks:
     features: Floats
     classes: NDArray[np.int64]
     wearers: NDArray[np.int64]
-    course: Course | None = None
+    course: LabelledCourse | None = None
     """The whole recording, where what follows what is learnt from it."""
 
 
@@ -122,7 +122,7 @@ def blocks_of(
                 rows.append(features)
                 classes.append(CLASSES[now])
     n = len(rows)
-    course = None if followed is None else Course(begin, seen, tuple(followed), wearer != EMULATOR)
+    course = None if followed is None else LabelledCourse(begin, seen, tuple(followed), wearer != EMULATOR)
     return Blocks(np.array(rows).reshape(n, COUNT), np.array(classes, dtype=np.int64), np.full(n, wearer), course)
 
 
@@ -146,9 +146,7 @@ def _features(
             window.heard(events, tracker.corrector.position[2])
 
 
-def _judged(
-    window: FootWindow, index: int, begin: float
-) -> Iterator[tuple[int, list[float], Felt | None]]:
+def _judged(window: FootWindow, index: int, begin: float) -> Iterator[tuple[int, list[float], Felt | None]]:
     features = window.features(index, begin + (index + 0.5) * BLOCK)
     if features is not None:
         yield index, features, felt(window.block(index), window.grain)

@@ -15,7 +15,7 @@ from attrs import frozen
 from ...body.activity.air import NOTHING
 from ...body.activity.chain import SUPPOSED, Chances, Shifts
 from ...body.activity.features import BLOCK
-from ...body.activity.hypotheses import Evidence, Hypotheses
+from ...body.activity.hypotheses import BlockEvidence, Hypotheses
 from ...body.activity.motion import MotionModel
 from ...body.activity.ride import Felt
 from ...body.activity.votes import motions
@@ -40,7 +40,7 @@ FINEST = 0.05
 
 
 @frozen(eq=False)
-class Course:
+class LabelledCourse:
     """A recording in blocks from `begin` s on, what each foot said of each, and what was done."""
 
     begin: float
@@ -65,7 +65,7 @@ def changes(done: Sequence[Span]) -> list[tuple[float, Activity, Activity]]:
     return [(after[0], before[2], after[2]) for before, after in pairwise(done) if after[0] - before[1] < APART]
 
 
-def chances(courses: Sequence[Course]) -> Chances:
+def chances(courses: Sequence[LabelledCourse]) -> Chances:
     """Of each change within a block."""
     counts = [[1e-6 * chance for chance in row] for row in SUPPOSED]
     for course in courses:
@@ -81,7 +81,7 @@ def chances(courses: Sequence[Course]) -> Chances:
     )
 
 
-def shifts(courses: Sequence[Course], model: MotionModel) -> Shifts:
+def shifts(courses: Sequence[LabelledCourse], model: MotionModel) -> Shifts:
     """How much later than seen each change is dated: the median of those dated by hand and that of the emulated ones,
     the mean of both where there are enough of either."""
     later: dict[tuple[Activity, Activity], dict[bool, list[float]]] = {}
@@ -101,7 +101,7 @@ def shifts(courses: Sequence[Course], model: MotionModel) -> Shifts:
     return tuple(found)
 
 
-def followed(course: Course, model: MotionModel) -> list[Span]:
+def followed(course: LabelledCourse, model: MotionModel) -> list[Span]:
     """What the part makes of it, as spans."""
     courses = Hypotheses()
     begun: list[tuple[float, Activity]] = []
@@ -111,7 +111,7 @@ def followed(course: Course, model: MotionModel) -> list[Span]:
         said = [feet.get(foot) for foot in Foot]
         t = course.begin + index * BLOCK
         courses.update(
-            Evidence(
+            BlockEvidence(
                 t=t,
                 motions=motions(model, [None if one is None else one[0] for one in said]),
                 felt=tuple([None if one is None else one[1] for one in said]),

@@ -66,10 +66,7 @@ def samples(walked: EmulatedWalk) -> list[Sample]:
     """What a receiver makes of its packets, in the order of arrival."""
     decoders = {site: Decoder(site) for site in SITE_OF_FOOT.values()}
     return [
-        item
-        for packet in walked.packets
-        for item in decoders[packet.site].feed(packet)
-        if isinstance(item, Sample)
+        item for packet in walked.packets for item in decoders[packet.site].feed(packet) if isinstance(item, Sample)
     ]
 
 

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from ...papers.footstep_tracker.activity import window_model
 from ...papers.footstep_tracker.activity.window_model import LEAST_VARIANCE, Gaussian, WindowModel, seen
-from ...papers.footstep_tracker.activity.windows import HOP, WINDOW, FootWindows, Window
+from ...papers.footstep_tracker.activity.windows import HOP, WINDOW, FootWindow, FootWindows
 from ...recording.samples import load_samples
 from ...types import Activity, Foot, Sample
 from . import emulated
@@ -49,7 +49,7 @@ QUIET = 10.0
 
 
 @frozen
-class Told:
+class LabelledWindow:
     """One window of the feet that were heard."""
 
     index: int
@@ -57,7 +57,7 @@ class Told:
     """What the wearer did all through it; None where that changed, or nobody says."""
     middle: Activity | None
     """The same in its middle."""
-    feet: tuple[Window, ...]
+    feet: tuple[FootWindow, ...]
 
 
 @frozen
@@ -65,14 +65,14 @@ class Taught:
     """The windows of one recording. `source`: the kind of data that it is of."""
 
     source: str
-    windows: tuple[Told, ...]
+    windows: tuple[LabelledWindow, ...]
 
 
 def features(source: str, samples: Iterable[Sample], t: NDArray[Any], activities: Sequence[Activity | None]) -> Taught:
     """The windows of a recording, whose activities are `activities` at `t` (n,), s."""
     feet: dict[Foot, FootWindows] = {}
     origin: float | None = None
-    found: dict[int, list[Window]] = {}
+    found: dict[int, list[FootWindow]] = {}
     for sample in samples:
         if sample.acc is None or sample.site.foot is None:
             continue
@@ -87,7 +87,7 @@ def features(source: str, samples: Iterable[Sample], t: NDArray[Any], activities
         first, middle, last = np.searchsorted(t, [end - WINDOW - EDGE, end - 0.5 * WINDOW, end + EDGE])
         during = set(activities[first:last])
         at = activities[min(int(middle), len(activities) - 1)]
-        told.append(Told(index, during.pop() if len(during) == 1 else None, at, tuple(windows)))
+        told.append(LabelledWindow(index, during.pop() if len(during) == 1 else None, at, tuple(windows)))
     return Taught(source, tuple(told))
 
 
@@ -133,7 +133,7 @@ def threshold(below: Sequence[float], above: Sequence[float]) -> float:
     return float(0.5 * (places[best[0]] + places[best[-1] + 1]))
 
 
-def _level(told: Told) -> float:
+def _level(told: LabelledWindow) -> float:
     """Logarithm of the mean variance of the feet."""
     return float(np.log(np.mean([window.variance for window in told.feet]) + LEAST_VARIANCE))
 

@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 from attrs import frozen
 
-from ...body.gait.direction import Direction, Turned
+from ...body.gait.direction import Direction, TurnProcess
 from ...body.gait.turns import features
 from ...emulate.routes.route import Route
 from ...emulate.sensors.sensortags import CC2541
@@ -73,7 +73,7 @@ def _wearer(seed: int) -> Wearer:
     return wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature)
 
 
-def measured(walked: EmulatedWalk) -> Turned | None:
+def measured(walked: EmulatedWalk) -> TurnProcess | None:
     """The largest turn that the recipe found in a walk."""
     session, direction = Session(FOOTSTEP_TRACKER), Direction()
     steps = [event for packet in walked.packets for event in session.feed(packet) if isinstance(event, StrideTaken)]

@@ -30,7 +30,7 @@ RATE_END = 0.99 * radians(250.0)
 
 
 @define
-class Timed:
+class TimedMeasurement:
     """A measurement and when it was taken, s."""
 
     t: float
@@ -42,11 +42,11 @@ class Assembler:
     """Pairs measurements; the times given to `acc` and to `gyro` each increase. At most four wait."""
 
     site: Site
-    waiting: list[Timed] = field(factory=list)
+    waiting: list[TimedMeasurement] = field(factory=list)
     """Accelerometer measurements without their gyroscope."""
-    before: Timed | None = None
+    before: TimedMeasurement | None = None
     """The gyroscope measurement before the newest."""
-    newest: Timed | None = None
+    newest: TimedMeasurement | None = None
     acc_t: float | None = None
     """When acc was last measured."""
     gyro_since: float | None = None
@@ -61,12 +61,12 @@ class Assembler:
     def acc(self, t: float, value: Vec3, period: float, known_at: float) -> list[Sample]:
         """An accelerometer measurement, m/s^2."""
         self.acc_t, self.gyro_since = t, None
-        self.waiting.append(Timed(t, value))
+        self.waiting.append(TimedMeasurement(t, value))
         return self._release(period, known_at)
 
     def gyro(self, t: float, value: Vec3, period: float, known_at: float) -> list[Sample]:
         """A gyroscope measurement, rad/s."""
-        self.before, self.newest, self.alone = self.newest, Timed(t, value), False
+        self.before, self.newest, self.alone = self.newest, TimedMeasurement(t, value), False
         out = self._release(period, known_at)
         if self.gyro_since is None:
             self.gyro_since = t

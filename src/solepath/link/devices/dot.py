@@ -14,7 +14,7 @@ from construct import Bytes, Const, ExprValidator, Int8ul, Int16ul, Int32ul, One
 from ...types.vector import GRAVITY
 from ...wire.fields import Fields, Hex
 from ..driver import Driver, Known, Measured, Reading
-from ..profile import Channel, How, Profile, Write
+from ..profile import Access, Channel, Profile, Write
 
 RATES = 21
 """Payload mode: timestamp, acceleration, angular velocity."""
@@ -43,10 +43,10 @@ PROFILE = Profile(
     names=("Movella DOT", "Xsens DOT"),
     services=(),
     channels=(
-        Channel("dot/rates", uuid(0x2000), uuid(0x2003), How.NOTIFY),
-        Channel("dot/control", uuid(0x2000), uuid(0x2001), How.WRITE),
-        Channel("dot/device-control", uuid(0x1000), uuid(0x1002), How.WRITE),
-        Channel("dot/battery", uuid(0x3000), uuid(0x3001), How.NOTIFY),
+        Channel("dot/rates", uuid(0x2000), uuid(0x2003), Access.NOTIFY),
+        Channel("dot/control", uuid(0x2000), uuid(0x2001), Access.WRITE),
+        Channel("dot/device-control", uuid(0x1000), uuid(0x1002), Access.WRITE),
+        Channel("dot/battery", uuid(0x3000), uuid(0x3001), Access.NOTIFY),
     ),
     setup=(
         Write("dot/device-control", b"\x10" + bytes(23) + b"\x3c\x00" + bytes(6)),  # 60 Hz, the most that it streams

@@ -13,7 +13,7 @@ from construct import ExprValidator, Int32ul, Struct, Terminated
 
 from ...wire.fields import Fields
 from ..driver import Driver, Known, Measured, Reading
-from ..profile import Channel, How, Write
+from ..profile import Access, Channel, Write
 from . import dot
 
 QUATERNION = 5
@@ -36,7 +36,7 @@ PROFILE = evolve(
     dot.PROFILE,
     name=NAME,
     channels=(
-        Channel("dot-orientation/quaternion", dot.uuid(0x2000), dot.uuid(0x2004), How.NOTIFY),
+        Channel("dot-orientation/quaternion", dot.uuid(0x2000), dot.uuid(0x2004), Access.NOTIFY),
         *[
             evolve(channel, name=_named(channel.name))
             for channel in dot.PROFILE.channels

@@ -25,7 +25,7 @@ from ...wire.insole import InsoleFrame, InsoleSample, parse_frame
 from ...wire.insole_control import parse_control
 from ...wire.insole_info import InsoleInfo, parse_info
 from ..rest import RestCheck, suggestion
-from ..run import Counted, Run
+from ..run import Counted, PacketRun
 from .reassembly import Reassembly
 
 COUNTS = 32768
@@ -63,7 +63,7 @@ class InsoleLink:
     pressure_scale: float = 0.0
     told: bool = False
     """The Limitation was said."""
-    run: Run = field(factory=Run)
+    run: PacketRun = field(factory=PacketRun)
     fragments: Reassembly = field(factory=Reassembly)
     rest: RestCheck = field(factory=lambda: RestCheck(ASSUMED_ACC))
 

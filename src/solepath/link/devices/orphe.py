@@ -28,7 +28,7 @@ from ...types import Foot
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, Hex
 from ..driver import Driver, Known, Measured, Reading
-from ..profile import FIRMWARE, Channel, How, Profile, Write
+from ..profile import FIRMWARE, Access, Channel, Profile, Write
 
 RATES = {50: 208.0, 54: 208.0, 55: 208.0, 56: 104.0}
 """Samples a second by header. The maker says 200 and 100; the part (LSM6DSOX) has 208, which was measured too."""
@@ -49,9 +49,9 @@ PROFILE = Profile(
     names=(),
     services=(),  # another device of the same maker has the same
     channels=(
-        Channel("orphe/values", _OTHER, "f3f9c7ce-46ee-4205-89ac-abe64e626c0f", How.NOTIFY),
-        Channel("orphe/info", _INFORMATION, _DEVICE_INFORMATION, How.READ),
-        Channel("orphe/mode", _INFORMATION, _DEVICE_INFORMATION, How.WRITE),
+        Channel("orphe/values", _OTHER, "f3f9c7ce-46ee-4205-89ac-abe64e626c0f", Access.NOTIFY),
+        Channel("orphe/info", _INFORMATION, _DEVICE_INFORMATION, Access.READ),
+        Channel("orphe/mode", _INFORMATION, _DEVICE_INFORMATION, Access.WRITE),
         FIRMWARE,
     ),
     setup=(Write("orphe/mode", b"\x0d\x04"),),

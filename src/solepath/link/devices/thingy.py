@@ -14,7 +14,7 @@ from construct import Int8ul, Int16ul, Int32sl, OneOf, Struct, Terminated
 from ...types.vector import GRAVITY
 from ...wire.fields import Fields
 from ..driver import Driver, Known, Measured, Reading
-from ..profile import BATTERY, Channel, How, Profile, Write
+from ..profile import BATTERY, Access, Channel, Profile, Write
 
 ACC = GRAVITY / 1024.0
 """m/s^2 per count."""
@@ -35,10 +35,10 @@ PROFILE = Profile(
     names=("Thingy",),
     services=(_uuid(0x0100),),
     channels=(
-        Channel("thingy/motion", _uuid(0x0400), _uuid(0x0406), How.NOTIFY),
-        Channel("thingy/motion-config", _uuid(0x0400), _uuid(0x0401), How.WRITE),
-        Channel("thingy/pressure", _uuid(0x0200), _uuid(0x0202), How.NOTIFY),
-        Channel("thingy/environment-config", _uuid(0x0200), _uuid(0x0206), How.WRITE),
+        Channel("thingy/motion", _uuid(0x0400), _uuid(0x0406), Access.NOTIFY),
+        Channel("thingy/motion-config", _uuid(0x0400), _uuid(0x0401), Access.WRITE),
+        Channel("thingy/pressure", _uuid(0x0200), _uuid(0x0202), Access.NOTIFY),
+        Channel("thingy/environment-config", _uuid(0x0200), _uuid(0x0206), Access.WRITE),
         BATTERY,
     ),
     setup=(

@@ -33,7 +33,7 @@ Flat = tuple[float, float]
 
 
 @define
-class Way:
+class FootWay:
     """What one foot went since the last restart."""
 
     heard: bool = False
@@ -60,8 +60,8 @@ class Footsteps:
     has moved since its last step. World frame, height 0. Latency: none beyond the steps' own."""
 
     # state
-    left: Way = field(factory=Way, init=False)
-    right: Way = field(factory=Way, init=False)
+    left: FootWay = field(factory=FootWay, init=False)
+    right: FootWay = field(factory=FootWay, init=False)
     base: Flat = field(default=(0.0, 0.0), init=False)
     """Where the wearer was at the last restart."""
     restarts: int = field(default=0, init=False)
@@ -126,7 +126,7 @@ class Footsteps:
         (lx, ly), (rx, ry), (x, y) = self.left.here, self.right.here, self.base
         return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
 
-    def _way(self, foot: Foot) -> Way:
+    def _way(self, foot: Foot) -> FootWay:
         return self.left if foot is Foot.LEFT else self.right
 
     def position(self, feet: Mapping[Foot, FootTracker]) -> Position | None:
@@ -147,7 +147,7 @@ class Footsteps:
         t = max([foot.t for foot in known if foot.t is not None])
         return Position(t, (x, y, 0.0), (xx, xy, xz, yy, yz, zz))
 
-    def _other(self, foot: Foot) -> Way:
+    def _other(self, foot: Foot) -> FootWay:
         return self.right if foot is Foot.LEFT else self.left
 
 

@@ -23,7 +23,7 @@ from ...foot.turn import heading_turned
 from ...types import Foot, Phase, Quat, Vec3
 from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, multiply, rotate, tipped
 from .critical_times import CriticalTimes
-from .segment import Segment
+from .segment import StepSegment
 from .step_length import closed_step_length, step_length, turned, turned_about_vertical
 
 HOLE = 0.12
@@ -117,7 +117,7 @@ class Projection(Strapdown):
         self.stood, self.moving = self.attitude, 0.0
         return True
 
-    def _rest(self, segment: Segment) -> None:
+    def _rest(self, segment: StepSegment) -> None:
         """The foot lies still again: where it went."""
         x, y, _ = self.anchored
         if segment.longest_gap >= HOLE:
@@ -131,7 +131,7 @@ class Projection(Strapdown):
         self.attitude = multiply(from_yaw(heading_turned(self.stood, self.attitude)), self.stood)
         self.anchored = (x, y, 0.0)
 
-    def _stepped(self, segment: Segment, times: CriticalTimes) -> tuple[float, float]:
+    def _stepped(self, segment: StepSegment, times: CriticalTimes) -> tuple[float, float]:
         phi = self.outwards * self.toe_out
         rows = segment.rows
         if self.printed:

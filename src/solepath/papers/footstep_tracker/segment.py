@@ -18,7 +18,7 @@ LEAST_RISE = 0.25
 
 
 @frozen
-class Segment:
+class StepSegment:
     """`rows` in the paper's axes; `times` None where no swing was seen in them. `forward`: the foot's y axis in the
     sensor frame, a unit vector. `longest_gap`: the longest time between two of its samples, s."""
 

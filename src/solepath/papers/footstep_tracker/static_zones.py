@@ -28,7 +28,7 @@ from ...foot.stance.stance import Load, Stance
 from ...types import Phase, Quat, Vec3
 from ...types.vector import GRAVITY, IDENTITY, ZERO
 from .critical_times import Row, critical_times
-from .segment import FootAxes, Segment, turned_to, with_offset
+from .segment import FootAxes, StepSegment, turned_to, with_offset
 
 ABSENT = 0.25
 """After a gap longer than this nobody knows that the foot lay still all the time, s."""
@@ -49,7 +49,7 @@ LONGEST = 4.0
 
 
 @define
-class Run:
+class StaticRun:
     """Rows that lie together, each within a bound of the mean of those before it."""
 
     since: float | None = None
@@ -116,8 +116,8 @@ class StaticZones:
     """Since the last zone, in the sensor frame."""
     longest_gap: float = field(default=0.0, init=False)
     """Between two samples since the last zone, s."""
-    strict: Run = field(factory=Run, init=False)
-    loose: Run = field(factory=Run, init=False)
+    strict: StaticRun = field(factory=StaticRun, init=False)
+    loose: StaticRun = field(factory=StaticRun, init=False)
     scale: float = field(default=1.0, init=False)
     """What acc was multiplied by so that it reads 1 g at rest."""
     calm_since: float | None = field(default=None, init=False)
@@ -249,7 +249,7 @@ class StaticZones:
         else:
             self.rows = [_mean(a, b) for a, b in zip(old[::2], old[1::2], strict=False)] + new
 
-    def _segment(self) -> Segment | None:
+    def _segment(self) -> StepSegment | None:
         """A zone begins: what lies before it."""
         x, y, z = self.loose.mean
         k = 1.0 / (x * x + y * y + z * z) ** 0.5
@@ -262,7 +262,7 @@ class StaticZones:
         rows = turned_to(self.rows, right, forward, up)
         if self.grain >= COARSE_COUNT:
             rows = with_offset(rows, self.scale)
-        return Segment(rows, critical_times(rows), forward, self.longest_gap)
+        return StepSegment(rows, critical_times(rows), forward, self.longest_gap)
 
 
 def _kept(value: float) -> float:

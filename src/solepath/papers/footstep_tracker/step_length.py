@@ -43,7 +43,6 @@ MOST_MISSED = 1.0
 """No gyroscope's end hides more of a step's turn to either side, rad."""
 
 
-
 def step_length(rows: Sequence[Row], times: CriticalTimes, toe_out: float = 0.0) -> tuple[float, float, float]:
     """S_x, S_y, S_z of (6) in m, as printed; S of (5) is their sum. `toe_out`: phi of (1), rad."""
     theta = _integral(span(rows, times.uplift, times.liftoff), 4)

@@ -34,7 +34,7 @@ FARTHEST = 1e3
 """No centre of pressure jumps so far, m."""
 
 
-class Stage(Enum):
+class StepStage(Enum):
     """What the cells have seen of a step; not the phase, which is told late."""
 
     STANDING = "standing"  # stationary
@@ -68,7 +68,7 @@ class CopCues:
     heel-strike."""
     middle: float | None = field(default=None, init=False)
     """x of the foot's centre, m; None without a layout."""
-    stage: Stage = field(default=Stage.LEAVING, init=False)
+    stage: StepStage = field(default=StepStage.LEAVING, init=False)
     cop: float | None = field(default=None, init=False)
     """x of the centre of pressure in the last sample, m."""
     pressed_at: float | None = field(default=None, init=False)
@@ -127,7 +127,7 @@ class CopCues:
             return () if seen is None else (seen,)
         found = self._begin(t, airborne, phase) if self.pressed_at is None else []
         found += self._step(t, stationary, airborne, load)
-        if self.stage is Stage.LEAVING and phase is not Phase.SWING and speed >= self.inertial.shuffle_speed:
+        if self.stage is StepStage.LEAVING and phase is not Phase.SWING and speed >= self.inertial.shuffle_speed:
             if self.fast_since is None:
                 self.fast_since = t
             elif t - self.fast_since >= self.shuffle_time - TIE:
@@ -142,7 +142,7 @@ class CopCues:
         if load.heel is None or load.forefoot is None:
             self.flat = False
             found = self._step(t, False, self.touch.update(t, load), load)
-            if self.stage is Stage.LANDING:
+            if self.stage is StepStage.LANDING:
                 found += self._strike()
             return found
         self.flat = min(load.heel, load.forefoot) >= (self.area_off if self.flat else self.area_on)
@@ -152,11 +152,11 @@ class CopCues:
         """The cells are believed from here on, in a swing or at its end."""
         if airborne:
             left = self.touch.moving_since
-            self.stage = Stage.FLYING
+            self.stage = StepStage.FLYING
             self.airborne_since = t - self.rest
             return [] if phase is Phase.SWING else [Seen(Cue.CLEAR, t if left is None else left)]
         if phase is Phase.SWING:
-            self._enter(Stage.LANDING, t)
+            self._enter(StepStage.LANDING, t)
             self.jump, self.moment = FARTHEST, t  # it was the first of its load that was seen: told, but no mark
         return []
 
@@ -171,10 +171,10 @@ class CopCues:
             self.loaded_at = t
             return self._stationary(t)
         found: list[Seen] = []
-        if self.stage is Stage.STANDING:
+        if self.stage is StepStage.STANDING:
             found.append(Seen(Cue.LIFT, t))
-            self._enter(Stage.LEAVING, t)
-        if self.stage is Stage.LEAVING:
+            self._enter(StepStage.LEAVING, t)
+        if self.stage is StepStage.LEAVING:
             if before is not None and jump > self.jump:
                 self.jump = jump
                 self.moment = before
@@ -182,15 +182,15 @@ class CopCues:
             if airborne:
                 toe_off = self.moment if self.moment is not None else self.loaded_at
                 found.append(Seen(Cue.CLEAR, t if toe_off is None else toe_off))
-                self.stage = Stage.FLYING
+                self.stage = StepStage.FLYING
                 self.airborne_since = t
-        elif self.stage is Stage.FLYING:
+        elif self.stage is StepStage.FLYING:
             rested = self.airborne_since is not None and t - self.airborne_since >= self.rest - TIE
             if not airborne and rested:
-                self._enter(Stage.LANDING, t)
+                self._enter(StepStage.LANDING, t)
             elif not airborne:
-                self.stage = Stage.LEAVING  # it was not in the air yet: the best candidate may still come
-        if self.stage is Stage.LANDING:
+                self.stage = StepStage.LEAVING  # it was not in the air yet: the best candidate may still come
+        if self.stage is StepStage.LANDING:
             found += self._landing(t, airborne, jump)
         if not airborne:
             self.loaded_at = t
@@ -204,7 +204,7 @@ class CopCues:
                 # it flies again and was never flat: toe walking, running
                 found = self._strike()
                 found.append(Seen(Cue.CLEAR, self.airborne_since if self.loaded_at is None else self.loaded_at))
-                self.stage = Stage.FLYING
+                self.stage = StepStage.FLYING
                 return found
             return []
         self.airborne_since = None
@@ -216,19 +216,19 @@ class CopCues:
 
     def _stationary(self, t: float) -> list[Seen]:
         """The foot stands: motion end, or a stance that goes on."""
-        if self.stage is Stage.STANDING:
+        if self.stage is StepStage.STANDING:
             return []
         found: list[Seen] = []
         since = self.airborne_since
-        if self.stage is Stage.FLYING and since is not None and t - since >= self.rest - TIE:
+        if self.stage is StepStage.FLYING and since is not None and t - since >= self.rest - TIE:
             # it came down flat: the first sample of stance is the one after the jump
-            self._enter(Stage.LANDING, t)
+            self._enter(StepStage.LANDING, t)
             self.moment = t
             self.mark = Cue.CONTACT
-        if self.stage is Stage.LANDING:
+        if self.stage is StepStage.LANDING:
             found += self._strike()
         found.append(Seen(Cue.FLAT, t))
-        self._enter(Stage.STANDING, t)
+        self._enter(StepStage.STANDING, t)
         return found
 
     def _strike(self) -> list[Seen]:
@@ -237,7 +237,7 @@ class CopCues:
         self.told = True
         return [Seen(Cue.CONTACT, self.moment)]
 
-    def _enter(self, stage: Stage, t: float) -> None:
+    def _enter(self, stage: StepStage, t: float) -> None:
         self.stage = stage
         self.since = t
         self.jump = -1.0
@@ -246,8 +246,8 @@ class CopCues:
 
     def _forget(self, t: float) -> None:
         """Nothing is known of the load: the step under way is not a normal one."""
-        if self.pressed_at is not None or self.stage is not Stage.LEAVING:
-            self._enter(Stage.LEAVING, t)
+        if self.pressed_at is not None or self.stage is not StepStage.LEAVING:
+            self._enter(StepStage.LEAVING, t)
         self.pressed_at = self.cop = self.loaded_at = None
 
     def cleared(self, t: float) -> Seen:
@@ -267,6 +267,6 @@ class CopCues:
         self.inertial = evolve(self.inertial)
         self.inertial.axis = axis
         self.touch = self.touch.anew()
-        self._enter(Stage.LEAVING, 0.0)
+        self._enter(StepStage.LEAVING, 0.0)
         self.cop = self.pressed_at = self.loaded_at = self.fast_since = self.mark = None
         self.flat = False

@@ -56,7 +56,7 @@ OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 
 
 @define
-class Stepped:
+class FusedStride:
     """What is kept of one step."""
 
     t_end: float
@@ -72,10 +72,10 @@ class Stepped:
 
 
 @define
-class Path:
+class CalibratedPath:
     """The calibrated path of one foot."""
 
-    latest: list[Stepped] = field(factory=list)
+    latest: list[FusedStride] = field(factory=list)
     end: Vec3 = ZERO
     """Where the last step ended, world frame, m."""
     distance: float = 0.0
@@ -106,8 +106,8 @@ class DoubleFoot:
     abnormal: float = 1.0
     """m/s: about as much as the error indices of normal steps on recorded insoles."""
     # state
-    left: Path = field(factory=Path, init=False)
-    right: Path = field(factory=Path, init=False)
+    left: CalibratedPath = field(factory=CalibratedPath, init=False)
+    right: CalibratedPath = field(factory=CalibratedPath, init=False)
     weighted: float = field(default=0.0, init=False)
     """The sum of (13), m^2/s: positive when the left foot errs more."""
     chosen: Foot | None = field(default=None, init=False)
@@ -156,7 +156,7 @@ class DoubleFoot:
             errs = self._errs(index, partner.error_index)
             mean = 0.5 * (abs(length) + abs(partner.calibrated))
             self.weighted += (errs if foot is Foot.LEFT else -errs) * mean  # (13)
-        stepped = Stepped(taken.t_end, taken.length, length, index, rhythm, paired)
+        stepped = FusedStride(taken.t_end, taken.length, length, index, rhythm, paired)
         path.latest = [*path.latest[1 - KEPT :], stepped]
         self._extend(path, others, taken, length)
         self._choose(foot)
@@ -183,7 +183,7 @@ class DoubleFoot:
             return 0.0 if other is None else self.abnormal
         return -self.abnormal if other is None else own - other
 
-    def _partner(self, taken: StrideTaken, others: Path) -> Stepped | None:
+    def _partner(self, taken: StrideTaken, others: CalibratedPath) -> FusedStride | None:
         """The other foot's latest step before this one, unless it is too old."""
         left_at = taken.t_start if taken.t_toe_off is None else taken.t_toe_off
         for stepped in reversed(others.latest):
@@ -192,7 +192,7 @@ class DoubleFoot:
                 return stepped if fresh else None
         return None
 
-    def _extend(self, path: Path, others: Path, taken: StrideTaken, length: float) -> None:
+    def _extend(self, path: CalibratedPath, others: CalibratedPath, taken: StrideTaken, length: float) -> None:
         """The path goes on in the step's own direction, by the calibrated length."""
         if path.missed >= self.away:
             path.end, path.distance, path.shifted = others.end, others.distance, others.shifted
@@ -218,7 +218,7 @@ class DoubleFoot:
         if self._path(self.chosen).missed >= self.away:
             self.chosen = stepped
 
-    def _path(self, foot: Foot) -> Path:
+    def _path(self, foot: Foot) -> CalibratedPath:
         return self.left if foot is Foot.LEFT else self.right
 
     def position(self, feet: Mapping[Foot, FootTracker]) -> Position | None:

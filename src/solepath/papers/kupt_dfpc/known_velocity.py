@@ -13,7 +13,7 @@ from attrs import define, evolve, field
 
 from ...calibration import Calibration, ShoeGeometry
 from ...foot.cues.touch import Touch
-from ...foot.stance.stance import Load, Shoe, Stance
+from ...foot.stance.stance import Load, ShoeDetector, Stance
 from ...types import Foot, Layout, Phase, Quat, Vec3
 from ...types.vector import IDENTITY, ZERO
 from .kinematics import Sagittal, shoe_for, velocity
@@ -60,7 +60,7 @@ class KnownVelocity:
     moving: float = field(default=0.0, init=False)
     """Time since the foot was last stationary beyond doubt, s."""
     touch: Touch = field(factory=Touch, init=False)
-    inertial: Shoe = field(factory=Shoe, init=False)
+    inertial: ShoeDetector = field(factory=ShoeDetector, init=False)
     """Speaks as long as the cells are not to be believed (touch.py): standing before the first step."""
     phase: Phase | None = field(default=None, init=False)
     """As far as the load tells; None while it does not."""

@@ -22,7 +22,7 @@ lost between them, and differences take the true time."""
 
 
 @frozen
-class Moment:
+class MotionMoment:
     """What the integration had come to at one sample of a motion. `at`: s since motion start. `velocity` (m/s) and
     `way` (m): raw. `known`: the way as far as velocities were known, m. `error`: raw less known velocity over the
     interval that ended here, m/s; None when it was not known."""
@@ -79,12 +79,12 @@ class SwingDedrift(LinearDedrift):
     mean: Vec3 = field(default=ZERO, init=False)
     """Raw velocity over the last interval, m/s."""
     interval: float = field(default=0.0, init=False)
-    here: Moment | None = field(default=None, init=False)
-    before: Moment | None = field(default=None, init=False)
-    toe_off: Moment | None = field(default=None, init=False)
+    here: MotionMoment | None = field(default=None, init=False)
+    before: MotionMoment | None = field(default=None, init=False)
+    toe_off: MotionMoment | None = field(default=None, init=False)
     toe_off_from: float = field(default=0.0, init=False)
     """To which time the error at toe-off belongs, s since motion start."""
-    strike: Moment | None = field(default=None, init=False)
+    strike: MotionMoment | None = field(default=None, init=False)
     strike_error: Vec3 | None = field(default=None, init=False)
     strike_from: float = field(default=0.0, init=False)
     last_interval: float = field(default=0.0, init=False)
@@ -140,7 +140,7 @@ class SwingDedrift(LinearDedrift):
             self._advance((vx - ex, vy - ey, vz - ez))
             if hint is not Phase.SWING:
                 error = self.before.error
-        self.here = Moment(self.swing, self.raw_velocity, self.raw_way, self.known_way, error)
+        self.here = MotionMoment(self.swing, self.raw_velocity, self.raw_way, self.known_way, error)
         return False
 
     def _take(self, v_ref: Vec3, push_off: bool) -> Vec3 | None:
@@ -214,7 +214,7 @@ class SwingDedrift(LinearDedrift):
         error, at = self.strike_error, self.strike_from
         if error is None:  # the heel never rolled: the velocity is known where the foot stands
             error, at = self.raw_velocity, duration
-            strike = Moment(duration, self.raw_velocity, self.raw_way, self.known_way, error)
+            strike = MotionMoment(duration, self.raw_velocity, self.raw_way, self.known_way, error)
         else:
             # the last interval, in which the foot came to rest, with the error as it was
             vx, vy, vz = self.mean

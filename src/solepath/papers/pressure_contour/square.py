@@ -48,7 +48,7 @@ NEAR = 1.0
 
 
 @frozen
-class Mark:
+class CornerMark:
     """The foot stood on mark `name` at `t`, s."""
 
     name: str
@@ -78,7 +78,7 @@ def fit_square(
     items: Iterable[Packet | Sample],
     *,
     foot: Foot | None = None,
-    marks: Sequence[Mark] | None = None,
+    marks: Sequence[CornerMark] | None = None,
     steps_per_lap: int = STEPS_PER_LAP,
     recipe: Recipe = PRESSURE_CONTOUR,
     calibration: Calibration | None = None,
@@ -96,7 +96,7 @@ def square_drift(
     items: Iterable[Packet | Sample],
     *,
     foot: Foot | None = None,
-    marks: Sequence[Mark] | None = None,
+    marks: Sequence[CornerMark] | None = None,
     steps_per_lap: int = STEPS_PER_LAP,
     recipe: Recipe = PRESSURE_CONTOUR,
     calibration: Calibration | None = None,
@@ -128,7 +128,7 @@ def square_drift(
     return found
 
 
-def read_marks(path: Path | str) -> tuple[Mark, ...]:
+def read_marks(path: Path | str) -> tuple[CornerMark, ...]:
     """Marks from a .csv with the columns `mark` and `t`, one row for every visit. CalibrationError when it is not."""
     try:
         rows = list(csv.DictReader(StringIO(bounded_text(Path(path), "utf-8-sig"), newline="")))
@@ -141,7 +141,7 @@ def read_marks(path: Path | str) -> tuple[Mark, ...]:
         name, t = row.get("mark"), _number(row.get("t"))
         if not name or t is None:
             raise CalibrationError(f"{path}, line {number}: a visit is a name in column mark and seconds in column t")
-        marks.append(Mark(name.strip(), t))
+        marks.append(CornerMark(name.strip(), t))
     if not marks:
         raise CalibrationError(f"{path}: no visits of marks")
     return tuple(marks)
@@ -180,7 +180,7 @@ def _counted(steps: Sequence[StrideTaken], steps_per_lap: int) -> Visits:
     return visits
 
 
-def _marked(steps: Sequence[StrideTaken], marks: Sequence[Mark]) -> Visits:
+def _marked(steps: Sequence[StrideTaken], marks: Sequence[CornerMark]) -> Visits:
     visits: Visits = {}
     ends = np.array([step.t for step in steps])
     for mark in marks:

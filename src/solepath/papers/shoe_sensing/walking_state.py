@@ -129,6 +129,4 @@ class AnglePerMetre:
             return
         began = began if self.since is None else max(began, self.since)
         self.activity, self.since = activity, began
-        told.append(
-            ActivityChanged(t=began, known_at=max(known_at, began), activity=activity, probability=None)
-        )
+        told.append(ActivityChanged(t=began, known_at=max(known_at, began), activity=activity, probability=None))

@@ -32,7 +32,7 @@ MODES = tuple(mode for mode in WalkingMode if mode is not WalkingMode.STANDING)
 
 
 @frozen
-class Mark:
+class ModeMark:
     """A point on the floor, m, that a foot stepped on in this mode: at about `t` s, or with its `step`-th touchdown."""
 
     where: str
@@ -54,7 +54,7 @@ class StepError:
     left: float
 
 
-def read_marks(path: Path | str) -> list[Mark]:
+def read_marks(path: Path | str) -> list[ModeMark]:
     """The marks of a csv file with the columns foot (left, right), x, y (m), mode, and t (s) or step (from 1).
     CalibrationError that names file and line."""
     rows = read_rows(path, ("foot", "x", "y", "mode"))
@@ -64,7 +64,7 @@ def read_marks(path: Path | str) -> list[Mark]:
     for row in rows:
         foot = Foot(row.one_of("foot", [foot.value for foot in Foot]))
         mode = WalkingMode[row.one_of("mode", [mode.name for mode in MODES])]
-        mark = Mark(row.where, foot, row.number("x"), row.number("y"), mode)
+        mark = ModeMark(row.where, foot, row.number("x"), row.number("y"), mode)
         if row.has("t"):
             mark = evolve(mark, t=row.number("t"))
         elif row.has("step"):
@@ -90,10 +90,10 @@ def touchdowns(walk: Recorded, known: Calibration, heading: float | None = None)
     return sorted([event for event in events if isinstance(event, TouchedDown)], key=_time)
 
 
-def step_errors(marks: Iterable[Mark], downs: list[TouchedDown]) -> list[StepError]:
+def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[StepError]:
     """Every step from a mark of one foot to a mark of the other, with a mark of each before them to tell the direction.
     CalibrationError for a mark that no touchdown belongs to, or two marks of one."""
-    at: dict[int, Mark] = {}
+    at: dict[int, ModeMark] = {}
     for mark in marks:
         k = _touchdown_of(mark, downs)
         if k in at:
@@ -184,7 +184,7 @@ def spread(errors: Iterable[StepError], compensation: dict[Foot, dict[WalkingMod
     return float((sum(squares) / len(squares)) ** 0.5) if squares else 0.0
 
 
-def _touchdown_of(mark: Mark, downs: list[TouchedDown]) -> int:
+def _touchdown_of(mark: ModeMark, downs: list[TouchedDown]) -> int:
     of_foot = [k for k, down in enumerate(downs) if down.foot is mark.foot]
     if mark.t is not None:
         near = [(abs(downs[k].t - mark.t), k) for k in of_foot if abs(downs[k].t - mark.t) <= NEAR]

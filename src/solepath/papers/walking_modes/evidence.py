@@ -15,7 +15,7 @@ UNSEEN = 2
 
 
 @define
-class Evidence:
+class SignEvidence:
     """The sign of one foot, held against its own steps."""
 
     # state

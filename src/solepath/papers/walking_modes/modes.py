@@ -2,7 +2,7 @@
 
 After Gong et al. 2023 (Sensors 23, 5417): one foot carries (touchdown.py), the other is V_change away from it, (1)-(3);
 when it comes down it carries on from there, with a compensation, P_s = P_t + V_change + epsilon_P (8). Methods I, II
-and III are this part with `Height`, `NetAcceleration`, `MaximumPressure` and no compensation; IV is III with it.
+and III are this part with `Height`, `NetAcceleration`, `PressureTouchdown` and no compensation; IV is III with it.
 
 P_L, P_R and V_change are a matter of places.py, epsilon_P of compensation.py, and the mode that it is for is told by
 recognition.py. P_L and P_R come from the chain of seven attitudes (limbs.py). Without sensors above the ankles they are
@@ -42,10 +42,10 @@ from .evidence import UNSEEN
 from .limbs.above import Above
 from .limbs.limbs import ABOVE
 from .mode import LEAST_STEP, TH
-from .places import Places
+from .places import FootPlaces
 from .recognition import Recognition
 from .signs import Signs
-from .touchdown import OTHER, AnyTouchdown, Carrier, Height, MaximumPressure, suspended
+from .touchdown import OTHER, AnyTouchdown, Carrier, Height, PressureTouchdown, suspended
 
 AWAY = 0.03
 """A foot that comes down nearer to where it stood was not away, m: the flags of standing feet flicker."""
@@ -62,7 +62,7 @@ class Modes:
     where the wearer looks at the start, in the world that the devices share, rad, where it is known
     (`LowerLimbs.heading`)."""
 
-    touchdown: AnyTouchdown = field(factory=MaximumPressure)
+    touchdown: AnyTouchdown = field(factory=PressureTouchdown)
     compensation: Compensation | None = None
     limbs: Limbs = field(factory=Limbs)
     weight: float | None = None
@@ -75,7 +75,7 @@ class Modes:
     heading_sigma: float = 0.03
     """Of the first heading, rad."""
     # state
-    places: Places = field(init=False)
+    places: FootPlaces = field(init=False)
     above: Above = field(factory=Above, init=False)
     signs: Signs = field(init=False)
     recognition: Recognition = field(init=False)
@@ -95,7 +95,7 @@ class Modes:
     def __attrs_post_init__(self) -> None:
         self.signs = Signs(deepcopy(self.touchdown))
         self.recognition = Recognition(self.weight, self.th)
-        self.places = Places(self.limbs, self.heading, self._apart())
+        self.places = FootPlaces(self.limbs, self.heading, self._apart())
 
     def _apart(self) -> float:
         """Between the feet at the start, m: the hips' width, as the chain has it in the N-pose. If feet that walk on

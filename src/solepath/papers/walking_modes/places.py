@@ -4,7 +4,7 @@ After Gong et al. 2023 (Sensors 23, 5417), equations (1) to (3). P_L and P_R are
 attitudes (limbs.py) while it knows them, else the feet's own inertial tracks, set apart as they stood at the start; of
 a foot that was not heard for a while, as they go on together once it is heard again (`MeanOfFeet`).
 
-The chain has the ends of the feet, a touchdown is a place below an ankle; what lies between them is `Side.reach`.
+The chain has the ends of the feet, a touchdown is a place below an ankle; what lies between them is `FootPlace.reach`.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from math import atan2, cos, hypot, pi, sin
 
 from attrs import define, field
 
-from ...body.fuse.position import MeanOfFeet, Placed
+from ...body.fuse.position import MeanOfFeet, PlacedTrack
 from ...calibration import Limbs
 from ...events import Event
 from ...foot.tracker import FootTracker
@@ -28,7 +28,7 @@ FIRST_WAY = 1.5
 
 
 @define
-class Side:
+class FootPlace:
     """Where one foot is."""
 
     place: Vec3 = ZERO
@@ -55,7 +55,7 @@ class Side:
 
 
 @define
-class Places:
+class FootPlaces:
     """`heading`: where the wearer looks at the start, in the world that the devices share, rad, where it is known
     (`LowerLimbs.heading`). `apart`: between the feet at the start, m."""
 
@@ -64,7 +64,7 @@ class Places:
     apart: float
     # state
     chain: LowerLimbs = field(init=False)
-    sides: dict[Foot, Side] = field(init=False)
+    sides: dict[Foot, FootPlace] = field(init=False)
     headed: bool = field(init=False)
     """The first heading is settled."""
     tracks: MeanOfFeet = field(factory=MeanOfFeet, init=False)
@@ -76,7 +76,7 @@ class Places:
         self.sides = {}
         for foot, sign in ((Foot.LEFT, 0.5), (Foot.RIGHT, -0.5)):
             place = (0.0, sign * self.apart, 0.0)
-            self.sides[foot] = Side(place, place, (self.limbs.foot, 0.0))
+            self.sides[foot] = FootPlace(place, place, (self.limbs.foot, 0.0))
 
     def moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> None:
         """A sample of a foot: where its own track has it."""
@@ -91,7 +91,7 @@ class Places:
             placed = left if foot.foot is Foot.LEFT else right
             self.sides[foot.foot].track = placed.place(placed.here)
 
-    def _shifted(self, foot: Foot, placed: Placed, offset: Vec3, waited: bool) -> None:
+    def _shifted(self, foot: Foot, placed: PlacedTrack, offset: Vec3, waited: bool) -> None:
         """Its track lies elsewhere among both than with `offset` before."""
         side, other = self.sides[foot], self.sides[OTHER[foot]]
         if waited and not placed.waits:  # it is known there again, and they walk as far apart as they stood
@@ -103,7 +103,7 @@ class Places:
             shift = sub(placed.offset, offset)
             side.offset, side.track = sub(side.offset, shift), suspended(side.track, shift)
 
-    def _apart(self, foot: Foot, other: Side) -> tuple[float, float]:
+    def _apart(self, foot: Foot, other: FootPlace) -> tuple[float, float]:
         """From the other foot to this one when they stand side by side, facing as the other last went, m."""
         c, s = other.direction
         k = self.apart if foot is Foot.LEFT else -self.apart

@@ -14,14 +14,14 @@ from attrs import define, field
 
 from ...types import Foot, Layout, WalkingMode
 from .mode import LEAST_STEP, LINGERS, STANDING_WEIGHT, TH, Contact, at_pace, decide
-from .touchdown import OTHER, FootState, MaximumPressure
+from .touchdown import OTHER, FootState, PressureTouchdown
 
 LONG_ENOUGH = 2000
 """Samples that the mean of what both feet bear is taken over, from then on as a decaying one."""
 
 
 @define
-class Sole:
+class SoleContacts:
     """What the contacts of one foot are told from, and what they told."""
 
     # state
@@ -44,15 +44,15 @@ class Recognition:
     weight: float | None = None
     th: float = TH
     # state
-    soles: dict[Foot, Sole] = field(init=False)
-    pressing: MaximumPressure = field(factory=MaximumPressure, init=False)
+    soles: dict[Foot, SoleContacts] = field(init=False)
+    pressing: PressureTouchdown = field(factory=PressureTouchdown, init=False)
     """Begins and ends the contacts that tell a mode."""
     borne: float = field(default=0.0, init=False)
     """Mean of what both feet bear, unit of the samples."""
     borne_count: int = field(default=0, init=False)
 
     def __attrs_post_init__(self) -> None:
-        self.soles = {foot: Sole() for foot in Foot}
+        self.soles = {foot: SoleContacts() for foot in Foot}
 
     def pressed(
         self, foot: Foot, state: FootState, cells: tuple[float, ...], layout: Layout | None, t: float, both_heard: bool

@@ -14,7 +14,7 @@ from ...calibration import CalibrationError, bounded_text
 
 
 @frozen
-class Row:
+class TableRow:
     """One line of a table; `where` names it in a sentence."""
 
     where: str
@@ -43,7 +43,7 @@ class Row:
         return text
 
 
-def read_rows(path: Path | str, columns: Collection[str]) -> list[Row]:
+def read_rows(path: Path | str, columns: Collection[str]) -> list[TableRow]:
     """The lines of a csv file below its header, empty ones left out. CalibrationError when the file cannot be read,
     lacks one of `columns`, or has a line of another length."""
     try:
@@ -63,5 +63,5 @@ def read_rows(path: Path | str, columns: Collection[str]) -> list[Row]:
             continue
         if len(line) != len(header):
             raise CalibrationError(f"{path}, line {number}: {len(line)} values, and the header has {len(header)}")
-        rows.append(Row(f"{path}, line {number}", dict(zip(header, line, strict=True))))
+        rows.append(TableRow(f"{path}, line {number}", dict(zip(header, line, strict=True))))
     return rows

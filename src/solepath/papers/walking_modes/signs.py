@@ -10,8 +10,8 @@ from ...events import Event, FootFlat, Limitation, StrideTaken
 from ...foot.tracker import FootTracker
 from ...types import SITE_OF_FOOT, Foot, Phase, Sample
 from ...types.vector import GRAVITY, rotate
-from .evidence import Evidence
-from .touchdown import AnyTouchdown, Flags, FootState, Height, MaximumPressure, NetAcceleration
+from .evidence import SignEvidence
+from .touchdown import AnyTouchdown, Flags, FootState, Height, NetAcceleration, PressureTouchdown
 
 NOBODY = FootState()
 """What a foot shows that was never heard."""
@@ -25,10 +25,10 @@ class Signs:
     # state
     shown: dict[Foot, FootState] = field(factory=dict, init=False)
     """What each foot shows; of those heard so far."""
-    evidence: dict[Foot, Evidence] = field(init=False)
+    evidence: dict[Foot, SignEvidence] = field(init=False)
 
     def __attrs_post_init__(self) -> None:
-        self.evidence = {foot: Evidence() for foot in Foot}
+        self.evidence = {foot: SignEvidence() for foot in Foot}
 
     def moved(self, foot: FootTracker, sample: Sample, events: list[Event], height: float) -> bool:
         """A sample of a foot, and what came of it; `height` of its own track, m. Whether it has cells to be used."""
@@ -46,7 +46,7 @@ class Signs:
             x, y, z = rotate(foot.corrector.attitude, sample.acc)
             state.acceleration = hypot(x, y, z - GRAVITY)
         usable = bool(sample.pressure) and bool(foot.sole.health.usable(sample.pressure or ()))
-        evidence.heard(sample.t, usable or not isinstance(self.method, MaximumPressure))
+        evidence.heard(sample.t, usable or not isinstance(self.method, PressureTouchdown))
         return usable
 
     def pressed(self, foot: FootTracker) -> FootState:
@@ -69,7 +69,7 @@ class Signs:
             down.append(evidence.down(flag, state.swings, none) and (alone is None or alone is foot))
             if evidence.own and not evidence.said and state is not NOBODY:
                 evidence.said = True
-                sign = "insole" if isinstance(self.method, MaximumPressure) else "foot's motion"
+                sign = "insole" if isinstance(self.method, PressureTouchdown) else "foot's motion"
                 what = f"the {foot.value} {sign} does not tell when it is down: its own steps stand for touchdowns"
                 events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[foot], what=what))
         return down[0], down[1]

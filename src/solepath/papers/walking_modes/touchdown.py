@@ -2,8 +2,8 @@
 
 After "Improving Accuracy of Real-Time Positioning and Path Tracking by Using an Error Compensation Algorithm against
 Walking Modes" (Gong et al. 2023, Sensors 23, 5417), section 2. The three parts turn what both feet show in one sample
-into the flags TD_L and TD_R and are interchangeable: `Height` is method I, `NetAcceleration` II, `MaximumPressure` III
-(and IV, which adds a compensation: modes.py).
+into the flags TD_L and TD_R and are interchangeable: `Height` is method I, `NetAcceleration` II, `PressureTouchdown`
+III (and IV, which adds a compensation: modes.py).
 
 The paper compares flags but does not say which foot carries while both are down, or neither. Here (`Carrier`): a foot
 whose flag rises takes over, whatever the other's; a foot whose flag falls hands over to the other if that one is down;
@@ -111,7 +111,7 @@ class NetAcceleration:
 
 
 @define
-class MaximumPressure:
+class PressureTouchdown:
     """Method III, equation (6): a foot is down while its most loaded cell is beyond a threshold, 5 N (section 3.1: the
     least that the paper's insole records). Where nobody knows what a newton is, a share of the most that a cell of this
     foot has ever shown."""
@@ -136,7 +136,7 @@ class MaximumPressure:
         return foot.pressure > (threshold * self.release if down else threshold)
 
 
-AnyTouchdown = Height | NetAcceleration | MaximumPressure
+AnyTouchdown = Height | NetAcceleration | PressureTouchdown
 
 
 @define

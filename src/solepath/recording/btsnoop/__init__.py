@@ -9,8 +9,8 @@ records.py: the file; hci.py: connections and L2CAP; att.py: attributes; values.
 what; log.py: the whole.
 """
 
-from .devices import Device
+from .devices import LoggedDevice
 from .log import BtsnoopLog, open_btsnoop
 from .records import is_btsnoop
 
-__all__ = ["BtsnoopLog", "Device", "is_btsnoop", "open_btsnoop"]
+__all__ = ["BtsnoopLog", "LoggedDevice", "is_btsnoop", "open_btsnoop"]

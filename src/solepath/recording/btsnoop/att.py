@@ -89,7 +89,7 @@ SEVERAL_VALUES = Struct(
 )
 
 
-class How(Enum):
+class AttOperation(Enum):
     """How a value went by."""
 
     NOTIFIED = "notified"
@@ -98,10 +98,10 @@ class How(Enum):
 
 
 @frozen
-class Told:
+class AttValue:
     """One value of the attribute with this handle."""
 
-    how: How
+    how: AttOperation
     handle: int
     value: bytes
 
@@ -125,11 +125,11 @@ class Conversation:
     mtu: int = SMALLEST_MTU
     _asked: tuple[int, Any] | None = None
     """The request that waits for its answer."""
-    _begun: Told | None = None
+    _begun: AttValue | None = None
     """A value that was read as far as one answer could hold; more of it may be asked for."""
-    _values: list[Told] = field(factory=list)
+    _values: list[AttValue] = field(factory=list)
 
-    def feed(self, data: bytes) -> list[Told]:
+    def feed(self, data: bytes) -> list[AttValue]:
         """What one PDU tells, of either direction."""
         self._values = []
         try:
@@ -142,7 +142,7 @@ class Conversation:
             self.flaws["PDUs that are not of the attribute protocol"] += 1
         return self._values
 
-    def finish(self) -> list[Told]:
+    def finish(self) -> list[AttValue]:
         """The link is gone: what was read and not asked on was whole."""
         self._values = []
         self._end_read()
@@ -152,7 +152,7 @@ class Conversation:
         match opcode:
             case Op.WRITE_COMMAND:
                 said = parse_whole(HANDLE_VALUE, body)
-                self._values.append(Told(How.WRITTEN, said.handle, said.value))
+                self._values.append(AttValue(AttOperation.WRITTEN, said.handle, said.value))
             case Op.PREPARE_WRITE:
                 self.flaws["long writes, which are passed over"] += 1
         if opcode not in REQUESTS:
@@ -183,11 +183,11 @@ class Conversation:
         match opcode:
             case Op.NOTIFICATION | Op.INDICATION:
                 said = parse_whole(HANDLE_VALUE, body)
-                self._values.append(Told(How.NOTIFIED, said.handle, said.value))
+                self._values.append(AttValue(AttOperation.NOTIFIED, said.handle, said.value))
                 return
             case Op.NOTIFICATIONS:
                 for said in parse_whole(SEVERAL_VALUES, body).entries:
-                    self._values.append(Told(How.NOTIFIED, said.handle, said.value))
+                    self._values.append(AttValue(AttOperation.NOTIFIED, said.handle, said.value))
                 return
         if self._asked is None:
             return  # asked before the log began
@@ -210,7 +210,7 @@ class Conversation:
             case Op.BLOB, Op.READ_BLOB if self._begun is not None:
                 self._read(asked.handle, self._begun.value + body, len(body))
             case Op.WRITTEN, Op.WRITE:
-                self._values.append(Told(How.WRITTEN, asked.handle, asked.value))
+                self._values.append(AttValue(AttOperation.WRITTEN, asked.handle, asked.value))
 
     def _found(self, kind: str, answer: Any) -> None:
         """Declarations of characteristics, or values of the characteristics of one kind."""
@@ -220,11 +220,11 @@ class Conversation:
                 self.types[declared.handle] = uuid_text(declared.type)
             else:
                 self.types[entry.handle] = kind
-                self._values.append(Told(How.READ, entry.handle, entry.value))
+                self._values.append(AttValue(AttOperation.READ, entry.handle, entry.value))
 
     def _read(self, handle: int, value: bytes, newest: int | None = None) -> None:
         """`newest`: bytes of the last answer, when it was not the first. One that is full may not be all."""
-        self._begun = Told(How.READ, handle, value)
+        self._begun = AttValue(AttOperation.READ, handle, value)
         size = len(value) if newest is None else newest
         if size < self.mtu - 1 or len(value) >= LONGEST_VALUE:
             self._end_read()

@@ -8,12 +8,12 @@ from attrs import define, field
 
 from ...link.devices import DECLARED
 from ...link.known import PROFILES
+from ...link.profile import Access as Use
 from ...link.profile import Channel, Profile
-from ...link.profile import How as Use
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...wire.error import WireError
-from .att import How
-from .evidence import Evidence
+from .att import AttOperation
+from .evidence import ValueEvidence
 
 Handles = Mapping[tuple[str, int], str]
 """(device, or "" for any; attribute handle) -> channel."""
@@ -22,30 +22,32 @@ CHANNELS = frozenset(channel.name for profile in PROFILES for channel in profile
 CHARACTERISTICS = frozenset(channel.characteristic for profile in PROFILES for channel in profile.channels)
 DRIVERS = {driver.name: driver for driver in DECLARED}
 USES = {
-    How.NOTIFIED: (Use.NOTIFY, Use.READ),
-    How.READ: (Use.READ, Use.NOTIFY, Use.WRITE),
-    How.WRITTEN: (Use.WRITE,),
+    AttOperation.NOTIFIED: (Use.NOTIFY, Use.READ),
+    AttOperation.READ: (Use.READ, Use.NOTIFY, Use.WRITE),
+    AttOperation.WRITTEN: (Use.WRITE,),
 }
 """How a value went by -> what its channel is used for, the likeliest first: a characteristic may be one channel where
 it is read and another where it is written, and what is subscribed or written may be read as well."""
 
 
 @define
-class Device:
+class LoggedDevice:
     """One device of a log. `address`: or what else tells it from others. `profile`: None when its discovery is not in
     the log, or it is of no use here. `channels`: attribute handle, and how the value went by -> channel."""
 
     address: str
     site: Site | None = None
     profile: Profile | None = None
-    channels: dict[tuple[int, How], str] = field(factory=dict)
-    seen: dict[int, Evidence] = field(factory=dict)
+    channels: dict[tuple[int, AttOperation], str] = field(factory=dict)
+    seen: dict[int, ValueEvidence] = field(factory=dict)
     """Attribute handle -> what its values are like."""
 
     @property
     def count(self) -> int:
         """Notified values that are a channel's."""
-        return sum(evidence.count for handle, evidence in self.seen.items() if (handle, How.NOTIFIED) in self.channels)
+        return sum(
+            evidence.count for handle, evidence in self.seen.items() if (handle, AttOperation.NOTIFIED) in self.channels
+        )
 
 
 def upper(address: str) -> str:
@@ -53,7 +55,7 @@ def upper(address: str) -> str:
     return address.upper()
 
 
-def name_attributes(device: Device, types: Mapping[int, str], handles: Handles) -> set[tuple[str, int]]:
+def name_attributes(device: LoggedDevice, types: Mapping[int, str], handles: Handles) -> set[tuple[str, int]]:
     """Which of its attributes are channels: by what the caller says, by discovery, by proof. What of `handles` was of
     use: what is said of any device counts where discovery says nothing, and no word makes one device of another."""
     device.profile = _profile(set(types.values()))
@@ -72,14 +74,14 @@ def name_attributes(device: Device, types: Mapping[int, str], handles: Handles) 
             same = [each for each in device.profile.channels if each.characteristic == types.get(handle)]
         else:
             same = []
-        for how in How:
+        for how in AttOperation:
             channel = next((each.name for use in USES[how] for each in same if each.how is use), None)
             if channel is not None:
                 device.channels[handle, how] = channel
     return used
 
 
-def _may_be(channel: str, wish: tuple[str, int], device: Device, types: Mapping[int, str]) -> bool:
+def _may_be(channel: str, wish: tuple[str, int], device: LoggedDevice, types: Mapping[int, str]) -> bool:
     """Whether discovery leaves it open, or agrees, that the attribute is this channel."""
     address, handle = wish
     if device.profile is not None and not device.profile.has(channel):
@@ -90,7 +92,7 @@ def _may_be(channel: str, wish: tuple[str, int], device: Device, types: Mapping[
 
 
 def no_use(
-    wish: tuple[str, int], channel: str, devices: Mapping[str, Device], types: Mapping[str, Mapping[int, str]]
+    wish: tuple[str, int], channel: str, devices: Mapping[str, LoggedDevice], types: Mapping[str, Mapping[int, str]]
 ) -> str:
     """Why what was said of an attribute is of no use."""
     address, handle = wish
@@ -126,7 +128,7 @@ def _profile(uuids: set[str]) -> Profile | None:
     return best
 
 
-def place(device: Device, places: Mapping[str, Site]) -> None:
+def place(device: LoggedDevice, places: Mapping[str, Site]) -> None:
     """Where the caller says, else the foot that it says itself."""
     device.site = places.get(upper(device.address))
     for (handle, how), channel in device.channels.items():
@@ -135,12 +137,12 @@ def place(device: Device, places: Mapping[str, Site]) -> None:
             device.site = SITE_OF_FOOT[foot]
 
 
-def _foot(channel: str, how: How, evidence: Evidence) -> Foot | None:
+def _foot(channel: str, how: AttOperation, evidence: ValueEvidence) -> Foot | None:
     """Whose insole it is, where a channel's values say it."""
     if channel in ("insole/frame", "insole/info"):
         return evidence.foot
     driver = DRIVERS.get(channel.partition("/")[0])
-    if how is not How.READ or driver is None or channel not in driver.readers or evidence.read is None:
+    if how is not AttOperation.READ or driver is None or channel not in driver.readers or evidence.read is None:
         return None
     try:
         return driver.read(channel, evidence.read, {}).foot

@@ -14,7 +14,7 @@ from ...wire.error import WireError
 from ...wire.fragment import is_fragment, parse_fragment
 from ...wire.insole import parse_frame
 from ...wire.insole_info import parse_info
-from .att import How
+from .att import AttOperation
 
 LOOKED_AT = 300
 """Values of one attribute; the sixteen fragments of a frame are among them many times."""
@@ -23,7 +23,7 @@ PROOF = 2
 
 
 @define
-class Evidence:
+class ValueEvidence:
     """The values of one attribute: how many, how long, and what the first ones decode as."""
 
     count: int = 0
@@ -37,10 +37,10 @@ class Evidence:
     """The value that was read last."""
     _pieces: Reassembly = field(factory=Reassembly)
 
-    def see(self, how: How, data: bytes) -> None:
-        if how is How.WRITTEN:
+    def see(self, how: AttOperation, data: bytes) -> None:
+        if how is AttOperation.WRITTEN:
             return
-        if how is How.READ:
+        if how is AttOperation.READ:
             self.read = data
             self._read(data)
             return

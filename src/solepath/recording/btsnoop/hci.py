@@ -14,7 +14,7 @@ from construct import Bytes, GreedyBytes, Int8ul, Int16ul, Struct
 
 from ...wire.error import WireError
 from ...wire.fields import Fields, parse_whole
-from .records import Kind, Record
+from .records import HciRecord, RecordKind
 
 COMMAND = Struct("opcode" / Int16ul, "size" / Int8ul, "parameters" / GreedyBytes)
 EVENT = Struct("code" / Int8ul, "size" / Int8ul, "parameters" / GreedyBytes)
@@ -48,7 +48,7 @@ DYNAMIC_CHANNELS = 0x40
 
 
 @define
-class Link:
+class HciConnection:
     """One connection, from its beginning (or the log's) to its end (or the log's).
 
     `number`: counted through the log. `address`: the peer's; "" when the connection is older than the log.
@@ -70,13 +70,13 @@ class Link:
 @frozen
 class Begun:
     t: int
-    link: Link
+    link: HciConnection
 
 
 @frozen
 class Ended:
     t: int
-    link: Link
+    link: HciConnection
 
 
 @frozen
@@ -84,7 +84,7 @@ class Pdu:
     """One PDU of the attribute protocol. `own`: the local host's address, "" when the log does not tell."""
 
     t: int
-    link: Link
+    link: HciConnection
     sent: bool
     data: bytes
     own: str
@@ -100,26 +100,26 @@ class Controller:
     """What a log tells of the connections of its adapters, record by record. `flaws` counts what was not understood."""
 
     flaws: Counter[str]
-    _links: dict[tuple[int, int], Link] = field(factory=dict)
+    _links: dict[tuple[int, int], HciConnection] = field(factory=dict)
     _public: dict[int, str] = field(factory=dict)
     _random: dict[int, str] = field(factory=dict)
     _count: int = 0
 
-    def feed(self, record: Record) -> Iterator[Begun | Ended | Pdu]:
-        if record.kind is not Kind.OTHER and not record.whole:
+    def feed(self, record: HciRecord) -> Iterator[Begun | Ended | Pdu]:
+        if record.kind is not RecordKind.OTHER and not record.whole:
             self.flaws["records that the logger cut short"] += 1
         try:
             match record.kind:
-                case Kind.COMMAND if record.whole:
+                case RecordKind.COMMAND if record.whole:
                     yield from self._command(record)
-                case Kind.EVENT if record.whole:
+                case RecordKind.EVENT if record.whole:
                     yield from self._event(record)
-                case Kind.ACL:
+                case RecordKind.ACL:
                     yield from self._acl(record)
         except WireError:
             self.flaws["records that are not HCI"] += 1
 
-    def _command(self, record: Record) -> Iterator[Ended]:
+    def _command(self, record: HciRecord) -> Iterator[Ended]:
         command = parse_whole(COMMAND, record.data)
         if command.opcode == RESET:
             for key in [key for key in self._links if key[0] == record.adapter]:
@@ -127,7 +127,7 @@ class Controller:
         elif command.opcode == LE_SET_RANDOM_ADDRESS and len(command.parameters) == 6:
             self._random[record.adapter] = address_text(command.parameters)
 
-    def _event(self, record: Record) -> Iterator[Begun | Ended]:
+    def _event(self, record: HciRecord) -> Iterator[Begun | Ended]:
         event = parse_whole(EVENT, record.data)
         parameters = event.parameters
         if event.size != len(parameters):
@@ -147,17 +147,17 @@ class Controller:
             if told.opcode == READ_BD_ADDR and told.status == 0:
                 self._public[record.adapter] = address_text(told.address)
 
-    def _begin(self, record: Record, handle: int, address: str) -> Link:
-        link = self._links[record.adapter, handle] = Link(self._count, record.adapter, handle, address)
+    def _begin(self, record: HciRecord, handle: int, address: str) -> HciConnection:
+        link = self._links[record.adapter, handle] = HciConnection(self._count, record.adapter, handle, address)
         self._count += 1
         return link
 
-    def _end(self, record: Record, handle: int) -> Iterator[Ended]:
+    def _end(self, record: HciRecord, handle: int) -> Iterator[Ended]:
         link = self._links.pop((record.adapter, handle), None)
         if link is not None:
             yield Ended(record.t, link)
 
-    def _acl(self, record: Record) -> Iterator[Pdu]:
+    def _acl(self, record: HciRecord) -> Iterator[Pdu]:
         if len(record.data) < 4:
             self.flaws["records that are not HCI"] += 1
             return
@@ -191,7 +191,7 @@ class Controller:
             elif channel >= DYNAMIC_CHANNELS and link.address:
                 self.flaws["packets of channels that are not followed (EATT perhaps)"] += 1
 
-    def _give_up(self, link: Link, sent: bool) -> None:
+    def _give_up(self, link: HciConnection, sent: bool) -> None:
         """What was begun will not be completed."""
         if link.pieces.pop(sent, None) is not None:
             self.flaws["packets of which a piece is missing"] += 1
@@ -200,6 +200,6 @@ class Controller:
         """The address by which peers know the adapter."""
         return self._random.get(adapter) or self._public.get(adapter, "")
 
-    def links(self) -> list[Link]:
+    def links(self) -> list[HciConnection]:
         """The connections that there are now."""
         return list(self._links.values())

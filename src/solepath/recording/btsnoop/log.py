@@ -14,14 +14,14 @@ from typing import Any
 from attrs import define
 
 from ...types import Packet, Site
-from ...wire.receiver import Connection, build_connected
+from ...wire.receiver import ConnectionFrame, build_connected
 from ..packets import RecordingError, Report, printable, warn
-from .att import How
-from .devices import CHANNELS, Device, Handles, name_attributes, no_use, one, place, upper
-from .evidence import Evidence
+from .att import AttOperation
+from .devices import CHANNELS, Handles, LoggedDevice, name_attributes, no_use, one, place, upper
+from .evidence import ValueEvidence
 from .hci import Begun, Ended
 from .records import refuse_pipe
-from .values import Listener, Value
+from .values import Value, ValueListener
 
 
 @define
@@ -33,7 +33,7 @@ class BtsnoopLog:
     """
 
     path: Path
-    devices: dict[str, Device]
+    devices: dict[str, LoggedDevice]
     began: int
     total: int
     done: int = 0
@@ -48,14 +48,14 @@ class BtsnoopLog:
         return {"began": moment.isoformat().replace("+00:00", "Z"), "began_t": 0.0, "source": "btsnoop"}
 
     def __iter__(self) -> Iterator[Packet]:
-        for item in Listener(self.path, _silent).listen(self._read):
+        for item in ValueListener(self.path, _silent).listen(self._read):
             match item:
                 case Value():
                     device, data = self.devices.get(item.device), item.data
                     channel = None if device is None else device.channels.get((item.attribute, item.how))
                 case Begun():
                     # the log does not say how the host heard of it, so neither name nor signal
-                    channel, data = "receiver/connected", build_connected(Connection("", None))
+                    channel, data = "receiver/connected", build_connected(ConnectionFrame("", None))
                     device = self.devices.get(item.link.peer)
                 case Ended():
                     channel, data = "receiver/disconnected", b""
@@ -88,14 +88,14 @@ def open_btsnoop(
         if channel not in CHANNELS:
             raise ValueError(f"no device has a channel {channel!r}")
     places = {upper(device): site for device, site in (sites or {}).items()}
-    listener, devices, began = Listener(path, report), dict[str, Device](), None
+    listener, devices, began = ValueListener(path, report), dict[str, LoggedDevice](), None
     damage: RecordingError | None = None
     try:
         for item in listener.listen():
             began = item.t if began is None else began
             if isinstance(item, Value):
-                device = devices.setdefault(item.device, Device(item.device))
-                device.seen.setdefault(item.attribute, Evidence()).see(item.how, item.data)
+                device = devices.setdefault(item.device, LoggedDevice(item.device))
+                device.seen.setdefault(item.attribute, ValueEvidence()).see(item.how, item.data)
     except RecordingError as error:
         damage = error  # told once more by the iteration, after the packets before it
     used: set[tuple[str, int]] = set()
@@ -120,7 +120,7 @@ def open_btsnoop(
     return BtsnoopLog(path, devices, began or 0, path.stat().st_size)
 
 
-def _left_out(devices: list[Device], types: Mapping[str, Mapping[int, str]]) -> Iterator[str]:
+def _left_out(devices: list[LoggedDevice], types: Mapping[str, Mapping[int, str]]) -> Iterator[str]:
     """One sentence about each thing that does not become packets, and about what a session will not take."""
     others = 0
     for device in devices:
@@ -129,7 +129,7 @@ def _left_out(devices: list[Device], types: Mapping[str, Mapping[int, str]]) -> 
         nameless = {
             handle: evidence
             for handle, evidence in device.seen.items()
-            if evidence.count and (handle, How.NOTIFIED) not in device.channels and handle not in known
+            if evidence.count and (handle, AttOperation.NOTIFIED) not in device.channels and handle not in known
         }
         if nameless:
             count = sum(evidence.count for evidence in nameless.values())
@@ -150,7 +150,7 @@ def _times(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
-def _described(attributes: Mapping[int, Evidence]) -> str:
+def _described(attributes: Mapping[int, ValueEvidence]) -> str:
     """The handles with the lengths of their values, a few of them."""
     told = [
         f"{handle:#06x} ({', '.join(map(str, sorted(evidence.lengths)[:3]))} bytes)"

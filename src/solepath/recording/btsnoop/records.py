@@ -40,7 +40,7 @@ class Datalink(Enum):
     """The record's flags hold the adapter and an opcode: BlueZ's btmon."""
 
 
-class Kind(Enum):
+class RecordKind(Enum):
     """What a record holds."""
 
     COMMAND = 1
@@ -51,13 +51,13 @@ class Kind(Enum):
 
 
 @frozen
-class Record:
+class HciRecord:
     """One HCI packet. `t`: us since 1970, UTC, as the logger's clock had it. `sent`: by the host to its controller.
     `whole`: False when the logger kept only the beginning."""
 
     t: int
     adapter: int
-    kind: Kind
+    kind: RecordKind
     sent: bool
     data: bytes
     whole: bool
@@ -79,10 +79,10 @@ RECORD_HEADER_SIZE = 24
 
 _RECEIVED, _COMMAND_OR_EVENT = 1, 2
 _MONITOR = {
-    2: (Kind.COMMAND, True),
-    3: (Kind.EVENT, False),
-    4: (Kind.ACL, True),
-    5: (Kind.ACL, False),
+    2: (RecordKind.COMMAND, True),
+    3: (RecordKind.EVENT, False),
+    4: (RecordKind.ACL, True),
+    5: (RecordKind.ACL, False),
 }
 """btmon's opcode -> kind, sent."""
 
@@ -103,7 +103,7 @@ def refuse_pipe(path: Path) -> None:
 
 def read_records(
     path: Path, *, report: Report, flaws: Counter[str], progress: Callable[[int], None] | None = None
-) -> Iterator[Record]:
+) -> Iterator[HciRecord]:
     """The records of a log in order. `report` hears of a torn last record, `flaws` counts what the logger left out.
 
     RecordingError, after everything before it, for what is no btsnoop log and for a record that cannot be one.
@@ -150,20 +150,20 @@ def _datalink(path: Path, start: bytes) -> Datalink:
         raise RecordingError(path, f"is btsnoop of datalink {header.datalink}; this release reads {known}") from None
 
 
-def _unwrap(datalink: Datalink, header: RecordHeader, data: bytes) -> Record:
-    adapter, kind, sent = 0, Kind.OTHER, not header.flags & _RECEIVED
+def _unwrap(datalink: Datalink, header: RecordHeader, data: bytes) -> HciRecord:
+    adapter, kind, sent = 0, RecordKind.OTHER, not header.flags & _RECEIVED
     match datalink:
         case Datalink.H4:
-            kind = _H4.get(data[0], Kind.OTHER) if data else Kind.OTHER
+            kind = _H4.get(data[0], RecordKind.OTHER) if data else RecordKind.OTHER
             data = data[1:]
         case Datalink.H1 if header.flags & _COMMAND_OR_EVENT:
-            kind = Kind.COMMAND if sent else Kind.EVENT
+            kind = RecordKind.COMMAND if sent else RecordKind.EVENT
         case Datalink.H1:
-            kind = Kind.ACL
+            kind = RecordKind.ACL
         case Datalink.MONITOR:
             adapter = header.flags >> 16
-            kind, sent = _MONITOR.get(header.flags & 0xFFFF, (Kind.OTHER, False))
-    return Record(header.t - YEAR_1970, adapter, kind, sent, data, header.included == header.original)
+            kind, sent = _MONITOR.get(header.flags & 0xFFFF, (RecordKind.OTHER, False))
+    return HciRecord(header.t - YEAR_1970, adapter, kind, sent, data, header.included == header.original)
 
 
-_H4 = {kind.value: kind for kind in Kind if kind is not Kind.OTHER}
+_H4 = {kind.value: kind for kind in RecordKind if kind is not RecordKind.OTHER}

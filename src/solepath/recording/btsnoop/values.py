@@ -9,8 +9,8 @@ from pathlib import Path
 from attrs import define, field, frozen
 
 from ..packets import RecordingError, Report
-from .att import FROM_CLIENT, Conversation, How, Told
-from .hci import Begun, Controller, Ended, Link, Pdu
+from .att import FROM_CLIENT, AttOperation, AttValue, Conversation
+from .hci import Begun, Controller, Ended, HciConnection, Pdu
 from .records import read_records
 
 
@@ -19,15 +19,15 @@ class Value:
     """One value. `t`: us since 1970. `device`: the address of the server, or what else tells it from others."""
 
     t: int
-    link: Link
+    link: HciConnection
     device: str
-    how: How
+    how: AttOperation
     attribute: int
     data: bytes
 
 
 @define
-class Listener:
+class ValueListener:
     """All values of a log, in order, with the beginnings and ends of the connections.
 
     `types`: device -> attribute handle -> UUID, as discovered so far. It outlives a connection, since hosts remember
@@ -74,13 +74,13 @@ class Listener:
             talk = self._talks[pdu.link.number, of_peer] = Conversation(types, self.flaws)
         yield from _values(pdu.t, pdu.link, device, talk.feed(pdu.data))
 
-    def _finish(self, t: int, link: Link, own: str) -> Iterator[Value]:
+    def _finish(self, t: int, link: HciConnection, own: str) -> Iterator[Value]:
         for of_peer, device in ((True, link.peer), (False, own)):
             talk = self._talks.pop((link.number, of_peer), None)
             if talk is not None:
                 yield from _values(t, link, device, talk.finish())
 
 
-def _values(t: int, link: Link, device: str, told: list[Told]) -> Iterator[Value]:
+def _values(t: int, link: HciConnection, device: str, told: list[AttValue]) -> Iterator[Value]:
     for one in told:
         yield Value(t, link, device, one.how, one.handle, one.value)

@@ -11,7 +11,7 @@ FAR = 1e5
 
 
 @frozen
-class Clock:
+class ReportClock:
     """Of one recording, from `begin` to `end`, s."""
 
     begin: float

@@ -54,7 +54,7 @@ class Covered:
 
 
 @define
-class Link:
+class ReportLink:
     """Of one site."""
 
     moved: int = 0
@@ -102,10 +102,10 @@ class Link:
 class Links:
     """Of all sites that were heard of."""
 
-    sites: dict[Site, Link] = field(factory=dict)
+    sites: dict[Site, ReportLink] = field(factory=dict)
 
-    def of(self, site: Site) -> Link:
-        return self.sites.setdefault(site, Link())
+    def of(self, site: Site) -> ReportLink:
+        return self.sites.setdefault(site, ReportLink())
 
     def hear(self, event: Event) -> None:
         """Any event."""

@@ -24,17 +24,17 @@ from ...floorplan.plan import FloorPlan
 from ...types import Foot, Phase
 from ..tally import Tally
 from .bounded import Thinned, coarser, sound
-from .clock import Clock
+from .clock import ReportClock
 from .figures.activity import activity_figure
 from .figures.cycle import cycle_figure
 from .figures.pressure import pressure_figures
-from .figures.stride import Stride, stride_figures
+from .figures.stride import DrawnStride, stride_figures
 from .figures.track import Stood, height_figure, plan_figure, track_figure
 from .gait_table import gait_tables
 from .links import Links
 from .markup import add, sentences, table
 from .page import save, section, skeleton
-from .soles import Sole
+from .soles import ReportSole
 from .words import CAUTION, link_rows, overview, sensors, without, wrong
 
 STRIDES, PLACES, POINTS = 1200, 1000, 1500
@@ -82,8 +82,8 @@ class Report:
     # state
     tally: Tally = field(factory=Tally, init=False)
     links: Links = field(factory=Links, init=False)
-    soles: dict[Foot, Sole] = field(factory=dict, init=False)
-    strides: dict[Foot, Thinned[Stride]] = field(init=False)
+    soles: dict[Foot, ReportSole] = field(factory=dict, init=False)
+    strides: dict[Foot, Thinned[DrawnStride]] = field(init=False)
     prints: dict[Foot, Thinned[Stood]] = field(factory=_points, init=False)
     heights: dict[Foot, Thinned[Stood]] = field(factory=_points, init=False)
     way: Thinned[Stood] = field(factory=lambda: Thinned(POINTS), init=False)
@@ -118,7 +118,7 @@ class Report:
             case GaitCycleMeasured():
                 if event.stride_time < 1e-3:
                     return
-                self.strides[event.foot].add(Stride.of(event))
+                self.strides[event.foot].add(DrawnStride.of(event))
                 self._sole(event.foot).stride(event)
             case StrideTaken(final=True):
                 self.prints[event.foot].add(Stood(event.t, event.position))
@@ -137,8 +137,8 @@ class Report:
         if isinstance(event, ActivityChanged):
             self._changed(event.t)
 
-    def _sole(self, foot: Foot) -> Sole:
-        return self.soles.setdefault(foot, Sole())
+    def _sole(self, foot: Foot) -> ReportSole:
+        return self.soles.setdefault(foot, ReportSole())
 
     def _height(self, event: FootMoved) -> None:
         last = self.heights[event.foot].last
@@ -154,10 +154,10 @@ class Report:
             self.changes = CHANGES // 2
 
     @property
-    def clock(self) -> Clock:
+    def clock(self) -> ReportClock:
         """How times are told."""
         begin, end = self.sampled or self.spanned or (0.0, 0.0)
-        return Clock(begin, end)
+        return ReportClock(begin, end)
 
     def write(self, path: Path) -> None:
         """The page into a file, UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
@@ -191,7 +191,7 @@ class Report:
         self._health(section(main, "health", "Sensors and links"))
         return html
 
-    def _facts(self, main: Element, clock: Clock) -> None:
+    def _facts(self, main: Element, clock: ReportClock) -> None:
         facts = add(main, "dl", class_="facts")
         when = f"{clock.begin:.1f} to {clock.end:.1f} s of its own clock" if self.spanned else ""
         told = [("When", self.when), ("Recording", when), ("Sensors", sensors(self.links))]
@@ -202,7 +202,7 @@ class Report:
                 add(facts, "dd", words)
         add(main, "p", CAUTION, class_="caution")
 
-    def _track(self, part: Element, clock: Clock) -> None:
+    def _track(self, part: Element, clock: ReportClock) -> None:
         shown = add(part, "div", class_="figures")
         if self.plan is not None and not plan_figure(shown, self.plan, list(self.places)):
             add(shown, "p", "Where on the floor plan the wearer was is not known.")

@@ -7,7 +7,7 @@ from ...types import Foot, Turn
 from ..tables.summary import link_health, worn
 from ..tables.table import number
 from ..tally import Tally
-from .clock import Clock, lasted
+from .clock import ReportClock, lasted
 from .figures.activity import named
 from .links import Links
 
@@ -22,7 +22,7 @@ TURNS = {Turn.LEFT: "to the left", Turn.RIGHT: "to the right", Turn.ABOUT: "abou
 
 
 def overview(
-    tally: Tally, clock: Clock, begun: bool, measured: dict[Foot, int], covered: float | None = None
+    tally: Tally, clock: ReportClock, begun: bool, measured: dict[Foot, int], covered: float | None = None
 ) -> list[str]:
     """The walk in sentences. `begun`: something was heard at all; `measured`: gait cycles of each foot, for a foot
     without a track; `covered`: how long it lasts where the clock does not tell, s."""

@@ -13,7 +13,7 @@ MOST = 20
 
 
 @define
-class Places:
+class PlaceCounts:
     """Counts over a whole recording. Level changes and losses are told with their time, s."""
 
     steps: int = 0

@@ -13,7 +13,7 @@ from xml.etree.ElementTree import Element, ElementTree, SubElement, indent
 from attrs import define, field
 
 from ...events import Event, Placed, PlaceLost
-from ...floorplan.plan import FloorPlan, Kind, Level, Point
+from ...floorplan.plan import ConnectorKind, FloorPlan, Level, Point
 
 WIDTH = 720.0
 """Of the drawing of a level, px, at the most, where nothing else is said ..."""
@@ -213,8 +213,10 @@ class _Frame:
         return f"M{_px(x)} {_px(y)}L{_px(x1)} {_px(y1)}"
 
 
-def _connector(panel: Element, kind: Kind, name: str, place: Point, outline: tuple[Point, ...], frame: _Frame) -> None:
-    fill = STAIRS if kind is Kind.STAIRS else LIFT
+def _connector(
+    panel: Element, kind: ConnectorKind, name: str, place: Point, outline: tuple[Point, ...], frame: _Frame
+) -> None:
+    fill = STAIRS if kind is ConnectorKind.STAIRS else LIFT
     x, y = frame.at(place)
     if outline:
         SubElement(panel, "polygon", {"points": frame.points(outline), "fill": fill, "fill-opacity": "0.55"})
@@ -222,7 +224,7 @@ def _connector(panel: Element, kind: Kind, name: str, place: Point, outline: tup
     SubElement(mark, "title").text = _plain(name)
     SubElement(mark, "circle", {"r": "7", "fill": fill, "stroke": PAPER, "stroke-width": "1.5"})
     stairs, lift = "M-4 3h2.7v-2.3h2.7v-2.3h2.7", "M-2.6 -0.8l2.6 -3l2.6 3M-2.6 0.8l2.6 3l2.6 -3"
-    sign = {"d": stairs if kind is Kind.STAIRS else lift, "stroke": INK, "stroke-width": "1.2", "fill": "none"}
+    sign = {"d": stairs if kind is ConnectorKind.STAIRS else lift, "stroke": INK, "stroke-width": "1.2", "fill": "none"}
     SubElement(mark, "path", sign)
 
 

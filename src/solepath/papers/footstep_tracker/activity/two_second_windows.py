@@ -40,7 +40,7 @@ from ....foot.tracker import FootTracker
 from ....types import Activity, Foot, Sample, Site
 from .hmm import forward, spread, weighed
 from .window_model import WindowModel, shipped
-from .windows import BLOCKS, HOP, WINDOW, FootWindows, Window
+from .windows import BLOCKS, HOP, WINDOW, FootWindow, FootWindows
 
 MOVING = (Activity.WALKING, Activity.STAIRS_UP, Activity.STAIRS_DOWN)
 """The states of the hidden Markov model."""
@@ -83,7 +83,7 @@ class Standing:
 
 
 @define
-class Ride:
+class LiftPulses:
     """One pulse of a lift was felt, or both."""
 
     began: float
@@ -114,7 +114,7 @@ class TwoSecondWindows:
     """The newest window that was."""
     belief: tuple[float, ...] | None = field(default=None, init=False)
     """Of the hidden Markov model; None while the wearer stands."""
-    ride: Ride | None = field(default=None, init=False)
+    ride: LiftPulses | None = field(default=None, init=False)
     moved: int = field(default=0, init=False)
     """Windows of movement since the last without."""
     told: float | None = field(default=None, init=False)
@@ -160,7 +160,7 @@ class TwoSecondWindows:
             newest = [w.newest for w in self.feet.values() if w.newest is not None]
             if any(index >= one >= max(newest) - SILENT for one in newest):
                 return told
-            seen: dict[Foot, Window] = {}
+            seen: dict[Foot, FootWindow] = {}
             for foot, windows in self.feet.items():
                 if windows.ready and windows.ready[0].index == index:
                     seen[foot] = windows.ready.popleft()
@@ -169,7 +169,7 @@ class TwoSecondWindows:
 
     # --- one window ---
 
-    def _decide(self, index: int, seen: dict[Foot, Window], known_at: float, told: list[Event]) -> None:
+    def _decide(self, index: int, seen: dict[Foot, FootWindow], known_at: float, told: list[Event]) -> None:
         if self.decided is not None and index - self.decided > LOST:
             self._lost(known_at, told)
         self.decided = index
@@ -195,7 +195,7 @@ class TwoSecondWindows:
                 self.standing[foot].learn(window.mean)
         self._stands(index, pulse, seen, known_at, told)
 
-    def _state(self, model: WindowModel, seen: dict[Foot, Window]) -> Activity:
+    def _state(self, model: WindowModel, seen: dict[Foot, FootWindow]) -> Activity:
         """What kind of movement the hidden Markov model believes in, with this window."""
         feet = [model.log_likelihoods(window) for window in seen.values()]
         share = 1.0 / BLOCKS
@@ -215,7 +215,7 @@ class TwoSecondWindows:
                 self._no_ride(self.ride, known_at, told)
         self._tell(self._middle(index) if self.activity in MOVING else began, state, known_at, told)
 
-    def _stands(self, index: int, pulse: int, seen: dict[Foot, Window], known_at: float, told: list[Event]) -> None:
+    def _stands(self, index: int, pulse: int, seen: dict[Foot, FootWindow], known_at: float, told: list[Event]) -> None:
         ride = self.ride
         if ride is not None:
             forth = 1 if ride.up else -1
@@ -250,16 +250,16 @@ class TwoSecondWindows:
             self._tell(self._start(index), Activity.STANDING, known_at, told)
             return
         began = self._after(self._newest(index))
-        self.ride = Ride(began, index, pulse > 0, newest=index)
+        self.ride = LiftPulses(began, index, pulse > 0, newest=index)
         self._tell(began, LIFT[pulse > 0], known_at, told, final=False)
 
-    def _arrive(self, ride: Ride, t: float, known_at: float, told: list[Event]) -> None:
+    def _arrive(self, ride: LiftPulses, t: float, known_at: float, told: list[Event]) -> None:
         self.ride = None
         t = self._after(t)
         told.append(LiftRidden(t=t, known_at=known_at, t_start=ride.began, up=ride.up, height=None))
         self._tell(t, Activity.STANDING, known_at, told)
 
-    def _no_ride(self, ride: Ride, known_at: float, told: list[Event]) -> None:
+    def _no_ride(self, ride: LiftPulses, known_at: float, told: list[Event]) -> None:
         self.ride = None
         self._tell(ride.began, Activity.STANDING, known_at, told, revises=ride.began)
 
@@ -289,9 +289,7 @@ class TwoSecondWindows:
             t = self.origin  # the first window speaks for the half-second that it was levelled in
         self.activity, self.told = activity, t
         told.append(
-            ActivityChanged(
-                t=t, known_at=known_at, final=final, activity=activity, probability=None, revises=revises
-            )
+            ActivityChanged(t=t, known_at=known_at, final=final, activity=activity, probability=None, revises=revises)
         )
 
     def _after(self, t: float) -> float:

@@ -15,7 +15,7 @@ from typing import Any
 from attrs import frozen
 
 from .hmm import Matrix
-from .windows import Window
+from .windows import FootWindow
 
 FEATURES = ("log variance", "skewness", "mean", "log across", "log turning")
 """What the hidden Markov model sees of a window, in this order (`seen`); the last one only where there is a
@@ -26,7 +26,7 @@ STEEPEST = 4.0
 """Magnitude of the skewness that counts at the most: one bump of the foot must not speak for a window."""
 
 
-def seen(window: Window) -> tuple[float, ...]:
+def seen(window: FootWindow) -> tuple[float, ...]:
     """The window's features, as `FEATURES` names them; logarithms of m^2/s^4 and rad^2/s^2."""
     known = (
         log(window.variance + LEAST_VARIANCE),
@@ -79,7 +79,7 @@ class WindowModel:
     transitions: Matrix
     """From one window to the next that slides half a second on: walking, stairs up, stairs down."""
 
-    def log_likelihoods(self, window: Window) -> tuple[float, float, float]:
+    def log_likelihoods(self, window: FootWindow) -> tuple[float, float, float]:
         """Of walking, stairs up and stairs down. A mixture counts as its likeliest component: they lie apart."""
         x = seen(window)
         up, down = (max([one.log_density(x) for one in part]) for part in (self.stairs_up, self.stairs_down))

@@ -35,7 +35,7 @@ WEIGHTLESS = 1.0
 
 
 @frozen
-class Window:
+class FootWindow:
     """What a window holds, of one foot."""
 
     index: int
@@ -53,7 +53,7 @@ class Window:
 
 
 @define
-class Block:
+class HalfSecond:
     """Sums over half a second. a_z counts as what it is above standard gravity, or its square would drown the rest."""
 
     index: int
@@ -82,9 +82,9 @@ class FootWindows:
     levelled: bool = False
     newest: int | None = None
     """The half-second that it is in; None before any sample."""
-    blocks: deque[Block] = field(factory=deque)
+    blocks: deque[HalfSecond] = field(factory=deque)
     """Those of the window, the one being filled last."""
-    ready: deque[Window] = field(factory=deque)
+    ready: deque[FootWindow] = field(factory=deque)
     """Windows that nobody has taken yet."""
 
     def update(self, since: float, acc: Vec3, gyro: Vec3 | None = None) -> bool:
@@ -126,7 +126,7 @@ class FootWindows:
             blocks.clear()  # a gap: no window goes over it
         elif len(blocks) == BLOCKS:
             blocks.popleft()
-        blocks.append(Block(index, self.levelled))
+        blocks.append(HalfSecond(index, self.levelled))
         self.newest = index
 
     def _level(self) -> None:
@@ -143,7 +143,7 @@ class FootWindows:
             self.levelled = True
 
 
-def measured(blocks: deque[Block]) -> Window | None:
+def measured(blocks: deque[HalfSecond]) -> FootWindow | None:
     """The window of these blocks; None when it has too few samples."""
     count = sum([block.count for block in blocks])
     if count < FEWEST:
@@ -156,7 +156,7 @@ def measured(blocks: deque[Block]) -> Window | None:
     turns = sum([block.turns for block in blocks])
     variance = max(0.0, m2 - m1 * m1)
     third = m3 - 3.0 * m1 * m2 + 2.0 * m1 * m1 * m1
-    return Window(
+    return FootWindow(
         index=blocks[-1].index,
         mean=sqrt(x * x + y * y + z * z),
         variance=variance,

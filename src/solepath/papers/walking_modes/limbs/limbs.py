@@ -20,7 +20,7 @@ from attrs import define, field
 from ....calibration import Limbs
 from ....types import Foot, Quat, Site, Vec3
 from ....types.vector import IDENTITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate
-from .segment import Segment
+from .segment import LimbSegment
 
 ABOVE = (Site.PELVIS, Site.LEFT_THIGH, Site.RIGHT_THIGH, Site.LEFT_SHANK, Site.RIGHT_SHANK)
 """The sites above the ankles."""
@@ -79,14 +79,14 @@ class LowerLimbs:
     """The same, or where the first step has gone."""
     turn: float = field(default=0.0, init=False)
     """From there to the x axis of the world, rad."""
-    segments: dict[Site, Segment] = field(init=False)
+    segments: dict[Site, LimbSegment] = field(init=False)
     aligned: bool = field(default=False, init=False)
     given_up: bool = field(default=False, init=False)
     """The wearer walked off before all seven were quiet."""
 
     def __attrs_post_init__(self) -> None:
         self.facing = self.heading
-        self.segments = {site: Segment() for site in SEGMENTS}
+        self.segments = {site: LimbSegment() for site in SEGMENTS}
 
     def told(self, site: Site, t: float, quat: Quat) -> None:
         """A new attitude of a sensor, of any length but 0."""
@@ -117,7 +117,7 @@ class LowerLimbs:
         segment.t = segment.earlier = segment.quiet_since = None
         segment.adrift = segment.standing is not None and not segment.own
 
-    def _moor(self, segment: Segment) -> None:
+    def _moor(self, segment: LimbSegment) -> None:
         """A segment whose sensor's world is new stands as it did in the N-pose, turned as the others are that are
         known: what its attitude is off by from there is the turn from its old world to its new one."""
         standing = segment.standing

@@ -15,7 +15,7 @@ and some sway."""
 
 
 @define
-class Segment:
+class LimbSegment:
     """One segment's attitude, from its sensor's."""
 
     # state

@@ -25,7 +25,7 @@ from ....types import Packet, Sample
 from ..messages import FASTEST, SLOWEST, Command
 from ..scene.rounding import shown
 from ..scene.scene import Scene
-from .kept import Kept
+from .kept import KeptItems
 from .playback import Playback
 
 SPACING = 10.0
@@ -61,7 +61,7 @@ class Player:
     skipped or seen again before. Memory: the items (Kept says how much), and MOMENTS saved moments of some 0.1 MB.
     """
 
-    items: Kept
+    items: KeptItems
     session: Session
     scene: Scene
     plan: IndexedPlan | None = None

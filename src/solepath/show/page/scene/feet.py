@@ -10,7 +10,7 @@ from attrs import define, field
 
 from ....events import FootMoved, FootPressed, StrideTaken
 from ....types import Foot, Layout, Phase, Vec3
-from .lists import Recent, Track
+from .lists import Recent, ThinnedTrack
 from .rounding import placed, shown
 
 Point = tuple[float | None, ...]
@@ -38,7 +38,7 @@ class FootScene:
     phases: Recent[tuple[float, str | None]] = field(factory=lambda: Recent(MOST_PHASES), init=False)
     """Beginning of each phase of late, s, and its name; None for a time in which the foot is not heard."""
     position: Vec3 | None = field(default=None, init=False)
-    track: Track[Point] = field(factory=Track, init=False)
+    track: ThinnedTrack[Point] = field(factory=ThinnedTrack, init=False)
     steps: int = field(default=0, init=False)
     distance: float = field(default=0.0, init=False)
     """Sum of the stride lengths, m."""

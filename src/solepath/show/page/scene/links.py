@@ -80,7 +80,7 @@ class Losses:
 
 
 @define
-class Link:
+class SceneLink:
     """One site's. Times are arrivals, s. `counts`: a session tells of its samples, as it does of those of feet."""
 
     counts: bool = True
@@ -183,7 +183,7 @@ class Link:
         }
 
 
-def unheard_since(links: dict[Site, Link], now: float) -> float | None:
+def unheard_since(links: dict[Site, SceneLink], now: float) -> float | None:
     """When any foot was heard last, s, while at `now` none is; None while one is, and before."""
     feet = [link for site, link in links.items() if site.foot is not None]
     last = max([link.heard for link in feet if link.heard is not None], default=None)

@@ -19,7 +19,7 @@ RECENT = 1000
 
 
 @define
-class Track(Generic[T]):
+class ThinnedTrack(Generic[T]):
     """Points of a track from its beginning to now. When there is one more than MOST_POINTS, those at odd places (from
     0) are left out: the older part thins out evenly, and its first and newest point stay."""
 

@@ -14,7 +14,7 @@ from .rounding import shown
 
 
 @define
-class Measured:
+class SceneMeasures:
     """Running means over the newest strides, of walking or of running as the newest was."""
 
     means: GaitMeans = field(factory=GaitMeans)

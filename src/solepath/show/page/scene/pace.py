@@ -20,7 +20,7 @@ STILL = (Activity.STANDING, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN)
 
 
 @define
-class Pace:
+class ScenePace:
     """The newest strides of each foot. Times in s."""
 
     strides: dict[Foot, tuple[GaitCycleMeasured, ...]] = field(factory=dict)

@@ -26,7 +26,7 @@ LASTS = 3
 
 
 @define
-class Scale:
+class UnitScale:
     """Of one unit."""
 
     top: float
@@ -39,7 +39,7 @@ class Scale:
 
 
 @define
-class Worn:
+class InsoleScale:
     """The insole of a foot: in which unit its cells are drawn, and what it was of late."""
 
     unit: str
@@ -53,8 +53,8 @@ class Worn:
 class Scales:
     """Of all units that are worn, by their names."""
 
-    units: dict[str, Scale] = field(factory=dict)
-    worn: dict[Foot, Worn] = field(factory=dict)
+    units: dict[str, UnitScale] = field(factory=dict)
+    worn: dict[Foot, InsoleScale] = field(factory=dict)
 
     def wear(self, foot: Foot, layout: Layout, newtons: bool) -> None:
         """This foot's cells are so. `newtons`: its values are N, not counts."""
@@ -64,8 +64,8 @@ class Scales:
             unit, per_unit = "kPa", tuple([0.001 / area for area in areas])
         else:
             unit = "N" if newtons else "counts"
-        self.worn[foot] = Worn(unit, per_unit)
-        self.units.setdefault(unit, Scale(LEAST[unit]))
+        self.worn[foot] = InsoleScale(unit, per_unit)
+        self.units.setdefault(unit, UnitScale(LEAST[unit]))
 
     def press(self, foot: Foot, values: tuple[float, ...]) -> None:
         """One sample of its cells. Nothing before they are worn: who does not know where cells are draws no map."""

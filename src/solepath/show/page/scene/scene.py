@@ -36,10 +36,10 @@ from ....types import SITE_OF_FOOT, Foot, Phase, Site
 from ..player.playback import Playback
 from .doings import Doings
 from .feet import FootScene
-from .links import Link, unheard_since
+from .links import SceneLink, unheard_since
 from .lists import Recent
-from .measured import Measured
-from .pace import Pace
+from .measured import SceneMeasures
+from .pace import ScenePace
 from .plan_drawing import drawn
 from .rounding import shown
 from .scales import Scales
@@ -86,11 +86,11 @@ class Scene:
     now: float = field(default=-inf, init=False)
     """The latest moment that anything is known of, s."""
     feet: dict[Foot, FootScene] = field(factory=lambda: {foot: FootScene(foot) for foot in Foot}, init=False)
-    links: dict[Site, Link] = field(factory=dict, init=False)
+    links: dict[Site, SceneLink] = field(factory=dict, init=False)
     whereabouts: Whereabouts = field(factory=Whereabouts, init=False)
     doings: Doings = field(factory=Doings, init=False)
-    measured: Measured = field(factory=Measured, init=False)
-    pace: Pace = field(factory=Pace, init=False)
+    measured: SceneMeasures = field(factory=SceneMeasures, init=False)
+    pace: ScenePace = field(factory=ScenePace, init=False)
     scales: Scales = field(factory=Scales, init=False)
     log: Recent[LogLine] = field(factory=lambda: Recent(MOST_LINES), init=False)
     layouts: int = field(default=0, init=False)
@@ -130,13 +130,13 @@ class Scene:
             if one.phase is not None and link is not None and link.state(self.now) != "ok":
                 one.fall_silent(min(self.now, link.silent_from))
 
-    def _link(self, site: Site) -> Link:
+    def _link(self, site: Site) -> SceneLink:
         link = self.links.get(site)
         if link is None:
-            link = self.links[site] = Link(site.foot is not None)
+            link = self.links[site] = SceneLink(site.foot is not None)
         return link
 
-    def _heard_again(self, event: FootMoved | FootPressed | HeelStrike | FootFlat | HeelOff | ToeOff) -> Link:
+    def _heard_again(self, event: FootMoved | FootPressed | HeelStrike | FootFlat | HeelOff | ToeOff) -> SceneLink:
         """The link of a foot that something is told of. Where it was silent until now that is shown, whether or not
         somebody has looked meanwhile; once, though the phase that ends it may come before the sample."""
         link = self._link(SITE_OF_FOOT[event.foot])

@@ -10,7 +10,7 @@ from attrs import define, field
 from ....events import Candidate, Placed, PlaceLost, WearerMoved
 from ....types import Vec3
 from .feet import SPACING, Point
-from .lists import Track
+from .lists import ThinnedTrack
 from .rounding import placed, shown
 
 MOST_CANDIDATES = 40
@@ -24,10 +24,10 @@ class Whereabouts:
     """The wearer's track has a point for each step, the places one for each step whose level is decided."""
 
     moved: WearerMoved | None = None
-    track: Track[Point] = field(factory=Track)
+    track: ThinnedTrack[Point] = field(factory=ThinnedTrack)
     place: Placed | None = None
     """None while it is not known."""
-    places: Track[PlacePoint] = field(factory=Track)
+    places: ThinnedTrack[PlacePoint] = field(factory=ThinnedTrack)
     level: str | None = None
     """The last one that there was no doubt of."""
     _last: Vec3 | None = None

@@ -9,7 +9,7 @@ from urllib.parse import urlsplit
 from attrs import frozen
 
 
-class Refused(Exception):
+class AccessDenied(Exception):
     """A request that gets nothing; a sentence says why. `status`: of HTTP."""
 
     def __init__(self, why: str, status: int = 403) -> None:
@@ -34,9 +34,9 @@ class Access:
         theirs could read this one (DNS rebinding). Addresses point nowhere else."""
         name = None if host is None else host_of(host)
         if name is None:
-            raise Refused("a request does not say to which host it is", 400)
+            raise AccessDenied("a request does not say to which host it is", 400)
         if not (name == "localhost" or name == self.host.lower() or is_address(name)):
-            raise Refused("a request is to a host that this is not")
+            raise AccessDenied("a request is to a host that this is not")
 
     def check_origin(self, origins: list[str], host: str) -> None:
         """`origins`: the Origin headers, which a browser sends of the page that asks. `host`: the Host header."""
@@ -44,18 +44,18 @@ class Access:
             try:
                 parts = urlsplit(origin)
             except ValueError:
-                raise Refused("a page with an origin that is none wants to watch") from None
+                raise AccessDenied("a page with an origin that is none wants to watch") from None
             if parts.scheme not in ("http", "https") or parts.netloc.lower() != host.lower():
-                raise Refused("a page of another origin wants to watch")
+                raise AccessDenied("a page of another origin wants to watch")
 
     def may_steer(self, tokens: list[str]) -> bool:
         """`tokens`: those that a watcher shows. Without one it may watch on this machine; a wrong one is refused."""
         if not tokens:
             if self.beyond:
-                raise Refused("somebody without a token wants to watch from another machine")
+                raise AccessDenied("somebody without a token wants to watch from another machine")
             return False
         if len(tokens) > 1 or not compare_digest(tokens[0].encode("utf-8", "replace"), self.token.encode()):
-            raise Refused("somebody with a wrong token wants to watch")
+            raise AccessDenied("somebody with a wrong token wants to watch")
         return True
 
 

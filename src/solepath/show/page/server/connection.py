@@ -26,7 +26,7 @@ HEADERS = {
 }
 
 
-class Connection(web.RequestHandler):
+class BrowserConnection(web.RequestHandler):
     """`asked`: it has asked for something once; before, and after watching, it may last for `idle` s only."""
 
     __slots__ = ("asked", "_ends", "_idle", "_to", "_watches")

@@ -22,9 +22,9 @@ from aiohttp import web
 
 from ..messages import Command
 from ..scene.scene import Scene
-from .access import Access, Refused
+from .access import Access, AccessDenied
 from .address import listen, reached_at
-from .connection import HEADERS, Connection, NoRoom
+from .connection import HEADERS, BrowserConnection, NoRoom
 from .offences import Offences
 from .watcher import Watcher
 
@@ -109,10 +109,10 @@ class Page:
         if self._server is None or len(self._server.connections) >= MOST_CONNECTIONS:
             self.offences.tell(f"more than {MOST_CONNECTIONS} connections at once: one is refused")
             return NoRoom()
-        return Connection(self._server, IDLE)
+        return BrowserConnection(self._server, IDLE)
 
     async def _answer(self, request: web.BaseRequest) -> web.StreamResponse:
-        connection = cast(Connection, request.protocol)
+        connection = cast(BrowserConnection, request.protocol)
         connection.asked = True
         try:
             host = request.headers.get("Host")
@@ -123,7 +123,7 @@ class Page:
                 with connection.watching():
                     return await self._watched(request, host or "")
             return self._file(request)
-        except Refused as refused:
+        except AccessDenied as refused:
             self.offences.tell(f"{refused}: refused")
             return web.Response(status=refused.status, text=f"{refused}\n", headers=HEADERS)
         except ConnectionError:
@@ -141,13 +141,13 @@ class Page:
 
     async def _watched(self, request: web.BaseRequest, host: str) -> web.StreamResponse:
         if request.method != "GET":
-            raise Refused("a request for the socket is none for a WebSocket", 400)
+            raise AccessDenied("a request for the socket is none for a WebSocket", 400)
         if "Sec-WebSocket-Protocol" in request.headers:
-            raise Refused("somebody wants to speak another protocol", 400)
+            raise AccessDenied("somebody wants to speak another protocol", 400)
         self._access.check_origin(request.headers.getall("Origin", []), host)
         steers = self._access.may_steer(request.query.getall("token", []))
         if len(self._watchers) >= MOST_WATCHERS:
-            raise Refused(f"more than {MOST_WATCHERS} browsers want to watch", 503)
+            raise AccessDenied(f"more than {MOST_WATCHERS} browsers want to watch", 503)
         watcher = Watcher(self, steers)
         self._watchers.add(watcher)
         try:

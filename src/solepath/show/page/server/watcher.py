@@ -11,7 +11,7 @@ from aiohttp import WSCloseCode, WSMsgType, web
 
 from ..messages import LONGEST, Command, CommandError, encode, parse_command
 from ..scene.scene import Cursor, Scene
-from .access import Refused
+from .access import AccessDenied
 from .connection import HEADERS
 from .offences import Offences
 
@@ -50,7 +50,7 @@ class Watcher:
         try:
             await self._socket.prepare(request)
         except web.HTTPException:
-            raise Refused("a request for the socket is none for a WebSocket", 400) from None
+            raise AccessDenied("a request for the socket is none for a WebSocket", 400) from None
         transport = request.transport
         if transport is None:
             return self._socket
@@ -110,9 +110,7 @@ class Watcher:
             due = max(due + INTERVAL, loop.time())  # what a sleep oversleeps does not add up
             await asyncio.sleep(due - loop.time())
 
-    def _next(
-        self, scene: Scene | None, cursor: Cursor | None
-    ) -> tuple[dict[str, Any] | None, Scene, Cursor]:
+    def _next(self, scene: Scene | None, cursor: Cursor | None) -> tuple[dict[str, Any] | None, Scene, Cursor]:
         """What to send, and of which scene, up to where."""
         newest = self._page.scene
         if cursor is None or newest is not scene:

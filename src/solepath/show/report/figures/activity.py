@@ -5,9 +5,9 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element
 
 from ....types import Activity
-from ..clock import Clock, lasted
+from ..clock import ReportClock, lasted
 from ..markup import add, figure
-from .axes import Scale, drawing, px, ticks, told, write
+from .axes import AxisScale, drawing, px, ticks, told, write
 
 ROW = 20.0
 LEFT = 96.0
@@ -18,7 +18,7 @@ def named(activity: Activity) -> str:
     return activity.value.replace("_", " ").lower()
 
 
-def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]], clock: Clock) -> bool:
+def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]], clock: ReportClock) -> bool:
     """A row for every activity, a bar for every time that it was done; False where none was told."""
     rows = [one for one in Activity if any(what is one for _, _, what in spans)]
     if not rows:
@@ -27,7 +27,7 @@ def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]],
     total = {one: sum([b - a for a, b, what in spans if what is one]) for one in rows}
     what = "; ".join([f"{named(one)} {lasted(total[one])}" for one in rows])
     svg = drawing("activities", "Activities over time", f"How long in all: {what}.", height)
-    x = Scale(*clock.span, LEFT, 390.0)
+    x = AxisScale(*clock.span, LEFT, 390.0)
     bottom = 8.0 + ROW * len(rows)
     grid = add(svg, "path", class_="grid")
     lines = []

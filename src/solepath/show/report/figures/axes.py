@@ -62,7 +62,7 @@ def around(values: Iterable[float], *, least: float, zero: bool = False) -> tupl
 
 
 @frozen
-class Scale:
+class AxisScale:
     """From values to pixels."""
 
     low: float
@@ -111,8 +111,8 @@ class Chart:
     """A drawing with two axes. `x`, `y`: from values to its pixels."""
 
     svg: Element
-    x: Scale
-    y: Scale
+    x: AxisScale
+    y: AxisScale
 
     @classmethod
     def of(
@@ -124,7 +124,7 @@ class Chart:
         height: float,
     ) -> Chart:
         """With a grid and its labels; that of y stands above the axis."""
-        made = cls(svg, Scale(*x, LEFT, WIDTH - RIGHT), Scale(*y, height - BOTTOM, TOP))
+        made = cls(svg, AxisScale(*x, LEFT, WIDTH - RIGHT), AxisScale(*y, height - BOTTOM, TOP))
         grid = add(svg, "path", class_="grid")
         lines = []
         across = ticks(*x, 6)

@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element
 from ....body.gait.means import GaitParameters
 from ....types import Foot
 from ..markup import add, figure
-from .axes import Scale, drawing, px, write
+from .axes import AxisScale, drawing, px, write
 
 BARS = (30.0, 66.0)
 """Upper edges, px."""
@@ -68,7 +68,7 @@ def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
     parts += [f"double support {100.0 * sum([b - a for a, b in both]):.0f} %"] if len(feet) == 2 and both else []
     parts += [f"flight {100.0 * sum([b - a for a, b in flights]):.0f} %"] if flights else []
     bars = dict(zip(feet, BARS, strict=False))
-    x = Scale(0.0, 1.0, 44.0, 388.0)
+    x = AxisScale(0.0, 1.0, 44.0, 388.0)
     top, bottom = bars[feet[0]] - 8.0, bars[feet[-1]] + THICK + 8.0
     what = f"Shares of the cycle: {', '.join(parts)}."
     svg = drawing(f"cycle-{how}", f"Mean gait cycle, {how}", what, bottom + 38.0)

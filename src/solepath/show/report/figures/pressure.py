@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element
 
 from ....types import Foot, Layout
 from ..markup import add, figure, table
-from ..soles import STATIONS, Sole
+from ..soles import STATIONS, ReportSole
 from .axes import Chart, around, drawing, line, px, write
 from .track import legend_lines
 
@@ -27,7 +27,7 @@ def shade(share: float) -> str:
     return "#" + "".join([f"{round(a + (at - k) * (b - a)):02x}" for a, b in pairs])
 
 
-def pressure_figures(parent: Element, soles: dict[Foot, Sole]) -> bool:
+def pressure_figures(parent: Element, soles: dict[Foot, ReportSole]) -> bool:
     """Maps and curves of what is known; False where there is no pressure."""
     pressed = {foot: soles[foot] for foot in Foot if foot in soles and soles[foot].samples}
     if not pressed:
@@ -57,7 +57,7 @@ def pressure_figures(parent: Element, soles: dict[Foot, Sole]) -> bool:
     return True
 
 
-def _unit(soles: dict[Foot, Sole]) -> str:
+def _unit(soles: dict[Foot, ReportSole]) -> str:
     return " and ".join(sorted({sole.unit for sole in soles.values()}))
 
 
@@ -73,7 +73,13 @@ def radius(layout: Layout) -> float:
 
 
 def _map(
-    parent: Element, name: str, title: str, soles: dict[Foot, Sole], loads: dict[Foot, list[float]], *, paths: bool
+    parent: Element,
+    name: str,
+    title: str,
+    soles: dict[Foot, ReportSole],
+    loads: dict[Foot, list[float]],
+    *,
+    paths: bool,
 ) -> None:
     if not soles:
         return
@@ -103,7 +109,7 @@ def _map(
 
 def _sole(
     svg: Element,
-    sole: Sole,
+    sole: ReportSole,
     layout: Layout,
     loads: list[float],
     highest: float,
@@ -136,7 +142,7 @@ def _sole(
             add(svg, "circle", cx=px(mean[0][0]), cy=px(mean[0][1]), r="4", class_="begin")
 
 
-def _forces(parent: Element, soles: dict[Foot, Sole]) -> None:
+def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
     curves = {foot: [force / sole.contacts for force in sole.forces] for foot, sole in soles.items()}
     unit = _unit(soles)
     said = [f"{foot.value}: at most {max(curve):.0f} {soles[foot].unit}" for foot, curve in curves.items()]
@@ -151,7 +157,7 @@ def _forces(parent: Element, soles: dict[Foot, Sole]) -> None:
     figure(parent, svg, "Mean force over a contact", f"Contacts: {counted}.")
 
 
-def _thirds(parent: Element, soles: dict[Foot, Sole], loads: dict[Foot, list[float]]) -> None:
+def _thirds(parent: Element, soles: dict[Foot, ReportSole], loads: dict[Foot, list[float]]) -> None:
     """How the load is shared out over the thirds of the insole's length."""
     rows = []
     for k, name in enumerate(THIRDS):

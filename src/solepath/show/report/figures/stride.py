@@ -9,7 +9,7 @@ from attrs import frozen
 
 from ....events import GaitCycleMeasured
 from ....types import Foot
-from ..clock import Clock
+from ..clock import ReportClock
 from ..markup import add, figure
 from .axes import TOP, Chart, around, drawing, px, write
 
@@ -24,7 +24,7 @@ TURNED = 0.35
 
 
 @frozen
-class Stride:
+class DrawnStride:
     """What is drawn of one. Times in s, length in m, speed in m/s."""
 
     t: float
@@ -36,17 +36,15 @@ class Stride:
     turns: bool
 
     @classmethod
-    def of(cls, event: GaitCycleMeasured) -> Stride:
+    def of(cls, event: GaitCycleMeasured) -> DrawnStride:
         turns = event.turning_angle is not None and abs(event.turning_angle) > TURNED
-        return cls(
-            event.t, event.stride_time, event.stride_length, event.speed, event.steady, event.degraded, turns
-        )
+        return cls(event.t, event.stride_time, event.stride_length, event.speed, event.steady, event.degraded, turns)
 
 
 PANELS = (("length", "Stride length", "m", 0.2), ("time", "Stride time", "s", 0.2), ("speed", "Speed", "m/s", 0.2))
 
 
-def stride_figures(parent: Element, strides: dict[Foot, list[Stride]], clock: Clock) -> bool:
+def stride_figures(parent: Element, strides: dict[Foot, list[DrawnStride]], clock: ReportClock) -> bool:
     """A chart for each of the three; False where there are no strides."""
     if not any(strides.values()):
         return False
@@ -85,8 +83,8 @@ def _panel(
     title: str,
     unit: str,
     least: float,
-    known: dict[Foot, list[tuple[Stride, float]]],
-    clock: Clock,
+    known: dict[Foot, list[tuple[DrawnStride, float]]],
+    clock: ReportClock,
 ) -> None:
     values = [value for some in known.values() for _, value in some]
     what = f"{title} of every stride over time: {len(values)} strides, {min(values):.2f} to {max(values):.2f} {unit}."

@@ -12,9 +12,9 @@ from ....events import Placed, PlaceLost
 from ....floorplan.plan import FloorPlan
 from ....types import Foot, Vec3
 from ...tables.plan import PlanPicture
-from ..clock import Clock
+from ..clock import ReportClock
 from ..markup import add, figure
-from .axes import WIDTH, Chart, Scale, around, drawing, line, marks, px, ticks, told, write
+from .axes import WIDTH, AxisScale, Chart, around, drawing, line, marks, px, ticks, told, write
 from .stride import SHAPES
 
 PRINTS = 160
@@ -35,7 +35,7 @@ class Stood:
     position: Vec3
 
 
-def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[Stood]], clock: Clock) -> bool:
+def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[Stood]], clock: ReportClock) -> bool:
     """The way from above, x to the right and y up; False where there is none. `way`: the wearer's, or a foot's where
     only feet are known; `prints`: where the feet stood."""
     few = sum([len(some) for some in prints.values()]) <= PRINTS
@@ -54,8 +54,8 @@ def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[
     high = max(up + 2.0 * room, 0.34 * wide)
     scale = min(inner / wide, (TALLEST - top - bottom) / high)
     wide, height = inner / scale, high * scale + top + bottom
-    x = Scale(middle[0] - 0.5 * wide, middle[0] + 0.5 * wide, left, WIDTH - right)
-    y = Scale(middle[1] - 0.5 * high, middle[1] + 0.5 * high, height - bottom, top)
+    x = AxisScale(middle[0] - 0.5 * wide, middle[0] + 0.5 * wide, left, WIDTH - right)
+    y = AxisScale(middle[1] - 0.5 * high, middle[1] + 0.5 * high, height - bottom, top)
     length = sum([_apart(a, b) for a, b in zip(way, way[1:], strict=False)])
     what = f"The track from above, {across:.1f} m by {up:.1f} m, {length:.0f} m long as drawn."
     svg = drawing("track", "Track from above", what, height)
@@ -75,8 +75,14 @@ def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[
             a, b = at(one)
             add(svg, "circle", cx=px(a), cy=px(b), r="4.5", class_=word)
             late = a > 0.85 * WIDTH
-            write(svg, a - 8.0 if late else a + 8.0, b + (13.0 if word == "end" else -6.0), word, "halo strong",
-                  "end" if late else "start")
+            write(
+                svg,
+                a - 8.0 if late else a + 8.0,
+                b + (13.0 if word == "end" else -6.0),
+                word,
+                "halo strong",
+                "end" if late else "start",
+            )
     notes = ["x along the first heading; the numbers along the way are times."]
     if beside and any(prints.values()):
         notes.append("\N{BLACK CIRCLE} where the left foot stood, \N{MULTIPLICATION SIGN} the right one.")
@@ -101,7 +107,7 @@ def _apart(a: Stood, b: Stood) -> float:
     return float((dx * dx + dy * dy) ** 0.5)
 
 
-def _grid(svg: Element, x: Scale, y: Scale, bottom: float, top: float) -> None:
+def _grid(svg: Element, x: AxisScale, y: AxisScale, bottom: float, top: float) -> None:
     """One step for both axes."""
     grid = add(svg, "path", class_="grid")
     marked = ticks(x.low, x.high, 8)
@@ -118,7 +124,7 @@ def _grid(svg: Element, x: Scale, y: Scale, bottom: float, top: float) -> None:
     write(svg, 0.5 * (x.start + x.end), bottom + 29.0, "x and y, m", "label", "middle")
 
 
-def _times(svg: Element, way: Sequence[Stood], at: object, clock: Clock) -> None:
+def _times(svg: Element, way: Sequence[Stood], at: object, clock: ReportClock) -> None:
     """A few times along the way."""
     if len(way) < 3 or not callable(at):
         return
@@ -134,7 +140,7 @@ def _times(svg: Element, way: Sequence[Stood], at: object, clock: Clock) -> None
             write(svg, a, b - 6.0, f"{words} {unit}", "halo tick", "middle")
 
 
-def height_figure(parent: Element, heights: dict[Foot, list[Stood]], clock: Clock) -> bool:
+def height_figure(parent: Element, heights: dict[Foot, list[Stood]], clock: ReportClock) -> bool:
     """The height of the standing foot over time; False where there is none."""
     known = {foot: some for foot, some in heights.items() if len(some) > 1}
     if not known:
