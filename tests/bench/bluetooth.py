@@ -18,6 +18,7 @@ from bleak import BleakClient, BleakScanner
 sys.path.insert(0, str(Path(__file__).parent.parent))
 
 from airs import TIERS, memory  # noqa: E402
+
 from solepath import FootMoved, Session  # noqa: E402
 from solepath.ble import Devices, Wanted  # noqa: E402
 from solepath.emulate.devices.bench import Bench  # noqa: E402

@@ -27,9 +27,9 @@ from urllib.parse import urlsplit
 sys.path.insert(0, str(Path(__file__).parent.parent))
 
 from attrs import define, field  # noqa: E402
-
 from browsers import Browser, Browsing, Window, browsing, program, why_not, window  # noqa: E402
 from shown import squares, walked  # noqa: E402
+
 from solepath import Session  # noqa: E402
 from solepath.show.page.scene.scene import Scene  # noqa: E402
 from solepath.show.page.server.server import Page  # noqa: E402

@@ -1,0 +1,137 @@
+"""What comes out of bleak beside ATT errors: refusals under other names, and faults of its own."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from typing import Any
+
+import pytest
+from airs import hear, in_virtual_time, others
+from attrs import evolve
+from belts import RATE, READ_AFTER, STRAP, address, asked, strap
+from benches import LEFT, RIGHT
+from bleak.exc import BleakDBusError, BleakError
+
+from solepath.ble import Backend, Devices, Wanted
+from solepath.emulate import Route
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.memory import MemoryRadio
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.link.profile import Access
+from solepath.types import Packet, Site
+
+PELVIS = Site.PELVIS
+REQUESTS = ("connect", "read_gatt_char", "start_notify", "write_gatt_char", "disconnect")
+REFUSALS = [
+    BleakError("Could not read characteristic: Access Denied"),
+    BleakDBusError("org.bluez.Error.NotPermitted", ["Read not permitted"]),
+]
+
+
+def raising(beneath: Backend, request: str, error: Exception, at: str = "", until: float = 1e9, where: str = "") -> Any:
+    """A Bluetooth in which this request raises `error` until then, for the device `at` and the channel `where`."""
+    base: Any = beneath.client
+
+    class Client(base):
+        pass
+
+    async def ask(self: Any, *given: Any, **more: Any) -> Any:
+        channel = given[0].obj.channel if given and hasattr(given[0], "obj") else ""
+        if self.address.startswith(at) and channel.startswith(where) and asyncio.get_running_loop().time() < until:
+            raise error
+        return await getattr(base, request)(self, *given, **more)
+
+    setattr(Client, request, ask)
+    return Backend(Client, beneath.scanner)
+
+
+def got(backend: Backend, *wanted: Wanted, seconds: float) -> list[Packet]:
+    async def main() -> list[Packet]:
+        async with Devices(wanted, backend=backend) as devices:
+            found = await hear(devices, seconds)
+        assert not others()
+        return found
+
+    return in_virtual_time(main)
+
+
+def troubles(packets: list[Packet]) -> list[tuple[Site, str]]:
+    return [(packet.site, packet.data.decode()) for packet in packets if packet.channel == "receiver/trouble"]
+
+
+@pytest.mark.parametrize(
+    ("request_", "error"),
+    [
+        *((request, AssertionError()) for request in REQUESTS),
+        *((request, AttributeError("'NoneType' object has no attribute 'call'")) for request in REQUESTS[1:]),
+    ],  # an AttributeError in connecting is one more failed attempt for bleak-retry-connector
+)
+def test_a_fault_of_bleak_in_one_foots_client_is_told_and_outlived_and_the_other_foot_hears_nothing_of_it(
+    request_: str, error: Exception, caplog: pytest.LogCaptureFixture
+) -> None:
+    devices = strap(1, faults="1 * disconnect"), strap(2)
+    backend = raising(asked(*devices).backend, request_, error, at=address(1), until=3.0)
+    with caplog.at_level(logging.ERROR, "solepath.ble"):
+        packets = got(backend, Wanted(LEFT, address(1), STRAP), Wanted(RIGHT, address(2), STRAP), seconds=14.0)
+    beats = {site: [p.t for p in packets if p.site is site and p.channel == "strap/beat"] for site in (LEFT, RIGHT)}
+    assert len(beats[RIGHT]) > 13 * RATE
+    assert len(beats[LEFT]) > 5 * RATE and max(beats[LEFT]) > 13.0
+    logged = [record for record in caplog.records if record.name == "solepath.ble"]
+    assert logged and all(record.exc_info and record.exc_info[1] is error for record in logged)
+    if request_ != "disconnect":  # nobody is bothered with how the end of a connection went
+        [(site, words)] = troubles(packets)
+        assert site is LEFT and type(error).__name__ in words and str(error) in words and "sought again" in words
+
+
+@pytest.mark.parametrize("error", REFUSALS, ids=["winrt", "bluez"])
+def test_what_is_refused_beside_the_stream_under_any_name_is_told_with_its_channel_and_the_foot_streams(
+    error: Exception,
+) -> None:
+    for request in ("read_gatt_char", "start_notify"):
+        bench = Bench(Route().stand(9.0), devices={LEFT: Insole(cells=8)})
+        backend = raising(MemoryRadio(bench.peripherals).backend, request, error, where="device/battery")
+        packets = got(backend, Wanted(LEFT, bench[LEFT].address), seconds=8.0)
+        if request == "read_gatt_char":
+            [(_, words)] = troubles(packets)
+            assert words.startswith("device/battery cannot be read: ")
+        else:
+            assert not [words for _, words in troubles(packets) if not words.startswith("device/battery cannot be sub")]
+        assert len([packet for packet in packets if packet.channel == "insole/frame"]) > 600
+        assert len([packet for packet in packets if packet.channel == "receiver/connected"]) == 1
+
+
+def test_a_setting_that_is_refused_under_any_name_is_told_and_what_was_to_be_read_after_it_too() -> None:
+    more = evolve(STRAP.channel("strap/page"), name="strap/beside", how=Access.WRITE)
+    profile = evolve(
+        READ_AFTER,
+        channels=(*READ_AFTER.channels, more),
+        setup=(evolve(READ_AFTER.setup[0], channel="strap/beside"), *READ_AFTER.setup),
+    )
+    backend = raising(asked(strap()).backend, "write_gatt_char", REFUSALS[0], where="strap/page")
+    packets = got(backend, Wanted(PELVIS, address(1), profile), seconds=5.0)
+    [(_, words)] = troubles(packets)
+    assert words.startswith("strap/beside was not set to 0a: ")
+    assert len([packet for packet in packets if packet.channel == "strap/beat"]) > 4 * RATE
+
+
+@pytest.mark.parametrize("error", REFUSALS, ids=["winrt", "bluez"])
+def test_a_stream_that_is_refused_is_no_connection(error: Exception) -> None:
+    backend = raising(asked(strap()).backend, "start_notify", error, where="strap/beat", until=3.0)
+    packets = got(backend, Wanted(PELVIS, address(1), STRAP), seconds=12.0)
+    assert len([packet for packet in packets if packet.channel == "receiver/connected"]) > 2
+    assert [packet for packet in packets if packet.channel == "strap/beat"]
+
+
+def test_an_insole_whose_info_nobody_understands_is_named_and_told_what_can_be_done() -> None:
+    bench = Bench(Route().stand(9.0), devices={LEFT: Insole(cells=8)})
+    base: Any = MemoryRadio(bench.peripherals).backend
+
+    class Client(base.client):  # type: ignore[misc]
+        async def read_gatt_char(self, one: Any, **more: Any) -> bytearray:
+            found = await super().read_gatt_char(one, **more)
+            return bytearray(len(found)) if one.obj.channel == "insole/info" else found  # type: ignore[no-any-return]
+
+    packets = got(Backend(Client, base.scanner), Wanted(LEFT, bench[LEFT].address), seconds=9.0)
+    [(_, words)] = troubles(packets)
+    assert words.startswith("the INFO record of solepath L cannot be read (") and "switch it off and on" in words

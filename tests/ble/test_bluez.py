@@ -1,0 +1,275 @@
+"""bleak's own backend for Linux, with nothing of it replaced: over D-Bus, to an org.bluez of ours. In real time."""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+import sys
+from collections import Counter
+from collections.abc import Callable, Coroutine
+from pathlib import Path
+from typing import Any
+
+import pytest
+from airs import others
+from bluez import Bluez
+from bus import DAEMON, message_bus
+
+from solepath import Connected, Disconnected, Session
+from solepath.ble import BluetoothError, Devices, Wanted, scan
+from solepath.emulate import Route
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.sensors.device import Device
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2650
+from solepath.link.profile import CC2650 as PROFILE
+from solepath.recording import read_packets
+from solepath.types import Packet, Site
+from solepath.wire.receiver import parse_words
+
+pytestmark = [
+    pytest.mark.skipif(sys.platform != "linux", reason="BlueZ is Linux's"),
+    pytest.mark.skipif(DAEMON is None, reason="dbus-daemon is not installed"),
+]
+LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
+THE_LEFT = Wanted(None, "F0:5E:00:00:00:01")
+TAKES = 30.0
+"""s until a test gives up waiting."""
+BUS = "DBUS_SYSTEM_BUS_ADDRESS"
+
+
+def bench(faults: str = "", **devices: Device) -> Bench:
+    worn = {Site(site): device for site, device in devices.items()} or {LEFT: Insole()}
+    found = Bench(Route().walk(20.0), devices=worn, faults=parse_faults(faults))
+    found.prepare()
+    return found
+
+
+@pytest.fixture
+def on_a_bus(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Callable[[Callable[[str], Coroutine[Any, Any, Any]]], Any]:
+    """Runs a coroutine with a bus of its own as that of the system, whose address it is given."""
+
+    def run(main: Callable[[str], Coroutine[Any, Any, Any]]) -> Any:
+        async def alone() -> Any:
+            async with message_bus(tmp_path) as address:
+                monkeypatch.setenv(BUS, address)
+                async with asyncio.timeout(2 * TAKES):
+                    return await main(address)
+
+        return asyncio.run(alone())
+
+    return run
+
+
+async def until(devices: Devices, enough: Callable[[list[Packet]], bool]) -> list[Packet]:
+    """What comes, up to the packet with which it is enough."""
+    heard = []
+    async with asyncio.timeout(TAKES):
+        async for packet in devices:
+            heard.append(packet)
+            if enough(heard):
+                break
+    return heard
+
+
+def of(packets: list[Packet], channel: str, site: Site = LEFT) -> list[bytes]:
+    return [packet.data for packet in packets if packet.channel == channel and packet.site is site]
+
+
+def frames(count: int) -> Callable[[list[Packet]], bool]:
+    return lambda heard: heard[-1].channel == "insole/frame" and len(of(heard, "insole/frame")) >= count
+
+
+def troubles(packets: list[Packet]) -> list[str]:
+    return [parse_words(packet.data) for packet in packets if packet.channel == "receiver/trouble"]
+
+
+def test_a_scan_tells_who_advertises_and_leaves_the_adapter_alone_afterwards(on_a_bus):
+    async def main(address):
+        async with Bluez(bench(left_foot=Insole(), right_foot=CC2650()).peripherals).serving(address) as bluez:
+            return await scan(0.5), bluez.is_idle
+
+    found, idle = on_a_bus(main)
+    assert [(one.address, one.name, one.profile.name, one.signal) for one in found] == [
+        ("F0:5E:00:00:00:01", "solepath L", "insole", -60),
+        ("F0:5E:00:00:00:02", "CC2650 SensorTag", "cc2650", -60),
+    ]
+    assert idle
+
+
+def test_every_frame_of_two_insoles_arrives_once_and_in_order(on_a_bus):
+    both = bench(left_foot=Insole(), right_foot=Insole())
+    for site in (LEFT, RIGHT):
+        both[site].log = []
+
+    async def main(address):
+        async with Bluez(both.peripherals).serving(address) as bluez:
+            async with Devices([Wanted(None, "solepath R"), Wanted(None, "solepath L")]) as devices:
+                heard = await until(
+                    devices, lambda heard: all(len(of(heard, "insole/frame", s)) > 150 for s in (LEFT, RIGHT))
+                )
+                tasks = others()
+            left = others()
+            return heard, bluez.is_idle, len(tasks) - len(left)
+
+    heard, idle, ended = on_a_bus(main)
+    for site in (LEFT, RIGHT):
+        arrived = of(heard, "insole/frame", site)
+        assert arrived == [sent.value for sent in both[site].log if sent.channel == "insole/frame"][: len(arrived)]
+        # what is read comes once, although BlueZ tells of it as if it had been notified
+        once = ["insole/info", "device/firmware", "device/battery", "insole/control", "receiver/connected"]
+        assert [len(of(heard, channel, site)) for channel in once] == [1] * len(once)
+    assert not troubles(heard)
+    assert idle and ended >= 3  # the search, and two connections
+    assert not any(device.is_connected for device in both.peripherals)
+
+
+def test_a_sensortag_obeys_its_setup(on_a_bus):
+    tag = bench(left_foot=CC2650())
+
+    async def main(address):
+        async with Bluez(tag.peripherals).serving(address), Devices([Wanted(LEFT, tag[LEFT].address)]) as devices:
+            return await until(devices, lambda heard: len(of(heard, "cc2650/movement")) == 10)
+
+    heard = on_a_bus(main)
+    assert all(any(data[6:12]) for data in of(heard, "cc2650/movement"))  # axes that are off are zero
+    for write in PROFILE.setup:
+        assert write.value in of(heard, write.channel)
+    assert not troubles(heard)
+
+
+def test_a_lost_link_is_made_again_and_the_stream_goes_on(on_a_bus):
+    worn = bench()
+
+    async def main(address):
+        async with Bluez(worn.peripherals).serving(address) as bluez, Devices([THE_LEFT]) as devices:
+            heard = await until(devices, frames(10))
+            bluez.lose()
+            return heard + await until(devices, frames(10))
+
+    said = [type(event) for event in Session().feed(on_a_bus(main)) if isinstance(event, Connected | Disconnected)]
+    assert said == [Connected, Disconnected, Connected]
+
+
+def test_bluetooth_that_is_switched_off_is_told_and_waited_for(on_a_bus):
+    worn = bench()
+
+    async def main(address):
+        async with Bluez(worn.peripherals).serving(address) as bluez, Devices([THE_LEFT]) as devices:
+            heard = await until(devices, frames(10))
+            bluez.power(False)
+            heard += await until(devices, lambda heard: bool(troubles(heard)))
+            bluez.power(True)
+            return heard, await until(devices, frames(10))
+
+    before, after = on_a_bus(main)
+    assert troubles(before) == ["cannot look for devices: Bluetooth is off: turn it on"]
+    assert len(of(before, "receiver/disconnected")) == len(of(after, "receiver/connected")) == 1
+
+
+def test_a_bluetooth_service_that_dies_is_told_and_its_successor_used(on_a_bus):
+    worn = bench()
+
+    async def main(address):
+        devices = Devices([THE_LEFT])
+        async with Bluez(worn.peripherals).serving(address):
+            await devices.__aenter__()
+            heard = await until(devices, frames(10))
+        heard += await until(devices, lambda heard: len(troubles(heard)) == 2)
+        async with Bluez(worn.peripherals).serving(address):
+            after = await until(devices, frames(10))
+            await devices.__aexit__(None, None, None)
+        return heard, after
+
+    before, after = on_a_bus(main)
+    dead = "the Bluetooth service does not run: systemctl start bluetooth"
+    assert troubles(before) == [dead, f"cannot look for devices: {dead}"]
+    assert len(of(after, "receiver/connected")) == 1
+
+
+def test_a_device_that_must_be_paired_says_so_and_is_paired_if_that_is_wanted(on_a_bus):
+    worn = bench("0 left_foot pairing")
+
+    async def main(address):
+        async with Bluez(worn.peripherals).serving(address):
+            async with Devices([THE_LEFT]) as devices:
+                refused = await until(devices, lambda heard: bool(troubles(heard)))
+            async with Devices([THE_LEFT], pair=True) as devices:
+                return refused, await until(devices, frames(10))
+
+    refused, heard = on_a_bus(main)
+    assert troubles(refused) == ["the device wants to be paired first: pair=True, or --pair"]
+    assert not troubles(heard)
+
+
+def test_a_write_that_is_refused_is_told_with_the_devices_own_code(on_a_bus):
+    worn = bench("0 left_foot refuse insole/control")
+
+    async def main(address):
+        async with Bluez(worn.peripherals).serving(address), Devices([THE_LEFT]) as devices:
+            return await until(devices, frames(5))
+
+    heard = on_a_bus(main)
+    assert [what.partition(" (")[0] for what in troubles(heard)] == [
+        "insole/control was not set to 01: the device answered with the ATT error 0x80"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("bluez", "said"),
+    [
+        (None, "the Bluetooth service does not run: systemctl start bluetooth"),
+        (Bluez([], adapter=False), "this machine has no Bluetooth adapter: plug one in"),
+        (Bluez([], powered=False), "Bluetooth is off: turn it on"),
+    ],
+    ids=["no service", "no adapter", "off"],
+)
+def test_what_keeps_bluetooth_from_being_used_is_told_at_once(on_a_bus, bluez, said):
+    async def main(address):
+        if bluez is None:
+            await scan(0.1)
+        else:
+            async with bluez.serving(address):
+                await scan(0.1)
+
+    with pytest.raises(BluetoothError, match=said):
+        on_a_bus(main)
+
+
+@pytest.mark.parametrize("address", ["unix:path=/there/is/none", "not an address"])
+def test_without_a_bus_there_is_no_bluetooth_but_a_sentence(monkeypatch, address):
+    monkeypatch.setenv(BUS, address)
+    with pytest.raises(BluetoothError) as caught:
+        asyncio.run(scan(0.1))
+    assert "\n" not in str(caught.value)
+
+
+def test_record_ends_with_ctrl_c_disconnected_and_with_all_that_came(on_a_bus, tmp_path):
+    worn = bench()
+    worn[LEFT].log = []
+    path = tmp_path / "walk.jsonl"
+
+    async def main(address):
+        async with Bluez(worn.peripherals).serving(address) as bluez:
+            command = ["-m", "solepath", "record", "--left", worn[LEFT].address, "--out", str(path)]
+            pipe = asyncio.subprocess.PIPE
+            program = await asyncio.create_subprocess_exec(sys.executable, *command, stdout=pipe, stderr=pipe)
+            try:
+                while not path.exists() or path.read_text(encoding="utf-8").count("insole/frame") < 50:
+                    await asyncio.sleep(0.05)
+                program.send_signal(signal.SIGINT)
+                _, errors = await program.communicate()
+            finally:
+                if program.returncode is None:
+                    program.kill()
+            return program.returncode, errors.decode(), Counter(bluez.calls), bluez.is_idle
+
+    status, errors, calls, idle = on_a_bus(main)
+    assert (status, errors) == (0, "")
+    assert calls["Device1.Connect"] == calls["Device1.Disconnect"] == 1 and idle
+    recorded = of(list(read_packets(path)), "insole/frame")
+    assert len(recorded) >= 50
+    assert recorded == [sent.value for sent in worn[LEFT].log if sent.channel == "insole/frame"][: len(recorded)]

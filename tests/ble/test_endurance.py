@@ -1,0 +1,191 @@
+"""Forced disconnections all along a walk, through true ATT: sixty of them, and two hundred in a soak."""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import sys
+import threading
+from array import array
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from airs import bumble, in_virtual_time, others
+from attrs import define, field
+
+from solepath import Connected, Disconnected, FootMoved, PacketRejected, SampleGap, Session, StrideTaken
+from solepath.ble import Devices, Wanted
+from solepath.emulate import Route, emulate
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import Fault, What
+from solepath.emulate.sensors.device import Device
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.wearers.truth import Truth
+from solepath.lab.measures.strides import position_errors
+from solepath.link.profile import INSOLE
+from solepath.types import Foot, Site
+
+FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
+ROUTE = Route().stand(3.0).walk(90.0).turn(1.5, radius=2.0).walk(60.0).turn(-1.5, radius=2.0).walk(60.0).stop(3.0)
+SHORTER = Route().stand(3.0).walk(40.0).turn(1.5, radius=2.0).walk(24.0).stop(3.0)
+ROUTES = {200: ROUTE, 60: SHORTER}
+"""By how often the links are cut."""
+FIRST, APART = 3.2, 0.81
+"""s: of the walk, and from one cut to the next; the feet take turns, and strides of 1.1 s are cut anywhere."""
+
+
+def worn() -> dict[Site, Device]:
+    """Insoles at 50 Hz: as many cuts as at 100 Hz in half as many packets."""
+    return {site: Insole(cells=24, rate=50.0) for site in FEET}
+
+
+@define
+class Walked:
+    """What became of the walk, seen by the app."""
+
+    truth: Truth
+    began: float = 0.0
+    """The walk's 0 on the loop's clock, s."""
+    places: dict[Foot, array[float]] = field(factory=lambda: {foot: array("d") for foot in Foot})
+    """Where each foot was said to be at the ends of its true steps: x, y, z and so on. An array is one block of memory,
+    so that what is collected here does not look like a leak."""
+    steps: int = 0
+    connected: int = 0
+    disconnected: int = 0
+    rejected: int = 0
+    gaps: array[float] = field(factory=lambda: array("d"))
+    """How long they were, s."""
+    tasks: list[int] = field(factory=list)
+    """Beside the app's own, at every connection."""
+    blocks: list[int] = field(factory=list)
+    """Memory that Python holds, in its blocks, at every 20th connection."""
+    threads_before: int = 0
+    threads: list[int] = field(factory=list)
+    """At every connection."""
+    left: int = -1
+    """Tasks of the adapter that are left once it is left, while the air is still there."""
+
+    def take(self, event: object) -> None:
+        match event:
+            case FootMoved(foot=foot, t=t, position=position):
+                done = len(self.places[foot]) // 3
+                ends = self.ends(foot)
+                if done < len(ends) and t - self.began >= ends[done]:
+                    self.places[foot].extend(position)
+            case StrideTaken():
+                self.steps += 1
+            case Connected():
+                self.connected += 1
+                self.tasks.append(len(others()))
+                self.threads.append(threading.active_count())
+                if self.connected % 20 == 0:
+                    gc.collect()
+                    self.blocks.append(sys.getallocatedblocks())
+            case Disconnected():
+                self.disconnected += 1
+            case PacketRejected():
+                self.rejected += 1
+            case SampleGap() as gap:
+                self.gaps.append(gap.duration)
+
+    def ends(self, foot: Foot) -> list[float]:
+        """The rests between the true steps, s."""
+        steps = self.truth.steps(foot)
+        return [steps[0].t_start, *(step.t_end for step in steps)]
+
+    def error(self) -> float:
+        """Mean horizontal distance of both feet from where they were at the ends of their steps, m."""
+        errors = []
+        for foot in Foot:
+            ends = np.array(self.ends(foot))
+            true = self.truth.feet[foot].pose(ends).position[:, :2]
+            errors += position_errors(ends, true, ends, np.array(self.places[foot]).reshape(-1, 3)).tolist()
+        return float(np.mean(errors))
+
+
+def advertises(task: asyncio.Task[Any]) -> bool:
+    """Is it an emulated device that does so again, once its link is gone?"""
+    return getattr(task.get_coro(), "__qualname__", "") == "Server._advertise"
+
+
+@cache
+def walk(seed: int, cuts: int = 200) -> Walked:
+    faults = [Fault(FIRST + APART * k, FEET[k % 2], What.DISCONNECT) for k in range(cuts)]
+    bench = Bench(ROUTES[cuts], devices=worn(), seed=seed, faults=faults)
+    truth = bench.truth()
+    assert truth.duration - 2.0 > FIRST + APART * cuts
+    walked = Walked(truth)
+
+    async def listen() -> None:
+        began = asyncio.get_running_loop().time() + 3.0
+        bench.began = walked.began = began
+        bench.prepare()
+        session = Session(poses=True)
+        async with bumble(bench) as backend:
+            before, walked.threads_before = others(), threading.active_count()
+            async with Devices([Wanted(None, profile=INSOLE)] * 2, backend=backend) as devices:
+                async for packet in devices:
+                    if packet.t > began + truth.duration:
+                        break
+                    for event in session.feed(packet):
+                        walked.take(event)
+            walked.left = sum(not advertises(task) for task in others() - before)
+        assert not others()
+
+    in_virtual_time(listen)
+    return walked
+
+
+OFTEN = pytest.mark.parametrize("cuts", [60, pytest.param(200, marks=pytest.mark.soak)])
+
+
+@OFTEN
+def test_a_session_goes_on_through_any_number_of_disconnections_and_every_gap_is_an_event(cuts: int) -> None:
+    walked = walk(1, cuts)
+    assert walked.disconnected == cuts
+    assert walked.connected == cuts + 2
+    assert walked.rejected == 0
+    true = sum(len(walked.truth.steps(foot)) for foot in Foot)
+    assert true > 1.5 * cuts
+    assert abs(walked.steps - true) <= 0.02 * true
+    # each cut costs samples, so each is a gap; none is longer than it takes to find and set up a device again
+    cut = [duration for duration in walked.gaps if duration > 0.05]
+    assert len(cut) == cuts
+    assert max(cut) < 0.5
+
+
+@OFTEN
+def test_no_task_and_no_thread_is_left_behind_by_so_many_connections(cuts: int) -> None:
+    walked = walk(1, cuts)
+    assert walked.left == 0
+    assert max(walked.tasks[-cuts // 4 :]) <= max(walked.tasks[: cuts // 4])
+    assert set(walked.threads) == {walked.threads_before}
+
+
+@pytest.mark.soak
+def test_no_memory_is_left_behind_by_two_hundred_connections() -> None:
+    walked = walk(1)
+    early, late = walked.blocks[2], walked.blocks[-1]  # the 60th connection, the 200th
+    assert late - early <= 10 * 140, walked.blocks
+
+
+def undisturbed(seed: int) -> float:
+    """The error of the same walk fed directly, m."""
+    bench = Bench(ROUTE, devices=worn(), seed=seed)
+    walked = Walked(bench.truth())
+    session = Session(poses=True)
+    for packet in emulate(ROUTE, devices=worn(), seed=seed).packets:
+        for event in session.feed(packet):
+            walked.take(event)
+    return walked.error()
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("seeds", [(1, 2), (1, 2, 3, 4, 5, 6)])
+def test_tracks_stay_on_average_within_twice_the_error_of_the_walks_without_disconnections(seeds: tuple[int]) -> None:
+    """On average: a single walk may by luck have hardly any error of its own to be compared with."""
+    cut, whole = [walk(seed).error() for seed in seeds], [undisturbed(seed) for seed in seeds]
+    print(f"m, with 200 disconnections {np.round(cut, 1)}, without {np.round(whole, 1)}")
+    assert sum(cut) <= 2.0 * sum(whole)

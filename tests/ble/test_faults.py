@@ -1,0 +1,281 @@
+"""Each thing that goes wrong on the radio, and what an app sees of it; on both tiers."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TypeVar
+
+import pytest
+from airs import TIERS, hear, in_virtual_time
+from attrs import evolve
+from benches import LEFT, RIGHT
+
+from solepath import (
+    ClockReset,
+    Connected,
+    Disconnected,
+    Event,
+    LinkTrouble,
+    PacketRejected,
+    PacketsLost,
+    Rejection,
+    SampleGap,
+    Session,
+    StreamRestarted,
+    StreamResumed,
+    StreamStale,
+    StrideTaken,
+)
+from solepath.ble import Devices, Wanted
+from solepath.emulate import Route
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.sensors.device import Device
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2650 as Tag
+from solepath.link.devices.reassembly import Reassembly
+from solepath.link.profile import CC2650, INSOLE, Write
+from solepath.types import Packet, Site
+from solepath.wire.fragment import is_fragment, parse_fragment
+from solepath.wire.insole import InsoleFrame, parse_frame
+
+E = TypeVar("E")
+STAND = Route().stand(9.0)
+WALK = Route().stand(3.0).walk(12.0).stop(3.0)
+FOOT = "F0:5E:00:00:00:01"
+SMALL = Insole(cells=8, rate=50.0)
+both = pytest.mark.parametrize("tier", TIERS)
+
+
+@cache
+def heard(
+    tier: str,
+    faults: str,
+    seconds: float,
+    device: Device = SMALL,
+    route: Route = STAND,
+    wanted: tuple[Wanted, ...] = (Wanted(LEFT, FOOT),),
+    sites: tuple[Site, ...] = (LEFT,),
+) -> list[Packet]:
+    bench = Bench(route, devices=dict.fromkeys(sites, device), seed=3, faults=parse_faults(faults))
+
+    async def main() -> list[Packet]:
+        async with TIERS[tier](bench) as backend, Devices(wanted, backend=backend, patience=5.0) as devices:
+            return await hear(devices, seconds)
+
+    return in_virtual_time(main)
+
+
+def events(packets: list[Packet]) -> list[Event]:
+    return Session().feed(packets)
+
+
+def of(kind: type[E], found: list[Event]) -> list[E]:
+    return [event for event in found if isinstance(event, kind)]
+
+
+def frames(packets: list[Packet]) -> list[Packet]:
+    return [packet for packet in packets if packet.channel == "insole/frame"]
+
+
+# --- notifications ---
+
+
+@both
+def test_notifications_that_are_lost_are_packets_lost(tier: str) -> None:
+    found = events(heard(tier, "4 * drop 3", 6.0))
+    [lost] = of(PacketsLost, found)
+    assert (lost.count, lost.channel, lost.site) == (3, "insole/frame", LEFT)
+    assert lost.t == pytest.approx(4.0, abs=0.1)
+    assert not of(PacketRejected, found)
+
+
+@both
+def test_notifications_that_come_twice_are_rejected_as_duplicates(tier: str) -> None:
+    found = events(heard(tier, "4 * duplicate 2", 6.0))
+    assert [event.reason for event in of(PacketRejected, found)] == [Rejection.DUPLICATE] * 2
+    assert not of(PacketsLost, found)
+
+
+@both
+def test_notifications_that_are_cut_short_are_rejected_and_missed(tier: str) -> None:
+    found = events(heard(tier, "4 * truncate 4", 6.0))
+    reasons = [event.reason for event in of(PacketRejected, found)]
+    assert len(reasons) == 4 and {*reasons} <= {Rejection.TRUNCATED, Rejection.CHECKSUM}
+    assert sum(event.count for event in of(PacketsLost, found)) == 4
+
+
+@both
+def test_notifications_with_turned_bits_fail_their_checksum_and_are_missed(tier: str) -> None:
+    found = events(heard(tier, "4 * flip 2; 5 * flip 3", 7.0))
+    assert [event.reason for event in of(PacketRejected, found)] == [Rejection.CHECKSUM] * 5
+    assert sum(event.count for event in of(PacketsLost, found)) == 5
+
+
+def whole(packets: list[Packet]) -> dict[int, InsoleFrame]:
+    """The frames by their numbers, with fragments put together."""
+    under_way, found = Reassembly(), []
+    for packet in frames(packets):
+        data: bytes | None = packet.data
+        if is_fragment(packet.data):
+            data, dropped = under_way.feed(parse_fragment(packet.data))
+            assert dropped is None
+        if data is not None:
+            found.append(parse_frame(bytes(data)))
+    return {frame.sequence: frame for frame in found}
+
+
+@both
+def test_over_the_smallest_mtu_the_same_frames_come_in_fragments(tier: str) -> None:
+    wide, narrow = heard(tier, "", 5.0), heard(tier, "0 * mtu 23", 5.0)
+    assert max(len(packet.data) for packet in frames(narrow)) <= 20
+    one, other = whole(wide), whole(narrow)
+    common = one.keys() & other.keys()
+    assert len(common) > 200
+    assert all(one[number] == other[number] for number in common)
+    assert not of(PacketRejected, events(narrow)) and not of(PacketsLost, events(narrow))
+
+
+# --- links ---
+
+
+@both
+def test_a_disconnection_in_mid_stride_is_told_the_gap_too_and_its_step_is_degraded(tier: str) -> None:
+    found = events(heard(tier, "8.6 * disconnect", 16.0, route=WALK))
+    order = of((Connected, Disconnected, SampleGap), found)  # type: ignore[arg-type]
+    assert [type(event) for event in order] == [Connected, Disconnected, Connected, SampleGap]
+    assert order[1].t == pytest.approx(8.6, abs=0.1)  # type: ignore[attr-defined]
+    [gap] = of(SampleGap, found)
+    assert 0.05 < gap.duration < 0.6
+    [step] = [step for step in of(StrideTaken, found) if step.t_start < gap.t < step.t_end]
+    assert step.degraded
+    assert len(of(StrideTaken, found)) > 8
+    assert not of(PacketRejected, found)
+    assert not of(LinkTrouble, found)
+
+
+@both
+def test_a_link_that_is_lost_with_a_request_pending_is_told_and_made_again(tier: str) -> None:
+    found = events(heard(tier, "4 * disconnect; 4 * hang", 12.0))
+    made = of(Connected, found)
+    assert len(made) == 2 and made[1].t == pytest.approx(5.6, abs=0.8)
+    assert of(LinkTrouble, found)
+    [resumed] = of(StreamResumed, found)
+    assert resumed.t < 7.0
+
+
+@both
+def test_a_link_that_is_lost_while_a_frozen_stream_is_set_up_again_is_made_again(tier: str) -> None:
+    found = events(heard(tier, "4 * freeze; 4.5 * hang", 12.0))
+    order = of((StreamRestarted, Disconnected, Connected, StreamResumed), found)  # type: ignore[arg-type]
+    assert [type(e) for e in order] == [Connected, StreamRestarted, Disconnected, Connected, StreamResumed]
+    [trouble] = of(LinkTrouble, found)
+    assert trouble.what.startswith("the connection was lost: the device is sought again")
+
+
+@both
+def test_a_device_that_begins_anew_is_a_clock_reset(tier: str) -> None:
+    [reset] = of(ClockReset, events(heard(tier, "4 * restart", 7.0)))
+    assert reset.restarted
+
+
+@both
+def test_a_device_that_vanishes_for_a_minute_is_stale_then_looked_for_and_back_within_seconds(tier: str) -> None:
+    found = events(heard(tier, "4 * vanish 60", 75.0))
+    order = of((StreamStale, Disconnected, LinkTrouble, Connected, StreamResumed), found)  # type: ignore[arg-type]
+    kinds = [type(event) for event in order]
+    assert kinds == [Connected, Disconnected, StreamStale, LinkTrouble, Connected, StreamResumed]
+    _, gone, stale, trouble, back, resumed = order
+    assert gone.t == pytest.approx(4.0, abs=0.1)  # type: ignore[attr-defined]
+    assert stale.t == pytest.approx(5.0, abs=0.1)  # type: ignore[attr-defined]
+    assert trouble.what.startswith(f"no device '{FOOT}' is heard")  # type: ignore[attr-defined]
+    assert 64.0 < back.t < resumed.t < 67.0  # type: ignore[attr-defined]
+
+
+# --- streams ---
+
+
+@both
+@pytest.mark.parametrize(
+    ("device", "control"), [(SMALL, "insole/control"), (Tag(), "cc2650/movement-config")], ids=["insole", "cc2650"]
+)
+def test_a_setup_that_is_refused_is_told_in_words_and_made_again(tier: str, device: Device, control: str) -> None:
+    found = events(heard(tier, f"0 * refuse {control}", 8.0, device=device))
+    [trouble] = of(LinkTrouble, found)
+    assert trouble.what.startswith(f"{control} was not set to ")
+    assert "the device answered with the ATT error 0x80" in trouble.what
+    [restarted] = of(StreamRestarted, found)
+    assert restarted.t < 3.0 and len(of(Connected, found)) == 1
+    packets = heard(tier, f"0 * refuse {control}", 8.0, device=device)
+    assert [packet for packet in packets if packet.channel == restarted.channel and packet.t > 7.5]
+
+
+@both
+def test_a_refusal_beside_the_stream_is_told_and_the_stream_goes_on(tier: str) -> None:
+    packets = heard(tier, "0 * refuse cc2650/barometer-config; 0 * refuse device/battery", 5.0, device=Tag())
+    found = events(packets)
+    words = [event.what for event in of(LinkTrouble, found)]
+    assert [what.partition(" ")[0] for what in words] == ["device/battery", "cc2650/barometer-config"]
+    assert not of(StreamRestarted, found)
+    assert len([packet for packet in packets if packet.channel == "cc2650/movement"]) > 35
+
+
+@both
+@pytest.mark.parametrize("device", [SMALL, Tag()], ids=["insole", "cc2650"])
+def test_a_frozen_stream_is_restarted_and_resumes(tier: str, device: Device) -> None:
+    found = events(heard(tier, "4 * freeze", 9.0, device=device))
+    order = of((StreamStale, StreamRestarted, StreamResumed), found)  # type: ignore[arg-type]
+    assert {type(event) for event in order} == {StreamStale, StreamRestarted, StreamResumed}
+    assert len(order) == 3 and isinstance(order[-1], StreamResumed)
+    assert order[-1].silent_for < 2.5
+    assert len(of(Connected, found)) == 1 and not of(LinkTrouble, found)
+
+
+@both
+def test_a_stream_that_stays_frozen_is_connected_anew(tier: str) -> None:
+    found = events(heard(tier, "4 * freeze; 4.5 * refuse insole/control 2", 12.0))
+    order = of((StreamRestarted, Disconnected, Connected, StreamResumed), found)  # type: ignore[arg-type]
+    assert [type(event) for event in order] == [
+        Connected,
+        *[StreamRestarted] * 3,
+        Disconnected,
+        Connected,
+        StreamResumed,
+    ]
+
+
+WAKING = evolve(CC2650, setup=(CC2650.setup[0], Write("cc2650/movement-config", b"\xff\x02"), *CC2650.setup[2:]))
+
+
+@both
+def test_a_device_that_wakes_on_motion_may_be_silent(tier: str) -> None:
+    """He stands for a while, walks, and stands: the tag sleeps 10 s after its last motion."""
+    route = Route().stand(8.0).walk(5.0).stop(25.0)
+    wanted = (Wanted(LEFT, FOOT, WAKING),)
+    packets = heard(tier, "", 36.0, device=Tag(), route=route, wanted=wanted)
+    found = events(packets)
+    moved = [packet.t for packet in packets if packet.channel == "cc2650/movement"]
+    assert moved and max(moved) < 30.0, "it did fall asleep"
+    assert not of(StreamRestarted, found) and not of(StreamStale, found) and len(of(Connected, found)) == 1
+
+
+# --- names ---
+
+
+@both
+def test_of_two_devices_with_one_name_an_app_is_told_both_addresses(tier: str) -> None:
+    wanted = (Wanted(LEFT, "CC2650 SensorTag"),)
+    found = events(heard(tier, "", 8.0, device=Tag(), wanted=wanted, sites=(LEFT, RIGHT)))
+    [trouble] = of(LinkTrouble, found)
+    assert FOOT in trouble.what and "F0:5E:00:00:00:02" in trouble.what
+    assert not of(Connected, found)
+
+
+@both
+def test_two_feet_that_lose_their_links_at_once_both_come_back(tier: str) -> None:
+    wanted = (Wanted(None, profile=INSOLE),) * 2
+    found = events(heard(tier, "4 * disconnect", 7.0, wanted=wanted, sites=(LEFT, RIGHT)))
+    for site in (LEFT, RIGHT):
+        assert len([event for event in of(Connected, found) if event.site is site]) == 2
+        [gap] = [event for event in of(SampleGap, found) if event.site is site]
+        assert gap.duration < 1.0

@@ -1,0 +1,190 @@
+"""Devices that must be paired with: what an app is told, and how a link comes to be encrypted."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+
+import pytest
+from airs import TIERS, hear, in_virtual_time
+from bleak import BleakClient, BleakScanner
+from bleak.exc import BleakError, BleakGATTProtocolError, BleakGATTProtocolErrorCode
+
+from solepath.ble import Backend, Devices, Wanted
+from solepath.emulate import Route
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.sensors import sensortags
+from solepath.emulate.sensors.device import Device
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.link.profile import CC2541, CC2650, INSOLE, Profile
+from solepath.types import Packet, Site
+from solepath.wire.receiver import parse_words
+
+LEFT = Site.LEFT_FOOT
+ROUTE = Route().stand(2.0).walk(6.0).stop(2.0)
+KINDS: dict[str, tuple[Profile, Device]] = {
+    "insole": (INSOLE, Insole()),
+    "cc2650": (CC2650, sensortags.CC2650()),
+    "cc2541": (CC2541, sensortags.CC2541()),
+}
+INFO = INSOLE.channel("insole/info").characteristic
+FRAME = INSOLE.channel("insole/frame").characteristic
+CONTROL = INSOLE.channel("insole/control").characteristic
+FIRMWARE = INSOLE.channel("device/firmware").characteristic
+
+
+def bench(faults: str, device: Device | None = None) -> Bench:
+    worn = Bench(ROUTE, devices={LEFT: device or Insole()}, faults=parse_faults(faults))
+    worn.prepare()
+    return worn
+
+
+def heard(tier: str, faults: str, pair: bool, seconds: float, kind: str = "insole") -> list[Packet]:
+    profile, device = KINDS[kind]
+
+    async def listen() -> list[Packet]:
+        worn = bench(faults, device)
+        worn.began = asyncio.get_running_loop().time()
+        wanted = [Wanted(LEFT, worn[LEFT].address, profile)]
+        async with TIERS[tier](worn) as backend, Devices(wanted, backend=backend, pair=pair) as devices:
+            return await hear(devices, seconds)
+
+    return in_virtual_time(listen)
+
+
+def troubles(packets: list[Packet]) -> list[str]:
+    return [parse_words(packet.data) for packet in packets if packet.channel == "receiver/trouble"]
+
+
+def streamed(packets: list[Packet], profile: Profile) -> list[float]:
+    return [packet.t for packet in packets if packet.channel in profile.streams]
+
+
+async def client(worn: Bench, backend: Backend, gone: Callable[[BleakClient], None] | None = None) -> BleakClient:
+    device = await BleakScanner.find_device_by_name(worn[LEFT].name, 5.0, backend=backend.scanner)
+    assert device is not None
+    return BleakClient(device, gone, backend=backend.client)
+
+
+@pytest.mark.parametrize("tier", TIERS)
+@pytest.mark.parametrize("kind", KINDS)
+def test_who_does_not_pair_is_told_to_and_hears_nothing_else(tier: str, kind: str) -> None:
+    packets = heard(tier, "0 * pairing", False, 20.0, kind)
+    assert streamed(packets, KINDS[kind][0]) == []
+    assert set(troubles(packets)) == {"the device wants to be paired first: pair=True, or --pair"}
+
+
+@pytest.mark.parametrize("tier", TIERS)
+@pytest.mark.parametrize("kind", KINDS)
+def test_who_pairs_hears_a_device_that_needs_it_also_after_a_reconnect_without_pairing_anew(
+    tier: str, kind: str
+) -> None:
+    # an attempt to pair on the second link would be refused, and told
+    packets = heard(tier, "0 * pairing; 5 * refuse pairing; 6 * disconnect", True, 10.0, kind)
+    assert troubles(packets) == []
+    connected = [packet.t for packet in packets if packet.channel == "receiver/connected"]
+    assert len(connected) == 2
+    times = streamed(packets, KINDS[kind][0])
+    first, second = (sum(begun < t < begun + 3.0 for t in times) for begun in connected)
+    assert first > 25
+    assert second == pytest.approx(first, rel=0.1)
+
+
+@pytest.mark.parametrize("tier", TIERS)
+def test_pairing_with_a_device_that_does_not_need_it_changes_nothing(tier: str) -> None:
+    alone, paired = (heard(tier, "", pair, 5.0) for pair in (False, True))
+    assert troubles(paired) == []
+    frames = [[packet.data for packet in packets if packet.channel == "insole/frame"] for packets in (alone, paired)]
+    assert len(frames[0]) > 400
+    assert frames[1][-300:] == frames[0][-300:]
+
+
+@pytest.mark.parametrize("tier", TIERS)
+def test_a_device_that_needs_pairing_from_some_time_on_falls_silent_and_what_to_do_is_told(tier: str) -> None:
+    packets = heard(tier, "4 * pairing", False, 12.0)
+    assert 3.9 < max(streamed(packets, INSOLE)) < 4.1
+    assert any("the device wants to be paired first" in what for what in troubles(packets))
+
+
+@pytest.mark.parametrize("tier", TIERS)
+def test_a_refused_pairing_is_a_connection_that_fails_and_the_next_attempt_is_another(tier: str) -> None:
+    packets = heard(tier, "0 * pairing; 0 * refuse pairing 2", True, 5.0)  # two, since each search is good for two
+    (told,) = troubles(packets)
+    assert "the device refused to be paired" in told
+    assert len(streamed(packets, INSOLE)) > 300
+
+
+@pytest.mark.parametrize("tier", TIERS)
+def test_an_unpaired_link_reads_what_every_device_tells_of_itself_and_nothing_more(tier: str) -> None:
+    async def main() -> None:
+        worn = bench("0 * pairing")
+        async with TIERS[tier](worn) as backend, await client(worn, backend) as host:
+            assert await host.read_gatt_char(FIRMWARE)
+            for request in (
+                host.read_gatt_char(INFO),
+                host.write_gatt_char(CONTROL, b"\x01", response=True),
+                host.start_notify(FRAME, print),
+            ):
+                with pytest.raises(BleakGATTProtocolError) as refused:
+                    await request
+                assert refused.value.code == BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHENTICATION
+            await host.pair()  # and on the same link it is encrypted from now on
+            assert await host.read_gatt_char(INFO)
+            await host.pair()
+            assert host.is_connected
+
+    in_virtual_time(main)
+
+
+@pytest.mark.parametrize("tier", TIERS)
+def test_a_device_paired_once_is_not_asked_again_until_it_is_unpaired(tier: str) -> None:
+    async def main() -> None:
+        worn = bench("0 * pairing")
+        lost: list[BleakClient] = []
+        async with TIERS[tier](worn) as backend:
+            host = await client(worn, backend, lost.append)
+            async with host:
+                await host.pair()
+            async with host:  # by the keys
+                assert await host.read_gatt_char(INFO)
+                assert len(lost) == 1
+                await host.unpair()
+                await asyncio.sleep(0.1)
+                assert not host.is_connected
+                assert len(lost) == 2
+            async with host:
+                with pytest.raises(BleakGATTProtocolError):
+                    await host.read_gatt_char(INFO)
+            await host.unpair()  # of what is not paired, and not connected
+            paired = BleakClient(host.address, backend=backend.client, pair=True)
+            async with paired:
+                assert await paired.read_gatt_char(INFO)
+
+    in_virtual_time(main)
+
+
+@pytest.mark.parametrize("tier", TIERS)
+def test_pairing_fails_when_refused_and_when_there_is_no_link(tier: str) -> None:
+    async def main() -> None:
+        worn = bench("0 * pairing; 0 * refuse pairing 2")
+        lost: list[BleakClient] = []
+        async with TIERS[tier](worn) as backend:
+            host = await client(worn, backend, lost.append)
+            with pytest.raises(BleakError, match="not connected"):
+                await host.pair()
+            async with host:
+                with pytest.raises(BleakError, match="refused to be paired"):
+                    await host.pair()
+                assert host.is_connected
+            assert lost == [host]
+            paired = BleakClient(host.address, lost.append, backend=backend.client, pair=True)
+            with pytest.raises(BleakError, match="refused to be paired"):
+                await paired.connect()
+            assert not paired.is_connected
+            await asyncio.sleep(0.1)
+            assert lost == [host]
+            async with paired:
+                assert await paired.read_gatt_char(INFO)
+
+    in_virtual_time(main)

@@ -1,0 +1,306 @@
+"""Which device an app gets for what it wants."""
+
+from __future__ import annotations
+
+import asyncio
+
+import pytest
+from airs import hear, in_virtual_time
+from belts import STRAP, address, asked, strap
+from benches import LEFT, RIGHT, ROUTE
+
+from solepath.ble import Backend, ConnectionState, Devices, Wanted, scan
+from solepath.emulate.devices import cc2650
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.devices.memory import MemoryRadio
+from solepath.emulate.devices.peripheral import Peripheral
+from solepath.emulate.sensors.device import Device
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2650 as Tag
+from solepath.link.profile import CC2541, CC2650, INSOLE
+from solepath.types import Packet, Site
+from solepath.wire.receiver import parse_connected
+
+PELVIS = Site.PELVIS
+
+
+def feet(device: Device, faults: str = "") -> Bench:
+    return Bench(ROUTE, devices={LEFT: device, RIGHT: device}, seed=3, faults=parse_faults(faults))
+
+
+def got(peripherals: tuple[Peripheral, ...], wanted: list[Wanted], seconds: float = 6.0, **more: float) -> list[Packet]:
+    async def main() -> list[Packet]:
+        async with Devices(wanted, backend=MemoryRadio(peripherals).backend, **more) as devices:  # type: ignore[arg-type]
+            return await hear(devices, seconds)
+
+    return in_virtual_time(main)
+
+
+def connected(packets: list[Packet]) -> dict[Site, str]:
+    """Which device was connected where, at last."""
+    return {packet.site: packet.device for packet in packets if packet.channel == "receiver/connected"}
+
+
+def troubles(packets: list[Packet]) -> list[str]:
+    return [packet.data.decode() for packet in packets if packet.channel == "receiver/trouble"]
+
+
+def streams(packets: list[Packet], channel: str = "insole/frame") -> set[Site]:
+    return {packet.site for packet in packets if packet.channel == channel}
+
+
+# --- found ---
+
+
+@pytest.mark.parametrize("which", ["F0:5E:00:00:00:02", "f0:5e:00:00:00:02", "solepath R"])
+def test_a_device_is_found_by_its_address_or_by_its_name(which: str) -> None:
+    packets = got(feet(Insole()).peripherals, [Wanted(RIGHT, which)])
+    assert connected(packets) == {RIGHT: "F0:5E:00:00:00:02"}
+    assert streams(packets) == {RIGHT}
+    assert not troubles(packets)
+    [said] = [packet for packet in packets if packet.channel == "receiver/connected"]
+    assert parse_connected(said.data).name == "solepath R"
+    assert parse_connected(said.data).signal == -50
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_any_two_insoles_say_themselves_whose_foot_they_are_whichever_is_heard_first(turned: bool) -> None:
+    bench = feet(Insole())
+    peripherals = bench.peripherals[::-1] if turned else bench.peripherals
+    packets = got(peripherals, [Wanted(None, profile=INSOLE)] * 2)
+    assert connected(packets) == {site: bench[site].address for site in (LEFT, RIGHT)}
+    assert streams(packets) == {LEFT, RIGHT}
+    assert not troubles(packets)
+
+
+def test_one_insole_of_either_foot_is_enough_for_who_wants_any() -> None:
+    bench = feet(Insole())
+    packets = got((bench[RIGHT],), [Wanted(None, profile=INSOLE)])
+    assert connected(packets) == {RIGHT: bench[RIGHT].address}
+    packets = got((bench[LEFT],), [Wanted(None, "solepath L")])
+    assert connected(packets) == {LEFT: bench[LEFT].address}
+
+
+def test_a_left_insole_is_found_though_the_right_one_is_heard_first() -> None:
+    bench = feet(Insole())
+    packets = got(bench.peripherals[::-1], [Wanted(LEFT, profile=INSOLE)])
+    assert connected(packets) == {LEFT: bench[LEFT].address}
+    assert troubles(packets) == ["solepath R is a right foot one: wanted at the left foot"]
+
+
+def test_the_insole_of_the_other_foot_is_refused_in_words() -> None:
+    packets = got(feet(Insole()).peripherals, [Wanted(RIGHT, "F0:5E:00:00:00:01")], seconds=30.0)
+    assert not connected(packets)
+    assert troubles(packets) == ["solepath L is a left foot one: wanted at the right foot"]
+
+
+def test_two_insoles_of_one_foot_are_not_taken_for_a_pair() -> None:
+    bench, spare = feet(Insole()), Bench(ROUTE, devices={LEFT: Insole()}, seed=4)[LEFT]
+    spare.address = "F0:5E:00:00:00:09"
+    packets = got((bench[LEFT], spare), [Wanted(None, profile=INSOLE)] * 2)
+    assert len(connected(packets)) == 1
+    assert [words.partition(" is ")[2] for words in troubles(packets)] == ["one more for the left foot"]
+    packets = got((bench[LEFT], spare, bench[RIGHT]), [Wanted(None, profile=INSOLE)] * 2)
+    assert connected(packets).keys() == {LEFT, RIGHT}
+
+
+def test_who_wants_any_does_not_take_what_another_named() -> None:
+    bench = feet(Insole())
+    for which in (bench[LEFT].address, "solepath L"):
+        packets = got(bench.peripherals, [Wanted(None, profile=INSOLE), Wanted(LEFT, which)])
+        assert connected(packets) == {site: bench[site].address for site in (LEFT, RIGHT)}
+
+
+def test_who_wants_any_insole_gets_none_for_a_foot_that_another_is_wanted_at() -> None:
+    bench = feet(Insole())
+    packets = got((bench[LEFT],), [Wanted(None, profile=INSOLE), Wanted(LEFT, "F0:00:00:00:00:77")])
+    assert not connected(packets)
+    assert {packet.site for packet in packets} <= {LEFT, RIGHT}
+    assert "solepath L is one more for the left foot" in troubles(packets)
+
+
+def test_a_device_that_does_not_say_where_it_is_worn_is_not_guessed_to_be_anywhere() -> None:
+    packets = got(feet(Tag()).peripherals, [Wanted(None, "F0:5E:00:00:00:01")])
+    assert not connected(packets)
+    assert troubles(packets) == ["CC2650 SensorTag does not say where it is worn: name a site"]
+
+
+# --- two of one name ---
+
+
+TAGS = ("F0:5E:00:00:00:01", "F0:5E:00:00:00:02")
+AMBIGUOUS = f"2 devices answer to device 'CC2650 SensorTag' ({', '.join(TAGS)}): say which by its address"
+
+
+def test_of_two_devices_with_one_name_none_is_taken_and_both_addresses_are_told() -> None:
+    packets = got(feet(Tag()).peripherals, [Wanted(LEFT, "CC2650 SensorTag")], seconds=40.0)
+    assert not connected(packets)
+    assert troubles(packets) == [AMBIGUOUS]
+
+
+def test_two_insoles_with_one_name_are_not_guessed_between_either() -> None:
+    bench = feet(Insole(), faults='0 * name "solepath"')
+    packets = got(bench.peripherals, [Wanted(LEFT, "solepath")], seconds=20.0)
+    assert not connected(packets)
+    [said] = troubles(packets)
+    assert all(peripheral.address in said for peripheral in bench.peripherals)
+
+
+def test_the_one_that_another_foot_named_by_its_address_is_not_confused_with_the_other() -> None:
+    packets = got(feet(Tag()).peripherals, [Wanted(LEFT, "CC2650 SensorTag"), Wanted(RIGHT, TAGS[0])])
+    assert connected(packets) == {RIGHT: TAGS[0], LEFT: TAGS[1]}
+    assert not troubles(packets)
+
+
+def test_when_one_of_the_two_is_named_otherwise_the_other_is_taken() -> None:
+    bench = feet(Tag(), faults='8 right_foot name "Tag of the right"')
+    packets = got(bench.peripherals, [Wanted(LEFT, "CC2650 SensorTag")], seconds=15.0)
+    assert connected(packets) == {LEFT: TAGS[0]}
+    assert troubles(packets) == [AMBIGUOUS]
+    assert min(packet.t for packet in packets if packet.channel == "receiver/connected") > 8.0
+
+
+def test_when_one_of_the_two_is_not_heard_for_a_while_the_other_is_still_not_guessed_to_be_it() -> None:
+    bench = feet(Tag(), faults="8 right_foot vanish 15")
+    packets = got(bench.peripherals, [Wanted(LEFT, "CC2650 SensorTag")], seconds=30.0)
+    assert not connected(packets)
+
+
+def test_when_one_of_the_two_is_switched_off_the_other_is_taken() -> None:
+    bench = feet(Tag(), faults="8 right_foot vanish")
+    packets = got(bench.peripherals, [Wanted(LEFT, "CC2650 SensorTag")], seconds=60.0)
+    assert connected(packets) == {LEFT: TAGS[0]}
+
+
+@pytest.mark.parametrize(
+    "wanted",
+    [
+        [],
+        [Wanted(LEFT, "one"), Wanted(LEFT, "two")],
+        [Wanted(LEFT, TAGS[0]), Wanted(RIGHT, TAGS[0].lower())],
+        [Wanted(LEFT, "SensorTag"), Wanted(RIGHT, "SensorTag")],
+        [Wanted(LEFT, profile=CC2650), Wanted(RIGHT, profile=CC2650)],
+        [Wanted(None, profile=INSOLE)] * 3,
+        [Wanted(None, profile=INSOLE)] * 8,
+        [Wanted(LEFT, "one"), *[Wanted(None, profile=INSOLE)] * 2],
+    ],
+)
+def test_what_cannot_be_told_apart_is_an_error_before_anything_is_done(wanted: list[Wanted]) -> None:
+    with pytest.raises(ValueError):
+        Devices(wanted)
+
+
+def test_what_can_be_told_apart_is_none() -> None:
+    Devices([Wanted(LEFT, profile=INSOLE), Wanted(RIGHT, profile=INSOLE)])
+    Devices([Wanted(LEFT, profile=CC2650), Wanted(RIGHT, profile=CC2541)])
+    Devices([Wanted(None, profile=INSOLE)] * 2)
+    Devices([Wanted(LEFT, "one"), Wanted(None, profile=INSOLE)])
+
+
+# --- strangers ---
+
+
+def test_a_device_of_a_kind_that_nobody_knows_is_told_and_left() -> None:
+    packets = got((strap(),), [Wanted(PELVIS, address(1))], seconds=20.0)
+    assert not connected(packets)
+    assert troubles(packets) == ["strap 1 is of no kind that is known here: say its profile"]
+
+
+@pytest.mark.parametrize("which", [address(1), "strap 1"])
+def test_a_device_of_another_kind_than_was_said_is_told_and_left(which: str) -> None:
+    heard, wanted = asked(strap()), [Wanted(LEFT, which, CC2650)]
+
+    async def main() -> list[Packet]:
+        async with Devices(wanted, backend=heard.backend) as devices:
+            return await hear(devices, 20.0)
+
+    packets = in_virtual_time(main)
+    assert not connected(packets)
+    assert troubles(packets) == ["strap 1 is no cc2650: it has no cc2650/movement"]
+    assert {what for _, what, _ in heard.log} == {"connect", "disconnect"}
+
+
+def test_a_device_of_ones_own_kind_is_found_by_name_or_by_what_it_advertises() -> None:
+    for wanted in (Wanted(PELVIS, "strap 1", STRAP), Wanted(PELVIS, profile=STRAP)):
+        packets = got((strap(1),), [wanted])
+        assert connected(packets) == {PELVIS: address(1)}
+        assert streams(packets, "strap/beat") == {PELVIS}
+
+
+def test_a_device_that_seemed_unfit_is_tried_again_later() -> None:
+    """Its services may have been discovered in part, or its firmware is new."""
+
+    class Late(cc2650.CC2650Peripheral):
+        def visible(self, now: float) -> bool:
+            self.services = () if now < 20.0 else self.all
+            return super().visible(now)
+
+    bench = feet(Tag())
+    late = bench[LEFT]
+    late.__class__ = Late
+    late.all = late.services  # type: ignore[attr-defined]
+    packets = got((late,), [Wanted(LEFT, "CC2650 SensorTag")], seconds=120.0)
+    assert connected(packets) == {LEFT: late.address}
+    assert troubles(packets)[0] == "CC2650 SensorTag is no cc2650: it has no cc2650/movement"
+
+
+# --- nobody ---
+
+
+def test_after_its_patience_an_absent_device_is_complained_of_once() -> None:
+    packets = got((), [Wanted(LEFT, "solepath L")], seconds=300.0, patience=7.0)
+    [said] = [packet for packet in packets if packet.channel == "receiver/trouble"]
+    assert said.data.decode().startswith("no device 'solepath L' is heard: switch it on, bring it near")
+    assert (said.site, said.device) == (LEFT, "")
+    assert said.t == pytest.approx(7.0, abs=0.6)
+
+
+def test_an_unfit_device_that_is_heard_is_not_said_to_be_silent() -> None:
+    packets = got(feet(Insole()).peripherals, [Wanted(LEFT, "solepath R")], seconds=50.0)
+    assert troubles(packets) == ["solepath R is a right foot one: wanted at the left foot"]
+
+
+def test_an_absent_device_never_delays_another() -> None:
+    bench = feet(Insole())
+
+    def first(wanted: list[Wanted]) -> float:
+        packets = got((bench[RIGHT],), wanted)
+        bench[RIGHT].disconnected(6.0)
+        return min(packet.t for packet in packets if packet.channel == "insole/frame")
+
+    alone = first([Wanted(RIGHT, "F0:5E:00:00:00:02")])
+    bench = feet(Insole())
+    assert first([Wanted(LEFT, "F0:5E:00:00:00:01"), Wanted(RIGHT, "F0:5E:00:00:00:02")]) == alone < 1.0
+
+
+# --- scanning ---
+
+
+def test_only_one_scanner_works_at_a_time_and_none_once_all_are_found() -> None:
+    heard = asked(*(strap(number, faults=f"{4 + number} * disconnect") for number in range(1, 5)))
+    wanted = [Wanted(site, address(n), STRAP) for n, site in enumerate(list(Site)[:4], 1)]
+
+    async def main() -> None:
+        async with Devices(wanted, backend=heard.backend) as devices:
+            await hear(devices, 3.0)
+            assert {one.state for one in devices.connections} == {ConnectionState.LISTENING}
+            assert heard.scanning == 0
+            await hear(devices, 10.0)
+        assert heard.scanning == 0
+
+    in_virtual_time(main)
+    assert heard.most == 1
+
+
+def test_a_scan_tells_of_known_devices_and_of_strangers() -> None:
+    bench = feet(Insole())
+
+    async def main() -> dict[str, str | None]:
+        backend: Backend = MemoryRadio((*bench.peripherals, strap())).backend
+        began = asyncio.get_running_loop().time()
+        found = await scan(2.0, backend=backend)
+        assert asyncio.get_running_loop().time() - began == pytest.approx(2.0)
+        return {one.address: one.profile.name if one.profile else None for one in found}
+
+    assert in_virtual_time(main) == {TAGS[0]: "insole", TAGS[1]: "insole", address(1): None}

@@ -1,0 +1,175 @@
+"""What an app is told when Bluetooth cannot be used, and how often it is tried again."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+import pytest
+from airs import hear, in_virtual_time, others
+from belts import STRAP, address, asked
+from bleak.exc import (
+    BleakBluetoothNotAvailableError,
+    BleakBluetoothNotAvailableReason,
+    BleakDBusError,
+    BleakError,
+    BleakGATTProtocolError,
+    BleakGATTProtocolErrorCode,
+)
+from strap import Strap
+
+from solepath.ble import Backend, BluetoothError, Devices, Wanted, scan
+from solepath.ble.trouble import sentence
+from solepath.emulate.devices.memory import MemoryRadio
+from solepath.emulate.devices.peripheral import Outgoing
+from solepath.link.profile import CC2650
+from solepath.types import Packet, Site
+
+PELVIS = Site.PELVIS
+REASONS = BleakBluetoothNotAvailableReason
+UNAVAILABLE = [
+    *(BleakBluetoothNotAvailableError("no", reason) for reason in REASONS),
+    BleakDBusError("org.freedesktop.DBus.Error.ServiceUnknown", []),
+    BleakDBusError("org.freedesktop.DBus.Error.AccessDenied", ["no"]),
+    BleakDBusError("org.bluez.Error.NotReady", []),
+    FileNotFoundError(2, "No such file or directory"),
+    ConnectionRefusedError(111, "Connection refused"),
+    PermissionError(13, "Permission denied"),
+    BleakError("something that nobody foresaw"),
+]
+DO = ("plug", "turn it on", "is it on?", "allow", "ask", "can", "start", "join", "install", "nobody foresaw")
+
+
+NOT_IN_TIME = "the device did not answer in time: it is sought again; if this goes on, switch it off and on"
+
+
+def without_bluetooth(error: Exception) -> Backend:
+    beneath: Any = MemoryRadio([]).backend.scanner
+
+    class Scanner(beneath):
+        async def start(self) -> None:
+            raise error
+
+    return Backend(None, Scanner)
+
+
+@pytest.mark.parametrize("error", UNAVAILABLE, ids=lambda error: " ".join(map(str, error.args))[:50])
+def test_to_enter_or_to_scan_without_bluetooth_is_an_error_that_says_what_to_do(error: Exception) -> None:
+    async def main() -> list[str]:
+        said = []
+        with pytest.raises(BluetoothError) as entered:
+            async with Devices([Wanted(PELVIS, "any")], backend=without_bluetooth(error)):
+                pass
+        said.append(str(entered.value))
+        assert entered.value.__cause__ is error
+        with pytest.raises(BluetoothError) as scanned:
+            await scan(1.0, backend=without_bluetooth(error))
+        said.append(str(scanned.value))
+        assert not others()
+        return said
+
+    one, other = in_virtual_time(main)
+    assert one == other and "\n" not in one
+    assert any(words in one for words in DO)
+
+
+@pytest.mark.parametrize("words", ["Not connected", "disconnected", "the link was lost"])
+def test_a_lost_connection_is_told_in_one_phrase_with_what_comes_next(words: str) -> None:
+    assert sentence(BleakError(words)).startswith("the connection was lost: the device is sought again")
+
+
+@pytest.mark.parametrize("code", list(BleakGATTProtocolErrorCode))
+def test_every_att_error_has_one_line(code: BleakGATTProtocolErrorCode) -> None:
+    words = sentence(BleakGATTProtocolError(code))
+    assert words and "\n" not in words
+    assert "pair" in words or f"0x{int(code):02X}" in words
+
+
+class Fleeting(Strap):
+    """It loses each of its first links after so many s, and says nothing over the first `silent` of them."""
+
+    silent = 0
+
+    def __init__(self, *lasting: float) -> None:
+        super().__init__("strap 1", address(1))
+        self.lasting = [*lasting]
+        self.begun: list[float] = []
+
+    def connected(self, now: float, mtu: int) -> None:
+        self.begun.append(now)
+        super().connected(now, mtu)
+
+    def hang_up(self, now: float) -> bool:
+        nth = len(self.begun) - 1
+        lost = self.is_connected and nth < len(self.lasting) and now - self.begun[-1] >= self.lasting[nth]
+        return super().hang_up(now) or lost
+
+    def poll(self, now: float) -> list[Outgoing]:
+        said = super().poll(now)
+        return said if len(self.begun) > self.silent else []
+
+    def pauses(self) -> list[float]:
+        return [b - a for a, b in zip(self.begun, self.begun[1:], strict=False)]
+
+
+def used(device: Fleeting, wanted: Wanted, seconds: float) -> list[Packet]:
+    async def main() -> list[Packet]:
+        async with Devices([wanted], backend=asked(device).backend) as devices:
+            return await hear(devices, seconds)
+
+    return in_virtual_time(main)
+
+
+def test_a_device_that_fails_again_and_again_is_tried_less_and_less_often_and_never_given_up() -> None:
+    device = Fleeting()
+    packets = used(device, Wanted(PELVIS, address(1), CC2650), 120.0)
+    pauses = device.pauses()
+    assert pauses[0] < 0.6
+    assert pauses[:5] == sorted(pauses[:5])
+    assert all(8.0 <= pause < 8.6 for pause in pauses[6:]) and len(pauses) > 12
+    told = [packet.t for packet in packets if packet.channel == "receiver/trouble"]
+    assert [round(b - a) for a, b in zip(told, told[1:], strict=False)] == pytest.approx([60] * (len(told) - 1), abs=9)
+
+
+def test_links_that_break_before_anything_comes_are_made_less_and_less_often_until_one_holds() -> None:
+    device = Fleeting(*[0.3] * 5, 3.0, 3.0)
+    device.silent = 5
+    used(device, Wanted(PELVIS, address(1), STRAP), 30.0)
+    pauses = device.pauses()
+    assert pauses[0] < pauses[1] < pauses[2] < pauses[3] < pauses[4] < 5.0
+    assert pauses[5:] == [pytest.approx(3.1, abs=0.3)] * 2
+    assert device.is_connected is False  # it was left
+
+
+def test_a_request_that_is_never_answered_ends_the_attempt() -> None:
+    class Mute(Strap):
+        def read(self, channel: str, now: float) -> bytes | None:
+            return None if now < 8.0 else super().read(channel, now)
+
+    async def main() -> list[Packet]:
+        device = Mute("strap 1", address(1))
+        async with Devices([Wanted(PELVIS, address(1), STRAP)], backend=MemoryRadio([device]).backend) as devices:
+            return await hear(devices, 20.0)
+
+    packets = in_virtual_time(main)
+    [said] = [packet.data.decode() for packet in packets if packet.channel == "receiver/trouble"]
+    assert said == NOT_IN_TIME
+    assert [packet for packet in packets if packet.channel == "strap/beat"]
+
+
+def test_a_subscription_that_is_never_answered_ends_the_attempt_too() -> None:
+    beneath = asked(Strap("strap 1", address(1))).backend
+    client: Any = beneath.client
+
+    class Client(client):
+        async def start_notify(self, *given: Any, **more: Any) -> None:
+            await asyncio.Event().wait()
+
+    async def main() -> list[Packet]:
+        wanted = [Wanted(PELVIS, address(1), STRAP)]
+        async with Devices(wanted, backend=Backend(Client, beneath.scanner)) as devices:
+            return await hear(devices, 12.0)
+
+    packets = in_virtual_time(main)
+    assert [p.data for p in packets if p.channel == "receiver/trouble"] == [NOT_IN_TIME.encode()]
+    assert len([packet for packet in packets if packet.channel == "receiver/disconnected"]) == 2

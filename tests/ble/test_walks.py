@@ -1,0 +1,194 @@
+"""Whole walks through true ATT: two insoles, and SensorTags at the rates that they have."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from itertools import pairwise
+
+import pytest
+from airs import bumble, hear, in_virtual_time
+from attrs import evolve
+
+from solepath import (
+    Event,
+    FootFlat,
+    HeelOff,
+    HeelStrike,
+    PacketRejected,
+    PacketsLost,
+    SampleGap,
+    Session,
+    StrideTaken,
+    ToeOff,
+)
+from solepath.ble import Devices, Wanted
+from solepath.emulate import Route, emulate
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.sensors import sensortags
+from solepath.emulate.sensors.device import Device
+from solepath.lab.emulated.compare import compare
+from solepath.lab.evaluate.gathered import Gathering
+from solepath.link.devices.reassembly import Reassembly
+from solepath.link.profile import CC2541, CC2541_20HZ, CC2650, INSOLE, Profile
+from solepath.types import Foot, Packet, Site
+from solepath.wire.fragment import is_fragment, parse_fragment
+
+FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
+MINUTE = Route().stand(3.0).walk(20.0).turn(1.5, radius=1.5).walk(40.0, speed=1.2).stop(7.0)
+SOME = Route().stand(3.0).walk(8.0).turn(1.5, radius=1.5).walk(4.0, speed=1.2).stop(3.0)
+LITTLE = Route().stand(1.5).walk(2.5).stop(1.0)
+"""What is sent in pieces costs as much for each piece."""
+LASTS = {MINUTE: 60.0, SOME: 15.0, LITTLE: 4.0}
+"""s."""
+
+
+def heard(
+    bench: Bench, wanted: Sequence[Wanted], seconds: float, interval: float | None = None
+) -> tuple[list[Packet], float]:
+    """What arrives from the beginning of the search until the walk has lasted so long; and when it began.
+
+    `interval`: of the links, s.
+    """
+
+    async def listen() -> tuple[list[Packet], float]:
+        began = asyncio.get_running_loop().time() + 5.0
+        bench.began = began
+        bench.prepare()
+        async with bumble(bench, interval) as backend, Devices(wanted, backend=backend) as devices:
+            return await hear(devices, 5.0 + seconds), began
+
+    return in_virtual_time(listen)
+
+
+def whole(packets: list[Packet]) -> list[Packet]:
+    """The same with fragments put together, each frame at the arrival of its last."""
+    under_way = {site: Reassembly() for site in FEET}
+    found = []
+    for packet in packets:
+        if packet.channel == "insole/frame" and is_fragment(packet.data):
+            frame, dropped = under_way[packet.site].feed(parse_fragment(packet.data))
+            assert dropped is None
+            if frame is not None:
+                found.append(evolve(packet, data=bytes(frame)))
+        else:
+            found.append(packet)
+    return found
+
+
+def events_of(packets: list[Packet]) -> list[Event]:
+    session = Session(poses=True)
+    return [*session.feed(packets), *session.finish()]
+
+
+@pytest.mark.parametrize(
+    ("mtu", "route"),
+    [
+        pytest.param(247, MINUTE, marks=pytest.mark.soak, id="247, a minute"),
+        pytest.param(247, SOME, id="247"),
+        pytest.param(185, LITTLE, id="185"),
+        pytest.param(23, LITTLE, id="23"),
+    ],
+)
+def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_the_walk_fed_directly(
+    mtu: int, route: Route
+) -> None:
+    """Compared are, byte for byte, the frames that arrive with those of the emulator, and the delay of each; then the
+    events of what arrived with the events of the emulator's own frames, stamped with the times at which they arrived
+    here. So the events show that nothing is added, missing or out of order, and nothing about the stamps: those are
+    held by the delay, which is below 10 ms.
+    """
+    bench = Bench(route, mtu=mtu)
+    duration = bench.truth().duration
+    assert duration > LASTS[route]
+    packets, began = heard(bench, [Wanted(None, profile=INSOLE)] * 2, duration)
+    arrived = whole(packets)
+
+    # the walk's own frames, as they leave the device without any link
+    direct = {
+        site: [p for p in emulate(route).packets if p.site is site and p.channel == "insole/frame"] for site in FEET
+    }
+    fed = []
+    for site in FEET:
+        frames = [packet for packet in arrived if packet.site is site and packet.channel == "insole/frame"]
+        first = next(k for k, packet in enumerate(frames) if packet.data == direct[site][0].data)
+        walked = frames[first : first + len(direct[site])]
+        assert len(walked) > 95.0 * duration
+        assert [packet.data for packet in walked] == [packet.data for packet in direct[site]]
+        # none waited for anything: they were with the radio when they were heard
+        assert max(abs(a.t - began - b.t) for a, b in zip(walked, direct[site], strict=True)) < 0.01
+        stamped = [evolve(b, t=a.t, device=a.device) for a, b in zip(walked, direct[site], strict=True)]
+        fed += stamped
+        known = {id(packet) for packet in walked}
+        fed += [packet for packet in arrived if packet.site is site and id(packet) not in known]
+    fed.sort(key=lambda packet: packet.t)
+
+    events = events_of(packets)
+    assert events == events_of(fed)
+    assert {event.foot for event in events if isinstance(event, StrideTaken)} == set(Foot)
+    assert not [event for event in events if isinstance(event, PacketsLost | PacketRejected | SampleGap)]
+    if mtu == 23:
+        assert len(packets) > 9 * len(arrived)
+
+
+TAGS: dict[str, tuple[Profile, Device]] = {
+    "cc2650 at 10 Hz": (CC2650, sensortags.CC2650()),
+    "cc2541 at 10 Hz": (CC2541, sensortags.CC2541()),
+    "cc2541 at 20 Hz": (CC2541_20HZ, sensortags.CC2541(rate=20.0)),
+}
+TAGGED = Route().stand(3.0).walk(30.0).turn(1.5, radius=1.5).walk(15.0, speed=1.1).stop(3.0)
+
+
+@pytest.mark.soak
+def test_insoles_whose_links_wait_for_connection_events_give_the_same_steps_at_the_same_times() -> None:
+    interval = 0.03
+    settled = 8.0  # s of the walk until the clock knows which of the frames did not have to wait
+    found: list[list[Event]] = []
+    for waits in (None, interval):
+        bench = Bench(TAGGED)
+        packets, began = heard(bench, [Wanted(None, profile=INSOLE)] * 2, bench.truth().duration, waits)
+        frames = [packet.t for packet in packets if packet.site is FEET[0] and packet.channel == "insole/frame"]
+        apart = [b - a for a, b in pairwise(frames) if b > a]
+        if waits is not None:  # they came in threes, as they do from a radio
+            assert min(apart) > 0.99 * interval
+            assert len(frames) > 2.9 * len(apart)
+        events = events_of([evolve(packet, t=packet.t - began) for packet in packets])
+        assert not [event for event in events if isinstance(event, PacketsLost | PacketRejected | SampleGap)]
+        found.append([event for event in events if isinstance(event, HeelStrike | FootFlat | HeelOff | ToeOff)])
+    for foot in Foot:
+        for kind in (HeelStrike, FootFlat, HeelOff, ToeOff):
+            at_once, waited = (
+                [event.t for event in events if isinstance(event, kind) and event.foot is foot and event.t > settled]
+                for events in found
+            )
+            assert len(at_once) > 20
+            assert waited == pytest.approx(at_once, abs=0.005)
+
+
+@pytest.mark.parametrize(
+    ("seeds", "interval"),
+    [
+        pytest.param((11,), None, id="a walk"),
+        pytest.param((11, 12, 13), None, id="three walks", marks=pytest.mark.soak),
+        pytest.param((11, 12, 13), 0.03, id="three walks, waiting", marks=pytest.mark.soak),
+    ],
+)
+@pytest.mark.parametrize("tag", TAGS)
+def test_sensortags_give_the_steps_of_a_walk_end_to_end(
+    tag: str, seeds: tuple[int, ...], interval: float | None
+) -> None:
+    profile, device = TAGS[tag]
+    true = found = invented = 0
+    for seed in seeds:
+        bench = Bench(TAGGED, devices=dict.fromkeys(FEET, device), seed=seed)
+        wanted = [Wanted(worn.site, worn.address, profile) for worn in bench.peripherals]
+        packets, began = heard(bench, wanted, bench.truth().duration, interval)
+        shifted = [evolve(packet, t=packet.t - began) for packet in packets]
+        gathering = Gathering()
+        for event in events_of(shifted):
+            gathering.add(event)
+        for foot in compare(bench.truth(), {foot: gathering.foot(foot) for foot in Foot}):
+            true += foot.steps_true
+            found += foot.steps_found
+            invented += foot.steps_invented
+    assert 2 * found / (found + invented + true) >= 0.95, f"{found} of {true} found, {invented} invented"

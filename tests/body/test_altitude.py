@@ -1,0 +1,206 @@
+"""How high the wearer is: lifts, air pressure, weather and doors."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import exp, sin
+
+import pytest
+from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from walks import samples
+
+from solepath import Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
+from solepath.body.fuse.position import Position
+from solepath.body.height.altitude import LEFT, MOVE, RIGHT, SCALE, STANDARD, UNKNOWN, Altitude
+from solepath.body.height.received import TICKS, Heard, Told
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.walk import SampledWalk, sampled
+from solepath.recipes import Recipe
+
+RIDE = 6.4
+LIFT = Route().stand(2.0).walk(3.0).lift(RIDE, speed=1.2).walk(3.0).stop(1.0)
+BLIND = evolve(recipes.DEFAULT, altitude=None)
+
+
+@cache
+def lift() -> SampledWalk:
+    return sampled(LIFT, insoles={site: Insole(cells=24) for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}, seed=101)
+
+
+def pressure(height: float) -> float:
+    return STANDARD * exp(-height / SCALE)
+
+
+def breathing(walk: SampledWalk, off: float = 0.0) -> list[Sample]:
+    """With a good barometer at the foot, read once a second; `off`: how wrong it is, m per second."""
+    read: dict[Site, float] = {}
+    told = []
+    for sample in walk.samples:
+        if sample.t - read.get(sample.site, -9.0) >= 1.0:
+            read[sample.site] = sample.t
+            z = float(walk.truth.pose(foot_of(sample), sample.t).position.flat[2])
+            sample = evolve(sample, air_pressure=pressure(z + off * sample.t + 0.1 * sin(77.0 * sample.t)))
+        told.append(sample)
+    return told
+
+
+def foot_of(sample: Sample) -> Foot:
+    return Foot.LEFT if sample.site is Site.LEFT_FOOT else Foot.RIGHT
+
+
+def heights(items: list[Sample], recipe: Recipe = recipes.DEFAULT) -> tuple[list[float], list[LiftRidden]]:
+    """Height of the wearer with every sample, m, and the rides that were told."""
+    session = Session(recipe)
+    found, rides = [], []
+    for sample in items:
+        rides += [event for event in session.feed(sample) if isinstance(event, LiftRidden)]
+        found.append(height(session))
+    rides += [event for event in session.finish() if isinstance(event, LiftRidden)]
+    return [*found, height(session)], rides
+
+
+def height(session: Session) -> float:
+    return 0.0 if session.position is None else session.position.position[2]
+
+
+def test_after_a_lift_the_wearer_is_as_much_higher_as_it_rode() -> None:
+    assert height(ridden()) == pytest.approx(RIDE, abs=0.1 * RIDE)
+
+
+def test_with_a_barometer_the_height_after_a_lift_is_within_30_cm() -> None:
+    found, (ride,) = heights(breathing(lift(), off=0.01))
+    assert ride.height == pytest.approx(RIDE, abs=0.3)
+    assert found[-1] == pytest.approx(RIDE, abs=0.3)
+
+
+def test_without_this_part_a_lift_leaves_the_height_as_it_was() -> None:
+    found, (ride,) = heights(list(lift().samples), BLIND)
+    assert abs(found[-1]) < 0.3 and ride.height is not None
+
+
+@cache
+def ridden() -> Session:
+    """A session that was fed the ride without air."""
+    session = Session()
+    session.feed(list(lift().samples))
+    session.finish()
+    return session
+
+
+def test_a_lift_leaves_the_tracks_of_the_feet_as_they_are() -> None:
+    session = ridden()
+    assert all([abs(foot.position[2]) < 0.3 for foot in session.feet.values()])
+    assert session.position is not None and session.position.covariance[5] > 0.01
+
+
+def test_weather_and_a_door_do_not_move_who_walks_on_the_level() -> None:
+    plain = samples(Route().stand(2.0).walk(8.0).stop(1.0), cells=0)
+    windy = [
+        evolve(sample, air_pressure=pressure(-0.03 * sample.t + (2.5 if 4.0 < sample.t < 6.0 else 0.0)))
+        if k % 20 < 2
+        else sample
+        for k, sample in enumerate(plain)
+    ]
+    told = Session().feed(plain)
+    assert any([isinstance(event, StrideTaken) for event in told])
+    assert heights(windy)[0] == heights(list(plain))[0]
+
+
+def test_air_says_what_stairs_came_to_where_the_steps_are_wrong() -> None:
+    altitude = Altitude()
+    foot = Session()
+    foot.feed(list(samples(cells=0))[:2])
+    tracker = foot.feet[Foot.LEFT]
+    step = next(event for event in Session().feed(samples(cells=0)) if isinstance(event, StrideTaken))
+    climbing = evolve(step, height_change=0.1, covariance=(0.0, 0.0, 0.0, 0.0, 0.0, 0.04))  # known to 20 cm
+    begin = tracker.position[2]
+    for k in range(30):
+        altitude.breathed(tracker, float(k), pressure(begin))
+    for k in range(30, 50):  # a stair of 10 cm more than the track has it, each second
+        altitude.breathed(tracker, float(k), pressure(begin + 0.1 * (k - 29)))
+        altitude.follow([evolve(climbing, t=float(k), t_end=float(k), t_start=k - 1.0)])
+    for k in range(50, 60):
+        altitude.breathed(tracker, float(k), pressure(begin + 2.0))
+    here = Position(60.0, (0.0, 0.0, 0.0), (0.0,) * 6)
+    assert altitude.placed(here).position[2] == pytest.approx(2.0, abs=0.3)
+    before = altitude.placed(here)
+    for k in range(60, 90):  # and a door that opens for good
+        altitude.breathed(tracker, float(k), pressure(begin + 5.0))
+    assert altitude.placed(here).position[2] == pytest.approx(before.position[2], abs=0.3)
+
+
+def ride(height: float | None, lasted: float, up: bool = True) -> LiftRidden:
+    return LiftRidden(t=100.0 + lasted, known_at=110.0 + lasted, t_start=100.0, up=up, height=height)
+
+
+@pytest.mark.parametrize(
+    ("height", "lasted", "strides"),
+    [(0.6, 3.0, 0), (40.0, 5.0, 0), (3.0, 40.0, 0), (6.0, 8.0, 4), (-6.0, 8.0, 0), (None, 8.0, 0)],
+)
+def test_without_air_what_no_lift_rides_has_no_height(height: float | None, lasted: float, strides: int) -> None:
+    altitude = Altitude()
+    step = next(event for event in Session().feed(samples(cells=0)) if isinstance(event, StrideTaken))
+    for k in range(strides):
+        altitude.follow([evolve(step, t_start=101.0 + k, t_end=102.0 + k, t=102.0 + k)])
+    (told,) = altitude.follow([ride(height, lasted)])
+    assert isinstance(told, LiftRidden) and told.height is None
+    here = Position(120.0, (1.0, 2.0, 3.0), (0.0,) * 6)
+    assert altitude.placed(here) == here
+
+
+def test_a_lift_that_stands_feet_in_it_is_believed_without_air() -> None:
+    altitude = Altitude()
+    assert altitude.follow([ride(6.0, 8.0)]) == [ride(6.0, 8.0)]
+    assert altitude.placed(Position(120.0, (0.0, 0.0, 1.0), (0.0,) * 6)).position[2] == 7.0
+
+
+TOLD = st.tuples(
+    st.floats(-1e3, 1e3), st.sampled_from([LEFT, RIGHT, MOVE]), st.floats(-1e5, 1e5), st.floats(0.0, UNKNOWN)
+)
+
+
+@given(st.floats(-1e9, 1e9), st.lists(TOLD, max_size=40), st.integers(0, 40))
+@settings(max_examples=60, deadline=None)
+def test_what_the_filter_was_told_is_kept_to_a_hundredth_of_a_second_and_a_tenth_of_a_millimetre(
+    start: float, told: list[Told], popped: int
+) -> None:
+    heard, used = Heard(), []
+    for since, which, value, variance in told:
+        last = heard.last / TICKS
+        t = min(max(start + since, last - 300.0), last + 300.0) if heard.rows else start
+        used.append(heard.add((t, which, value, variance)))
+        assert used[-1][0] == pytest.approx(t, abs=0.006) and used[-1][1] == which
+        assert used[-1][2] == pytest.approx(value, abs=6e-5) and used[-1][3] == pytest.approx(variance)
+    assert heard.all() == used
+    gone = [heard.pop() for _ in range(min(popped, len(told)))]
+    assert gone + heard.all() == used
+    assert heard.count == len(used) - len(gone)
+    assert heard.oldest == (heard.all()[0][0] if heard.count else None)
+    kept = heard.all()
+    heard.replace(kept)
+    assert heard.all() == kept
+
+
+def test_a_session_in_a_lift_goes_on_from_its_snapshot() -> None:
+    items = breathing(lift(), off=0.01)
+    half = len(items) // 2
+    session = Session()
+    session.feed(items[:half])
+    other = Session.restore(session.snapshot())
+    assert session.feed(items[half:]) + session.finish() == other.feed(items[half:]) + other.finish()
+    assert session.position == other.position
+
+
+def test_any_air_is_survived() -> None:
+    altitude = Altitude()
+    session = Session()
+    session.feed(list(samples(cells=0))[:2])
+    tracker = session.feet[Foot.RIGHT]
+    for k, pascal in enumerate((0.0, 1e308, 2.1e4, 1.9e5, float("nan"), -1.0, 1e5) * 30):
+        altitude.breathed(tracker, 1e3 * k if k % 2 else -1e9 * k, pascal)
+        altitude.follow([ride(1e308, 1e-9), ride(None, 0.0)])
+    here = altitude.placed(Position(0.0, (0.0, 0.0, 0.0), (0.0,) * 6))
+    assert all([abs(v) < 1e7 for v in (*here.position, *here.covariance)])

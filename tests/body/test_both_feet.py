@@ -1,0 +1,203 @@
+"""Two feet that are one body: what each step says of the other foot's track."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import atan2, cos, hypot, pi, radians, remainder, sin
+
+import pytest
+import walks
+from attrs import evolve
+
+from solepath import recipes
+from solepath.body.fuse.agreement import HEADING, RATE, STATES, Agreement, X, Y
+from solepath.body.fuse.both_feet import BothFeet
+from solepath.body.fuse.corridor import Corridor
+from solepath.body.fuse.position import MeanOfFeet
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.walker import Walker
+from solepath.events import Event, StrideTaken
+from solepath.saving import codec as machine
+from solepath.session import Session
+from solepath.types import Foot, Sample
+
+LONG = Route().stand(2.0).walk(40.0, 1.3).stop(1.0)
+CHEAP = evolve(LSM6DSOX, gyro=evolve(LSM6DSOX.gyro, scale=0.03, cross=0.02))
+"""Strides of one foot turn, by this gyroscope, otherwise than those of the other."""
+
+
+@cache
+def _samples(seed: int) -> tuple[Sample, ...]:
+    walker = Walker(LONG, seed=seed)
+    both = [sample for foot in Foot for sample in walker.samples(foot, 100.0, CHEAP)]
+    return tuple(sorted(both, key=lambda sample: sample.t))
+
+
+@cache
+def _walked(part: str) -> tuple[Session, list[Event]]:
+    body = {"both": BothFeet(), "mean": MeanOfFeet(), "apart": BothFeet(feedback=False)}[part]
+    session = Session(evolve(recipes.DEFAULT, body=body))
+    events = [event for sample in _samples(102) for event in session.feed(sample)]
+    return session, events
+
+
+def _apart(session: Session) -> float:
+    """How far from one another the feet are, as their body has placed them, m."""
+    body = session._state.wearer.body
+    assert isinstance(body, MeanOfFeet)
+    left = body.left.place(session.feet[Foot.LEFT].position)
+    right = body.right.place(session.feet[Foot.RIGHT].position)
+    return hypot(left[0] - right[0], left[1] - right[1])
+
+
+def test_feet_that_drift_apart_are_held_together() -> None:
+    alone, _ = _walked("mean")
+    both, _ = _walked("both")
+    assert _apart(alone) > 1.2
+    assert _apart(both) < 0.5
+    assert both.position is not None
+    assert hypot(both.position.position[0] - 40.0, both.position.position[1]) < 0.1 * 40.0
+
+
+def test_a_foot_whose_steps_are_not_seen_any_more_does_not_hold_the_other_one_back() -> None:
+    """Its sensor lies still, or always repeats one reading."""
+    session = Session()
+    for sample in _samples(102):
+        stuck = sample.site.foot is Foot.LEFT and sample.t > 15.0
+        session.feed(evolve(sample, acc=(0.0, 0.0, 9.81), gyro=(0.0, 0.0, 0.0)) if stuck else sample)
+    alone, _ = _walked("mean")
+    (x, y, _), (u, v, _) = session.feet[Foot.RIGHT].position, alone.feet[Foot.RIGHT].position
+    assert hypot(x, y) > 0.95 * hypot(u, v)
+    assert session.position is not None and session.position.position[0] > 0.9 * 40.0
+
+
+def test_what_is_unsure_of_the_place_of_both_feet_is_so_in_every_direction() -> None:
+    session = Session()
+    for sample in _samples(102)[:1500]:
+        session.feed(sample)
+        here = session.position
+        if here is not None:
+            xx, xy, xz, yy, yz, zz = here.covariance
+            assert min(xx, yy, zz) >= 0.0
+            for one, other, both in ((xx, yy, xy), (xx, zz, xz), (yy, zz, yz)):
+                assert both * both <= one * other * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize("askew", [-1.0, 2.0, 3.1])
+def test_a_foot_that_first_steps_aside_does_not_bend_either_track(askew: float) -> None:
+    session = Session()
+    steps: list[StrideTaken] = []
+    for sample in _samples(102):
+        for event in session.feed(sample):
+            if isinstance(event, StrideTaken):
+                steps.append(event)
+                if event.foot is Foot.LEFT and event.number == 1:
+                    # as if its first step, which its world frame begins along, had led there
+                    session.feet[Foot.LEFT].gait.world.north = (cos(askew), sin(askew))
+    assert _apart(session) < 0.5
+    for foot in Foot:
+        own = [step.displacement for step in steps if step.foot is foot][2:-1]
+        first = atan2(own[0][1], own[0][0])
+        # 40 m of this gyroscope turn a track by some degrees
+        assert max(abs(remainder(atan2(y, x) - first, 2.0 * pi)) for x, y, _ in own) < 0.3
+
+
+def test_corrections_make_no_stride_longer() -> None:
+    _, events = _walked("both")
+    _, without = _walked("mean")
+    lengths, own = ([event.length for event in heard if isinstance(event, StrideTaken)] for heard in (events, without))
+    assert lengths == pytest.approx(own, abs=0.01)
+
+
+def test_without_feedback_the_feet_go_their_own_ways() -> None:
+    body, events = _walked("apart")
+    alone, same = _walked("mean")
+    assert events == same
+    assert all(body.feet[foot].position == alone.feet[foot].position for foot in Foot)
+
+
+def test_a_foot_alone_is_where_its_own_track_has_it() -> None:
+    session, other = Session(), Session(evolve(recipes.DEFAULT, body=MeanOfFeet()))
+    for sample in walks.samples(cells=0):
+        if sample.site.foot is Foot.LEFT:
+            assert session.feed(sample) == other.feed(sample)
+    assert session.position == other.position
+
+
+def _agreement() -> Agreement:
+    agreement = Agreement()
+    agreement.begin()
+    x = 0.0
+    for k in range(20):
+        x += 0.65
+        agreement.advance(k % 2, 0.5, 0.5, (x, 0.0), (1.3, 0.0), (1e-4, 0.0, 1e-4), False)
+    return agreement
+
+
+def test_what_a_difference_says_is_shared_and_never_said_of_both_feet_alike() -> None:
+    agreement = _agreement()
+    found = agreement.measure([(STATES + Y, 1.0), (Y, -1.0)], 0.1, 0.002, 16.0)
+    assert found is not None
+    for one in (HEADING, RATE):
+        assert found[one] * found[STATES + one] < 0.0
+        assert abs(found[one] + found[STATES + one]) < 0.2 * abs(found[one] - found[STATES + one])
+
+
+def test_a_foot_whose_stride_was_spoilt_gives_way() -> None:
+    agreement = _agreement()
+    agreement.doubt(0, 2.0)
+    found = agreement.measure([(STATES + X, 1.0), (X, -1.0)], 1.0, 0.01, 1e12)
+    assert found is not None
+    assert found[X] < -0.8 and abs(found[STATES + X]) < 0.1
+
+
+def test_the_covariance_stays_one() -> None:
+    agreement = _agreement()
+    for k in range(400):
+        angle = 0.05 * k
+        end = (20.0 * sin(angle), 20.0 * cos(angle))
+        agreement.advance(k % 2, 0.5, 0.5, end, (1.3 * cos(angle), -1.3 * sin(angle)), (1e-4, 0.0, 1e-4), k % 37 == 0)
+        agreement.measure([(STATES + Y, 1.0), (Y, -1.0), (8, 1.0)], 0.03 * (-1) ** k, 0.002, 1e12)
+        p = agreement.covariance
+        assert min(p[i][i] for i in range(9)) >= 0.0
+        assert all(abs(p[i][j] - p[j][i]) <= 1e-9 * (1.0 + p[i][i] + p[j][j]) for i in range(9) for j in range(i))
+    assert machine.load(Agreement, machine.save(agreement)) == agreement
+
+
+def _held(corridor: Corridor, bend: float, strides: int = 120) -> list[tuple[float, float]]:
+    """A way of one bend, rad/m, walked at 1.3 m/s with two strides every 1.3 m."""
+    held = []
+    for k in range(strides):
+        start, end = (_along(bend, s) for s in (0.65 * k, 0.65 * k + 1.3))
+        one = corridor.stride(k % 2, 0.5 * k, start, end, 1.3 * bend)
+        held += [] if one is None else [one]
+    return held
+
+
+def _along(bend: float, s: float) -> tuple[float, float, float]:
+    return (sin(bend * s) / bend, (1.0 - cos(bend * s)) / bend, 0.0)
+
+
+@pytest.mark.parametrize("radius", [-200.0, -60.0, 30.0, 100.0, 200.0])
+def test_a_bend_that_no_gyroscope_drifts_by_is_not_straightened(radius: float) -> None:
+    assert sum(abs(yaw) for yaw, _ in _held(Corridor(), 1.0 / radius)) < radians(2.0)
+
+
+@pytest.mark.parametrize("drift", [-0.001, 0.001])
+def test_a_straight_way_that_seems_to_bend_is_turned_back(drift: float) -> None:
+    held = _held(Corridor(), drift / 1.3)
+    assert len(held) > 5
+    assert all(yaw * drift < 0.0 for yaw, _ in held[:3])
+
+
+def test_who_walks_straight_is_left_alone() -> None:
+    assert all(abs(yaw) < 1e-6 for yaw, _ in _held(Corridor(), 1e-9))
+
+
+def test_a_corner_begins_a_new_run() -> None:
+    corridor = Corridor()
+    _held(corridor, 1e-9, 40)
+    assert corridor.heading is not None
+    assert corridor.stride(0, 20.5, (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), 0.5 * pi) is None
+    assert corridor.heading is None

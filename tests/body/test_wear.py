@@ -1,0 +1,340 @@
+"""How the feet are worn: one that falls silent, and left and right exchanged."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from math import hypot, radians, sqrt
+from typing import Any
+
+import pytest
+from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from walks import LEFT, RIGHT, SHORT, of, samples
+
+from solepath import Recipe, Session, recipes
+from solepath.body.fuse.position import MeanOfFeet
+from solepath.body.worn.sides import Average
+from solepath.calibration import Calibration, InsoleCalibration
+from solepath.emulate.faults import silent
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.walker import Walker
+from solepath.events import FeetSwapped, FootHeard, FootSilent, StrideTaken
+from solepath.saving import codec as machine
+from solepath.types import Foot, Sample, Site
+
+WALK = Route().stand(1.5).walk(16.0, 1.2).turn(radians(90), radius=1.5).walk(6.0).stop(1.0)
+OTHER = {LEFT: RIGHT, RIGHT: LEFT}
+MEAN = evolve(recipes.DEFAULT, body=MeanOfFeet())
+"""The feet's own tracks, and their mean."""
+
+
+def exchanged(walk: tuple[Sample, ...]) -> tuple[Sample, ...]:
+    """The same with the device of each foot taken for the other's."""
+    return tuple(evolve(sample, site=OTHER[sample.site]) for sample in walk)
+
+
+@cache
+def walk(seed: int = 1) -> tuple[Sample, ...]:
+    return samples(WALK, cells=0, rate=50.0, seed=seed)
+
+
+def said(kind: Any, items: tuple[Sample, ...], session: Session | None = None) -> list[Any]:
+    return of(kind, (Session() if session is None else session).feed(items))
+
+
+# --- a foot that falls silent ---
+
+
+def without(foot: Site, begin: float, end: float) -> tuple[Sample, ...]:
+    return tuple(s for s in walk() if s.site is not foot or not begin <= s.t < end)
+
+
+@pytest.mark.parametrize("foot", [LEFT, RIGHT])
+def test_a_foot_that_gives_no_samples_while_the_other_walks_on_is_silent_until_it_is_heard(foot: Site) -> None:
+    told = said(FootSilent | FootHeard, without(foot, 6.0, 12.0))
+    assert [type(event) for event in told] == [FootSilent, FootHeard]
+    silent, heard = told
+    assert {event.foot for event in told} == {foot.foot}
+    assert 8.9 < silent.t < 11.0
+    assert silent.silent_for == pytest.approx(silent.t - 6.0, abs=0.05)
+    assert heard.t == pytest.approx(12.0, abs=0.05)
+    assert heard.silent_for == pytest.approx(6.0, abs=0.05)
+
+
+def test_the_foot_that_is_left_takes_its_steps_as_before() -> None:
+    left = without(RIGHT, 6.0, 1e9)
+
+    def steps(items: tuple[Sample, ...], recipe: Recipe) -> list[StrideTaken]:
+        return [step for step in said(StrideTaken, items, Session(recipe)) if step.foot is Foot.LEFT]
+
+    assert steps(left, MEAN) == steps(walk(), MEAN)
+    # where feet hold each other's heading its steps are as long
+    alone, both = steps(left, recipes.DEFAULT), steps(walk(), recipes.DEFAULT)
+    assert [step.t_end for step in alone] == [step.t_end for step in both]
+    lengths = [step.length for step in both]
+    assert [step.length for step in alone] == pytest.approx(lengths, abs=0.01)
+
+
+def test_a_short_silence_and_a_foot_that_was_never_heard_are_not_told() -> None:
+    assert said(FootSilent | FootHeard, without(RIGHT, 6.0, 8.0)) == []
+    assert said(FootSilent | FootHeard, tuple(s for s in walk() if s.site is LEFT)) == []
+
+
+def test_while_the_wearer_stands_nobody_is_missed() -> None:
+    standing = samples(Route().stand(8.0), cells=0, rate=50.0)
+    assert said(FootSilent, tuple(s for s in standing if s.site is LEFT or s.t < 2.0)) == []
+
+
+def test_a_foot_that_stays_away_is_told_once() -> None:
+    assert len(said(FootSilent, without(LEFT, 4.0, 1e9))) == 1
+
+
+# --- where the wearer is meanwhile ---
+
+FAR = Route().stand(1.5).walk(40.0, 1.2).stop(1.5)
+ROUND = Route().stand(1.5).walk(16.0, 1.2).turn(radians(90), radius=1.5).walk(22.0).stop(1.5)
+
+
+def place(walk: tuple[Sample, ...], recipe: Recipe = recipes.DEFAULT) -> tuple[float, float, float, float]:
+    """Where the wearer is at its end: x, y, and their standard deviations, m."""
+    session = Session(recipe)
+    session.feed(walk)
+    where = session.position
+    assert where is not None
+    (x, y, _), (xx, _, _, yy, _, _) = where.position, where.covariance
+    return x, y, sqrt(xx), sqrt(yy)
+
+
+def both(route: Route) -> tuple[Sample, ...]:
+    return samples(route, cells=0, rate=50.0)
+
+
+@pytest.mark.parametrize("foot", [LEFT, RIGHT])
+def test_a_silent_foot_does_not_hold_the_wearer_back(foot: Site) -> None:
+    alone = tuple(silent(both(FAR), foot, 12.0))
+    for recipe, least in ((recipes.DEFAULT, 1.0), (MEAN, 1.2)):
+        x, y, across, along = place(alone, recipe)
+        whole = place(both(FAR), recipe)
+        assert x == pytest.approx(40.0, abs=0.8)
+        assert abs(y) < 3.0 * along, "its heading is its own, but no worse than it says"
+        assert across > least * whole[2] and along > least * whole[3], "one foot is known less well than two"
+
+
+@pytest.mark.parametrize("foot", [LEFT, RIGHT])
+def test_a_foot_that_comes_back_is_set_beside_the_other(foot: Site) -> None:
+    away = tuple(silent(both(FAR), foot, 8.0, 20.0))
+    for recipe, least in ((recipes.DEFAULT, 1.0), (MEAN, 1.2)):
+        x, _, across, _ = place(away, recipe)
+        assert x == pytest.approx(40.0, abs=0.8)
+        assert across > least * place(both(FAR), recipe)[2]
+
+
+@pytest.mark.parametrize("foot", [LEFT, RIGHT])
+def test_a_foot_that_was_away_while_the_wearer_turned_is_turned_too(foot: Site) -> None:
+    x, y, _, _ = place(tuple(silent(both(ROUND), foot, 11.0, 20.0)))
+    u, v, _, _ = place(both(ROUND))
+    assert hypot(x - u, y - v) < 1.6
+
+
+def test_feet_that_take_turns_in_falling_silent_lose_nothing_of_the_way() -> None:
+    one = silent(both(FAR), LEFT, 8.0, 12.0)
+    x, _, _, _ = place(tuple(silent(silent(one, RIGHT, 18.0, 22.0), LEFT, 27.0, 30.0)))
+    assert x == pytest.approx(40.0, abs=0.9)
+
+
+def test_a_foot_that_is_switched_on_while_the_other_walks_is_set_beside_it() -> None:
+    x, _, _, _ = place(tuple(silent(both(FAR), RIGHT, -1.0, 15.0)))
+    assert x == pytest.approx(40.0, abs=1.2)
+
+
+def test_a_foot_without_a_gyroscope_has_no_track_and_does_not_hold_the_wearer_back() -> None:
+    bare = tuple(evolve(s, gyro=None) if s.site is LEFT else s for s in both(FAR))
+    assert place(bare) == place(tuple(s for s in both(FAR) if s.site is RIGHT))
+
+
+def test_the_place_does_not_leap_when_a_foot_falls_silent_or_comes_back() -> None:
+    session = Session()
+    before = None
+    for sample in silent(both(FAR), LEFT, 8.0, 20.0):
+        session.feed(sample)
+        if session.position is not None:
+            here = session.position.position
+            assert before is None or hypot(here[0] - before[0], here[1] - before[1]) < 0.6
+            before = here
+
+
+@pytest.mark.parametrize("whole", [True, False])
+def test_while_both_feet_are_heard_the_place_is_their_mean_to_the_last_digit(whole: bool) -> None:
+    feet = both(SHORT)
+    # or first all samples of the one foot and then all of the other: neither was away
+    items = feet if whole else tuple(s for foot in (LEFT, RIGHT) for s in feet if s.site is foot)
+    session = Session(MEAN)
+    for k, sample in enumerate(items):
+        session.feed(sample)
+        where = session.position
+        if k % 10 or where is None or (k < len(items) - 1 and not whole):
+            continue
+        trackers = list(session.feet.values())
+        share = 1.0 / len(trackers)
+        assert where.position == tuple(sum([foot.position[axis] for foot in trackers]) * share for axis in range(3))
+        sums = [sum([foot.covariance[i] for foot in trackers]) * share * share for i in range(6)]
+        assert where.covariance == tuple(sums)
+
+
+@given(st.integers(0, 10_000))
+@settings(max_examples=5, deadline=None)
+def test_a_session_saved_while_a_foot_is_away_goes_on_to_the_same_place(cut: int) -> None:
+    items = tuple(silent(walk(), LEFT, 4.0, 9.0))
+    k = cut % len(items)
+    session = Session()
+    session.feed(items[:k])
+    session = Session.restore(json.loads(json.dumps(session.snapshot(), allow_nan=False)))
+    session.feed(items[k:])
+    straight = Session()
+    straight.feed(items)
+    assert session.position == straight.position
+
+
+# --- left and right exchanged ---
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_exchanged_feet_are_told_once_within_ten_steps_of_each(seed: int) -> None:
+    session = Session()
+    told = session.feed(exchanged(walk(seed)))
+    (swapped,) = of(FeetSwapped, told)
+    before = [step.foot for step in of(StrideTaken, told) if step.t <= swapped.t]
+    assert 8 <= before.count(Foot.LEFT) <= 12
+    assert 8 <= before.count(Foot.RIGHT) <= 12
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_feet_that_are_worn_as_they_should_be_are_not_taken_for_exchanged(seed: int) -> None:
+    assert said(FeetSwapped, walk(seed)) == []
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("seed", range(1, 21))
+def test_twenty_walks_of_many_speeds_are_told_apart_from_their_exchanged_selves(seed: int) -> None:
+    turn = radians(90.0 if seed % 2 else -120.0)
+    route = Route().stand(1.5).walk(18.0, 0.8 + 0.04 * seed).turn(turn, radius=1.5).walk(8.0).stop(1.0)
+    both = samples(route, cells=24, seed=seed)
+    assert said(FeetSwapped, both) == []
+    assert len(said(FeetSwapped, exchanged(both))) == 1
+
+
+def backwards(walk: tuple[Sample, ...]) -> tuple[Sample, ...]:
+    """The same walk from its end to its beginning: forces and places are as they were, turns are the other way."""
+    end = walk[-1].t
+    return tuple(
+        evolve(s, t=end - s.t, gyro=None if s.gyro is None else (-s.gyro[0], -s.gyro[1], -s.gyro[2]))
+        for s in reversed(walk)
+    )
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_who_walks_backwards_has_no_feet_exchanged(seed: int) -> None:
+    back = backwards(walk(seed))
+    assert len(said(StrideTaken, back)) > 24
+    assert said(FeetSwapped, back) == []
+
+
+def test_devices_that_say_that_they_are_on_the_right_feet_are_believed() -> None:
+    session = Session()
+    told = session.feed(emulate(WALK, seed=1).packets)
+    assert of(FeetSwapped, told) == []
+    sides = session._state.wearer.wear.sides
+    assert sides.left.told and sides.right.told
+    assert not sides.left.turned.rows and not sides.right.turned.rows, "what their feet do need not be remembered"
+    sides.left.roll = sides.right.roll = Average(count=24, mean=0.2)
+    assert not sides._agree()
+
+
+def test_a_calibration_does_not_say_which_device_is_on_which_foot() -> None:
+    known = Calibration({foot: InsoleCalibration(layout(24, foot)) for foot in Foot})
+    items = exchanged(samples(WALK, rate=50.0))
+    assert len(said(FeetSwapped, items, Session(calibration=known))) == 1
+
+
+def test_one_foot_alone_is_never_taken_for_the_other() -> None:
+    assert said(FeetSwapped, tuple(s for s in exchanged(walk()) if s.site is LEFT)) == []
+
+
+def test_both_devices_on_the_same_foot_are_not_exchanged() -> None:
+    left = [s for s in walk() if s.site is LEFT]
+    twice = tuple(x for s in left for x in (s, evolve(s, site=RIGHT)))
+    assert said(FeetSwapped, twice) == []
+
+
+def test_layouts_of_the_other_foot_on_both_sides_are_told_after_a_step() -> None:
+    mirrored = Calibration({foot: InsoleCalibration(layout(24, other)) for foot, other in _MIRRORED.items()})
+    session = Session(calibration=mirrored)
+    told = session.feed(samples(WALK, rate=50.0))
+    (swapped,) = of(FeetSwapped, told)
+    assert len([step for step in of(StrideTaken, told) if step.t <= swapped.t]) <= 2
+
+
+_MIRRORED = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
+
+
+def pressure_alone(numbered_alike: bool) -> tuple[tuple[Sample, ...], Calibration]:
+    """A walk of insoles without inertial sensors, and where their cells are. Numbered alike: cell k of the left insole
+    lies where cell k of the right one does, seen from above, and not where its mirror image does."""
+    walker = Walker(WALK, seed=1)
+    there = {foot: layout(24, Foot.LEFT if numbered_alike else foot) for foot in Foot}
+    both = [
+        evolve(sample, acc=None, gyro=None)
+        for foot in Foot
+        for sample in walker.samples(foot, 50.0, layout=evolve(there[foot], foot=foot))
+    ]
+    known = {foot: InsoleCalibration(evolve(there[foot], foot=foot)) for foot in Foot}
+    return tuple(sorted(both, key=_time)), Calibration(known)
+
+
+def _time(sample: Sample) -> float:
+    return sample.t
+
+
+def test_without_inertial_sensors_the_centre_of_pressure_tells_exchanged_feet() -> None:
+    both, known = pressure_alone(numbered_alike=True)
+    assert said(FeetSwapped, both, Session(calibration=known)) == []
+    assert len(said(FeetSwapped, exchanged(both), Session(calibration=known))) == 1
+
+
+def test_insoles_numbered_as_mirror_images_look_alike_when_exchanged_and_nothing_is_said() -> None:
+    both, known = pressure_alone(numbered_alike=False)
+    assert said(FeetSwapped, both, Session(calibration=known)) == []
+    assert said(FeetSwapped, exchanged(both), Session(calibration=known)) == []
+
+
+# --- any input ---
+
+
+@given(st.integers(0, 10_000))
+@settings(max_examples=5, deadline=None)
+def test_a_session_saved_at_any_moment_goes_on_to_tell_the_same(cut: int) -> None:
+    items = exchanged(without(LEFT, 6.0, 10.0))
+    k = cut % len(items)
+    session = Session()
+    told = session.feed(items[:k])
+    session = Session.restore(json.loads(json.dumps(session.snapshot(), allow_nan=False)))
+    told += session.feed(items[k:])
+    kinds = FeetSwapped | FootSilent | FootHeard
+    assert of(kinds, told) == said(kinds, items)
+    assert of(kinds, told) != []
+
+
+@given(st.lists(st.floats(-10.0, 10.0), min_size=1, max_size=60), st.floats(-5.0, 5.0))
+def test_an_average_is_a_number_between_the_lowest_and_the_highest(values: list[float], limit: float) -> None:
+    average = Average()
+    for value in values:
+        average.add(value)
+    assert min(values) - 1e-9 <= average.mean <= max(values) + 1e-9
+    assert average.variance >= 0.0
+    assert not average.beyond(max(values), 1)
+    assert not average.beyond(limit, len(values) + 1)
+    assert machine.load(Average, machine.save(average)) == average

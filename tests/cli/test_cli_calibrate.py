@@ -1,0 +1,304 @@
+"""`solepath calibrate`, and the commands that take what it writes."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import refused, run
+
+from solepath.calibration import Calibration, InsoleCalibration, ShoeGeometry, read_calibration, write_calibration
+from solepath.cli import main
+from solepath.emulate.routes.laps import marked, marks, square, write_marks
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole, boot
+from solepath.emulate.sensors.sensortags import CC2650
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.walker import Walker
+from solepath.recipes import BY_NAME
+from solepath.recording import PacketWriter
+from solepath.types import Foot, Site, WalkingMode
+
+ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
+FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
+PRESSED = [name for name, recipe in BY_NAME.items() if recipe.needs_pressure]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    return tmp_path_factory.mktemp("recordings")
+
+
+def written(path: Path, device: Insole | CC2650) -> Path:
+    walk = emulate(ROUTE, devices={Site.LEFT_FOOT: device, Site.RIGHT_FOOT: device}, seed=3)
+    with PacketWriter(path) as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    return path
+
+
+@pytest.fixture(scope="module")
+def packets(folder) -> Path:
+    """8 m in two insoles at 30 Hz."""
+    return written(folder / "insoles.jsonl", Insole(rate=30.0))
+
+
+@pytest.fixture(scope="module")
+def tags(folder) -> Path:
+    """8 m with SensorTags: no pressure."""
+    return written(folder / "tags.jsonl", CC2650())
+
+
+@pytest.fixture(scope="module")
+def bare(folder) -> Path:
+    """A foot that stands, without pressure."""
+    t = np.arange(200) / 100.0
+    np.savez(folder / "imu_only.npz", t=t, acc=np.tile([0.0, 0.0, 9.81], (200, 1)), gyro=np.zeros((200, 3)))
+    return folder / "imu_only.npz"
+
+
+# --- what the other commands do with one ------------------------------------------------------------------------------
+
+
+def test_a_recipe_of_pressure_refuses_samples_without_any(bare):
+    assert PRESSED
+    for name in PRESSED:
+        expected = f"solepath: recipe {name} needs pressure cells; {bare} has none\n"
+        assert refused("track", bare, "--recipe", name) == expected
+
+
+def test_a_recipe_of_pressure_refuses_packets_without_any(tags, folder):
+    out = folder / "nothing"
+    assert "needs pressure cells" in refused("track", tags, "--recipe", PRESSED[0], "--out", out)
+    assert not out.exists()
+
+
+def test_a_recipe_of_pressure_takes_packets_of_insoles(packets):
+    done = run("track", packets, "--recipe", PRESSED[0])
+    assert done.returncode == 0 and done.stderr == ""
+
+
+def test_track_runs_with_a_calibration(packets, folder):
+    write_calibration(folder / "shoe.json", Calibration(shoe=ShoeGeometry(height=0.03)))
+    done = run("track", packets, "--calibration", folder / "shoe.json")
+    assert done.returncode == 0 and done.stderr == ""
+
+
+def test_evaluate_runs_with_a_calibration_and_refuses_what_is_none(folder, tmp_path):
+    loops = tmp_path / "xio_closed_walks"
+    loops.mkdir()
+    samples = Walker(ROUTE, seed=3).samples(Foot.RIGHT, 100.0)
+    np.savez(loops / "loop.npz", **{key: np.array([getattr(s, key) for s in samples]) for key in ("t", "acc", "gyro")})
+    (loops / "dataset.json").write_text(
+        json.dumps({"recordings": {"loop": {"closed_loop": True, "path_m_about": 8.0}}})
+    )
+    write_calibration(folder / "known.json", Calibration(drift={Foot.RIGHT: (0.05, 0.0)}))
+    ends = []
+    for calibration in ([], ["--calibration", folder / "known.json"]):
+        told = tmp_path / "scores.json"
+        arguments = ("--recipe", "gyroscope", "--processes", 1, "--json", told, *calibration)
+        assert run("evaluate", tmp_path, *arguments).returncode == 0
+        scores = json.loads(told.read_text())["gyroscope"]["xio_closed_walks"]["recordings"]["loop"]
+        ends.append(scores["end_error_2d"])
+    # 5 cm/s taken off for the 7 s that the foot does not stand: another end, by decimetres
+    assert abs(ends[1] - ends[0]) > 0.1
+    assert "none.json: No such file" in refused("evaluate", tmp_path, "--calibration", tmp_path / "none.json")
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("{", "is not JSON"),
+        ('{"format": "something"}', "is not a calibration"),
+        ('{"format": "solepath-calibration", "version": 99}', "is of version 99"),
+    ],
+)
+def test_a_file_that_is_no_calibration_is_refused_in_one_line(packets, folder, text, complaint):
+    file = folder / "wrong.json"
+    file.write_text(text)
+    assert complaint in refused("track", packets, "--calibration", file)
+
+
+def test_a_calibration_that_is_not_there_is_named(packets, folder):
+    assert f"{folder / 'none.json'}: No such file" in refused("track", packets, "--calibration", folder / "none.json")
+
+
+# --- calibrate --------------------------------------------------------------------------------------------------------
+
+POSTURES = "pitch_deg,L_r_m,L_p2t_m\n" + "".join(
+    f"{degrees},{0.07 + 0.0006 * degrees:.4f},{0.09 - 0.0006 * degrees:.4f}\n" for degrees in (0, 15, 30, 45, 60)
+)
+GAUGE = "counts,newtons\n" + "".join(f"{counts},{0.1 * counts:.1f}\n" for counts in (60, 100, 400, 800, 1200, 1900))
+
+
+def calibrated(path: Path) -> Calibration:
+    json.loads(path.read_text(), parse_constant=pytest.fail)
+    return read_calibration(path)
+
+
+def test_noise_of_a_walk_is_learnt_for_every_cell_of_both_feet(packets, tmp_path):
+    out = tmp_path / "me.json"
+    done = run("calibrate", "noise", packets, "--share", "0.2", "--out", out)
+    assert done.returncode == 0 and done.stderr == ""
+    header, _, left, right, last = done.stdout.splitlines()
+    assert header.split() == ["foot", "cells", "mean", "noise", "largest"]
+    assert left.split()[:2] == ["left", "96"] and right.split()[:2] == ["right", "96"]
+    assert last == f"written to {out}"
+    learnt = calibrated(out)
+    assert all(len(learnt.insole(foot).noise) == 96 for foot in Foot) and learnt.shoe is None
+    assert run("track", packets, "--recipe", PRESSED[0], "--calibration", out).returncode == 0
+
+
+def test_what_is_learnt_goes_beside_what_the_file_holds_already(tmp_path):
+    out, postures, gauge = tmp_path / "me.json", tmp_path / "postures.csv", tmp_path / "gauge.csv"
+    noise = {Foot.LEFT: InsoleCalibration(noise=(0.5, 1.0)), Foot.RIGHT: InsoleCalibration(noise=(0.1, 0.2))}
+    write_calibration(out, Calibration(insoles=noise, weight=700.0))
+    postures.write_text(POSTURES)
+    gauge.write_text(GAUGE)
+    shoe = run("calibrate", "shoe", postures, "--out", out)
+    assert shoe.stdout.startswith("5 measurements of 5 postures, flat to 60 degrees: rms error of L_r 0.0 mm")
+    newton = run("calibrate", "newton", gauge, "--foot", "left", "--out", out)
+    assert newton.stdout.startswith("left: N = ") and "6 points, rms error 0.00 N" in newton.stdout
+    assert shoe.returncode == newton.returncode == 0
+    found = calibrated(out)
+    assert found.weight == 700.0
+    assert found.insole(Foot.LEFT).noise == (), "it was learnt before there were newtons"
+    assert found.insole(Foot.LEFT).newtons.coefficients == pytest.approx((0.0, 0.1, 0.0, 0.0), abs=1e-9)
+    assert found.insole(Foot.RIGHT) == InsoleCalibration(noise=(0.1, 0.2))
+    assert found.shoe.forefoot_radius[0] == pytest.approx(0.07)
+
+
+def test_laps_of_a_square_tell_the_drift(tmp_path):
+    laps, out = tmp_path / "laps.jsonl", tmp_path / "me.json"
+    walk = emulate(square(3), devices={Site.RIGHT_FOOT: boot(Foot.RIGHT, 50.0)}, seed=2)
+    with PacketWriter(laps) as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    done = run("calibrate", "square", laps, "--out", out)
+    assert done.returncode == 0 and done.stderr == ""
+    assert done.stdout.startswith("right foot: 120 visits of 40 marks, drift ")
+    assert set(calibrated(out).drift) == {Foot.RIGHT}
+
+
+def test_a_straight_walk_is_no_laps_of_a_square_however_often_its_steps_are_counted(tmp_path):
+    out = tmp_path / "me.json"
+    long = tmp_path / "long.jsonl"
+    walk = emulate(Route().stand(2.0).walk(24.0, speed=1.3).stop(1.5), devices={Site.RIGHT_FOOT: Insole()}, seed=2)
+    with PacketWriter(long) as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    assert "the laps do not close" in refused("calibrate", "square", long, "--steps", 4, "--out", out)
+    assert not out.exists()
+
+
+def test_a_walk_over_marks_tells_what_touchdowns_are_off_by(tmp_path):
+    walk = emulate(marked(WalkingMode.STRAIGHT, 14), devices={site: Insole(rate=50.0) for site in FEET}, seed=2)
+    with PacketWriter(tmp_path / "walk.jsonl") as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    write_marks(tmp_path / "marks.csv", marks(walk.walker))
+    out = tmp_path / "me.json"
+    done = run("calibrate", "modes", tmp_path / "walk.jsonl", tmp_path / "marks.csv", "--heading", "0", "--out", out)
+    assert done.returncode == 0 and done.stderr == ""
+    header, _, left, right, _ = done.stdout.splitlines()
+    assert header.split() == ["foot", "mode", "forward", "cm", "left", "cm"]
+    assert [line.split()[:2] for line in (left, right)] == [["left", "STRAIGHT"], ["right", "STRAIGHT"]]
+    assert set(calibrated(out).modes) == set(Foot)
+
+
+def test_what_cannot_be_learnt_from_is_refused_in_one_line_and_nothing_is_written(packets, bare, tmp_path):
+    out, odd = tmp_path / "me.json", tmp_path / "odd.csv"
+    odd.write_text("pitch_deg,L_r_m\n0,0.07\n")
+    for arguments, complaint in [
+        (("noise", bare), "no pressure cells in this recording"),
+        (("noise", tmp_path / "none.jsonl"), "none.jsonl: no such file"),
+        (("noise", packets, "--share", "0"), "--share 0"),
+        (("shoe", odd), "odd.csv: line 1: wants one column L_p2t_m"),
+        (("square", packets), "steps are less than 3 laps of 40 marks"),
+        (("square", bare), "needs pressure cells"),
+        (("square", packets, "--recipe", "default"), "recipe default takes no drift off"),
+        (("square", packets, "--recipe", "circle"), "there is no recipe 'circle'"),
+        (("newton", odd), "odd.csv, line 1: no column counts"),
+        (("modes", packets), "takes two files for each walk"),
+        (("modes", packets, odd), "odd.csv, line 1: no column foot"),
+    ]:
+        assert complaint in refused("calibrate", *arguments, "--out", out), arguments
+        assert not out.exists()
+
+
+def test_a_file_that_is_no_calibration_is_not_overwritten(tmp_path):
+    out, gauge = tmp_path / "notes.txt", tmp_path / "gauge.csv"
+    out.write_text("my notes")
+    gauge.write_text(GAUGE)
+    assert "notes.txt: is not JSON" in refused("calibrate", "newton", gauge, "--out", out)
+    assert out.read_text() == "my notes"
+    assert "No such file or directory" in refused("calibrate", "newton", gauge, "--out", tmp_path / "none" / "me.json")
+
+
+def test_every_kind_of_calibration_is_in_the_help(capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["calibrate", "--help"])
+    assert stop.value.code == 0
+    words = {line.split()[0] for line in capsys.readouterr().out.splitlines() if line.strip()}
+    assert words >= {"noise", "shoe", "square", "newton", "modes"}
+
+
+# --- what is no file, and nobody who reads ---------------------------------------------------------------------------
+
+
+def test_a_calibration_nested_too_deeply_is_refused_and_so_is_one_to_add_to(bare, tmp_path):
+    deep = tmp_path / "deep.json"
+    deep.write_text("[" * 100_000)
+    assert "deep.json" in refused("track", bare, "--calibration", deep)
+    (tmp_path / "postures.csv").write_text(POSTURES)
+    assert "deep.json" in refused("calibrate", "shoe", tmp_path / "postures.csv", "--out", deep)
+    assert deep.read_text() == "[" * 100_000
+
+
+@pytest.mark.parametrize("device", ["/dev/zero", "/dev/full"])
+def test_what_is_no_regular_file_is_neither_read_nor_written(bare, tmp_path, device):
+    (tmp_path / "postures.csv").write_text(POSTURES)
+    assert f"{device}: is no regular file" in refused("track", bare, "--calibration", device)
+    assert f"{device}: is no regular file" in refused("calibrate", "shoe", tmp_path / "postures.csv", "--out", device)
+
+
+def test_a_table_without_an_end_is_refused(tmp_path):
+    assert "/dev/zero: is larger" in refused("calibrate", "shoe", "/dev/zero", "--out", tmp_path / "me.json")
+
+
+def test_what_cannot_be_is_not_written_over_what_is_known(tmp_path):
+    out, below = tmp_path / "me.json", tmp_path / "below.npz"
+    write_calibration(out, Calibration(weight=700.0))
+    np.savez(below, t=np.arange(400) / 50.0, pressure=np.full((400, 4), -100.0))
+    why = refused("calibrate", "noise", below, "--out", out)
+    assert "nothing is written" in why and "insoles.right.noise[0] is -100" in why
+    assert calibrated(out) == Calibration(weight=700.0)
+
+
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
+def test_streams_that_are_closed_stop_nothing(bare, closed):
+    command = f'"{sys.executable}" -m solepath track "{bare}" {closed}'
+    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0 and "Traceback" not in done.stderr
+
+
+def test_a_full_device_is_told_in_one_line(bare):
+    command = f'"{sys.executable}" -m solepath track "{bare}" >/dev/full'
+    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2 and done.stderr.count("\n") == 1 and "No space left" in done.stderr
+
+
+def test_a_seed_below_zero_is_refused(capsys):
+    for command in (["reproduce", "kupt-dfpc"], ["demo"], ["emulate"]):
+        with pytest.raises(SystemExit, match="2"):
+            main([*command, "--seed", "-1"])
+        assert "'-1' is not a whole number" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("distance", ["1e308", "80"])
+def test_a_walk_of_which_no_toe_out_is_learnt_writes_nothing_and_says_so(tags: Path, tmp_path: Path, distance) -> None:
+    said = refused("calibrate", "toe-out", tags, "--distance", distance, "--out", tmp_path / "me.json")
+    assert "nothing is learnt: the steps come to " in said and "m of the left foot and " in said
+    assert not (tmp_path / "me.json").exists()

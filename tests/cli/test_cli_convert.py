@@ -1,0 +1,266 @@
+"""`solepath convert`: a phone's log to a recording, either to MCAP; what is wrong is one line."""
+
+import io
+import json
+import os
+import struct
+import subprocess
+import sys
+from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
+
+import pytest
+import walks
+from snooped import INSOLE, LEFT, RIGHT, TAG, Log, insoles_log
+
+from solepath import Session, Site
+from solepath.cli import main
+from solepath.recording import PacketWriter, read_header, read_packets
+
+FRAME = next(iter(INSOLE))
+
+
+def convert(*arguments: object) -> subprocess.CompletedProcess[str]:
+    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
+        try:
+            status = main(["convert", *map(str, arguments)])
+        except SystemExit as stop:  # of argparse
+            status = int(stop.code or 0)
+    return subprocess.CompletedProcess(arguments, status, out.getvalue(), err.getvalue())
+
+
+def complaint(*arguments: object) -> str:
+    """The one line on stderr of a conversion that failed."""
+    done = convert(*arguments)
+    assert done.returncode == 2, done.stdout
+    line, end = done.stderr[:-1], done.stderr[-1:]
+    assert end == "\n" and line.isprintable() and line.startswith("solepath: "), done.stderr
+    return line.removeprefix("solepath: ")
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory) -> Path:
+    return insoles_log(walks.insoles().packets).save(tmp_path_factory.mktemp("phone") / "btsnoop_hci.log")
+
+
+def recording(path: Path, count: int = 100) -> Path:
+    with PacketWriter(path, {"began": "2026-11-21T09:30:00Z"}) as writer:
+        for packet in walks.insoles().packets[:count]:
+            writer.write(packet)
+    return path
+
+
+def test_a_phones_log_becomes_a_recording_that_track_takes(log, tmp_path):
+    out = tmp_path / "walk.jsonl"
+    done = convert(log, out)
+    assert (done.returncode, done.stderr) == (0, "")
+    frames = [p for p in walks.insoles().packets if p.channel == "insole/frame"]
+    half = sum(p.site is Site.LEFT_FOOT for p in frames)
+    assert done.stdout.splitlines() == [
+        f"{RIGHT}  right_foot, insole: {len(frames) - half} notifications",
+        f"{LEFT}  left_foot, insole: {half} notifications",
+        f"{len(frames) + 2} packets written to {out}",
+    ]
+    packets = list(read_packets(out))
+    assert [p.data for p in packets if p.channel == "insole/frame"] == [p.data for p in frames]
+    assert read_header(out)["began"] == "2026-09-21T14:13:20.251000Z"
+    assert list(tmp_path.iterdir()) == [out], "nothing else is left"
+    with redirect_stdout(io.StringIO()) as told:
+        assert main(["track", str(out)]) == 0
+    assert "limitation" in told.getvalue() and "5" in told.getvalue()
+
+
+def test_either_becomes_mcap(log, tmp_path):
+    reader = pytest.importorskip("mcap.reader", reason="the extra mcap is not installed")
+    for source in (log, recording(tmp_path / "walk.jsonl")):
+        out = tmp_path / "WALK.MCAP"
+        done = convert(source, out)
+        assert (done.returncode, done.stderr) == (0, "")
+        with out.open("rb") as file:
+            summary = reader.make_reader(file).get_summary()
+        topics = {channel.topic for channel in summary.channels.values()}
+        assert {"/left_foot/packets/insole/frame", "/left_foot/samples", "/left_foot/pose"} <= topics
+        assert summary.statistics.message_start_time > 1_700_000_000 * 10**9
+
+
+def test_the_site_and_the_channel_can_be_told(tmp_path):
+    log = Log()
+    log.connect(0x40, TAG)
+    for _ in range(3):
+        log.notify(0x40, 0x2B, bytes(18))
+    path, out = log.save(tmp_path / "phone.log"), tmp_path / "walk.jsonl"
+    assert f"3 values of {TAG} left out: no discovery says what is 0x002b (18 bytes)" in complaint(path, out)
+    done = convert(path, out, "--site", f"{TAG}=pelvis", "--handle", f"{TAG.lower()}/0x2b=cc2650/movement")
+    assert done.returncode == 0
+    assert {(p.site, p.channel) for p in read_packets(out)} == {
+        (Site.PELVIS, "receiver/connected"), (Site.PELVIS, "cc2650/movement"),
+    }  # fmt: skip
+    assert "there is no channel 'cc2650/moment'; there are: " in complaint(path, out, "--handle", "0x2b=cc2650/moment")
+
+
+@pytest.mark.parametrize(
+    "wish",
+    [
+        ("--site", "left_foot"),
+        ("--site", f"{TAG}=hand"),
+        ("--handle", "0x2b"),
+        ("--handle", "x=y"),
+        ("--handle", "0=a/b"),
+    ],
+)
+def test_a_wish_that_cannot_be_understood_is_named(log, tmp_path, wish):
+    done = convert(log, tmp_path / "walk.jsonl", *wish)
+    assert done.returncode == 2 and f"argument {wish[0]}: {wish[1]!r} is not " in done.stderr
+
+
+def test_wishes_that_are_of_no_use_are_errors_and_nothing_is_written(log, tmp_path):
+    out, low = tmp_path / "walk.jsonl", LEFT.lower()
+    for wishes, flaw in (
+        (("--site", f"{LEFT}=pelvis", "--site", f"{low}=left_foot"), f"--site is given twice for {LEFT}"),
+        (("--handle", "18=insole/frame", "--handle", "0x12=insole/info"), "--handle is given twice for 0x0012"),
+        (("--handle", f"{low}/0x12=insole/frame", "--handle", f"{LEFT}/18=insole/frame"), f"for {LEFT}/0x0012"),
+        (("--handle", "0x99=insole/frame"), "holds no value of an attribute 0x0099, which was said to be insole/frame"),
+        (("--handle", f"{TAG}/0x12=insole/frame"), f"holds no device {TAG}, whose 0x0012 was said to be insole/frame"),
+        (("--handle", "0x12=cc2650/movement"), "as its discovery says, not cc2650/movement"),
+    ):
+        assert complaint(log, out, *wishes).endswith(flaw)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_pipe_is_refused_in_words(tmp_path):
+    pipe = tmp_path / "walk.jsonl"
+    os.mkfifo(pipe)
+    flaw = f"{pipe}: is a pipe or a device; it is read more than once, so it has to be a file"
+    assert complaint(pipe, tmp_path / "walk.mcap") == flaw
+
+
+def test_a_torn_log_is_used_up_to_the_tear_and_says_so(log, tmp_path):
+    torn, out = tmp_path / "torn.log", tmp_path / "walk.jsonl"
+    torn.write_bytes(log.read_bytes()[:-7])
+    done = convert(torn, out)
+    assert done.returncode == 0
+    assert done.stderr.startswith(f"solepath: {torn}: record ") and "cut off in the middle" in done.stderr
+    assert len(list(read_packets(out))) == sum(p.channel == "insole/frame" for p in walks.insoles().packets) + 1
+
+
+@pytest.mark.parametrize("kind", ["btsnoop", "recording"])
+def test_what_came_before_a_damage_is_converted_and_the_damage_told(log, tmp_path, kind):
+    out = tmp_path / "out.mcap" if kind == "recording" else tmp_path / "out.jsonl"
+    if kind == "btsnoop":
+        source = tmp_path / "damaged.log"
+        source.write_bytes(log.read_bytes() + struct.pack(">IIIIq", 1, 2, 0, 0, 0))
+        flaw = "is damaged: it claims 2 of 1 bytes"
+    else:
+        source = recording(tmp_path / "damaged.jsonl")
+        source.write_text(source.read_text() + "{}\n")
+        flaw = '"t" is missing'
+    done = convert(source, out)
+    assert done.returncode == 2 and done.stderr.count("\n") == 1 and flaw in done.stderr
+    assert f" packets written to {out}" in done.stdout and out.stat().st_size > 10_000
+
+
+def test_what_cannot_be_converted_replaces_nothing(log, tmp_path):
+    out = tmp_path / "walk.jsonl"
+    out.write_text("precious")
+    bad = tmp_path / "bad.log"
+    for content, flaw in (
+        (b"", "is empty"),
+        (b"hello", "line 1: is not JSON"),
+        (log.read_bytes()[:16], "holds no packets of a device whose place is known"),
+        (log.read_bytes()[:16] + struct.pack(">IIIIq", 1, 2, 0, 0, 0), "record 1: is damaged"),
+        (b"btsnoop\0" + struct.pack(">II", 1, 1003), "is btsnoop of datalink 1003"),
+    ):
+        bad.write_bytes(content)
+        target = out.with_suffix(".mcap") if content[:8] != b"btsnoop\0" else out
+        assert flaw in complaint(bad, target)
+        assert sorted(path.name for path in tmp_path.iterdir()) == ["bad.log", "walk.jsonl"]
+        assert out.read_text() == "precious"
+
+
+def test_names_that_cannot_be_meant_are_refused(log, tmp_path):
+    walk = recording(tmp_path / "walk.jsonl")
+    assert complaint(log, tmp_path / "walk.csv").endswith(
+        "walk.csv: ends neither in .jsonl nor in .mcap, which says what to write"
+    )
+    assert complaint(walk, walk).endswith("is no btsnoop log; a recording is converted to .mcap only")
+    assert "--site and --handle are for btsnoop logs" in complaint(
+        walk, tmp_path / "walk.mcap", "--site", f"{TAG}=pelvis"
+    )
+    assert complaint(tmp_path / "none.log", walk).endswith("none.log: no such file or directory")
+    assert complaint(tmp_path, walk).endswith("is a directory, not a recording")
+    same = tmp_path / "same.jsonl"
+    same.write_bytes(log.read_bytes())
+    assert complaint(same, same).endswith("is what is to be converted")
+    assert same.read_bytes() == log.read_bytes()
+    assert complaint(log, tmp_path / "none" / "walk.jsonl").endswith("none/walk.jsonl: no such file or directory")
+
+
+def test_no_file_is_touched_but_the_one_that_is_named(log, tmp_path):
+    """Not even one whose name is OUT's with something behind it, be it what is converted or a stranger."""
+    for k, (source, name) in enumerate(((log, "walk.jsonl"), (recording(tmp_path / "a.jsonl"), "walk.mcap"))):
+        folder = tmp_path / str(k)
+        folder.mkdir()
+        out, beside = folder / name, folder / f"{name}.part"
+        beside.write_bytes(source.read_bytes())
+        assert convert(beside, out).returncode == 0
+        assert beside.read_bytes() == source.read_bytes() and out.stat().st_size > 1000
+        beside.write_text("precious")
+        assert convert(source, out).returncode == 0
+        assert beside.read_text() == "precious"
+        assert sorted(folder.iterdir()) == [out, beside]
+
+
+@pytest.mark.parametrize("mode", [0o600, 0o440, 0o664])
+def test_a_file_that_is_replaced_keeps_its_mode(log, tmp_path, mode):
+    out = tmp_path / "walk.jsonl"
+    out.write_text("old")
+    out.chmod(mode)
+    assert convert(log, out).returncode == 0
+    assert out.stat().st_mode & 0o777 == mode and out.stat().st_size > 1000
+
+
+def test_a_new_file_has_the_mode_that_new_files_have_and_a_link_stays_one(log, tmp_path):
+    plain, there, link = tmp_path / "plain", tmp_path / "there.jsonl", tmp_path / "link.jsonl"
+    plain.write_text("")
+    link.symlink_to(there)
+    assert convert(log, link).returncode == 0
+    assert link.is_symlink() and there.stat().st_mode == plain.stat().st_mode
+
+
+LITTLE_ROOM = """
+import resource, sys
+from solepath.cli import main
+resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+sys.exit(main(["convert", *sys.argv[1:]]))
+"""
+
+
+@pytest.mark.parametrize("name", ["walk.jsonl", "walk.mcap"])
+def test_a_disk_that_fills_up_is_one_line_and_leaves_no_half_file(log, tmp_path, name):
+    out = tmp_path / name
+    done = subprocess.run([sys.executable, "-c", LITTLE_ROOM, log, out], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (2, f"solepath: {out}: file too large\n")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_mcap_it_says_what_to_install(log, tmp_path):
+    code = "import sys; sys.modules['mcap'] = None; from solepath.cli import main; sys.exit(main(sys.argv[1:]))"
+    out = tmp_path / "walk.mcap"
+    done = subprocess.run([sys.executable, "-c", code, "convert", log, out], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert done.stderr == "solepath: writing MCAP needs the package mcap: pip install 'solepath[mcap]'\n"
+
+
+def test_the_help_has_an_example():
+    done = convert("--help")
+    assert done.returncode == 0 and "example: solepath convert btsnoop_hci.log walk.jsonl" in done.stdout
+
+
+def test_the_recording_that_comes_of_a_log_gives_the_events_of_the_log(log, tmp_path):
+    from solepath.recording.btsnoop import open_btsnoop
+
+    out = tmp_path / "walk.jsonl"
+    assert convert(log, out).returncode == 0
+    told = [repr(event) for event in Session().feed(read_packets(out))]
+    assert told == [repr(event) for event in Session().feed(open_btsnoop(log))] != []
+    assert json.loads(out.read_text().splitlines()[0])["source"] == "btsnoop"

@@ -1,0 +1,236 @@
+"""fleet-demo: wearers through an engine that is killed, what it prints, and how it ends."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from random import Random
+from time import sleep
+
+import pytest
+from commands import refused, run
+from hypothesis import given
+from hypothesis import strategies as st
+
+pytest.importorskip("bytewax", reason="bytewax is not installed: it has no wheels for Python 3.13 and later")
+
+import pyarrow.compute
+
+from solepath.cli.fleet_demo import verdict
+from solepath.cli.fleet_table import of_kills, of_worth
+from solepath.events import HeelStrike
+from solepath.fleet import NumberedEvent
+from solepath.fleet.demo.child import _told
+from solepath.fleet.demo.compare import Torn, differences, files, holes, of_sessions, read_told, remarked
+from solepath.fleet.demo.kills import Cost, Kill, Outcome, compared, draw
+from solepath.fleet.demo.stage import Engine
+from solepath.fleet.demo.wearers import Wearers
+from solepath.fleet.parquet import PartFiles
+from solepath.types import Foot
+
+SMALL = ("--wearers", "12", "--seconds", "4", "--processes", "1")
+
+
+@pytest.mark.skipif(_told("VmHWM") is None, reason="this system does not tell a program's memory apart")
+def test_the_memory_of_a_process_is_not_that_of_who_started_it() -> None:
+    held = b"x" * 400_000_000
+    code = "from solepath.fleet.demo.child import memory, most_memory; print(memory(), most_memory())"
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    now, most = map(int, said.split())
+    assert 5e6 < now <= most < len(held)
+
+
+@pytest.fixture(scope="module")
+def kept(tmp_path_factory: pytest.TempPathFactory) -> tuple[subprocess.CompletedProcess[str], Path]:
+    """What a whole demonstration printed, and where it left what it wrote."""
+    out = tmp_path_factory.mktemp("fleet") / "out"
+    return run("fleet-demo", *SMALL, "--kills", "2", "--out", out, "--json", out.with_suffix(".json"), "--keep"), out
+
+
+def test_a_fleet_that_is_killed_tells_what_one_tells_that_is_not(
+    kept: tuple[subprocess.CompletedProcess[str], Path],
+) -> None:
+    done, out = kept
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "sessions alone: the same events" in done.stdout
+    assert "1 loses some of what is sent for good, 1 sends any bytes" in done.stdout
+    assert re.search(r"killed run 1: .*, with \d+ % read; .* s replayed, .*; the same events", done.stdout)
+    rows = dict(re.findall(r"^(\S.*?)  +(\d+)$", done.stdout, re.MULTILINE))
+    assert (rows["wearers"], rows["kills"], rows["of them with the same events"]) == ("12", "2", "2")
+    figures = json.loads(out.with_suffix(".json").read_text())
+    assert figures["ratio"] > 0.0 and len(figures["kills"]) == 2 and figures["runs"][0]["equal"]
+    assert figures["engine"]["events"] == int(rows["events"]) == read_told(out / "told").num_rows > 100
+
+
+def test_kills_hit_reading_and_wearers_go_on_from_states_that_were_read_back(
+    kept: tuple[subprocess.CompletedProcess[str], Path],
+) -> None:
+    figures = json.loads(kept[1].with_suffix(".json").read_text())
+    assert all(kill["started"] and 0.0 < kill["read"] < 1.0 for kill in figures["kills"])
+    assert any(kill["replayed"] > 0.0 for kill in figures["kills"])
+    assert max(kill["reopened"] for kill in figures["kills"]) == figures["wearers"]
+    assert figures["engine"]["snapshots"] > 2
+    assert re.search(r"^of 2 kills [12] had something read again, and [12] had wearers go on", kept[0].stdout, re.M)
+
+
+def test_a_fleet_that_does_not_say_what_it_refused_or_what_is_missing_is_found_out(
+    kept: tuple[subprocess.CompletedProcess[str], Path],
+) -> None:
+    expected = {wearer.name: wearer.remarks() for wearer in Wearers.read(kept[1] / "runs").all}
+    assert {name for name, remarks in expected.items() if remarks} == {"w00003", "w00005"}
+    missing, late = expected["w00005"]
+    assert (missing.event, late.event, late.why) == ("NumbersMissing", "SentRejected", "late")
+    assert {remark.run is None for remark in expected["w00003"]} == {True, False}
+    told = read_told(kept[1] / "told")
+    assert remarked(expected, told) == []
+    for event in ("SentRejected", "NumbersMissing"):
+        silent = told.filter(pyarrow.compute.not_equal(told["event"], event))
+        assert differences(of_sessions(told), of_sessions(silent)) == []
+        assert remarked(expected, silent)[0].endswith(" is missing")
+    (line,) = remarked({**expected, "w00005": [missing]}, told)
+    assert line.startswith("w00005, SentRejected (late) of run ") and line.endswith(" was not expected")
+
+
+def test_the_query_that_is_printed_counts_the_events(kept: tuple[subprocess.CompletedProcess[str], Path]) -> None:
+    pytest.importorskip("duckdb")
+    (line,) = (line for line in kept[0].stdout.splitlines() if line.startswith("python -c"))
+    done = subprocess.run([sys.executable, *shlex.split(line)[1:]], capture_output=True, text=True, check=True)
+    assert "HeelStrike" in done.stdout
+
+
+def test_one_event_less_in_one_part_is_named_and_the_status_is_1(
+    kept: tuple[subprocess.CompletedProcess[str], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    runs = kept[1] / "runs"
+    told = shutil.copytree(runs / "killed-1" / "told", tmp_path / "told")
+    expected = read_told(runs / "uninterrupted" / "told")
+    assert compared(expected, told) == []
+    part = parquet.read_table(files(told)[0])
+    lost = part.slice(0, 1).to_pylist()[0]
+    parquet.write_table(part.slice(1), files(told)[0])
+    (found,) = compared(expected, told)
+    assert found.startswith(f"{lost['wearer']}, event {lost['number']} ({lost['event']} at ")
+    assert found.endswith(" is missing")
+    assert verdict([], [[found]]) == 1
+    assert f"killed run 1: {found}" in capsys.readouterr().out
+
+
+def test_a_part_that_is_damaged_is_named(kept: tuple[subprocess.CompletedProcess[str], Path], tmp_path: Path) -> None:
+    told = shutil.copytree(kept[1] / "told", tmp_path / "told")
+    expected, part = read_told(told), files(told)[0]
+    part.write_bytes(part.read_bytes()[:-40])
+    (found,) = compared(expected, told)
+    assert str(part) in found and "cannot be read" in found
+    with pytest.raises(Torn):
+        read_told(told)
+
+
+def heel_strike(wearer: str, number: int, t: float = 1.0) -> NumberedEvent:
+    return NumberedEvent(wearer, number, HeelStrike(t=t, known_at=t, foot=Foot.LEFT))
+
+
+def write(directory: Path, *told: NumberedEvent) -> Path:
+    parts = PartFiles(directory)
+    parts.write(told)
+    parts.close()
+    return directory
+
+
+def test_events_that_are_told_twice_or_otherwise_or_are_not_numbered_on_are_differences(tmp_path: Path) -> None:
+    one, other = heel_strike("anna", 0), heel_strike("anna", 1)
+    expected = read_told(write(tmp_path / "expected", one, other))
+    assert differences(expected, read_told(write(tmp_path / "order", other, one))) == []
+    twice = read_told(write(tmp_path / "twice", one, one, other))
+    assert differences(expected, twice) == ["anna, event 0 (HeelStrike at 1.0 s) is there twice"]
+    later = read_told(write(tmp_path / "later", one, heel_strike("anna", 1, 2.0)))
+    assert differences(expected, later) == [
+        "anna, event 1 (HeelStrike at 1.0 s) is missing",
+        "anna, event 1 (HeelStrike at 2.0 s) is there, and should not be",
+    ]
+    hole = read_told(write(tmp_path / "hole", one, heel_strike("anna", 2)))
+    assert holes(expected) == [] and holes(hole) == ["anna has 2 events numbered from 0 to 2"]
+    assert differences(expected, of_sessions(hole)) == []
+    assert differences(expected, read_told(tmp_path / "nowhere"))[-1].endswith("is missing")
+
+
+def test_kills_are_drawn_from_the_seed_and_are_as_many_as_asked_for() -> None:
+    planned = draw(10, 2.0, 20.0, 2, Random(5))
+    assert planned == draw(10, 2.0, 20.0, 2, Random(5)) != draw(10, 2.0, 20.0, 2, Random(6))
+    kills = [kill for run in planned for kill in run]
+    assert len(kills) == 10 and {kill.which for kill in kills} >= {None}
+    assert draw(0, 2.0, 20.0, 2, Random(5)) == []
+
+
+@given(st.integers(1, 40), st.floats(0.1, 10.0), st.floats(0.1, 100.0), st.integers(1, 3), st.randoms())
+def test_most_kills_hit_reading_and_one_in_five_the_start(
+    count: int, starting: float, reading: float, processes: int, rng: Random
+) -> None:
+    kills = [kill for run in draw(count, starting, reading, processes, rng) for kill in run]
+    while_reading = [kill for kill in kills if kill.share is not None]
+    assert (len(kills), len(while_reading)) == (count, count - count // 5)
+    assert all(0.0 < kill.share < 1.0 and kill.after <= 0.1 * reading for kill in while_reading)
+    assert all(kill.after <= starting + 0.1 * reading for kill in kills)
+
+
+def test_kills_that_cost_nothing_are_not_told_as_if_they_showed_something() -> None:
+    started = Cost(Kill(None, 0.1), False, 0.0, 0.0, 1.0, 0)
+    hit = Cost(Kill(0.5, 0.1), True, 0.5, 0.1, 1.0, 12)
+    engine = Engine(2.0, 1.0, 0.1, 8, 1.0, None, None, 100, 8)
+    (line,) = of_kills(engine, 1, Outcome([started], []))
+    assert "the same events" not in line and line.endswith("nothing was lost that had to come back")
+    assert of_kills(engine, 2, Outcome([hit], []))[0].endswith("12 went on from their states; the same events")
+    assert of_kills(engine, 1, Outcome([started], ["w00001"]))[0].endswith("; other events")
+    assert of_worth([Outcome([started], [])]).endswith("or kill more often (--kills).")
+    assert of_worth([Outcome([started, hit], [])]) == (
+        "of 2 kills 1 had something read again, and 1 had wearers go on from states"
+    )
+
+
+def test_whoever_interrupts_it_finds_nothing_left(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    command = [sys.executable, "-m", "solepath", "fleet-demo", *SMALL, "--out", str(out)]
+    running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    while not (out / "runs" / "sessions" / "log").exists():
+        assert running.poll() is None
+        sleep(0.02)
+    running.send_signal(signal.SIGINT)
+    _, said = running.communicate(timeout=30.0)
+    assert (running.returncode, said) == (130, "")
+    assert not out.exists()
+    everything = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True).stdout
+    assert str(out) not in everything
+
+
+def test_what_cannot_be_is_said_in_one_line(tmp_path: Path) -> None:
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "file").touch()
+    assert "no recipe 'best'" in refused("fleet-demo", "--recipe", "best")
+    assert "there already" in refused("fleet-demo", "--out", tmp_path / "full")
+    assert "more than there are wearers, 1" in refused("fleet-demo", "--wearers", 1, "--processes", 2)
+    assert "at least 1" in refused("fleet-demo", "--seconds", 0.5)
+    assert "is the most" in refused("fleet-demo", "--seconds", 1e6)
+    assert str(tmp_path / "no") in refused("fleet-demo", "--json", tmp_path / "no" / "figures.json")
+
+
+def test_what_is_not_installed_is_named() -> None:
+    program = "import sys; sys.modules['bytewax'] = None; from solepath.cli import main; sys.exit(main(['fleet-demo']))"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
+    assert "pip install 'solepath[bytewax]'" in done.stderr
+
+
+@pytest.mark.soak
+def test_a_thousand_wearers_are_killed_ten_times(tmp_path: Path) -> None:
+    done = run("fleet-demo", "--wearers", 1000, "--kills", 10, "--json", tmp_path / "figures.json")
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    kills = json.loads((tmp_path / "figures.json").read_text())["kills"]
+    assert len(kills) == 10
+    assert sum(bool(kill["replayed"]) for kill in kills) >= 6
+    assert sum(kill["reopened"] > 0 for kill in kills) >= 6

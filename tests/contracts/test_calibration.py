@@ -1,0 +1,292 @@
+"""Calibrations: a file that is read back as it was written, and one clear sentence for every file that is none."""
+
+from __future__ import annotations
+
+import json
+import re
+from math import inf, nan
+from operator import attrgetter
+from pathlib import Path
+from typing import Any
+
+import pytest
+from attrs import evolve
+from here import PROTOCOL
+from walks import of, samples
+
+from solepath import (
+    Calibration,
+    CalibrationError,
+    Cell,
+    Foot,
+    Layout,
+    Sample,
+    Session,
+    Site,
+    StrideTaken,
+    WalkingMode,
+    read_calibration,
+    recipes,
+)
+from solepath.calibration import (
+    InsoleCalibration,
+    Limbs,
+    Newtons,
+    ShoeGeometry,
+    merged,
+    unusable,
+    write_calibration,
+)
+from solepath.calibration.calibration import _limits
+from solepath.emulate.sensors.insoles import layout
+from solepath.events import CellsFailed, Limitation
+from solepath.foot.pressure.insole import in_newtons
+from solepath.recipes import Recipe
+
+WHOLE = Calibration(
+    insoles={
+        Foot.LEFT: InsoleCalibration(
+            Layout(2, Foot.LEFT, (Cell(0.2, 0.0), Cell(0.03, 0.01)), 0.26, scale=1.0),
+            Newtons((0.0, 0.1, 0.0, 0.0)),
+            (1.5, 2.5),
+        )
+    },
+    shoe=ShoeGeometry(),
+    drift={Foot.LEFT: (0.001, -0.002)},
+    limbs=Limbs(),
+    weight=700.0,
+    modes={Foot.RIGHT: {WalkingMode.LEFT_TIGHT: (0.01, -0.02)}},
+)
+
+
+def test_a_calibration_is_read_as_it_was_written(tmp_path: Path) -> None:
+    write_calibration(tmp_path / "me.json", WHOLE)
+    assert read_calibration(tmp_path / "me.json") == WHOLE
+
+
+def test_a_newer_part_takes_the_place_of_the_older_and_the_rest_stays() -> None:
+    newer = Calibration(insoles={Foot.LEFT: InsoleCalibration(noise=(9.0, 9.0))}, weight=800.0)
+    both = merged(WHOLE, newer)
+    assert both.insoles[Foot.LEFT].noise == (9.0, 9.0)
+    assert both.insoles[Foot.LEFT].newtons == WHOLE.insoles[Foot.LEFT].newtons
+    assert (both.weight, both.drift, both.shoe) == (800.0, WHOLE.drift, WHOLE.shoe)
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("not json", "is not JSON"),
+        ("[]", "is not a calibration"),
+        ('{"format": "solepath-calibration", "version": 2, "calibration": {}}', "version 2"),
+        ('{"format": "solepath-calibration", "version": 1, "calibration": {"insols": {}}}', "fields"),
+        ('{"format": "solepath-calibration", "version": 1}', "expected"),
+    ],
+)
+def test_what_is_no_calibration_is_refused_in_one_sentence(tmp_path: Path, text: str, why: str) -> None:
+    (tmp_path / "bad.json").write_text(text)
+    with pytest.raises(CalibrationError, match=why) as refused:
+        read_calibration(tmp_path / "bad.json")
+    assert "bad.json" in str(refused.value) and "\n" not in str(refused.value)
+
+
+def test_a_number_that_is_none_is_refused(tmp_path: Path) -> None:
+    write_calibration(tmp_path / "me.json", WHOLE)
+    (tmp_path / "me.json").write_text((tmp_path / "me.json").read_text().replace("700.0", "NaN"))
+    with pytest.raises(CalibrationError, match="nan"):
+        read_calibration(tmp_path / "me.json")
+
+
+def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
+    with pytest.raises(CalibrationError, match="nowhere.json"):
+        read_calibration(tmp_path / "nowhere.json")
+
+
+def test_the_file_is_as_the_protocol_says(tmp_path: Path) -> None:
+    write_calibration(tmp_path / "me.json", WHOLE)
+    told = json.loads((tmp_path / "me.json").read_text())
+    assert set(told) == {"format", "version", "calibration"}
+    text = (PROTOCOL / "calibration.md").read_text()
+    for key in (*told["calibration"], *told["calibration"]["shoe"], *told["calibration"]["limbs"]):
+        assert f"`{key}`" in text
+
+
+def test_a_raw_value_becomes_newtons_by_the_cubic_within_5_to_200() -> None:
+    # 1 + 2 n + 0.5 n^2 + 0.1 n^3 at n = 1, 2, 10, 20: 3.6 is below 5 N; 7.8; 171; 1041 is beyond 200 N
+    assert in_newtons(Newtons((1.0, 2.0, 0.5, 0.1)), (1.0, 2.0, 10.0, 20.0)) == (0.0, pytest.approx(7.8), 171.0, 200.0)
+
+
+def test_a_layout_of_the_calibration_serves_samples_that_do_not_say_where_their_cells_are() -> None:
+    session = Session(calibration=WHOLE)
+    session.feed(Sample(0.0, Site.LEFT_FOOT, (0.0, 0.0, 9.81), (0.0, 0.0, 0.0), (20.0, 30.0)))
+    worn = session.feet[Foot.LEFT].insole.layout
+    assert worn is not None and worn.length == 0.26
+
+
+def test_only_a_calibration_is_one() -> None:
+    with pytest.raises(TypeError, match="Calibration"):
+        Session(calibration="me.json")  # type: ignore[arg-type]
+
+
+# --- what cannot be ---
+
+
+def cells(*at: Cell, length: float = 0.26) -> Calibration:
+    return insole(layout=Layout(2, Foot.LEFT, at, length))
+
+
+def insole(**known: Any) -> Calibration:
+    return Calibration(insoles={Foot.LEFT: InsoleCalibration(**known)})
+
+
+ABSURD = {
+    "shoe.heel_radius": Calibration(shoe=ShoeGeometry(heel_radius=1e308)),
+    "shoe.height": Calibration(shoe=ShoeGeometry(height=-0.01)),
+    "shoe.steepest": Calibration(shoe=ShoeGeometry(steepest=1e200)),
+    "shoe.forefoot_radius": Calibration(shoe=ShoeGeometry(forefoot_radius=(0.07, 1e200))),
+    "shoe.pivot_to_toe": Calibration(shoe=ShoeGeometry(pivot_to_toe=(0.09, 90.0))),
+    "coefficients in shoe.pivot_to_toe": Calibration(shoe=ShoeGeometry(pivot_to_toe=())),
+    "drift.left": Calibration(drift={Foot.LEFT: (0.0, 1e308)}),
+    "limbs.thigh": Calibration(limbs=Limbs(thigh=0.0)),
+    "limbs.shank": Calibration(limbs=Limbs(shank=-0.4)),
+    "weight": Calibration(weight=1e307),
+    "modes.right.LEFT_TIGHT": Calibration(modes={Foot.RIGHT: {WalkingMode.LEFT_TIGHT: (1e200, 0.0)}}),
+    r"insoles.left.noise\[1\]": insole(noise=(1.0, -1e308)),
+    r"insoles.left.layout.cells\[0\].x": cells(Cell(1e308, 0.0)),
+    r"insoles.left.layout.cells\[0\].y": cells(Cell(0.1, 1e308)),
+    "insoles.left.layout.length": cells(Cell(0.1, 0.0), length=0.0),
+    "insoles.left.layout.length is 1e\\+308": cells(Cell(0.1, 0.0), length=1e308),
+    "cells in insoles.left.layout": cells(),
+    "insoles.left.newtons.coefficients": insole(newtons=Newtons((0.0, 1e308, 0.0, 0.0))),
+    "insoles.left.newtons.threshold": insole(newtons=Newtons((0.0, 1.0, 0.0, 0.0), threshold=9.0, most=8.0)),
+    "insoles.left.newtons.most": insole(newtons=Newtons((0.0, 1.0, 0.0, 0.0), most=1e308)),
+}
+
+
+@pytest.mark.parametrize("key", ABSURD)
+def test_a_calibration_of_what_cannot_be_is_refused_with_its_file_and_its_key(tmp_path: Path, key: str) -> None:
+    write_calibration(tmp_path / "me.json", ABSURD[key])
+    with pytest.raises(CalibrationError, match=key) as refused:
+        read_calibration(tmp_path / "me.json")
+    assert "me.json" in str(refused.value) and "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("key", ABSURD)
+def test_a_session_does_not_begin_with_what_cannot_be(key: str) -> None:
+    with pytest.raises(ValueError, match=key):
+        Session(calibration=ABSURD[key])
+
+
+@pytest.mark.parametrize("what", [nan, inf, "heavy", True])
+def test_a_weight_that_is_no_number_is_refused(what: Any) -> None:
+    with pytest.raises(CalibrationError, match="weight"):
+        Session(calibration=Calibration(weight=what))
+
+
+MISSHAPEN: list[tuple[dict[str, Any], str]] = [
+    ({"toe_out": {"left": 1.0}}, "toe_out has the key 'left', no Foot"),
+    ({"toe_out": None}, "toe_out is None, no dict"),
+    ({"toe_out": [1]}, "toe_out is a list, no dict"),
+    ({"toe_out": {Foot.LEFT: 10**5000}}, "toe_out.left is a huge number; it can be -1 to 1 rad"),
+    ({"insoles": {"left": InsoleCalibration()}}, "insoles has the key 'left', no Foot"),
+    ({"insoles": {Foot.LEFT: 3}}, "insoles.left is 3, no InsoleCalibration"),
+    ({"insoles": {Foot.LEFT: InsoleCalibration(noise=None)}}, "insoles.left.noise is None, not a tuple of numbers"),  # type: ignore[arg-type]
+    ({"insoles": {Foot.LEFT: InsoleCalibration(layout=0)}}, "insoles.left.layout is 0, no Layout"),  # type: ignore[arg-type]
+    ({"insoles": {Foot.LEFT: InsoleCalibration(newtons=Newtons((1.0,)))}},  # type: ignore[arg-type]
+     "insoles.left.newtons.coefficients is a tuple, not a tuple of 4 numbers"),
+    ({"shoe": "brown"}, "shoe is 'brown', no ShoeGeometry"),
+    ({"shoe": ShoeGeometry(forefoot_radius=1.0)}, "shoe.forefoot_radius is 1, not a tuple of numbers"),  # type: ignore[arg-type]
+    ({"drift": {Foot.LEFT: 0.1}}, "drift.left is 0.1, not a tuple of 2 numbers"),
+    ({"drift": {Foot.LEFT: (0.1,)}}, "drift.left is a tuple, not a tuple of 2 numbers"),
+    ({"limbs": ()}, "limbs is a tuple, no Limbs"),
+    ({"modes": {Foot.LEFT: {"left": (0.0, 0.0)}}}, "modes.left has the key 'left', no WalkingMode"),
+    ({"modes": {Foot.LEFT: None}}, "modes.left is None, no dict"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("what", "says"), MISSHAPEN, ids=[says[:40] for _, says in MISSHAPEN])
+def test_a_calibration_of_something_else_than_records_is_refused_by_the_session_in_one_line(
+    what: dict[str, Any], says: str
+) -> None:
+    with pytest.raises(CalibrationError) as refused:
+        Session(calibration=Calibration(**what))
+    assert str(refused.value) == f"calibration: {says}"
+
+
+def test_what_can_be_is_not_refused() -> None:
+    assert unusable(WHOLE) is None
+    assert unusable(Calibration()) is None
+    for size in (24, 35, 96, 99):
+        assert unusable(insole(layout=layout(size, Foot.LEFT))) is None
+
+
+def test_the_limits_are_those_of_the_protocol() -> None:
+    rows = (PROTOCOL / "calibration.md").read_text().partition("## Limits")[2]
+    numbers = {float(number) for number in re.findall(r"-?\d+(?:\.\d+)?(?:e-?\d+)?", rows)}
+    limits = [*_limits(WHOLE)]
+    assert {least for _, _, least, _, _ in limits} | {most for _, _, _, most, _ in limits} <= numbers
+
+
+# --- of another insole ---
+
+OTHERS = Calibration({foot: InsoleCalibration(layout=layout(35, foot), noise=(0.5,) * 35) for foot in Foot})
+
+
+@pytest.mark.parametrize("recipe", [recipes.ZUPT, recipes.KUPT_DFPC, recipes.DEFAULT], ids=attrgetter("name"))
+def test_a_calibration_of_another_insole_is_named_and_the_walk_goes_on_without_it(recipe: Recipe) -> None:
+    items = samples(cells=96, rate=50.0)
+    session, bare = Session(recipe, calibration=OTHERS), Session(recipe)
+    told, plain = session.feed(items), bare.feed(items)
+    assert of(CellsFailed, told) == []
+    left = [event.what for event in of(Limitation, told) if event.site is Site.LEFT_FOOT]
+    assert [what for what in left if "calibration" in what] == [
+        "the calibration's layout has 35 cells, the left insole has 96: it is not used",
+        "the calibration's noise is of 35 cells, the left insole has 96: it is not used",
+    ]
+    assert of(StrideTaken, told) == of(StrideTaken, plain) != []
+
+
+def test_a_first_sample_that_is_cut_short_is_not_of_another_insole() -> None:
+    first, *others = samples(cells=96, rate=50.0)
+    known = Calibration({foot: InsoleCalibration(layout=layout(96, foot), noise=(0.0,) * 96) for foot in Foot})
+    session = Session(recipes.ZUPT, calibration=known)
+    told = session.feed([evolve(first, pressure=(0.0,) * 90), *others])
+    assert of(CellsFailed, told) == [] and of(Limitation, told) == []
+    assert all(foot.insole.layout == layout(96, foot.foot) for foot in session.feet.values())
+
+
+def test_cells_that_come_apart_from_the_inertial_samples_are_compared_too() -> None:
+    apart = [
+        part
+        for s in samples(cells=96, rate=50.0)
+        for part in (evolve(s, pressure=None), evolve(s, t=s.t + 0.004, acc=None, gyro=None))
+    ]
+    session = Session(recipes.ZUPT, calibration=OTHERS)
+    told = session.feed(sorted(apart, key=attrgetter("t")))
+    assert [event for event in of(Limitation, told) if "no pressure" in event.what] == []
+    assert of(StrideTaken, told) != []
+
+
+# --- files that are no calibrations ---
+
+
+@pytest.mark.parametrize("text", ["[" * 100_000, '{"format": ' * 100_000])
+def test_a_file_nested_a_hundred_thousand_deep_is_refused(tmp_path: Path, text: str) -> None:
+    (tmp_path / "deep.json").write_text(text)
+    with pytest.raises(CalibrationError, match="deep.json"):
+        read_calibration(tmp_path / "deep.json")
+
+
+def test_a_file_without_an_end_or_too_large_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(CalibrationError, match="/dev/zero: is no regular file"):
+        read_calibration("/dev/zero")
+    (tmp_path / "large.json").write_bytes(b" " * 20_000_000)
+    with pytest.raises(CalibrationError, match="large"):
+        read_calibration(tmp_path / "large.json")
+
+
+@pytest.mark.parametrize("text", ["null", '{"insoles": {"middle": {}}}', '{"insoles": []}'])
+def test_what_is_wrong_is_said_without_words_of_the_inside(tmp_path: Path, text: str) -> None:
+    (tmp_path / "bad.json").write_text(f'{{"format": "solepath-calibration", "version": 1, "calibration": {text}}}')
+    with pytest.raises(CalibrationError) as refused:
+        read_calibration(tmp_path / "bad.json")
+    assert "snapshot" not in str(refused.value)

@@ -1,0 +1,64 @@
+"""Contract 1, the other half: a caller's own mistakes raise, by name, and change nothing."""
+
+from __future__ import annotations
+
+from math import inf, nan
+from typing import Any
+
+import pytest
+from attrs import evolve
+from walks import LEFT, NAMES, Machine, machines
+
+from solepath import Packet, Session, SnapshotError
+
+GOOD = Packet(0.0, LEFT, "device/battery", b"\x20")
+
+
+@pytest.mark.parametrize(
+    "data",
+    [None, 5, "insole/frame", b"\xf5\x10", [GOOD, 5], [b"x"], object()],
+    ids=["none", "a number", "text", "bytes", "a list with a number", "a list of bytes", "an object"],
+)
+def test_what_is_neither_packet_nor_sample_is_a_type_error(data: Any) -> None:
+    with pytest.raises(TypeError, match="packets or samples"):
+        Session().feed(data)
+
+
+@pytest.mark.parametrize("change", [{"data": "text"}, {"data": None}, {"site": "left_foot"}, {"channel": None}])
+def test_a_packet_of_the_wrong_types_is_a_type_error_and_changes_nothing(change: dict[str, Any]) -> None:
+    session = Session()
+    before = session.snapshot()
+    with pytest.raises(TypeError, match="packet"):
+        session.feed(evolve(GOOD, **change))
+    assert session.snapshot() == before
+
+
+def test_a_recipe_is_a_recipe() -> None:
+    with pytest.raises(TypeError, match="Recipe"):
+        Session("default")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("now", [nan, inf, -inf])
+def test_time_that_is_no_number_cannot_pass(now: float) -> None:
+    with pytest.raises(ValueError, match="now"):
+        Session().advance(now)
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])
+def test_a_finished_session_is_read_but_not_fed(name: str) -> None:
+    machine: Machine = machines()[name]
+    session = machine.begin()
+    session.feed(machine.items[: len(machine.items) // 2])
+    session.finish()
+    assert session.finish() == []
+    position = session.position
+    with pytest.raises(ValueError, match="finished"):
+        session.feed(machine.items[-1])
+    assert session.position == position
+    assert machine.load(machine.save(session)).position == position
+
+
+@pytest.mark.parametrize("saved", [None, 5, "x", [], {}, {"solepath": 1}, {"state": {}}, {"solepath": 2, "state": {}}])
+def test_what_is_no_snapshot_is_a_snapshot_error(saved: Any) -> None:
+    with pytest.raises(SnapshotError):
+        Session.restore(saved)

@@ -1,0 +1,209 @@
+"""What is told for whoever draws: where the wearer is after each step, and what the cells show in each sample."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+from attrs import evolve
+from walks import LEFT, insoles, of, samples
+
+from solepath import (
+    Calibration,
+    Cell,
+    CellFault,
+    CellsFailed,
+    Event,
+    Foot,
+    FootPressed,
+    Layout,
+    LayoutKnown,
+    Limitation,
+    Phase,
+    Sample,
+    Session,
+    Site,
+    StrideTaken,
+    WearerMoved,
+    recipes,
+)
+from solepath.calibration import InsoleCalibration, Newtons
+from solepath.emulate.sensors.insoles import layout
+from solepath.events import LiveEvent
+
+BOTH = {"poses": True, "pressures": True}
+SOLE = Layout(7, Foot.LEFT, (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.13, 0.0), Cell(0.20, 0.02)), 0.26)
+KNOWN = Calibration(insoles={Foot.LEFT: InsoleCalibration(SOLE)})
+AIR = (10.0, 20.0, 0.0, 30.0)
+
+
+def frames(*cells: tuple[float, ...], begin: float = 0.0) -> list[Sample]:
+    """Samples of the left foot's cells alone, at 100 Hz."""
+    return [Sample(begin + 0.01 * k, LEFT, pressure=values) for k, values in enumerate(cells)]
+
+
+def above(*loads: float) -> tuple[float, ...]:
+    return tuple(zero + load for zero, load in zip(AIR, loads, strict=True))
+
+
+STEP = (above(100, 100, 50, 150), above(0, 0, 0, 200), AIR, above(30, 10, 0, 0), above(100, 100, 50, 150))
+"""On the whole sole, on the forefoot, in the air, on the heel, on the whole sole again. Known to have been in the air
+once the load has risen again."""
+
+
+def shown(session: Session, items: list[Sample]) -> list[FootPressed]:
+    return of(FootPressed, session.feed(items))
+
+
+# --- who asks ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", ["packets", "samples"])
+def test_nothing_else_is_said_to_those_who_ask_for_what_is_drawn(kind: str) -> None:
+    fed = insoles().packets if kind == "packets" else samples()
+    plain, asked = Session(), Session(**BOTH)
+    said = plain.feed(fed) + plain.finish()
+    told = asked.feed(fed) + asked.finish()
+    assert of(LiveEvent, said) == []
+    assert [repr(event) for event in told if not isinstance(event, LiveEvent)] == [repr(event) for event in said]
+    assert asked.position == plain.position
+
+
+def test_each_is_told_to_those_who_ask_for_it_only() -> None:
+    for flags, kinds in (("poses", {"FootMoved", "WearerMoved"}), ("pressures", {"FootPressed"})):
+        told = Session(**{flags: True}).feed(insoles().packets)
+        assert {type(event).__name__ for event in of(LiveEvent, told)} == kinds
+
+
+# --- the wearer -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["default", "kupt-dfpc", "walking-modes"])
+def test_after_every_step_it_is_told_where_the_wearer_is_then(name: str) -> None:
+    session = Session(recipes.BY_NAME[name], poses=True)
+    steps = 0
+    for packet in insoles().packets:
+        told = session.feed(packet)
+        taken, moved = of(StrideTaken, told), of(WearerMoved, told)
+        assert len(moved) == bool(taken)
+        steps += len(taken)
+        for event in moved:
+            here = session.position
+            assert here is not None and told.index(event) > told.index(taken[-1])
+            assert (event.t, event.position, event.covariance) == (here.t, here.position, here.covariance)
+            assert event.known_at == max(packet.t, event.t) and not event.final
+    assert steps > 5
+
+
+# --- the cells --------------------------------------------------------------------------------------------------------
+
+
+def test_every_sample_with_cells_is_shown_with_its_own_times() -> None:
+    fed = samples()
+    told = shown(Session(pressures=True), list(fed))
+    assert [(e.t, e.foot) for e in told] == [(s.t, s.site.foot) for s in fed if s.pressure]
+    for event in told:
+        assert len(event.values) == 24 and min(event.values) >= 0.0 and not event.final
+        assert event.force == sum(event.values)
+
+
+def test_a_foot_that_has_not_stepped_yet_is_shown_as_its_cells_have_it() -> None:
+    standing = shown(Session(pressures=True), frames(*[STEP[0]] * 50))
+    assert len(standing) == 50
+    assert {event.values for event in standing} == {STEP[0]} and standing[0].force == 460.0
+
+
+def test_what_cells_show_in_the_air_is_not_shown_once_it_is_known() -> None:
+    told = shown(Session(calibration=KNOWN, pressures=True), frames(*STEP, *STEP))
+    assert [event.values for event in told[:2]] == [*STEP[:2]]
+    assert [event.values for event in told[-3:]] == [(0.0,) * 4, (30.0, 10.0, 0.0, 0.0), (100.0, 100.0, 50.0, 150.0)]
+    assert [event.force for event in told[-3:]] == [0.0, 40.0, 400.0]
+
+
+def test_the_centre_is_where_the_load_is_and_in_the_air_there_is_none() -> None:
+    told = shown(Session(calibration=KNOWN, pressures=True), frames(*STEP, *STEP))
+    assert told[-3].centre is None
+    assert told[-2].centre == pytest.approx((0.05, 0.005))
+    assert told[-1].centre == pytest.approx((0.05 * 0.5 + 0.13 * 0.125 + 0.20 * 0.375, 0.02 * 0.375))
+
+
+def test_in_a_walk_the_centre_goes_from_heel_to_toe_and_is_gone_while_the_foot_swings() -> None:
+    session = Session(**BOTH)
+    paths: list[list[float]] = [[]]
+    swings = centres = 0
+    for packet in insoles().packets:
+        for event in of(FootPressed, session.feed(packet)):
+            if event.foot is not Foot.LEFT or event.t < 3.0:
+                continue
+            if event.centre is not None:
+                paths[-1].append(event.centre[0])
+            elif paths[-1]:
+                paths.append([])
+            if session.phase(Foot.LEFT) is Phase.SWING:
+                swings += 1
+                centres += event.centre is not None
+    stances = [path for path in paths if len(path) > 30][:2]
+    assert len(stances) == 2
+    for path in stances:
+        assert path[2] < 0.09 and path[-3] > 0.17
+    assert swings > 80 and centres < 0.25 * swings
+
+
+def test_without_a_layout_cells_are_shown_but_no_centre_of_theirs() -> None:
+    learnt = recipes.BY_NAME["kupt-dfpc"]  # a recipe of cells learns where they are, but not where from left to right
+    for session, learns in ((Session(pressures=True), False), (Session(learnt, pressures=True), True)):
+        told = session.feed(samples())
+        assert any("learnt" in event.what for event in of(Limitation, told)) == learns
+        pressed = of(FootPressed, told)
+        assert len(pressed) > 1000 and {event.centre for event in pressed} == {None}
+
+
+def test_a_sample_of_another_number_of_cells_is_not_shown() -> None:
+    cut = [evolve(sample, pressure=sample.pressure[:3]) for sample in frames(STEP[0]) if sample.pressure]
+    session = Session(calibration=KNOWN, pressures=True)
+    assert len(shown(session, frames(*STEP))) == 5
+    assert shown(session, [evolve(sample, t=1.0) for sample in cut]) == []
+    assert len(shown(session, frames(*STEP, begin=2.0))) == 5
+
+
+def test_a_cell_without_a_number_is_shown_as_nothing_even_where_a_cubic_makes_something_of_nothing() -> None:
+    cubic = Newtons((5.0, 1.0, 0.0, 0.0), 1.0, 2000.0)
+    session = Session(calibration=Calibration(insoles={Foot.LEFT: InsoleCalibration(newtons=cubic)}), pressures=True)
+    numberless: Any = (100.0, None, 50.0, 150.0)
+    told = session.feed(frames(*[numberless] * 150))
+    assert [(event.fault, event.cells) for event in of(CellsFailed, told)] == [(CellFault.MISSING, (1,))]
+    assert {event.values for event in of(FootPressed, told)} == {(105.0, 0.0, 55.0, 155.0)}
+
+
+# --- the layout -------------------------------------------------------------------------------------------------------
+
+
+def layouts(events: list[Event]) -> list[tuple[Site, int]]:
+    return [(event.site, event.layout.id) for event in of(LayoutKnown, events)]
+
+
+def test_a_calibrations_layout_is_told_once_samples_have_as_many_cells() -> None:
+    session = Session(calibration=KNOWN, pressures=True)
+    told = session.feed(frames(*STEP))
+    assert layouts(told) == [(LEFT, 7)]
+    assert told.index(of(LayoutKnown, told)[0]) < told.index(of(FootPressed, told)[0])
+    restored = Session.restore(json.loads(json.dumps(session.snapshot())))
+    for one in (session, restored):
+        assert layouts(one.feed(frames(*STEP, begin=1.0))) == []
+
+
+def test_a_calibrations_layout_of_another_number_of_cells_is_not_told() -> None:
+    session = Session(calibration=KNOWN)
+    assert layouts(session.feed(frames(*[(1.0, 2.0)] * 200))) == []
+
+
+def test_what_the_device_says_of_its_cells_stands_and_the_calibration_says_nothing_of_them_any_more() -> None:
+    own = {Foot.LEFT: InsoleCalibration(evolve(layout(96, Foot.LEFT), id=99))}
+    packets = [packet for packet in insoles().packets if packet.site is LEFT]
+    first = Session(calibration=Calibration(insoles=own)).feed(packets)
+    (said,) = layouts(first)
+    assert said[1] != 99
+    late = Session(calibration=Calibration(insoles=own))
+    assert layouts(late.feed(frames((50.0,) * 96))) == [(LEFT, 99)]
+    assert layouts(late.feed(packets)) == [said]

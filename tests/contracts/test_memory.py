@@ -1,0 +1,127 @@
+"""Contract 6: memory is bounded and does not grow with the time walked."""
+
+from __future__ import annotations
+
+import gc
+import json
+import tracemalloc
+from collections.abc import Iterator
+from functools import cache
+
+import pytest
+from attrs import evolve
+from walks import LEFT, RIGHT, insoles, of, samples
+
+from solepath import Packet, PacketRejected, PacketsLost, Sample, Session, Site, StrideTaken
+from solepath.emulate.radio import Radio
+from solepath.emulate.routes.route import Route
+from solepath.wire.error import WireError
+from solepath.wire.insole import InsoleFrame, build_frame, parse_frame
+
+LOOP = Route().stand(1.0).walk(30.0, 1.3).turn(6.0, radius=2.0).walk(20.0).stop(1.0)
+"""About a minute, walked again and again."""
+LARGEST = 130_000
+"""Characters of a snapshot: a tenth of it are the wearer's gait, heights, and the ends of the sensors' ranges."""
+INTERVAL = 328
+"""Ticks of the emulated insoles between two samples."""
+
+
+@cache
+def loop() -> tuple[tuple[Packet, InsoleFrame | None], ...]:
+    """The packets of one round over a lossy radio, with the frame in each whole one."""
+    radio = Radio(loss=0.03, duplicate=0.005, truncate=0.005, latency=0.01, jitter=0.03)
+    return tuple((packet, frame_of(packet)) for packet in insoles(LOOP, radio, seed=4).packets)
+
+
+def frame_of(packet: Packet) -> InsoleFrame | None:
+    try:
+        return parse_frame(packet.data) if packet.channel == "insole/frame" else None
+    except WireError:
+        return None
+
+
+def rounds(count: int, first: int | None = None) -> Iterator[list[Packet]]:
+    """The loop again and again: later by its length, with sequence and ticks running on and wrapping. `first`: only so
+    many packets of each round."""
+    frames = round((loop()[-1][0].t + 0.05) * 32768 / INTERVAL)
+    ticks = frames * INTERVAL
+    length = ticks / 32768
+    for k in range(count):
+        again = []
+        for packet, frame in loop()[:first]:
+            data = packet.data
+            if frame is not None:
+                sequence, now = (frame.sequence + k * frames) % 2**16, (frame.ticks + k * ticks) % 2**32
+                data = build_frame(evolve(frame, sequence=sequence, ticks=now))
+            again.append(evolve(packet, t=packet.t + k * length, data=data))
+        yield again
+
+
+def size(session: Session) -> int:
+    return len(json.dumps(session.snapshot(), allow_nan=False))
+
+
+def walk_on(session: Session, count: int) -> tuple[list[int], list[int]]:
+    """Sizes of the snapshot and steps found, round by round."""
+    sizes, steps = [], []
+    for packets in rounds(count):
+        told = session.feed(packets)
+        assert all(lost.count < 40 for lost in of(PacketsLost, told)[2:]), "the rounds do not join"
+        steps.append(len(of(StrideTaken, told)))
+        sizes.append(size(session))
+    return sizes, steps
+
+
+def check(sizes: list[int], steps: list[int]) -> None:
+    assert max(sizes) <= LARGEST
+    assert max(sizes[1:]) <= 1.05 * sizes[1], "the snapshot grows with the time walked"
+    assert min(steps) >= 0.9 * max(steps) > 30, "the walk did not go on"
+
+
+def test_a_session_of_two_insoles_is_as_large_after_three_minutes_as_after_one() -> None:
+    check(*walk_on(Session(poses=True, pressures=True), 3))
+
+
+@pytest.mark.soak
+def test_a_session_of_two_insoles_is_as_large_after_an_hour_as_after_a_minute() -> None:
+    check(*walk_on(Session(), 65))
+
+
+@pytest.mark.parametrize("seconds", [600.0, pytest.param(3600.0, marks=pytest.mark.soak)])
+def test_a_long_walk_in_samples_leaves_nothing_behind(seconds: float) -> None:
+    fed = [sample for sample in samples(LOOP, cells=0, rate=25.0) if sample.site is LEFT]
+    length = fed[-1].t + 0.04
+    session, sizes, found = Session(), [], []
+    for k in range(int(seconds / length) + 1):
+        told = session.feed([Sample(s.t + k * length, s.site, s.acc, s.gyro) for s in fed])
+        sizes.append(size(session))
+        found.append(len(of(StrideTaken, told)))
+    check(sizes, found)
+
+
+def test_the_interpreter_holds_no_more_after_each_round() -> None:
+    every = list(rounds(4, 400))  # each with the first steps of a round, after a pause
+    session = Session()
+    tracemalloc.start()
+    try:
+        held = []
+        for packets in every:
+            session.feed(packets)
+            gc.collect()
+            held.append(tracemalloc.get_traced_memory()[0])
+    finally:
+        tracemalloc.stop()
+    assert held[0] < 1_000_000
+    assert max(held[1:]) - held[1] < 30_000, held
+
+
+def test_garbage_without_end_leaves_nothing_behind() -> None:
+    session = Session()
+    session.feed([packet for packet, _ in loop()[:500]])
+    before = size(session)
+    for k in range(4000):
+        told = session.feed(Packet(5.0 + 1e-3 * k, (LEFT, RIGHT)[k % 2], "insole/frame", bytes([k % 224, k % 251] * 9)))
+        assert len(told) <= 4
+        session.feed(Packet(5.0, list(Site)[k % 7], f"insole/{k}", b""))
+    assert size(session) < before + 3000
+    assert of(PacketRejected, session.feed(Packet(9.0, LEFT, "x", b"")))

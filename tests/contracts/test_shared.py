@@ -1,0 +1,142 @@
+"""What sessions of one process hold together never makes one of them another: recipes, layouts, begun sessions."""
+
+from __future__ import annotations
+
+import json
+import sys
+import threading
+from math import inf
+
+import pytest
+from attrs import define, evolve, field
+from walks import samples
+
+from solepath import Calibration, Foot, Session, recipes
+from solepath.body.fuse.both_feet import BothFeet
+from solepath.calibration import InsoleCalibration
+from solepath.emulate.sensors.insoles import layout
+from solepath.foot.stance.stance import Load, Stance
+from solepath.recipes import own
+from solepath.types import Cell, Quat, Vec3, shared
+from solepath.types.vector import IDENTITY, ZERO
+
+
+def test_sessions_are_begun_in_many_threads_at_once() -> None:
+    """Each of a recipe of its own, so that what they hold together changes all the time."""
+    failed: list[Exception] = []
+
+    def begin(k: int) -> None:
+        try:
+            for i in range(25):
+                Session(evolve(recipes.DEFAULT, body=BothFeet(reach=1.0 + 0.001 * (1000 * k + i))))
+        except Exception as error:
+            failed.append(error)
+
+    usual = sys.getswitchinterval()
+    sys.setswitchinterval(1e-5)
+    try:
+        threads = [threading.Thread(target=begin, args=(k,)) for k in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+    finally:
+        sys.setswitchinterval(usual)
+    assert failed == []
+
+
+@define
+class Likeness:
+    """A detector whose limit is compared by nobody, and a second one that cannot be compared at all."""
+
+    limit: float = field(default=0.8, eq=False)
+    since: float = field(default=0.0, init=False)
+
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
+        rate = sum([w * w for w in gyro]) ** 0.5
+        self.since = t
+        return Stance(ZERO, 0.01 if rate < self.limit else inf, rate, None)
+
+
+@define(eq=False)
+class Quarrel(Likeness):
+    def __eq__(self, other: object) -> bool:
+        raise RuntimeError("compare me not")
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+@define(eq=False)
+class Loner(Likeness):
+    """Equal to itself only."""
+
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__
+
+
+@define(slots=False)
+class Loose:
+    """It may hold what is in no field."""
+
+    limit: float = 0.8
+    update = Likeness.update
+
+
+@pytest.mark.parametrize("kind", [Likeness, Quarrel, Loner])
+def test_an_unpacked_session_has_the_settings_of_its_recipe_whatever_its_detector_says_of_being_equal(
+    kind: type[Likeness],
+) -> None:
+    walked = samples(cells=0, rate=50.0)
+    for limit in (0.5, 5.0, 0.0, -0.0):
+        recipe = evolve(recipes.DEFAULT, name="mine", detector=kind(limit))
+        session = Session(recipe)
+        session.feed(walked[:40])
+        again = Session.unpack(session.pack(), recipe)
+        assert repr(again.recipe) == repr(session.recipe)
+        assert repr(again.feet[Foot.LEFT].detector) == repr(session.feet[Foot.LEFT].detector)
+        assert again._state.wearer.recipe is own(recipe), "and it is held once"
+
+
+def test_recipes_are_told_apart_by_all_that_a_part_holds_and_what_no_copy_is_like_is_not_kept() -> None:
+    one, other = (evolve(recipes.DEFAULT, detector=Loose()) for _ in range(2))
+    assert own(one) is own(other)
+    other.detector.__dict__["beside"] = 1.0
+    assert own(one) is not own(other) is own(other)
+    odd = evolve(recipes.DEFAULT, detector=Likeness({0.5, 0.75}))  # type: ignore[arg-type]
+    usual = own(recipes.DEFAULT)
+    for _ in range(40):
+        assert own(odd) == odd
+    assert own(recipes.DEFAULT) is usual is own(usual)
+
+
+def test_minus_zero_in_a_recipe_or_in_a_calibration_stays_what_it_is() -> None:
+    for zero in (0.0, -0.0):
+        recipe = evolve(recipes.DEFAULT, body=BothFeet(reach=zero))
+        known = Calibration(toe_out={Foot.LEFT: zero}, drift={Foot.LEFT: (zero, 0.0)})
+        session = Session(recipe, calibration=known)
+        again = Session.unpack(session.pack(), recipe)
+        assert json.dumps(again.snapshot()) == json.dumps(session.snapshot())
+        assert again.pack() == session.pack()
+
+
+def test_a_layout_is_shared_only_with_those_that_are_the_same_to_the_bit() -> None:
+    usual = layout(24, Foot.LEFT)
+    for first, more in ((0.0, -0.0), (-0.0, 0.0)):
+        number = 40 if str(first) == "0.0" else 41
+        both = [evolve(usual, id=number, cells=(Cell(x, 0.01), *usual.cells[1:])) for x in (first, more)]
+        assert [repr(shared(one)) for one in both] == [repr(one) for one in both]
+        sessions = [Session(calibration=Calibration({Foot.LEFT: InsoleCalibration(one)})) for one in both]
+        for session in sessions:
+            session.feed(samples()[:60])
+            again = Session.unpack(session.pack())
+            assert again.pack() == session.pack()
+            assert json.dumps(again.snapshot()) == json.dumps(session.snapshot())
+    for changed in (
+        evolve(usual, id=usual.id + 1), evolve(usual, foot=Foot.RIGHT), evolve(usual, length=0.3),
+        evolve(usual, scale=None), evolve(usual, scale=0.0), evolve(usual, scale=-0.0), evolve(usual, full_scale=9.0),
+        evolve(usual, cells=usual.cells[:-1]), evolve(usual, cells=()),
+    ):  # fmt: skip
+        assert repr(shared(changed)) == repr(changed)
+        assert shared(changed) is shared(evolve(changed)) is not shared(usual)

@@ -1,0 +1,295 @@
+"""Contract 1: feed takes anything; what is rejected changes nothing; only a caller's own mistakes raise."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from math import inf, isfinite, nan
+from typing import Any
+
+import pytest
+from attrs import evolve
+from hypothesis import Phase, given, settings
+from hypothesis import strategies as st
+from walks import LEFT, PACKET_NAMES, RIGHT, SAMPLE_NAMES, insoles, machines, of, samples
+
+from solepath import (
+    FootMoved,
+    Limitation,
+    Packet,
+    PacketRejected,
+    Rejection,
+    Sample,
+    SampleRejected,
+    Session,
+    Site,
+    StrideTaken,
+)
+from solepath.link.decoder import SET_BACK
+from solepath.link.known import PROFILES
+
+CHANNELS = sorted({channel.name for profile in PROFILES for channel in profile.channels})
+CUTS = 8
+TIMES = st.sampled_from([nan, inf, -inf, 1e300, -1e300, 2e11])
+
+
+@cache
+def cuts(name: str) -> list[tuple[int, Any]]:
+    """Snapshots of a machine on its way, and how much it had been fed."""
+    machine = machines()[name]
+    one, found = machine.begin(), []
+    for k, item in enumerate(machine.items):
+        if k % (len(machine.items) // CUTS) == 3:
+            found.append((k, machine.save(one)))
+        one.feed(item)
+    return found
+
+
+def without_exceptions(state: Any) -> Any:
+    """A snapshot without the two things that decoder.py lets a rejected packet change, and without its checksum."""
+    left_out = ("backwards", "fragments", "check")
+    if isinstance(state, dict):
+        return {key: without_exceptions(value) for key, value in state.items() if key not in left_out}
+    return [without_exceptions(value) for value in state] if isinstance(state, list) else state
+
+
+def strict(events: list[Any]) -> None:
+    """Every event has sound times."""
+    for event in events:
+        assert isfinite(event.t) and isfinite(event.known_at) and event.known_at >= event.t, event
+
+
+# --- packets ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", PACKET_NAMES)
+@given(st.data())
+@settings(max_examples=12, deadline=None)
+def test_any_bytes_anywhere_give_events_and_a_rejected_packet_changes_nothing(name: str, data: st.DataObject) -> None:
+    machine = machines()[name]
+    k, saved = data.draw(st.sampled_from(cuts(name)))
+    now = max(item.t for item in machine.items[:k])
+    packet = Packet(
+        data.draw(st.one_of(TIMES, st.sampled_from([now, now + 0.01, now + 1e6, now - 1e-6, -7.0]))),
+        data.draw(st.sampled_from(Site)),
+        data.draw(st.sampled_from([*CHANNELS, "insole/frames", "toaster/crumbs", "", "/", "device/"])),
+        data.draw(st.one_of(st.binary(max_size=24), st.binary(min_size=100, max_size=600))),
+    )
+    one = machine.load(saved)
+    events = one.feed(packet)
+    strict(events)
+    after = machine.save(one)
+    if rejected := [event for event in events if isinstance(event, PacketRejected)]:
+        counted = any(event.reason is Rejection.TIME_BACKWARDS for event in rejected)
+        fragment = packet.channel == "insole/frame" and packet.data[:1] < b"\xe0"
+        if counted:
+            assert without_exceptions(after) == without_exceptions(saved)
+        elif not fragment:
+            assert after == saved
+    strict([event for item in machine.items[k : k + 20] for event in one.feed(item)] + one.finish())
+
+
+def certainly_bad(packet: Packet, kind: str, number: int, when: float) -> Packet:
+    """Something that nobody can use, made of a good packet."""
+    prefix, data = packet.channel.partition("/")[0], packet.data
+    other = "cc2541/gyroscope" if prefix == "insole" else "insole/frame"
+    match kind:
+        case "unknown channel":
+            return evolve(packet, channel=f"{prefix}/crumbs", t=packet.t + 1000.0 * number)
+        case "another device":
+            return evolve(packet, channel=other, data=b"\xf5" + bytes(5))
+        case "no time":
+            return evolve(packet, t=when)
+        case "earlier":
+            return evolve(packet, t=packet.t - 1.0 - number)
+        case "site without a sensor":
+            return evolve(packet, site=Site.PELVIS, channel="nothing", t=packet.t + 1e6)
+        case "too long":
+            return evolve(packet, data=data + bytes(700))
+    channel = "insole/info" if prefix == "insole" else packet.channel
+    return evolve(packet, channel=channel, data=data + bytes(number + 30))
+
+
+QUICK = settings(max_examples=2, deadline=None, phases=[Phase.generate])
+"""A walk an example: few of them, and no shrinking."""
+SOME = {"min_size": 8, "max_size": 24}
+"""The first example of hypothesis is the least: a walk with nothing between would be one for nothing."""
+KINDS = ("unknown channel", "another device", "no time", "earlier", "site without a sensor", "too long", "nonsense")
+
+
+@pytest.mark.parametrize("name", PACKET_NAMES)
+@given(st.lists(st.tuples(st.integers(10, 10_000), st.sampled_from(KINDS), st.integers(0, 99), TIMES), **SOME))
+@QUICK
+def test_good_packets_say_the_same_whatever_comes_between_them(
+    name: str, bad: list[tuple[int, str, int, float]]
+) -> None:
+    machine = machines()[name]
+    places: dict[int, list[tuple[str, int, float]]] = {}
+    for where, *what in bad:
+        places.setdefault(10 + where % (len(machine.items) - 10), []).append(tuple(what))
+    one, told = machine.begin(), []
+    for k, item in enumerate(machine.items):
+        told += one.feed(item)
+        for what in places.get(k, ()):
+            if item.channel.startswith("device/"):
+                continue  # battery and firmware are any device's
+            events = one.feed(certainly_bad(item, *what))
+            assert [type(event) for event in events] == [PacketRejected], what
+    assert told + one.finish() == machine.events()
+
+
+def test_bytes_that_are_not_a_bytes_object_are_bytes_all_the_same() -> None:
+    items = machines()["session, whole frames"].items[:300]
+    plain = Session().feed(items)
+    for kind in (bytearray, memoryview):
+        assert Session().feed([evolve(item, data=kind(item.data)) for item in items]) == plain
+
+
+def test_a_wild_arrival_time_on_one_foot_does_not_silence_the_other() -> None:
+    walk = insoles()
+    session = Session()
+    session.feed(walk.packets[:400])
+    before = session.snapshot()
+    wild = Packet(1e9, LEFT, "insole/frame", b"\xf5 not a frame")
+    assert [type(event) for event in session.feed(wild)] == [PacketRejected]
+    assert session.snapshot() == before
+
+
+def test_a_receiver_whose_clock_is_set_back_goes_on_finding_steps() -> None:
+    walk = insoles()
+    session = Session()
+    first = session.feed(walk.packets)
+    size = len(json.dumps(session.snapshot()))
+    again = session.feed([evolve(packet, t=packet.t - 1e5) for packet in insoles(seed=2).packets])
+    assert len(of(StrideTaken, again)) >= len(of(StrideTaken, first)) - 2
+    strict(again)
+    settled = [event for event in again if isinstance(event, StrideTaken)]
+    assert all(event.t < 0.0 and event.t_start < event.t_end for event in settled)
+    assert len(json.dumps(session.snapshot())) < 1.2 * size
+
+
+# --- samples ----------------------------------------------------------------------------------------------------------
+
+
+def spoilt(sample: Sample, last: Sample) -> dict[str, tuple[Sample, Rejection]]:
+    """A sample made unusable in every way that there is, and what is said of it; `last`: the one before it."""
+    x = (0.0, 0.0, 9.8)
+    return {
+        "acc nan": (evolve(sample, acc=(0.0, nan, 9.8)), Rejection.NOT_FINITE),
+        "acc inf": (evolve(sample, acc=(inf, 0.0, 9.8)), Rejection.NOT_FINITE),
+        "acc absurd": (evolve(sample, acc=(0.0, 0.0, 1e4)), Rejection.ABSURD),
+        "gyro nan": (evolve(sample, acc=x, gyro=(nan, nan, nan)), Rejection.NOT_FINITE),
+        "gyro inf": (evolve(sample, acc=x, gyro=(0.0, -inf, 0.0)), Rejection.NOT_FINITE),
+        "gyro absurd": (evolve(sample, acc=x, gyro=(-500.0, 0.0, 0.0)), Rejection.ABSURD),
+        "pressure absurd": (evolve(sample, pressure=(1e300, 1e300)), Rejection.ABSURD),
+        "time nan": (evolve(sample, t=nan), Rejection.NOT_FINITE),
+        "time inf": (evolve(sample, t=inf), Rejection.NOT_FINITE),
+        "time absurd": (evolve(sample, t=1e300), Rejection.ABSURD),
+        "known nan": (evolve(sample, known_at=nan), Rejection.NOT_FINITE),
+        "known absurd": (evolve(sample, known_at=1e300), Rejection.ABSURD),
+        "the same time again": (evolve(sample, t=last.t), Rejection.DUPLICATE),
+        "earlier": (evolve(sample, t=last.t - 0.5), Rejection.TIME_BACKWARDS),
+        "much earlier": (evolve(sample, t=-1e9), Rejection.TIME_BACKWARDS),
+    }
+
+
+WAYS = sorted(spoilt(Sample(0.0, LEFT), Sample(0.0, LEFT)))
+
+
+FIRST = len(Site)
+"""Before this item every site has been heard."""
+
+
+def around(items: tuple[Sample, ...], k: int) -> tuple[Sample, Sample]:
+    """Item k, and the last item of its foot before it."""
+    return items[k], next(item for item in reversed(items[:k]) if item.site is items[k].site)
+
+
+@pytest.mark.parametrize("kind", WAYS)
+@pytest.mark.parametrize("name", SAMPLE_NAMES)
+def test_a_sample_that_cannot_be_used_changes_nothing_and_is_named(name: str, kind: str) -> None:
+    machine = machines()[name]
+    for k, saved in cuts(name)[1::4]:
+        one = machine.load(saved)
+        bad, reason = spoilt(*around(machine.items, k))[kind]
+        events = one.feed(bad)
+        assert [(type(event), event.reason) for event in events] == [(SampleRejected, reason)]
+        strict(events)
+        assert machine.save(one) == saved
+
+
+@pytest.mark.parametrize("name", SAMPLE_NAMES)
+@given(st.lists(st.tuples(st.integers(0, 10_000), st.sampled_from(WAYS)), **SOME))
+@QUICK
+def test_good_samples_say_the_same_whatever_comes_between_them(name: str, bad: list[tuple[int, str]]) -> None:
+    machine = machines()[name]
+    places: dict[int, list[str]] = {}
+    for where, kind in bad:
+        places.setdefault(FIRST + where % (len(machine.items) - FIRST), []).append(kind)
+    one, told = machine.begin(), []
+    for k, item in enumerate(machine.items):
+        for kind in places.get(k, ()):
+            events = one.feed(spoilt(*around(machine.items, k))[kind][0])
+            assert [type(event) for event in events] == [SampleRejected]
+        told += one.feed(item)
+    assert told + one.finish() == machine.events()
+
+
+_FLOATS = st.floats(allow_nan=True, allow_infinity=True)
+_VECTORS = st.none() | st.tuples(_FLOATS, _FLOATS, _FLOATS)
+_SAMPLES = st.builds(
+    Sample,
+    t=st.one_of(_FLOATS, st.floats(0.0, 20.0)),
+    site=st.sampled_from(Site),
+    acc=_VECTORS,
+    gyro=_VECTORS,
+    pressure=st.none() | st.lists(_FLOATS, max_size=4).map(tuple),
+    known_at=st.none() | _FLOATS,
+    saturated=st.booleans(),
+)
+
+
+@pytest.mark.parametrize("name", SAMPLE_NAMES)
+@given(st.sampled_from(range(CUTS)), st.lists(_SAMPLES, max_size=12))
+@settings(max_examples=15, deadline=None)
+def test_any_samples_at_all_give_events(name: str, cut: int, fed: list[Sample]) -> None:
+    machine = machines()[name]
+    k, saved = cuts(name)[cut]
+    one = machine.load(saved)
+    strict([event for sample in fed for event in one.feed(sample)])
+    strict([event for item in machine.items[k : k + 50] for event in one.feed(item)] + one.finish())
+    machine.save(one)
+
+
+def test_a_session_that_only_heard_nonsense_is_as_new() -> None:
+    session = Session()
+    session.feed(Packet(3.0, LEFT, "insole/frame", b"\xf5\x10"))
+    session.feed(Packet(nan, RIGHT, "cc2650/movement", bytes(18)))
+    session.feed(Sample(1.0, LEFT, acc=(nan, 0.0, 0.0), gyro=(0.0, 0.0, 0.0)))
+    session.feed(Sample(nan, Site.PELVIS, acc=(1.0, 0.0, 0.0), gyro=(0.0, 0.0, 0.0)))
+    assert session.snapshot() == Session().snapshot()
+    assert session.position is None and session.support is None
+
+
+def test_a_sample_cannot_be_known_before_it_was() -> None:
+    session = Session(poses=True)
+    told = session.feed([evolve(sample, known_at=sample.t - 3.0) for sample in samples()])
+    assert len(of(FootMoved, told)) > 500
+    strict(told)
+
+
+def test_a_site_that_is_no_foot_is_said_once() -> None:
+    session = Session()
+    told = session.feed([Sample(0.01 * k, Site.PELVIS, (0.0, 0.0, 9.8), (0.0, 0.0, 0.0)) for k in range(50)])
+    assert [type(event) for event in told] == [Limitation]
+    assert told[0].site is Site.PELVIS and "pelvis" in told[0].what
+
+
+def test_nineteen_packets_from_the_past_are_refused_and_the_twentieth_sets_the_clock() -> None:
+    walk = insoles()
+    session = Session()
+    session.feed(walk.packets[:200])
+    (left,) = (packet for packet in walk.packets[200:202] if packet.site is LEFT)
+    said = [session.feed(evolve(left, t=-50.0 + 0.01 * k)) for k in range(SET_BACK)]
+    assert all(event.reason is Rejection.TIME_BACKWARDS for events in said[:-1] for event in events)
+    assert [type(event).__name__ for event in said[-1]][:1] == ["ClockReset"]

@@ -1,0 +1,142 @@
+"""The emulator's building is a plan that can be used, and nobody who walks in it goes through a wall."""
+
+from itertools import pairwise
+from math import hypot, pi
+
+import numpy as np
+import pytest
+from here import EXAMPLES
+
+from solepath.emulate.routes.building import BUILDING, CABINS, EAST, NORTH, STOREY, WELLS
+from solepath.emulate.routes.ways import Way, case_study, corridor, wandering
+from solepath.emulate.sensors.parts import MPU6050
+from solepath.emulate.wearers.walker import Walker
+from solepath.floorplan.checks import unusable, warnings
+from solepath.floorplan.importers.reading import read_floorplan
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import ConnectorKind
+from solepath.types import Activity, Foot
+from solepath.types.vector import GRAVITY
+
+LEVEL = {level.id: number for number, level in enumerate(BUILDING.levels)}
+SEEDS = range(101, 113)
+
+
+@pytest.fixture(scope="module")
+def plan() -> IndexedPlan:
+    return IndexedPlan(BUILDING)
+
+
+def test_the_building_has_two_floors_of_56_by_63_metres_with_four_lifts_and_two_staircases() -> None:
+    assert unusable(BUILDING) is None and warnings(BUILDING) == ()
+    assert len(BUILDING.levels) == 2
+    for level in BUILDING.levels:
+        ends = [point for wall in level.walls for point in (wall.start, wall.end)]
+        assert (min(x for x, _ in ends), max(x for x, _ in ends)) == (0.0, EAST) == (0.0, 56.0)
+        assert (min(y for _, y in ends), max(y for _, y in ends)) == (0.0, NORTH) == (0.0, 63.0)
+    kinds = [one.kind for one in BUILDING.connectors]
+    assert kinds.count(ConnectorKind.LIFT) == 4 and kinds.count(ConnectorKind.STAIRS) == 2
+    assert all(one.flights == 2 for one in BUILDING.connectors if one.kind is ConnectorKind.STAIRS)
+    assert BUILDING.levels[1].elevation - BUILDING.levels[0].elevation == STOREY
+
+
+def test_the_example_file_is_the_building() -> None:
+    path = EXAMPLES / "building.geojson"
+    assert read_floorplan(path) == BUILDING
+
+
+def test_rooms_are_closed_but_for_their_doors(plan: IndexedPlan) -> None:
+    for number, level in enumerate(BUILDING.levels):
+        for door in level.doors:
+            (x0, y0), (x1, y1) = door.start, door.end
+            x, y, away = 0.5 * (x0 + x1), 0.5 * (y0 + y1), hypot(x1 - x0, y1 - y0)
+            dx, dy = 0.2 * (y1 - y0) / away, 0.2 * (x0 - x1) / away
+            assert not plan.crosses(number, x - dx, y - dy, x + dx, y + dy)
+        assert plan.crosses(number, 9.0, 13.5, 12.0, 13.5) and plan.crosses(number, 5.0, 28.5, 5.0, 29.5)
+
+
+def walked(way: Way, seed: int) -> tuple[Walker, np.ndarray, list[tuple[str, float, float]]]:
+    walker = Walker(way.route, seed=seed)
+    t = np.arange(0.0, walker.duration, 0.2)
+    return walker, t, way.places(walker, t)
+
+
+@pytest.mark.parametrize("way", [case_study(), corridor(), *map(wandering, SEEDS)], ids=["case", "corridor", *SEEDS])
+def test_nobody_walks_through_a_wall(plan: IndexedPlan, way: Way) -> None:
+    _, _, places = walked(way, 7)
+    for (level, x0, y0), (_, x1, y1) in pairwise(places):
+        assert not plan.crosses(LEVEL[level], x0, y0, x1, y1)
+        assert plan.inside(LEVEL[level], x0, y0)
+        for aside, up in ((0.4, 0.0), (-0.4, 0.0), (0.0, 0.4), (0.0, -0.4)):
+            assert not plan.crosses(LEVEL[level], x0, y0, x0 + aside, y0 + up)  # nor with a shoulder
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_wanderer_comes_by_one_connector_and_leaves_by_another(seed: int) -> None:
+    way = wandering(seed)
+    truth = Walker(way.route, seed=seed).truth()
+    assert way.came != way.left and {way.came, way.left} <= {one.name for one in BUILDING.connectors}
+    lifts = {cabin.name for cabin in CABINS}
+    assert len(truth.rides) == (way.came in lifts) + (way.left in lifts)
+    assert len(truth.flights) == 2 * ((way.came not in lifts) + (way.left not in lifts))
+    climbed = sum(ride.height for ride in truth.rides) + sum(flight.height for flight in truth.flights)
+    assert climbed == pytest.approx(0.0)  # to the other floor and back
+    assert way.start.level != way.level
+
+
+def test_wanderers_go_different_ways_and_the_same_seed_the_same_one() -> None:
+    ways = [wandering(seed) for seed in SEEDS]
+    assert len({(way.came, way.left, way.route.length) for way in ways}) == len(ways)
+    assert {way.level for way in ways} == set(LEVEL)
+    assert {way.came for way in ways} == {one.name for one in (*CABINS, *WELLS)}
+    assert wandering(SEEDS[0]) == ways[0]
+
+
+def test_the_case_study_goes_down_by_the_lift_at_the_bottom_left_and_away_by_another() -> None:
+    way = case_study()
+    walker, t, places = walked(way, 3)
+    truth = walker.truth()
+    assert [ride.height for ride in truth.rides] == pytest.approx([-STOREY, STOREY])
+    on_floor = (t > truth.rides[0].t_end) & (t < truth.rides[1].t_start)
+    assert {place[0] for place, there in zip(places, on_floor, strict=True) if there} == {way.level}
+    (ax, ay), (bx, by) = CABINS[0].middle, CABINS[1].middle
+    first, last = np.array(places[0][1:]), np.array(places[-1][1:])
+    assert np.hypot(*(first - (ax, ay))) < 0.1 and np.hypot(*(last - (bx, by))) < 0.1
+    assert ax < 0.25 * EAST and ay < 0.25 * NORTH
+
+
+def test_the_corridor_is_63_metres_straight_on() -> None:
+    way = corridor()
+    walker, _, places = walked(way, 4)
+    assert way.route.length == pytest.approx(63.0)
+    assert way.start.heading == 0.5 * pi
+    assert places[-1][2] - places[0][2] == pytest.approx(63.0, abs=0.05)
+    assert max(abs(x - places[0][1]) for _, x, _ in places) < 0.2
+    told = [what for _, _, what in walker.truth().activities]
+    assert told == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
+
+
+def test_the_true_place_is_where_the_feet_are_on_the_plan() -> None:
+    """The start's heading turns the walk's world into the plan's."""
+    way = wandering(103)
+    walker, t, places = walked(way, 5)
+    truth = walker.truth()
+    heading = way.start.heading or 0.0
+    feet = [truth.pose(foot, t).position + np.array(truth.feet[foot].origin) for foot in Foot]
+    middle = 0.5 * (feet[0] + feet[1])
+    x = way.start.place[0] + np.cos(heading) * middle[:, 0] - np.sin(heading) * middle[:, 1]
+    y = way.start.place[1] + np.sin(heading) * middle[:, 0] + np.cos(heading) * middle[:, 1]
+    away = [hypot(a - p[1], b - p[2]) for a, b, p in zip(x.tolist(), y.tolist(), places, strict=True)]
+    assert max(away) < 0.25  # the sensors are not at the ankles
+
+
+def test_samples_of_an_mpu_6050_have_the_errors_of_its_sheet_on_stairs_and_in_lifts() -> None:
+    walker = Walker(wandering(105).route, seed=8)
+    exact = walker.samples(Foot.RIGHT, 100.0)
+    worn = walker.samples(Foot.RIGHT, 100.0, MPU6050)
+    assert len(worn) == len(exact) and all(one.air_pressure is None for one in worn)
+    standing = slice(0, 150)
+    noise = np.std([one.gyro for one in worn[standing]], axis=0)
+    assert np.all(noise < np.radians(0.005) * np.sqrt(50.0) * 2.0) and np.all(noise > 0.0)
+    off = np.mean([one.acc for one in worn[standing]], axis=0) - np.mean([one.acc for one in exact[standing]], axis=0)
+    assert np.abs(off).max() < 0.2 * GRAVITY

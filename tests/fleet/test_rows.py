@@ -1,0 +1,161 @@
+"""Rows and lines of a fleet: protocol/fleet/lines.json, and anything else that a table or a topic may hold."""
+
+from __future__ import annotations
+
+import json
+import re
+from math import nan
+from typing import Any
+
+import attrs
+import pytest
+from fleets import walked
+from here import PROTOCOL
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath.events import HeelStrike, PacketRejected, Rejection
+from solepath.fleet import (
+    SENT_COLUMNS,
+    TOLD_COLUMNS,
+    End,
+    Fleet,
+    FleetEvent,
+    NumberedEvent,
+    NumbersMissing,
+    Refusal,
+    Sent,
+    Tick,
+    Unreadable,
+    read_line,
+    read_sent,
+    sent_line,
+    sent_row,
+    told_row,
+)
+from solepath.fleet.step.sent import LONGEST_DATA, LONGEST_NAME, MOST
+from solepath.types import Foot, Packet, Site
+
+LINES = json.loads((PROTOCOL / "fleet" / "lines.json").read_text())
+NAMES = st.text(st.characters(exclude_categories=["Cs"]), max_size=8)
+COUNTS = st.integers(0, MOST)
+TIMES = st.floats(allow_nan=False, allow_infinity=False)
+PACKETS = st.builds(Packet, TIMES, st.sampled_from(Site), NAMES, st.binary(max_size=8), NAMES)
+SENT = st.builds(Sent, NAMES, COUNTS, st.one_of(PACKETS, st.builds(Tick, TIMES), st.just(End())), COUNTS)
+ANYTHING = st.recursive(
+    st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=5), st.binary(max_size=5)),
+    lambda inner: st.one_of(st.lists(inner, max_size=3), st.dictionaries(st.text(max_size=3), inner, max_size=3)),
+    max_leaves=6,
+)
+
+
+def told_of(sent: Sent) -> dict[str, Any]:
+    """What was sent, in the words of the lines."""
+    match sent.what:
+        case Packet(t, site, channel, data, device):
+            what = {"t": t, "site": site.value, "channel": channel, "data": data.hex(), "device": device}
+            return {"wearer": sent.wearer, "run": sent.run, "number": sent.number, "packet": what}
+        case Tick(t):
+            return {"wearer": sent.wearer, "run": sent.run, "number": sent.number, "tick": t}
+    return {"wearer": sent.wearer, "run": sent.run, "number": sent.number, "end": True}
+
+
+@pytest.mark.parametrize("line", LINES["lines"], ids=lambda line: line["id"])
+def test_a_line_says_what_the_protocol_says(line: dict[str, Any]) -> None:
+    read = read_line(line["line"].encode())
+    if line["result"] == "valid":
+        assert isinstance(read, Sent) and told_of(read) == line["sent"]
+        assert (sent_line(read) == line["line"].encode() + b"\n") is line["canonical"]
+    else:
+        assert isinstance(read, Unreadable) and read.what
+        assert (read.wearer, read.run, read.number) == (line["wearer"], line["run"], line["number"])
+
+
+def test_there_are_as_many_lines_as_they_say() -> None:
+    assert LINES["schema"] == "solepath fleet lines 1" and LINES["count"] == len(LINES["lines"])
+
+
+@settings(max_examples=60, deadline=None)
+@given(sent=SENT)
+def test_what_is_sent_is_read_again_from_its_row_and_from_its_line(sent: Sent) -> None:
+    row = sent_row(sent)
+    assert row.keys() == SENT_COLUMNS.keys()
+    assert read_sent(row) == sent == read_line(sent_line(sent))
+    assert all(value is None or type(value) is SENT_COLUMNS[name] for name, value in row.items())
+
+
+@settings(max_examples=60, deadline=None)
+@given(row=st.one_of(ANYTHING, st.fixed_dictionaries({}, optional=dict.fromkeys(SENT_COLUMNS, ANYTHING))))
+def test_a_row_of_anything_is_read_or_is_unreadable(row: Any) -> None:
+    assert isinstance(read_sent(row), Sent | Unreadable)
+
+
+@settings(max_examples=60, deadline=None)
+@given(sent=SENT, at=st.integers(0, 400), byte=st.integers(0, 255), end=st.integers(0, 400))
+def test_a_line_that_was_torn_or_damaged_is_read_or_is_unreadable(sent: Sent, at: int, byte: int, end: int) -> None:
+    line = bytearray(sent_line(sent))
+    line[at % len(line)] = byte
+    assert isinstance(read_line(bytes(line)), Sent | Unreadable)
+    assert isinstance(read_line(sent_line(sent)[: min(end, len(line) - 2)]), Unreadable)
+
+
+def test_what_is_no_line_is_unreadable() -> None:
+    for line in (None, "text", b"\xff", b"[" * 50_000, b"1" * 70_000, b'{"number":' + b"9" * 5000 + b"}"):
+        assert isinstance(read_line(line), Unreadable)
+
+
+def test_a_row_holds_no_more_than_a_phone_has_to_say() -> None:
+    row = sent_row(Sent("w", 3, Packet(1.0, Site.PELVIS, "c", bytes(LONGEST_DATA), "d" * LONGEST_NAME)))
+    assert isinstance(read_sent(row), Sent)
+    for key, value in (("data", bytes(LONGEST_DATA + 1)), ("channel", "c" * 257), ("device", "d" * 257)):
+        assert read_sent(row | {key: value}) == Unreadable("w", read_sent(row | {key: value}).what, 0, 3)
+
+
+def test_tables_may_bring_bytes_and_numbers_of_their_own_kinds() -> None:
+    numpy = pytest.importorskip("numpy")
+    row = sent_row(Sent("w", 3, Packet(1.0, Site.PELVIS, "c", b"ab"), 2))
+    own = {"data": bytearray(b"ab"), "number": numpy.int64(3), "run": numpy.int32(2), "t": numpy.float64(1.0)}
+    assert read_sent({**row, **own}) == read_sent(row)
+    assert type(read_sent({**row, **own}).number) is int
+
+
+def test_a_time_that_json_cannot_write_is_no_line() -> None:
+    with pytest.raises(ValueError, match="JSON"):
+        sent_line(Sent("w", 0, Tick(nan)))
+
+
+def test_an_event_is_a_row_with_its_identity_its_times_its_foot_and_the_rest_as_json() -> None:
+    told = NumberedEvent("w", 7, HeelStrike(t=1.5, known_at=1.75, foot=Foot.LEFT))
+    row = told_row(told)
+    assert row.keys() == TOLD_COLUMNS.keys()
+    rest = json.loads(row.pop("fields"))
+    assert row == {
+        "wearer": "w", "number": 7, "event": "HeelStrike", "t": 1.5, "known_at": 1.75, "final": True, "foot": "left",
+    }  # fmt: skip
+    assert not rest.keys() & row.keys()
+
+
+def test_an_event_without_a_foot_or_with_a_time_that_is_none_is_a_row_too() -> None:
+    missing = told_row(NumberedEvent("w", 0, NumbersMissing(t=0.0, known_at=0.0, run=0, first=3, count=4)))
+    assert missing["foot"] is None and json.loads(missing["fields"]) == {"run": 0, "first": 3, "count": 4}
+    lost = PacketRejected(t=nan, known_at=1.0, site=Site.PELVIS, channel="\ud83d", reason=Rejection.NOT_FINITE)
+    row = told_row(NumberedEvent("w", 1, lost))
+    assert row["t"] is None and json.loads(row["fields"])["channel"] == "\ud83d"
+
+
+def test_every_event_of_a_walk_is_a_row_of_the_columns() -> None:
+    _, told = Fleet(poses=True, pressures=True).step("w", None, walked().sent[:300])
+    assert len(told) > 300
+    for one in told:
+        row = told_row(one)
+        assert all(value is None or type(value) is TOLD_COLUMNS[name] for name, value in row.items()), one
+
+
+def test_the_protocol_names_all_that_a_fleet_tells() -> None:
+    page = (PROTOCOL / "fleet.md").read_text()
+    for kind in FleetEvent.__args__:
+        own = {field.name for field in attrs.fields(kind)} - {"t", "known_at", "final"}
+        (line,) = [line for line in page.splitlines() if line.startswith(f"| `{kind.__name__}` |")]
+        assert own == set(re.findall(r"`(\w+)`", line.split("|")[2]))
+    assert all(f"`{reason.value}`" in page for reason in Refusal)
+    assert all(f"| `{name}` |" in page for name in SENT_COLUMNS)

@@ -1,0 +1,230 @@
+"""A fleet on Spark: the events of sessions, also past rows of anything and states of nobody.
+
+pip install solepath[spark,test], Java 17, then
+python -m pytest -m "spark and not soak" tests/fleet/test_spark*.py            # about three minutes
+python -m pytest -m "spark and soak" -s tests/fleet/test_spark*.py             # 1,000 wearers; prints its rate
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from struct import pack
+from typing import Any
+
+import pytest
+from here import HELPERS
+from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, of_sessions, put, says, sent, told
+from toys import BASE
+
+from solepath.fleet import TOLD_COLUMNS, Fleet, NumberedEvent, Sent, sent_line, sent_row, told_row
+from solepath.recipes import BY_NAME
+from solepath.session import Session
+from solepath.types import Packet, Site
+
+pytestmark = [pytest.mark.spark]
+_needed = pytest.fixture(needed, scope="module", autouse=True)
+
+
+@pytest.fixture(scope="module")
+def spark() -> Iterator[Any]:
+    from pyspark.sql import SparkSession
+
+    from solepath.fleet.spark import STORE
+
+    os.environ["SPARK_LOCAL_IP"] = "127.0.0.1"
+    os.environ["PYSPARK_PYTHON"] = sys.executable
+    os.environ["PYTHONPATH"] = os.pathsep.join([str(HELPERS), os.environ.get("PYTHONPATH", "")])
+    session = SparkSession.builder.master(MASTER).config(map=CONF | STORE).getOrCreate()
+    session.sparkContext.setLogLevel("ERROR")
+    yield session
+    session.stop()
+
+
+def run(rows: Any, directory: Path, fleet: Fleet | Callable[[], Fleet] | None = None, states: Any = None) -> list[Row]:
+    """All that is there through the fleet, into files below `directory`."""
+    from solepath.fleet.spark import gait
+
+    events = gait(rows, Fleet() if fleet is None else fleet, states)
+    writer = events.writeStream.format("parquet").option("checkpointLocation", str(directory / "checkpoint"))
+    writer.trigger(availableNow=True).start(str(directory / "told")).awaitTermination()
+    return told(directory / "told")
+
+
+def stream(spark: Any, directory: Path, files: int = 1) -> Any:
+    from solepath.fleet.spark import SENT_SCHEMA
+
+    return spark.readStream.schema(SENT_SCHEMA).option("maxFilesPerTrigger", files).parquet(str(directory))
+
+
+# --- the events -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("recipe", ["default", "kupt-dfpc"])
+def test_events_through_spark_are_those_of_a_session(spark, tmp_path, recipe):
+    deliver(tmp_path / "sent", wearers=5, files=5)
+    events = run(stream(spark, tmp_path / "sent"), tmp_path, Fleet(BY_NAME[recipe]))
+    assert events == expected(5, recipe)
+    assert list(events[0]) == list(TOLD_COLUMNS)
+    assert {"StrideTaken", "HeelStrike"} <= {row["event"] for row in events}
+
+
+def test_other_readers_find_the_files_that_spark_finds(spark, tmp_path):
+    """After a few batches Spark folds what it has written of its files into one."""
+    deliver(tmp_path / "sent", wearers=2, files=5)
+    events = run(stream(spark, tmp_path / "sent"), tmp_path)
+    assert list((tmp_path / "told/_spark_metadata").glob("*.compact"))
+    nobodys = tmp_path / "told" / "part-of-a-killed-task.snappy.parquet"
+    nobodys.write_bytes(b"PAR1")
+    assert told(tmp_path / "told") == events == in_order(
+        row.asDict() for row in spark.read.parquet(str(tmp_path / "told")).collect()
+    )  # fmt: skip
+
+
+def test_messages_as_kafka_has_them_give_the_same_events(spark, tmp_path):
+    """Their key is the wearer, and their value are lines, of a second or so."""
+    from pyarrow import parquet, table
+
+    wrong = {b"w0": [b"no JSON\n", b"\xff{\n", sent_line(sent(1, 1)[0])], b"\xff\xfe": [b"{}"], b"w3": [b"\n"] * 5000}
+    messages = [(f"w{wearer}".encode(), lines) for wearer in range(2) for lines in _bundles(wearer)]
+    messages += [*wrong.items(), (None, [])]
+    random.Random(3).shuffle(messages)
+    (tmp_path / "sent").mkdir()
+    keys, values = [key for key, _ in messages], [b"".join(lines) for _, lines in messages]
+    parquet.write_table(table({"key": keys, "value": values}), tmp_path / "sent/messages.parquet")
+    rows = spark.readStream.schema("key binary, value binary").parquet(str(tmp_path / "sent"))
+    events = run(rows, tmp_path)
+    refused = [row["wearer"] for row in events if row["event"] == "SentRejected"]
+    assert sorted(refused) == ["w0", "w0", "w0", "w3", "\ufffd\ufffd"]
+    rest = [row for row in events if row["event"] != "SentRejected"]
+    of = [[without_number(row) for row in rest if row["wearer"] == f"w{wearer}"] for wearer in range(2)]
+    assert of == [[without_number(row) for row in expected(2) if row["wearer"] == f"w{wearer}"] for wearer in range(2)]
+
+
+def _bundles(wearer: int) -> Iterator[list[bytes]]:
+    lines = [sent_line(one) for one in sent(wearer, wearer)]
+    yield from (lines[at : at + 200] for at in range(0, len(lines), 200))
+
+
+def without_number(row: Row) -> Row:
+    return {key: value for key, value in row.items() if key != "number"}
+
+
+def of_toys() -> Fleet:
+    """One that no pickle takes."""
+    return Fleet(profiles=[BASE])
+
+
+def test_a_fleet_with_a_device_of_ones_own_is_made_where_it_is_used(spark, tmp_path):
+    batteries = [0.5, float("nan"), 0.25]
+    data = [bytes([0]) + pack(">d", share) for share in batteries] + [bytes([11]) + pack(">d", 1.0)]
+    packets = [Packet(float(t), Site.LEFT_FOOT, "toy/more", one) for t, one in enumerate(data)]
+    (tmp_path / "sent").mkdir()
+    put(tmp_path / "sent/toy.parquet", [sent_row(Sent("w0", number, one)) for number, one in enumerate(packets)], 0)
+    events = run(stream(spark, tmp_path / "sent"), tmp_path, of_toys)
+    said = Session(profiles=[BASE]).feed(packets)
+    assert {"BatteryLevel", "PacketRejected"} <= {row["event"] for row in events}
+    assert events == [told_row(NumberedEvent("w0", number, event)) for number, event in enumerate(said)]
+
+
+# --- what goes wrong --------------------------------------------------------------------------------------------------
+
+
+def anything(count: int) -> Iterator[Row]:
+    """Rows of wearers whose rows are filled at random: of any bytes, also where the rest is as it should be."""
+    chance = random.Random(8)
+    good = [sent_row(one) for one in sent(0, 0)]
+
+    def flawed(row: Row) -> Row:
+        longer = chance.choice([chance.randbytes(40), chance.randbytes(5000), b"", None])
+        odd = chance.choice([None, "", "left_foot", "tick", "end", "insole/frame", "\u0000", "x" * 300])
+        numbers = chance.choice([None, -1, 0, 2**63 - 1, -(2**63), chance.randrange(2000)])
+        times = chance.choice([None, float("nan"), float("inf"), -1e308, 0.0])
+        key = chance.choice(sorted(row))
+        value = {"data": longer, "t": times, "run": numbers, "number": numbers}.get(key, odd)
+        return {**row, "wearer": f"poisoned {chance.randrange(5)}", key: value}
+
+    for row in chance.choices(good, k=count):
+        yield flawed(row)
+
+
+def test_a_wearer_of_anything_stalls_no_other(spark, tmp_path):
+    deliver(tmp_path / "sent", wearers=3, files=5, more=anything(2000))
+    events = run(stream(spark, tmp_path / "sent"), tmp_path)
+    assert of_sessions(events) == expected(3)
+    poisoned = [row for row in events if row["wearer"].startswith("poisoned")]
+    assert {"SentRejected", "NumbersMissing"} <= {row["event"] for row in poisoned}
+    assert any(row["wearer"] == "" and "wearer is no text" in row["fields"] for row in events)
+
+
+def test_text_that_is_no_text_ends_no_job(spark, tmp_path):
+    """Parquet holds whatever bytes were written as text."""
+    import pyarrow as pa
+    from pyarrow import parquet
+
+    (tmp_path / "sent").mkdir()
+    rows = [sent_row(one) for one in sent(0, 0)]
+    put(tmp_path / "sent/good.parquet", rows, 0)
+    bad = parquet.read_table(tmp_path / "sent/good.parquet").take([0, 0, 0])
+    for name in ("wearer", "site", "channel", "device"):
+        bytes_ = pa.array([b"\xff\xfe", b"w0\x80", b"\xed\xa0\x80"]).view(pa.string())
+        bad = bad.set_column(bad.column_names.index(name), name, bytes_)
+    parquet.write_table(bad, tmp_path / "sent/bad.parquet")
+    events = run(stream(spark, tmp_path / "sent"), tmp_path)
+    assert of_sessions(events) == expected(1)
+    assert [row["event"] for row in events if row["wearer"] != "w0"] == ["SentRejected"] * 3
+
+
+def test_a_state_that_cannot_go_on_is_told_and_its_wearer_begins_afresh(spark, tmp_path):
+    """As after a step back to an older release: its version is 250."""
+    from binascii import crc32
+
+    fleet = Fleet()
+    states, before = {}, {}
+    for wearer in range(3):
+        first = sent(wearer, wearer)[:400]
+        states[f"w{wearer}"], events = fleet.step(f"w{wearer}", None, first)
+        before[f"w{wearer}"] = [told_row(one) for one in events]
+    head = states["w1"][:4] + bytes([250]) + states["w1"][5:37]
+    states["w1"] = head + crc32(head).to_bytes(4, "little") + states["w1"][41:]
+    states["w2"] = b"nothing that anybody wrote"
+
+    (tmp_path / "sent").mkdir()
+    put(tmp_path / "sent/rest.parquet", [sent_row(one) for wearer in range(3) for one in sent(wearer, wearer)[400:]], 0)
+    frame = spark.createDataFrame(list(states.items()), "wearer string, state binary")
+    events = run(stream(spark, tmp_path / "sent"), tmp_path, fleet, frame)
+    of = {wearer: [row for row in events if row["wearer"] == wearer] for wearer in states}
+    assert before["w0"] + of["w0"] == [row for row in expected(1) if row["wearer"] == "w0"]
+    for wearer, reason in (("w1", "version 250"), ("w2", "")):
+        first, *rest = of[wearer]
+        assert first["event"] == "StateRefused" and reason in first["fields"]
+        assert {"StrideTaken", "HeelStrike"} <= {row["event"] for row in rest}
+        assert first["number"] >= len(before[wearer]), "no identity is used twice"
+
+
+def test_states_of_a_checkpoint_go_on_in_a_job_of_more_partitions(spark, tmp_path):
+    """The number of partitions is for the life of a checkpoint; a new job begins with the states of the old one."""
+    deliver(tmp_path / "sent", wearers=4, files=5)
+    later = tmp_path / "later"
+    later.mkdir()
+    for path in sorted((tmp_path / "sent").iterdir())[3:]:
+        path.rename(later / path.name)
+    before = run(stream(spark, tmp_path / "sent"), tmp_path)
+    store = spark.read.format("statestore").option("stateVarName", "wearer").load(str(tmp_path / "checkpoint"))
+    states = store.selectExpr("key.key as wearer", "value.state as state").localCheckpoint()
+    spark.conf.set("spark.sql.shuffle.partitions", "3")
+    try:
+        after = run(stream(spark, later), tmp_path / "next", states=states)
+    finally:
+        spark.conf.set("spark.sql.shuffle.partitions", CONF["spark.sql.shuffle.partitions"])
+    assert before and after and in_order(before + after) == expected(4)
+
+
+def test_events_of_a_wearer_have_one_number_each():
+    numbers = [row["number"] for row in says(0, "default")]
+    assert numbers == list(range(len(numbers)))
+    assert all(isinstance(json.loads(row["fields"]), dict) for row in says(0, "default"))

@@ -1,0 +1,140 @@
+"""A job on Spark in processes of its own, past a kill -9 and a full disk: test_fleet_spark.py says how to run it."""
+
+from __future__ import annotations
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from here import EXAMPLES
+from sparks import CONF, MASTER, deliver, expected, needed, told
+
+from solepath.fleet.spark_files import committed
+
+JOB = EXAMPLES / "spark_gait.py"
+
+pytestmark = [pytest.mark.spark]
+_needed = pytest.fixture(needed, scope="module", autouse=True)
+
+
+class Job:
+    """examples/spark_gait.py in processes of its own: the driver, its JVM and the Python workers."""
+
+    def __init__(self, directory: Path, told: str = "told", checkpoint: str = "checkpoint") -> None:
+        self.told, self.checkpoint, self.log = directory / told, directory / checkpoint, directory / f"{told}.log"
+        conf = " ".join(f"--conf {key}={value}" for key, value in CONF.items())
+        place = {"PYSPARK_SUBMIT_ARGS": f"--master {MASTER} {conf} pyspark-shell", "SPARK_LOCAL_IP": "127.0.0.1"}
+        command = [sys.executable, JOB, directory / "sent", self.told, self.checkpoint, "--files", "1"]
+        with self.log.open("w") as log:
+            self.process = subprocess.Popen(
+                command, env=os.environ | place, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=log,
+                text=True, start_new_session=True,
+            )  # fmt: skip
+
+    def __enter__(self) -> Job:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.kill()
+        self.process.wait()
+        if self.process.stdout is not None:
+            self.process.stdout.close()
+
+    def batches(self) -> int:
+        """How many are done with."""
+        return len(list(self.checkpoint.glob("commits/[0-9]*")))
+
+    def until(self, batches: int) -> None:
+        while self.batches() < batches:
+            assert self.process.poll() is None, self.log.read_text()[-3000:]
+            time.sleep(0.02)
+
+    def end(self) -> str:
+        told, _ = self.process.communicate()
+        assert self.process.returncode == 0, self.log.read_text()[-3000:]
+        return told
+
+    def kill(self) -> int:
+        """kill -9 of all of it at once. Returns how many processes there were."""
+        there = map(int, filter(str.isdigit, os.listdir("/proc")))
+        session = [pid for pid in there if _session(pid) == self.process.pid]
+        for pid in session:
+            os.kill(pid, signal.SIGKILL)
+        while any(_session(pid) == self.process.pid and not _is_dead(pid) for pid in session):
+            time.sleep(0.01)
+        return len(session)
+
+
+def _session(pid: int) -> int | None:
+    try:
+        return os.getsid(pid)
+    except ProcessLookupError:
+        return None
+
+
+def _is_dead(pid: int) -> bool:
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
+    except OSError:
+        return True
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="finds the processes of a job in /proc")
+@pytest.mark.parametrize(("wearers", "kills"), [(25, 2), pytest.param(1000, 1, marks=pytest.mark.soak)])
+def test_a_job_that_is_killed_in_mid_stream_tells_what_one_that_runs_through_tells(tmp_path, wearers, kills):
+    files = 10
+    rows = deliver(tmp_path / "sent", wearers, files)
+    begun = time.monotonic()
+    with Job(tmp_path, "through", "through-checkpoint") as job:
+        job.until(1)
+        first = time.monotonic()
+        batches = job.end()
+        seconds = (time.monotonic() - first) / (files - 1)
+    print(f"\n{wearers} wearers, {rows} rows in {time.monotonic() - begun:.0f} s with Spark's own start\n{batches}")
+
+    chance = random.Random(time.time_ns())
+    for _ in range(kills):
+        with Job(tmp_path) as job:
+            job.until(job.batches() + chance.randint(1, 2))
+            time.sleep(chance.uniform(0.0, seconds))
+            done = job.batches()
+            processes = job.kill()
+        print(f"killed {processes} processes after {done} of {files} batches")
+        assert processes >= 3 and 1 <= done < files
+    with Job(tmp_path) as job:
+        job.end()
+    events = told(job.told)
+    written = set(job.told.glob("*.parquet"))
+    print(f"{len(events)} events; {len(written) - len(set(committed(job.told)))} files that nobody finished")
+    assert events == told(tmp_path / "through") == expected(wearers)
+
+
+@pytest.fixture
+def small_disk(tmp_path: Path) -> Iterator[Path]:
+    """A place with room for almost nothing."""
+    place = tmp_path / "told"
+    place.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=32k", "tmpfs", place]
+    if shutil.which("mount") is None or subprocess.run(mount, capture_output=True, check=False).returncode:
+        pytest.skip("no disk can be mounted here")
+    yield place
+    subprocess.run(["umount", place], check=True)
+
+
+def test_a_job_whose_disk_is_full_ends_and_goes_on_when_there_is_room(tmp_path, small_disk):
+    deliver(tmp_path / "sent", wearers=10, files=5)
+    with Job(tmp_path) as job:
+        job.process.communicate()
+    assert job.process.returncode != 0 and "No space left on device" in job.log.read_text()
+    assert job.batches() < 5
+    subprocess.run(["mount", "-o", "remount,size=64m", small_disk], check=True)
+    with Job(tmp_path) as job:
+        job.end()
+    assert told(small_disk) == expected(10)

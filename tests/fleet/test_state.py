@@ -1,0 +1,248 @@
+"""The state of a wearer: protocol/fleet/states.json, and any other bytes in its place."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from itertools import count
+from math import inf
+from typing import Any
+
+import pytest
+from attrs import astuple, define, evolve, field
+from fleets import WEARER, shown, uses, walked
+from here import PROTOCOL
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath import SnapshotError, recipes
+from solepath.emulate.routes.building import BUILDING
+from solepath.fleet import End, Fleet, NumberedEvent, Refusal, Sent, SentRejected, StateRefused, Tick, Unreadable
+from solepath.fleet.step.keyed import first_number
+from solepath.fleet.step.order import RejectedItem
+from solepath.fleet.step.state import (
+    READERS,
+    VERSION,
+    Identity,
+    OtherState,
+    StateError,
+    read_identity,
+    read_rest,
+    write_state,
+)
+from solepath.foot.stance.stance import Load, Stance
+from solepath.recipes import DEFAULT
+from solepath.session import Session
+from solepath.types import Packet, Quat, Site, Vec3
+from solepath.types.vector import IDENTITY, ZERO
+
+STATES = json.loads((PROTOCOL / "fleet" / "states.json").read_text())
+FLEET = Fleet()
+HALF = 350
+"""Rows: the walk has begun."""
+
+
+@cache
+def halfway() -> tuple[bytes, int]:
+    """A state in the middle of a walk, and how many events were told before."""
+    state, told = FLEET.step(WEARER, None, walked().sent[:HALF])
+    return state, len(told)
+
+
+def held_as_told(place: tuple[int, int], what: Any) -> dict[str, Any]:
+    match what:
+        case Packet(t, site, channel, data, device):
+            packet = {"t": t, "site": site.value, "channel": channel, "data": data.hex(), "device": device}
+            return {"run": place[0], "number": place[1], "packet": packet}
+        case Tick(t):
+            return {"run": place[0], "number": place[1], "tick": t}
+        case RejectedItem(reason, detail):
+            return {"run": place[0], "number": place[1], "reason": reason.value, "detail": detail}
+    raise AssertionError(what)
+
+
+@pytest.mark.parametrize("vector", STATES["states"], ids=lambda vector: vector["id"])
+def test_a_state_says_what_the_protocol_says(vector: dict[str, Any]) -> None:
+    state = bytes.fromhex(vector["hex"])
+    identity = read_identity(state)
+    if vector["result"] == "refused":
+        known = vector["identity"]
+        assert identity == (None if known is None else Identity(**known))
+        (first, *_) = FLEET.step(WEARER, state, [shown(300, 7)])[1]
+        assert isinstance(first.event, StateRefused)
+        assert first.number == (first_number(7, 300) if known is None else known["told"])
+        return
+    fields = vector["fields"]
+    rest = read_rest(state)
+    assert identity == Identity(*[fields[name] for name in ("run", "next", "told", "known")])
+    assert (rest.ended, rest.failure, rest.session) == (fields["ended"], fields["failure"], None)
+    assert [[span.run, span.first, span.end] for span in rest.left.spans] == fields["spans"]
+    assert [[*runs] for runs in rest.left.forgotten] == fields["forgotten"]
+    assert [*astuple(rest.strays)] == fields["strays"]
+    assert [held_as_told(place, what) for place, what in rest.held.items()] == fields["held"]
+    assert write_state(identity, rest) == state
+    assert FLEET.open(WEARER, state).state() == state
+
+
+def test_there_are_as_many_states_as_they_say() -> None:
+    assert STATES["schema"] == "solepath fleet states 1" and STATES["count"] == len(STATES["states"])
+
+
+def test_every_version_up_to_the_newest_is_read_and_has_an_example() -> None:
+    shown = {bytes.fromhex(vector["hex"])[4] for vector in STATES["states"] if vector["result"] == "valid"}
+    assert shown == set(READERS) == set(range(1, VERSION + 1))
+
+
+@settings(max_examples=40, deadline=None)
+@given(state=st.one_of(st.binary(max_size=80), st.binary(max_size=60).map(lambda rest: halfway()[0][:41] + rest)))
+def test_any_bytes_give_a_fresh_start_and_never_an_exception(state: bytes) -> None:
+    sent = [shown(HALF, 5), Unreadable(WEARER, "no row"), shown(HALF + 1, 5)]
+    after, told = Fleet(window=0).step(WEARER, state, sent)
+    assert isinstance(told[0].event, StateRefused)
+    assert [one.number for one in told] == list(range(told[0].number, told[0].number + len(told)))
+    assert [what for what, *_ in uses(told[1:])][-3:] == ["used", "rejected", "used"]
+    assert Fleet(window=0).step(WEARER, after, [shown(HALF + 2, 5)])[1][0].number == told[-1].number + 1
+
+
+@settings(max_examples=40, deadline=None)
+@given(place=st.integers(0, 1 << 20), bit=st.integers(0, 7))
+def test_a_bit_that_fell_over_anywhere_is_noticed_and_no_identity_is_used_again(place: int, bit: int) -> None:
+    state, before = halfway()
+    damaged = bytearray(state)
+    damaged[place % len(state)] ^= 1 << bit
+    _, told = FLEET.step(WEARER, bytes(damaged), walked().sent[HALF : HALF + 5])
+    assert isinstance(told[0].event, StateRefused)
+    assert told[0].number >= before
+
+
+def test_a_state_is_of_one_encoding_and_goes_through_bytes_unchanged() -> None:
+    state, _ = halfway()
+    assert FLEET.open(WEARER, state).state() == state == FLEET.step(WEARER, state, [])[0]
+    assert FLEET.open(WEARER, bytearray(state)).state() == state
+
+
+def test_a_state_that_was_refused_is_told_once_and_not_before_it_is_needed() -> None:
+    state, before = halfway()
+    torn = state[:-3]
+    keyed = FLEET.open(WEARER, torn)
+    assert keyed.state() == torn, "nothing happened yet"
+    assert [one.number for one in keyed.feed([])] == [before]
+    assert keyed.feed([]) == []
+    after, told = FLEET.step(WEARER, torn, [])
+    assert after == keyed.state() and isinstance(told[0].event, StateRefused)
+    assert FLEET.step(WEARER, after, []) == (after, [])
+
+
+def test_where_nothing_can_be_read_the_first_number_waits_for_a_row_that_has_one() -> None:
+    keyed = Fleet(window=0).open(WEARER, b"not a state")
+    assert keyed.feed([Unreadable(WEARER, "no row"), Sent(WEARER, -1, End())]) == []
+    assert keyed.state() == b"not a state"
+    told = keyed.feed([shown(12, 1_763_800_000_000)])
+    assert told[0].number == 64 * (1_763_800_000_000 + 13)
+    assert isinstance(told[0].event, StateRefused)
+    assert uses(told[1:]) == [("missing", 1_763_800_000_000, 0, 12), ("used", 1_763_800_000_000, 12, None)]
+
+
+def test_a_session_of_another_recipe_or_of_a_building_is_refused_and_the_numbers_go_on() -> None:
+    state, before = halfway()
+    for fleet in (Fleet(recipes.KUPT_DFPC), Fleet(evolve(DEFAULT, name="mine")), Fleet(floorplan=BUILDING)):
+        after, told = fleet.step(WEARER, state, walked().sent[HALF : HALF + 50])
+        assert isinstance(told[0].event, StateRefused) and told[0].event.detail
+        assert [one.number for one in told] == list(range(before, before + len(told)))
+        assert told[0].event.t == read_identity(state).known
+        assert fleet.step(WEARER, after, walked().sent[HALF + 50 : HALF + 150])[1], "and the wearer is followed again"
+
+
+def test_after_the_end_a_tombstone_is_left_which_every_job_can_read() -> None:
+    state, told = FLEET.step(WEARER, None, walked().sent)
+    assert len(state) == 54 and FLEET.open(WEARER, state).ended
+    other = Fleet(recipes.KUPT_DFPC)
+    assert other.step(WEARER, state, walked().sent) == (state, [])
+    again, more = other.step(WEARER, state, [evolve(one, run=1) for one in walked().sent[:HALF]])
+    assert more[0].number == len(told) and not other.open(WEARER, again).ended
+
+
+def test_a_state_keeps_what_is_held_whatever_it_is() -> None:
+    odd = [
+        Sent(WEARER, 2, Packet(inf, Site.LEFT_SHANK, "\ud83d", b"\x00\xff", "ü")),
+        Sent(WEARER, 3, Tick(-2.5)),
+        Sent(WEARER, 4, Tick(inf)),
+        Unreadable(WEARER, "x" * 1000, 0, 5),
+        Sent(WEARER, 1, End(), 7),
+    ]
+    whole = FLEET.open(WEARER, None)
+    cut = FLEET.open(WEARER, None)
+    for item in odd:
+        assert cut.feed([item]) == []
+        cut = FLEET.open(WEARER, cut.state())
+    whole.feed(odd)
+    assert cut.state() == whole.state() and len(whole.state()) < 1000
+    rest = [shown(0), shown(1), shown(0, 7)]
+    assert cut.feed(rest) == whole.feed(rest)
+    assert cut.ended and whole.ended and cut.state() == whole.state()
+
+
+@define
+class Unsound:
+    """A detector that after a while holds what cannot be saved."""
+
+    updates: int = field(default=0, init=False)
+    held: float = field(default=0.0, init=False)
+
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
+        self.updates += 1
+        if self.updates > 100:
+            self.held = "a text"  # type: ignore[assignment]
+        return Stance(ZERO, inf, 0.0, None)
+
+
+def test_a_detector_of_ones_own_that_cannot_be_saved_costs_its_wearer_the_session_and_no_more() -> None:
+    fleet = Fleet(evolve(DEFAULT, name="unsound", detector=Unsound()), parts=[Unsound])
+    keyed = fleet.open(WEARER, None)
+    before = len(keyed.feed(walked().sent[:HALF]))
+    state = keyed.state()
+    assert len(state) < 1000
+    restored = fleet.open(WEARER, state)
+    rest = walked().sent[HALF : HALF + 100]
+    told = keyed.feed(rest)
+    assert type(told[0].event).__name__ == "WearerFailed" and told[0].number == before
+    assert restored.feed(rest) == told, "in memory and from bytes it goes on alike"
+    assert restored.state() == keyed.state()
+
+
+def test_a_damaged_rest_is_named() -> None:
+    rest = OtherState(held={(0, 2): Tick(1.0), (0, 5): End()})
+    state = write_state(Identity(0, 1, 0, 0.0), rest)
+    assert read_rest(state) == rest
+    for end in range(41, len(state)):
+        with pytest.raises(StateError):
+            read_rest(state[:end])
+    with pytest.raises(StateError, match="version 9"):
+        read_rest(state[:4] + b"\x09" + state[5:])
+
+
+def test_a_phone_hands_its_wearer_over() -> None:
+    sent, whole = walked().sent, Session()
+    first = [event for one in sent[:HALF] for event in whole.feed(one.what)]
+    state = FLEET.adopt(json.loads(json.dumps(whole.snapshot())))
+    assert read_identity(state).known == whole.now
+    numbers = count()
+    rest = [evolve(one, number=next(numbers), run=3) for one in sent[HALF:]]
+    _, told = FLEET.step(WEARER, state, rest)
+    assert (*first, *[one.event for one in told]) == walked().events
+    assert [one.number for one in told] == list(range(len(told)))
+
+
+def test_a_snapshot_that_cannot_go_on_is_not_adopted() -> None:
+    with pytest.raises(SnapshotError):
+        FLEET.adopt({"solepath": 1})
+    with pytest.raises(SnapshotError, match="zupt"):
+        FLEET.adopt(Session(recipes.BY_NAME["zupt"]).snapshot())
+
+
+def test_told_of_a_refused_row_is_why() -> None:
+    (one,) = FLEET.step(WEARER, None, [Unreadable(WEARER, "no JSON")])[1]
+    refused = SentRejected(t=0.0, known_at=0.0, reason=Refusal.UNREADABLE, detail="no JSON")
+    assert one == NumberedEvent(WEARER, 0, refused)

@@ -1,0 +1,222 @@
+"""The keyed step of a fleet: what it tells of a wearer is what a session says, and nothing that is sent can stop it."""
+
+from __future__ import annotations
+
+from math import inf, nan
+from random import Random
+from typing import Any
+
+import pytest
+from attrs import evolve
+from fleets import WEARER, cut, shown, stepped, uses, walked
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from walks import LEFT
+
+from solepath import StrideTaken, recipes
+from solepath.fleet import End, Fleet, Refusal, Sent, SentRejected, Tick, Unreadable
+from solepath.recipes import DEFAULT, Recipe
+from solepath.session import Session
+from solepath.types import Packet, Site
+
+FLEET = Fleet()
+BOTH = [DEFAULT, recipes.KUPT_DFPC]
+LONG = "w" * 10_000
+
+
+@pytest.mark.parametrize("recipe", BOTH, ids=lambda recipe: recipe.name)
+def test_what_is_told_of_a_wearer_is_what_a_session_says_to_the_same_packets(recipe: Recipe) -> None:
+    sent, events = walked(recipe.name).sent, walked(recipe.name).events
+    fleet = Fleet(recipe)
+    pieces = cut(list(sent), range(0, len(sent), 61))
+    state, told = stepped(fleet, pieces)
+    assert tuple(one.event for one in told) == events
+    assert sum(isinstance(event, StrideTaken) for event in events) >= 6
+    assert [(one.wearer, one.number) for one in told] == [(WEARER, number) for number in range(len(told))]
+    keyed = fleet.open(WEARER, None)
+    assert [one for piece in pieces for one in keyed.feed(piece)] == told
+    assert keyed.state() == state
+
+
+@pytest.mark.parametrize("recipe", BOTH, ids=lambda recipe: recipe.name)
+def test_a_walk_that_comes_late_twice_and_in_another_order_gives_the_same_events_and_the_same_state(
+    recipe: Recipe,
+) -> None:
+    sent, random, fleet = walked(recipe.name).sent, Random(3), Fleet(recipe)
+    late = sorted([*sent, *sent[::7]], key=lambda one: one.number + 200 * random.random())
+    halves = [late[: len(late) // 2], late[len(late) // 2 :]]
+    assert stepped(fleet, halves) == stepped(fleet, [sent])
+    part = sorted(sent[:450], key=lambda one: one.number + 200 * random.random())
+    assert stepped(fleet, [part]) == stepped(fleet, [sent[:450]])
+
+
+@settings(max_examples=3, deadline=None)
+@given(cuts=st.lists(st.integers(0, 300), max_size=4))
+def test_how_a_walk_is_cut_into_calls_changes_neither_events_nor_state(cuts: list[int]) -> None:
+    sent = list(walked().sent[:300])
+    keyed = FLEET.open(WEARER, None)
+    told = keyed.feed(sent)
+    assert stepped(FLEET, cut(list(sent), cuts)) == (keyed.state(), told)
+
+
+@pytest.mark.parametrize("recipe", recipes.BY_NAME)
+def test_a_wearer_leaves_no_trace_in_what_all_wearers_share(recipe: str) -> None:
+    made = recipes.BY_NAME[recipe]
+    fresh = Session(made)
+    before, blank = fresh.snapshot(), fresh.pack()
+    fleet = Fleet(made)
+    state, _ = fleet.step(WEARER, None, walked().sent[:200])
+    fleet.step(WEARER, state, walked().sent[200:300])
+    assert Session.unpack(blank, made).snapshot() == before
+
+
+def test_a_step_leaves_what_it_was_given_as_it_was() -> None:
+    state, _ = FLEET.step(WEARER, None, walked().sent[:250])
+    once, twice = (FLEET.step(WEARER, state, walked().sent[250:450]) for _ in range(2))
+    assert once == twice
+
+
+def test_time_that_passes_is_told_as_a_session_has_it() -> None:
+    sent = walked().sent[:300]
+    session, last = Session(), sent[-1].what.t
+    events = session.advance(-1.0) + [event for one in sent for event in session.feed(one.what)]
+    events += session.advance(last + 5.0)
+    later = [evolve(one, number=one.number + 1) for one in sent]
+    _, told = FLEET.step(WEARER, None, [Sent(WEARER, 0, Tick(-1)), *later, Sent(WEARER, 301, Tick(last + 5.0))])
+    assert [one.event for one in told] == events
+    assert events[-1].known_at == last + 5.0
+
+
+def test_a_wearer_goes_on_in_a_new_run_and_begins_anew_after_an_end() -> None:
+    sent, events = walked().sent, walked().events
+    half = len(sent) // 2
+    restarted = [*sent[:half], *[evolve(one, number=n, run=8) for n, one in enumerate(sent[half:])]]
+    state, told = FLEET.step(WEARER, None, restarted)
+    assert tuple(one.event for one in told) == events
+    _, again = FLEET.step(WEARER, state, [evolve(one, run=9) for one in sent])
+    assert tuple(one.event for one in again) == events
+    assert [one.number for one in again] == list(range(len(told), 2 * len(told)))
+
+
+def test_an_end_without_a_beginning_says_nothing() -> None:
+    state, told = FLEET.step(WEARER, None, [Sent(WEARER, 0, End())])
+    assert told == [] and len(state) == 54 and FLEET.open(WEARER, state).ended
+
+
+ODD_PACKETS: list[Any] = [
+    Packet("soon", LEFT, "c", b""),  # type: ignore[arg-type]
+    Packet(True, LEFT, "c", b""),
+    Packet(1.0, "left_foot", "c", b""),  # type: ignore[arg-type]
+    Packet(1.0, LEFT, 3, b""),  # type: ignore[arg-type]
+    Packet(1.0, LEFT, "c", "00"),  # type: ignore[arg-type]
+    Packet(1.0, LEFT, "c", None),  # type: ignore[arg-type]
+    Packet(1.0, LEFT, "c", b"", None),  # type: ignore[arg-type]
+    Packet(1.0, LEFT, "c", bytes(1_000_000)),
+    Packet(1.0, LEFT, "c" * 1_000_000, b""),
+    Packet(1.0, LEFT, "c", b"", "d" * 1_000_000),
+    Tick(nan),
+    Tick(inf),
+    Tick(1e300),
+    Tick(10**400),
+    Tick("noon"),  # type: ignore[arg-type]
+    None,
+    b"",
+    Session,
+]
+
+
+@pytest.mark.parametrize("what", ODD_PACKETS, ids=range(len(ODD_PACKETS)))
+def test_what_cannot_be_used_is_rejected_in_its_turn_and_the_next_is_used(what: Any) -> None:
+    keyed = FLEET.open(WEARER, None)
+    assert keyed.feed([shown(2), Sent(WEARER, 1, what)]) == []
+    assert len(keyed.state()) < 1000
+    told = keyed.feed([shown(0)])
+    assert [(what, number) for what, _, number, _ in uses(told)] == [("used", 0), ("rejected", 1), ("used", 2)]
+    rejected = told[1].event
+    assert isinstance(rejected, SentRejected) and rejected.detail and len(rejected.detail) <= 200
+    assert FLEET.step(WEARER, None, [shown(0), Sent(WEARER, 1, what), shown(2)])[1] == told
+
+
+@pytest.mark.parametrize(
+    "packet",
+    [
+        Packet(1, LEFT, "insole/frame", b"\x00"),
+        Packet(10**400, LEFT, "insole/frame", b"\x00"),
+        Packet(-inf, LEFT, "insole/frame", b"\x00"),
+        Packet(1.0, LEFT, "insole/frame", bytearray(b"\x00")),  # type: ignore[arg-type]
+        Packet(1.0, LEFT, "insole/frame", memoryview(b"\x00")),  # type: ignore[arg-type]
+    ],
+    ids=["whole", "huge", "infinite", "bytearray", "memoryview"],
+)
+def test_what_a_session_takes_or_rejects_by_itself_is_left_to_it(packet: Packet) -> None:
+    (told,) = FLEET.step(WEARER, None, [Sent(WEARER, 0, packet)])[1]
+    assert repr(told.event) == repr(Session().feed(packet)[0])
+
+
+@pytest.mark.parametrize(
+    "item",
+    [
+        None,
+        7,
+        "row",
+        Sent("somebody else", 0, End()),
+        Sent(None, 0, End()),  # type: ignore[arg-type]
+        Sent(WEARER, -1, End()),
+        Sent(WEARER, 2**53, End()),
+        Sent(WEARER, True, End()),
+        Sent(WEARER, 0.0, End()),  # type: ignore[arg-type]
+        Sent(WEARER, [], End()),  # type: ignore[arg-type]
+        Sent(WEARER, 0, End(), -1),
+        Sent(WEARER, 0, End(), None),  # type: ignore[arg-type]
+        Unreadable(WEARER, "no JSON"),
+        Unreadable(WEARER, None, 0, "first"),  # type: ignore[arg-type]
+        Unreadable(WEARER, "x" * 1_000_000, -4, 3),
+    ],
+    ids=range(15),
+)
+def test_what_has_no_place_in_the_order_is_rejected_at_once(item: Any) -> None:
+    state, told = FLEET.step(WEARER, None, [item, shown(0)])
+    assert [(what, number) for what, _, number, _ in uses(told)] == [("rejected", None), ("used", 0)]
+    assert len(told[0].event.detail) <= 200 and len(state) < 1000
+
+
+@pytest.mark.parametrize("wearer", ["", LONG, "\ud83d", "ü\n"], ids=["none", "long", "half", "odd"])
+def test_any_text_is_a_wearer(wearer: str) -> None:
+    state, told = FLEET.step(wearer, None, [shown(0, wearer=wearer), Unreadable("", "no JSON")])
+    assert [one.wearer for one in told] == [wearer, wearer] and len(state) < 1000
+
+
+class Numbers(int):
+    """A whole number that nothing can be compared with."""
+
+    def __eq__(self, other: object) -> bool:
+        raise RuntimeError("no")
+
+    __hash__ = int.__hash__
+
+
+def test_a_number_that_cannot_be_compared_is_rejected() -> None:
+    assert [one.event.reason for one in FLEET.step(WEARER, None, [Sent(WEARER, Numbers(0), End())])[1]] == [
+        Refusal.NOT_SENT
+    ]
+
+
+REAL = st.deferred(lambda: st.sampled_from([one.what.data for one in walked().sent[:40]]))
+CHANNELS = st.sampled_from(["insole/frame", "insole/info", "cc2650/movement", "device/battery", "receiver/tick", "x"])
+POISON = st.builds(
+    lambda number, t, site, channel, data: Sent(WEARER, number, Packet(t, site, channel, data)),
+    st.integers(0, 40),
+    st.floats() | st.floats(0.0, 10.0),
+    st.sampled_from(Site),
+    CHANNELS,
+    st.binary(max_size=40) | REAL,
+)
+
+
+@settings(max_examples=30, deadline=None)
+@given(poison=st.lists(POISON, max_size=40))
+def test_a_wearer_whose_bytes_are_anything_is_told_of_and_stays_small(poison: list[Sent]) -> None:
+    state, told = FLEET.step(WEARER, None, poison)
+    assert [one.number for one in told] == list(range(len(told)))
+    assert len(state) < 30_000
+    assert FLEET.open(WEARER, state).state() == state

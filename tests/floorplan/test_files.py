@@ -1,0 +1,295 @@
+"""Files of floor plans: the house of protocol/floorplans in every format, files that are none, and any bytes."""
+
+from __future__ import annotations
+
+import json
+import os
+import struct
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import pytest
+from attrs import evolve
+from floorplans import FILES, archive, plans
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath.emulate.routes.building import BUILDING
+from solepath.floorplan.checks import warnings
+from solepath.floorplan.importers import reading
+from solepath.floorplan.importers.geojson import text_of, write_floorplan
+from solepath.floorplan.importers.reading import plan_of_bytes, read_floorplan
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import Anchor, ConnectorKind, FloorPlan, FloorPlanError
+
+HOUSE = read_floorplan(FILES / "house.geojson")
+INVALID = json.loads((FILES / "invalid.json").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("name", ["house-wgs84.geojson", "house.osm", "house-imdf"])
+def test_the_house_is_the_same_in_every_format(name: str) -> None:
+    found = read_floorplan(FILES / name)
+    assert found == HOUSE
+    assert found.fingerprint == HOUSE.fingerprint
+    assert found.remarks == ()
+
+
+def test_the_house_is_what_it_looks_like() -> None:
+    assert HOUSE.anchor == Anchor(48.15, 11.57, 0.0)
+    assert [(level.id, level.name, level.ordinal) for level in HOUSE.levels] == [("0", "Ground floor", 0),
+                                                                               ("1", "First floor", 1)]  # fmt: skip
+    assert [(one.kind, one.name, [stop.level for stop in one.stops]) for one in HOUSE.connectors] == [
+        (ConnectorKind.LIFT, "Lift", ["0", "1"]), (ConnectorKind.STAIRS, "Stairs", ["0", "1"])]  # fmt: skip
+    assert not HOUSE.heights_known
+    plan = IndexedPlan(HOUSE)
+    assert not plan.crosses(0, -0.5, 5.0, 0.5, 5.0)  # in at the entrance,
+    assert not plan.crosses(0, 0.5, 5.0, 11.5, 5.0)  # down the corridor
+    assert not plan.crosses(0, 11.5, 5.0, 11.5, 8.0)  # and onto the stairs
+    assert plan.crosses(0, 9.0, 5.0, 9.0, 7.0)
+    assert plan.crosses(1, -0.5, 5.0, 0.5, 5.0)  # upstairs there is no entrance
+    assert not plan.crosses(1, 7.0, 2.0, 9.0, 2.0)  # and one room where there were two
+    assert plan.crosses(0, 7.0, 2.0, 9.0, 2.0)
+
+
+def test_invalid_files_are_counted() -> None:
+    assert INVALID["count"] == len(INVALID["cases"]) == len({one["id"] for one in INVALID["cases"]})
+
+
+@pytest.mark.parametrize("case", INVALID["cases"], ids=[one["id"] for one in INVALID["cases"]])
+def test_a_file_that_does_not_fit_says_what_does_not(case: dict[str, Any], tmp_path: Path) -> None:
+    path = tmp_path / "plan"
+    path.write_bytes(archive(case["files"]) if "files" in case else case["text"].encode())
+    with pytest.raises(FloorPlanError) as caught:
+        read_floorplan(path)
+    assert str(caught.value) == f"{path}: {case['says']}"
+
+
+# --- written and read again -------------------------------------------------------------------------------------------
+
+
+@given(plans())
+def test_a_plan_written_and_read_again_is_equal(plan: FloorPlan) -> None:
+    again = plan_of_bytes(text_of(plan).encode())
+    assert again == plan
+    assert again.fingerprint == plan.fingerprint
+
+
+def test_a_file_is_written_and_read(tmp_path: Path) -> None:
+    write_floorplan(tmp_path / "house.json", HOUSE)
+    assert read_floorplan(tmp_path / "house.json") == HOUSE
+    assert read_floorplan(str(tmp_path / "house.json")) == HOUSE
+
+
+def test_what_is_written_is_strict_json_with_a_feature_a_line() -> None:
+    told = json.loads(text_of(HOUSE), parse_constant=pytest.fail)
+    assert len(told["features"]) == len(text_of(HOUSE).splitlines()) - 2
+
+
+# --- the profile ------------------------------------------------------------------------------------------------------
+
+
+def geojson(*more: dict[str, Any], **members: Any) -> bytes:
+    level = {"type": "Feature", "id": "0", "properties": {"feature": "level", "ordinal": 0}, "geometry": None}
+    head = {"type": "FeatureCollection", "format": "solepath-floorplan", "version": 1, "frame": "local", **members}
+    return json.dumps({**head, "features": [level, *more]}).encode()
+
+
+def feature(kind: str, geometry: str, coordinates: Any, **properties: Any) -> dict[str, Any]:
+    return {"type": "Feature", "properties": {"feature": kind, "level": "0", **properties},
+            "geometry": {"type": geometry, "coordinates": coordinates}}  # fmt: skip
+
+
+SQUARE = [[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]]
+
+
+def test_the_example_of_the_document_is_a_plan() -> None:
+    text = (FILES.parent / "floorplan.md").read_text(encoding="utf-8").split("```json")[1].split("```")[0]
+    plan = plan_of_bytes(text.strip().encode())
+    assert not IndexedPlan(plan).crosses(0, 3.5, -0.5, 3.5, 0.5)
+    assert warnings(plan) == ("lift 'A': stops at level '0' only",)
+
+
+def test_doors_of_a_file_are_cut_out_of_its_walls() -> None:
+    plan = plan_of_bytes(geojson(feature("wall", "Polygon", [SQUARE]), feature("door", "LineString", [[4, 0], [5, 0]])))
+    assert not IndexedPlan(plan).crosses(0, 4.5, -1.0, 4.5, 1.0)
+    assert IndexedPlan(plan).crosses(0, 5.5, -1.0, 5.5, 1.0)
+
+
+def test_a_room_with_a_hole_does_not_hold_what_is_in_the_hole() -> None:
+    hole = [[4, 4], [6, 4], [6, 6], [4, 6], [4, 4]]
+    plan = IndexedPlan(plan_of_bytes(geojson(feature("wall", "Polygon", [SQUARE]),
+                                             feature("room", "Polygon", [SQUARE, hole]))))  # fmt: skip
+    assert not plan.inside(0, 5.0, 5.0)
+    for x, y in ((2.0, 2.0), (5.0, 2.0), (8.0, 8.0), (3.9, 5.0), (5.0, 6.1)):
+        assert plan.inside(0, x, y)
+
+
+def test_an_outline_that_does_not_close_is_a_room_and_said() -> None:
+    room = [[0, 0], [10, 0], [10, 10], [0, 10], [0, 1]]
+    plan = plan_of_bytes(geojson(feature("wall", "Polygon", [SQUARE]), feature("room", "Polygon", [room])))
+    said = "feature 2 on level '0': its outline does not close, it ends 1.00 m from where it begins"
+    assert plan.remarks == (said,)
+    assert said in warnings(plan)
+    assert IndexedPlan(plan).inside(0, 5.0, 5.0)
+
+
+def test_levels_without_elevations_lie_a_storey_apart_and_nobody_may_rely_on_it() -> None:
+    upper = {"type": "Feature", "id": 1, "properties": {"feature": "level", "ordinal": 1}, "geometry": None}
+    data = geojson(upper, feature("wall", "LineString", SQUARE), feature("lift", "Point", [1, 1], connector="a"),
+                   feature("lift", "Point", [1, 2], level=1, connector="a", name="A"))  # fmt: skip
+    plan = plan_of_bytes(data, storey=4.0)
+    assert [level.elevation for level in plan.levels] == [0.0, 4.0]
+    assert not plan.heights_known
+    assert [stop.place for stop in plan.connectors[0].stops] == [(1.0, 1.0), (1.0, 2.0)]
+    with pytest.raises(FloorPlanError, match="^a storey of 0.1 m cannot be$"):
+        plan_of_bytes(data, storey=0.1)
+
+
+# --- archives and folders ---------------------------------------------------------------------------------------------
+
+
+def imdf_files() -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in sorted((FILES / "house-imdf").iterdir())}
+
+
+@pytest.mark.parametrize("compression", [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED])
+@pytest.mark.parametrize("folder", ["", "house/"])
+def test_an_archive_reads_as_its_folder_does(folder: str, compression: int) -> None:
+    other = {"../outside.json": b"{}", "__MACOSX/manifest.txt": b"\x00"}
+    packed = archive({**{f"{folder}{name}": data for name, data in imdf_files().items()}, **other}, "", compression)
+    assert plan_of_bytes(packed) == HOUSE
+
+
+def test_a_bomb_is_not_unpacked(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(reading, "LARGEST", 100_000)
+    bomb = archive({**imdf_files(), "unit.geojson": b" " * 10_000_000})
+    assert len(bomb) < 100_000
+    with pytest.raises(FloorPlanError, match="unpacked it is larger than"):
+        plan_of_bytes(bomb)
+
+
+def test_a_damaged_or_strangely_packed_archive_is_refused() -> None:
+    packed = archive(imdf_files())
+    for damaged in (packed[: len(packed) // 2], b"PK\x03\x04", packed[:200] + b"\xff" * 50 + packed[250:]):
+        with pytest.raises(FloorPlanError):
+            plan_of_bytes(damaged)
+    with pytest.raises(FloorPlanError, match="manifest.json: is packed in a way that IMDF does not know"):
+        plan_of_bytes(archive(imdf_files(), "", zipfile.ZIP_LZMA))
+    locked = bytearray(packed)
+    for at in (packed.find(b"PK\x03\x04") + 6, packed.find(b"PK\x01\x02") + 8):
+        locked[at : at + 2] = struct.pack("<H", 1)  # says that it is encrypted
+    with pytest.raises(FloorPlanError, match="damaged archive"):
+        plan_of_bytes(bytes(locked))
+
+
+def test_files_that_cannot_be_read_say_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(FloorPlanError, match="No such file or directory$"):
+        read_floorplan(tmp_path / "none.json")
+    with pytest.raises(FloorPlanError, match="has no manifest.json"):
+        read_floorplan(tmp_path)
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(FloorPlanError, match="is no regular file$"):
+        read_floorplan(tmp_path / "pipe")
+    monkeypatch.setattr(reading, "LARGEST", 1000)
+    with pytest.raises(FloorPlanError, match="too large for a floor plan$"):
+        read_floorplan(FILES / "house.geojson")
+
+
+def test_an_archive_of_many_buildings_has_levels_by_their_ids_where_short_names_are_shared() -> None:
+    files = imdf_files()
+    levels = json.loads(files["level.geojson"])
+    for one in levels["features"]:
+        one["properties"]["short_name"] = {"de": "EG"}
+    found = plan_of_bytes(archive({**files, "level.geojson": levels}))
+    assert [level.id for level in found.levels] == [one["id"] for one in levels["features"]]
+    assert found.levels[0].walls == HOUSE.levels[0].walls
+
+
+def test_two_walkways_are_open_to_each_other_and_to_stairs_without_a_door() -> None:
+    files = imdf_files()
+    units = json.loads(files["unit.geojson"])
+    openings = json.loads(files["opening.geojson"])
+    for one in units["features"]:
+        if one["properties"]["category"] == "room":
+            one["properties"]["category"] = "walkway"
+    middle = (11.57 + 11.5 / 74_500.0, 48.15 + 6.0 / 111_200.0)  # the door of the stairs
+    openings["features"] = [one for one in openings["features"] if abs(one["geometry"]["coordinates"][0][0] - middle[0])
+                            > 1.2e-5 or abs(one["geometry"]["coordinates"][0][1] - middle[1]) > 1e-5]  # fmt: skip
+    assert len(openings["features"]) == 10
+    plan = IndexedPlan(plan_of_bytes(archive({**files, "unit.geojson": units, "opening.geojson": openings})))
+    assert not plan.crosses(0, 2.0, 5.0, 2.0, 1.0)  # from the corridor into what was room A
+    assert not plan.crosses(0, 7.0, 2.0, 9.0, 2.0)  # and on into what was room B
+    assert not plan.crosses(0, 11.5, 5.0, 11.5, 8.0)  # and onto the stairs
+    assert plan.crosses(0, 9.0, 8.0, 11.0, 8.0)  # but not from room C
+    assert plan.crosses(0, 2.0, 1.0, 2.0, -1.0)  # and the house has its outer wall
+
+
+# --- any bytes --------------------------------------------------------------------------------------------------------
+
+json_values = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5) | st.sampled_from(
+        ["level", "wall", "room", "stairs", "Polygon", "Point", "Feature", "local", "0"]),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(
+        st.sampled_from(["type", "id", "properties", "geometry", "feature", "level", "coordinates", "ordinal", "place",
+                         "elevation", "anchor", "latitude", "features", "feature_type", "category", "level_id"]),
+        inner, max_size=4),
+    max_leaves=12,
+)  # fmt: skip
+
+
+def reads_or_refuses(data: bytes) -> None:
+    try:
+        plan = plan_of_bytes(data)
+    except FloorPlanError as error:
+        assert "\n" not in str(error)
+    else:
+        IndexedPlan(plan)
+
+
+@given(st.binary(max_size=200), st.sampled_from([b"", b"{", b"<osm>", b"PK\x03\x04", b"\xff\xfe", b"\xef\xbb\xbf{"]))
+def test_any_bytes_are_a_plan_or_refused(data: bytes, begin: bytes) -> None:
+    reads_or_refuses(begin + data)
+
+
+@given(st.lists(json_values, max_size=4), st.dictionaries(st.sampled_from(["frame", "anchor", "name", "elevations"]),
+                                                           json_values, max_size=2))  # fmt: skip
+def test_any_features_are_a_plan_or_refused(more: list[Any], members: dict[str, Any]) -> None:
+    reads_or_refuses(json.dumps({**json.loads(geojson()), "features": more, **members}).encode())
+
+
+def changed(draw: st.DrawFn, told: Any) -> Any:
+    """The JSON value with one of its parts, anywhere, replaced by any other."""
+    whole = {"it": told}
+    inside, key = whole, "it"
+    for _ in range(draw(st.integers(0, 8))):
+        there = inside[key]  # type: ignore[index]
+        if not isinstance(there, dict | list) or not there:
+            break
+        inside = there  # type: ignore[assignment]
+        key = draw(st.sampled_from(sorted(there) if isinstance(there, dict) else range(len(there))))  # type: ignore[arg-type,assignment]
+    inside[key] = draw(json_values)
+    return whole["it"]
+
+
+@settings(deadline=None)
+@given(st.data(), st.sampled_from(["local", "wgs84", "level", "unit", "opening", "manifest"]))
+def test_the_house_with_anything_changed_is_a_plan_or_refused(data: st.DataObject, what: str) -> None:
+    if what in ("local", "wgs84"):
+        name = "house.geojson" if what == "local" else "house-wgs84.geojson"
+        told = changed(data.draw, json.loads((FILES / name).read_text()))
+        reads_or_refuses(json.dumps(told).encode())
+        return
+    files = imdf_files()
+    name = f"{what}.json" if what == "manifest" else f"{what}.geojson"
+    reads_or_refuses(archive({**files, name: changed(data.draw, json.loads(files[name]))}))
+
+
+def test_remarks_are_no_part_of_a_file() -> None:
+    assert text_of(evolve(HOUSE, remarks=("x",))) == text_of(HOUSE)
+
+
+def test_the_building_of_the_examples_is_the_emulators() -> None:
+    assert read_floorplan(FILES.parent.parent / "examples" / "building.geojson") == BUILDING
+    assert BUILDING.heights_known
+    assert warnings(BUILDING) == ()

@@ -1,0 +1,157 @@
+"""IMDF archives, feature by feature."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+from floorplans import FILES, archive
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath.floorplan.importers.earth import Tangent
+from solepath.floorplan.importers.reading import plan_of_bytes, read_floorplan
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import Anchor, ConnectorKind, FloorPlan, FloorPlanError, Point
+
+CORNER = Tangent(Anchor(48.15, 11.57))
+HOUSE = read_floorplan(FILES / "house.geojson")
+
+
+def degrees(place: Point) -> list[float]:
+    latitude, longitude = CORNER.degrees(place)
+    return [longitude, latitude]
+
+
+def box(x0: float, y0: float, x1: float, y1: float) -> list[list[list[float]]]:
+    return [[degrees(place) for place in ((x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0))]]
+
+
+def feature(kind: str, own: str, geometry: str, coordinates: Any, **properties: Any) -> dict[str, Any]:
+    return {"type": "Feature", "id": own, "feature_type": kind, "properties": properties,
+            "geometry": {"type": geometry, "coordinates": coordinates}}  # fmt: skip
+
+
+def level(own: str = "L0", ordinal: int = 0, **more: Any) -> dict[str, Any]:
+    return feature("level", own, "Polygon", box(0, 0, 20, 10), ordinal=ordinal, **more)
+
+
+def unit(own: str, category: str, coordinates: Any, at: str = "L0", geometry: str = "Polygon",
+         **more: Any) -> dict[str, Any]:  # fmt: skip
+    return feature("unit", own, geometry, coordinates, category=category, level_id=at, **more)
+
+
+def plan_of(units: list[dict[str, Any]], levels: list[dict[str, Any]] | None = None, language: str = "en",
+            **others: list[dict[str, Any]]) -> FloorPlan:  # fmt: skip
+    files = {"level": levels or [level()], "unit": units, **others}
+    told = {f"{name}.geojson": {"type": "FeatureCollection", "features": some} for name, some in files.items()}
+    return plan_of_bytes(archive({"manifest.json": {"version": "1.0.0", "language": language}, **told}))
+
+
+def test_the_outline_of_a_level_is_a_wall_unless_it_is_outdoors() -> None:
+    assert IndexedPlan(plan_of([])).crosses(0, 5.0, -0.5, 5.0, 0.5)
+    room = [unit("u", "room", box(5, 5, 10, 8))]
+    assert not IndexedPlan(plan_of(room, [level(outdoor=True)])).crosses(0, 5.0, -0.5, 5.0, 0.5)
+
+
+@pytest.mark.parametrize(("category", "walled", "inside"), [
+    ("room", True, True), ("nonpublic", True, True), ("office", True, True), ("unheard-of", True, True),
+    ("structure", True, False), ("opentobelow", True, False), ("column", True, False), ("glass", True, False),
+    ("walkway", False, True), ("lobby", False, True), ("platform", False, True), ("ramp", False, True),
+    ("stairs", False, True), ("escalator", False, True), ("elevator", False, True), ("steps", False, True),
+])  # fmt: skip
+def test_what_a_unit_is_says_whether_a_walkway_is_open_to_it(category: str, walled: bool, inside: bool) -> None:
+    plan = IndexedPlan(plan_of([unit("w", "walkway", box(0, 0, 20, 5)), unit("u", category, box(4, 5, 8, 9))]))
+    assert plan.crosses(0, 6.0, 4.0, 6.0, 6.0) == walled
+    assert plan.inside(0, 6.0, 7.0) == inside
+    assert plan.crosses(0, 12.0, 4.0, 12.0, 6.0)  # a walkway that borders on nothing ends at a wall
+
+
+def test_stairs_with_a_door_have_walls_elsewhere() -> None:
+    units = [unit("w", "walkway", box(0, 0, 20, 5)), unit("s", "stairs", box(4, 5, 8, 9))]
+    door = feature("opening", "o", "LineString", [degrees((5.0, 5.0)), degrees((6.0, 5.0))], level_id="L0")
+    plan = IndexedPlan(plan_of(units, opening=[door]))
+    assert not plan.crosses(0, 5.5, 4.5, 5.5, 5.5)
+    assert plan.crosses(0, 7.0, 4.5, 7.0, 5.5)
+
+
+def test_an_opening_of_several_parts_is_as_many_doors() -> None:
+    places = [degrees(place) for place in ((4.0, 0.0), (5.0, 0.0), (5.0, 1.0))]
+    door = feature("opening", "o", "LineString", places, level_id="L0", name={"en": "Revolving door"})
+    found = plan_of([], opening=[door]).levels[0].doors
+    assert [(one.start, one.end, one.name) for one in found] == [
+        ((4.0, 0.0), (5.0, 0.0), "Revolving door"), ((5.0, 0.0), (5.0, 1.0), "Revolving door")]  # fmt: skip
+
+
+def test_of_the_fixtures_walls_and_obstructions_stand_in_the_way() -> None:
+    for category, solid in (("wall", True), ("obstruction", True), ("desk", False), ("furniture", False)):
+        fixture = feature("fixture", "f", "Polygon", box(5, 5, 6, 6), category=category, level_id="L0")
+        assert IndexedPlan(plan_of([], fixture=[fixture])).crosses(0, 4.5, 5.5, 5.5, 5.5) == solid
+
+
+def test_a_unit_of_several_polygons_and_one_with_a_hole() -> None:
+    ring = box(0, 0, 12, 10) + box(4, 4, 8, 6)
+    plan = IndexedPlan(plan_of([unit("u", "room", [ring, box(14, 2, 18, 8)], geometry="MultiPolygon")]))
+    for x, y, inside in ((2.0, 2.0, True), (6.0, 5.0, False), (10.0, 5.0, True), (13.0, 5.0, False), (16.0, 5.0, True)):
+        assert plan.inside(0, x, y) == inside
+    assert plan.crosses(0, 3.5, 5.0, 4.5, 5.0)
+
+
+def test_lifts_are_joined_where_they_lie_over_each_other_and_stop_where_they_are_shown() -> None:
+    levels = [level("L0", 0, short_name={"en": "G"}), level("L1", 1, short_name={"en": "1"}),
+              level("L2", 2, short_name={"en": "2"})]  # fmt: skip
+    shown = {"type": "Point", "coordinates": degrees((3.5, 2.5))}
+    units = [unit(f"a{i}", "elevator", box(2, 2, 4, 4), f"L{i}", name={"en": "A"}, display_point=shown)
+             for i in (2, 0, 1)]  # fmt: skip
+    units += [unit(f"b{i}", "elevator", box(4, 2, 6, 4), f"L{i}", name={"en": "B"}) for i in (0, 1)]
+    units += [unit("s", "stairs", box(2, 2, 4, 4), "L1")]
+    found = plan_of(units, levels).connectors
+    assert [(one.kind, one.name, [(stop.level, stop.place) for stop in one.stops]) for one in found] == [
+        (ConnectorKind.LIFT, "A", [("G", (3.5, 2.5)), ("1", (3.5, 2.5)), ("2", (3.5, 2.5))]),
+        (ConnectorKind.LIFT, "B", [("G", (5.0, 3.0)), ("1", (5.0, 3.0))]),
+        (ConnectorKind.STAIRS, "", [("1", (3.0, 3.0))]),
+    ]
+
+
+@pytest.mark.parametrize(("language", "name"), [("de", "Halle"), ("de-CH", "Halle"), ("en-US", "Hall"), ("fr", "Hall")])
+def test_names_are_in_the_language_of_the_archive_or_in_english(language: str, name: str) -> None:
+    found = plan_of([], [level(name={"de": "Halle", "en": "Hall", "aa": "?"})], language)
+    assert found.levels[0].name == name
+
+
+def test_levels_lie_a_storey_apart_by_their_ordinals_whatever_their_order() -> None:
+    found = plan_of([], [level("up", 2), level("down", -1), level("ground", 0)])
+    assert [(one.id, one.ordinal, one.elevation) for one in found.levels] == [
+        ("down", -1, -3.0), ("ground", 0, 0.0), ("up", 2, 6.0)]  # fmt: skip
+
+
+def test_an_outline_that_does_not_close_is_said() -> None:
+    open_ring = [box(2, 2, 8, 6)[0][:-1]]
+    found = plan_of([unit("u", "room", open_ring)])
+    assert found.remarks == ("unit 'u': its outline does not close, it ends 4.00 m from where it begins",)
+
+
+def test_a_unit_far_from_the_others_is_named() -> None:
+    far = "^unit 'u': latitude 48.15, longitude 12 is far from the rest of the plan$"
+    with pytest.raises(FloorPlanError, match=far):
+        plan_of([unit("u", "room", [[[12.0, 48.15], [12.1, 48.15], [12.1, 48.2]]])])
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.data())
+def test_the_order_and_the_sense_in_which_a_map_was_drawn_make_no_difference(data: st.DataObject) -> None:
+    folder = sorted((FILES / "house-imdf").iterdir())
+    files: dict[str, Any] = {path.name: json.loads(path.read_text()) for path in folder}
+    for name in ("level.geojson", "unit.geojson", "opening.geojson"):
+        drawn = files[name]["features"] = data.draw(st.permutations(files[name]["features"]))
+        for one in drawn:
+            shape = one["geometry"]
+            if shape["type"] == "LineString":
+                shape["coordinates"] = shape["coordinates"][:: data.draw(st.sampled_from([1, -1]))]
+                continue
+            ring = shape["coordinates"][0][:-1]
+            first = data.draw(st.integers(0, len(ring) - 1))
+            turned = (ring[first:] + ring[:first])[:: data.draw(st.sampled_from([1, -1]))]
+            shape["coordinates"] = [[*turned, turned[0]]]
+    assert plan_of_bytes(archive(files)) == HOUSE

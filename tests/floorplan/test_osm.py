@@ -1,0 +1,253 @@
+"""OpenStreetMap's Simple Indoor Tagging, tag by tag."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from xml.sax.saxutils import quoteattr
+
+import pytest
+from floorplans import FILES
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath.floorplan.importers.earth import Tangent
+from solepath.floorplan.importers.osm_tags import levels_told
+from solepath.floorplan.importers.reading import plan_of_bytes
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import Anchor, ConnectorKind, Door, FloorPlan, FloorPlanError, Point
+
+CORNER = Tangent(Anchor(48.15, 11.57))
+
+
+class Map:
+    """An OSM file in the making; places are metres east and north of one corner."""
+
+    def __init__(self) -> None:
+        self._nodes: dict[Point, tuple[int, dict[str, str]]] = {}
+        self._rest: list[str] = []
+
+    def node(self, place: Point, **tags: str) -> Map:
+        number, known = self._nodes.setdefault(place, (len(self._nodes) + 1, {}))
+        known.update({key.replace("__", ":"): value for key, value in tags.items()})
+        return self
+
+    def way(self, places: Sequence[Point], number: int = 0, **tags: str) -> Map:
+        for place in places:
+            self.node(place)
+        refs = "".join(f'<nd ref="{self._nodes[place][0]}"/>' for place in places)
+        self._rest.append(f'<way id="{number or 1000 + len(self._rest)}">{refs}{_tags(tags)}</way>')
+        return self
+
+    def relation(self, members: Sequence[tuple[int, str]], **tags: str) -> Map:
+        inner = "".join(f'<member type="way" ref="{ref}" role="{role}"/>' for ref, role in members)
+        self._rest.append(f'<relation id="{1000 + len(self._rest)}">{inner}{_tags(tags)}</relation>')
+        return self
+
+    def plan(self) -> FloorPlan:
+        nodes = []
+        for place, (number, tags) in self._nodes.items():
+            latitude, longitude = CORNER.degrees(place)
+            nodes.append(f'<node id="{number}" lat="{latitude:.10f}" lon="{longitude:.10f}">{_tags(tags)}</node>')
+        return plan_of_bytes(f'<osm version="0.6">{"".join(nodes)}{"".join(self._rest)}</osm>'.encode())
+
+
+def _tags(tags: dict[str, str]) -> str:
+    return "".join(f"<tag k={quoteattr(key.replace('__', ':'))} v={quoteattr(value)}/>" for key, value in tags.items())
+
+
+def box(x0: float, y0: float, x1: float, y1: float) -> list[Point]:
+    return [(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)]
+
+
+def house() -> Map:
+    return Map().way(box(0, 0, 20, 10), indoor="room", level="0")
+
+
+@pytest.mark.parametrize(("text", "found"), [
+    ("0", [0.0]), ("-1", [-1.0]), ("0.5", [0.5]), ("0;1", [0.0, 1.0]), ("0-3", [0.0, 1.0, 2.0, 3.0]),
+    ("-3--1", [-3.0, -2.0, -1.0]), ("-1;2-4", [-1.0, 2.0, 3.0, 4.0]), ("1 ; 1", [1.0]), ("0.5-2", [0.5, 1.0, 2.0]),
+    ("-1-1", [-1.0, 0.0, 1.0]), ("3-1", [1.0, 2.0, 3.0]), ("-0", [0.0]),
+])  # fmt: skip
+def test_levels_are_single_ones_lists_and_ranges(text: str, found: list[float]) -> None:
+    assert levels_told(text) == found
+
+
+@pytest.mark.parametrize("text", ["", "EG", "0;", "1-", "1--", "0,1", "1e3", "٣", "0-99999", "nan"])
+def test_other_values_tell_no_levels(text: str) -> None:
+    with pytest.raises(FloorPlanError):
+        levels_told(text)
+
+
+@given(st.text(alphabet="0123456789-;. x", max_size=10))
+def test_any_value_tells_levels_in_order_or_none(text: str) -> None:
+    try:
+        found = levels_told(text)
+    except FloorPlanError:
+        return
+    assert found == sorted(set(found))
+
+
+def test_a_room_has_walls_an_area_has_none_and_a_corridor_has_them_towards_neither() -> None:
+    drawn = Map().way(box(0, 0, 10, 4), indoor="room", level="0").way(box(0, 4, 10, 8), indoor="corridor", level="0")
+    drawn.way(box(10, 4, 20, 8), indoor="corridor", level="0").way(box(0, 8, 20, 12), indoor="area", level="0")
+    plan = IndexedPlan(drawn.plan())
+    assert plan.crosses(0, 5.0, 3.0, 5.0, 5.0)  # room to corridor
+    assert not plan.crosses(0, 9.0, 6.0, 11.0, 6.0)  # corridor to corridor
+    assert not plan.crosses(0, 5.0, 7.0, 5.0, 9.0)  # corridor to area
+    assert plan.crosses(0, 15.0, 5.0, 15.0, 3.0)  # corridor to nothing
+    assert not plan.crosses(0, 5.0, 11.0, 5.0, 13.0)  # area to nothing
+    assert all(plan.inside(0, x, y) for x, y in ((5.0, 2.0), (5.0, 6.0), (15.0, 6.0), (5.0, 10.0)))
+
+
+def test_walls_and_pillars_are_solid_and_no_rooms() -> None:
+    drawn = house().way([(5.0, 0.0), (5.0, 6.0), (8.0, 6.0)], indoor="wall", level="0")
+    plan = IndexedPlan(drawn.way(box(14, 4, 15, 5), indoor="column", level="0").plan())
+    assert plan.crosses(0, 4.0, 3.0, 6.0, 3.0)
+    assert plan.crosses(0, 13.5, 4.5, 14.5, 4.5)
+    assert len(plan.plan.levels[0].rooms) == 1
+
+
+def test_a_door_node_is_centred_in_its_wall_as_wide_as_it_says() -> None:
+    level = Map().node((5.0, 0.0), door="yes", width="90 cm", ref="D1").way(
+        [(0.0, 0.0), (5.0, 0.0), (20.0, 0.0), (20.0, 10.0), (0.0, 10.0), (0.0, 0.0)], indoor="room", level="0"
+    ).plan().levels[0]  # fmt: skip
+    assert level.doors == (Door((4.55, 0.0), (5.45, 0.0), "D1"),)
+    assert [wall.end for wall in level.walls if wall.start == (0.0, 0.0)] == [(0.0, 10.0), (4.55, 0.0)]
+
+
+def test_a_door_on_a_corner_begins_there_along_the_longer_wall() -> None:
+    level = house().node((20.0, 10.0), entrance="yes").plan().levels[0]
+    assert level.doors == (Door((19.0, 10.0), (20.0, 10.0)),)
+
+
+def test_a_door_beside_a_wall_belongs_to_it_and_one_far_from_all_is_remarked_upon() -> None:
+    plan = house().node((5.0, 0.3), door="yes", level="0", width="2").node((5.0, 5.0), door="yes", level="0").plan()
+    assert plan.levels[0].doors == (Door((4.0, 0.0), (6.0, 0.0)),)
+    assert plan.remarks == ("node '6': a door on level '0' that is in no wall",)
+
+
+def test_doors_drawn_as_lines_and_doors_of_some_levels_only() -> None:
+    drawn = Map().way(box(0, 0, 20, 10), indoor="room", level="0-2")
+    drawn.way([(3.0, 0.0), (5.0, 0.0)], indoor="door", level="0").node((0.0, 0.0), door="hinged", level="1-2")
+    assert [len(level.doors) for level in drawn.plan().levels] == [1, 1, 1]
+    assert drawn.node((20.0, 10.0), door="no").plan().levels[2].doors == (Door((0.0, 0.0), (1.0, 0.0)),)
+
+
+def test_repeat_on_puts_one_room_on_many_levels() -> None:
+    plan = Map().way(box(0, 0, 20, 10), indoor="room", level="0", repeat_on="1;3-4").plan()
+    assert [(level.id, level.ordinal, level.elevation) for level in plan.levels] == [
+        ("0", 0, 0.0), ("1", 1, 3.0), ("3", 3, 9.0), ("4", 4, 12.0)]  # fmt: skip
+    assert len({(level.walls, level.rooms) for level in plan.levels}) == 1
+    assert not plan.heights_known
+
+
+def test_levels_between_two_have_ranks_for_ordinals_and_lie_between_them() -> None:
+    plan = Map().way(box(0, 0, 20, 10), indoor="room", level="-1;-0.5;0;0.5;1").plan()
+    assert [(level.id, level.ordinal, level.elevation) for level in plan.levels] == [
+        ("-1", -2, -3.0), ("-0.5", -1, -1.5), ("0", 0, 0.0), ("0.5", 1, 1.5), ("1", 2, 3.0)]  # fmt: skip
+
+
+def test_names_come_from_the_outlines_of_levels_and_of_the_building() -> None:
+    drawn = house().way(box(0, 0, 20, 10), indoor="level", level="0", level__ref="EG")
+    plan = drawn.way(box(0, 0, 20, 10), building="yes", name="Town hall").plan()
+    assert plan.name == "Town hall"
+    assert plan.levels[0].name == "EG"
+
+
+def test_stairs_and_lifts_stop_at_all_their_levels() -> None:
+    drawn = Map().way(box(0, 0, 20, 10), indoor="room", level="0-2")
+    drawn.way(box(2, 2, 4, 4), highway="elevator", level="0-2", ref="L1")
+    drawn.way(box(6, 2, 9, 4), indoor="room", stairs="yes", level="0-1", repeat_on="2", step__height="0.17")
+    found = drawn.node((15.0, 5.0), highway="elevator", level="0;2").plan().connectors
+    assert [(one.kind, one.name, one.rise, [(stop.level, stop.place) for stop in one.stops]) for one in found] == [
+        (ConnectorKind.LIFT, "", None, [("0", (15.0, 5.0)), ("2", (15.0, 5.0))]),
+        (ConnectorKind.LIFT, "L1", None, [("0", (3.0, 3.0)), ("1", (3.0, 3.0)), ("2", (3.0, 3.0))]),
+        (ConnectorKind.STAIRS, "", 0.17, [("0", (7.5, 3.0)), ("1", (7.5, 3.0)), ("2", (7.5, 3.0))]),
+    ]
+
+
+def test_a_flight_drawn_as_a_line_goes_from_its_lowest_end_to_its_highest() -> None:
+    drawn = Map().way(box(0, 0, 20, 10), indoor="room", level="0-1")
+    drawn.way([(3.0, 5.0), (8.0, 5.0)], highway="steps", level="0-1")
+    drawn.way([(3.0, 7.0), (8.0, 7.0)], highway="steps", level="0;1", incline="down")
+    found = drawn.plan().connectors
+    assert [[stop.place for stop in one.stops] for one in found] == [
+        [(3.0, 5.0), (8.0, 5.0)], [(8.0, 7.0), (3.0, 7.0)]]  # fmt: skip
+
+
+def test_a_flight_within_a_stairwell_is_that_stairwell() -> None:
+    drawn = Map().way(box(0, 0, 20, 10), indoor="room", level="0-1").way(box(2, 2, 6, 8), stairs="yes", level="0-1",
+                                                                         indoor="room")  # fmt: skip
+    found = drawn.way([(3.0, 3.0), (3.0, 7.0)], highway="steps", level="0-1").plan().connectors
+    assert len(found) == 1
+    assert found[0].stops[0].outline == ((2.0, 2.0), (6.0, 2.0), (6.0, 8.0), (2.0, 8.0))
+
+
+def test_stairs_drawn_level_by_level_are_joined_where_they_overlap() -> None:
+    drawn = Map().way(box(0, 0, 20, 10), indoor="room", level="0-2")
+    for level in "012":
+        drawn.way(box(2, 2, 4, 4), indoor="area", stairs="yes", level=level)
+        drawn.way(box(4, 2, 6, 4), indoor="area", stairs="yes", level=level)  # beside them, not over them
+    found = drawn.plan().connectors
+    assert [[stop.level for stop in one.stops] for one in found] == [["0", "1", "2"]] * 2
+
+
+def test_a_relation_has_a_hole_and_its_outline_may_be_of_several_ways() -> None:
+    drawn = Map().way([(0.0, 0.0), (20.0, 0.0), (20.0, 10.0)], 1).way([(0.0, 0.0), (0.0, 10.0), (20.0, 10.0)], 2)
+    drawn.way(box(8, 4, 12, 6), 3).relation([(1, "outer"), (2, "outer"), (3, "inner")], type="multipolygon",
+                                            indoor="corridor", level="0")  # fmt: skip
+    plan = IndexedPlan(drawn.plan())
+    assert not plan.inside(0, 10.0, 5.0)
+    assert plan.inside(0, 5.0, 5.0)
+    assert plan.crosses(0, 7.5, 5.0, 8.5, 5.0)
+    assert plan.crosses(0, 19.5, 5.0, 20.5, 5.0)
+
+
+def test_a_room_that_does_not_close_is_walls_and_a_remark() -> None:
+    drawn = house().way([(2.0, 2.0), (8.0, 2.0), (8.0, 8.0)], 7, indoor="room", level="0")
+    plan = drawn.plan()
+    assert plan.remarks == ("way '7': its outline does not close",)
+    assert IndexedPlan(plan).crosses(0, 5.0, 1.5, 5.0, 2.5)
+    assert len(plan.levels[0].rooms) == 1
+
+
+def test_what_was_deleted_is_not_there() -> None:
+    text = (FILES / "house.osm").read_text()
+    gone = text.replace('<way id="-1000">', '<way id="-1000" action="delete">')
+    assert plan_of_bytes(gone.encode()).name == ""
+
+
+def test_text_of_other_encodings_is_read() -> None:
+    text = (FILES / "house.osm").read_text().replace("UTF-8", "UTF-16").replace("House", "Häuschen")
+    assert plan_of_bytes(text.encode("utf-16")).name == "Häuschen"
+
+
+tags = st.dictionaries(
+    st.sampled_from(["indoor", "level", "repeat_on", "door", "highway", "stairs", "width", "incline", "name", "area"]),
+    st.sampled_from(["room", "area", "corridor", "wall", "door", "level", "0", "0-1", "1;2", "-1", "yes", "no", "2",
+                     "elevator", "steps", "down", "x"]), max_size=4)  # fmt: skip
+grid = st.tuples(st.integers(0, 5), st.integers(0, 5)).map(lambda p: (float(p[0]), float(p[1])))
+
+
+members_of = st.lists(st.tuples(st.integers(1, 6), st.sampled_from(["outer", "inner", ""])), max_size=3)
+
+
+@settings(deadline=None)
+@given(st.lists(st.tuples(st.lists(grid, max_size=6), st.booleans(), tags), max_size=5),
+       st.lists(st.tuples(grid, tags), max_size=4), st.lists(st.tuples(members_of, tags), max_size=2))  # fmt: skip
+def test_anything_drawn_with_any_tags_is_a_plan_or_refused(
+    ways: list[tuple[list[Point], bool, dict[str, str]]],
+    nodes: list[tuple[Point, dict[str, str]]],
+    relations: list[tuple[list[tuple[int, str]], dict[str, str]]],
+) -> None:
+    drawn = Map().way(box(0, 0, 6, 6), indoor="room", level="0")
+    for i, (places, closed, told) in enumerate(ways):
+        drawn.way([*places, places[0]] if closed and places else places, i + 1, **told)
+    for place, told in nodes:
+        drawn.node(place, **told)
+    for members, told in relations:
+        drawn.relation(members, **told)
+    try:
+        IndexedPlan(drawn.plan())
+    except FloorPlanError as error:
+        assert "\n" not in str(error)

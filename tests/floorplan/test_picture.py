@@ -1,0 +1,68 @@
+"""The picture of a plan whatever its names are, where it cannot be written, and starts that cannot be."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from commands import run
+from floorplans import FILES
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from walks import insoles
+
+from solepath.cli.common.failure import Failure
+from solepath.cli.common.floorplan import start_of
+from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Wall
+from solepath.recording import PacketWriter
+from solepath.show.tables.plan import PlanPicture
+
+any_text = st.text(st.characters(), min_size=1, max_size=12) | st.sampled_from(
+    ["\x00", "\x08lift", "\ud800", "a\udfff", "\ufffe\uffff", "]]>", "<b>&amp;", "\x1b[31m", "\x85\u2028\r\n"]
+)
+
+
+def named(level: str, lift: str) -> FloorPlan:
+    walls = (Wall((0.0, 0.0), (20.0, 0.0)), Wall((20.0, 0.0), (20.0, 10.0)))
+    one = Connector(ConnectorKind.LIFT, lift, (ConnectorStop(level, (5.0, 5.0)),))
+    return FloorPlan(level, (Level(level, lift, 0, 0.0, walls),), (one,))
+
+
+@settings(deadline=None)
+@given(any_text, any_text, any_text)
+def test_a_picture_is_xml_whatever_levels_lifts_and_recordings_are_called(level: str, lift: str, title: str) -> None:
+    svg = ElementTree.tostring(PlanPicture(named(level, lift)).drawn(title), encoding="utf-8")
+    assert ElementTree.fromstring(svg).tag == "{http://www.w3.org/2000/svg}svg"
+
+
+def test_names_stay_readable_in_the_picture(tmp_path: Path) -> None:
+    PlanPicture(named("Erdgeschoß", "Aufzug\x00 1")).write(tmp_path / "plan.svg", "walk")
+    told = [one.text for one in ElementTree.parse(tmp_path / "plan.svg").iter() if one.tag.endswith("title")]
+    assert told == ["walk", "Aufzug  1"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
+def test_a_full_disk_is_told_with_the_name_of_the_picture() -> None:
+    with pytest.raises(OSError, match="/dev/full"):
+        PlanPicture(named("0", "lift")).write(Path("/dev/full"), "walk")
+
+
+def test_a_picture_that_cannot_be_written_is_told_before_the_walk_is_computed(tmp_path: Path) -> None:
+    recorded = tmp_path / "walk.jsonl"
+    with PacketWriter(recorded) as writer:
+        for packet in insoles().packets[:400]:
+            writer.write(packet)
+    (tmp_path / "out" / "plan.svg").mkdir(parents=True)
+    plan = FILES / "house.geojson"
+    done = run("track", recorded, "--floorplan", plan, "--out", tmp_path / "out")
+    assert done.returncode == 2 and done.stdout == "" and "plan.svg" in done.stderr.splitlines()[-1]
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["plan.svg"], "nothing was written"
+
+
+@pytest.mark.parametrize("wrong", ["0,1,2,1e308", "0,1_0,2", "0,1e9,2", "0,1,2,361", "0,1,1_0,90"])
+def test_a_start_of_numbers_that_no_plan_has_is_refused_or_is_no_start(wrong: str) -> None:
+    try:
+        assert start_of(wrong).level not in ("0", "1"), "a level of such a name is refused with the plan"
+    except Failure as failure:
+        assert "--start" in str(failure)

@@ -1,0 +1,313 @@
+"""What a floor plan must be, what is said of one, and how doors are cut out of walls."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from attrs import evolve
+from floorplans import FILES, doors, plans, walls
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solepath.floorplan.checks import unusable, warnings
+from solepath.floorplan.doors import with_doors_cut
+from solepath.floorplan.importers.reading import read_floorplan
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import (
+    Anchor,
+    Connector,
+    ConnectorKind,
+    ConnectorStop,
+    Door,
+    FloorPlan,
+    FloorPlanError,
+    Level,
+    Point,
+    Start,
+    Wall,
+)
+from solepath.session import Session
+
+HOUSE = read_floorplan(FILES / "house.geojson")
+GROUND = HOUSE.levels[0]
+
+
+def with_level(**changes: object) -> FloorPlan:
+    return evolve(HOUSE, levels=(evolve(GROUND, **changes), *HOUSE.levels[1:]))  # type: ignore[arg-type]
+
+
+def stairs(*stops: ConnectorStop, **more: object) -> FloorPlan:
+    return evolve(HOUSE, connectors=(Connector(ConnectorKind.STAIRS, "A", stops, **more),))  # type: ignore[arg-type]
+
+
+def box(x0: float, y0: float, x1: float, y1: float) -> tuple[Wall, ...]:
+    a, b, c, d = (x0, y0), (x1, y0), (x1, y1), (x0, y1)
+    return Wall(a, b), Wall(b, c), Wall(c, d), Wall(d, a)
+
+
+@given(plans())
+def test_equal_plans_have_one_fingerprint_and_remarks_are_no_part_of_them(plan: FloorPlan) -> None:
+    again = evolve(plan, remarks=("drawn by hand",))
+    assert again == plan
+    assert again.fingerprint == plan.fingerprint
+
+
+def test_a_wall_moved_by_a_micrometre_changes_the_fingerprint() -> None:
+    first = GROUND.walls[0]
+    moved = evolve(first, end=(first.end[0], first.end[1] + 1e-6))
+    assert with_level(walls=(moved, *GROUND.walls[1:])).fingerprint != HOUSE.fingerprint
+
+
+def test_a_level_is_found_by_its_id_and_an_unknown_one_is_named() -> None:
+    assert HOUSE.level("1") is HOUSE.levels[1]
+    with pytest.raises(FloorPlanError, match="^the plan has no level '2', only 0, 1$"):
+        HOUSE.level("2")
+
+
+def test_a_plan_knows_a_round_place_near_which_it_is_with_walls_or_rooms_or_stops_only() -> None:
+    far = ((1e6 + 0.5, -2e6 - 0.5), (1e6 + 60.0, -2e6), (1e6, -2e6 + 60.0))
+    walled = Level("0", "", 0, 0.0, (Wall(far[0], far[1]),))
+    roomed = Level("0", "", 0, 0.0, (), (), (far,))
+    bare = Level("0", "", 0, 0.0, ())
+    lift = Connector(ConnectorKind.LIFT, "", (ConnectorStop("0", far[0]),))
+    for plan in (FloorPlan("", (walled,)), FloorPlan("", (bare, roomed)), FloorPlan("", (bare,), (lift,))):
+        assert plan.origin == (1e6, -2e6 - 1.0)
+    assert FloorPlan("", (bare,)).origin == (0.0, 0.0)
+
+
+UNUSABLE = [
+    (evolve(HOUSE, levels=()), "the plan has no levels"),
+    (evolve(HOUSE, levels=(GROUND, GROUND)), "two levels have the id '0'"),
+    (with_level(id=""), "a level has no id"),
+    (with_level(elevation=math.nan), "level '0': its elevation is nan"),
+    (with_level(elevation=4.0), "level '1' comes after level '0' and lies below it"),
+    (with_level(elevation=-3000.0), "level '1' lies 3003 above level '0'; elevations must be in metres, are they in "
+                                    "millimetres or another unit?"),
+    (with_level(walls=(Wall((1.0, 2.0), (1.0, 2.0)),)), "level '0': wall 0 has no length, at (1, 2)"),
+    (with_level(walls=(Wall((1.0, 2.0), (math.nan, 2.0)),)), "level '0': wall 0 is at (nan, 2)"),
+    (with_level(doors=(Door((1.0, 2.0), (1.0, 2e7)),)), "level '0': door 0 is at (1, 2e+07)"),
+    (with_level(rooms=(((0.0, 0.0), (math.inf, 0.0), (0.0, 1.0)),)), "level '0': room 0 is at (inf, 0)"),
+    (with_level(rooms=(((0.0, 0.0), (1.0, 0.0)),)), "level '0': room 0 has 2 corners"),
+    (with_level(walls=(Wall((0.0, 0.0), (56000.0, 0.0)),)),
+     "the plan is 56000 wide; it must be in metres, is it in millimetres or another unit?"),
+    (FloorPlan("", (Level("0", "", 0, 0.0, (Wall((11.57, 48.15), (11.5706, 48.1503)),)),)),
+     "the plan is 0.0006 wide; it must be in metres, is it in degrees or another unit?"),
+    (stairs(), "stairs 'A': has no stops"),
+    (stairs(ConnectorStop("2", (1.0, 1.0))), "stairs 'A': stops at level '2', which the plan does not have"),
+    (stairs(ConnectorStop("1", (1.0, 1.0)), ConnectorStop("0", (1.0, 1.0))),
+     "stairs 'A': its stops are not from the lowest to the highest"),
+    (stairs(ConnectorStop("0", (1.0, 1.0)), ConnectorStop("0", (2.0, 1.0))),
+     "stairs 'A': its stops are not from the lowest to the highest"),
+    (stairs(ConnectorStop("0", (math.nan, 1.0))), "stairs 'A': its stop at level '0' is at (nan, 1)"),
+    (stairs(ConnectorStop("0", (1.0, 1.0), ((0.0, 0.0), (1.0, 1.0)))),
+     "stairs 'A': its outline at level '0' has 2 corners"),
+    (stairs(ConnectorStop("0", (1.0, 1.0)), flights=0), "stairs 'A': has 0 flights a storey"),
+    (stairs(ConnectorStop("0", (1.0, 1.0)), rise=17.0), "stairs 'A': its steps rise 17 m"),
+    (evolve(HOUSE, anchor=Anchor(91.0, 0.0)), "the anchor is at latitude 91, longitude 0"),
+    (evolve(HOUSE, anchor=Anchor(0.0, 0.0, math.nan)), "the anchor's bearing is nan rad"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("plan", "says"), UNUSABLE, ids=[says[:40] for _, says in UNUSABLE])
+def test_a_plan_that_cannot_be_used_says_why_in_one_line(plan: FloorPlan, says: str) -> None:
+    assert unusable(plan) == says
+    assert warnings(plan) == ()
+    with pytest.raises(FloorPlanError):
+        IndexedPlan(plan)
+
+
+@settings(max_examples=12, deadline=None)
+@given(plans())
+def test_plans_within_the_limits_can_be_used_and_remarked_upon(plan: FloorPlan) -> None:
+    assert unusable(plan) is None
+    assert all(line and "\n" not in line for line in warnings(plan))
+
+
+def test_a_closed_house_with_stairs_gives_nothing_to_say() -> None:
+    assert warnings(evolve(HOUSE, heights_known=True)) == ()
+
+
+def test_assumed_heights_are_said() -> None:
+    assert warnings(HOUSE) == ("the plan does not say how high its levels lie",)
+
+
+def test_a_gap_in_the_outer_wall_is_said_and_a_door_in_it_is_none() -> None:
+    gap = (Wall((0.0, 0.0), (10.0, 0.0)), Wall((11.0, 0.0), (20.0, 0.0)), *box(0.0, 0.0, 20.0, 10.0)[1:])
+    known = evolve(HOUSE, heights_known=True)
+    for rooms in ((), (((0.0, 0.0), (20.0, 0.0), (20.0, 10.0), (0.0, 10.0)),)):
+        open_level = Level("0", "", 0, 0.0, gap, (), rooms)
+        found = warnings(evolve(known, levels=(open_level, *HOUSE.levels[1:])))
+        assert len(found) == 1
+        assert found[0].startswith("level '0': its walls do not close near (1")
+        with_door = evolve(open_level, doors=(Door((10.0, 0.0), (11.0, 0.0)),))
+        assert warnings(evolve(known, levels=(with_door, *HOUSE.levels[1:]))) == ()
+
+
+def test_a_door_drawn_on_the_other_face_of_a_wall_is_no_gap() -> None:
+    for off in (0.05, 0.13, 0.2, 0.29):
+        outer, inner = box(0.0, 0.0, 20.0, 10.0), box(off, off, 20.0 - off, 10.0 - off)
+        for drawn in (outer, (*outer, *inner)):
+            level = with_doors_cut(Level("0", "", 0, 0.0, drawn, (Door((10.0, off), (11.5, off)),)))
+            assert len(level.walls) > len(drawn)
+            assert not [line for line in warnings(FloorPlan("", (level,))) if "close" in line]
+            assert IndexedPlan(FloorPlan("", (level,))).inside(0, 5.0, 5.0)
+
+
+def test_free_standing_walls_indoors_are_no_open_walls() -> None:
+    level = Level("0", "", 0, 0.0, (*box(0.0, 0.0, 20.0, 10.0), Wall((5.0, 3.0), (15.0, 3.0))))
+    no_stairs = "the plan has no stairs and no lifts: nothing on it shows a level or a place"
+    assert warnings(FloorPlan("", (level,))) == (no_stairs,)
+
+
+def test_connectors_that_lead_nowhere_and_levels_that_nothing_leads_to_are_said() -> None:
+    plan = evolve(
+        HOUSE, heights_known=True, connectors=(Connector(ConnectorKind.LIFT, "L", (ConnectorStop("1", (14.0, 7.0)),)),)
+    )
+    assert warnings(plan) == ("lift 'L': stops at level '1' only", "level '0': neither stairs nor a lift lead there",
+                              "level '1': neither stairs nor a lift lead there")  # fmt: skip
+
+
+def test_a_level_without_walls_is_said() -> None:
+    assert "level '0': has no walls" in warnings(with_level(walls=()))
+
+
+# --- doors ------------------------------------------------------------------------------------------------------------
+
+
+def cut(drawn: tuple[Wall, ...], *through: Door) -> tuple[Wall, ...]:
+    return with_doors_cut(Level("0", "", 0, 0.0, drawn, through)).walls
+
+
+LONG = (Wall((0.0, 0.0), (10.0, 0.0)),)
+
+
+def test_a_door_leaves_a_gap_of_its_width() -> None:
+    assert cut(LONG, Door((4.0, 0.0), (5.0, 0.0))) == (Wall((0.0, 0.0), (4.0, 0.0)), Wall((5.0, 0.0), (10.0, 0.0)))
+    assert cut(LONG, Door((5.0, 0.1), (4.0, -0.1))) == (Wall((0.0, 0.0), (4.0, 0.0)), Wall((5.0, 0.0), (10.0, 0.0)))
+
+
+def test_doors_side_by_side_and_at_the_end_leave_what_is_between_them() -> None:
+    found = cut(LONG, Door((9.0, 0.0), (11.0, 0.0)), Door((2.0, 0.0), (3.0, 0.0)), Door((2.5, 0.0), (4.0, 0.0)))
+    assert found == (Wall((0.0, 0.0), (2.0, 0.0)), Wall((4.0, 0.0), (9.0, 0.0)))
+    assert cut(LONG, Door((-1.0, 0.0), (11.0, 0.0))) == ()
+
+
+def test_a_door_cuts_both_faces_of_a_wall_and_no_wall_across_it() -> None:
+    faces = (Wall((0.0, 0.0), (10.0, 0.0)), Wall((0.0, 0.2), (10.0, 0.2)), Wall((4.0, 0.2), (4.0, 5.0)),
+             Wall((0.0, 1.0), (10.0, 1.0)))  # fmt: skip
+    found = cut(faces, Door((4.0, 0.0), (5.0, 0.0)))
+    assert found == (Wall((0.0, 0.0), (4.0, 0.0)), Wall((5.0, 0.0), (10.0, 0.0)), Wall((0.0, 0.2), (4.0, 0.2)),
+                     Wall((5.0, 0.2), (10.0, 0.2)), *faces[2:])  # fmt: skip
+
+
+@given(st.lists(walls, max_size=6).map(tuple), st.lists(doors, max_size=4))
+def test_cut_once_more_the_walls_stay_as_they_are(drawn: tuple[Wall, ...], through: list[Door]) -> None:
+    once = cut(drawn, *through)
+    assert cut(once, *through) == once
+
+
+@given(st.floats(0.0, math.tau), st.floats(0.5, 8.0), st.floats(0.6, 1.5))
+def test_one_walks_through_the_middle_of_a_door_in_a_wall_of_any_direction(turn: float, at: float, wide: float) -> None:
+    def along(x: float, y: float) -> Point:
+        return x * math.cos(turn) - y * math.sin(turn), x * math.sin(turn) + y * math.cos(turn)
+
+    door = Door(along(at, 0.0), along(at + wide, 0.0))
+    plan = IndexedPlan(FloorPlan("", (with_doors_cut(Level("0", "", 0, 0.0, (Wall(along(0.0, 0.0), along(10.0, 0.0)),),
+                                                           (door,))),)))  # fmt: skip
+    for x, free in ((at + 0.5 * wide, True), (at + 0.01, True), (at - 0.01, False), (at + wide - 0.01, True),
+                    (at + wide + 0.01, at + wide > 10.0 - 0.01)):  # fmt: skip
+        assert plan.crosses(0, *along(x, -0.4), *along(x, 0.4)) != free
+
+
+# --- what a program may have put into the records ---------------------------------------------------------------------
+
+HUGE = 10**400
+
+MISSHAPEN = [
+    (evolve(HOUSE, levels=None), "the plan's levels are None, not a tuple"),
+    (evolve(HOUSE, levels=[GROUND]), "the plan's levels are a list, not a tuple"),
+    (evolve(HOUSE, levels=(1,)), "the plan's levels: one is 1, no Level"),
+    (evolve(HOUSE, name=3), "the plan's name is 3, not a text"),
+    (evolve(HOUSE, connectors=({},)), "the plan's connectors: one is a dict, no Connector"),
+    (evolve(HOUSE, anchor=(48.0, 11.0)), "the anchor is (48, 11), no Anchor"),
+    (evolve(HOUSE, anchor=Anchor("x", 0.0)), "the anchor's latitude is 'x', not a number"),
+    (with_level(id=0), "a level's id is 0, not a text"),
+    (with_level(ordinal="x"), "level '0': its ordinal is 'x', not a whole number up to 100000"),
+    (with_level(ordinal=HUGE), "level '0': its ordinal is a huge number, not a whole number up to 100000"),
+    (with_level(elevation=None), "level '0': its elevation is None, not a number"),
+    (with_level(elevation=HUGE), "level '0': its elevation is a huge number"),
+    (with_level(walls=[]), "level '0': its walls are a list, not a tuple"),
+    (with_level(walls=(Wall((0, 0), (HUGE, 1)),)), "level '0': wall 0 is at (a huge number, 1)"),
+    (with_level(walls=(Wall((0, 0), (1,)),)), "level '0': wall 0 is ((0, 0), (1)), not from (x, y) to (x, y)"),
+    (with_level(walls=(Wall((0, 0), "ab"),)), "level '0': wall 0 is ((0, 0), 'ab'), not from (x, y) to (x, y)"),
+    (with_level(doors=(Door((0, 0), (True, 1)),)),
+     "level '0': door 0 is ((0, 0), (True, 1)), not from (x, y) to (x, y)"),
+    (with_level(rooms=(((0, 0), (1, 0), (1, None)),)), "level '0': room 0 has a corner (1, None), not (x, y)"),
+    (stairs(ConnectorStop("0", None)), "stairs 'A': a stop has a place None, not (x, y)"),
+    (stairs(ConnectorStop(["0"], (1.0, 1.0))), "stairs 'A': the level of a stop is a list, not a text"),
+    (stairs(ConnectorStop("0", (1.0, 1.0)), flights=1.5), "stairs 'A': has 1.5 flights, not a whole number"),
+    (stairs(ConnectorStop("0", (1.0, 1.0)), flights=10**5000), "stairs 'A': has a huge number flights a storey"),
+    (stairs(ConnectorStop("0", (1.0, 1.0)), rise=HUGE), "stairs 'A': its steps rise a huge number m"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("plan", "says"), MISSHAPEN, ids=[says[:40] for _, says in MISSHAPEN])
+def test_a_plan_of_something_else_than_records_is_refused_by_the_session_in_one_line(
+    plan: FloorPlan, says: str
+) -> None:
+    assert unusable(plan) == says
+    with pytest.raises(FloorPlanError) as refused:
+        Session(floorplan=plan)
+    assert str(refused.value) == says
+
+
+NO_STARTS = [
+    (Start("0", (1,)), "its place is (1), not (x, y) in m"),
+    (Start("0", (1.0, 2.0, 3.0)), "its place is (1, 2, 3), not (x, y) in m"),
+    (Start("0", None), "its place is None, not (x, y) in m"),
+    (Start("0", (HUGE, 1)), "its place is (a huge number, 1), not (x, y) in m"),
+    (Start("0", (math.nan, 1.0)), "its place is (nan, 1), not (x, y) in m"),
+    (Start(0, (1.0, 2.0)), "its level is 0, not a text"),
+    (Start("0", (1.0, 2.0), "x"), "its heading is 'x', not in rad"),
+    (Start("0", (1.0, 2.0), 1e308), "its heading is 1e+308, not in rad"),
+    (Start("0", (1.0, 2.0), HUGE), "its heading is a huge number, not in rad"),
+    (Start("0", (1.0, 2.0), spread=-1.0), "its spread is -1; it can be 0 to 5000 m"),
+    (Start("0", (1.0, 2.0), spread=1e300), "its spread is 1e+300; it can be 0 to 5000 m"),
+    (Start("0", (1.0, 2.0), spread=None), "its spread is None; it can be 0 to 5000 m"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("start", "says"), NO_STARTS, ids=[says[:40] for _, says in NO_STARTS])
+def test_a_start_that_cannot_be_is_refused_by_the_session_in_one_line(start: Start, says: str) -> None:
+    with pytest.raises(FloorPlanError) as refused:
+        Session(floorplan=HOUSE, start=start)
+    assert str(refused.value) == f"start: {says}"
+
+
+# --- how much of it ---------------------------------------------------------------------------------------------------
+
+
+def test_a_plan_has_no_more_levels_stops_walls_and_corners_than_are_good_for_a_session() -> None:
+    def lifts(count: int, stops: int) -> FloorPlan:
+        levels = tuple(Level(str(k), "", k, 3.0 * k, box(0.0, 0.0, 20.0, 10.0)) for k in range(stops))
+        each = tuple(ConnectorStop(str(k), (1.0, 1.0)) for k in range(stops))
+        return FloorPlan("", levels, tuple(Connector(ConnectorKind.LIFT, str(k), each) for k in range(count)))
+
+    too_many = "the plan's stairs and lifts have more than 2000 stops"
+    assert unusable(lifts(66_000, 1)) == unusable(lifts(1001, 2)) == unusable(lifts(250, 300)) == too_many
+    assert unusable(lifts(1000, 2)) is None
+    levels = tuple(Level(str(k), "", k, 0.0, ()) for k in range(1001))
+    assert unusable(FloorPlan("", levels)) == "the plan has more than 1000 levels or 100000 walls"
+    many = (Wall((0.0, 0.0), (1.0, 1.0)),) * 100_001
+    assert unusable(with_level(walls=many)) == "the plan has more than 1000 levels or 100000 walls"
+    ring = tuple((math.cos(0.001 * k), math.sin(0.001 * k)) for k in range(1000))
+    assert unusable(with_level(rooms=(ring,) * 101)) == "the plan has more than 100000 doors and corners of rooms"
+    long = tuple(Wall((0.0, 0.01 * k), (4000.0, 0.01 * k)) for k in range(126))
+    assert unusable(with_level(walls=long)) == "the walls, doors and rooms of the plan come to 504 km; it can have 500"
+
+
+def test_more_walls_around_one_place_than_a_step_can_be_tried_against_are_refused() -> None:
+    comb = tuple(Wall((0.001 * k, 0.0), (0.001 * k, 1.0)) for k in range(2500))
+    with pytest.raises(FloorPlanError, match=r"^level '0': \d+ walls lie around \(-?\d+, -?\d+\)$"):
+        IndexedPlan(with_level(walls=comb))

@@ -1,0 +1,293 @@
+"""Pressure cells that fail: told, left out, and the walk goes on."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from functools import cache
+from math import inf, isfinite, nan
+from typing import Any
+
+import pytest
+from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from walks import LEFT, of, samples
+
+from solepath import Session
+from solepath.calibration import Calibration, InsoleCalibration
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import FULL_SCALE, layout
+from solepath.events import CellFault, CellsFailed, Event, InsoleNeverUnloads, SampleRejected, StrideTaken
+from solepath.foot.pressure.cell_health import CellHealth
+from solepath.foot.pressure.cells import enclosed, spacing
+from solepath.saving import codec as machine
+from solepath.types import Cell, Foot, Layout, Phase, Sample, Site
+
+WALK = Route().stand(1.5).walk(30.0, 1.3).stop(1.0)
+COUNTS = (24, 35, 96, 99)
+Fault = Callable[[float, tuple[float, ...], int], tuple[float | None, ...]]
+"""(t, cells, which one fails) -> cells."""
+
+
+@cache
+def walk(cells: int = 96) -> tuple[Sample, ...]:
+    """About 26 s, of samples at 50 Hz that are clipped as a device clips them."""
+    return tuple(
+        evolve(s, pressure=tuple([min(value, FULL_SCALE) for value in s.pressure]))
+        for s in samples(WALK, cells=cells, rate=50.0)
+        if s.pressure is not None
+    )
+
+
+def known(cells: int = 96) -> Calibration:
+    return Calibration({foot: InsoleCalibration(layout(cells, foot)) for foot in Foot})
+
+
+def among_loading_cells(cells: int) -> int:
+    """A cell of the forefoot with cells that load on all its sides."""
+    there = layout(cells, Foot.LEFT)
+    pressed = [s.pressure for s in walk(cells) if s.site is LEFT and s.pressure is not None]
+    most = [max(values) for values in zip(*pressed, strict=True)]
+    loading = [value > 0.2 * max(most) for value in most]
+    around = [i for i in range(cells) if loading[i] and enclosed(there, spacing(there), i, loading)[0]]
+    return max(around, key=lambda i: (there.cells[i].x < 0.7 * there.length, most[i]))
+
+
+def heard(cells: int, fault: Fault | None = None, since: float = -inf) -> tuple[list[Event], list[Event]]:
+    """A walk in which a cell of the left insole fails: what is said of cells, and what the session says of the rest."""
+    session, which = Session(calibration=known(cells)), among_loading_cells(cells)
+    told: list[Event] = []
+    for sample in walk(cells):
+        if fault is not None and sample.site is LEFT and sample.t >= since and sample.pressure is not None:
+            sample = evolve(sample, pressure=fault(sample.t, sample.pressure, which) or None)
+        told += session.feed(sample)
+    kinds = CellsFailed | InsoleNeverUnloads
+    return of(kinds, told), [event for event in told if not isinstance(event, kinds)]
+
+
+@cache
+def clean(cells: int = 96) -> list[StrideTaken]:
+    """The steps of the same walk when nothing fails."""
+    told, rest = heard(cells)
+    assert told == []
+    return of(StrideTaken, rest)
+
+
+def put(value: float | None) -> Fault:
+    def fault(t: float, cells: tuple[float, ...], which: int) -> tuple[float | None, ...]:
+        return tuple([value if i == which else cell for i, cell in enumerate(cells)])
+
+    return fault
+
+
+def shaky(t: float, cells: tuple[float, ...], which: int) -> tuple[float | None, ...]:
+    """A value and, now and then, the count beside it."""
+    return put(60.0 + (0.05 if int(t * 1000) % 3 else 0.0))(t, cells, which)
+
+
+# --- clean walks ---
+
+
+@pytest.mark.parametrize("cells", [8, *COUNTS])
+def test_nothing_is_said_of_cells_that_work(cells: int) -> None:
+    for there in (True, False):
+        health = CellHealth(LEFT)
+        shape = layout(cells, Foot.LEFT) if there else None
+        for sample in walk(cells):
+            if sample.site is LEFT and sample.pressure is not None:
+                assert health.update(sample.t, sample.t, sample.pressure, Phase.SWING, sample.gyro, shape) == []
+                assert health.usable(sample.pressure) is sample.pressure
+
+
+# --- each fault ---
+
+
+@pytest.mark.parametrize("cells", COUNTS)
+@pytest.mark.parametrize(
+    ("kind", "fault"),
+    [
+        (CellFault.DEAD, put(0.0)),
+        (CellFault.STUCK, put(60.0)),
+        (CellFault.STUCK, shaky),
+        (CellFault.SATURATED, put(FULL_SCALE)),
+        (CellFault.MISSING, put(nan)),
+        (CellFault.MISSING, put(None)),
+    ],
+)
+def test_a_cell_that_failed_is_told_once_and_the_walk_goes_on(cells: int, kind: CellFault, fault: Fault) -> None:
+    told, rest = heard(cells, fault)
+    (failed,) = told
+    assert isinstance(failed, CellsFailed)
+    assert (failed.site, failed.fault, failed.cells) == (LEFT, kind, (among_loading_cells(cells),))
+    assert failed.t < (1.1 if kind is CellFault.MISSING else 15.0)
+    steps, whole = of(StrideTaken, rest), clean(cells)
+    assert len(steps) == len(whole)
+    assert sum(s.length for s in steps) == pytest.approx(sum(s.length for s in whole), rel=0.01)
+    assert of(SampleRejected, rest) == []
+
+
+@pytest.mark.parametrize("cells", COUNTS)
+def test_a_cell_that_dies_on_the_way_is_told_within_three_windows(cells: int) -> None:
+    told, _ = heard(cells, put(0.0), since=13.0)
+    assert [(event.fault, event.cells) for event in told if isinstance(event, CellsFailed)] == [
+        (CellFault.DEAD, (among_loading_cells(cells),))
+    ]
+    assert 13.0 + 4.0 < told[0].t < 13.0 + 14.0
+
+
+def test_several_cells_that_fail_together_are_told_together() -> None:
+    def two(t: float, cells: tuple[float, ...], which: int) -> tuple[float | None, ...]:
+        return put(60.0)(t, cells, which)[:-1] + (60.0,)
+
+    told, _ = heard(96, two)
+    assert [event.cells for event in told if isinstance(event, CellsFailed)] == [(among_loading_cells(96), 95)]
+
+
+def test_a_cell_that_loads_again_is_used_again() -> None:
+    which = among_loading_cells(96)
+    health = CellHealth(LEFT)
+    shape = layout(96, Foot.LEFT)
+    used = {}
+    for sample in walk():
+        if sample.site is not LEFT or sample.pressure is None:
+            continue
+        cells = sample.pressure if sample.t > 13.0 else put(60.0)(sample.t, sample.pressure, which)
+        health.update(sample.t, sample.t, cells, Phase.SWING, sample.gyro, shape)
+        used[sample.t] = which not in health.out
+    assert used[min(used)]
+    assert not used[12.5]
+    assert used[max(used)]
+
+
+# --- the number of cells ---
+
+
+@pytest.mark.parametrize("count", [0, 50, 95, 97])
+def test_another_number_of_cells_is_told_and_the_inertial_part_goes_on(count: int) -> None:
+    told, rest = heard(96, lambda t, cells, which: (*cells, 1.0)[:count], since=10.0)
+    (failed,) = told
+    assert isinstance(failed, CellsFailed)
+    assert failed.fault is CellFault.MISSING
+    assert failed.cells == (tuple(range(count, 96)) or (96,))
+    assert failed.t == pytest.approx(11.0, abs=0.1)
+    assert len(of(StrideTaken, rest)) == len(clean())
+
+
+def test_one_sample_of_another_length_is_not_used_and_not_told() -> None:
+    told, _ = heard(96, lambda t, cells, which: cells[:9] if 10.0 <= t < 10.02 else cells)
+    assert told == []
+    health = CellHealth(LEFT)
+    health.update(0.0, 0.0, (1.0,) * 8, Phase.STATIONARY)
+    health.update(0.1, 0.1, (1.0,) * 7, Phase.STATIONARY)
+    assert health.usable((1.0,) * 7) == ()
+    assert health.usable((1.0,) * 8) == (1.0,) * 8
+
+
+def test_without_a_layout_another_number_of_cells_is_another_insole_after_a_second() -> None:
+    health = CellHealth(LEFT)
+    told = [event for k in range(10) for event in health.update(0.1 * k, 0.1 * k, (1.0,) * 8, Phase.STATIONARY)]
+    told += [event for k in range(10, 40) for event in health.update(0.1 * k, 0.1 * k, (1.0,) * 6, Phase.STATIONARY)]
+    assert [(event.fault, event.cells) for event in told if isinstance(event, CellsFailed)] == [
+        (CellFault.MISSING, (6, 7))
+    ]
+    assert health.usable((1.0,) * 6) == (1.0,) * 6
+
+
+# --- the whole insole ---
+
+
+def test_an_insole_that_never_unloads_is_told_and_steps_are_taken_by_the_inertial_sensor() -> None:
+    told, rest = heard(96, lambda t, cells, which: tuple([value + 40.0 for value in cells]))
+    assert [type(event) for event in told] == [InsoleNeverUnloads]
+    assert told[0].site is LEFT
+    assert 6.0 < told[0].seconds < 16.0
+    assert abs(len(of(StrideTaken, rest)) - len(clean())) <= 1
+
+
+def test_an_insole_that_shows_one_value_for_ever_is_told_as_one_that_never_unloads() -> None:
+    told, rest = heard(24, lambda t, cells, which: (30.0,) * 24)
+    assert [type(event) for event in told] == [InsoleNeverUnloads]
+    assert len(of(StrideTaken, rest)) == len(clean(24))
+
+
+def test_an_insole_that_shows_nothing_at_all_is_dead_in_every_cell() -> None:
+    told, rest = heard(24, lambda t, cells, which: (0.0,) * 24)
+    assert [(event.fault, event.cells) for event in told if isinstance(event, CellsFailed)] == [
+        (CellFault.DEAD, tuple(range(24)))
+    ]
+    assert len(of(StrideTaken, rest)) == len(clean(24))
+
+
+def test_a_wearer_who_stands_on_one_spot_has_no_stuck_cells() -> None:
+    health = CellHealth(LEFT)
+    shape = layout(96, Foot.LEFT)
+    cells = tuple([float(i % 7) for i in range(96)])
+    still = (0.0, 0.0, 0.01)
+    assert [e for k in range(3000) for e in health.update(k / 50, k / 50, cells, Phase.STATIONARY, still, shape)] == []
+
+
+# --- neighbours ---
+
+
+def grid(side: int) -> Layout:
+    return Layout(1, Foot.LEFT, tuple(Cell(0.01 * i, 0.01 * j) for i in range(side) for j in range(side)), 0.3)
+
+
+def test_a_cell_is_enclosed_when_cells_on_all_its_sides_load() -> None:
+    there = grid(3)
+    assert spacing(there) == pytest.approx(0.01)
+    loading = [True] * 9
+    assert enclosed(there, 0.01, 4, loading) == (True, True)
+    assert enclosed(there, 0.01, 3, loading) == (False, True)  # at the rim
+    assert enclosed(there, 0.01, 4, [False] * 9) == (False, False)
+    assert enclosed(there, 0.01, 4, [True] * 3 + [False] * 6) == (False, True)
+    assert spacing(Layout(1, Foot.LEFT, (Cell(0.0, 0.0),), 0.3)) == 0.0
+
+
+# --- any input ---
+
+VALUES = st.one_of(
+    st.floats(allow_nan=True, allow_infinity=True),
+    st.none(),
+    st.sampled_from([0.0, 1.0, 4095.0, 1.7e308, 10**400, nan, inf, -inf]),
+    st.integers(-5, 5000),
+)
+FED = st.tuples(
+    st.floats(-0.5, 3.0),
+    st.lists(VALUES, max_size=8).map(tuple),
+    st.sampled_from(Phase),
+    st.one_of(st.none(), st.tuples(*[st.floats(-9.0, 9.0)] * 3)),
+)
+
+
+def fed(health: CellHealth, items: list[Any], t: float = 0.0, shape: Layout | None = None) -> list[Any]:
+    told: list[Any] = []
+    for dt, cells, phase, gyro in items:
+        t += dt
+        told.append(health.update(t, t, cells, phase, gyro, shape))
+        left = health.usable(cells)
+        assert len(left) in (0, len(cells))
+        assert all(isfinite(value) for value in left)
+        told.append(left)
+    return told
+
+
+@given(st.lists(FED, max_size=60), st.booleans())
+@settings(deadline=None, max_examples=150)
+def test_any_cells_at_any_time_give_numbers_and_no_exception(items: list[Any], there: bool) -> None:
+    health = CellHealth(Site.RIGHT_FOOT)
+    shape = Layout(1, Foot.RIGHT, tuple(Cell(0.03 * i, 0.01 * (i % 2)) for i in range(5)), 0.25)
+    fed(health, items, shape=shape if there else None)
+    json.dumps(machine.save(health), allow_nan=False)
+
+
+@given(st.lists(FED, max_size=40), st.integers(0, 40))
+@settings(deadline=None, max_examples=60)
+def test_a_saved_health_goes_on_as_if_nothing_had_happened(items: list[Any], cut: int) -> None:
+    straight, one = CellHealth(LEFT), CellHealth(LEFT)
+    whole = fed(straight, items)
+    told = fed(one, items[:cut])
+    restored = machine.load(CellHealth, json.loads(json.dumps(machine.save(one), allow_nan=False)))
+    t = sum([dt for dt, *_ in items[:cut]], 0.0)
+    assert repr(told + fed(restored, items[cut:], t)) == repr(whole)

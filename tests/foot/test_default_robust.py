@@ -1,0 +1,195 @@
+"""The default recipe on sensors that it has never met: mounted any way, cheap, clipping, switched on in mid-walk."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from copy import deepcopy
+from functools import cache
+from math import hypot, radians
+from pathlib import Path
+from random import Random
+
+import pytest
+from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from walks import of
+
+from solepath import Foot, Sample, StrideTaken
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.walker import Walker
+from solepath.foot.tracker import FootTracker
+from solepath.recipes import DEFAULT, Recipe
+from solepath.recording.samples import load_samples
+from solepath.types import Quat, Vec3
+from solepath.types.vector import GRAVITY, ZERO, normalise, rotate
+
+ROUTE = Route().stand(2.0).walk(14.0, 1.3).stop(1.5)
+
+
+@cache
+def walk() -> tuple[Sample, ...]:
+    return tuple(Walker(ROUTE, seed=101).samples(Foot.LEFT, 100.0, LSM6DSOX))
+
+
+@cache
+def recorded(path: Path, seconds: float) -> tuple[Sample, ...]:
+    samples = tuple(load_samples(path))
+    return tuple(sample for sample in samples if sample.t - samples[0].t <= seconds)
+
+
+def tracker_of(recipe: Recipe, **options: bool) -> FootTracker:
+    parts = deepcopy(recipe)
+    return FootTracker(Foot.RIGHT, parts.detector, evolve(parts.corrector, **options), cues=parts.cues)
+
+
+def tracked(samples: Iterable[Sample]) -> tuple[FootTracker, list[StrideTaken]]:
+    """One foot by the default recipe, without the body."""
+    tracker = tracker_of(DEFAULT)
+    steps: list[StrideTaken] = []
+    for sample in samples:
+        steps += of(StrideTaken, tracker.feed(sample))
+    return tracker, steps
+
+
+def untouched(samples: Iterable[Sample]) -> list[StrideTaken]:
+    """The steps of a filter that takes clipped readings as they are."""
+    tracker = tracker_of(DEFAULT, recover=False)
+    return [step for sample in samples for step in of(StrideTaken, tracker.feed(sample))]
+
+
+def clipped(samples: Iterable[Sample], rate: float = 1e3, force: float = 1e3, told: bool = False) -> list[Sample]:
+    """The same of a sensor that ends at `rate` rad/s and `force` m/s^2; `told`: it says so."""
+    cut: list[Sample] = []
+    for sample in samples:
+        assert sample.acc is not None and sample.gyro is not None
+        gyro, acc = within(sample.gyro, rate), within(sample.acc, force)
+        ends = told and (gyro, acc) != (sample.gyro, sample.acc)
+        cut.append(evolve(sample, gyro=gyro, acc=acc, saturated=ends))
+    return cut
+
+
+def within(v: Vec3, end: float) -> Vec3:
+    x, y, z = (min(max(a, -end), end) for a in v)
+    return (x, y, z)
+
+
+def mounted(samples: Iterable[Sample], turn: Quat) -> list[Sample]:
+    turned: list[Sample] = []
+    for sample in samples:
+        acc, gyro = sample.acc or ZERO, sample.gyro or ZERO
+        turned.append(evolve(sample, acc=rotate(turn, acc), gyro=rotate(turn, gyro)))
+    return turned
+
+
+def way(steps: Sequence[StrideTaken]) -> float:
+    return sum(step.length for step in steps)
+
+
+def lengths(steps: Sequence[StrideTaken]) -> list[float]:
+    return [step.length for step in steps]
+
+
+# --- any mounting -----------------------------------------------------------------------------------------------------
+
+quats = st.tuples(*[st.floats(-1.0, 1.0)] * 4).filter(lambda q: sum(x * x for x in q) > 0.05).map(normalise)
+
+
+@given(turn=quats)
+@settings(max_examples=5, deadline=None)
+def test_a_sensor_mounted_any_way_gives_the_same_strides(turn: Quat) -> None:
+    _, usual = tracked(walk())
+    _, other = tracked(mounted(walk(), turn))
+    # each axis learns the bias and the end of its range by itself, and so to a few millimetres
+    assert lengths(other) == pytest.approx(lengths(usual), abs=0.02)
+
+
+# --- ranges that end too early ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("told", [False, True])
+def test_strides_are_found_and_about_as_long_when_the_gyroscope_ends_at_250_degrees_per_second(told: bool) -> None:
+    _, whole = tracked(walk())
+    _, cut = tracked(clipped(walk(), rate=radians(250.0), told=told))
+    assert len(cut) == len(whole) > 8
+    assert way(cut) == pytest.approx(way(whole), rel=0.07)
+
+
+def test_what_a_gyroscope_that_ends_at_400_degrees_per_second_missed_is_made_up_for() -> None:
+    _, whole = tracked(walk())
+    cut = clipped(walk(), rate=radians(400.0))
+    _, mended = tracked(cut)
+    assert lengths(mended) == pytest.approx(lengths(whole), rel=0.02)
+    unmended = untouched(cut)
+    assert abs(way(mended) - way(whole)) < 0.3 * abs(way(unmended) - way(whole))
+
+
+def test_what_an_accelerometer_that_ends_at_2_g_missed_is_made_up_for_in_part() -> None:
+    _, whole = tracked(walk())
+    cut = clipped(walk(), force=2.0 * GRAVITY)
+    _, mended = tracked(cut)
+    unmended = untouched(cut)
+    assert len(mended) == len(whole)
+    assert abs(way(mended) - way(whole)) < 0.75 * abs(way(unmended) - way(whole))
+
+
+def test_one_broken_reading_does_not_hide_where_the_range_ends() -> None:
+    cut = clipped(walk(), rate=radians(250.0))
+    broken = list(cut)
+    broken[220] = evolve(cut[220], gyro=(90.0, -90.0, 90.0))
+    _, whole = tracked(walk())
+    _, steps = tracked(broken)
+    assert way(steps[3:]) == pytest.approx(way(whole[3:]), rel=0.06)
+
+
+def test_a_recorded_walk_of_a_clipping_gyroscope_comes_back_to_where_it_went(data_dir: Path) -> None:
+    samples = recorded(data_dir / "pyshoe_vicon" / "2017-11-22-11-22-03.npz", 14.0)
+    whole, steps = tracked(samples)
+    cut, found = tracked(clipped(samples, rate=radians(250.0)))
+    assert len(found) == len(steps)
+    (x, y, z), (u, v, w) = whole.position, cut.position
+    assert hypot(u - x, v - y, w - z) < 0.04 * way(steps)
+
+
+# --- switched on at the wrong moment ----------------------------------------------------------------------------------
+
+
+@given(begin=st.floats(4.0, 5.2))
+@settings(max_examples=4, deadline=None)
+def test_a_foot_that_walks_from_the_first_sample_on_is_levelled_in_its_second_stance(begin: float) -> None:
+    _, whole = tracked(walk())
+    t = walk()[0].t + begin
+    _, steps = tracked(sample for sample in walk() if sample.t >= t)
+    assert steps[0].t_start - t < 3.0
+    late = [step for step in whole if step.t_start > steps[1].t_start - 0.3]
+    assert lengths(steps[1:]) == pytest.approx(lengths(late), rel=0.06)
+
+
+def test_the_time_of_day_changes_no_stride() -> None:
+    _, usual = tracked(walk())
+    _, late = tracked(evolve(sample, t=sample.t + 1.6e9) for sample in walk())
+    assert lengths(late) == pytest.approx(lengths(usual), abs=1e-3)
+
+
+# --- cheap sensors ----------------------------------------------------------------------------------------------------
+
+
+def test_a_cheap_sensors_noise_bias_and_scale_cost_little() -> None:
+    noise = Random(1)
+    _, usual = tracked(walk())
+    cheap = []
+    for sample in walk():
+        (ax, ay, az), (gx, gy, gz) = sample.acc or ZERO, sample.gyro or ZERO
+        g = [noise.gauss(0.0, 0.01) for _ in range(3)]
+        a = [noise.gauss(0.0, 0.1) for _ in range(3)]
+        cheap.append(
+            evolve(
+                sample,
+                acc=(1.03 * ax + a[0], 1.03 * ay + a[1], 1.03 * az + a[2]),
+                gyro=(gx + g[0] + 0.05, gy + g[1] - 0.05, gz + g[2] + 0.05),
+            )
+        )
+    _, steps = tracked(cheap)
+    assert len(steps) == len(usual)
+    assert way(steps) == pytest.approx(way(usual), rel=0.03)

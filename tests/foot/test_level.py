@@ -1,0 +1,223 @@
+"""Whether a step was level: level walks stay level, and slopes, kerbs and stairs keep their height."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import pi, radians
+
+import numpy as np
+import pytest
+from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from walks import of
+
+from solepath import Foot, Sample, Session, StrideTaken
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import LSM6DSOX, MPU6050, Imu
+from solepath.emulate.sensors.ramp import Ramp
+from solepath.emulate.wearers.motion import Kinematics
+from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
+from solepath.emulate.wearers.walker import Walker
+from solepath.foot.navigate.covariance import HEIGHT, believed_height
+from solepath.foot.navigate.level import LevelGround
+from solepath.recipes import DEFAULT, Recipe
+from solepath.saving import codec as machine
+from solepath.types import Quat
+from solepath.types.vector import IDENTITY, from_rotation_vector, multiply, normalise
+
+UNGATED = evolve(DEFAULT, corrector=evolve(DEFAULT.corrector, level=LevelGround(gate=False)))
+LENGTH = 1.35
+"""m: a stride."""
+SPREAD = 0.02
+"""m: what the filter expects a stride's height to err by."""
+
+
+def pitched(angle: float, heading: float = 0.0, mounted: Quat = IDENTITY) -> Quat:
+    """A foot that heads there, toe up by `angle`; rad."""
+    ahead = from_rotation_vector((0.0, -angle, 0.0))
+    return normalise(multiply(from_rotation_vector((0.0, 0.0, heading)), multiply(ahead, mounted)))
+
+
+def judged(
+    level: LevelGround,
+    heights: list[float],
+    grade: float = 0.0,
+    lean: float = 0.01,
+    length: float = LENGTH,
+    seed: int = 0,
+) -> list[float]:
+    """What `level` says of steps that rise by `heights` m, on ground that slopes by `grade`, with a sensor that makes
+    `lean` of every metre and errs by a centimetre."""
+    rng = np.random.default_rng(seed)
+    found = []
+    for height in heights:
+        z = height + lean * length + 0.01 * rng.standard_normal()
+        attitude = pitched(grade + 0.01 * rng.standard_normal())
+        found.append(level.judge((length, 0.0, z), 0.0, SPREAD * SPREAD, attitude)[0])
+    return found
+
+
+# --- judged one by one ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("lean", [-0.03, -0.01, 0.0, 0.02, 0.03])
+def test_level_strides_are_level_whatever_lean_the_sensor_has(lean: float) -> None:
+    assert abs(sum(judged(LevelGround(), [0.0] * 60, lean=lean))) < 0.12
+    raw = sum(judged(LevelGround(gate=False), [0.0] * 60, lean=lean))
+    assert raw == pytest.approx(60 * lean * LENGTH, abs=0.2)
+
+
+@pytest.mark.parametrize("grade", [0.05, -0.05, 0.08, -0.12])
+def test_a_ramp_after_level_strides_keeps_nine_tenths_of_its_height(grade: float) -> None:
+    level = LevelGround()
+    judged(level, [0.0] * 8)
+    on = judged(level, [grade * LENGTH] * 12, grade=grade, seed=1)
+    after = judged(level, [0.0] * 12, seed=2)
+    assert sum(on) == pytest.approx(12 * grade * LENGTH, rel=0.1)
+    assert abs(sum(after)) < 0.1
+
+
+@pytest.mark.parametrize("kerb", [0.10, -0.10, 0.15])
+def test_a_single_kerb_keeps_its_height(kerb: float) -> None:
+    level = LevelGround()
+    judged(level, [0.0] * 10)
+    heights = judged(level, [kerb, 0.0, 0.0, -kerb, 0.0, 0.0], seed=3)
+    assert heights[0] == pytest.approx(kerb, abs=0.04)
+    assert heights[3] == pytest.approx(-kerb, abs=0.04)
+    assert max(abs(heights[k]) for k in (1, 2, 4, 5)) < 0.02
+
+
+@pytest.mark.parametrize("riser", [0.10, 0.16, 0.20, -0.10, -0.17])
+def test_stairs_keep_their_height_and_the_landing_between_them_is_level(riser: float) -> None:
+    level = LevelGround()
+    judged(level, [0.0] * 6)
+    first = judged(level, [riser] + [2.0 * riser] * 5, lean=0.0, length=0.6, seed=4)
+    landing = judged(level, [0.0] * 3, length=0.9, seed=5)
+    assert sum(first) == pytest.approx(11 * riser, rel=0.06)
+    assert max(abs(height) for height in landing) < 0.03
+
+
+def test_a_stride_of_which_the_filter_is_unsure_must_rise_by_more_to_be_no_level_one() -> None:
+    sure, unsure = LevelGround(), LevelGround()
+    assert sure.judge((LENGTH, 0.0, 0.13), 0.0, 0.02**2, IDENTITY)[0] > 0.1
+    assert unsure.judge((LENGTH, 0.0, 0.13), 0.0, 0.2**2, IDENTITY)[0] < 0.03
+
+
+def test_who_sets_out_on_a_ramp_walks_on_the_level_again_some_strides_after_it() -> None:
+    level = LevelGround()
+    judged(level, [0.05 * LENGTH] * 9, grade=0.05, lean=0.0)
+    judged(level, [0.0] * 6, lean=0.0, seed=1)
+    assert abs(sum(judged(level, [0.0] * 20, lean=0.0, seed=2))) < 0.08
+
+
+def test_a_ladder_and_a_foot_that_is_put_up_keep_their_height() -> None:
+    """They go up without going along, which no level step does."""
+    level = LevelGround()
+    judged(level, [0.0] * 5)
+    assert sum(judged(level, [0.3] * 6, lean=0.0, length=0.05)) == pytest.approx(1.8, rel=0.05)
+
+
+@given(
+    st.lists(st.tuples(*[st.floats(allow_nan=True, allow_infinity=True)] * 5), min_size=1, max_size=8),
+    st.floats(-pi, pi),
+)
+@settings(max_examples=60, deadline=None)
+def test_whatever_is_judged_the_state_stays_finite(rows: list[tuple[float, ...]], tilt: float) -> None:
+    level = LevelGround()
+    for x, y, z, turn, variance in rows:
+        level.judge((x, y, z), turn, variance, pitched(tilt))
+    assert machine.load(LevelGround, machine.save(level)) == level
+    assert abs(judged(level, [0.0])[0]) < 1.0
+
+
+@given(st.integers(0, 2**32 - 1), st.floats(0.0, 1.0))
+@settings(max_examples=30, deadline=None)
+def test_a_height_known_from_elsewhere_leaves_a_covariance(seed: int, left: float) -> None:
+    root = np.random.default_rng(seed).normal(size=(9, 9))
+    places = [
+        (row + i, column + j)
+        for row, column in [(0, 0), (0, 3), (0, 6), (3, 3), (3, 6), (6, 6)]
+        for i in range(3)
+        for j in range(3)
+        if row != column or j >= i
+    ]
+    p = root @ root.T
+    d = np.diag([1.0, 1.0, left**0.5, *[1.0] * 6])
+    found = believed_height(tuple(float(p[place]) for place in places), left)
+    np.testing.assert_allclose(found, [(d @ p @ d)[place] for place in places], rtol=1e-9, atol=1e-12)
+    assert found[HEIGHT] == pytest.approx(left * p[2, 2])
+
+
+# --- walked -----------------------------------------------------------------------------------------------------------
+
+TILTED = Mounting(position=ON_INSTEP.position, attitude=from_rotation_vector((0.5, -0.4, 2.0)))
+
+
+class OnRamp(Walker):
+    """A walk over a ramp."""
+
+    ramp = Ramp(7.0, 10.0, 0.0)
+
+    def kinematics(self, foot: Foot, t: np.ndarray, mounting: Mounting = IN_SOLE) -> Kinematics:
+        return self.ramp.under(super().kinematics(foot, t, mounting))
+
+
+@cache
+def walked(grade: float, mounting: Mounting, part: Imu, seed: int = 101) -> tuple[Sample, ...]:
+    walker = OnRamp(Route().stand(2.0).walk(22.0, 1.3).stop(1.0), seed=seed)
+    walker.ramp = evolve(OnRamp.ramp, grade=grade)
+    return tuple(walker.samples(Foot.RIGHT, 100.0, part, mounting=mounting))
+
+
+def steps_of(samples: tuple[Sample, ...], recipe: Recipe = DEFAULT) -> list[StrideTaken]:
+    session = Session(recipe)
+    return of(StrideTaken, session.feed(list(samples)) + session.finish())
+
+
+@pytest.mark.parametrize("part", [LSM6DSOX, MPU6050], ids=lambda part: part.name)
+@pytest.mark.parametrize("mounting", [IN_SOLE, TILTED], ids=["in the sole", "askew on the instep"])
+def test_a_level_walk_ends_as_high_as_it_began(part: Imu, mounting: Mounting) -> None:
+    samples = walked(0.0, mounting, part)
+    assert abs(steps_of(samples)[-1].position[2]) < 0.05
+    assert steps_of(samples)[-1].features.rise is not None
+
+
+def test_an_ungated_height_is_told_beside_the_one_that_is_believed() -> None:
+    samples = walked(0.0, IN_SOLE, MPU6050)
+    for gated, ungated in zip(steps_of(samples), steps_of(samples, UNGATED), strict=True):
+        assert ungated.features.rise == ungated.height_change
+        assert gated.features.rise == pytest.approx(ungated.height_change, abs=0.02)
+        assert gated.displacement[:2] == pytest.approx(ungated.displacement[:2], abs=1e-6)
+
+
+@pytest.mark.parametrize("grade", [0.06, -0.06, 0.1])
+def test_a_ramp_that_is_walked_keeps_its_height(grade: float) -> None:
+    steps = steps_of(walked(grade, ON_INSTEP, LSM6DSOX))
+    assert steps[-1].position[2] == pytest.approx(10.0 * grade, rel=0.15)
+
+
+def test_a_sensor_on_a_ramp_measures_what_it_does() -> None:
+    ramp, t = Ramp(1.0, 2.0, 0.1), np.linspace(1.0, 6.0, 20001)
+    walker = Walker(Route().stand(1.0).walk(5.0).stop(1.0), seed=101)
+    level = walker.kinematics(Foot.LEFT, t, ON_INSTEP)
+    on = ramp.under(level)
+    np.testing.assert_allclose(np.gradient(on.position, t, axis=0)[5:-5], on.velocity[5:-5], atol=2e-3)
+    angle = np.arctan(ramp.ground(level.position[:, 0])[1])
+    turned = np.gradient(angle, t)
+    assert float(np.max(angle)) == pytest.approx(0.0997, abs=1e-3)
+    # a level attitude turned toe up: what the rates differ by is that turn, about the world's y
+    assert np.linalg.norm(on.rate - level.rate, axis=1)[5:-5] == pytest.approx(np.abs(turned)[5:-5], abs=2e-2)
+    assert ramp.ground(np.array([-50.0, 50.0]))[0] == pytest.approx([0.0, ramp.height], abs=1e-9)
+
+
+def test_four_floors_of_stairs_up_and_down_end_where_they_began() -> None:
+    route = Route().stand(2.0).walk(6.0)
+    for up in (True, False):
+        for _ in range(4):
+            route = route.stairs(10, up).turn(radians(180), 0.7).stairs(10, up).turn(radians(180), 0.7)
+        route = route.walk(3.0).turn(pi, 0.8)
+    walker = Walker(route.stop(1.0), seed=101)
+    steps = steps_of(tuple(walker.samples(Foot.RIGHT, 100.0, LSM6DSOX)))
+    assert max(step.position[2] for step in steps) == pytest.approx(12.8, abs=0.3)
+    assert abs(steps[-1].position[2]) < 0.3

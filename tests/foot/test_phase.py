@@ -1,0 +1,90 @@
+"""The phases of a foot and the support of a body: tables that can be read."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import pytest
+from walks import SHORT, insoles
+
+from solepath import Foot, FootFlat, HeelOff, HeelStrike, Phase, Session, Support, ToeOff
+from solepath.foot.phase import BEGINS, PHASES, SUPPORT, Cue, describe
+
+
+@pytest.mark.parametrize(("phase", "cue"), list(product(Phase, Cue)))
+def test_every_phase_knows_what_to_make_of_every_cue(phase: Phase, cue: Cue) -> None:
+    assert isinstance(PHASES[phase][cue], Phase)
+
+
+def test_the_table_has_no_phase_or_cue_too_many() -> None:
+    assert set(PHASES) == set(Phase)
+    assert all(set(row) == set(Cue) for row in PHASES.values())
+
+
+def test_a_step_goes_through_the_four_phases_in_order() -> None:
+    phase, way = Phase.STATIONARY, []
+    for cue in (Cue.LIFT, Cue.CLEAR, Cue.CONTACT, Cue.FLAT):
+        phase = PHASES[phase][cue]
+        way.append(phase)
+    assert way == [Phase.PUSH_OFF, Phase.SWING, Phase.LOADING, Phase.STATIONARY]
+
+
+@pytest.mark.parametrize("cue", [Cue.CONTACT, Cue.FLAT, Cue.LIFT, Cue.CLEAR])
+def test_a_cue_that_comes_twice_changes_nothing_the_second_time(cue: Cue) -> None:
+    for phase in Phase:
+        once = PHASES[phase][cue]
+        assert PHASES[once][cue] is once
+
+
+@pytest.mark.parametrize("phase", Phase)
+def test_from_every_phase_a_foot_that_is_flat_stands_and_one_that_is_clear_swings(phase: Phase) -> None:
+    assert PHASES[phase][Cue.FLAT] is Phase.STATIONARY
+    assert PHASES[phase][Cue.CLEAR] is Phase.SWING
+
+
+def test_a_foot_in_the_air_can_only_land() -> None:
+    assert PHASES[Phase.SWING][Cue.LIFT] is Phase.SWING
+
+
+def test_each_phase_begins_with_its_event() -> None:
+    assert {
+        Phase.LOADING: HeelStrike,
+        Phase.STATIONARY: FootFlat,
+        Phase.PUSH_OFF: HeelOff,
+        Phase.SWING: ToeOff,
+    } == BEGINS
+
+
+@pytest.mark.parametrize(("left", "right"), list(product(Phase, Phase)))
+def test_a_body_stands_on_the_feet_that_do_not_swing(left: Phase, right: Phase) -> None:
+    down = (left is not Phase.SWING, right is not Phase.SWING)
+    expected = {
+        (True, True): Support.DOUBLE,
+        (True, False): Support.LEFT,
+        (False, True): Support.RIGHT,
+        (False, False): Support.FLIGHT,
+    }
+    assert SUPPORT[left][right] is expected[down]
+
+
+def test_the_tables_can_be_printed() -> None:
+    text = describe()
+    rows = {line.split()[0]: line.split()[1:] for line in text.splitlines()[1:5]}
+    assert rows == {phase.name: [PHASES[phase][cue].name for cue in Cue] for phase in Phase}
+    assert text.splitlines()[0].split() == ["phase", "contact", "flat", "lift", "clear"]
+    joint = [line.split() for line in text.splitlines()[-4:]]
+    assert joint == [[left.name, *(SUPPORT[left][right].name for right in Phase)] for left in Phase]
+    assert all(line == line.rstrip() for line in text.splitlines())
+
+
+def test_walking_is_single_and_double_support_in_turn_and_never_flight() -> None:
+    session, seen = Session(), []
+    for packet in insoles(SHORT).packets:
+        session.feed(packet)
+        if packet.t > 2.0 and (not seen or session.support is not seen[-1]):
+            seen.append(session.support)
+    assert Support.FLIGHT not in seen
+    assert seen.count(Support.LEFT) >= 4 and seen.count(Support.RIGHT) >= 4
+    singles = [support for support in seen if support is not Support.DOUBLE]
+    assert all(a is not b for a, b in zip(singles, singles[1:], strict=False))
+    assert session.phase(Foot.LEFT) is session.phase(Foot.RIGHT) is Phase.STATIONARY

@@ -1,0 +1,162 @@
+"""What the cells of an insole tell: tare, load, areas, centre of pressure."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+from walks import LEFT, SHORT, insoles, of
+
+from solepath import Cell, Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Session, StrideTaken, ToeOff
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.wearers.walker import Walker
+from solepath.foot.pressure.insole import Extremes, InsoleLoads
+
+SOLE = Layout(7, Foot.LEFT, (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.13, 0.0), Cell(0.20, 0.02)), 0.26)
+"""Two cells at the heel (x < 0.33 x 0.26), one under the arch, one at the forefoot (x > 0.55 x 0.26)."""
+
+TARE = (10.0, 20.0, 0.0, 30.0)
+
+
+def above(*loads: float) -> tuple[float, ...]:
+    return tuple(zero + load for zero, load in zip(TARE, loads, strict=True))
+
+
+def worn(*frames: tuple[float, ...]) -> InsoleLoads:
+    """An insole that has been through some frames at 100 Hz."""
+    insole = InsoleLoads()
+    insole.wear(SOLE)
+    for k, cells in enumerate(frames):
+        insole.update(0.01 * k, cells)
+    return insole
+
+
+STEP = (above(100, 100, 50, 150), above(0, 0, 0, 200), TARE, above(30, 30, 0, 0), above(100, 100, 50, 150))
+"""On the whole sole (400), on the forefoot, in the air, on the heel, on the whole sole again."""
+
+
+def test_nothing_is_known_until_the_load_has_fallen_and_risen_again() -> None:
+    insole = InsoleLoads()
+    insole.wear(SOLE)
+    said = [insole.update(0.01 * k, cells) for k, cells in enumerate(STEP)]
+    assert [load is None for load in said] == [True, True, True, True, False]
+
+
+def test_a_load_that_only_falls_is_not_a_foot_in_the_air() -> None:
+    """Weight goes over to the other foot before the first step: the least load so far is still a load."""
+    insole = InsoleLoads()
+    insole.wear(SOLE)
+    for k in range(60):
+        share = 1.0 - 0.01 * k
+        assert insole.update(0.01 * k, above(*(share * part for part in (100, 100, 50, 150)))) is None
+
+
+def test_the_load_is_a_share_of_the_wearers_own() -> None:
+    insole = worn(*STEP)
+    full = insole.update(0.05, above(100, 100, 50, 150))
+    half = insole.update(0.06, above(50, 50, 25, 75))
+    air = insole.update(0.07, TARE)
+    assert (full.total, half.total, air.total) == pytest.approx((1.0, 0.5, 0.0))
+    assert (full.airborne, half.airborne, air.airborne) == (False, False, True)
+    assert full.heel == pytest.approx(200 / 400) and full.forefoot == pytest.approx(150 / 400)
+    assert half.heel == pytest.approx(0.25) and air.heel == air.forefoot == 0.0
+
+
+def test_newtons_and_counts_serve_alike() -> None:
+    one, other = worn(*STEP), InsoleLoads()
+    other.wear(SOLE)
+    for k, cells in enumerate(STEP):
+        other.update(0.01 * k, tuple(4.7 * value for value in cells))
+    a, b = one.update(0.05, above(40, 10, 5, 60)), other.update(0.05, tuple(4.7 * v for v in above(40, 10, 5, 60)))
+    assert a is not None and b is not None
+    assert b.cells == pytest.approx([4.7 * value for value in a.cells])
+    assert (b.total, b.heel, b.forefoot, b.highest) == pytest.approx((a.total, a.heel, a.forefoot, a.highest))
+    assert (b.airborne, b.centre) == (a.airborne, pytest.approx(a.centre))
+
+
+def test_the_tare_is_what_the_cells_show_in_the_air() -> None:
+    insole = worn(*STEP, above(0, 0, 0, 60), TARE, above(90, 90, 20, 100))
+    assert insole.centre_of_pressure(above(0, 0, 50, 0)) == pytest.approx((0.13, 0.0))
+    assert insole.centre_of_pressure(TARE) is None
+
+
+def test_the_centre_of_pressure_is_the_mean_place_of_the_load_above_tare() -> None:
+    insole = worn(*STEP, above(0, 0, 0, 60), TARE, above(90, 90, 20, 100))
+    assert insole.centre_of_pressure(above(100, 0, 0, 0)) == pytest.approx((0.05, 0.01))
+    assert insole.centre_of_pressure(above(50, 50, 0, 100)) == pytest.approx((0.125, 0.01))
+    assert insole.centre_of_pressure(above(10, 10, 20, 40)) == pytest.approx(
+        ((0.05 * 20 + 0.13 * 20 + 0.20 * 40) / 80, 0.02 * 40 / 80)
+    )
+    assert insole.centre_of_pressure(TARE) is None
+
+
+def test_without_a_layout_there_is_a_load_but_no_place() -> None:
+    insole = InsoleLoads()
+    for k, cells in enumerate(STEP):
+        insole.update(0.01 * k, cells)
+    load = insole.update(0.05, above(50, 50, 25, 75))
+    assert load.total == pytest.approx(0.5) and load.heel is None and load.forefoot is None
+    assert insole.centre_of_pressure(above(50, 50, 25, 75)) is None
+
+
+def test_cells_that_do_not_match_the_layout_have_no_place_either() -> None:
+    insole = worn(*STEP)
+    assert insole.update(0.05, (100.0, 200.0)).heel is None
+    assert insole.centre_of_pressure((100.0, 200.0)) is None
+
+
+def test_extremes_are_those_of_the_last_ten_seconds() -> None:
+    extremes = Extremes()
+    for k in range(2000):
+        extremes.update(0.01 * k, 1000.0 if k == 100 else -5.0 if k == 150 else float(k % 7))
+        if k == 900:
+            assert (extremes.low, extremes.high) == (-5.0, 1000.0)
+    assert (extremes.low, extremes.high) == (0.0, 6.0)
+    assert len(extremes.lows) == 5
+
+
+# --- on a walk --------------------------------------------------------------------------------------------------------
+
+
+def test_an_insole_without_an_inertial_sensor_still_gives_the_phases() -> None:
+    walker = Walker(Route().stand(1.0).walk(12.0, 1.3).stop(1.0), seed=2)
+    shape = layout(96, Foot.LEFT)
+    session = Session()
+    told = session.feed(insoles(SHORT).packets[:1])  # INFO, so that the layout is known
+    pressed = [
+        Sample(s.t, LEFT, pressure=s.pressure) for s in walker.samples(Foot.LEFT, 100.0, layout=shape) if s.t > 0.1
+    ]
+    told += session.feed(pressed)
+    truth = walker.truth().feet[Foot.LEFT]
+    for kind, true, first in (
+        (HeelStrike, truth.heel_strikes, 1),
+        (ToeOff, truth.toe_offs, 1),
+        (FootFlat, truth.foot_flats, 1),
+        (HeelOff, truth.heel_offs, 1),
+    ):
+        found = [event.t for event in of(kind, told)]
+        for t in true[first:]:
+            assert min(abs(t - other) for other in found) < 0.12, kind
+        assert len(found) <= len(true) + 1
+
+
+def test_the_first_toe_off_of_a_walk_is_when_the_toe_leaves_the_ground() -> None:
+    walk = insoles(SHORT)
+    told = Session().feed(walk.packets)
+    for foot in Foot:
+        (first, *_) = (event.t for event in of(ToeOff, told) if event.foot is foot)
+        assert first == pytest.approx(walk.truth.feet[foot].toe_offs[0], abs=0.06)
+        assert len([event for event in of(HeelOff, told) if event.foot is foot]) == len(walk.truth.feet[foot].heel_offs)
+
+
+def test_the_path_of_the_centre_of_pressure_runs_from_heel_to_toe() -> None:
+    told = of(StrideTaken, Session().feed(insoles(SHORT).packets))
+    paths = [step.features.cop for step in told[2:-2]]
+    assert all(8 <= len(path) <= 32 for path in paths)
+    for path in paths:
+        assert path[0][0] < 0.09 and max(x for x, _ in path) > 0.20
+        rising = [b[0] > a[0] - 0.003 for a, b in pairwise(path[:-3])]  # hardly any load is left at the very end
+        assert all(rising)
+        assert all(0.0 < x < 0.285 and abs(y) < 0.05 for x, y in path)
+    assert all(step.features.contact_load > 200.0 for step in told[2:-2])

@@ -1,0 +1,104 @@
+"""Straps for the adapter's tests: their profile, and a Bluetooth that remembers what it was asked."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from attrs import define, evolve, field
+from bleak.backends.characteristic import BleakGATTCharacteristic
+from strap import BATTERY, BEAT, CONTROL, HEART_RATE, LEVEL, LOG, PAGE, Strap
+
+from solepath.ble import Backend
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.devices.memory import MemoryRadio
+from solepath.emulate.devices.peripheral import Peripheral
+from solepath.link.profile import Access, Channel, Profile, Write
+
+RATE = 10
+"""Hz that the profile asks for."""
+STRAP = Profile(
+    name="strap",
+    names=(),
+    services=(HEART_RATE,),
+    channels=(
+        Channel("strap/beat", HEART_RATE, BEAT, Access.NOTIFY),
+        Channel("strap/control", HEART_RATE, CONTROL, Access.WRITE),
+        Channel("strap/page", LOG, PAGE, Access.READ),
+        Channel("device/battery", BATTERY, LEVEL, Access.NOTIFY),
+    ),
+    setup=(Write("strap/control", bytes([RATE])),),
+    reads=("device/battery",),
+    nominal_rate=float(RATE),
+    streams=("strap/beat",),
+    stale_after=1.0,
+)
+READ_AFTER = evolve(STRAP, setup=(Write("strap/control", bytes([RATE]), then_read=("strap/page",)),))
+"""The same, and its page is read once it counts."""
+
+
+def address(number: int) -> str:
+    return f"F0:00:00:00:00:{number:02X}"
+
+
+def strap(number: int = 1, name: str | None = None, faults: str = "", **given: Any) -> Strap:
+    return Strap(name or f"strap {number}", address(number), faults=parse_faults(faults), **given)
+
+
+@define
+class Asked:
+    """An in-memory Bluetooth, and every request that was made of it: (address, what, channel)."""
+
+    air: MemoryRadio
+    log: list[tuple[str, str, str]] = field(factory=list)
+    paired: list[bool] = field(factory=list)
+    scanning: int = 0
+    most: int = 0
+    """Scanners that were at work at once."""
+
+    @property
+    def backend(self) -> Backend:
+        asked, beneath = self, self.air.backend
+        client, scanner = beneath.client, beneath.scanner
+        assert client is not None and scanner is not None
+
+        class Client(client):  # type: ignore[valid-type,misc]
+            async def connect(self, pair: bool, **more: Any) -> None:
+                asked.log.append((self.address, "connect", ""))
+                asked.paired.append(pair)
+                await super().connect(pair, **more)
+
+            async def disconnect(self) -> None:
+                asked.log.append((self.address, "disconnect", ""))
+                await super().disconnect()
+
+            async def read_gatt_char(self, one: BleakGATTCharacteristic, **more: Any) -> bytearray:
+                asked.log.append((self.address, "read", one.obj.channel))
+                return await super().read_gatt_char(one, **more)
+
+            async def write_gatt_char(self, one: BleakGATTCharacteristic, data: Any, response: bool) -> None:
+                asked.log.append((self.address, "write" if response else "command", one.obj.channel))
+                await super().write_gatt_char(one, data, response)
+
+            async def start_notify(self, one: BleakGATTCharacteristic, callback: Any, **more: Any) -> None:
+                asked.log.append((self.address, "subscribe", one.obj.channel))
+                await super().start_notify(one, callback, **more)
+
+        class Scanner(scanner):  # type: ignore[valid-type,misc]
+            async def start(self) -> None:
+                await super().start()
+                asked.scanning += 1
+                asked.most = max(asked.most, asked.scanning)
+
+            async def stop(self) -> None:
+                await super().stop()
+                asked.scanning -= 1
+
+        return Backend(Client, Scanner)
+
+    def of(self, device: Peripheral, *kinds: str) -> list[tuple[str, str]]:
+        """What was asked of a device, in order: (what, channel)."""
+        return [(what, channel) for at, what, channel in self.log if at == device.address and what in kinds]
+
+
+def asked(*devices: Peripheral) -> Asked:
+    return Asked(MemoryRadio(devices))

@@ -1,0 +1,57 @@
+"""Floor plans for tests: any that can be used, and the files of protocol/floorplans."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from io import BytesIO
+from typing import Any
+
+from here import PROTOCOL
+from hypothesis import strategies as st
+
+from solepath.floorplan.doors import with_doors_cut
+from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Wall
+
+FILES = PROTOCOL / "floorplans"
+
+
+def archive(files: dict[str, Any], folder: str = "", compression: int = zipfile.ZIP_DEFLATED) -> bytes:
+    """A zip archive of JSON values or bytes."""
+    packed = BytesIO()
+    with zipfile.ZipFile(packed, "w", compression) as file:
+        for name, told in files.items():
+            file.writestr(folder + name, told if isinstance(told, bytes) else json.dumps(told))
+    return packed.getvalue()
+
+
+names = st.text(max_size=8)
+coordinates = st.floats(-9.0, 9.0) | st.integers(-9, 9).map(float)
+places = st.tuples(coordinates, coordinates)
+outlines = st.lists(places, min_size=3, max_size=6, unique=True).map(tuple).filter(
+    lambda ring: max(abs(ring[0][0] - ring[-1][0]), abs(ring[0][1] - ring[-1][1])) > 0.1
+)  # fmt: skip
+walls = st.builds(Wall, places, places).filter(lambda wall: wall.start != wall.end)
+doors = st.builds(Door, places, places, names).filter(lambda door: door.start != door.end)
+
+
+@st.composite
+def plans(draw: st.DrawFn) -> FloorPlan:
+    """Plans as a reader makes them: their doors are cut out of their walls."""
+    ids = draw(st.lists(st.text(min_size=1, max_size=5), min_size=1, max_size=3, unique=True))
+    corner = Wall((-9.0, -9.0), (9.0, 9.0))  # so that no plan is smaller than a room
+    levels = []
+    for i, own in enumerate(ids):
+        elevation = 3.0 * i + draw(st.floats(0.0, 2.0))
+        drawn = (corner, *draw(st.lists(walls, max_size=4)))
+        levels.append(with_doors_cut(Level(own, draw(names), i, elevation, drawn,
+                                           tuple(draw(st.lists(doors, max_size=3))),
+                                           tuple(draw(st.lists(outlines, max_size=2))))))  # fmt: skip
+    connectors = []
+    for _ in range(draw(st.integers(0, 3))):
+        stops_at = [own for own in ids if draw(st.booleans())] or ids[:1]
+        stops = tuple(ConnectorStop(own, draw(places), draw(st.just(()) | outlines)) for own in stops_at)
+        flights, rise = draw(st.none() | st.integers(1, 4)), draw(st.none() | st.floats(0.1, 0.3))
+        connectors.append(Connector(draw(st.sampled_from(ConnectorKind)), draw(names), stops, flights, rise))
+    anchor = draw(st.none() | st.builds(Anchor, st.floats(-80.0, 80.0), st.floats(-180.0, 180.0), st.floats(-3.2, 3.2)))
+    return FloorPlan(draw(names), tuple(levels), tuple(connectors), anchor, draw(st.booleans()))

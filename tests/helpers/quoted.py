@@ -1,0 +1,44 @@
+"""What README.md and docs/ quote: blocks and tables below their marks, and how exactly they must hold."""
+
+import re
+
+import pytest
+from here import DOCS, ROOT
+
+PAGES = {
+    path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8")
+    for path in (ROOT / "README.md", *sorted((DOCS).glob("*.md")))
+}
+"""What a newcomer reads, by its path."""
+README = PAGES["README.md"]
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
+
+
+def blocks(text: str, language: str) -> list[str]:
+    """The blocks of code in that language."""
+    return re.findall(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
+
+
+def page_of(mark: str) -> str:
+    """The path of the one page that holds the comment <!-- mark -->."""
+    (path,) = (path for path, text in PAGES.items() if f"<!-- {mark} -->\n" in text)
+    return path
+
+
+def below(mark: str) -> list[str]:
+    """The lines of the first block or table below the comment <!-- mark -->, on whichever page."""
+    lines = PAGES[page_of(mark)].split(f"<!-- {mark} -->\n", 1)[1].splitlines()
+    if lines[0].startswith("```"):
+        return lines[1 : lines.index("```", 1)]
+    end = next((n for n, line in enumerate(lines) if not line.startswith("|")), len(lines))
+    return lines[:end]
+
+
+def nearly_the_same(quoted: list[str], fresh: list[str]) -> None:
+    """The same lines but for the last digits of their figures."""
+    assert [NUMBER.sub("#", line) for line in quoted] == [NUMBER.sub("#", line) for line in fresh]
+    for old, new in zip(quoted, fresh, strict=True):
+        for a, b in zip(NUMBER.findall(old), NUMBER.findall(new), strict=True):
+            # another machine's rounding may move the last digit by one
+            last = 10.0 ** -len(a.partition(".")[2])
+            assert float(a) == pytest.approx(float(b), abs=1.01 * last), f"quoted: {old}\nprinted: {new}"

@@ -1,0 +1,188 @@
+"""What tests, the benchmark and the pictures of the page let it show: emulated walks, as the events of a session."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator, Callable, Coroutine, Iterable, Iterator
+from contextlib import asynccontextmanager
+from functools import cache
+from itertools import chain
+from math import pi
+from typing import Any
+from urllib.parse import urlsplit
+
+import attrs
+from attrs import evolve
+from browsers import Browser, Window, window
+
+from solepath import Event, Packet, Session
+from solepath.emulate.routes.building import BUILDING
+from solepath.emulate.routes.route import Route
+from solepath.emulate.routes.ways import corridor
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.walk import emulate
+from solepath.show.page.messages import Command, encode
+from solepath.show.page.scene.scene import Scene
+from solepath.show.page.server.server import Page
+from solepath.types import SITE_OF_FOOT, Foot
+
+REFRESH = 1.0 / 60.0
+"""s between two parts of what is shown."""
+LONGEST_PART = 2.0 * REFRESH
+TIMES = frozenset({"t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike", "revises"})
+"""Fields of events that are moments, s."""
+CONNECTED = "document.getElementById('connection').dataset.state === 'open'"
+
+Told = tuple[float, tuple[Event, ...]]
+"""When it was told, s, and what."""
+
+
+def squares(count: int) -> Route:
+    """So many times round a square of 10 m, back to where it began; once takes 43 s."""
+    route = Route().stand(1.0)
+    for _ in range(4 * count):
+        route = route.walk(10.0, 1.3).turn(pi / 2, radius=1.5)
+    return route.stop(2.0)
+
+
+def walked(route: Route, cells: int = 96) -> tuple[Packet, ...]:
+    """Packets of insoles on both feet at 100 Hz."""
+    return emulate(route, devices={SITE_OF_FOOT[foot]: Insole(cells=cells) for foot in Foot}).packets
+
+
+def told(packets: Iterable[Packet], session: Session | None = None) -> tuple[Told, ...]:
+    """What a session tells a page of these packets."""
+    made = Session(poses=True, pressures=True) if session is None else session
+    return tuple((packet.t, tuple(made.feed(packet))) for packet in packets)
+
+
+def shown(events: Iterable[Event], scene: Scene | None = None) -> Scene:
+    """A scene that has taken them."""
+    scene = Scene("a walk", "default") if scene is None else scene
+    for event in events:
+        scene.take(event)
+    return scene
+
+
+def frame(scene: Scene) -> dict[str, Any]:
+    """What it shows now, as a page gets it."""
+    whole = json.loads(encode(scene.whole()[0]))["frame"]
+    assert isinstance(whole, dict)
+    return whole
+
+
+@cache
+def square() -> tuple[Told, ...]:
+    """Once round, of which tests see parts."""
+    return told(walked(squares(1)))
+
+
+@cache
+def corridor_walk() -> tuple[Told, ...]:
+    """The first half a minute of a walk along a corridor, on the building's plan."""
+    way = corridor()
+    session = Session(poses=True, pressures=True, floorplan=BUILDING, start=way.start)
+    return told((packet for packet in walked(way.route) if packet.t < 30.0), session)
+
+
+def between(begin: float, end: float) -> list[Told]:
+    """What is told between these moments of the walk round the square."""
+    return [one for one in square() if begin < one[0] <= end]
+
+
+def fresh(title: str = "round a square") -> Scene:
+    """Of a session that has heard nothing."""
+    return Scene(title, "default", "live")
+
+
+def after(seconds: float, title: str = "round a square") -> Scene:
+    """So many s into the walk round the square."""
+    return _taken(fresh(title), square(), seconds)
+
+
+def placed(seconds: float) -> Scene:
+    """So many s into the walk along the corridor."""
+    return _taken(Scene("along a corridor", "default", "live", plan=BUILDING), corridor_walk(), seconds)
+
+
+def _taken(scene: Scene, walk: Iterable[Told], seconds: float) -> Scene:
+    for t, events in walk:
+        if t > seconds:
+            break
+        for event in events:
+            scene.take(event)
+    return scene
+
+
+def again(walk: tuple[Told, ...], seconds: float) -> Iterator[Told]:
+    """The walk, and again from where it ended, for so many s at the least."""
+    length = walk[-1][0] - walk[0][0] + 0.01
+    return chain.from_iterable(_later(walk, k * length) for k in range(int(seconds / length) + 1))
+
+
+def _later(walk: tuple[Told, ...], by: float) -> Iterator[Told]:
+    for t, events in walk:
+        yield t + by, tuple(later(event, by) for event in events)
+
+
+def later(event: Event, by: float) -> Event:
+    """The same, so many s later."""
+    moved = {
+        one.name: value + by
+        for one in attrs.fields(type(event))
+        if one.name in TIMES and (value := getattr(event, one.name)) is not None
+    }
+    return evolve(event, **moved)
+
+
+async def show(scene: Scene, walk: Iterable[Told], speed: float = 1.0, until: float | None = None) -> None:
+    """The scene takes what is told when it is due, at so many times real time; until so many s of the walk. Slower
+    where that is too fast for the machine: the page has its turn after every part."""
+    clock = asyncio.get_running_loop().time
+    due: float | None = None
+    last = clock()
+    for t, events in walk:
+        if until is not None and t > until:
+            break
+        due = t if due is None else due
+        while t > due:
+            await asyncio.sleep(REFRESH)
+            now = clock()
+            due += speed * min(now - last, LONGEST_PART)
+            last = now
+        for event in events:
+            scene.take(event)
+
+
+@asynccontextmanager
+async def opened(
+    chromium: Browser,
+    scene: Scene,
+    commands: Callable[[Command], None] | None = None,
+    *,
+    token: bool = True,
+    **given: Any,
+) -> AsyncIterator[tuple[Window, Page]]:
+    """The scene's page in a window, connected, and its server. At the end it has complained of nothing and asked nobody
+    else for anything. `token`: whether it may ask for what changes something; `given`: to `window`."""
+    async with Page(scene, port=0, commands=commands) as page:
+        url = page.url if token else page.url.partition("#")[0]
+        async with window(chromium, url, **given) as view:
+            await view.until(CONNECTED)
+            yield view, page
+        assert not view.complaints, view.complaints
+        assert {urlsplit(one).netloc for one in view.asked} == {urlsplit(url).netloc}
+
+
+@asynccontextmanager
+async def meanwhile(work: Coroutine[Any, Any, None]) -> AsyncIterator[None]:
+    """While this goes on; what is left of it in the end is left undone."""
+    going_on = asyncio.create_task(work)
+    try:
+        yield
+    finally:
+        going_on.cancel()
+        await asyncio.wait([going_on])
+    if not going_on.cancelled():
+        going_on.result()

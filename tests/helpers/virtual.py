@@ -1,0 +1,77 @@
+"""The virtual air in virtual time, for tests: sleeping costs nothing; a strap to find, a host that remembers."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import asynccontextmanager
+from typing import Any
+
+import looptime
+from bleak import BleakClient, BleakScanner
+from bleak.backends.device import BLEDevice
+from strap import BEAT, CONTROL, Strap
+
+from solepath.ble.backend import Backend
+from solepath.emulate.controllers.server import virtual_air
+from solepath.emulate.devices.faults import parse_faults
+
+ONE, TWO = "F0:00:00:00:00:01", "F0:00:00:00:00:02"
+
+
+def run(main: Callable[[], Awaitable[None]]) -> None:
+    """In virtual time; nothing may be left running when it is over."""
+
+    async def whole() -> None:
+        await main()
+        for _ in range(3):
+            await asyncio.sleep(0)
+        assert asyncio.all_tasks() == {asyncio.current_task()}
+
+    troubles: list[dict[str, Any]] = []
+    with asyncio.Runner(loop_factory=looptime.new_event_loop) as runner:
+        runner.get_loop().set_exception_handler(lambda loop, context: troubles.append(context))
+        runner.run(whole())
+    assert not troubles
+
+
+def now() -> float:
+    return asyncio.get_running_loop().time()
+
+
+def strap(name: str = "one", address: str = ONE, faults: str = "", **given: object) -> Strap:
+    return Strap(name, address, faults=parse_faults(faults), **given)
+
+
+async def find(backend: Backend, name: str = "one") -> BLEDevice:
+    found = await BleakScanner.find_device_by_name(name, 5.0, backend=backend.scanner)
+    assert found is not None
+    return found
+
+
+class Host:
+    """A client that remembers when it lost its link and what it was notified of."""
+
+    def __init__(self, backend: Backend, device: BLEDevice | str) -> None:
+        self.lost: list[float] = []
+        self.heard: list[tuple[float, bytes]] = []
+        self.client = BleakClient(device, self._gone, backend=backend.client)
+
+    def _gone(self, client: BleakClient) -> None:
+        self.lost.append(now())
+
+    async def count(self, rate: int) -> None:
+        await self.client.start_notify(BEAT, lambda _, value: self.heard.append((now(), bytes(value))))
+        await self.client.write_gatt_char(CONTROL, bytes([rate]), response=True)
+
+    @property
+    def numbers(self) -> list[int]:
+        return [int.from_bytes(value[:4], "little") for _, value in self.heard]
+
+
+@asynccontextmanager
+async def linked(device: Strap, mtu: int = 247) -> AsyncIterator[tuple[Host, Backend]]:
+    async with virtual_air([device], mtu) as backend:
+        host = Host(backend, await find(backend))
+        async with host.client:
+            yield host, backend

@@ -1,0 +1,267 @@
+"""Walks that tests share, and every machine of the library under one handle, for what must hold of all of them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from functools import cache, partial
+from math import radians
+from typing import Any
+
+import declared
+from attrs import evolve, frozen
+
+from solepath import recipes
+from solepath.emulate.radio import CLEAN, Radio
+from solepath.emulate.routes.building import BUILDING, COLUMNS
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.sensors.sensortags import CC2541, CC2650
+from solepath.emulate.sensors.suit import limb_samples
+from solepath.emulate.walk import EmulatedWalk, emulate
+from solepath.emulate.wearers.walker import Walker
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import Start
+from solepath.foot.navigate.dedrift import LinearDedrift
+from solepath.foot.navigate.error_state import ErrorStateFilter
+from solepath.foot.stance.cycle import Cycle
+from solepath.foot.stance.pressure import MaximumPressure, TwoArea
+from solepath.foot.stance.stance import AngularRate, Graph, MovingVariance, ShoeDetector
+from solepath.link.decoder import Decoder
+from solepath.recipes import DEFAULT, Recipe
+from solepath.saving import codec as machine
+from solepath.session import Session
+from solepath.types import Foot, Packet, Sample, Site
+
+LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
+ROUGH = Radio(loss=0.05, duplicate=0.02, corrupt=0.02, truncate=0.02, latency=0.01, jitter=0.04)
+"""What a session must live with: lost, doubled, damaged and late packets."""
+SHORT = Route().stand(1.5).walk(3.0, 1.3).turn(radians(60), radius=1.5).walk(2.0).stop(1.0)
+"""About 8 s, three or four steps of each foot."""
+
+Item = Packet | Sample
+
+
+@cache
+def insoles(route: Route = SHORT, radio: Radio = CLEAN, seed: int = 1, cells: int = 96) -> EmulatedWalk:
+    """A walk with an insole in each shoe."""
+    return emulate(route, devices={LEFT: Insole(cells=cells), RIGHT: Insole(cells=cells)}, radio=radio, seed=seed)
+
+
+@cache
+def samples(route: Route = SHORT, cells: int = 24, rate: float = 100.0, seed: int = 1) -> tuple[Sample, ...]:
+    """Samples of both feet in the order of time, with the errors of a named part; without a radio or a wire."""
+    walker = Walker(route, seed=seed)
+    both = [
+        sample
+        for foot in Foot
+        for sample in walker.samples(foot, rate, LSM6DSOX, layout=layout(cells, foot) if cells else None)
+    ]
+    return tuple(sorted(both, key=_time))
+
+
+def _time(sample: Sample) -> float:
+    return sample.t
+
+
+# --- every machine ----------------------------------------------------------------------------------------------------
+
+
+@frozen
+class Machine:
+    """Something that is fed, saved and restored. `items`: what a test feeds it, in order."""
+
+    name: str
+    items: tuple[Item, ...]
+    begin: Callable[[], Any]
+    load: Callable[[Any], Any]
+
+    def save(self, one: Any) -> Any:
+        """Its snapshot, after a trip through strict JSON."""
+        value = one.snapshot() if isinstance(one, Session) else machine.save(one)
+        return json.loads(json.dumps(value, allow_nan=False))
+
+    def repacked(self, one: Any) -> Any:
+        """The same through its packed form; itself where it has none."""
+        return Session.unpack(one.pack(), one.recipe, floorplan=one._plan) if isinstance(one, Session) else one
+
+    def events(self, items: tuple[Item, ...] | None = None) -> list[Any]:
+        """All that comes out when it is fed one item at a time and then finished."""
+        if items is None:
+            return [event for events in told(self.name) for event in events]
+        one = self.begin()
+        events = [event for item in items for event in one.feed(item)]
+        return events + one.finish()
+
+
+def _session(name: str, items: tuple[Item, ...], recipe: Recipe = DEFAULT) -> Machine:
+    pressures = name in ("fragments", "samples with pressure")  # in a few: it makes most of what is said
+
+    def begin() -> Session:
+        return Session(recipe, poses=True, pressures=pressures)
+
+    return Machine(f"session, {name}", items, begin, Session.restore)
+
+
+def _placed(name: str, items: tuple[Item, ...], recipe: Recipe) -> Machine:
+    """A session in a building whose wearer's first steps are known, and the rest has to be found out."""
+    building = IndexedPlan(BUILDING)
+    start = Start("0", (COLUMNS[0], 12.0))
+
+    def begin() -> Session:
+        return Session(recipe, poses=True, floorplan=building, start=start)
+
+    return Machine(f"session, {name}", items, begin, partial(Session.restore, floorplan=building))
+
+
+def _decoder(name: str, items: tuple[Packet, ...]) -> Machine:
+    def begin() -> Decoder:
+        return Decoder(LEFT)
+
+    def load(saved: Any) -> Decoder:
+        return machine.load(Decoder, saved)
+
+    return Machine(f"decoder, {name}", tuple(item for item in items if item.site is LEFT), begin, load)
+
+
+@cache
+def packets() -> dict[str, tuple[Packet, ...]]:
+    """Both feet over a bad radio, by the device that they wear."""
+    devices = {
+        "whole frames": Insole(),
+        "fragments": Insole(cells=24, rate=50.0, mtu=23),
+        "four samples a frame": Insole(cells=35, batch=4, quaternion=True),
+        "pressure alone": Insole(cells=99, rate=50.0, imu=False),
+        "few frames": Insole(cells=24, rate=50.0),
+        "cc2650": CC2650(presses=(2.0,)),
+        "cc2541": CC2541(presses=(2.0,)),
+        "cc2541 at 20 Hz": CC2541(rate=20.0),
+    }
+    found = {
+        name: emulate(SHORT, devices={LEFT: device, RIGHT: evolve(device)}, radio=ROUGH, seed=7).packets
+        for name, device in devices.items()
+    }
+    return found | {worn.driver.name: declared.walked(worn, SHORT, ROUGH) for worn in declared.EVERY}
+
+
+@cache
+def machines() -> dict[str, Machine]:
+    """Every machine that there is, by name."""
+    plain, pressed = samples(cells=0, rate=50.0), samples(rate=50.0)
+    found = [_session(name, items) for name, items in packets().items()]
+    found += [_decoder(name, items) for name, items in packets().items()]
+    found += [_session("samples", samples(cells=0)), _session("samples with pressure", samples())]
+    for detector in (ShoeDetector(), AngularRate(), MovingVariance(), Graph(), TwoArea(), MaximumPressure()):
+        name = type(detector).__name__
+        items = pressed if isinstance(detector, TwoArea | MaximumPressure) else plain
+        found.append(_session(name, items, Recipe(name, detector, ErrorStateFilter())))
+    found.append(_session("LinearDedrift", plain, Recipe("LinearDedrift", Cycle(), LinearDedrift())))
+    found.append(_session("LinearDedrift with pressure", pressed, Recipe("pressed", TwoArea(), LinearDedrift())))
+    for name in RECIPES:
+        found.append(_session(name, packets()["few frames"], recipes.BY_NAME[name]))
+    found.append(_session("seven sites", suited(), recipes.WALKING_MODES))
+    found.append(_placed("particles", plain, DEFAULT))
+    found.append(_placed("Snake game", plain, recipes.FOOTSTEP_TRACKER))
+    return {one.name: one for one in found}
+
+
+@frozen
+class Gone:
+    """What became of a machine that was fed its items one by one, and then finished."""
+
+    told: tuple[tuple[Any, ...], ...]
+    """What it said to each item, and at the end."""
+    fed: Any
+    """Its snapshot after the last item."""
+    ended: Any
+    """And after the end."""
+
+
+@cache
+def gone(name: str) -> Gone:
+    """Found out once, for all that compare with it."""
+    known = machines()[name]
+    one = known.begin()
+    events = [tuple(one.feed(item)) for item in known.items]
+    fed = known.save(one)
+    events.append(tuple(one.finish()))
+    return Gone(tuple(events), fed, known.save(one))
+
+
+def told(name: str) -> tuple[tuple[Any, ...], ...]:
+    """What a machine says to each of its items, and at the end."""
+    return gone(name).told
+
+
+RECIPES = (
+    "kupt-dfpc",
+    "zupt",
+    "pressure-contour",
+    "gyroscope",
+    "walking-modes",
+    "touchdown-acceleration",
+    "footstep-tracker",
+    "shoe-sensing",
+)
+"""Of the recipes, those that have a part of their own."""
+
+
+@cache
+def suited() -> tuple[Sample, ...]:
+    """Samples of pelvis, thighs, shanks and both feet, whose insoles have 99 cells, in the order of their time."""
+    layouts = {LEFT: layout(99, Foot.LEFT), RIGHT: layout(99, Foot.RIGHT)}
+    return tuple(limb_samples(Walker(SHORT, seed=3), 25.0, layouts=layouts))
+
+
+_STREAMS = (
+    "whole frames",
+    "fragments",
+    "four samples a frame",
+    "pressure alone",
+    "cc2650",
+    "cc2541",
+    "cc2541 at 20 Hz",
+    "orphe",
+    "dot",
+    "thingy",
+)
+PACKET_NAMES = (
+    *(f"{kind}, {device}" for kind in ("session", "decoder") for device in _STREAMS),
+    *(f"session, {recipe}" for recipe in RECIPES),
+)
+SAMPLE_NAMES = tuple(
+    f"session, {name}"
+    for name in (
+        "samples",
+        "samples with pressure",
+        "Shoe",
+        "AngularRate",
+        "MovingVariance",
+        "Graph",
+        "TwoArea",
+        "MaximumPressure",
+        "LinearDedrift",
+        "LinearDedrift with pressure",
+        "seven sites",
+        "particles",
+        "Snake game",
+    )
+)
+NAMES = PACKET_NAMES + SAMPLE_NAMES
+"""Of `machines`, known without emulating anything: test ids must not cost a walk."""
+
+
+def of(kind: Any, events: list[Any]) -> list[Any]:
+    """The events of a kind."""
+    return [event for event in events if isinstance(event, kind)]
+
+
+def pieces(items: tuple[Item, ...], sizes: list[int]) -> Iterator[tuple[Item, ...]]:
+    """The items cut into chunks of these sizes, again and again until all are gone."""
+    at, k = 0, 0
+    while at < len(items):
+        size = max(1, sizes[k % len(sizes)]) if sizes else len(items)
+        yield items[at : at + size]
+        at, k = at + size, k + 1

@@ -1,0 +1,297 @@
+"""README.md and docs/ are true: programs run, commands and options exist, links lead somewhere, figures are printed."""
+
+import io
+import json
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from argparse import ArgumentParser
+from contextlib import redirect_stdout
+from functools import partial
+from importlib import import_module
+from typing import Any, get_args
+
+import figures
+import pytest
+from commands import run
+from here import DOCS, EXAMPLES, PROTOCOL, TESTS
+from quoted import NUMBER, PAGES, ROOT, below, blocks, nearly_the_same
+from snooped import insoles_log
+
+from solepath import LiftRidden, Session
+from solepath import emulate as sim
+from solepath.body.height.altitude import Altitude
+from solepath.cli.main import parser
+from solepath.emulate import Route, emulate
+from solepath.fleet import NumberedEvent, Sent, sent_line, told_row
+from solepath.foot.pressure.insole import InsoleLoads
+from solepath.foot.stance.stance import Detector
+from solepath.foot.tracker import AnyCorrector, AnyCues, AnyDetector
+from solepath.recipes import AnyActivity, AnyBody, AnyPlace
+from solepath.recording import PacketWriter
+from solepath.show.output import STEP_COLUMNS, TRACK_COLUMNS
+from solepath.types import Foot, Site
+
+MARKDOWN = {**PAGES, **{f"protocol/{path.name}": path.read_text() for path in (PROTOCOL).glob("*.md")}}
+WALK = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), seed=1)
+
+
+@pytest.fixture
+def played(tmp_path, monkeypatch):
+    """Runs the programs of a page one after the other: (what they printed, the names that they made)."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copytree(EXAMPLES, "examples")
+
+    def play(page: str) -> tuple[list[str], dict[str, Any]]:
+        names: dict[str, Any] = {"__name__": "page"}
+        printed = []
+        for program in blocks(PAGES[page], "python"):
+            with redirect_stdout(io.StringIO()) as out:
+                exec(compile(program, page, "exec"), names)
+            printed.append(out.getvalue())
+        return printed, names
+
+    return play
+
+
+def test_every_program_is_run_by_a_test():
+    tests = "".join(path.read_text() for path in TESTS.rglob("test_*.py"))
+    for page, text in PAGES.items():
+        if blocks(text, "python") and page != "README.md":
+            assert f'"{page}"' in tests, page
+
+
+def test_what_a_command_is_said_to_print_stands_there():
+    marks = [mark for text in PAGES.values() for mark in re.findall(r"^<!-- (\S+) -->\n```", text, re.MULTILINE)]
+    assert len(marks) > 10
+    assert not [mark for mark in marks if not below(mark)]
+
+
+def test_a_live_source_samples_and_a_saved_session(played):
+    (_, _, saved), names = played("docs/session.md")
+    assert saved.startswith("Position(t=")
+    with redirect_stdout(io.StringIO()) as out:
+        names["notified"](bytearray())
+        names["every_second"]()
+    assert out.getvalue().startswith("PacketRejected(")
+
+
+def test_the_line_for_the_phases_prints_both_tables():
+    (program,) = re.findall(r'^python -c "(.*)"$', PAGES["docs/session.md"], re.MULTILINE)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    rows = [line.split() for line in done.stdout.splitlines()]
+    assert ["SWING", "LOADING", "STATIONARY", "SWING", "SWING"] in rows
+    assert ["SWING", "RIGHT", "RIGHT", "RIGHT", "FLIGHT"] in rows
+
+
+def test_what_the_wearer_did_is_told(played):
+    _, names = played("docs/activities.md")
+    with redirect_stdout(io.StringIO()) as out:
+        names["did"](LiftRidden(t=9.0, known_at=9.5, t_start=2.0, up=False, height=-3.0))
+    assert out.getvalue() == "down -3.0\n"
+
+
+def test_gait_parameters_are_printed(played):
+    _, names = played("docs/gait.md")
+    with redirect_stdout(io.StringIO()) as out:
+        for event in names["session"].feed(emulate(Route().stand(2).walk(15).stop(2), seed=1).packets):
+            names["measured"](event)
+    assert out.getvalue().splitlines()[0].split()[0] in ("left", "right")
+
+
+def test_a_session_with_a_floor_plan_says_where(played):
+    _, names = played("docs/floorplans.md")
+    names["indoors"].feed(WALK.packets)
+    assert names["indoors"].place.level == "0"
+
+
+def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(played, tmp_path):
+    pytest.importorskip("bytewax", reason="bytewax has no release for this Python")
+    testing, parquet = import_module("bytewax.testing"), import_module("pyarrow.parquet")
+    walk = emulate(Route().stand(2).walk(3).stop(1), seed=1)
+    with PacketWriter(tmp_path / "walk.jsonl") as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    (tmp_path / "sent").mkdir()
+    sent = [sent_line(Sent("w-17", number, packet)) for number, packet in enumerate(walk.packets)]
+    for hour in (11, 8, 10, 9):
+        lines = sent[(hour - 8) * len(sent) // 4 : (hour - 7) * len(sent) // 4]
+        (tmp_path / "sent" / f"w-17-{hour:02}.jsonl").write_bytes(b"".join(lines))
+    (tmp_path / "sent" / "w-16.jsonl").write_bytes(b"\xff no line of anybody's \xff\n")
+    (told, _), names = played("docs/fleet.md")
+    testing.run_main(names["flow"])
+    nobody, *rows = sorted(parquet.read_table(tmp_path / "told").to_pylist(), key=lambda row: row["wearer"])
+    assert (nobody["wearer"], nobody["event"]) == ("", "SentRejected")
+    assert sorted((row["wearer"], row["number"], row["event"]) for row in rows) == sorted(
+        (wearer, int(number), event) for wearer, number, event in map(str.split, told.splitlines())
+    )
+    steps = [row for row in rows if row["event"] == "StrideTaken"]
+    assert len(steps) == sum(len(walk.truth.steps(foot)) for foot in Foot)
+
+
+def test_what_a_wearer_of_a_fleet_sends_is_counted():
+    def row(devices: dict[Site, Any]) -> str:
+        packets = emulate(Route().stand(2).walk(20, speed=1.3).stop(2), devices=devices, seed=1).packets
+        lines = [sent_line(Sent("w-00017", number, packet)) for number, packet in enumerate(packets)]
+        last = packets[-1].t - packets[0].t
+        raw, sent = (sum(len(data) for data in each) / last for each in ((p.data for p in packets), lines))
+        return f" {len(packets) / last:.0f} | {raw / 1000:.1f} kB | {sent / 1000:.1f} kB |"
+
+    feet = [Site.LEFT_FOOT, Site.RIGHT_FOOT]
+    kinds = (sim.Insole, partial(sim.Insole, batch=3, mtu=517), sim.CC2650)
+    counted = [row({site: kind() for site in feet}) for kind in kinds]
+    nearly_the_same([line.split("|", 2)[2] for line in below("sent")[2:]], counted)
+
+
+def test_what_comes_out_of_a_wearer_of_a_fleet_is_counted():
+    packets = emulate(Route().stand(2).walk(20, speed=1.3).stop(2), seed=1).packets
+    session = Session()
+    events = session.feed(packets) + session.finish()
+    last = packets[-1].t - packets[0].t
+    rows = sum(
+        len(json.dumps(told_row(NumberedEvent("w-00017", number, event)))) for number, event in enumerate(events)
+    )
+    assert f" {len(events) / last:.0f} events/s, {rows / last / 1000:.0f} kB/s as rows" in PAGES["docs/fleet.md"]
+
+
+def test_the_loop_over_bluetooth_is_a_program(played):
+    """It runs in examples/bluetooth.py, against emulated insoles."""
+    _, names = played("docs/bluetooth.md")
+    assert names["listen"].__name__ == "listen"
+
+
+def test_three_commands_make_a_report_of_a_phones_log(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    insoles_log(WALK.packets).save(tmp_path / "btsnoop_hci.log")
+    install, *lines = below("phone")
+    assert "pip install ." in install and len(lines) == 2
+    for line in lines:
+        program, *arguments = shlex.split(line)
+        done = run(*arguments)
+        assert (program, done.returncode, done.stderr) == (".venv/bin/solepath", 0, "")
+    steps = len(WALK.truth.steps(Foot.LEFT))
+    assert f"left foot took {steps} strides" in (tmp_path / "report.html").read_text()
+
+
+def commands() -> dict[str, ArgumentParser]:
+    (subparsers,) = (action for action in parser()._actions if isinstance(action.choices, dict))
+    return dict(subparsers.choices)
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_its_commands_can_be_typed(page):
+    lines = [line for block in blocks(PAGES[page], "sh") for line in block.splitlines()]
+    for line in lines:
+        for part in line.split(" && "):
+            program, *arguments = shlex.split(part, comments=True)
+            if program.removeprefix(".venv/bin/") == "solepath":
+                parser().parse_args(arguments)  # exits where they are wrong
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_its_options_are_those_of_the_command_line(page):
+    """Of every command that is quoted within a line, also those with words to be filled in."""
+    for quoted in re.findall(r"`solepath ([^`]+)`", PAGES[page]):
+        name, *words = quoted.split()
+        assert name in commands(), quoted
+        known = "".join(_options(commands()[name]))
+        assert all(word.split("=")[0] in known for word in words if word.startswith("--")), quoted
+
+
+def _options(command: ArgumentParser) -> list[str]:
+    """Its options, and those of its own commands."""
+    inner = [one for a in command._actions if isinstance(a.choices, dict) for one in a.choices.values()]
+    return [f"{option} " for option in command._option_string_actions] + [o for one in inner for o in _options(one)]
+
+
+def test_all_options_of_the_table_of_commands_exist():
+    table = PAGES["docs/commands.md"].split("| command | what it does |\n", 1)[1].split("\n\n", 1)[0]
+    told = {re.split(r"[ `]", line)[3]: set(re.findall(r"--[a-z-]+", line)) for line in table.splitlines()[1:]}
+    assert told.keys() == commands().keys()
+    for name, options in told.items():
+        known = commands()[name]._option_string_actions.keys()
+        assert options <= known, name
+        missing = {option for option in known if option.startswith("--")} - options - {"--help"}
+        assert name == "calibrate" or not missing, f"{name} has {missing} as well"
+
+
+def anchors(text: str) -> set[str]:
+    """Of its headings, as a forge makes them."""
+    prose = re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
+    titles = re.findall(r"^#+ (.+)$", prose, re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", title).lower().replace(" ", "-") for title in titles}
+
+
+@pytest.mark.parametrize("page", MARKDOWN)
+def test_its_links_lead_somewhere(page):
+    text = re.sub(r"`[^`\n]*`", "", MARKDOWN[page])
+    for target in re.findall(r"\]\(([^)\s]+)\)", text) + re.findall(r'<img src="([^"]+)"', text):
+        path, _, anchor = target.partition("#")
+        if path.startswith("https:"):
+            continue
+        whole = ((ROOT / page).parent / path).resolve() if path else ROOT / page
+        assert whole.exists() and whole.is_relative_to(ROOT), target
+        if anchor and whole.suffix == ".md":
+            assert anchor in anchors(whole.read_text()), target
+
+
+def test_pictures_are_small():
+    pictures = [*(DOCS).glob("*.png")]
+    assert len(pictures) == 2 and all(picture.stat().st_size < 200_000 for picture in pictures)
+
+
+def test_every_page_can_be_reached_from_the_readme():
+    reached, new = set(), {"README.md"}
+    while new:
+        reached |= new
+        found = {
+            (ROOT / page).parent.joinpath(target).resolve().relative_to(ROOT).as_posix()
+            for page in new
+            for target in re.findall(r"\]\(([^)#]+\.md)[)#]", PAGES[page])
+        }
+        new = {page for page in found if page in PAGES} - reached
+    assert reached == PAGES.keys()
+
+
+def test_columns_are_those_that_are_written():
+    assert f"`{','.join(TRACK_COLUMNS)}`" in PAGES["docs/commands.md"]
+    assert f"`{','.join(STEP_COLUMNS)}`" in PAGES["docs/commands.md"]
+
+
+def test_the_table_of_parts_has_them_all():
+    parts = re.findall(r"^\| (`[A-Z].*?) \| `(solepath[\w.]+)` \|", PAGES["docs/parts.md"], re.MULTILINE)
+    told = {getattr(import_module(module), name) for names, module in parts for name in re.findall(r"`(\w+)`", names)}
+    kinds = (AnyDetector, AnyCorrector, AnyCues, AnyBody, AnyActivity, AnyPlace)
+    assert told == {InsoleLoads, Altitude, *(part for kind in kinds for part in get_args(kind))} - {Detector}
+
+
+def test_the_demonstration_of_100_m_comes_to_what_is_quoted():
+    done = subprocess.run(
+        [sys.executable, "-m", "solepath", *figures.LONG_DEMO],
+        capture_output=True,
+        stdin=subprocess.DEVNULL,
+        text=True,
+        check=True,
+    )
+    *fresh, fresh_end = figures.lines("figure", figures.walked(done.stdout))
+    *quoted, end = below("hundred")
+    nearly_the_same(quoted, fresh)
+    # rounding that differs from one machine to the next is turned into heading, and 100 m makes metres of it
+    assert NUMBER.sub("#", end) == NUMBER.sub("#", fresh_end)
+
+
+def test_what_bluetooth_adds_is_told_on_both_tiers():
+    """The figures are those of some machine; that there are any is tested."""
+    told = "\n".join(below("bluetooth"))
+    assert re.search(r"the adapter's own +\d+\.\d us", told)
+    for tier in ("memory", "bumble"):
+        assert re.search(rf"{tier}: from notification to event +median +\d+\.\d+ ms, p99 +\d+\.\d+ ms", told)
+
+
+def test_what_the_page_costs_is_told():
+    """Likewise."""
+    told = "\n".join(below("page"))
+    for name in ("no page", "a browser", "a watcher that reads nothing"):
+        assert re.search(rf"^{name} +\d+\.\d % +-?\d+\.\d %$", told, re.MULTILINE), name

@@ -1,0 +1,135 @@
+"""Every program in examples/ runs as its first lines say, and tells what they promise."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from here import EXAMPLES, TESTS
+
+from solepath.emulate import Radio, Route, Walker, emulate
+from solepath.recording import PacketWriter
+from solepath.types import Foot
+
+APPS = ("thread_and_queue", "toga_app")
+"""Whole apps; the others are short programs."""
+ROUTE = Route().stand(2.0).walk(6.0, speed=1.3).stop(1.5)
+
+
+def run(name: str, *arguments: object) -> str:
+    """What the program prints; it must end well and have nothing to complain about."""
+    command = [sys.executable, EXAMPLES / f"{name}.py", *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, stdin=subprocess.DEVNULL, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    return done.stdout
+
+
+def test_every_example_is_run_here_and_is_short():
+    others = ("house/test_toga_app.py", "fleet/test_spark_job.py")
+    here = "".join(path.read_text() for path in (Path(__file__), *map(TESTS.joinpath, others)))
+    for path in EXAMPLES.glob("*.py"):
+        assert f'run("{path.stem}"' in here or f'"examples" / "{path.name}"' in here, path.name
+        assert len(path.read_text().splitlines()) < (150 if path.stem in APPS else 80), path.name
+        docstring = ast.get_docstring(ast.parse(path.read_text())) or ""
+        assert docstring and f"{path.name}" in docstring, "what it shows, and how it is run"
+
+
+def test_an_emulated_walk_ends_where_its_route_ends():
+    lines = run("emulated_walk").splitlines()
+    assert {"HeelStrike", "FootFlat", "HeelOff", "ToeOff"} <= {line.split()[3] for line in lines if " known " in line}
+    (ends,) = [line.split() for line in lines if line.startswith("The route ends")]
+    (says,) = [line.split() for line in lines if line.startswith("The session says")]
+    assert float(says[4]) == pytest.approx(float(ends[5]), abs=0.5)
+    assert float(says[7]) == pytest.approx(float(ends[9]), abs=0.5)
+
+
+def test_emulated_insoles_are_heard_over_bluetooth():
+    told = run("bluetooth").splitlines()
+    assert {"left_foot: connected to solepath L", "right_foot: connected to solepath R"} <= set(told)
+    steps = [line for line in told if " step of " in line]
+    assert {line.split()[0] for line in steps} == {"left", "right"}
+    assert sum(float(line.split()[3]) for line in steps) == pytest.approx(8.0, rel=0.05)  # 4 m with each foot
+
+
+def test_the_loop_tells_the_steps_of_a_recording(tmp_path):
+    walk = emulate(ROUTE, radio=Radio(corrupt=0.02), seed=2)
+    with PacketWriter(tmp_path / "walk.jsonl") as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    told = run("own_loop", tmp_path / "walk.jsonl")
+    for foot in Foot:
+        assert told.count(f"{foot.value} step of") == len(walk.truth.steps(foot))
+    assert "a packet was not used: checksum" in told
+
+
+def test_a_walk_that_was_saved_half_way_goes_on_as_if_nothing_had_happened():
+    assert "the same as without the pause: True" in run("save_and_resume")
+
+
+def test_samples_of_ones_own_give_steps(tmp_path):
+    assert "step 9" in run("own_samples")
+    samples = Walker(ROUTE).samples(Foot.RIGHT, 100.0)
+    rows = [(sample.t, *(sample.acc or ()), *(sample.gyro or ())) for sample in samples]
+    header = "t,acc_x,acc_y,acc_z,gyro_x,gyro_y,gyro_z"
+    np.savetxt(tmp_path / "walk.csv", rows, delimiter=",", header=header, comments="")
+    true = len(Walker(ROUTE).truth().steps(Foot.RIGHT))
+    assert run("own_samples", tmp_path / "walk.csv").count(" step ") == true
+
+
+def test_two_recipes_on_one_walk_are_set_beside_the_truth():
+    title, *rows = run("compare_detectors").splitlines()
+    assert title.split()[:2] == ["recipe", "foot"] and len(rows) == 4
+    for row in rows:
+        found, true, length_error, _ = row.split()[-4:]
+        assert found == true and float(length_error) < 5.0
+
+
+def test_a_device_of_ones_own_is_one_file_and_its_vectors():
+    first, *told = run("own_device").splitlines()
+    assert first == "the vectors agree"
+    true = len(Walker(Route().stand(2).walk(8).stop(2)).truth().steps(Foot.LEFT))
+    assert sum(" step " in line for line in told) == true
+    assert sum("3 packets lost" in line for line in told) == 1
+    assert sum("with a gap in it" in line for line in told) == 1
+    assert "battery 87%" in told[0]
+
+
+def test_two_insoles_tell_how_far_both_feet_have_gone():
+    lines = run("two_insoles").splitlines()
+    assert [line.split()[0] for line in lines[:2]] == ["left", "right"]
+    assert all("96 cells" in line for line in lines[:2])
+    assert float(lines[-1].split()[0]) == pytest.approx(20.0, abs=0.4)
+    assert any(line.split()[3] != line.split()[6] for line in lines[2:-1]), "no stride was calibrated by the other foot"
+
+
+def test_in_a_building_walls_leave_one_place_of_many():
+    told = run("indoors").splitlines()
+    possible = [int(line.split()[2]) for line in told if " possible place" in line]
+    assert possible == sorted(possible, reverse=True) and possible[0] > possible[-1] == 1
+    did = [line.split()[2] for line in told if line.split()[1:2] == ["s"] and line.split()[2].isupper()]
+    assert did[:2] == ["STANDING", "ELEVATOR_DOWN"] and "WALKING" in did and "ELEVATOR_UP" in did
+    assert float(told[-1].split()[-4]) < 3.0
+
+
+def test_an_app_of_a_thread_and_a_queue_loses_nothing_unsaid_and_ends():
+    told = run("thread_and_queue").splitlines()
+    for foot in Foot:
+        steps = [line for line in told if f" {foot.value} step of " in line]
+        assert len(steps) >= 7 and "with a gap" not in steps[0], "a walk of 16 m, in spite of it all"
+        assert any(f"{foot.value}_foot: nothing comes" in line for line in told)
+        assert any(f"{foot.value}_foot: heard again" in line for line in told)
+    dropped = [int(line.split()[3]) for line in told if "packets dropped, the screen was too slow" in line]
+    assert 100 <= sum(dropped) <= 140, "1.6 s in which 200 packets a second come, and 200 of them can wait"
+    assert sum("paused" in line for line in told) == 1
+    assert told[-1].endswith("closed")
+
+
+def test_an_app_of_a_thread_and_a_queue_plays_a_recording(tmp_path):
+    walk = emulate(ROUTE, seed=2)
+    with PacketWriter(tmp_path / "walk.jsonl") as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    told = run("thread_and_queue", tmp_path / "walk.jsonl", "inf")
+    assert "left step of" in told and "right step of" in told

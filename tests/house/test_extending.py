@@ -1,0 +1,57 @@
+"""docs/extending.md: its programs run as they stand there, and do what the page says."""
+
+from __future__ import annotations
+
+import io
+from contextlib import redirect_stdout
+from functools import cache
+
+import pytest
+from here import DOCS
+from quoted import blocks
+
+from solepath.emulate import Route, Walker, emulate
+from solepath.types import Foot
+
+PAGE = (DOCS / "extending.md").read_text()
+DEVICE, DETECTOR, RECIPE = range(3)
+
+
+@cache
+def told(which: int) -> list[str]:
+    """What a program of the page prints."""
+    program = compile(blocks(PAGE, "python")[which], "docs/extending.md", "exec")
+    with redirect_stdout(io.StringIO()) as out:
+        exec(program, {"__name__": "extending"})
+    return out.getvalue().splitlines()
+
+
+def steps(metres: float) -> int:
+    return len(Walker(Route().stand(2).walk(metres).stop(2)).truth().steps(Foot.LEFT))
+
+
+def test_there_are_three_programs_and_each_fits_a_screen() -> None:
+    programs = blocks(PAGE, "python")
+    assert len(programs) == 3 and all([len(program.splitlines()) <= 50 for program in programs])
+
+
+def test_a_device_that_is_declared_in_forty_lines_gives_steps_and_tells_a_lost_packet() -> None:
+    lines = told(DEVICE)
+    assert sum(line.startswith("StrideTaken(") for line in lines) == steps(6)
+    (lost,) = [line for line in lines if line.startswith("PacketsLost(")]
+    assert "count=1" in lost
+
+
+def test_a_detector_of_ones_own_keeps_its_promises_and_is_restored_with_the_session() -> None:
+    first, last = told(DETECTOR)
+    assert first == "broken promises: []"
+    assert last.startswith(f"{steps(10)} steps, Quiet(limit=0.7")
+
+
+@pytest.mark.parametrize("what", ["default", "no rolling foot", "stance by cells", "each foot alone"])
+def test_each_recipe_of_the_page_finds_the_walk(what: str) -> None:
+    truth = emulate(Route().stand(2).walk(6, speed=1.3).stop(1), seed=1).truth
+    (line,) = [line for line in told(RECIPE) if line.startswith(what)]
+    found, _, length, _ = line[len(what) :].split()
+    assert int(found) == sum(len(truth.steps(foot)) for foot in Foot)
+    assert float(length) == pytest.approx(6.0, abs=0.5)

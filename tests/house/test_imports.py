@@ -1,0 +1,163 @@
+"""Who may import whom: the arrows between the rooms, and what `import solepath` brings along."""
+
+from __future__ import annotations
+
+import ast
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from walks import insoles, packets
+
+import solepath
+
+ROOT = Path(solepath.__file__).parent
+
+NOUNS = {"types", "events", "calibration", "saving"}
+CORE = NOUNS | {"floorplan", "wire", "link", "foot", "body", "recipes", "papers", "session"}
+SHOWN = CORE | {"recording", "show"}
+ALLOWED: dict[str, set[str]] = {
+    "types": set(),
+    "events": {"types"},
+    "saving": CORE,
+    "calibration": {"types", "saving"},
+    "floorplan": {"saving"},
+    "wire": {"types", "events"},
+    "link": {"types", "events", "wire"},
+    "foot": {"types", "events", "calibration", "papers"},
+    "body": {"types", "events", "floorplan", "foot"},
+    "recipes": {"foot", "body", "papers"},
+    "papers": CORE | {"recording"},
+    "session": CORE,
+    "__init__": CORE,
+    # the edges: they import the rooms, no room imports them
+    "testing": CORE,
+    "recording": CORE | {"show"},
+    "show": CORE | {"recording", "lab"},
+    "ble": CORE | {"recording"},
+    "emulate": CORE | {"ble"},
+    "fleet": SHOWN | {"emulate"},
+    "lab": SHOWN | {"emulate"},
+    "cli": SHOWN | {"ble", "emulate", "fleet", "lab", "__init__"},
+    "__main__": {"cli"},
+}
+"""Room (a module or a folder of src/solepath) -> the rooms that it may import."""
+
+FORBIDDEN = {"numpy", "bleak", "asyncio"}
+LIVE = CORE | {"__init__"}
+
+
+def modules() -> dict[str, Path]:
+    """Dotted name below solepath -> file; a folder has the name of its __init__."""
+    found = {}
+    for path in sorted(ROOT.rglob("*.py")):
+        parts = path.relative_to(ROOT).with_suffix("").parts
+        found[".".join(parts[:-1] if len(parts) > 1 and parts[-1] == "__init__" else parts)] = path
+    return found
+
+
+MODULES = modules()
+
+
+def imports(name: str) -> tuple[set[str], set[str]]:
+    """(modules of solepath, top names of other packages) that a module imports anywhere, functions included."""
+    path = MODULES[name]
+    package = () if name == "__init__" else tuple(name.split("."))
+    if path.name != "__init__.py":
+        package = package[:-1]
+    ours, others = set(), set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            names = [(alias.name, ()) for alias in node.names]
+        elif isinstance(node, ast.ImportFrom) and node.level:
+            base = package[: len(package) - node.level + 1]
+            module = tuple(node.module.split(".")) if node.module else ()
+            target = ".".join((*base, *module))
+            for alias in node.names:
+                inner = f"{target}.{alias.name}" if target else alias.name
+                ours.add(inner if inner in MODULES else target or "__init__")
+            continue
+        elif isinstance(node, ast.ImportFrom):
+            names = [(node.module or "", ())]
+        else:
+            continue
+        for full, _ in names:
+            top, _, rest = full.partition(".")
+            if top == "solepath":
+                ours.add(rest or "__init__")
+            else:
+                others.add(top)
+    return ours, others
+
+
+def room(module: str) -> str:
+    return module.partition(".")[0]
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_every_import_follows_the_order_of_the_rooms(name: str) -> None:
+    own = room(name)
+    assert own in ALLOWED, f"{own} is a new room: say in this test what it may import"
+    for target in imports(name)[0]:
+        assert room(target) == own or room(target) in ALLOWED[own], f"{name} imports {target}"
+
+
+def test_no_room_of_the_core_may_import_an_edge() -> None:
+    for own, allowed in ALLOWED.items():
+        if own in CORE:
+            assert allowed <= CORE | {"recording"}
+
+
+def test_there_is_no_circle_of_modules() -> None:
+    graph = {name: imports(name)[0] - {name} for name in MODULES}
+    while free := [name for name, targets in graph.items() if not targets & graph.keys()]:
+        for name in free:
+            del graph[name]
+    assert not graph, f"these import each other: {sorted(graph)}"
+
+
+def test_the_reader_of_imports_sees_every_kind_of_arrow() -> None:
+    assert "types" in imports("events.gait")[0]
+    assert {"link.decoder", "foot.tracker", "saving.codec", "recipes"} <= imports("session.session")[0]
+    assert {"recipes", "events"} <= imports("__init__")[0]
+    assert "recording" in imports("cli.demo")[0], "imports within functions count"
+    assert "numpy" in imports("emulate.walk")[1]
+    assert room(next(iter(imports("__main__")[0]))) == "cli"
+
+
+@pytest.mark.parametrize("name", [name for name in MODULES if room(name) in LIVE])
+def test_the_live_path_names_neither_numpy_nor_bleak_nor_asyncio(name: str) -> None:
+    assert not imports(name)[1] & FORBIDDEN
+
+
+LISTEN = """
+import json, sys
+import solepath
+bare = sorted(sys.modules)
+from solepath import Packet, Session, Site, StrideTaken
+session = Session(poses=True)
+steps = 0
+for t, site, channel, data in json.load(open(sys.argv[1])):
+    steps += sum(isinstance(e, StrideTaken) for e in session.feed(Packet(t, Site(site), channel, bytes.fromhex(data))))
+session = Session.restore(json.loads(json.dumps(session.snapshot())))
+session.finish()
+print(json.dumps([bare, sorted(sys.modules), steps]))
+"""
+
+
+def test_a_live_session_of_any_device_loads_neither_numpy_nor_bleak_nor_asyncio(tmp_path: Path) -> None:
+    file = tmp_path / "packets.json"
+    for walked in (insoles().packets, *packets().values()):
+        heard = walked if walked is insoles().packets else walked[: len(walked) // 4]
+        file.write_text(json.dumps([[p.t, p.site.value, p.channel, p.data.hex()] for p in heard]))
+        done = subprocess.run([sys.executable, "-c", LISTEN, str(file)], capture_output=True, text=True, check=True)
+        bare, live, steps = json.loads(done.stdout)
+        assert "solepath.session" in bare
+        assert not FORBIDDEN & {name.partition(".")[0] for name in live}
+        assert not {"zipfile", "pyexpat"} & set(bare), "what reads floor plan files comes with the first file"
+        if walked is insoles().packets:
+            assert steps > 6
+            loaded = {name.partition(".")[2] for name in live if name.startswith("solepath.")}
+            assert {room(name) for name in loaded} <= LIVE

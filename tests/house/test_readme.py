@@ -1,0 +1,104 @@
+"""The README is true: its programs run, its tables name what there is, its figures are what the commands print."""
+
+import io
+import re
+import subprocess
+import sys
+from argparse import ArgumentParser
+from contextlib import redirect_stdout
+from functools import cache
+from typing import get_args
+
+import figures
+import pytest
+from quoted import NUMBER, README, below, blocks
+
+from solepath import Event
+from solepath.cli.main import parser
+from solepath.emulate import Radio, Route, emulate
+from solepath.recipes import BY_NAME
+from solepath.recording import PacketWriter
+from solepath.types import Foot
+
+
+def first_cells(table: list[str]) -> list[str]:
+    return [line.split("|")[1].strip() for line in table[2:]]
+
+
+@cache
+def demonstration() -> str:
+    return subprocess.run(
+        [sys.executable, "-m", "solepath", "demo"], capture_output=True, stdin=subprocess.DEVNULL, text=True, check=True
+    ).stdout
+
+
+def test_it_is_short():
+    assert len(README.splitlines()) <= 300
+
+
+def test_its_loop_hears_every_step_of_a_walk(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    walk = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), radio=Radio(corrupt=0.02), seed=1)
+    with PacketWriter("walk.jsonl") as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    (program,) = blocks(README, "python")
+    with redirect_stdout(io.StringIO()) as out:
+        exec(compile(program, "README.md", "exec"), {"__name__": "readme"})
+    for foot in Foot:
+        assert out.getvalue().count(f"{foot.value} step of") == len(walk.truth.steps(foot))
+        assert f"s: {foot.value} heel-strike" in out.getvalue()
+    assert "a packet was not used: checksum" in out.getvalue()
+
+
+def test_the_loop_has_twelve_lines():
+    (program,) = blocks(README, "python")
+    assert len([line for line in program.splitlines() if line.strip()]) == 12
+
+
+def test_its_table_names_every_event():
+    assert sorted(first_cells(below("events"))) == sorted(f"`{event.__name__}`" for event in get_args(Event))
+
+
+def test_its_table_names_every_command():
+    (subparsers,) = (a for a in parser()._actions if isinstance(a.choices, dict))
+    told = [re.split(r"[ `]", line)[3] for line in README.splitlines() if line.startswith("| `solepath ")]
+    assert sorted(told) == sorted(subparsers.choices)
+    assert all(isinstance(command, ArgumentParser) for command in subparsers.choices.values())
+
+
+def test_its_table_names_every_recipe():
+    table = README.split("| recipe | what it is |", 1)[1].split("\n\n", 1)[0]
+    names = [name for line in table.splitlines()[2:] for name in re.findall(r"`([\w-]+)`", line.split("|")[1])]
+    assert names == list(BY_NAME)
+
+
+def test_its_demonstration_is_the_one_that_the_command_gives():
+    shown, given = below("demo"), figures.compared(demonstration()).splitlines()
+    # figures may move a little from one release to the next; what is counted and what is measured may not
+    assert [NUMBER.sub("#", " ".join(line.split())) for line in shown] == [
+        NUMBER.sub("#", " ".join(line.split())) for line in given
+    ]
+    counted = [line for line in shown if line.startswith("steps ")]
+    assert len(counted) == 3 and counted == [line for line in given if line.startswith("steps ")]
+
+
+def test_its_table_of_accuracy_is_the_long_ones_in_short():
+    short = figures.in_short(*(below(mark) for mark in ("accuracy", "activities", "emulated")))
+    assert below("figures") == figures.lines("data", short)
+
+
+def test_its_table_of_speed_is_the_long_one_in_short():
+    """How long things take is not tested; that the pages say the same twice is."""
+    assert below("quick") == figures.lines("what", figures.measured("\n".join(below("speed"))))
+
+
+@pytest.mark.parametrize(
+    ("mark", "ends"),
+    [("try", ["'.[view]'", "solepath demo"]), ("test", ["pytest -n auto --dist loadfile --no-loadscope-reorder"])],
+)
+def test_nothing_but_python_is_needed_to_try_and_to_test_it(mark, ends):
+    lines = below(mark)
+    assert lines[0].startswith("python3 -m venv .venv && .venv/bin/pip install ")
+    for line, end in zip(lines, ends, strict=True):
+        assert line.endswith(end) and ".venv/bin/" in line

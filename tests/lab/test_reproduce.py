@@ -1,0 +1,251 @@
+"""`solepath reproduce`: the statistics by hand, the papers' own figures, and the commands from end to end."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from commands import refused, run
+
+from solepath.cli import main
+from solepath.cli.reproduce import NAMES
+from solepath.emulate.routes import ways
+from solepath.lab.reproduce import footstep_walks, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
+from solepath.lab.reproduce.experiments import EXPERIMENTS
+from solepath.lab.reproduce.picture import Boxes, Drawn, Floor, PictureTrack
+from solepath.lab.reproduce.pool import each
+from solepath.lab.reproduce.published import (
+    CORNERS,
+    KUPT_DFPC,
+    KUPT_L_MEAN_IN_TEXT,
+    LOOPS,
+    PRESSURE_CONTOUR,
+    WALKING_MODES,
+    corner_row,
+)
+from solepath.lab.reproduce.tables import FigureRow, Reproduction, Statistics, as_json, statistics
+from solepath.lab.tables.reproduced import reproduced
+from solepath.lab.train import emulated
+
+FIVE = ["mean", "std", "q1", "median", "q3"]
+
+
+# --- statistics -------------------------------------------------------------------------------------------------------
+
+
+def test_the_five_statistics_of_five_walks_are_those_of_a_pencil():
+    # deviations -2, -1, 0, 1, 2: squares 10, over n - 1 = 4; quartiles are the second and the fourth
+    assert statistics([21.0, 18.0, 20.0, 19.0, 22.0]) == Statistics(20.0, 2.5**0.5, 19.0, 20.0, 21.0)
+
+
+def test_quartiles_between_two_walks_are_linear():
+    assert statistics([1.0, 2.0, 3.0, 4.0]) == Statistics(2.5, pytest.approx((5 / 3) ** 0.5), 1.75, 2.5, 3.25)
+
+
+def test_one_walk_has_no_deviation_and_none_has_nothing():
+    assert statistics([20.5]) == Statistics(20.5, None, 20.5, 20.5, 20.5)
+    assert statistics([]) == Statistics()
+
+
+def test_work_is_done_in_its_order_and_told(capsys):
+    told = []
+    assert list(each(abs, [-3, 2, -1], progress=lambda done, of: told.append((done, of)))) == [3, 2, 1]
+    assert told == [(1, 3), (2, 3), (3, 3)]
+    assert list(each(abs, [-3, 2, -1], processes=2)) == [3, 2, 1]
+
+
+# --- the papers -------------------------------------------------------------------------------------------------------
+
+
+def test_table_one_of_the_known_velocities_is_the_papers():
+    assert list(KUPT_DFPC) == ["ZUPT-L", "ZUPT-R", "KUPT-L", "KUPT-R", "KUPT+DFPC"]
+    assert KUPT_DFPC["ZUPT-L"] == Statistics(20.97, 1.84, 19.74, 21.17, 22.56)
+    assert KUPT_DFPC["KUPT+DFPC"] == Statistics(20.08, 0.51, 19.74, 20.06, 20.46)
+
+
+def test_the_paper_of_the_known_velocities_contradicts_itself_and_reckons_with_its_table():
+    # section IV-B: "for KUPT method, the accuracy in terms of mean value is 2.1 % and 2.2 %"; 2.1 % of 20 m is 0.42 m
+    assert KUPT_DFPC["KUPT-L"].mean != KUPT_L_MEAN_IN_TEXT
+    assert (20.0 - KUPT_DFPC["KUPT-L"].mean) / 20.0 == pytest.approx(0.021)
+    assert (20.0 - KUPT_L_MEAN_IN_TEXT) / 20.0 < 0.017
+
+
+def test_the_six_loops_come_to_the_means_and_deviations_that_the_paper_prints():
+    assert (len(LOOPS), round(sum(loop.distance for loop in LOOPS) / 6)) == (6, 1215)
+    printed = {name: (round(of.mean, 2), round(of.std, 2)) for name, of in PRESSURE_CONTOUR.items()}
+    assert printed["Gyroscope m"] == (4.87, 2.75) and printed["Pressure m"] == (4.30, 3.15)
+
+
+def test_each_loop_is_as_many_per_cent_of_its_path_as_the_paper_prints():
+    printed = [
+        ("0.20", "0.30"),
+        ("0.76", "0.94"),
+        ("0.69", "0.53"),
+        ("0.24", "0.10"),
+        ("0.21", "0.08"),
+        ("0.52", "0.52"),
+    ]
+    shares = [(100 * loop.gyroscope / loop.distance, 100 * loop.pressure / loop.distance) for loop in LOOPS]
+    assert [(f"{gyroscope:.2f}", f"{pressure:.2f}") for gyroscope, pressure in shares] == printed
+
+
+def test_table_four_of_the_walking_modes_has_two_axes_of_four_methods_at_four_corners():
+    assert list(CORNERS) == list("ABCD") and all(list(by) == ["I", "II", "III", "IV"] for by in CORNERS.values())
+    assert len(WALKING_MODES) == 32
+    assert WALKING_MODES[corner_row("B", "IV", "y")] == Statistics(mean=-0.0208, std=0.0198, median=-0.0204)
+
+
+# --- what is made of it -----------------------------------------------------------------------------------------------
+
+TWO_ROWS = Reproduction(
+    name="kupt-dfpc",
+    paper_title="a paper, table I",
+    walked="2 walks",
+    unit="m",
+    rows=(
+        FigureRow("ZUPT-L", (19.0, 21.0), Statistics(20.97, 1.84, 19.74, 21.17, 22.56)),
+        FigureRow("other", (1.0,), Statistics(3.0)),
+    ),
+    panels=(
+        Boxes("distances", ("ZUPT-L", "other"), "m", 20.0),
+        Floor(
+            "the way",
+            (
+                PictureTrack("true", ((0.0, 0.0), (1.0, 0.0)), Drawn.TRUTH),
+                PictureTrack("ours", ((0.0, 0.1),), Drawn.DOTS),
+                PictureTrack("line", ((0.0, 0.0), (1.0, 0.1))),
+            ),
+            marks=(("start", 0.0, 0.0),),
+        ),
+    ),
+    notes=("A note.",),
+)  # fmt: skip
+
+
+def test_the_json_is_what_the_design_says():
+    assert as_json(TWO_ROWS) == {
+        "name": "kupt-dfpc",
+        "emulated": True,
+        "table": {
+            "ZUPT-L": {"mean": 20.0, "std": 2.0**0.5, "q1": 19.5, "median": 20.0, "q3": 20.5},
+            "other": {"mean": 1.0, "std": None, "q1": 1.0, "median": 1.0, "q3": 1.0},
+        },
+        "paper": {
+            "ZUPT-L": {"mean": 20.97, "std": 1.84, "q1": 19.74, "median": 21.17, "q3": 22.56},
+            "other": {"mean": 3.0, "std": None, "q1": None, "median": None, "q3": None},
+        },
+    }
+
+
+def test_ours_and_the_papers_stand_beside_each_other_and_ours_is_said_to_be_emulated():
+    first, _, header, _, row, other, _, note = reproduced(TWO_ROWS).splitlines()
+    assert "ours is emulated" in first and "a paper, table I" in first
+    assert header.split() == ["m", "ours:", *FIVE, "paper:", *FIVE]
+    assert row.split() == [
+        "ZUPT-L",
+        "20.00",
+        "1.41",
+        "19.50",
+        "20.00",
+        "20.50",
+        "20.97",
+        "1.84",
+        "19.74",
+        "21.17",
+        "22.56",
+    ]
+    assert other.split() == ["other", "1.00", "-", "1.00", "1.00", "1.00", "3.00", "-", "-", "-", "-"]
+    assert note == "A note."
+
+
+@pytest.mark.parametrize(("ending", "begins"), [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")])
+def test_boxes_and_floors_are_drawn_in_the_format_that_the_ending_names(tmp_path, ending, begins):
+    figures = pytest.importorskip("solepath.lab.tables.figures", exc_type=ImportError)
+    figures.draw(TWO_ROWS, tmp_path / f"figure.{ending}")
+    assert (tmp_path / f"figure.{ending}").read_bytes().startswith(begins)
+
+
+# --- the command ------------------------------------------------------------------------------------------------------
+
+
+def test_the_command_knows_every_experiment():
+    assert tuple(EXPERIMENTS) == NAMES
+
+
+LONGEST = "footstep-tracker"
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.soak if name == LONGEST else ()) for name in NAMES]
+)
+def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeypatch):
+    pytest.importorskip("matplotlib")
+    monkeypatch.setattr(pressure_contour, "LASTING", 60.0)
+    monkeypatch.setattr(pressure_contour, "LAPS", 3)
+    monkeypatch.setattr(walking_modes, "STEPS", 10)
+    monkeypatch.setattr(walking_modes, "REPEATS", 1)
+    monkeypatch.setattr(footstep_walks, "PER_CLASS", 1)
+    monkeypatch.setattr(footstep_walks, "INCREMENTS", footstep_walks.INCREMENTS[:2])
+    monkeypatch.setattr(kupt_dfpc, "CORRIDOR", 30.0)
+    monkeypatch.setattr(shoe_walks, "STEPS", 30)
+    monkeypatch.setattr(shoe_walks, "LAPS", 1)
+    monkeypatch.setattr(emulated, "TIMES", 1)
+    monkeypatch.setattr(ways, "FEWEST", 1)
+    monkeypatch.setattr(ways, "MOST", 1)
+    monkeypatch.chdir(tmp_path)
+    told, figure = Path("table.json"), Path(f"{name}.png")
+    options = ("--walks", 1, "--seed", 3, "--processes", 1, "--json", told)
+    done = run("reproduce", name, *options, "--figure")  # named after the experiment when nothing is said
+    assert done.returncode == 0 and done.stderr == ""
+    assert f"{name}: ours is emulated" in done.stdout
+    assert done.stdout.endswith(f"figure drawn in {figure}\n") and figure.read_bytes().startswith(b"\x89PNG")
+    table = json.loads(told.read_text(), parse_constant=pytest.fail)
+    assert list(table) == ["name", "emulated", "table", "paper"]
+    assert table["name"] == name and table["emulated"] is True
+    assert list(table["table"]) == list(table["paper"])
+    assert all(list(of) == FIVE for part in ("table", "paper") for of in table[part].values())
+    assert all(of["mean"] is not None for of in table["table"].values())
+    assert any(of["mean"] is not None for of in table["paper"].values())
+
+
+def test_an_experiment_that_there_is_not_is_refused_in_one_line():
+    assert refused("reproduce", "kupt") == (
+        "solepath: there is no experiment 'kupt'; there are: " + ", ".join(NAMES) + "\n"
+    )
+
+
+@pytest.mark.parametrize("walks", ["0", "-1", "many", "1.5"])
+def test_no_walks_are_refused(walks, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["reproduce", "kupt-dfpc", f"--walks={walks}"])
+    assert stop.value.code == 2 and f"'{walks}' is not a number of 1 or more" in capsys.readouterr().err
+
+
+def test_what_cannot_be_written_is_said_before_anybody_walks(tmp_path):
+    pytest.importorskip("matplotlib")
+    nowhere = tmp_path / "none" / "table.json"
+    assert f"{nowhere}: No such file" in refused("reproduce", "kupt-dfpc", "--json", nowhere)
+    assert "ends in none of" in refused("reproduce", "kupt-dfpc", "--figure", tmp_path / "figure.docx")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_figure_without_matplotlib_is_refused_in_one_line(tmp_path):
+    code = (
+        "import sys\nsys.modules['matplotlib'] = None\nimport importlib.util\n"
+        "from solepath.cli import main\n"
+        f"sys.exit(main(['reproduce', 'kupt-dfpc', '--figure', {str(tmp_path / 'figure.png')!r}]))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "solepath: figures need matplotlib: pip install 'solepath[figures]'\n"
+
+
+def test_help_loads_nothing_heavy():
+    code = (
+        "import sys\nfrom solepath.cli import main\n"
+        "try: main(['reproduce', '--help'])\nexcept SystemExit: pass\n"
+        "print(sorted({'numpy', 'matplotlib', 'rich'} & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]" and Path(__file__).stem not in done.stdout

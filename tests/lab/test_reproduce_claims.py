@@ -1,0 +1,57 @@
+"""What docs/papers.md says came of the papers' claims, walked in full.
+
+    python -m pytest -m soak tests/lab/test_reproduce_claims.py
+
+Takes some minutes. What a claim missed is not asserted here but said there.
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+from solepath.lab.reproduce.experiments import EXPERIMENTS
+from solepath.lab.reproduce.tables import Reproduction
+
+pytestmark = pytest.mark.soak
+
+
+def values(found: Reproduction, row: str) -> np.ndarray:
+    (one,) = (one for one in found.rows if one.name == row)
+    return np.array(one.values)
+
+
+def rms(off: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(off**2)))
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_known_velocity_scatters_and_errs_less_than_zero_velocity_and_the_fusion_less_still(seed: int) -> None:
+    found = EXPERIMENTS["kupt-dfpc"](seed=seed, processes=2)
+    both = values(found, "KUPT+DFPC")
+    for foot in "LR":
+        zupt, kupt = values(found, f"ZUPT-{foot}"), values(found, f"KUPT-{foot}")
+        assert kupt.std() < zupt.std() and both.std() < kupt.std()
+        assert rms(kupt - 20.0) < rms(zupt - 20.0) and rms(both - 20.0) < rms(kupt - 20.0)
+    (corridor,) = (note for note in found.notes if note.startswith("91 m") and "KUPT+DFPC" in note)
+    (share,) = re.findall(r"([\d.]+) % of it on average", corridor)
+    assert float(share) <= 1.0
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_half_hour_loops_end_nearer_than_the_papers(seed: int) -> None:
+    found = EXPERIMENTS["pressure-contour"](seed=seed, processes=2)
+    assert values(found, "Pressure m").mean() <= 4.3
+    assert values(found, "Gyroscope m").mean() <= 4.87
+
+
+def test_compensated_touchdowns_are_the_nearest_at_all_four_corners() -> None:
+    found = EXPERIMENTS["walking-modes"](seed=1, processes=2)
+    for corner in "ABCD":
+        off = {
+            method: float(np.hypot(values(found, f"{corner} {method} x"), values(found, f"{corner} {method} y")).mean())
+            for method in ("I", "II", "III", "IV")
+        }
+        assert min(off, key=off.__getitem__) == "IV", (corner, off)

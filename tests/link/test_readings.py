@@ -1,0 +1,177 @@
+"""What an app's constructs and readers may make of bytes: nothing of it comes out of `feed` as an exception."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from math import inf, nan
+from typing import Any
+
+import pytest
+from attrs import evolve
+from construct import Bytes, ExprAdapter, ExprValidator, GreedyBytes, Int8ub, Struct, Terminated, this
+from toys import BOTH, FORMATS, LEFT, TICKING, Toy, data, more, toy
+
+from solepath import Packet, Session
+from solepath.events import PacketRejected, Rejection
+from solepath.link.driver import Measured, Reading
+from solepath.saving import codec as machine
+
+UP = (0.0, 0.0, 9.80665)
+HUGE = 10**400
+ABSURD, MALFORMED = Rejection.ABSURD, Rejection.MALFORMED
+
+
+def one(**values: Any) -> Reading:
+    return Reading((Measured(**{"acc": UP, **values}),), sequence=6, ticks=2**32 - 1_940_000)
+
+
+def numbered(**values: Any) -> Reading:
+    return evolve(one(), **values)
+
+
+READ: dict[str, tuple[Any, Rejection]] = {
+    "no reading": (None, MALFORMED),
+    "samples that are a number": (Reading(5), MALFORMED),  # type: ignore[arg-type]
+    "a sample that is none": (Reading((UP,)), MALFORMED),  # type: ignore[arg-type]
+    "more samples than bytes": (numbered(samples=(Measured(UP),) * 1000), ABSURD),
+    "a huge integer": (one(acc=(HUGE, 0, 0)), ABSURD),
+    "a full battery in atoms": (Reading(battery=HUGE), ABSURD),
+    "two axes": (one(acc=(0.0, 9.8)), MALFORMED),
+    "four axes": (one(gyro=(0.0, 9.8, 0.0, 0.0)), MALFORMED),
+    "axes in a list": (one(acc=[0.0, 0.0, 9.8]), MALFORMED),
+    "axes that are words": (one(acc=("a", 0.0, 1.0)), MALFORMED),
+    "a quaternion of three": (one(quat=(1.0, 0.0, 0.0)), MALFORMED),
+    "a field of one axis in a sample": (one(mag=(1e-5,)), MALFORMED),
+    "a field of one axis": (Reading(mag=(1e-5,)), MALFORMED),  # type: ignore[arg-type]
+    "pressure of one number": (one(pressure=3.0), MALFORMED),
+    "pressure of 10,000 cells": (one(pressure=(0.0,) * 10_000), ABSURD),
+    "air pressure in words": (Reading(air_pressure="high"), MALFORMED),  # type: ignore[arg-type]
+    "no number": (one(gyro=(nan, 0.0, 0.0)), Rejection.NOT_FINITE),
+    "nearly saturated": (one(saturated=0.5), MALFORMED),
+    "half a packet on": (numbered(sequence=6.5), MALFORMED),
+    "half a tick on": (numbered(ticks=10.5), MALFORMED),
+    "ticks without end": (numbered(ticks=HUGE), ABSURD),
+    "numbers below any": (numbered(sequence=-HUGE), ABSURD),
+    "an interval without end": (numbered(interval=HUGE), ABSURD),
+    "an interval of a day": (numbered(interval=86_400_000_000), ABSURD),
+    "no interval": (numbered(interval=0), MALFORMED),
+    "a range of nothing": (Reading(known={"acc_range": 0.0}), ABSURD),
+    "a range below nothing": (Reading(known={"acc_range": -8.0}), ABSURD),
+    "known without end": (Reading(known={"gain": inf}), Rejection.NOT_FINITE),
+    "known by a word": (Reading(known={"mode": "fast"}), MALFORMED),  # type: ignore[dict-item]
+    "known by a number": (Reading(known={1: 2.0}), MALFORMED),  # type: ignore[dict-item]
+    "known as a list": (Reading(known=[1.0]), MALFORMED),  # type: ignore[arg-type]
+    "keys in a list": (Reading(keys=["a"]), MALFORMED),  # type: ignore[arg-type]
+    "keys by number": (Reading(keys=(1,)), MALFORMED),  # type: ignore[arg-type]
+    "a foot by name": (Reading(foot="left"), MALFORMED),  # type: ignore[arg-type]
+    "a layout by name": (Reading(layout="left"), MALFORMED),  # type: ignore[arg-type]
+    "silence by number": (Reading(silent=1), MALFORMED),  # type: ignore[arg-type]
+    "a rate in words": (Reading(rate="fast"), MALFORMED),  # type: ignore[arg-type]
+    "a rate without end": (Reading(rate=inf), Rejection.NOT_FINITE),
+}
+
+
+def refused(device: Toy, value: bytes, reason: Rejection) -> None:
+    before = machine.save(device.decoder)
+    (told,) = device.hear(10.06, "data", value)
+    assert isinstance(told, PacketRejected) and told.reason is reason, told
+    assert machine.save(device.decoder) == before
+
+
+@pytest.mark.parametrize("name", READ)
+def test_a_reading_that_is_none_is_rejected_and_changes_nothing(name: str) -> None:
+    reading, reason = READ[name]
+
+    def reader(sent: Any, known: Any) -> Reading:
+        return reading if sent.number == 0 else data(sent, known)  # type: ignore[no-any-return]
+
+    device = toy(evolve(BOTH, readers={"toy/data": reader, "toy/more": more}))
+    for k in range(5):
+        device.packet(k)
+    refused(device, bytes(11), reason)
+    first = toy(device.driver)
+    (told,) = first.hear(10.0, "data", bytes(11))
+    assert isinstance(told, PacketRejected) and first.decoder.link is None
+
+
+def ratio(value: Any, context: Any) -> bool:
+    return 1 / value > 0
+
+
+def chosen(value: Any, context: Any) -> Any:
+    return ("one", "two")[value]
+
+
+def worded(value: Any, context: Any) -> Any:
+    return float(f"{value} apples")
+
+
+@pytest.mark.parametrize(
+    "part",
+    [ExprValidator(Int8ub, ratio), ExprAdapter(Int8ub, chosen, chosen), ExprAdapter(Int8ub, worded, worded)],
+    ids=["divides", "has no such item", "reads no number"],
+)
+@pytest.mark.parametrize("first", [True, False])
+def test_a_construct_that_cannot_make_anything_of_bytes_rejects_them(part: Any, first: bool) -> None:
+    device = toy(evolve(TICKING, formats={**FORMATS, "toy/more": Struct("what" / part, Terminated)}, readers={}))
+    if not first:
+        device.packet(1)
+    before = machine.save(device.decoder)
+    (told,) = device.hear(10.06, "more", b"\x00" if part.__class__ is ExprValidator else b"\x09")
+    assert isinstance(told, PacketRejected) and told.reason is MALFORMED
+    assert machine.save(device.decoder) == before
+
+
+def test_a_construct_that_asks_for_what_is_not_there_rejects_all() -> None:
+    device = toy(evolve(TICKING, formats={**FORMATS, "toy/data": Struct("a" / Bytes(this.nothing), Terminated)}))
+    refused(device, b"123", MALFORMED)
+
+
+def test_bytes_left_over_are_refused_though_the_construct_does_not_end_in_terminated() -> None:
+    loose = {**FORMATS, "toy/more": Struct("what" / Int8ub), "toy/start": GreedyBytes}
+    device = toy(evolve(TICKING, formats=loose, readers={}))
+    (told,) = device.hear(10.0, "more", b"\x01\x02")
+    assert isinstance(told, PacketRejected) and told.reason is Rejection.OVERSIZED
+    assert device.hear(10.0, "more", b"\x01") == device.hear(10.0, "start", b"all of it") == []
+
+
+def test_a_reader_cannot_change_what_is_known() -> None:
+    def meddling(sent: Any, known: Any) -> Reading:
+        known["times"] = 3.0
+        return Reading()
+
+    device = toy(evolve(TICKING, readers={"toy/data": meddling}))
+    with pytest.raises(TypeError):
+        device.packet(0)
+
+
+def test_what_a_construct_calls_an_integer_can_be_saved() -> None:
+    class Number(int):
+        """As construct's Enum gives them."""
+
+    def reader(sent: Any, known: Any) -> Reading:
+        return evolve(data(sent, known), sequence=Number(sent.number), ticks=Number(sent.ticks))
+
+    device = toy(evolve(BOTH, readers={"toy/data": reader}))
+    told = [device.packet(k) for k in range(3)]
+    assert all(told) and not any([isinstance(one, PacketRejected) for some in told for one in some])
+    json.dumps(machine.save(device.decoder))
+
+
+def test_a_clock_of_nanoseconds_since_1970_goes_on_the_same_after_it_was_saved() -> None:
+    def reader(sent: Any, known: Any) -> Reading:
+        return Reading((Measured(UP),), ticks=1_800_000_000_123_456_789 + 1000 * sent.ticks)
+
+    driver = evolve(TICKING, readers={"toy/data": reader}, tick_rate=1e9, tick_modulus=1 << 64)
+
+    def packets(first: int, last: int) -> list[Packet]:
+        write: Callable[[Any], bytes] = lambda k: driver.write(  # noqa: E731
+            "toy/data", {"number": k, "ticks": 10_000 * k, "count": 1, "up": [9.8]}
+        )
+        return [Packet(1.0 + 0.01 * k, LEFT, "toy/data", write(k)) for k in range(first, last)]
+
+    session = Session(poses=True, profiles=[driver])
+    session.feed(packets(0, 60))
+    again = Session.restore(json.loads(json.dumps(session.snapshot())), profiles=[driver])
+    assert again.feed(packets(60, 120)) == session.feed(packets(60, 120)) != []

@@ -1,0 +1,138 @@
+"""protocol/stories: packets in order with their arrivals, and what a receiver makes of them."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from here import PROTOCOL
+
+from solepath.events import (
+    ClockReset,
+    LayoutKnown,
+    Limitation,
+    PacketRejected,
+    PacketsLost,
+    ScaleSuspect,
+    StreamResumed,
+    StreamStale,
+)
+from solepath.link.decoder import Decoder
+from solepath.saving import codec as machine
+from solepath.types import Packet, Sample, Site
+
+STORIES = sorted((PROTOCOL / "stories").glob("*.json"))
+
+WHAT = {
+    Sample: "sample",
+    PacketsLost: "lost",
+    PacketRejected: "rejected",
+    ClockReset: "reset",
+    StreamStale: "stale",
+    StreamResumed: "resumed",
+    Limitation: "limitation",
+    LayoutKnown: "layout known",
+    ScaleSuspect: "scale suspect",
+}
+
+
+def listen(decoder: Decoder, site: Site, line: dict[str, Any]) -> list[Any]:
+    if "channel" not in line:
+        return decoder.advance(line["t"])
+    return decoder.feed(Packet(line["t"], site, line["channel"], bytes.fromhex(line["data"])))
+
+
+def as_told(output: Any, expected: dict[str, Any]) -> dict[str, Any]:
+    """What came out, in the words of the stories, as far as `expected` says something of it."""
+    words: dict[str, Any] = {"what": WHAT[type(output)]}
+    for key in expected.keys() - {"what"}:
+        if isinstance(output, LayoutKnown):
+            layout = output.layout
+            words[key] = {"layout": layout.id, "cells": len(layout.cells), "length": layout.length}[key]
+        elif isinstance(output, PacketRejected):
+            words[key] = output.reason.value
+        else:
+            value = getattr(output, key)
+            words[key] = list(value) if isinstance(value, tuple) else value
+    return words
+
+
+def check(outputs: list[Any], expected: list[dict[str, Any]], tolerance: float, where: str) -> None:
+    assert [WHAT.get(type(o)) for o in outputs] == [e["what"] for e in expected], f"{where}: {outputs}"
+    for output, words in zip(outputs, expected, strict=True):
+        found = as_told(output, words)
+        for key, value in words.items():
+            if key == "t":
+                assert found[key] == pytest.approx(value, rel=0, abs=tolerance), where
+            elif isinstance(value, float | list):
+                assert found[key] == pytest.approx(value, rel=1e-5, abs=1e-12), where
+            else:
+                assert found[key] == value, where
+
+
+@pytest.mark.parametrize("path", STORIES, ids=lambda path: path.stem)
+def test_a_receiver_makes_of_the_packets_what_the_story_says(path: Path) -> None:
+    story = json.loads(path.read_text())
+    decoder = Decoder(site=Site(story["site"]))
+    for number, line in enumerate(story["packets"]):
+        outputs = listen(decoder, Site(story["site"]), line)
+        check(outputs, line["gives"], story["tolerance"], f"{path.stem}, packet {number}")
+
+
+@pytest.mark.parametrize("path", STORIES, ids=lambda path: path.stem)
+def test_a_receiver_saved_and_restored_before_every_packet_goes_on_the_same(path: Path) -> None:
+    story = json.loads(path.read_text())
+    site = Site(story["site"])
+    straight, restored = Decoder(site=site), Decoder(site=site)
+    for line in story["packets"]:
+        restored = machine.load(Decoder, json.loads(json.dumps(machine.save(restored), allow_nan=False)))
+        assert listen(restored, site, line) == listen(straight, site, line)
+    assert restored == straight
+    assert restored.finish() == straight.finish()
+
+
+@pytest.mark.parametrize("path", STORIES, ids=lambda path: path.stem)
+def test_nothing_is_known_before_it_arrived_or_before_it_was(path: Path) -> None:
+    story = json.loads(path.read_text())
+    decoder = Decoder(site=Site(story["site"]))
+    for line in story["packets"]:
+        for output in listen(decoder, Site(story["site"]), line):
+            assert output.known_at >= output.t
+            assert output.known_at >= line["t"]
+
+
+@pytest.mark.parametrize("path", STORIES, ids=lambda path: path.stem)
+def test_a_story_has_the_form_that_the_readme_describes(path: Path) -> None:
+    story = json.loads(path.read_text())
+    assert story["schema"] == "solepath stories 1"
+    assert set(story) == {"schema", "title", "header", "source", "site", "tolerance", "count", "packets"}
+    assert story["count"] == len(story["packets"])
+    times = [line["t"] for line in story["packets"]]
+    assert times == sorted(times) or path.stem == "host-clock-set-back"
+    assert all(given["what"] in WHAT.values() for line in story["packets"] for given in line["gives"])
+
+
+def test_the_stories_tell_every_rule_of_the_clock() -> None:
+    assert {path.stem for path in STORIES} >= {
+        "sequence-wrap",
+        "tick-wrap",
+        "duplicate",
+        "late",
+        "retransmitted",
+        "fragment-twice",
+        "loss",
+        "restart",
+        "clock-jump",
+        "jitter",
+        "four-samples-a-frame",
+        "fragments-mtu-23",
+        "info-then-frames",
+        "cc2541-10hz",
+        "cc2541-20hz",
+        "cc2650-hole",
+        "cc2650-lateness",
+        "silence",
+        "host-clock-set-back",
+    }

@@ -1,0 +1,443 @@
+"""Declared devices: what makes their times, what is lost, late, begun anew, and what a driver must be."""
+
+from __future__ import annotations
+
+import json
+from math import inf, nan
+from random import Random
+from typing import Any
+
+import pytest
+from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from toys import BASE, BOTH, COARSE, FORMATS, KIND, LAYOUT, LEFT, NUMBERED, PROFILE, TICKING, Toy, data, of, times, toy
+
+from solepath import Packet, Sample, Session, SnapshotError
+from solepath.events import (
+    BatteryLevel,
+    ClockReset,
+    KeysChanged,
+    LayoutKnown,
+    Limitation,
+    PacketRejected,
+    PacketsLost,
+    Rejection,
+    ScaleSuspect,
+    StreamStale,
+)
+from solepath.link.decoder import Decoder
+from solepath.link.devices import DECLARED, orphe
+from solepath.link.driver import Driver, Reading, TimeAxis
+from solepath.link.known import KINDS, kinds
+from solepath.link.profile import Write
+from solepath.saving import codec as machine
+
+# --- times ------------------------------------------------------------------------------------------------------------
+
+
+def test_the_axis_is_the_best_that_a_device_has() -> None:
+    assert [driver.axis for driver in KIND.values()] == [
+        TimeAxis.ARRIVAL,
+        TimeAxis.COUNT,
+        TimeAxis.TICKS,
+        TimeAxis.TICKS,
+        TimeAxis.COUNT,
+    ]
+    assert [driver.axis for driver in DECLARED] == [TimeAxis.COUNT, TimeAxis.TICKS, TimeAxis.TICKS, TimeAxis.ARRIVAL]
+
+
+@pytest.mark.parametrize("count", [1, 4])
+@pytest.mark.parametrize("name", KIND)
+def test_samples_are_as_far_apart_as_they_were_taken_whatever_the_radio_does(name: str, count: int) -> None:
+    device, random = toy(KIND[name]), Random(3)
+    told, arrival = [], 0.0
+    for k in range(2000 // count):
+        t = 10.0 + k * count / 100
+        arrival = max(arrival, t + 0.03 * random.random() ** 2)
+        told += device.packet(k, arrival - t + 1e-9, count=count)
+    assert not of(PacketRejected, told) and not of(PacketsLost, told) and not of(ClockReset, told)
+    found = times(told)
+    assert len(found) == 2000 // count * count
+    apart = [b - a for a, b in zip(found[500:], found[501:], strict=False)]
+    assert min(apart) > 0.0099 and max(apart) < 0.0101
+    assert found[-1] == pytest.approx(10.0 + (2000 // count - 1) * count / 100, abs=0.012)
+
+
+@pytest.mark.parametrize("name", ["number", "coarse"])
+@pytest.mark.parametrize("true", [96.0, 104.0])
+def test_a_device_that_counts_at_another_rate_than_it_says_is_believed(name: str, true: float) -> None:
+    device = toy(KIND[name])
+    found = times([one for k in range(1500) for one in device.packet(k, true=true)])
+    assert (found[1400] - found[900]) / 500 == pytest.approx(1.0 / true, rel=1e-3)
+    assert found[-1] == pytest.approx(10.0 + 1499 / true, abs=0.02)
+
+
+@pytest.mark.parametrize("name", ["number", "ticks", "both", "coarse"])
+def test_what_is_lost_late_or_repeated_is_said_and_the_others_keep_their_times(name: str) -> None:
+    device = toy(KIND[name])
+    told = [one for k in (*range(8), 10, 11) for one in device.packet(k)]
+    (lost,) = of(PacketsLost, told)
+    assert lost.count == 2 and lost.t == pytest.approx(10.08, abs=1e-3) and lost.channel == "toy/data"
+    assert times(told) == pytest.approx([10.0 + 0.01 * k for k in (*range(8), 10, 11)], abs=1e-3)
+    before = machine.save(device.decoder)
+    (again,), (late,) = device.packet(11, 0.001), device.packet(9, 0.021)
+    assert (again.reason, late.reason) == (Rejection.DUPLICATE, Rejection.LATE)
+    (before_last,) = device.packet(10, 0.021)
+    assert before_last.reason is Rejection.DUPLICATE
+    assert machine.save(device.decoder) == before
+
+
+@pytest.mark.parametrize("name", ["number", "ticks", "both", "coarse"])
+def test_a_device_that_begins_anew_gets_a_new_fit_and_times_go_on(name: str) -> None:
+    device = toy(KIND[name])
+    told = [one for k in range(400) for one in device.packet(k)]
+    for k in range(300):
+        told += device.say(17.0 + 0.01 * k, 5 + k, 77 + round((10_000 if name != "coarse" else 10) * k))
+    (reset,) = of(ClockReset, told)
+    assert reset.restarted and reset.t == pytest.approx(17.0, abs=0.02)
+    assert not of(PacketsLost, told) and not of(PacketRejected, told)
+    found = times(told)
+    assert found == sorted(found) and len(set(found)) == 700
+    assert found[-1] == pytest.approx(17.0 + 2.99, abs=0.02)
+
+
+def test_right_after_a_new_connection_nothing_is_overtaken() -> None:
+    for name in ("number", "ticks", "both", "coarse"):
+        device = toy(KIND[name])
+        for k in range(50):
+            device.packet(k)
+        device.decoder.feed(Packet(10.6, LEFT, "receiver/connected", b"\x7fToy"), kinds([device.driver]))
+        told = device.say(10.7, 65_535, 2**32 - 2_400_000 if name != "coarse" else 76_000_500)
+        assert times(told) == pytest.approx([10.7], abs=0.02), name
+
+
+def test_a_pause_shows_in_a_coarse_clock_and_after_a_long_silence_without_one() -> None:
+    for name, pause, resets in (("coarse", 0.8, 0), ("coarse", 40.0, 0), ("number", 6.0, 1)):
+        device = toy(KIND[name])
+        told = [one for k in range(300) for one in device.packet(k)]
+        for k in range(300, 600):
+            told += device.say(10.0 + 0.01 * k + pause, 65_530 + k, 86_400_000 - 2000 + 10 * k + round(1000 * pause))
+        assert len(of(ClockReset, told)) == resets and not of(PacketsLost, told)
+        found = times(told)
+        assert found[300] - found[299] == pytest.approx(0.01 + pause, abs=0.02)
+        assert found[-1] == pytest.approx(15.99 + pause, abs=0.02)
+
+
+def test_a_coarse_clock_that_is_set_changes_nothing() -> None:
+    for by in (600, 1500, 3_600_000, -1500):
+        device = toy(COARSE)
+        told = [one for k in range(300) for one in device.packet(k)]
+        for k in range(300, 600):
+            told += device.say(10.0 + 0.01 * k, 65_530 + k, 86_398_000 + 10 * k + by)
+        assert [one for one in told if not isinstance(one, Sample)] == []
+        assert times(told) == pytest.approx([10.0 + 0.01 * k for k in range(600)], abs=2e-3), by
+
+
+@pytest.mark.parametrize("true", [50.0, 200.0])
+def test_ticks_tell_that_the_rate_is_another(true: float) -> None:
+    device = toy(TICKING)
+    told = [device.packet(k, true=true) for k in range(60)]
+    assert len([one for some in told for one in of(PacketsLost, some)]) <= 6
+    assert not [one for some in told[8:] for one in of(PacketsLost, some)]
+    assert device.decoder.link is not None and device.decoder.link.rate == pytest.approx(true)
+    assert times([one for some in told for one in some]) == pytest.approx(
+        [10.0 + k / true for k in range(60)], abs=1e-3
+    )
+    (lost,) = of(PacketsLost, device.packet(63, true=true))
+    assert lost.count == 3
+
+
+MILLISECONDS = evolve(BASE, tick_rate=1000.0, tick_modulus=1 << 32)
+
+
+@pytest.mark.parametrize("true", [300.0, 380.0, 400.0, 420.0, 450.0, 500.0])
+@pytest.mark.parametrize("count", [1, 4])
+def test_a_clock_of_few_ticks_a_sample_tells_no_losses_that_there_were_not(true: float, count: int) -> None:
+    driver = evolve(MILLISECONDS, profile=evolve(PROFILE, nominal_rate=min(500.0, max(333.0, round(true, -2)))))
+    assert driver.axis is TimeAxis.TICKS
+    device, told = toy(driver), []
+    for k in range(1500):
+        if 1400 <= k < 1403:
+            continue
+        t = 10.0 + k * count / true
+        told += device.say(t + 0.01, ticks=int(1000 * t), count=count)
+        if k == 1300:
+            assert {type(one) for one in told} == {Sample}
+    (lost,) = [one for one in told if not isinstance(one, Sample)]
+    assert isinstance(lost, PacketsLost) and lost.count == 3
+    found = times(told)
+    assert found == sorted(set(found)) and found[-1] == pytest.approx(10.01 + 1499 * count / true, abs=0.012)
+
+
+def test_a_clock_too_coarse_for_the_samples_is_not_what_times_are_made_of() -> None:
+    for tick_rate, rate, axis in (
+        (1000.0, 600.0, TimeAxis.ARRIVAL),
+        (100.0, 60.0, TimeAxis.ARRIVAL),
+        (100.0, 50.0, TimeAxis.TICKS),
+    ):
+        driver = evolve(MILLISECONDS, tick_rate=tick_rate, profile=evolve(PROFILE, nominal_rate=rate))
+        assert driver.axis is axis
+        device = toy(driver)
+        told = [one for k in range(300) for one in device.say(5.01 + k / rate, ticks=int(tick_rate * (5.0 + k / rate)))]
+        assert {type(one) for one in told} == {Sample}, (tick_rate, rate)
+    device = toy(MILLISECONDS)
+    (told,) = device.tell(1.0, 1, 600.0)
+    assert isinstance(told, PacketRejected) and "600" in told.detail
+
+
+def test_a_rate_that_is_told_is_the_one_that_losses_are_told_by() -> None:
+    for name in ("arrival", "ticks"):
+        device = toy(KIND[name])
+        told = device.tell(9.9, 1, 20.0)
+        told += [one for k in (*range(50), 52) for one in device.packet(k, true=20.0)]
+        (lost,) = of(PacketsLost, told)
+        assert lost.count == 2, name
+
+
+def test_an_insole_that_is_set_to_another_mode_goes_on_at_another_rate() -> None:
+    decoder = Decoder(LEFT)
+
+    def value(header: int, serial: int) -> bytes:
+        ms = 500 + round(1000 * serial * 4 / 208)
+        return bytes([header]) + serial.to_bytes(2, "big") + bytes([7, 0, ms // 1000]) + (ms % 1000).to_bytes(2, "big")
+
+    told = []
+    for k in range(200):
+        data = value(56 if k < 100 else 55, k).ljust(104, b"\0")
+        told += decoder.feed(Packet(5.0 + 4 * k / 208, LEFT, "orphe/values", data))
+    (reset,) = of(ClockReset, told)
+    assert not reset.restarted and not of(PacketsLost, told)
+    found = times(told)
+    assert len(found) == 100 * 2 + 100 * 4 and found == sorted(set(found))
+    assert found[199] - found[198] == pytest.approx(1 / 104, abs=1e-4)
+    assert found[-1] - found[-2] == pytest.approx(1 / 208, abs=1e-4)
+    assert found[-1] == pytest.approx(5.0 + 4 * 199 / 208, abs=0.01)
+
+
+# --- what else a value says -------------------------------------------------------------------------------------------
+
+
+def test_what_is_no_sample_becomes_an_event_or_is_remembered() -> None:
+    device = toy(NUMBERED)
+    (battery,) = device.tell(1.0, 0, 0.5)
+    assert battery == BatteryLevel(t=1.0, known_at=1.0, site=LEFT, level=0.5)
+    assert device.tell(1.0, 6, 1.0) == [KeysChanged(t=1.0, known_at=1.0, site=LEFT, down=("left",))]
+    assert device.tell(1.0, 7, 0.0) == [LayoutKnown(t=1.0, known_at=1.0, site=LEFT, layout=LAYOUT)]
+    assert device.tell(1.0, 5, 1.0) == device.tell(1.0, 8, 4.0) == []
+    (sample,) = device.say(1.1, 1)
+    assert sample.acc == pytest.approx((0.0, 0.0, 2 * 9.80665)) and sample.quat == (1.0, 0.0, 0.0, 0.0)
+
+
+def test_air_pressure_rides_on_the_next_sample_or_stands_alone() -> None:
+    device = toy(NUMBERED)
+    assert times(device.tell(1.0, 3, 101_000.0)) == [1.0]
+    device.say(1.5, 1)
+    assert device.tell(1.505, 3, 101_001.0) == device.tell(1.506, 4, 2e-5) == []
+    (sample,), (next_one,) = device.say(1.51, 2), device.say(1.52, 3)
+    assert (sample.air_pressure, sample.mag) == (101_001.0, (2e-5, 0.0, 0.0))
+    assert (next_one.air_pressure, next_one.mag) == (None, None)
+
+
+def test_silence_is_an_event_unless_the_device_said_that_it_may_be_silent() -> None:
+    for silent, stale in ((0.0, 1), (1.0, 0)):
+        device = toy(NUMBERED)
+        device.tell(1.0, 2, silent)
+        device.say(1.1, 1)
+        assert len(of(StreamStale, device.decoder.advance(5.0, kinds([NUMBERED])))) == stale
+
+
+def test_a_limitation_is_said_once_and_a_wrong_range_is_suspected() -> None:
+    device = toy(evolve(NUMBERED, limitation="it is a toy"))
+    told = [one for k in range(300) for one in device.say(1.0 + 0.01 * k, k, up=4.9)]
+    (limitation,), (suspect,) = of(Limitation, told), of(ScaleSuspect, told)
+    assert limitation.what == "it is a toy" and told.index(limitation) == 0
+    assert "8 g would fit" not in suspect.suggestion and "0.50 g at rest with 16 g" in suspect.suggestion
+
+
+REFUSED = {
+    "too short": ("data", b"\x00" * 10, Rejection.TRUNCATED),
+    "too long": ("data", b"\x00" * 12, Rejection.OVERSIZED),
+    "no channel of its": ("crumbs", b"", Rejection.UNKNOWN_CHANNEL),
+    "what its reader does not know": ("more", b"\x63" + bytes(8), Rejection.MALFORMED),
+    "samples on another channel": ("more", b"\x09" + bytes(8), Rejection.MALFORMED),
+    "a division by zero": ("more", b"\x0a" + bytes(8), Rejection.MALFORMED),
+    "a missing key": ("more", b"\x0b" + bytes(8), Rejection.MALFORMED),
+    "the other foot": ("more", b"\x05" + bytes(8), Rejection.WRONG_SITE),
+    "a full battery and more": ("more", b"\x00\x40" + bytes(7), Rejection.ABSURD),
+    "no rate": ("more", b"\x01" + bytes(8), Rejection.ABSURD),
+    "air pressure without end": ("more", b"\x03\x7f\xf0" + bytes(6), Rejection.NOT_FINITE),
+    "air pressure of a star": ("more", b"\x03\x7f\xe0" + bytes(6), Rejection.ABSURD),
+    "acceleration that is no number": ("data", bytes(6) + b"\x01\x7f\xc0\x00\x00", Rejection.NOT_FINITE),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_cannot_be_used_is_refused_and_changes_nothing(name: str) -> None:
+    which, value, reason = REFUSED[name]
+    device = toy(BOTH)
+    for k in range(5):
+        device.packet(k)
+    before = machine.save(device.decoder)
+    (told,) = device.hear(10.1, which, value)
+    assert isinstance(told, PacketRejected) and told.reason is reason, told
+    assert machine.save(device.decoder) == before
+
+
+@pytest.mark.parametrize("name", KIND)
+@given(
+    st.lists(
+        st.tuples(st.sampled_from(["data", "more", "start"]), st.binary(max_size=14), st.floats(-1, 70)), max_size=30
+    )
+)
+@settings(max_examples=60, deadline=None)
+def test_any_bytes_at_any_time_give_events_and_a_state_that_can_be_saved(name: str, sent: list[Any]) -> None:
+    device, now, newest = toy(KIND[name]), 10.0, -inf
+    for which, value, wait in sent:
+        now += wait
+        for k in range(2):
+            value = value if k else value.ljust(11 if which == "data" else 9, b"\1")
+            for one in device.hear(now, which, value):
+                assert one.known_at >= one.t
+                if isinstance(one, ClockReset) and not one.restarted:
+                    newest = -inf
+                if isinstance(one, Sample):
+                    assert one.t > newest
+                    newest = one.t
+        saved = json.dumps(machine.save(device.decoder), allow_nan=False)
+        device = Toy(device.driver, machine.load(Decoder, json.loads(saved)))
+
+
+# --- drivers ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_driver_that_does_not_fit_together_is_refused() -> None:
+    other = (evolve(PROFILE.channels[0], name="other/data"), *PROFILE.channels[1:])
+    elsewhere = evolve(PROFILE, channels=other, streams=("other/data",))
+    for wrong in (
+        {"formats": {"toy/data": FORMATS["toy/data"]}},
+        {"readers": {"toy/nothing": data}},
+        {"profile": elsewhere, "formats": {**FORMATS, "other/data": FORMATS["toy/data"]}},
+        {"profile": evolve(PROFILE, streams=())},
+        {"profile": evolve(PROFILE, setup=(Write("toy/start", b"\x01\x02"),))},
+        {"profile": evolve(PROFILE, setup=(Write("toy/start", b""),))},
+        {"tick_rate": 100.0},
+        {"tick_rate": inf, "tick_modulus": 256},
+        {"tick_modulus": 256},
+        {"tick_rate": 100.0, "tick_modulus": 1 << 65},
+        {"sequence": -1},
+        {"sequence": 1},
+        {"acc_range": 0.0},
+        {"acc_range": inf},
+    ):
+        with pytest.raises(ValueError, match="toy: "):
+            evolve(BASE, **wrong)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"name": ""},
+        {"name": "toy/one"},
+        {"streams": ("toy/typo",)},
+        {"streams": ("toy/start",)},
+        {"setup": (Write("toy/nothing", b"\x01"),)},
+        {"setup": (Write("toy/start", b"\x01", then_read=("toy/nothing",)),)},
+        {"reads": ("toy/nothing",)},
+        {"channels": (PROFILE.channels[0], *PROFILE.channels)},
+        {"stale_after": 0.0},
+        {"stale_after": -1.0},
+        {"stale_after": inf},
+        {"stale_after": nan},
+        {"nominal_rate": 0.0},
+        {"nominal_rate": inf},
+        {"nominal_rate": nan},
+    ],
+    ids=str,
+)
+def test_a_profile_that_does_not_fit_together_is_refused(wrong: dict[str, Any]) -> None:
+    with pytest.raises(ValueError, match="^a profile|^toy: "):
+        evolve(PROFILE, **wrong)
+
+
+def test_a_reader_that_is_wrong_itself_is_not_hidden() -> None:
+    def wrong(sent: Any, known: Any) -> Reading:
+        return sent.nothing  # type: ignore[no-any-return]
+
+    device = toy(evolve(BASE, readers={"toy/data": wrong}))
+    with pytest.raises(AttributeError):
+        device.say(1.0)
+
+
+def test_an_app_adds_devices_and_may_replace_declared_ones_but_not_ours() -> None:
+    known = {"insole", "cc2650", "cc2541", "orphe", "dot", "dot-orientation", "thingy"}
+    assert set(KINDS) == known and set(kinds([NUMBERED])) == {*known, "toy"}
+    other = evolve(orphe.DRIVER, limitation="")
+    assert not of(Limitation, Session(profiles=[other]).feed(mode_four()))
+    assert of(Limitation, Session().feed(mode_four()))
+    first = (evolve(PROFILE.channels[0], name="insole/data"),)
+    named = evolve(PROFILE, name="insole", channels=first, streams=("insole/data",), setup=())
+    ours = Driver(named, {"insole/data": FORMATS["toy/data"]}, {"insole/data": data})
+    for taken in ([ours], [NUMBERED, TICKING]):
+        with pytest.raises(ValueError, match="already"):
+            Session(profiles=taken)
+    with pytest.raises(TypeError, match="Driver"):
+        Session(profiles=[PROFILE])  # type: ignore[list-item]
+
+
+def mode_four() -> Packet:
+    value = bytes([56]) + bytes(103)
+    return Packet(1.0, LEFT, "orphe/values", value)
+
+
+def test_a_session_with_a_device_of_its_own_is_restored_with_it_and_not_without() -> None:
+    def packets(first: int, last: int) -> list[Packet]:
+        fields: dict[str, Any] = {"ticks": 0, "count": 1, "up": [9.80665]}
+        return [
+            Packet(1.0 + 0.01 * k, LEFT, "toy/data", NUMBERED.write("toy/data", {"number": k, **fields}))
+            for k in range(first, last)
+        ]
+
+    session = Session(poses=True, profiles=[NUMBERED])
+    session.feed(packets(0, 100))
+    saved = json.loads(json.dumps(session.snapshot(), allow_nan=False))
+    again = Session.restore(saved, profiles=[NUMBERED])
+    assert again.feed(packets(103, 150)) == session.feed(packets(103, 150)) != []
+    assert again.advance(9.0) == session.advance(9.0) != []
+    with pytest.raises(SnapshotError, match="toy"):
+        Session.restore(saved)
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        evolve(NUMBERED, sequence=0),
+        evolve(NUMBERED, sequence=1 << 15),
+        BOTH,
+        COARSE,
+        evolve(NUMBERED, acc_range=8.0),
+        evolve(NUMBERED, profile=evolve(PROFILE, nominal_rate=50.0)),
+    ],
+    ids=["no numbers", "other numbers", "ticks", "coarse ticks", "another range", "another rate"],
+)
+def test_a_session_is_not_restored_with_a_driver_of_the_same_name_that_counts_otherwise(other: Driver) -> None:
+    session = Session(profiles=[NUMBERED])
+    fields = {"number": 1, "ticks": 0, "count": 1, "up": [9.8]}
+    session.feed(Packet(1.0, LEFT, "toy/data", NUMBERED.write("toy/data", fields)))
+    saved = json.loads(json.dumps(session.snapshot()))
+    with pytest.raises(SnapshotError, match="toy.*another driver"):
+        Session.restore(saved, profiles=[other])
+    assert Session.restore(saved, profiles=[evolve(NUMBERED, limitation="it is a toy")]).snapshot() == saved
+
+
+def test_what_an_app_put_in_our_place_is_restored_with_it_and_not_with_ours() -> None:
+    replaced, ours = evolve(orphe.DRIVER, limitation=""), Session()
+    session = Session(profiles=[replaced])
+    session.feed(mode_four())
+    ours.feed(mode_four())
+    with pytest.raises(SnapshotError, match="orphe.*another driver"):
+        Session.restore(session.snapshot())
+    with pytest.raises(SnapshotError, match="orphe.*another driver"):
+        Session.restore(ours.snapshot(), profiles=[replaced])
+    assert Session.restore(session.snapshot(), profiles=[replaced]).snapshot() == session.snapshot()
+    assert Session.restore(ours.snapshot()).snapshot() == ours.snapshot()

@@ -1,0 +1,298 @@
+"""The virtual air between processes, in real time: both ends are killed, and the other one notices and goes on."""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+import socket
+import sys
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontextmanager, suppress
+
+import pytest
+from bleak import BleakClient, BleakScanner
+from bleak.backends.device import BLEDevice
+from bleak.exc import BleakError
+from here import HELPERS
+from strap import BEAT, CONTROL, LEVEL, Strap
+
+from solepath.ble.backend import Backend
+from solepath.emulate.controllers import radio
+from solepath.emulate.controllers.tcp import address_of, reach, serve
+from solepath.emulate.devices.faults import parse_faults
+
+HERE = HELPERS
+
+LISTEN = """
+import asyncio, sys
+from bleak import BleakClient, BleakScanner
+from solepath.loopback import radio
+from solepath.emulate.controllers.tcp import reach
+from strap import BEAT, CONTROL
+
+async def main():
+    async with reach(sys.argv[1]) as backend:
+        device = await BleakScanner.find_device_by_name("one", 5.0, backend=backend.scanner)
+        async with BleakClient(device, backend=backend.client) as client:
+            await client.start_notify(BEAT, lambda _, value: print(value.hex(), flush=True))
+            await client.write_gatt_char(CONTROL, bytes([50]), response=True)
+            await asyncio.sleep(60.0)
+
+asyncio.run(main())
+"""
+
+
+def run(main: Callable[[], Awaitable[None]]) -> None:
+    """In real time; nothing may be left running when it is over."""
+
+    async def whole() -> None:
+        async with asyncio.timeout(30.0):
+            await main()
+        await asyncio.sleep(0.01)
+        assert asyncio.all_tasks() == {asyncio.current_task()}
+
+    asyncio.run(whole())
+
+
+@asynccontextmanager
+async def program(*arguments: str) -> AsyncIterator[asyncio.subprocess.Process]:
+    """Python with these arguments; killed in the end."""
+    process = await asyncio.create_subprocess_exec(
+        sys.executable, *arguments, cwd=HERE, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE
+    )
+    try:
+        yield process
+    finally:
+        if process.returncode is None:
+            process.kill()
+        _, said = await process.communicate()
+        assert said == b""
+
+
+async def line(process: asyncio.subprocess.Process) -> str:
+    assert process.stdout is not None
+    return (await process.stdout.readline()).decode().strip()
+
+
+async def find(backend: Backend, name: str = "one") -> BLEDevice:
+    found = await BleakScanner.find_device_by_name(name, 5.0, backend=backend.scanner)
+    assert found is not None
+    return found
+
+
+async def beats(client: BleakClient, count: int = 50) -> list[int]:
+    """The numbers that are heard until there are `count`."""
+    heard: list[int] = []
+    enough = asyncio.Event()
+
+    def beat(_: object, value: bytearray) -> None:
+        heard.append(int.from_bytes(value[:4], "little"))
+        if len(heard) == count:
+            enough.set()
+
+    await client.start_notify(BEAT, beat)
+    await client.write_gatt_char(CONTROL, b"\x64", response=True)
+    await asyncio.wait_for(enough.wait(), 10.0)
+    return heard
+
+
+def test_another_processs_devices_are_found_and_stream_until_it_is_killed_and_again_when_it_is_back() -> None:
+    async def main() -> None:
+        async with program("strap.py", "0") as server:
+            port = await line(server)
+            async with reach(f"tcp:127.0.0.1:{port}", mtu=185) as backend:
+                lost = asyncio.Event()
+                client = BleakClient(await find(backend), lambda _: lost.set(), backend=backend.client)
+                await client.connect()
+                assert client.mtu_size == 185
+                heard = await beats(client)
+                assert heard == list(range(heard[0], heard[0] + len(heard)))
+
+                server.kill()
+                await asyncio.wait_for(lost.wait(), 5.0)
+                assert not client.is_connected
+                with pytest.raises(BleakError, match=port):
+                    await BleakScanner.discover(0.1, backend=backend.scanner)
+                with pytest.raises(BleakError, match=port):
+                    await client.connect()
+                await server.wait()
+
+                async with program("strap.py", port) as restarted:
+                    assert await line(restarted) == port
+                    await client.connect()
+                    assert await client.read_gatt_char(LEVEL) == b"\x57"
+                    await client.disconnect()
+
+    run(main)
+
+
+def test_a_scan_that_goes_on_hears_the_devices_of_a_server_that_was_restarted() -> None:
+    async def main() -> None:
+        async with program("strap.py", "0") as server:
+            port = await line(server)
+            async with reach(f"tcp:127.0.0.1:{port}") as backend:
+                heard = asyncio.Event()
+                async with BleakScanner(lambda device, said: heard.set(), backend=backend.scanner):
+                    await asyncio.wait_for(heard.wait(), 5.0)
+                    server.kill()
+                    await server.wait()
+                    await asyncio.sleep(0.1)
+                    heard.clear()
+                    async with program("strap.py", port) as restarted:
+                        await line(restarted)
+                        await asyncio.wait_for(heard.wait(), 5.0)
+
+    run(main)
+
+
+def test_a_server_that_hangs_is_an_error_until_it_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(radio, "PATIENCE", 0.3)
+
+    async def main() -> None:
+        async with program("strap.py", "0") as server:
+            port = await line(server)
+            async with reach(f"tcp:127.0.0.1:{port}") as backend:
+                lost = asyncio.Event()
+                client = BleakClient(await find(backend), lambda _: lost.set(), backend=backend.client)
+                await client.connect()
+                server.send_signal(signal.SIGSTOP)
+                await client.disconnect()
+                assert not client.is_connected
+                await asyncio.wait_for(lost.wait(), 1.0)
+                for _ in range(2):
+                    with pytest.raises(BleakError, match=port):
+                        await BleakScanner.discover(0.1, backend=backend.scanner)
+                server.send_signal(signal.SIGCONT)
+                async with BleakClient(await find(backend), backend=backend.client) as again:
+                    assert await again.read_gatt_char(LEVEL) == b"\x57"
+
+    run(main)
+
+
+def test_a_killed_clients_device_advertises_again_and_the_next_client_connects() -> None:
+    async def main() -> None:
+        strap = Strap("one", "F0:00:00:00:00:01")
+        async with serve([strap], "127.0.0.1", 0) as (_, port):
+            where = f"tcp:127.0.0.1:{port}"
+            async with program("-c", LISTEN, where) as first:
+                assert len(await line(first)) == 40
+                assert strap.is_connected
+                async with reach(where) as backend:
+                    assert await BleakScanner.find_device_by_name("one", 0.5, backend=backend.scanner) is None
+                    first.kill()
+                    async with BleakClient(await find(backend), backend=backend.client) as client:
+                        await beats(client)
+                assert not strap.is_connected
+            async with reach(where) as backend, BleakClient(await find(backend), backend=backend.client) as client:
+                assert await client.read_gatt_char(LEVEL) == b"\x57"
+
+    run(main)
+
+
+def test_two_clients_at_once_have_a_device_each() -> None:
+    async def main() -> None:
+        straps = [Strap("one", "F0:00:00:00:00:01"), Strap("two", "F0:00:00:00:00:02")]
+        async with serve(straps, "127.0.0.1", 0) as (_, port):
+            where = f"tcp:127.0.0.1:{port}"
+            async with reach(where) as here, reach(where) as there:
+                first, second = await find(here, "one"), await find(there, "two")
+                async with (
+                    BleakClient(first, backend=here.client) as one,
+                    BleakClient(second, backend=there.client) as two,
+                ):
+                    assert all(strap.is_connected for strap in straps)
+                    await asyncio.gather(beats(one), beats(two))
+
+    run(main)
+
+
+def test_of_two_clients_that_want_the_same_device_one_gets_it_and_the_other_when_it_is_free() -> None:
+    async def main() -> None:
+        async with serve([Strap("one", "F0:00:00:00:00:01")], "127.0.0.1", 0) as (_, port):
+            where = f"tcp:127.0.0.1:{port}"
+            async with reach(where) as here, reach(where) as there:
+                found = [await find(here), await find(there)]
+                clients = [
+                    BleakClient(device, backend=backend.client, timeout=1.0)
+                    for device, backend in zip(found, (here, there), strict=True)
+                ]
+                ended = await asyncio.gather(*(client.connect() for client in clients), return_exceptions=True)
+                winner, loser = clients if ended[0] is None else reversed(clients)
+                assert winner.is_connected and not loser.is_connected
+                assert sum(isinstance(each, BleakError | TimeoutError) for each in ended) == 1
+                assert await winner.read_gatt_char(LEVEL) == b"\x57"
+                await winner.disconnect()
+                await loser.connect()
+                assert await loser.read_gatt_char(LEVEL) == b"\x57"
+                await loser.disconnect()
+
+    run(main)
+
+
+def test_a_device_that_has_forgotten_its_pairing_is_an_error_until_it_is_unpaired_here_too() -> None:
+    def serving(port: int) -> AbstractAsyncContextManager[tuple[str, int]]:
+        strap = Strap("one", "F0:00:00:00:00:01", faults=parse_faults("0 * pairing"))
+        return serve([strap], "127.0.0.1", port)
+
+    async def main() -> None:
+        async with AsyncExitStack() as host:
+            async with serving(0) as (_, port):
+                backend = await host.enter_async_context(reach(f"tcp:127.0.0.1:{port}"))
+                device = await find(backend)
+                async with BleakClient(device, backend=backend.client, pair=True) as client:
+                    assert await client.read_gatt_char(CONTROL) == b"\0"
+            async with serving(port):
+                client = BleakClient(device, backend=backend.client, pair=True)
+                with pytest.raises(BleakError, match="has forgotten the pairing"):
+                    await client.connect()
+                await client.unpair()
+                async with client:
+                    assert await client.read_gatt_char(CONTROL) == b"\0"
+
+    run(main)
+
+
+def test_nobody_at_the_port_is_one_clear_error() -> None:
+    async def main() -> None:
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            port = taken.getsockname()[1]
+        with pytest.raises(BleakError, match=f"nothing answers at tcp:127.0.0.1:{port}"):
+            async with reach(f"tcp:127.0.0.1:{port}"):
+                pass
+
+    run(main)
+
+
+def test_a_port_that_is_taken_is_an_error_and_leaves_nothing_behind() -> None:
+    async def main() -> None:
+        with socket.create_server(("127.0.0.1", 0)) as taken, pytest.raises(OSError):
+            async with serve([Strap("one", "F0:00:00:00:00:01")], "127.0.0.1", taken.getsockname()[1]):
+                pass
+
+    run(main)
+
+
+def test_bytes_that_are_no_hci_end_that_connection_and_no_other() -> None:
+    async def main() -> None:
+        nonsense = (b"GET / HTTP/1.1\r\n\r\n", b"\x01\x01\x04\x00", b"\x02\x01\x00\xff\xff" + bytes(70000))
+        strap = Strap("one", "F0:00:00:00:00:01")
+        async with serve([strap], "127.0.0.1", 0) as (host, port), reach(f"tcp:{host}:{port}") as backend:
+            for sent in nonsense:
+                reader, writer = await asyncio.open_connection(host, port)
+                writer.write(sent)
+                writer.write_eof()
+                with suppress(ConnectionError):
+                    await asyncio.wait_for(reader.read(), 2.0)
+                writer.close()
+            async with BleakClient(await find(backend), backend=backend.client) as client:
+                assert await client.read_gatt_char(LEVEL) == b"\x57"
+
+    run(main)
+
+
+def test_an_address_has_a_scheme_a_host_and_a_port() -> None:
+    assert address_of("tcp:127.0.0.1:9735") == ("127.0.0.1", 9735)
+    assert address_of("tcp:[::1]:1") == ("::1", 1)
+    for wrong in ("", "tcp:", "tcp:host", "tcp::1", "tcp:host:", "tcp:host:0", "tcp:host:65536", "udp:host:1", "h:1"):
+        with pytest.raises(ValueError, match="tcp:HOST:PORT"):
+            address_of(wrong)

@@ -1,0 +1,243 @@
+"""What the page's figures mean: colours, pace, losses and gait, from events alone and the same to all who watch."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from functools import cache
+from math import radians
+
+from attrs import evolve
+from hypothesis import given
+from hypothesis import strategies as st
+from shown import frame, shown
+from walks import insoles
+
+from solepath import (
+    Activity,
+    ActivityChanged,
+    Candidate,
+    Disconnected,
+    Event,
+    Foot,
+    FootMoved,
+    FootPressed,
+    GaitCycleMeasured,
+    LayoutKnown,
+    PacketsLost,
+    Phase,
+    Placed,
+    Session,
+    Site,
+)
+from solepath.body.gait.means import GaitMeans
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.show.page.scene.scales import LEAST, rounded
+from solepath.show.page.scene.scene import Scene
+from solepath.show.tables.gait import gait_lines
+from solepath.show.tables.gait_rows import ENOUGH, gait_rows
+
+LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
+WALK = Route().stand(1.5).walk(14.0, 1.3).stop(6.0)
+
+
+@cache
+def walk() -> tuple[Event, ...]:
+    return tuple(Session(poses=True, pressures=True).feed(insoles(WALK).packets))
+
+
+def until(t: float) -> Scene:
+    return shown([event for event in walk() if event.known_at <= t])
+
+
+def moved(t: float, foot: Foot = LEFT, known_at: float | None = None) -> FootMoved:
+    at = t if known_at is None else known_at
+    return FootMoved(
+        t=t, known_at=at, foot=foot, position=(0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0), phase=Phase.STATIONARY
+    )
+
+
+def changed(t: float, activity: Activity) -> ActivityChanged:
+    return ActivityChanged(t=t, known_at=t, activity=activity, probability=None, revises=None, final=False)
+
+
+# --- what is not heard is not known ----------------------------------------------------------------------------------
+
+
+def test_what_the_wearer_does_is_not_known_while_no_foot_is_heard() -> None:
+    scene = shown([moved(1.0), moved(1.0, RIGHT), changed(1.0, Activity.WALKING)])
+    assert frame(scene)["activity"] == {"now": "WALKING", "since": 1.0, "last": None}
+    shown([moved(1.0 + 0.1 * k) for k in range(60)], scene)
+    assert frame(scene)["activity"]["now"] == "WALKING", "the other foot is heard"
+    scene.tick(12.0)
+    assert frame(scene)["activity"] == {"now": "UNKNOWN", "since": 6.9, "last": "WALKING"}
+    shown([moved(12.5)], scene)
+    assert frame(scene)["activity"] == {"now": "WALKING", "since": 1.0, "last": None}
+
+
+def test_a_lost_connection_ends_what_is_known_at_once() -> None:
+    scene = shown([moved(1.0), changed(1.0, Activity.WALKING), Disconnected(t=1.2, known_at=1.2, site=Site.LEFT_FOOT)])
+    assert frame(scene)["activity"]["last"] == "WALKING"
+    assert frame(scene)["pace"] is None
+
+
+# --- how fast the wearer goes now ------------------------------------------------------------------------------------
+
+
+def test_the_pace_is_that_of_the_newest_strides() -> None:
+    scene = until(8.0)
+    strides = [event for event in walk() if isinstance(event, GaitCycleMeasured) and event.known_at <= 8.0]
+    newest = [[one for one in strides if one.foot is foot][-2:] for foot in Foot]
+    assert [len(some) for some in newest] == [2, 2]
+    cadences = [sum(one.cadence for one in some) / 2 for some in newest]
+    speeds = [sum(one.speed or 0.0 for one in some) / 2 for some in newest]
+    assert frame(scene)["pace"] == {"cadence": round(sum(cadences) / 2, 1), "speed": round(sum(speeds) / 2, 2)}
+    assert abs(frame(scene)["pace"]["speed"] - 1.3) < 0.1
+
+
+def test_who_stands_or_is_not_heard_has_no_pace() -> None:
+    assert frame(until(1.2))["pace"] is None
+    assert frame(shown(walk()))["pace"] is None
+    scene = until(8.0)
+    scene.tick(10.0)
+    assert frame(scene)["pace"] is None
+    scene = shown([changed(7.9, Activity.STANDING)], until(8.0))
+    assert frame(scene)["pace"] is None, "no stride came since"
+
+
+# --- where the colours end -------------------------------------------------------------------------------------------
+
+
+def pressed(t: float, foot: Foot, kilopascals: list[float]) -> FootPressed:
+    cells = layout(96, foot).cells
+    values = tuple(1000.0 * one * cell.area for one, cell in zip(kilopascals, cells, strict=True))
+    return FootPressed(t=t, known_at=t, foot=foot, values=values, force=sum(values), centre=None)
+
+
+def worn() -> list[Event]:
+    known = [event for event in walk() if isinstance(event, LayoutKnown)]
+    assert all(event.layout.scale is not None for event in known)
+    return list(known)
+
+
+def test_one_cell_with_a_peak_does_not_make_the_forefoot_pale() -> None:
+    forefoot = [300.0] * 30 + [0.0] * 66
+    peaked = [1500.0, *forefoot[1:]]
+    scene = shown([*worn(), *[pressed(2.0 + 0.01 * k, LEFT, peaked) for k in range(500)]])
+    assert frame(scene)["scales"] == {"kPa": {"top": 400.0, "beyond": True}}
+    scene = shown([*worn(), *[pressed(2.0 + 0.01 * k, LEFT, forefoot) for k in range(500)]])
+    assert frame(scene)["scales"] == {"kPa": {"top": 400.0, "beyond": False}}
+
+
+def test_a_knock_of_a_hundredth_of_a_second_does_not_either() -> None:
+    knock = [pressed(2.0, LEFT, [900.0] * 96), pressed(2.01, LEFT, [10.0] * 96)]
+    assert frame(shown([*worn(), *knock, *knock, *knock]))["scales"]["kPa"]["top"] == LEAST["kPa"]
+
+
+def test_a_scale_is_for_both_feet_and_only_grows() -> None:
+    scene, tops = shown(worn()), []
+    for event in walk():
+        scene.take(event)
+        tops.append(frame(scene)["scales"]["kPa"]["top"] if isinstance(event, GaitCycleMeasured) else None)
+    seen = [top for top in tops if top is not None]
+    assert seen == sorted(seen)
+    assert seen[-1] in (200.0, 400.0)
+    half = shown(walk()[: len(walk()) // 2])
+    on = shown(walk()[len(walk()) // 2 :], deepcopy(half))
+    assert frame(on)["scales"] == frame(shown(walk()))["scales"], "whoever goes on from what was saved"
+
+
+@given(st.floats(1e-6, 1e9))
+def test_a_scale_ends_at_a_round_number_that_is_not_far_above(value: float) -> None:
+    assert value <= rounded(value) <= 2.0 * value * (1.0 + 1e-9)
+    assert float(f"{rounded(value):.0e}") == float(f"{rounded(value):.6e}")
+
+
+def test_cells_that_nobody_turns_into_newtons_end_in_counts() -> None:
+    known = [event for event in worn() if isinstance(event, LayoutKnown)]
+    bare = [evolve(event, layout=evolve(event.layout, scale=None)) for event in known]
+    scene = shown([*bare, *[pressed(2.0 + 0.01 * k, LEFT, [300.0] * 96) for k in range(5)]])
+    assert [*frame(scene)["scales"]] == ["counts"]
+
+
+# --- losses ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_loss_is_that_of_the_last_ten_seconds() -> None:
+    def heard(begin: float, end: float) -> list[Event]:
+        return [moved(begin + 0.01 * k, known_at=begin + 0.01 * k + 0.02) for k in range(round(100 * (end - begin)))]
+
+    outage = PacketsLost(t=12.0, known_at=12.0, site=Site.LEFT_FOOT, channel="insole/frame", count=1000)
+    scene = shown([*heard(0.0, 2.0), outage, *heard(12.0, 14.0)])
+    link = frame(scene)["links"]["left foot"]
+    assert (link["lost"], 0.7 < link["loss"] < 0.9) == (1000, True)
+    link = frame(shown(heard(14.0, 24.0), scene))["links"]["left foot"]
+    assert (link["lost"], link["loss"]) == (1000, 0.0)
+    scene.tick(27.0)
+    link = frame(scene)["links"]["left foot"]
+    assert (link["state"], link["lost"], link["loss"]) == ("silent", 1000, None), "nothing comes"
+
+
+# --- gait ------------------------------------------------------------------------------------------------------------
+
+
+def strides(feet: tuple[Foot, ...], count: int, angles: tuple[float, float] = (0.1, -0.05)) -> list[GaitCycleMeasured]:
+    """Steady ones, one more of each foot than will count."""
+    first = next(event for event in walk() if isinstance(event, GaitCycleMeasured) and event.steady)
+    angle = dict(zip(Foot, angles, strict=True))
+    return [
+        evolve(first, foot=foot, t_start=1.0 + k, t=2.0 + k, known_at=2.3 + k, toe_off_angle=angle[foot])
+        for k in range(count + 1)
+        for foot in feet
+    ]
+
+
+def test_the_table_says_of_how_many_strides_it_is() -> None:
+    told = frame(shown(strides((LEFT, RIGHT), 7)))["gait"]
+    assert told["strides"] == {"left": 7, "right": 7}
+    assert told["enough"] == ENOUGH == 30
+
+
+def test_one_foot_alone_has_nothing_of_both() -> None:
+    told = frame(shown(strides((RIGHT,), 7)))["gait"]
+    assert told["strides"] == {"left": None, "right": 7}
+    for row in told["rows"]:
+        assert row["left"] is None and row["both"] is None and row["sd"] is None and row["asymmetry"] is None
+        assert row["difference"] is None
+
+
+def test_angles_that_lean_to_either_side_differ_by_degrees_and_not_by_hundreds_of_per_cent() -> None:
+    means = GaitMeans()
+    for stride in strides((LEFT, RIGHT), 7, (radians(3.0), radians(-1.0))):
+        means.hear(stride)
+    parameters = means.of(False)
+    assert parameters is not None
+    rows = {row.name: row for row in gait_rows(parameters)}
+    row = rows["toe_off_angle"]
+    assert (round(row.difference or 0.0, 6), row.asymmetry, row.cv) == (-4.0, None, None)
+    assert row.uneven == "-4.0 deg"
+    assert rows["stride_time"].difference is None and rows["stride_time"].uneven == "+0.0 %"
+    (line,) = [line for line in gait_lines(means) if line.startswith("toe-off angle")]
+    assert line.endswith("-4.0 deg")
+
+
+def test_feet_that_fly_have_no_share_of_less_than_nothing() -> None:
+    means = GaitMeans()
+    for stride in strides((LEFT, RIGHT), 7):
+        flight = -0.08 if stride.foot is LEFT else -0.04
+        means.hear(evolve(stride, stance_time=0.4 * stride.stride_time, initial_double_support=flight))
+    parameters = means.of(True)
+    assert parameters is not None
+    (row,) = [row for row in gait_rows(parameters) if row.name == "initial_double_support"]
+    assert row.both is not None and row.both < 0.0
+    assert row.asymmetry is None and row.uneven == "-", "the right foot's is larger, and it would be told as the left's"
+
+
+# --- where on the plan -----------------------------------------------------------------------------------------------
+
+
+def test_a_place_is_decided_once_one_candidate_is_left() -> None:
+    a, b = Candidate("0", (1.0, 2.0, 0.0), None, 0.6, "A"), Candidate("0", (9.0, 2.0, 0.0), None, 0.4, "B")
+    place = Placed(t=1.0, known_at=1.0, level="0", position=a.position, spread=4.0, candidates=(a, b))
+    assert frame(shown([place]))["place"]["decided"] is False
+    assert frame(shown([evolve(place, candidates=(evolve(a, weight=1.0),))]))["place"]["decided"] is True

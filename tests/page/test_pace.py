@@ -1,0 +1,46 @@
+"""The clock of the page between two messages, in the browser's own engine but on a made-up clock."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from browsers import Browser, Browsing
+from shown import fresh, opened
+
+PLAYED = """async ([speed, real, paused]) => {
+    const { Pace } = await import("/pace.js");
+    const pace = new Pace();
+    const state = { generation: 1, t: 0, playback: { state: "playing", speed, t: 0, seeking: null } };
+    const ahead = [], back = [];
+    let due = 0, t = 0, shown = 0;
+    for (let now = 1; now < 9000; now += 1000 / 60) {
+        const still = paused && now > 4000 && now < 4400;
+        state.playback.state = still ? "paused" : "playing";
+        t += still ? 0 : real / 60;
+        if (now >= due) {
+            state.t = t;
+            pace.heard(state, now);
+            due += 1000 / 30;
+        }
+        const before = shown;
+        shown = pace.at(state, now);
+        if (now > 1000) ahead.push(shown - t), back.push(before - shown);
+    }
+    return { most: Math.max(...ahead), least: Math.min(...ahead), back: Math.max(...back) };
+}"""
+"""A recording that is asked to play so fast and plays so fast; how far what is shown is ahead of what was played, s."""
+
+
+@pytest.mark.parametrize("paused", [False, True])
+def test_what_scrolls_keeps_to_what_was_played_also_where_it_cannot_be_played_so_fast(
+    browser: Browsing, paused: bool
+) -> None:
+    async def main(chromium: Browser) -> list[dict[str, Any]]:
+        async with opened(chromium, fresh()) as (view, _):
+            asked = [(1.0, 1.0), (16.0, 16.0), (16.0, 8.0), (32.0, 2.5)]
+            return [await view.tab.evaluate(PLAYED, [*pace, paused]) for pace in asked]
+
+    for played, off in zip(browser.run(main), (0.05, 0.6, 0.3, 0.3), strict=True):
+        assert -off < played["least"] and played["most"] < off
+        assert played["back"] <= (0.1 if paused else 0.0)

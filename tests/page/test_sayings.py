@@ -1,0 +1,87 @@
+"""What the page says in a browser is true of this moment, to eyes and to a screen reader alike."""
+
+from __future__ import annotations
+
+from browsers import Browser, Browsing
+from shown import after, between, opened, show
+
+from solepath import Disconnected
+from solepath.types import SITE_OF_FOOT, Foot
+
+FIGURES = ("cadence", "speed")
+WATCH = """() => {
+    window.unlike = [];
+    window.said = 0;
+    const words = (id) => document.getElementById(id).textContent;
+    for (const foot of ["left", "right"]) {
+        const look = () => {
+            const label = document.getElementById(`sole-${foot}`).ariaLabel;
+            const [phase, force] = [words(`phase-${foot}`), words(`force-${foot}`).replace(" N", " newton")];
+            window.said += 1;
+            if (!label.includes(`: ${phase}, ${force}`)) window.unlike.push([label, phase, force]);
+        };
+        const sole = document.getElementById(`sole-${foot}`);
+        new MutationObserver(look).observe(sole, { attributeFilter: ["aria-label"] });
+    }
+}"""
+
+
+def test_the_page_does_not_say_that_somebody_walks_of_whom_nothing_is_heard(browser: Browsing) -> None:
+    async def main(chromium: Browser) -> None:
+        scene = after(12.0)
+        async with opened(chromium, scene) as (view, _):
+
+            async def text(name: str) -> str:
+                found: str = await view.tab.locator(f"#{name}").inner_text()
+                return found
+
+            await view.until("document.getElementById('activity').textContent === 'Walking'")
+            assert all([float(await text(name)) > 0.0 for name in FIGURES])
+            rows = await view.tab.locator("#gait-rows tr").all_inner_texts()
+            assert rows[0].split()[:3] == ["strides", *[str(n) for n in strides(scene.measured.frame())]]
+            angle = next(row for row in rows if row.startswith("toe-off"))
+            assert angle.rstrip().endswith("°"), "degrees, not a share of an angle"
+            assert "settle with 30 and more" in await text("gait-note")
+            for site in SITE_OF_FOOT.values():
+                scene.take(Disconnected(t=12.0, known_at=12.0, site=site))
+            scene.tick(15.0)
+            await view.until("document.getElementById('activity').textContent === 'Not known, last: walking'")
+            assert await text("since") in ("no foot is heard for 2 s", "no foot is heard for 3 s")
+            assert [await text(name) for name in FIGURES] == ["–", "–"]
+            assert int(await text("steps")) > 10, "what was walked is still known"
+            await view.until("document.getElementById('announcer').textContent.includes('Not known, last: walking')")
+            links = await view.tab.locator("#links").inner_text()
+            assert "loss" not in links and "lost" in links
+
+    browser.run(main)
+
+
+def test_all_see_the_colours_that_the_session_chose(browser: Browsing) -> None:
+    async def main(chromium: Browser) -> None:
+        scene = after(12.0)
+        top = scene.scales.units["kPa"].top
+        said = f"document.getElementById('scale-top').textContent.endsWith('{top:.0f} kPa')"
+        async with opened(chromium, scene) as (first, _):
+            await first.until(said)
+            async with opened(chromium, scene) as (late, _):
+                await late.until(said)
+
+    browser.run(main)
+
+
+def test_picture_and_words_of_a_sole_are_of_one_moment(browser: Browsing) -> None:
+    async def main(chromium: Browser) -> None:
+        scene = after(6.0)
+        async with opened(chromium, scene) as (view, _):
+            await view.until("document.getElementById('sole-left').ariaLabel.includes(' newton')")
+            await view.tab.evaluate(WATCH)
+            await show(scene, between(6.0, 10.0))
+            await view.until("window.said >= 4")
+            assert await view.tab.evaluate("window.unlike") == []
+
+    browser.run(main)
+
+
+def strides(gait: object) -> list[int]:
+    assert isinstance(gait, dict)
+    return [gait["strides"][foot.value] for foot in Foot]

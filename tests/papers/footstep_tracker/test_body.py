@@ -1,0 +1,419 @@
+"""Both feet and their turns: the one-metre rule, turning processes, the classifier, walks (recipe footstep-tracker)."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from itertools import pairwise
+from math import acos, cos, degrees, hypot, pi, radians, sin
+from pathlib import Path
+
+import pytest
+from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from walks import LEFT, RIGHT, ROUGH, of, samples
+
+from solepath import Session
+from solepath.body.gait.direction import Direction, TurnProcess, agreed
+from solepath.body.gait.turns import WEIGHTS, Turns, classified
+from solepath.calibration import Calibration, CalibrationError, merged, read_calibration, unusable, write_calibration
+from solepath.cli.main import main
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.sensortags import CC2541
+from solepath.emulate.walk import EmulatedWalk, emulate
+from solepath.emulate.wearers.shoe import IN_SOLE
+from solepath.events import Event, StrideFeatures, StrideTaken, TurnMade
+from solepath.lab.train.turns import ANGLES, emulated, read, trained, walk
+from solepath.papers.footstep_tracker.footsteps import Footsteps
+from solepath.papers.footstep_tracker.projection import Projection
+from solepath.papers.footstep_tracker.toe_out import learnt, toe_out
+from solepath.recipes import DEFAULT, FOOTSTEP_TRACKER, Recipe
+from solepath.recording import PacketWriter
+from solepath.recording.samples import load_samples
+from solepath.types import Foot, Packet, Site, Turn
+
+
+def step(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.0, 0.0)) -> StrideTaken:
+    """A step that ends at `t` s and turns by `turn` rad."""
+    x, y = way
+    return StrideTaken(
+        t=t,
+        known_at=t,
+        foot=foot,
+        number=1,
+        t_start=t - 1.0,
+        t_end=t,
+        displacement=(x, y, 0.0),
+        position=(x, y, 0.0),
+        length=hypot(x, y),
+        heading_change=turn,
+        height_change=0.0,
+        covariance=(0.0,) * 6,
+        features=StrideFeatures(clearance=0.0, peak_speed=0.0, swing_pitch=0.0),
+    )
+
+
+def heard() -> Footsteps:
+    """Of a wearer with sensors on both feet."""
+    body = Footsteps()
+    body.left.heard = body.right.heard = True
+    return body
+
+
+def base(body: Footsteps) -> tuple[float, float]:
+    (lx, ly), (rx, ry), (x, y) = body.left.here, body.right.here, body.base
+    return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
+
+
+# --- the one-metre rule -----------------------------------------------------------------------------------------------
+
+
+def test_the_wearer_is_at_the_mean_of_what_both_feet_went() -> None:
+    body = heard()
+    for k in range(4):
+        body.step(step(Foot.LEFT, k + 0.5, way=(1.2, 0.0)))
+        body.step(step(Foot.RIGHT, k + 1.0, way=(1.0, 0.0)))
+    assert base(body) == pytest.approx((4.4, 0.0))
+
+
+def test_feet_that_are_more_than_a_metre_apart_begin_anew_at_their_mean() -> None:
+    body = heard()
+    for k in range(6):
+        body.step(step(Foot.LEFT, k + 0.5, way=(1.4, 0.0)))
+        body.step(step(Foot.RIGHT, k + 1.0, way=(1.0, 0.0)))
+    assert body.restarts > 0
+    assert base(body) == pytest.approx((0.5 * 6 * 2.4, 0.0))
+    assert hypot(body.left.here[0] - body.right.here[0], 0.0) < 2.0
+
+
+def test_half_a_stride_between_healthy_feet_is_no_difference() -> None:
+    body = heard()
+    for k in range(40):
+        body.step(step(Foot.LEFT, k + 0.5, way=(0.75 if k == 0 else 1.5, 0.0)))
+        body.step(step(Foot.RIGHT, k + 1.0, way=(1.5, 0.0)))
+    assert body.restarts == 0
+
+
+def test_one_foot_alone_takes_the_wearer_all_the_way() -> None:
+    body = Footsteps()
+    for k in range(10):
+        body.step(step(Foot.RIGHT, k + 1.0))
+    assert base(body) == pytest.approx((10.0, 0.0))
+
+
+def test_a_foot_that_falls_silent_does_not_hold_the_wearer_back() -> None:
+    body = heard()
+    for k in range(5):
+        body.step(step(Foot.LEFT, k + 0.5))
+        body.step(step(Foot.RIGHT, k + 1.0))
+    for k in range(5, 15):
+        body.step(step(Foot.LEFT, k + 0.5))
+    assert base(body) == pytest.approx((15.0, 0.0))
+
+
+def test_both_feet_go_on_in_the_direction_of_the_mean_of_their_turns() -> None:
+    body = heard()
+    # the left foot says 80 degrees and the right one 100; each then goes on straight by its own track
+    for foot, turn in ((Foot.LEFT, radians(80.0)), (Foot.RIGHT, radians(100.0))):
+        body.step(step(foot, 1.0, turn, way=(0.0, 0.0)))
+    before = base(body)
+    for foot, own in ((Foot.LEFT, radians(80.0)), (Foot.RIGHT, radians(100.0))):
+        body.step(step(foot, 2.0, way=(cos(own), sin(own))))
+    x, y = base(body)
+    assert (x - before[0], y - before[1]) == pytest.approx((0.0, 1.0))
+
+
+# --- turning processes ------------------------------------------------------------------------------------------------
+
+
+def told(direction: Direction, steps: list[StrideTaken]) -> list[TurnProcess]:
+    return [found for one in steps if (found := direction.step(one)) is not None]
+
+
+def both(turns: list[tuple[float, float]], first: float = 1.0) -> list[StrideTaken]:
+    """Steps of both feet by turns, in degrees of the left and of the right one."""
+    steps = []
+    for k, (left, right) in enumerate(turns):
+        steps.append(step(Foot.LEFT, first + k, radians(left)))
+        steps.append(step(Foot.RIGHT, first + k + 0.5, radians(right)))
+    return steps
+
+
+def test_a_turn_over_several_steps_is_their_sum_and_the_mean_of_both_feet() -> None:
+    (found,) = told(Direction(), both([(0, 0), (30, 50), (40, 50), (0, 0), (0, 0)]))
+    assert found.left is not None and found.right is not None
+    assert degrees(found.left) == pytest.approx(70.0) and degrees(found.right) == pytest.approx(100.0)
+    assert degrees(found.angle) == pytest.approx(85.0)
+    assert (found.t_start, found.t_end) == (1.0, 3.5)
+
+
+def test_who_walks_straight_on_makes_no_turn() -> None:
+    assert told(Direction(), both([(3, -4), (-2, 5), (6, -3)] * 10)) == []
+
+
+def test_a_turn_ends_when_the_wearer_stands() -> None:
+    direction = Direction()
+    assert told(direction, both([(0, 0), (90, 90)])) == []
+    assert direction.stood(3.0) is None
+    found = direction.stood(6.0)
+    assert found is not None and degrees(found.angle) == pytest.approx(90.0)
+    assert direction.stood(9.0) is None
+
+
+def test_one_foot_stepping_on_the_spot_does_not_end_the_other_s_turn() -> None:
+    found = told(Direction(), both([(0, 0), (100, 0), (0, 90), (70, 80), (0, 0), (0, 0)]))
+    assert len(found) == 1 and degrees(found[0].angle) == pytest.approx(170.0)
+
+
+def test_a_foot_that_pivots_without_a_step_has_turned_all_the_same() -> None:
+    direction = Direction()
+    told(direction, both([(0, 0), (0, 0)]))
+    for k in range(3):
+        assert direction.pivot(Foot.LEFT, 3.0 + k, 3.5 + k, radians(30.0)) is None
+        assert direction.pivot(Foot.RIGHT, 3.5 + k, 4.0 + k, radians(32.0)) is None
+    (found,) = told(direction, both([(0, 0), (0, 0)], first=7.0))
+    assert degrees(found.angle) == pytest.approx(93.0)
+    assert (found.t_start, found.t_end) == (3.0, 6.0)
+
+
+def test_a_foot_that_shuffles_where_it_stands_has_not_turned_nor_gone_straight_on() -> None:
+    direction = Direction()
+    told(direction, both([(0, 0), (45, 45)]))
+    for k in range(4):
+        assert direction.pivot(Foot.RIGHT, 2.6 + 0.1 * k, 2.7 + 0.1 * k, radians(3.0)) is None
+    (found,) = told(direction, both([(45, 45), (0, 0), (0, 0)], first=3.5))
+    assert degrees(found.angle) == pytest.approx(90.0)
+
+
+def test_a_foot_that_swings_by_more_than_half_a_turn_means_what_the_other_does() -> None:
+    left, right = agreed(radians(-175.0), radians(160.0))
+    assert left is not None and right is not None
+    assert degrees(left) == pytest.approx(185.0) and degrees(right) == pytest.approx(160.0)
+    assert agreed(1.0, None) == (1.0, None)
+    assert agreed(-1.0, 1.0) == (-1.0, 1.0)
+
+
+@given(
+    st.lists(
+        st.tuples(st.sampled_from(Foot), st.floats(0.1, 90.0), st.floats(0.2, 9.0), st.sampled_from([0, 0, 60, -80])),
+        max_size=30,
+    )
+)
+@settings(deadline=None)
+def test_turns_never_overlap_however_long_a_step_of_one_foot_lasts(steps) -> None:
+    direction, t, found = Direction(), 0.0, []
+    for foot, apart, lasts, turn in steps:
+        t += apart
+        found += [direction.stood(t - 0.05), direction.step(evolve(step(foot, t, radians(turn)), t_start=t - lasts))]
+    turns = [one for one in [*found, direction.finish()] if one is not None]
+    for before, after in pairwise(turns):
+        assert before.t_start <= before.t_end <= after.t_start <= after.t_end
+
+
+def test_who_stood_for_minutes_before_turning_began_to_turn_at_the_end_of_them() -> None:
+    direction = Direction()
+    told(direction, both([(0, 0), (0, 0)]))
+    assert direction.pivot(Foot.LEFT, 3.0, 300.0, radians(80.0)) is None
+    found = direction.finish()
+    assert found is not None and found.t_start > 290.0
+
+
+def test_turns_of_a_clock_that_begins_anew_are_forgotten() -> None:
+    turns = Turns()
+    told(turns.direction, both([(0, 0), (90, 0)]))
+    turns.interrupt(Site.LEFT_FOOT)
+    turns.interrupt(Site.PELVIS)
+    assert turns.direction.stood(1e6) is None
+
+
+# --- the classifier ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "turn"),
+    [
+        (90.0, 85.0, Turn.LEFT),
+        (-90.0, -80.0, Turn.RIGHT),
+        (175.0, 180.0, Turn.ABOUT),
+        (-170.0, -185.0, Turn.ABOUT),
+        (60.0, 70.0, Turn.LEFT),
+        (20.0, 25.0, None),
+        (0.0, 0.0, None),
+    ],
+)
+def test_turns_are_called_left_right_and_about(left: float, right: float, turn: Turn | None) -> None:
+    assert classified(radians(left), radians(right)) is turn
+    assert classified(radians(left), None) is turn
+    assert classified(None, radians(right)) is turn
+
+
+def test_the_weights_are_those_that_the_training_turns_give() -> None:
+    examples = read()
+    assert {one.turn for one in examples} == set(Turn) and min(one.seed for one in examples) >= 101
+    assert trained(examples) == WEIGHTS
+
+
+def test_the_training_turns_are_what_the_emulator_gives() -> None:
+    kept = [one for one in read() if one.seed == 101]
+    again = emulated([101])
+    assert [one.turn for one in again] == [one.turn for one in kept]
+    for one, other in zip(again, kept, strict=True):
+        assert (one.left, one.right) == pytest.approx((other.left, other.right), abs=0.5)
+
+
+def test_a_wearer_who_turns_is_told_to_have_turned() -> None:
+    right = 0
+    for seed in range(3, 7):
+        for turn in ANGLES:
+            session = Session(FOOTSTEP_TRACKER)
+            events = session.feed(walk(seed, turn).packets) + session.finish()
+            right += [made.turn for made in of(TurnMade, events) if made.turn is not None] == [turn]
+    assert right >= 11  # of 12: who swings a foot round by 170 degrees at once does so too fast for its gyroscope
+
+
+# --- walks ------------------------------------------------------------------------------------------------------------
+
+
+@cache
+def corridor(metres: float, seed: int = 1) -> EmulatedWalk:
+    device = CC2541(rate=20.0, mounting=IN_SOLE)
+    return emulate(
+        Route().stand(3.0).walk(metres, 1.3).stop(2.0), devices={LEFT: device, RIGHT: evolve(device)}, seed=seed
+    )
+
+
+def test_a_corridor_is_as_long_by_both_feet_as_it_is() -> None:
+    walked = corridor(30.0)
+    session = Session(FOOTSTEP_TRACKER)
+    events = [event for packet in walked.packets for event in session.feed(packet)]
+    for foot in Foot:
+        taken = [one for one in of(StrideTaken, events) if one.foot is foot]
+        assert len(taken) == len(walked.truth.steps(foot))
+    assert session.position is not None
+    x, y, z = session.position.position
+    assert hypot(x - 30.0, y) < 0.05 * 30.0 and z == 0.0
+
+
+def test_without_what_rest_tells_a_gyroscope_that_clips_makes_steps_too_short() -> None:
+    walked = corridor(15.0)
+
+    def length(recipe: Recipe) -> float:
+        session = Session(recipe)
+        lengths: list[float] = [one.length for p in walked.packets for one in of(StrideTaken, session.feed(p))]
+        return sum(lengths)
+
+    printed = length(evolve(FOOTSTEP_TRACKER, corrector=Projection(printed=True)))
+    assert printed < 0.7 * length(FOOTSTEP_TRACKER)
+
+
+def told_by(items: tuple[Packet, ...], pieces: int | None = None) -> list[Event]:
+    session = Session(FOOTSTEP_TRACKER, poses=True)
+    if pieces is None:
+        return session.feed(items) + session.finish()
+    found: list[Event] = []
+    for k in range(0, len(items), pieces):
+        found += session.feed(items[k : k + pieces])
+        session = Session.restore(json.loads(json.dumps(session.snapshot(), allow_nan=False)))
+    return found + session.finish()
+
+
+def test_a_walk_over_a_bad_radio_is_the_same_however_it_is_cut_and_saved() -> None:
+    route = Route().stand(1.5).walk(3.0, 1.2).turn(radians(120.0), radius=0.5).walk(2.0).stop(1.5)
+    device = CC2541(rate=20.0)
+    items = emulate(route, devices={LEFT: device, RIGHT: evolve(device)}, radio=ROUGH, seed=5).packets
+    whole = told_by(items)
+    assert told_by(items, 97) == whole
+    assert all(one.known_at >= one.t for one in whole)
+    assert of(StrideTaken, whole)
+
+
+@pytest.mark.parametrize("recipe", [DEFAULT, FOOTSTEP_TRACKER])
+@pytest.mark.parametrize(("degrees_", "turn"), [(90.0, Turn.LEFT), (-90.0, Turn.RIGHT), (-180.0, Turn.ABOUT)])
+def test_who_turns_on_the_spot_has_turned_though_the_feet_hardly_leave_the_ground(
+    recipe: Recipe, degrees_: float, turn: Turn
+) -> None:
+    device = CC2541(rate=20.0, mounting=IN_SOLE)
+    route = Route().stand(2.0).walk(3.0, 1.2).turn(radians(degrees_)).walk(3.0).stop(2.0)
+    walked = emulate(route, devices={LEFT: device, RIGHT: evolve(device)}, seed=109)
+    session = Session(recipe)
+    (made,) = of(TurnMade, session.feed(walked.packets) + session.finish())
+    assert made.turn is turn
+    assert abs(degrees(made.angle) - degrees_) < 30.0
+
+
+@pytest.mark.parametrize("rate", [10.0, 20.0, 100.0, 400.0])
+def test_steps_are_found_at_any_rate(rate: float) -> None:
+    session = Session(FOOTSTEP_TRACKER)
+    events = session.feed(samples(cells=0, rate=rate)) + session.finish()
+    for foot in Foot:
+        assert 3 <= len([one for one in of(StrideTaken, events) if one.foot is foot]) <= 7
+
+
+def test_one_sensor_alone_is_followed(data_dir: Path) -> None:
+    session = Session(FOOTSTEP_TRACKER)
+    events = session.feed(load_samples(data_dir / "gumushane_gcp" / "exp31.npz")) + session.finish()
+    steps = of(StrideTaken, events)
+    assert 31 <= len(steps) <= 37
+    assert session.position is not None and 0.85 * 47.9 < sum(one.length for one in steps) < 1.15 * 47.9
+
+
+# --- the toe-out angle ------------------------------------------------------------------------------------------------
+
+
+def test_the_toe_out_angle_is_the_arc_cosine_of_the_walk_over_the_steps() -> None:
+    packets = corridor(15.0).packets
+    found = toe_out(packets, 12.0)
+    for one in found:
+        assert one.angle == pytest.approx(acos(12.0 / one.along))
+    assert set(learnt(found).toe_out) == set(Foot)
+
+
+def test_steps_that_come_to_less_than_the_walk_have_no_angle() -> None:
+    found = toe_out(corridor(15.0).packets, 20.0)
+    assert [one.angle for one in found] == [None, None]
+    assert learnt(found) == Calibration()
+
+
+def test_a_walk_of_another_length_or_of_no_steps_is_refused() -> None:
+    packets = corridor(15.0).packets
+    with pytest.raises(CalibrationError, match="length of the walk"):
+        toe_out(packets, 5.0)
+    with pytest.raises(CalibrationError, match="steps of a foot"):
+        toe_out(packets[:200], 5.0)
+    for distance in (0.0, -1.0, float("nan"), float("inf")):
+        with pytest.raises(ValueError, match="distance"):
+            toe_out(packets, distance)
+
+
+def test_the_angle_of_a_calibration_is_the_one_that_the_foot_uses() -> None:
+    known = Calibration(toe_out={Foot.RIGHT: 0.2})
+    left, right = (Projection().calibrated(foot, known) for foot in Foot)
+    assert (right.toe_out, right.outwards, left.toe_out, left.outwards) == (0.2, -1.0, 0.0, 1.0)
+
+
+def test_angles_of_both_feet_are_merged_kept_and_checked(tmp_path: Path) -> None:
+    known = merged(Calibration(toe_out={Foot.RIGHT: 0.1}), Calibration(toe_out={Foot.LEFT: 0.2}))
+    assert list(known.toe_out.items()) == [(Foot.LEFT, 0.2), (Foot.RIGHT, 0.1)]
+    write_calibration(tmp_path / "me.json", known)
+    assert read_calibration(tmp_path / "me.json") == known
+    assert unusable(Calibration(toe_out={Foot.LEFT: pi})) == "toe_out.left is 3.14159; it can be -1 to 1 rad"
+    older = json.loads((tmp_path / "me.json").read_text())
+    del older["calibration"]["toe_out"]
+    (tmp_path / "older.json").write_text(json.dumps(older))
+    assert read_calibration(tmp_path / "older.json") == Calibration()
+
+
+def test_calibrate_toe_out_writes_what_a_walk_tells(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file, out = tmp_path / "corridor.jsonl", tmp_path / "me.json"
+    with PacketWriter(file) as writer:
+        for packet in corridor(15.0).packets:
+            writer.write(packet)
+    assert main(["calibrate", "toe-out", str(file), "--distance", "12", "--out", str(out)]) == 0
+    assert "toe-out degrees" in capsys.readouterr().out
+    assert set(read_calibration(out).toe_out) == set(Foot)
+    assert main(["calibrate", "toe-out", str(file), "--distance", "20", "--out", str(out)]) == 2
+    assert "nothing is learnt" in capsys.readouterr().err
+    assert main(["calibrate", "toe-out", str(file), "--distance", "3", "--out", str(out)]) == 2
+    with pytest.raises(SystemExit):
+        main(["calibrate", "toe-out", str(file), "--distance", "-3", "--out", str(out)])

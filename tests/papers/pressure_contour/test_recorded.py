@@ -1,0 +1,35 @@
+"""The recipes of Bebek et al. on recorded insoles that wobble in their shoes: no truth, but a stride is a stride."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from walks import of
+
+from solepath import Session, StrideTaken
+from solepath.calibration import Calibration
+from solepath.lab.evaluate.insoles import in_dataset
+from solepath.recipes import DEFAULT, GYROSCOPE, PRESSURE_CONTOUR, Recipe
+from solepath.recording.samples import load_samples
+
+LONGEST = 2.0
+"""No stride of these walks is longer, m; two in one would be."""
+
+
+def steps(recipe: Recipe, file: Path, calibration: Calibration) -> list[StrideTaken]:
+    session = Session(recipe, calibration=calibration)
+    return of(StrideTaken, [*session.feed(load_samples(file)), *session.finish()])
+
+
+@pytest.mark.parametrize("name", ["shape_C1", "shape_C3", "shape_I2", "shape_L1", "shape_L3", "both_20241113_105919"])
+@pytest.mark.parametrize("recipe", [GYROSCOPE, PRESSURE_CONTOUR], ids=["gyroscope", "contours"])
+@pytest.mark.parametrize("told", [False, True], ids=["cells nobody knows", "cells known"])
+def test_hardly_a_stride_is_lost_in_feet_that_never_quite_rest(
+    data_dir: Path, recipe: Recipe, name: str, told: bool
+) -> None:
+    file = data_dir / "smart_insole_35" / f"{name}.npz"
+    known = in_dataset(file) if told else Calibration()
+    usual, found = steps(DEFAULT, file, known), steps(recipe, file, known)
+    assert abs(len(found) - len(usual)) <= len(usual) // 10
+    assert max(one.length for one in found) < LONGEST

@@ -1,0 +1,326 @@
+"""Zero velocity by heel contours and by the gyroscope: by hand, and against the truth of emulated walks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from math import inf, radians
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from walks import of
+
+from solepath import LayoutKnown, Limitation, Session, StrideTaken
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole, boot
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import INERTIACUBE3
+from solepath.emulate.walk import EmulatedWalk, emulate
+from solepath.foot.pressure.insole import InsoleLoads as Cells
+from solepath.foot.stance.stance import Load
+from solepath.link.decoder import Decoder
+from solepath.papers.pressure_contour.contour_stance import ContourVelocity, GyroscopeMagnitude
+from solepath.recipes import GYROSCOPE, PRESSURE_CONTOUR, Recipe
+from solepath.saving import codec as machine
+from solepath.types import Cell, Foot, Layout, Phase, Sample, Site
+from solepath.types.vector import GRAVITY, ZERO
+
+LEFT = Foot.LEFT
+LAP = Route().stand(2.0).walk(9.0, 1.2).turn(radians(90), radius=1.5).walk(6.0).stop(2.0)
+
+
+@cache
+def walked(device: Insole) -> EmulatedWalk:
+    return emulate(LAP, devices={Site.LEFT_FOOT: device}, seed=107)
+
+
+DEVICES = {"96 cells": Insole(), "35 cells": Insole(cells=35), "24 cells under the heel": boot(LEFT)}
+
+
+# --- the gyroscope ----------------------------------------------------------------------------------------------------
+
+
+def rates(detector: GyroscopeMagnitude, *values: float) -> list[bool]:
+    stances = [
+        detector.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, value, 0.0), None) for k, value in enumerate(values)
+    ]
+    assert all(stance.v_ref == ZERO for stance in stances)
+    assert [stance.statistic for stance in stances] == [abs(value) for value in values]
+    return [stance.hint is Phase.STATIONARY for stance in stances]
+
+
+def test_a_rate_that_stays_low_is_a_standing_foot() -> None:
+    assert rates(GyroscopeMagnitude(), 3.0, 0.1, 0.1, 0.1, 0.1) == [False, False, False, False, True]
+
+
+def test_it_says_what_it_said_until_the_foot_turns_much_faster_than_at_its_quietest() -> None:
+    # 0.2 rad/s is less than `below` 0.25: the stance ends at 1.6 times 0.25
+    assert rates(GyroscopeMagnitude(lasting=0.0), 0.6, 0.2, 0.39, 0.41, 0.6) == [False, True, True, False, False]
+    # and where 0.45 rad/s was the quietest moment, at 1.6 times that
+    assert rates(GyroscopeMagnitude(lasting=0.0), 0.6, 0.45, 0.71, 0.73) == [False, True, True, False]
+
+
+def test_a_calm_moment_within_a_swing_is_too_short() -> None:
+    assert not any(rates(GyroscopeMagnitude(), 2.0, 0.2, 0.1, 0.1, 1.0, 2.0))
+
+
+def strides(quietest: float, count: int = 8) -> list[float]:
+    """Rates of so many strides of 1.1 s, at 100 Hz: half a second of swing, and a stance that is quietest in its
+    middle."""
+    swing = [3.0, *[5.0] * 48, 3.0]
+    stance = [quietest + (3.0 - quietest) * (abs(k - 30) / 30.0) ** 2 for k in range(60)]
+    return [rate for _ in range(count) for rate in (*swing, *stance)]
+
+
+@pytest.mark.parametrize("quietest", [0.03, 0.3, 0.6, 0.9, 1.2])
+def test_a_wobbling_foot_stands_in_each_of_its_stances_once_its_quietest_moments_are_known(quietest: float) -> None:
+    still = rates(GyroscopeMagnitude(), *strides(quietest))
+    stands = [any(still[k : k + 110]) for k in range(0, len(still), 110)]
+    assert all(stands[2:])
+    swings = [still[k + 10 : k + 50] for k in range(0, len(still), 110)]
+    assert not any(any(swing) for swing in swings)
+
+
+def test_the_threshold_of_a_foot_that_wobbles_little_is_no_higher_for_that() -> None:
+    detector = GyroscopeMagnitude()
+    rates(detector, *strides(0.03))
+    assert detector.levels == pytest.approx((0.03,) * 5, abs=0.02)
+    assert rates(detector, 3.0, *[0.3] * 50) == [False] * 51
+
+
+def test_standing_says_nothing_of_the_stances_of_walking() -> None:
+    detector = GyroscopeMagnitude()
+    rates(detector, *strides(0.6))
+    walking = detector.levels
+    rates(detector, *[5.0] * 50, *[0.0] * 200, 5.0)
+    assert detector.levels == walking
+
+
+@pytest.mark.parametrize("slowest", [0.5, 2.0, 6.0])
+def test_a_motion_without_any_rest_ends_at_its_quietest_moment(slowest: float) -> None:
+    turning = [slowest + (8.0 - slowest) * abs(k % 100 - 50) / 50.0 for k in range(500)]
+    still = rates(GyroscopeMagnitude(), *turning)
+    assert still.index(True) <= 350, "the first quietest moment after 2.5 s"
+    assert turning[still.index(True)] <= 1.8 * 1.4 * slowest
+
+
+@given(st.lists(st.integers(0, 400), min_size=20, max_size=60))
+def test_no_motion_of_any_kind_lasts_longer_than_some_seconds(values: list[int]) -> None:
+    cycle = [0.1 * value for value in values + values[::-1]]
+    repeated = (cycle * (1000 // len(cycle) + 1))[:1000]
+    assert any(rates(GyroscopeMagnitude(), *repeated))
+
+
+def test_a_gap_is_no_motion_that_has_lasted() -> None:
+    detector = GyroscopeMagnitude()
+    rates(detector, *[5.0] * 20)
+    later = [detector.update(9.0 + 0.01 * k, 0.01, ZERO, (0.0, 5.0, 0.0), None).hint for k in range(20)]
+    assert later == [None] * 20
+
+
+# --- the contours -----------------------------------------------------------------------------------------------------
+
+
+def evidence(detector: ContourVelocity, device: Insole) -> tuple[list[float], list[bool]]:
+    """Times of the samples with a load, and whether the detector's own contours say that the foot stands."""
+    cells, decoder = Cells(), Decoder(Site.LEFT_FOOT)
+    found: list[tuple[float, bool]] = []
+    for packet in walked(device).packets:
+        for item in decoder.feed(packet):
+            if isinstance(item, LayoutKnown):
+                cells.wear(item.layout)
+                detector.wear(item.layout)
+            elif isinstance(item, Sample) and item.acc is not None and item.gyro is not None:
+                load = cells.update(item.t, item.pressure or ())
+                detector.update(item.t, 0.01, item.acc, item.gyro, load)
+                if load is not None:
+                    found.append((item.t, detector.still))
+    return [t for t, _ in found], [still for _, still in found]
+
+
+@pytest.mark.parametrize("name", list(DEVICES))
+def test_contours_rest_only_while_the_foot_truly_stands(name: str) -> None:
+    walk = walked(DEVICES[name])
+    t, still = evidence(ContourVelocity(), DEVICES[name])
+    stands = np.array([phase is Phase.STATIONARY for phase in walk.truth.feet[LEFT].phases(np.array(t))])
+    assert np.mean(~stands[np.array(still)]) <= 0.01
+
+
+@pytest.mark.parametrize("name", list(DEVICES))
+def test_they_rest_in_nearly_every_stance(name: str) -> None:
+    walk = walked(DEVICES[name])
+    t, still = (np.array(found) for found in evidence(ContourVelocity(), DEVICES[name]))
+    strides = walk.walker.plan.strides[LEFT]
+    stances = [(one.foot_flat, after.heel_off) for one, after in zip(strides[1:], strides[2:], strict=False)]
+    rested = [bool(still[(t > begin) & (t < end)].any()) for begin, end in stances]
+    assert len(stances) >= 8 and sum(rested) >= len(rested) - 1
+
+
+def heel(share: float, *, airborne: bool = False, cells: tuple[float, ...] = ()) -> Load:
+    return Load(share, share, 0.0, share, airborne, cells)
+
+
+def fed(detector: ContourVelocity, loads: Sequence[Load | None], rate: float = 2.0) -> list[Phase | None]:
+    return [
+        detector.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, rate, 0.0), load).hint
+        for k, load in enumerate(loads)
+    ]
+
+
+def pressed(where: Layout, x: float = 0.045, newtons: float = 400.0) -> tuple[float, ...]:
+    """A round patch of pressure about (x, 0), on a background that a laced shoe makes."""
+    raw = [cell.area * max(0.0, 1.0 - ((cell.x - x) ** 2 + cell.y**2) / 0.04**2) for cell in where.cells]
+    return tuple([0.5 + newtons * value / sum(raw) for value in raw])
+
+
+def test_a_heel_that_rests_is_a_standing_foot_until_it_is_unloaded() -> None:
+    where = layout(96, LEFT)
+    detector = ContourVelocity()
+    detector.wear(where)
+    air = heel(0.0, airborne=True, cells=(0.5,) * 96)
+    rests = heel(0.8, cells=pressed(where))
+    hints = fed(detector, [*[air] * 10, *[rests] * 10, air])
+    assert hints[:10] == [Phase.SWING] * 10
+    assert hints[10:15] == [None] * 5, "contours are compared over 50 ms"
+    assert hints[15:20] == [Phase.STATIONARY] * 5
+    assert hints[20] is Phase.SWING
+
+
+def test_a_heel_that_rolls_at_a_few_centimetres_a_second_does_not_stand() -> None:
+    where = layout(96, LEFT)
+    detector = ContourVelocity()
+    detector.wear(where)
+    air = heel(0.0, airborne=True, cells=(0.5,) * 96)
+    rolling = [heel(0.8, cells=pressed(where, 0.040 + 0.0005 * k)) for k in range(15)]  # 5 cm/s
+    assert Phase.STATIONARY not in fed(detector, [*[air] * 10, *rolling])
+
+
+def test_a_heel_without_contours_is_left_to_the_gyroscope_after_a_while() -> None:
+    where = layout(96, LEFT)
+    detector = ContourVelocity()
+    detector.wear(where)
+    on_edge = heel(0.8, cells=tuple([100.0 if cell.y > 0.02 else 0.0 for cell in where.cells]))
+    hints = fed(detector, [on_edge] * 30, rate=0.0)
+    assert hints[:10] == [None] * 10 and hints[11:] == [Phase.STATIONARY] * 19
+
+
+@pytest.mark.parametrize("pace", [2, 4])
+def test_between_loads_that_come_more_slowly_than_samples_the_contours_keep_their_word(pace: int) -> None:
+    where = layout(96, LEFT)
+    detector = ContourVelocity()
+    detector.wear(where)
+    air = heel(0.0, airborne=True, cells=(0.5,) * 96)
+    rests = heel(0.8, cells=pressed(where))
+    loads = [load if k % pace == 0 else None for k, load in enumerate([*[air] * 12, *[rests] * 28])]
+    hints = fed(detector, loads, rate=2.0)  # a gyroscope that never rests
+    assert hints[:12] == [Phase.SWING] * 12 and hints[20:] == [Phase.STATIONARY] * 20
+    detector = ContourVelocity()
+    detector.wear(where)
+    hints = fed(detector, loads, rate=0.0)  # and one that rests in the air
+    assert hints[:12] == [Phase.SWING] * 12
+
+
+def test_a_load_that_is_not_heard_of_for_long_is_left_to_the_gyroscope() -> None:
+    where = layout(96, LEFT)
+    detector = ContourVelocity()
+    detector.wear(where)
+    hints = fed(detector, [*[heel(0.8, cells=pressed(where))] * 10, *[None] * 10], rate=2.0)
+    assert hints[9:14] == [Phase.STATIONARY] * 5 and hints[15:] == [None] * 5
+
+
+def test_the_contours_of_a_loose_insole_rest_at_the_wearers_own_slowest() -> None:
+    where = layout(96, LEFT)
+    detector = ContourVelocity()
+    detector.wear(where)
+    air = heel(0.0, airborne=True, cells=(0.5,) * 96)
+    creeping = [heel(0.8, cells=pressed(where, 0.040 + 0.00008 * k)) for k in range(40)]  # 8 mm/s
+    rolling = [heel(0.8, cells=pressed(where, 0.035 + 0.0005 * k)) for k in range(40)]  # 5 cm/s
+    stride = [*[air] * 50, *creeping]
+    hints = fed(detector, stride)
+    assert Phase.STATIONARY not in hints
+    for k in range(3):
+        hints = [
+            detector.update(1.0 + k + 0.01 * n, 0.01, (0.0, 0.0, GRAVITY), (0.0, 2.0, 0.0), load).hint
+            for n, load in enumerate(stride)
+        ]
+    assert hints[60:] == [Phase.STATIONARY] * 30
+    for n, load in enumerate([*[air] * 50, *rolling]):
+        detector.update(4.0 + 0.01 * n, 0.01, (0.0, 0.0, GRAVITY), (0.0, 2.0, 0.0), load)
+        assert not detector.still
+
+
+@pytest.mark.parametrize("share", [0.0, 0.08])
+def test_a_heel_that_never_comes_down_leaves_no_motion_without_an_end(share: float) -> None:
+    where = layout(96, LEFT)
+    detector = ContourVelocity()
+    detector.wear(where)
+    on_toes = heel(share, airborne=share == 0.0, cells=pressed(where))
+    calm = [
+        detector.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, 2.0 + 3.0 * abs(k % 100 - 50) / 50.0, 0.0), on_toes)
+        for k in range(400)
+    ]
+    assert Phase.STATIONARY in [stance.hint for stance in calm]
+
+
+def test_as_long_as_the_load_is_not_known_the_gyroscope_speaks() -> None:
+    detector = ContourVelocity()
+    detector.wear(layout(96, LEFT))
+    assert fed(detector, [None] * 6, rate=0.0)[-1] is Phase.STATIONARY
+    assert fed(detector, [None] * 6, rate=1.0)[-1] is None
+
+
+def test_cells_of_another_number_than_the_layouts_are_left_to_the_gyroscope() -> None:
+    detector = ContourVelocity()
+    detector.wear(layout(96, LEFT))
+    assert fed(detector, [heel(0.8, cells=(1.0,) * 24)] * 6, rate=0.0)[-1] is Phase.STATIONARY
+
+
+# --- in a session -----------------------------------------------------------------------------------------------------
+
+
+def test_too_few_cells_are_said_once_and_the_walk_goes_on_by_the_gyroscope() -> None:
+    sparse = Layout(
+        2, LEFT, (Cell(0.03, 0.0), Cell(0.05, 0.01), Cell(0.20, 0.0), Cell(0.21, 0.02)), 0.285, 0.05, 204.75
+    )
+    walk = emulate(LAP, devices={Site.LEFT_FOOT: Insole(cells=sparse)}, seed=107)
+    session = Session(PRESSURE_CONTOUR)
+    events = session.feed(walk.packets) + session.finish()
+    said = [one.what for one in of(Limitation, events)]
+    assert said == [
+        "2 pressure cells under the heel have no contour, 4 are the fewest; the gyroscope says when the foot stands"
+    ]
+    assert len(of(StrideTaken, events)) >= len(walk.truth.steps(LEFT)) - 1
+
+
+@pytest.mark.parametrize("recipe", [PRESSURE_CONTOUR, GYROSCOPE], ids=["contours", "gyroscope"])
+def test_all_steps_are_found_and_a_square_ends_where_it_began(recipe: Recipe) -> None:
+    side = Route().stand(2.0)
+    for _ in range(4):
+        side = side.walk(8.0, 1.2).turn(radians(90), radius=1.0)
+    device = Insole(quaternion=True, attitude=INERTIACUBE3)
+    walk = emulate(side.stop(2.0), devices={Site.LEFT_FOOT: device}, seed=108)
+    session = Session(recipe)
+    events = session.feed(walk.packets) + session.finish()
+    assert len(of(StrideTaken, events)) == len(walk.truth.steps(LEFT))
+    x, y, _ = session.feet[LEFT].position
+    true = walk.truth.pose(LEFT, walk.truth.duration).position[0]
+    assert np.hypot(x, y) - np.hypot(true[0], true[1]) < 0.6
+
+
+def test_it_goes_on_from_a_snapshot() -> None:
+    packets = walked(DEVICES["96 cells"]).packets
+    half = len(packets) // 2
+    ours = Session(PRESSURE_CONTOUR)
+    ours.feed(packets[:half])
+    theirs = Session.restore(ours.snapshot())
+    assert ours.feed(packets[half:]) + ours.finish() == theirs.feed(packets[half:]) + theirs.finish()
+    one = ContourVelocity()
+    one.wear(layout(24, LEFT))
+    assert machine.load(ContourVelocity, machine.save(one)) == one
+
+
+def test_evidence_that_says_nothing_is_infinitely_uncertain() -> None:
+    stance = GyroscopeMagnitude().update(0.0, 0.01, (0.0, 0.0, GRAVITY), (5.0, 0.0, 0.0), None)
+    assert stance.sigma == inf and stance.hint is None

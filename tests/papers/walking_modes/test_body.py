@@ -1,0 +1,209 @@
+"""Both feet by touchdowns, on emulated walks with seven sensors and insoles of 99 cells."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from math import hypot, pi
+
+import pytest
+from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from walks import of
+
+from solepath.calibration import Calibration, InsoleCalibration
+from solepath.emulate.routes.laps import MARK_SPEED, marked
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.suit import limb_samples
+from solepath.emulate.wearers.walker import Walker
+from solepath.events import Event, Limitation, TouchedDown, WalkingModeChanged
+from solepath.papers.walking_modes.compensation import TABLE_1
+from solepath.papers.walking_modes.modes import Modes
+from solepath.papers.walking_modes.touchdown import Height, NetAcceleration
+from solepath.recipes import WALKING_MODES
+from solepath.session import Session
+from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
+
+LAYOUTS = {SITE_OF_FOOT[foot]: layout(99, foot) for foot in Foot}
+KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(99, foot)) for foot in Foot})
+AROUND = Route().stand(2.0).walk(4.0, MARK_SPEED).turn(pi / 2, 2.0).walk(3.0).stop(1.0)
+III = evolve(WALKING_MODES, body=Modes())
+
+
+@cache
+def walker(route: Route = AROUND, seed: int = 101) -> Walker:
+    return Walker(route, seed=seed)
+
+
+@cache
+def suit(route: Route = AROUND, north: float = 0.0, seed: int = 101) -> tuple[Sample, ...]:
+    """Seven sensors at 50 Hz, with the errors of a data sheet."""
+    return tuple(limb_samples(walker(route, seed), 50.0, seed=seed, layouts=LAYOUTS, north=north))
+
+
+@cache
+def told(heading: float | None = None, north: float = 0.0) -> list[Event]:
+    session = Session(evolve(III, body=Modes(heading=heading)), calibration=KNOWN)
+    return [*session.feed(suit(north=north)), *session.finish()]
+
+
+def test_every_step_is_a_touchdown_where_the_foot_came_down() -> None:
+    downs = of(TouchedDown, told(0.0))
+    for foot in Foot:
+        mine, true = [down for down in downs if down.foot is foot], walker().plan.strides[foot]
+        assert len(mine) == len(true)
+        for down, stride in zip(mine, true, strict=True):
+            assert down.t == pytest.approx(stride.heel_strike, abs=0.06)
+            x, y, _ = down.position
+            assert hypot(x - stride.end.x, y - stride.end.y) < 0.15
+
+
+def test_a_touchdown_is_known_within_three_samples() -> None:
+    assert all(down.t <= down.known_at < down.t + 0.07 for down in of(TouchedDown, told()))
+
+
+def test_the_world_of_the_sensors_may_point_anywhere() -> None:
+    """x is along the first heading, whatever the sensors call north."""
+    here, there = (of(TouchedDown, told(north=north)) for north in (0.0, 2.5))
+    for one, other in zip(here, there, strict=True):
+        assert one.position[:2] == pytest.approx(other.position[:2], abs=0.1)
+        assert one.final is other.final
+
+
+def test_touchdowns_are_final_once_the_first_heading_is() -> None:
+    finals = [down.final for down in of(TouchedDown, told())]
+    assert finals == sorted(finals) and not finals[0] and finals[4]
+
+
+@pytest.mark.parametrize("method", [Height(), NetAcceleration()])
+def test_the_other_methods_go_the_same_way_less_well(method: Height | NetAcceleration) -> None:
+    session = Session(evolve(III, body=Modes(method, heading=0.0)), calibration=KNOWN)
+    session.feed(suit())
+    position, end = session.position, walker().route.end
+    assert position is not None
+    assert hypot(position.position[0] - end.x, position.position[1] - end.y) < 0.1 * walker().route.length
+
+
+def test_the_position_is_midway_between_the_feet_and_says_how_far_it_may_be_off() -> None:
+    session = Session(evolve(III, body=Modes(heading=0.0)), calibration=KNOWN)
+    session.feed(suit())
+    position, end = session.position, walker().route.end
+    assert position is not None
+    dx, dy = position.position[0] - end.x, position.position[1] - end.y
+    xx, xy, _, yy, _, _ = position.covariance
+    assert hypot(dx, dy) < 0.15
+    assert (yy * dx * dx - 2.0 * xy * dx * dy + xx * dy * dy) / (xx * yy - xy * xy) < 9.2  # 99 % of a normal pair
+
+
+@pytest.mark.parametrize("mode", [mode for mode in WalkingMode if mode is not WalkingMode.STANDING])
+def test_modes_are_told_from_the_insoles(mode: WalkingMode) -> None:
+    route = marked(mode, steps=20)
+    session = Session(III, calibration=KNOWN)
+    changes = of(WalkingModeChanged, session.feed(suit(route)))
+    right = whole = 0
+    for foot in Foot:
+        strides = walker(route).plan.strides[foot]
+        for landed, left in zip(strides[1:-1], strides[2:], strict=True):
+            then = [change.mode for change in changes if change.foot is foot and change.t < left.toe_off + 0.1]
+            right += bool(then) and then[-1] is mode
+            whole += 1
+            assert landed.heel_strike < left.toe_off
+    assert whole >= 15 and right >= 0.95 * whole
+
+
+def test_who_stands_is_told_to_stand() -> None:
+    session = Session(III, calibration=KNOWN)
+    changes = of(WalkingModeChanged, session.feed([s for s in suit() if s.t < 1.9]))
+    assert {change.foot for change in changes} == set(Foot)
+    assert all(change.mode is WalkingMode.STANDING for change in changes)
+
+
+def test_the_compensation_of_the_mode_is_added_along_the_way() -> None:
+    straight = {foot: {WalkingMode.STRAIGHT: (0.02, 0.0)} for foot in Foot}
+    session = Session(evolve(III, body=Modes(compensation=straight, heading=0.0)), calibration=KNOWN)
+    downs = of(TouchedDown, session.feed(suit()))
+    ahead = [down for down in downs if down.mode is WalkingMode.STRAIGHT and down.t < 6.0]
+    assert ahead and all(down.compensation[0] == pytest.approx(0.02, abs=0.002) for down in ahead[:-1])
+    bare = of(TouchedDown, told(0.0))
+    assert downs[3].position[0] - bare[3].position[0] == pytest.approx(4 * 0.02, abs=0.01)
+
+
+def test_a_wearers_own_compensation_takes_the_place_of_table_1_mode_by_mode() -> None:
+    own = Calibration(modes={Foot.LEFT: {WalkingMode.STRAIGHT: (0.5, 0.25)}})
+    body = Modes(compensation=TABLE_1).calibrated(own)
+    assert body.compensation is not None
+    assert body.compensation[Foot.LEFT][WalkingMode.STRAIGHT] == (0.5, 0.25)
+    assert body.compensation[Foot.LEFT][WalkingMode.LEFT_WIDE] == TABLE_1[Foot.LEFT][WalkingMode.LEFT_WIDE]
+    assert body.compensation[Foot.RIGHT] == TABLE_1[Foot.RIGHT]
+    assert Modes().calibrated(own).compensation is None
+
+
+def test_without_body_sensors_the_feet_are_where_their_own_tracks_have_them_and_that_is_said_once() -> None:
+    session = Session(III, calibration=KNOWN)
+    feet = [evolve(sample, quat=None) for sample in suit() if sample.site.foot is not None]
+    events = session.feed(feet)
+    said = [event.what for event in of(Limitation, events) if "own inertial tracks" in event.what]
+    assert len(said) == 1 and "pelvis" in said[0]
+    assert len(of(TouchedDown, events)) == sum(len(strides) for strides in walker().plan.strides.values())
+    end = walker().route.end
+    assert session.position is not None
+    x, y, _ = session.position.position
+    assert hypot(x - end.x, y - end.y) < 0.1 * walker().route.length
+
+
+def test_sensors_without_attitudes_are_taken_upright_by_gravity() -> None:
+    bare = [evolve(sample, quat=None) for sample in suit()]
+    session = Session(III, calibration=KNOWN)
+    session.feed(bare)
+    body, end = session.position, walker().route.end
+    assert body is not None
+    assert hypot(body.position[0] - end.x, body.position[1] - end.y) < 0.15 * walker().route.length
+
+
+def test_a_sensor_that_falls_silent_leaves_the_feet_to_their_own_tracks() -> None:
+    session = Session(evolve(III, body=Modes(heading=0.0)), calibration=KNOWN)
+    events = session.feed([s for s in suit() if s.site is not Site.LEFT_SHANK or s.t < 5.0])
+    assert len(of(TouchedDown, events)) == sum(len(strides) for strides in walker().plan.strides.values())
+
+
+def test_a_walk_saved_in_the_middle_goes_on_the_same() -> None:
+    samples = suit()
+    for cut in (1, len(samples) // 3, len(samples) // 2 + 1):
+        whole, first = Session(WALKING_MODES, calibration=KNOWN), Session(WALKING_MODES, calibration=KNOWN)
+        straight = [*whole.feed(samples[:cut]), *whole.feed(samples[cut:])]
+        before = first.feed(samples[:cut])
+        second = Session.restore(json.loads(json.dumps(first.snapshot(), allow_nan=False)))
+        assert [*before, *second.feed(samples[cut:])] == straight
+        assert second.position == whole.position
+
+
+SITES = st.sampled_from(list(Site))
+NUMBERS = st.floats() | st.sampled_from((0.0, 1.0, -9.8, 1e300))
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    st.lists(
+        st.tuples(
+            SITES,
+            st.floats(0.0, 60.0),
+            st.none() | st.tuples(*[NUMBERS] * 3),
+            st.none() | st.tuples(*[NUMBERS] * 3),
+            st.none() | st.tuples(*[NUMBERS] * 4),
+            st.none() | st.lists(NUMBERS, min_size=99, max_size=99).map(tuple),
+        ),
+        max_size=40,
+    ),
+    st.booleans(),
+)
+def test_whatever_is_fed_in_whatever_order_the_session_goes_on(rows: list[tuple[object, ...]], walked: bool) -> None:
+    session = Session(WALKING_MODES, calibration=KNOWN)
+    if walked:
+        session.feed(suit()[:1500])
+    for site, t, acc, gyro, quat, pressure in rows:
+        session.feed(Sample(t, site, acc, gyro, pressure, quat))  # type: ignore[arg-type]
+    position = session.position
+    assert position is None or all(abs(value) < 1e9 for value in position.position)
+    session.snapshot()

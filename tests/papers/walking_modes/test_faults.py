@@ -1,0 +1,230 @@
+"""Walking modes when something is wrong: insoles without usable pressure, feet and sensors that fall silent."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from math import hypot, pi
+
+import pytest
+from attrs import evolve
+from walks import of
+
+from solepath.body.fuse.position import MeanOfFeet
+from solepath.calibration import Calibration, InsoleCalibration
+from solepath.emulate import faults
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.sensors.suit import limb_samples
+from solepath.emulate.wearers.walker import Walker
+from solepath.events import Event, Limitation, SampleRejected, TouchedDown, WalkingModeChanged
+from solepath.recipes import BY_NAME, DEFAULT, Recipe
+from solepath.session import Session
+from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
+
+LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
+KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(96, foot)) for foot in Foot})
+FAR = 25.0
+TRACKS = evolve(DEFAULT, body=MeanOfFeet())
+"""The feet's own tracks, and their mean."""
+RECIPES = ("walking-modes", "touchdown-height", "touchdown-acceleration", "touchdown-pressure")
+
+
+@cache
+def walker() -> Walker:
+    return Walker(Route().stand(2.0).walk(FAR, 1.2).stop(2.0), seed=1)
+
+
+@cache
+def feet() -> tuple[Sample, ...]:
+    """Both insoles of a straight walk, 50 Hz."""
+    told = [s for foot in Foot for s in walker().samples(foot, 50.0, LSM6DSOX, layout=layout(96, foot))]
+    return tuple(sorted(told, key=_time))
+
+
+@cache
+def seven() -> tuple[Sample, ...]:
+    """Seven sensors with attitudes of the same walk."""
+    layouts = {SITE_OF_FOOT[foot]: layout(96, foot) for foot in Foot}
+    return tuple(limb_samples(walker(), 50.0, seed=1, layouts=layouts))
+
+
+def _time(sample: Sample) -> float:
+    return sample.t
+
+
+def without_numbers(samples: Sequence[Sample], since: float) -> list[Sample]:
+    return faults.missing(samples, LEFT, range(96), since)
+
+
+def told(
+    recipe: str | Recipe, samples: Sequence[Sample], known: Calibration = KNOWN
+) -> tuple[tuple[float, float], list[Event]]:
+    """Where the walk ends, x and y, and what was said."""
+    session = Session(BY_NAME[recipe] if isinstance(recipe, str) else recipe, calibration=known)
+    events = [*session.feed(samples), *session.finish()]
+    assert session.position is not None
+    x, y, _ = session.position.position
+    return (x, y), events
+
+
+def sentences(events: Sequence[Event]) -> list[str]:
+    return [event.what for event in of(Limitation, list(events))]
+
+
+@cache
+def clean(samples: Callable[[], tuple[Sample, ...]]) -> tuple[float, float]:
+    """Where the walk ends when nothing is wrong."""
+    return told("walking-modes", samples())[0]
+
+
+BROKEN: dict[str, Callable[[], Sequence[Sample]]] = {
+    "no pressure from the middle on": lambda: faults.cut_off(feet(), LEFT, 0, 10.0),
+    "no pressure since it was in the air": lambda: faults.cut_off(feet(), LEFT, 0, 10.45),
+    "never unloads": lambda: faults.never_unloads(feet(), LEFT, 30.0),
+    "never unloads from the middle on": lambda: faults.never_unloads(feet(), LEFT, 30.0, 10.0),
+    "no numbers": lambda: without_numbers(feet(), 10.0),
+    "both never unload": lambda: faults.never_unloads(faults.never_unloads(feet(), LEFT, 30.0), RIGHT, 30.0),
+}
+
+
+@pytest.mark.parametrize("how", BROKEN)
+def test_an_insole_without_usable_pressure_does_not_lead_astray(how: str) -> None:
+    (x, y), events = told("walking-modes", BROKEN[how]())
+    clean_x, clean_y = clean(feet)
+    assert hypot(x - clean_x, y - clean_y) < 1.0
+    assert len([what for what in sentences(events) if "left insole" in what and "steps" in what]) == 1
+    strides = sum(len(strides) for strides in walker().plan.strides.values())
+    assert strides - 4 <= len(of(TouchedDown, events)) <= strides + 1
+
+
+@pytest.mark.parametrize("since", [10.0, 10.45, None])
+def test_nor_does_it_with_seven_sites(since: float | None) -> None:
+    """`since`: without pressure, s; None for an insole that never unloads."""
+    sites = seven()
+    worn = faults.never_unloads(sites, LEFT, 30.0) if since is None else faults.cut_off(sites, LEFT, 0, since)
+    (x, y), _ = told("walking-modes", worn)
+    clean_x, clean_y = clean(seven)
+    assert hypot(x - clean_x, y - clean_y) < 1.3
+
+
+@pytest.mark.parametrize("recipe", RECIPES)
+def test_the_feet_alone_go_all_the_way_by_any_method(recipe: str) -> None:
+    (x, y), events = told(recipe, feet())
+    assert hypot(x - FAR, y) < 2.0
+    strides = sum(len(strides) for strides in walker().plan.strides.values())
+    assert strides - 2 <= len(of(TouchedDown, events)) <= strides + 1
+
+
+def lagging(samples: Sequence[Sample]) -> list[Sample]:
+    """Sensors above the ankles whose samples are 0.3 s behind the feet's."""
+    late = [evolve(s, known_at=s.t + 0.3) if s.site.foot is None else s for s in samples]
+    return sorted(late, key=_known_at)
+
+
+def _known_at(sample: Sample) -> float:
+    return sample.t if sample.known_at is None else sample.known_at
+
+
+SUITS: dict[str, tuple[Callable[[], Sequence[Sample]], str]] = {
+    "the pelvis falls silent": (lambda: faults.silent(seven(), Site.PELVIS, 10.0), "pelvis"),
+    "a shank falls silent": (lambda: faults.silent(seven(), Site.LEFT_SHANK, 10.0), "left shank"),
+    "the sensors above the ankles are late": (lambda: lagging(seven()), "old"),
+    "the wearer never stood still": (lambda: [s for s in seven() if s.t > 2.6], "stand still"),
+}
+
+
+@cache
+def by_tracks(how: str) -> float:
+    """How far the feet's own tracks go in that suit, m."""
+    return told(TRACKS, SUITS[how][0]())[0][0]
+
+
+@pytest.mark.parametrize("how", SUITS)
+@pytest.mark.parametrize("recipe", RECIPES)
+def test_whoever_loses_the_chain_goes_on_by_the_tracks_and_says_why_once(recipe: str, how: str) -> None:
+    samples, named = SUITS[how]
+    (x, y), events = told(recipe, samples())
+    assert hypot(x - by_tracks(how), y) < 2.3
+    (said,) = [what for what in sentences(events) if "own inertial tracks" in what]
+    assert named in said
+
+
+@pytest.mark.parametrize("recipe", RECIPES)
+@pytest.mark.parametrize("site", [LEFT, RIGHT])
+def test_one_foot_alone_is_where_its_own_track_is(recipe: str, site: Site) -> None:
+    (x, y), events = told(recipe, [s for s in feet() if s.site is site])
+    assert hypot(x - FAR, y) < 1.3
+    assert len([what for what in sentences(events) if "not heard" in what]) == 1
+
+
+@pytest.mark.parametrize("recipe", RECIPES)
+@pytest.mark.parametrize("silence", [(8.0, 100.0), (8.3, 100.0), (8.0, 13.0), (8.4, 13.3), (8.8, 13.6)])
+def test_a_foot_that_falls_silent_neither_freezes_nor_halves_the_wearer(
+    recipe: str, silence: tuple[float, float]
+) -> None:
+    (x, y), events = told(recipe, faults.silent(feet(), LEFT, *silence))
+    assert hypot(x - FAR, y) < 1.7
+    assert len([what for what in sentences(events) if "not heard" in what]) == 1
+
+
+def test_with_the_chain_too() -> None:
+    for silence in ((8.0, 100.0), (8.4, 13.3)):
+        (x, y), _ = told("walking-modes", faults.silent(seven(), LEFT, *silence))
+        assert hypot(x - FAR, y) < 2.0
+
+
+@cache
+def round_a_bend() -> tuple[Walker, tuple[Sample, ...], tuple[Sample, ...]]:
+    """Ten metres, a quarter to the left, fifteen metres: by two insoles, and by seven sensors."""
+    walked = Walker(Route().stand(2.0).walk(10.0, 1.2).turn(pi / 2, 3.0).walk(15.0).stop(2.0), seed=2)
+    layouts = {foot: layout(96, foot) for foot in Foot}
+    two = [s for foot in Foot for s in walked.samples(foot, 50.0, LSM6DSOX, layout=layouts[foot])]
+    sites = {SITE_OF_FOOT[foot]: one for foot, one in layouts.items()}
+    return walked, tuple(sorted(two, key=_time)), tuple(limb_samples(walked, 50.0, seed=2, layouts=sites))
+
+
+@pytest.mark.parametrize(("site", "end"), [(LEFT, 13.3), (RIGHT, 15.3), (RIGHT, 100.0)])
+def test_a_foot_that_comes_back_after_a_bend_goes_on_beside_the_other(site: Site, end: float) -> None:
+    walked, two, _ = round_a_bend()
+    (x, y), events = told("walking-modes", faults.silent(two, site, 8.4, end))
+    assert hypot(x - walked.route.end.x, y - walked.route.end.y) < 1.0
+    downs = [down.t for down in of(TouchedDown, events) if SITE_OF_FOOT[down.foot] is site]
+    strides = [s.heel_strike for foot in Foot for s in walked.plan.strides[foot] if SITE_OF_FOOT[foot] is site]
+    assert len([t for t in strides if t < 8.4 or t > end + 4.0]) <= len(downs) <= len(strides)
+    assert all(min(abs(t - strike) for strike in strides) < 0.15 for t in downs)
+
+
+def test_a_chain_that_is_known_only_after_a_bend_lies_in_the_world_as_the_tracks_do() -> None:
+    """The sensors above the ankles are 0.3 s behind until 14 s, when the wearer is round the bend."""
+    walked, _, sensors = round_a_bend()
+    late = [evolve(s, known_at=s.t + 0.3) if s.site.foot is None and s.t < 14.0 else s for s in sensors]
+    (x, y), events = told("walking-modes", sorted(late, key=_known_at))
+    assert hypot(x - walked.route.end.x, y - walked.route.end.y) < 2.5
+    assert all(down.final for down in of(TouchedDown, events)[8:])
+
+
+def test_insoles_of_which_nobody_says_where_the_cells_are_tell_no_walking_modes() -> None:
+    _, events = told("walking-modes", feet(), Calibration())
+    assert {change.mode for change in of(WalkingModeChanged, events)} <= {WalkingMode.STANDING}
+    assert {down.mode for down in of(TouchedDown, events)} == {WalkingMode.STRAIGHT}
+    assert len([what for what in sentences(events) if "no walking modes" in what]) == 2
+
+
+def test_nothing_is_final_that_may_still_be_turned() -> None:
+    _, events = told("walking-modes", [evolve(s, quat=None) for s in seven()])
+    finals = [down.final for down in of(TouchedDown, events)]
+    assert finals == sorted(finals) and not finals[0] and finals[-1]
+
+
+def test_one_sample_from_the_far_future_does_not_silence_its_site() -> None:
+    samples: list[Sample] = []
+    for sample in seven():
+        samples.append(sample)
+        if sample.site is Site.PELVIS and 10.0 <= sample.t < 10.02:
+            samples.append(evolve(sample, t=1e10))
+    _, events = told("walking-modes", samples)
+    (rejected,) = of(SampleRejected, events)
+    assert rejected.site is Site.PELVIS
+    assert not [what for what in sentences(events) if "own inertial tracks" in what]

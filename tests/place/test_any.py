@@ -1,0 +1,280 @@
+"""What must hold for a place on a floor plan whatever the track does, and what is said when the plan is of no use."""
+
+from __future__ import annotations
+
+import json
+from math import inf, isfinite, nan
+
+import pytest
+from attrs import evolve
+from floors import (
+    HIGH,
+    LIFTS,
+    LOW,
+    OFFICE,
+    RIGHT,
+    STAIRS,
+    STOREY,
+    Pedestrian,
+    Told,
+    beside,
+    doing,
+    office,
+    stepped,
+    tour,
+)
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from walks import insoles
+
+from solepath import Activity, Event, FlightClimbed, Foot, LiftRidden, Placed, PlaceLost, Session, recipes
+from solepath.body.fuse.position import Position
+from solepath.body.place.particles import Particles
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import FloorPlan, Level, Start, Wall
+from solepath.papers.footstep_tracker.snake import SnakeGame
+from solepath.saving import codec as machine
+
+METHODS = [Particles, SnakeGame]
+Method = type[Particles] | type[SnakeGame]
+
+NUMBERS = st.one_of(
+    st.floats(-60.0, 60.0), st.floats(allow_nan=True, allow_infinity=True), st.sampled_from([0.0, 1e-300, 1e300, -1e9])
+)
+TIMES = st.one_of(st.floats(0.0, 100.0), st.sampled_from([0.0, -1e9, 1e12]))
+HAPPENINGS = st.one_of(
+    st.builds(
+        lambda t, foot, degraded: stepped(t, foot, 1, (0.0, 0.0, 0.0), degraded),
+        TIMES,
+        st.sampled_from(Foot),
+        st.booleans(),
+    ),
+    st.builds(lambda t, activity: doing(t, t, activity), TIMES, st.sampled_from(Activity)),
+    st.builds(
+        lambda t, d, up, height: LiftRidden(t=t, known_at=t, t_start=t - d, up=up, height=height),
+        TIMES,
+        st.floats(-5.0, 50.0),
+        st.booleans(),
+        st.none() | NUMBERS,
+    ),
+    st.builds(
+        lambda t, d, up, height: FlightClimbed(t=t, known_at=t, t_start=t - d, up=up, steps=8, height=height),
+        TIMES,
+        st.floats(-5.0, 50.0),
+        st.booleans(),
+        NUMBERS,
+    ),
+)
+TELLINGS = st.lists(
+    st.tuples(st.lists(HAPPENINGS, max_size=4), TIMES, st.tuples(NUMBERS, NUMBERS, NUMBERS)), min_size=1, max_size=25
+)
+STARTS = st.one_of(
+    st.none(),
+    st.builds(
+        Start,
+        st.sampled_from(["0", "1", "attic"]),
+        st.tuples(st.floats(-5.0, 45.0), st.floats(-5.0, 35.0)),
+        st.none() | st.floats(-1e6, 1e6),
+        st.floats(-1e300, 1e300),
+    ),
+)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@settings(max_examples=40, deadline=None)
+@given(start=STARTS, tellings=TELLINGS)
+def test_no_events_and_no_track_whatever_make_it_raise_and_what_it_tells_is_sound(method, start, tellings) -> None:  # type: ignore[no-untyped-def]
+    part = method(most=60)
+    if start is not None:
+        part.set_out(start)
+    for events, t, position in tellings:
+        here = Position(t, position, (0.0,) * 6)  # type: ignore[arg-type]
+        told = part.follow(OFFICE, events, here)
+        assert not told or part.place == (told[-1] if isinstance(told[-1], Placed) else None)
+        for event in told:
+            assert isinstance(event, Placed | PlaceLost) and event.known_at >= event.t
+            if isinstance(event, Placed):
+                numbers = [*event.position, event.spread, *(c.weight for c in event.candidates)]
+                assert all(isfinite(number) for number in numbers)
+                assert {c.level for c in event.candidates} <= {"0", "1"}
+                assert sum(c.weight for c in event.candidates) == pytest.approx(1.0)
+            else:
+                assert "\n" not in event.what
+    assert machine.load(method, json.loads(json.dumps(machine.save(part)))) == part
+
+
+@pytest.mark.parametrize("method", METHODS)
+@settings(max_examples=8, deadline=None)
+@given(seed=st.integers(101, 1000), cut=st.floats(0.0, 1.0))
+def test_saved_anywhere_it_goes_on_the_same_bit_for_bit(method, seed, cut) -> None:  # type: ignore[no-untyped-def]
+    told = tour(seed).told[:70]
+    at = int(cut * len(told))
+    whole, part = method(most=100), method(most=100)
+    for one in told[:at]:
+        assert whole.follow(OFFICE, one.events, one.here) == part.follow(OFFICE, one.events, one.here)
+    again = machine.load(method, json.loads(json.dumps(machine.save(part))))
+    for one in told[at:]:
+        assert whole.follow(OFFICE, one.events, one.here) == again.follow(OFFICE, one.events, one.here)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_the_state_is_small_and_does_not_grow(method: Method) -> None:
+    part = method()
+    sizes = []
+    one = Pedestrian(21, "1", LIFTS["lift south"])
+    one.ride("0")
+    for _ in range(3):
+        one.walk(beside(one.place), (RIGHT, LOW), (RIGHT, HIGH), (6.2, HIGH), (6.2, LOW), beside(one.place))
+    found = []
+    for told in one.told:
+        part.follow(OFFICE, told.events, told.here)
+        sizes.append(len(json.dumps(machine.save(part))))
+        if part.place is not None and len(part.place.candidates) == 1:
+            found.append(sizes[-1])
+    assert max(sizes) < 10_000, "while it is undecided"
+    assert sum(found) / len(found) < 8_000 and max(found[-100:]) < 10_000, "once it is decided"
+
+
+def lost(events: list[Event]) -> list[str]:
+    return [event.what for event in events if isinstance(event, PlaceLost)]
+
+
+def follow(part: Particles | SnakeGame, told: list[Told], plan: IndexedPlan = OFFICE) -> list[Event]:
+    return [event for one in told for event in part.follow(plan, one.events, one.here)]
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(
+    ("start", "why"),
+    [
+        (Start("3", (10.0, LOW)), "start: the plan has no level '3', only 0, 1"),
+        (Start("0", (-4.0, 3.0)), "start: (-4, 3) is nowhere on level 0"),
+    ],
+)
+def test_a_start_that_is_nowhere_is_said_once_and_the_wearer_is_found_later(
+    method: Method, start: Start, why: str
+) -> None:
+    one = Pedestrian(22, "1", LIFTS["lift south"])
+    one.step(0.1, 0.0)
+    one.step(-0.1, 0.0)
+    one.ride("0")
+    one.walk(beside(one.place), (RIGHT, LOW), (RIGHT, HIGH))
+    part = method()
+    part.set_out(start)
+    events = follow(part, one.told)
+    assert len(lost(events)) == 1 and lost(events)[0].startswith(why)
+    assert part.place is not None and part.place.level == "0"
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_track_through_walls_is_not_bent_to_the_plan_for_long_but_loses_the_place(method: Method) -> None:
+    one = Pedestrian(23, "0", (12.0, LOW))
+    part = method()
+    part.set_out(Start("0", one.place, -one.turned))
+    one.walk((20.0, LOW), (20.0, 40.0))  # across the block, where nobody can go, and out of the house
+    events = follow(part, one.told)
+    assert part.place is None
+    assert len(lost(events)) == 1
+    assert "the track goes where the plan has no way near (" in lost(events)[0]
+    one.told, one.level, one.place = [], "1", LIFTS["lift south"]
+    one.ride("0")
+    one.walk(beside(one.place), (RIGHT, LOW), (RIGHT, HIGH))
+    follow(part, one.told)
+    assert part.place is not None, "the next lift finds the wearer again"
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_wearer_who_leaves_by_the_door_is_no_longer_on_the_plan(method: Method) -> None:
+    one = Pedestrian(24, "0", (20.0, LOW))
+    part = method()
+    part.set_out(Start("0", one.place, -one.turned))
+    one.walk((60.0, LOW))
+    events = follow(part, one.told)
+    assert part.place is None and len(lost(events)) == 1
+    assert "the track leaves the plan near (4" in lost(events)[0] and "on level 0" in lost(events)[0]
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_track_that_leaps_loses_the_place(method: Method) -> None:
+    one = Pedestrian(25, "0", (12.0, LOW))
+    part = method()
+    part.set_out(Start("0", one.place, -one.turned))
+    one.walk((16.0, LOW))
+    one.step(500.0, 0.0)
+    assert lost(follow(part, one.told)) == ["the track leaps by more than 100 m"]
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_without_start_stairs_and_lifts_it_says_that_the_place_cannot_be_known(method: Method) -> None:
+    bare = IndexedPlan(evolve(office(), connectors=()))
+    one = Pedestrian(26, "0", (12.0, LOW))
+    one.walk((30.0, LOW))
+    one.ride("1")
+    part = method()
+    what = "no start was given and the plan has neither stairs nor lifts: the place cannot be known"
+    assert lost(follow(part, one.told, bare)) == [what] and part.place is None
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_stairs_that_the_plan_does_not_have_change_no_level(method: Method) -> None:
+    lifts_only = IndexedPlan(evolve(office(), connectors=office().connectors[:3]))
+    one = Pedestrian(27, "0", (20.0, LOW))
+    part = method()
+    part.set_out(Start("0", one.place, -one.turned))
+    one.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
+    one.climb("1", "stairs south")
+    one.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW))
+    events = follow(part, one.told, lifts_only)
+    assert {event.level for event in events if isinstance(event, Placed)} == {"0"}
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_plan_far_from_its_zero_is_as_good_as_one_near_it(method: Method) -> None:
+    far = moved(office(), 431_000.0, 5_411_000.0)
+    one = Pedestrian(28, "0", (12.0, LOW))
+    part = method()
+    part.set_out(Start("0", (one.place[0] + 431_000.0, one.place[1] + 5_411_000.0), -one.turned))
+    one.walk((RIGHT, LOW), (RIGHT, 14.0))
+    follow(part, one.told, IndexedPlan(far))
+    assert part.place is not None
+    x, y, _ = part.place.position
+    assert abs(x - 431_000.0 - RIGHT) < 1.0 and abs(y - 5_411_000.0 - 14.0) < 1.0
+
+
+def moved(plan: FloorPlan, dx: float, dy: float) -> FloorPlan:
+    levels = tuple(
+        evolve(
+            level,
+            walls=tuple(Wall((w.start[0] + dx, w.start[1] + dy), (w.end[0] + dx, w.end[1] + dy)) for w in level.walls),
+        )
+        for level in plan.levels
+    )
+    return FloorPlan(plan.name, levels)
+
+
+def test_the_position_is_never_bent_to_the_plan() -> None:
+    bare = Session(recipes.DEFAULT)
+    on_plan = Session(recipes.DEFAULT, floorplan=square(30.0), start=Start("0", (15.0, 15.0), 0.3))
+    heard: list[Event] = []
+    for packet in insoles(cells=12).packets:
+        bare.feed(packet)
+        heard += on_plan.feed(packet)
+        assert bare.position == on_plan.position
+    assert any(isinstance(event, Placed) for event in heard)
+    assert bare.place is None and on_plan.place is not None
+
+
+def square(side: float) -> FloorPlan:
+    corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)]
+    walls = tuple(Wall(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True))
+    return FloorPlan("hall", (Level("0", "hall", 0, 0.0, walls),))
+
+
+def test_a_start_of_what_is_no_number_is_the_callers_mistake() -> None:
+    for start in (Start("0", (10.0, LOW), nan), Start("0", (nan, LOW)), Start("0", (10.0, LOW), 0.0, inf)):
+        with pytest.raises(ValueError, match="numbers"):
+            Particles().set_out(start)
+
+
+def test_a_storey_of_the_plan_is_what_the_tests_take_it_for() -> None:
+    assert [level.elevation for level in OFFICE.plan.levels] == [0.0, STOREY]

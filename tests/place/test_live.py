@@ -1,0 +1,30 @@
+"""`solepath live` on a floor plan, as a program of its own; in real time."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+from floors import office
+from programs import emulator, run
+
+from solepath.floorplan.importers.geojson import write_floorplan
+
+
+def test_live_tells_the_place_on_the_plan_and_writes_places(tmp_path: Path) -> None:
+    plan, out = tmp_path / "office.geojson", tmp_path / "out"
+    write_floorplan(plan, office())
+    with emulator("--distance", 20) as (_, where):
+        options = ["--floorplan", plan, "--start", "0,9,6.2,0", "--out", out, "--duration", 9]
+        done = run("live", "--via", where, *options)
+    assert "place: level 0, (" in done.stdout
+    assert "place: found after 1 step" in done.stdout and "at the end: level 0, (" in done.stdout
+    rows = list(csv.DictReader((out / "places.csv").open(encoding="utf-8")))
+    assert len(rows) > 3 and {row["level"] for row in rows} == {"0"}
+
+
+def test_live_refuses_a_start_that_is_nowhere_before_it_listens(tmp_path: Path) -> None:
+    plan = tmp_path / "office.geojson"
+    write_floorplan(plan, office())
+    done = run("live", "--floorplan", plan, "--start", "7,1,1", "--via", "tcp:127.0.0.1:1", expect=2)
+    assert "the plan has no level '7'" in done.stderr

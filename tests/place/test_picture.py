@@ -1,0 +1,176 @@
+"""The picture of a floor plan with the track on it, and the commands that write it."""
+
+from __future__ import annotations
+
+import csv
+import json
+from math import degrees
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from commands import refused, run
+from floors import LOW, OFFICE, RIGHT, Pedestrian, office, tour
+from walks import insoles
+
+from solepath import PlaceLost
+from solepath.body.place.particles import Particles
+from solepath.cli.common.failure import Failure
+from solepath.cli.common.floorplan import start_of
+from solepath.floorplan.importers.geojson import write_floorplan
+from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall
+from solepath.recording import PacketWriter
+from solepath.show.tables.placed import PlaceCounts
+from solepath.show.tables.plan import PlanPicture, colour
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def pictured(plan: FloorPlan, one: Pedestrian, start: Start | None = None) -> ElementTree.Element:
+    part, picture = Particles(), PlanPicture(plan)
+    if start is not None:
+        part.set_out(start)
+    for told in one.told:
+        for event in part.follow(OFFICE, told.events, told.here):
+            picture.add(event)
+    return ElementTree.fromstring(ElementTree.tostring(picture.drawn("a tour <of two> floors & a lift")))
+
+
+def words(svg: ElementTree.Element) -> list[str]:
+    return [text.text or "" for text in svg.iter() if text.tag.endswith("text")]
+
+
+def test_the_picture_has_a_panel_for_every_level_a_scale_and_where_the_wearer_was_found_and_ended() -> None:
+    svg = pictured(office(), tour(7))
+    told = words(svg)
+    assert "a tour <of two> floors & a lift" in told
+    assert {"floor 0 (0), 0.0 m", "floor 1 (1), 3.6 m", "candidate", "stairs", "lift"} <= set(told)
+    assert {"found", "end", "5 m"} <= set(told)
+    assert "N" not in told, "without an anchor nobody knows where north is"
+    tracks = [line for line in svg.iter() if line.tag.endswith("polyline")]
+    assert len({line.get("stroke") for line in tracks}) > 5, "coloured by time"
+    dots = [float(dot.get("fill-opacity", "1")) for dot in svg.iter() if dot.get("r") == "2.2"]
+    assert len(dots) > 50 and min(dots) < 0.15 < max(dots), "candidates are the fainter the less they are believed"
+
+
+def test_a_picture_with_an_anchor_shows_north_and_a_known_start_is_called_so() -> None:
+    one = Pedestrian(31, "0", (12.0, LOW))
+    one.walk((RIGHT, LOW))
+    svg = pictured(office(Anchor(48.0, 11.0, 0.3)), one, Start("0", (12.0, LOW), -one.turned))
+    assert {"N", "start", "end"} <= set(words(svg))
+
+
+def test_a_plan_is_drawn_without_any_place_too_and_every_coordinate_is_a_plain_number() -> None:
+    picture = PlanPicture(office())
+    svg = ElementTree.tostring(picture.drawn("nothing")).decode()
+    assert "nan" not in svg and "inf" not in svg and "e-" not in svg.replace("stroke-", "")
+    bare = PlanPicture(FloorPlan("x", (Level("0", "0", 0, 0.0, ()),)))
+    assert "level 0, 0.0 m" in words(bare.drawn("bare"))
+
+
+def test_the_track_is_broken_where_the_place_was_lost() -> None:
+    picture = PlanPicture(office())
+    one = Pedestrian(32, "0", (12.0, LOW))
+    one.walk((24.0, LOW))
+    part = Particles()
+    part.set_out(Start("0", (12.0, LOW), -one.turned))
+    events = [event for told in one.told for event in part.follow(OFFICE, told.events, told.here)]
+    for event in events:
+        picture.add(event)
+    whole = len([1 for line in picture.drawn("t").iter() if line.tag == "polyline"])
+    picture.breaks |= {6, 12}
+    assert len([1 for line in picture.drawn("t").iter() if line.tag == "polyline"]) > whole
+
+
+def test_colours_run_from_the_start_to_the_end() -> None:
+    assert colour(-1.0) == colour(0.0) != colour(0.5) != colour(1.0) == colour(2.0)
+    assert all(len(colour(k / 50.0)) == 7 for k in range(51))
+
+
+def test_the_summary_says_when_the_wearer_was_found_and_on_which_levels() -> None:
+    part, places = Particles(), PlaceCounts()
+    for told in tour(7).told:
+        for event in [*told.events, *part.follow(OFFICE, told.events, told.here)]:
+            places.add(event)
+    assert places.last is not None and places.last.level == "1"
+    lines = places.lines()
+    assert lines[0].startswith("place: found after ") and " steps, at " in lines[0]
+    assert lines[1].startswith("at the end: level 1, (") and "within" in lines[1]
+    assert lines[2].startswith("levels: 0 from ") and ", 1 from " in lines[2]
+    assert lines[3].endswith("no start was given, so the place is not known before the first stairs or lift")
+
+
+def test_the_summary_of_a_wearer_who_was_never_found_says_so() -> None:
+    places = PlaceCounts()
+    places.add(PlaceLost(t=3.0, known_at=3.0, what="the plan is of another building"))
+    assert places.lines()[0] == "place: not found; 0 steps with several candidates"
+    assert places.lines()[1] == "from 3.0 s without a place: the plan is of another building"
+
+
+# --- commands ---
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("walk") / "walk.jsonl"
+    with PacketWriter(path) as writer:
+        for packet in insoles(cells=12).packets:
+            writer.write(packet)
+    return path
+
+
+@pytest.fixture(scope="module")
+def hall(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("plan") / "hall.geojson"
+    corners = [(0.0, 0.0), (30.0, 0.0), (30.0, 20.0), (0.0, 20.0)]
+    walls = tuple(Wall(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True))
+    levels = tuple(Level(str(k), f"floor {k}", k, 3.0 * k, walls) for k in (0, 1))
+    stops = tuple(ConnectorStop(level.id, (28.0, 18.0)) for level in levels)
+    write_floorplan(path, FloorPlan("hall", levels, (Connector(ConnectorKind.STAIRS, "stairs", stops),)))
+    return path
+
+
+def test_track_writes_places_and_the_picture_and_says_where_the_wearer_is(
+    recorded: Path, hall: Path, tmp_path: Path
+) -> None:
+    done = run("track", recorded, "--floorplan", hall, "--start", "0,10,10,30", "--out", tmp_path)
+    assert done.returncode == 0
+    assert "place: found after 1 step, at" in done.stdout and "at the end: level 0, (1" in done.stdout
+    with (tmp_path / "places.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) >= 4 and {row["level"] for row in rows} == {"0"}
+    assert all(0.0 < float(row["x"]) < 30.0 and row["candidates"] == "1" for row in rows)
+    assert abs(degrees(float(rows[-1]["heading"])) - 30.0) < 12.0
+    events = [json.loads(line) for line in (tmp_path / "events.jsonl").read_text().splitlines()]
+    assert [event["level"] for event in events if event["event"] == "Placed"] == [row["level"] for row in rows]
+    svg = ElementTree.parse(tmp_path / "plan.svg").getroot()
+    assert svg.tag == f"{SVG}svg" and "walk.jsonl, recipe default" in words(svg)
+
+
+def test_without_a_floor_plan_nothing_of_it_is_written_or_said(recorded: Path, tmp_path: Path) -> None:
+    done = run("track", recorded, "--out", tmp_path)
+    assert done.returncode == 0 and "place:" not in done.stdout
+    assert not (tmp_path / "places.csv").exists() and not (tmp_path / "plan.svg").exists()
+
+
+def test_a_floor_plan_or_a_start_that_cannot_be_used_is_refused_in_one_line(
+    recorded: Path, hall: Path, tmp_path: Path
+) -> None:
+    assert "give --floorplan, too" in refused("track", recorded, "--start", "0,1,2")
+    nonsense = tmp_path / "plan.geojson"
+    nonsense.write_text("[1, 2")
+    assert "plan.geojson" in refused("track", recorded, "--floorplan", nonsense)
+    assert "No such file" in refused("track", recorded, "--floorplan", tmp_path / "none.geojson")
+    assert "the plan has no level '7', only 0, 1" in refused("track", recorded, "--floorplan", hall, "--start", "7,1,2")
+    assert "(99, 2) is nowhere on level 0" in refused("track", recorded, "--floorplan", hall, "--start", "0,99,2")
+    assert "is not LEVEL,X,Y" in refused("track", recorded, "--floorplan", hall, "--start", "0,one,2")
+
+
+def test_a_start_is_read_with_and_without_heading_and_commas_in_the_name_of_a_level() -> None:
+    assert start_of("0,12.5,-3") == Start("0", (12.5, -3.0))
+    turned = start_of("ground floor, 1, 2, 90")
+    assert turned.level == "ground floor" and degrees(turned.heading or 0.0) == pytest.approx(90.0)
+    assert start_of("wing B, east,1,2") == Start("wing B, east", (1.0, 2.0))
+    for wrong in ("", "0", "0,1", ",1,2", "0,nan,2", "0,1,inf"):
+        with pytest.raises(Failure):
+            start_of(wrong)

@@ -1,0 +1,314 @@
+"""Finding the wearer on a floor plan: tours through an office of two floors, whose track errs as recorded ones do."""
+
+from __future__ import annotations
+
+from math import atan2, cos, degrees, hypot, radians, sin
+
+import pytest
+from attrs import define, field
+from floors import (
+    CORNERS,
+    HIGH,
+    LEFT,
+    LIFTS,
+    LOW,
+    OFFICE,
+    RIGHT,
+    STAIRS,
+    STOREY,
+    Pedestrian,
+    Told,
+    beside,
+    doing,
+    round_to,
+    tour,
+)
+
+from solepath import Activity, Event, LiftRidden, Placed, PlaceLost
+from solepath.body.place.particles import Particles
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import FloorPlan, Level, Start
+from solepath.papers.footstep_tracker.snake import SnakeGame
+
+METHODS = [Particles, SnakeGame]
+Method = type[Particles] | type[SnakeGame]
+SURE = 0.99
+"""With so much of the belief a candidate is found."""
+NEAR = 3.5
+"""A candidate within this of the wearer is the true one, m: candidates are told as the mean over some metres."""
+
+
+@define
+class Followed:
+    """What came of a tour."""
+
+    errors: list[float] = field(factory=list)
+    """Once one candidate has nearly all of the belief, and as long as it has, m; of another level, infinitely far."""
+    dropped: int = 0
+    """Steps at which no candidate was near the wearer."""
+    found: int | None = None
+    events: list[Event] = field(factory=list)
+
+    @property
+    def mean(self) -> float:
+        return sum(self.errors) / len(self.errors)
+
+    @property
+    def lost(self) -> list[str]:
+        return [event.what for event in self.events if isinstance(event, PlaceLost)]
+
+
+def followed(part: Particles | SnakeGame, told: list[Told]) -> Followed:
+    result = Followed()
+    for k, one in enumerate(told):
+        result.events += part.follow(OFFICE, one.events, one.here)
+        place = part.place
+        if one.place is None or one.level is None:
+            continue
+        if place is None:
+            result.dropped += 1
+            continue
+        here = [candidate for candidate in place.candidates if candidate.level == one.level]
+        off = [apart(candidate.position[:2], one.place) for candidate in here]
+        result.dropped += min(off, default=99.0) > NEAR
+        sure = place.candidates[0].weight >= SURE
+        if sure and result.found is None:
+            result.found = k
+        if sure:
+            result.errors.append(apart(place.position[:2], one.place) if place.level == one.level else float("inf"))
+    return result
+
+
+def apart(a: tuple[float, float], b: tuple[float, float]) -> float:
+    return hypot(a[0] - b[0], a[1] - b[1])
+
+
+def placed(events: list[Event]) -> list[Placed]:
+    return [event for event in events if isinstance(event, Placed)]
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_wearer_who_comes_out_of_some_lift_is_found_and_followed_within_a_metre(method: Method, seed: int) -> None:
+    result = followed(method(), tour(seed).told)
+    assert result.dropped == 0
+    assert result.errors and result.mean <= 1.0
+    assert len(result.lost) == 1 and "no start" in result.lost[0]
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("method", METHODS)
+def test_the_true_candidate_is_never_dropped_in_fifty_walks_and_the_mean_error_is_below_a_metre(method: Method) -> None:
+    results = [followed(method(), tour(seed).told) for seed in range(1, 51)]
+    assert [result.dropped for result in results] == [0] * 50
+    found = [result for result in results if result.errors]
+    assert len(found) >= 48
+    assert sum(result.mean for result in found) / len(found) <= 1.0
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_while_several_places_are_possible_all_of_them_are_told_with_weights_that_add_up_to_one(method: Method) -> None:
+    part = method()
+    told = tour(4).told
+    first = placed(followed(part, told[:3]).events)[-1]
+    assert {candidate.origin for candidate in first.candidates} == set(LIFTS)
+    weights = [candidate.weight for candidate in first.candidates]
+    assert sum(weights) == pytest.approx(1.0) and weights == sorted(weights, reverse=True)
+    assert first.position == first.candidates[0].position and first.spread > 5.0 and not first.final
+    assert first.t <= first.known_at
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("known", [True, False])
+def test_a_known_start_finds_the_wearer_with_or_without_the_heading(method: Method, known: bool) -> None:
+    one = Pedestrian(7, "0", (12.0, LOW))
+    start = Start("0", one.place, -one.turned if known else None)
+    one.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
+    part = method()
+    part.set_out(start)
+    result = followed(part, one.told)
+    assert result.dropped == 0 and result.lost == []
+    assert result.errors[-1] <= 1.0
+    heading = placed(result.events)[-1].candidates[0].heading
+    assert heading is not None
+    off = heading + one.turned
+    assert abs(degrees(atan2(sin(off), cos(off)))) < 5.0
+    if known:
+        assert result.found == 0 and result.mean <= 1.0
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("flights", [True, False])
+def test_stairs_lead_to_the_other_level_and_the_height_is_the_plans_whatever_the_track_says(
+    method: Method, flights: bool
+) -> None:
+    one = Pedestrian(8, "0", (LEFT, 12.0))
+    part = method()
+    part.set_out(Start("0", one.place, -one.turned))
+    one.walk((LEFT, LOW), beside(STAIRS["stairs south"]), STAIRS["stairs south"])
+    one.climb("1", "stairs south", flights)
+    x, y, z = one.track
+    one.track = (x, y, z + 0.4)  # as a track's height drifts
+    one.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW), (RIGHT, 15.0))
+    result = followed(part, one.told)
+    assert result.dropped == 0 and result.mean <= 1.0
+    last = placed(result.events)[-1]
+    assert last.level == "1" and last.position[2] == STOREY
+    heights = [event.position[2] for event in placed(result.events)]
+    assert min(heights) == 0.0 and max(heights) == STOREY
+    assert any(0.5 < height < 3.0 for height in heights), "on the stairs one is between the levels"
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_landing_half_way_up_is_no_level(method: Method) -> None:
+    one = Pedestrian(9, "0", (20.0, LOW))
+    part = method()
+    part.set_out(Start("0", one.place, -one.turned))
+    one.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
+    one.say(doing(one.t, one.t, Activity.STAIRS_UP))
+    for _ in range(10):
+        one.step(0.0, 0.28, 0.18)
+    one.say(doing(one.t, one.t, Activity.WALKING))
+    for _ in range(2):
+        one.step(0.4, 0.0)
+    assert placed(followed(part, one.told).events)[-1].level == "0"
+    one.told = []
+    one.say(doing(one.t, one.t, Activity.STAIRS_UP))
+    for _ in range(10):
+        one.step(0.0, -0.28, 0.18)
+    one.say(doing(one.t, one.t, Activity.WALKING))
+    one.step(0.0, -0.5)
+    assert placed(followed(part, one.told).events)[-1].level == "1"
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_few_steps_that_look_like_stairs_on_level_ground_change_nothing(method: Method) -> None:
+    one = Pedestrian(10, "0", (9.0, LOW))
+    part = method()
+    part.set_out(Start("0", one.place, -one.turned))
+    one.walk((24.0, LOW))
+    one.say(doing(one.t - 1.0, one.t, Activity.STAIRS_UP))
+    one.walk((26.0, LOW))
+    one.say(doing(one.t, one.t, Activity.WALKING))
+    one.walk((RIGHT, LOW), (RIGHT, HIGH))
+    result = followed(part, one.told)
+    assert result.dropped == 0 and result.mean <= 1.0
+    assert {event.level for event in placed(result.events)} == {"0"}
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_who_stands_in_a_lift_that_has_stopped_is_on_the_level_that_it_went_to(method: Method) -> None:
+    one = Pedestrian(11, "0", (20.0, LOW))
+    part = method()
+    part.set_out(Start("0", one.place, -one.turned))
+    one.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
+    one.ride("1", STOREY)
+    last = placed(followed(part, one.told).events)[-1]
+    assert last.level == "1" and last.t == one.t and apart(last.position[:2], one.place) <= 1.0
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_lift_that_only_the_activity_tells_of_changes_the_level_too(method: Method) -> None:
+    one = Pedestrian(11, "0", (20.0, LOW))
+    part = method()
+    part.set_out(Start("0", one.place, -one.turned))
+    one.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
+    one.say(doing(one.t + 2.0, one.t + 4.0, Activity.ELEVATOR_UP))
+    one.t += 14.0
+    one.say(doing(one.t, one.t + 1.0, Activity.STANDING))
+    one.t += 2.0
+    one.level = "1"
+    one.walk(beside(LIFTS["lift south"]), (LEFT, LOW), (LEFT, 14.0))
+    last = placed(followed(part, one.told).events)[-1]
+    assert last.level == "1" and apart(last.position[:2], one.place) <= 1.0
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_ride_far_from_where_the_plan_had_the_wearer_begins_the_search_anew(method: Method) -> None:
+    one = Pedestrian(12, "0", (14.0, HIGH))
+    part = method()
+    part.set_out(Start("0", (20.0, HIGH), None))  # wrong by 6 m, and far from every lift
+    one.walk((18.0, HIGH))
+    one.place, one.level = LIFTS["lift east"], "1"
+    one.ride("0")
+    one.walk(*round_to(beside(LIFTS["lift east"]), (14.0, LOW), False), (LEFT, LOW), (LEFT, 14.0))
+    result = followed(part, one.told)
+    last = placed(result.events)[-1]
+    true = [c for c in last.candidates if c.level == "0" and apart(c.position[:2], one.place) <= 1.5]
+    assert len(last.candidates) <= 3, "the office looks nearly the same from the other side"
+    assert true and true[0].weight > 0.1 and true[0].origin == "lift east"
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_gap_in_the_track_widens_the_belief_and_the_wearer_is_followed_on(method: Method) -> None:
+    one = Pedestrian(13, "0", (12.0, LOW))
+    part = method()
+    part.set_out(Start("0", one.place, -one.turned))
+    one.walk((20.0, LOW))
+    before = placed(followed(part, one.told).events)[-1].spread
+    one.told, one.t = [], one.t + 6.0
+    one.step(6.0, 0.0, degraded=True)
+    after = placed(followed(part, one.told).events)[-1].spread
+    assert after > before + 0.3
+    one.told = []
+    one.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
+    result = followed(part, one.told)
+    assert result.dropped == 0 and result.errors[-1] <= 1.0
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_the_same_walk_leads_to_the_same_places_to_the_last_bit(method: Method) -> None:
+    told = tour(5).told[:60]
+    assert followed(method(), told).events == followed(method(), told).events
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_wearer_who_walks_round_and_round_stays_found(method: Method) -> None:
+    one = Pedestrian(14, "0", CORNERS[0])
+    part = method()
+    part.set_out(Start("0", one.place, -one.turned))
+    for _ in range(4):
+        one.walk(*CORNERS[1:], CORNERS[0])
+    result = followed(part, one.told)
+    assert result.dropped == 0 and result.mean <= 1.0 and result.lost == []
+
+
+def test_a_lift_ride_that_was_told_before_is_not_told_again_by_the_activity() -> None:
+    one = Pedestrian(15, "1", LIFTS["lift south"])
+    part = Particles()
+    part.set_out(Start("1", one.place, -one.turned))
+    one.step(0.0, 0.1)
+    one.say(doing(one.t + 1.0, one.t + 3.0, Activity.ELEVATOR_DOWN))
+    one.t += 12.0
+    one.level = "0"
+    one.say(LiftRidden(t=one.t, known_at=one.t, t_start=one.t - 11.0, up=False, height=None))
+    one.say(doing(one.t, one.t + 1.0, Activity.STANDING))
+    one.walk(beside(one.place), (24.0, LOW))
+    result = followed(part, one.told)
+    assert placed(result.events)[-1].level == "0" and result.mean < 1.0
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_plan_of_rooms_without_walls_far_from_its_zero_is_a_plan_too(method: Method) -> None:
+    room = ((1e6, 1e6), (1e6 + 60.0, 1e6), (1e6 + 60.0, 1e6 + 60.0), (1e6, 1e6 + 60.0))
+    hall = IndexedPlan(FloorPlan("hall", (Level("0", "ground", 0, 0.0, (), (), (room,)),)))
+    part = method()
+    part.set_out(Start("0", (1e6 + 20.0, 1e6 + 20.0), 0.0))
+    one = Pedestrian(11, "0", (20.0, 20.0))
+    one.walk((30.0, 20.0))
+    events = [event for told in one.told for event in part.follow(hall, told.events, told.here)]
+    assert len(placed(events)) == len(events) > 5
+    x, y, _ = placed(events)[-1].position
+    assert apart((x - 1e6, y - 1e6), (20.0, 20.0)) == pytest.approx(10.0, abs=1.5)
+
+
+def test_the_track_turned_by_any_angle_leads_to_the_same_place() -> None:
+    ends = []
+    for turn in (0.0, 90.0, 217.0):
+        one = Pedestrian(16, "0", (12.0, LOW))
+        one.turned = radians(turn)
+        part = Particles()
+        part.set_out(Start("0", one.place, -one.turned))
+        one.walk((RIGHT, LOW), (RIGHT, 14.0))
+        ends.append(placed(followed(part, one.told).events)[-1].position)
+    assert max(apart(end[:2], one.place) for end in ends) <= 1.0

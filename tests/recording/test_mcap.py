@@ -1,0 +1,260 @@
+"""MCAP: what is written is read back with the library's own reader, packets byte for byte, events as a session's."""
+
+import io
+import json
+import struct
+import subprocess
+import sys
+from base64 import b64decode
+from collections import Counter
+from collections.abc import Iterable
+from contextlib import suppress
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+import walks
+from toys import NUMBERED
+
+from solepath import FootMoved, Packet, Sample, Session, Site, StrideTaken
+from solepath.events import LiveEvent
+from solepath.link.decoder import Decoder
+from solepath.recording import RecordingError
+from solepath.show.output import event_record
+
+pytest.importorskip("mcap", reason="the extra mcap is not installed")
+from mcap.exceptions import EndOfFile  # noqa: E402
+from mcap.opcode import Opcode  # noqa: E402
+from mcap.reader import make_reader  # noqa: E402
+from mcap.records import Chunk, Message  # noqa: E402
+from mcap.stream_reader import StreamReader  # noqa: E402
+
+from solepath.recording.mcap import McapWriter  # noqa: E402
+
+BEGAN = {"began": "2026-11-21T09:30:00.25Z", "began_t": 2.0}
+AT_ZERO = int(datetime(2026, 11, 21, 9, 29, 58, 250_000, UTC).timestamp() * 1000) * 1_000_000
+"""ns since 1970 at t = 0."""
+LEFT = Site.LEFT_FOOT
+MAGIC = b"\x89MCAP0\r\n"
+
+
+def written(path: Path, packets: Iterable[Packet], **header) -> Path:
+    with McapWriter(path, header) as writer:
+        for packet in packets:
+            writer.write(packet)
+    return path
+
+
+def messages(path: Path) -> dict[str, list[tuple[int, int, dict]]]:
+    """Topic -> (log time, publish time, content), in the order of the file."""
+    found: dict[str, list[tuple[int, int, dict]]] = {}
+    with path.open("rb") as file:
+        for schema, channel, message in make_reader(file, validate_crcs=True).iter_messages(log_time_order=False):
+            assert (schema.encoding, channel.message_encoding) == ("jsonschema", "json")
+            content = json.loads(message.data)
+            fits(content, json.loads(schema.data))
+            found.setdefault(channel.topic, []).append((message.log_time, message.publish_time, content))
+    return found
+
+
+KINDS = {"number": (int, float), "string": str, "integer": int, "boolean": bool, "object": dict}
+
+
+def fits(value: object, schema: dict) -> None:
+    """What of JSON Schema is used here: every key that the schema knows is of the type that it says."""
+    assert isinstance(value, KINDS[schema["type"]])
+    if isinstance(value, dict):
+        assert value.keys() & schema["properties"].keys()
+        for key, inner in schema["properties"].items():
+            if key in value:
+                fits(value[key], inner)
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory) -> dict[str, list[tuple[int, int, dict]]]:
+    return messages(written(tmp_path_factory.mktemp("mcap") / "walk.mcap", walks.insoles().packets, **BEGAN))
+
+
+@pytest.mark.parametrize("name", list(walks.packets()))
+def test_the_packets_in_it_are_those_that_were_recorded_in_their_order(tmp_path, name):
+    packets = [Packet(p.t, p.site, p.channel, p.data, f"F0:{p.site.value}") for p in walks.packets()[name]]
+    path = written(tmp_path / "walk.mcap", packets)
+    read = []
+    with path.open("rb") as file:
+        for _, channel, message in make_reader(file).iter_messages(log_time_order=False):
+            if "channel" in channel.metadata:
+                said = json.loads(message.data)
+                site, name = Site(channel.metadata["site"]), channel.metadata["channel"]
+                assert channel.topic == f"/{site.value}/packets/{name}"
+                read.append(Packet(said["t"], site, name, b64decode(said["data"]), said["device"]))
+    assert read == packets
+
+
+def test_log_times_are_those_of_the_wall_where_the_recording_knows_it(exported, tmp_path):
+    packets = walks.insoles().packets
+    first = next(p for p in packets if p.site is LEFT and p.channel == "insole/frame")
+    assert exported["/left_foot/packets/insole/frame"][0][0] == AT_ZERO + round(first.t * 1e9)
+    plain = messages(written(tmp_path / "plain.mcap", packets[:20]))
+    assert {round(t * 1e-9, 6) for rows in plain.values() for t, _, _ in rows} >= {round(p.t, 6) for p in packets[:20]}
+    later = messages(written(tmp_path / "first.mcap", packets[:20], began="2026-11-21T09:29:58.25Z"))
+    assert min(t for name, rows in later.items() if "packets" in name for t, _, _ in rows) == AT_ZERO
+
+
+def test_the_samples_in_it_are_what_the_link_made_of_the_packets(exported):
+    decoder = Decoder(LEFT)
+    packets = [p for p in walks.insoles().packets if p.site is LEFT]
+    samples = [s for p in packets for s in decoder.feed(p) if isinstance(s, Sample)]
+    samples += [s for s in decoder.finish() if isinstance(s, Sample)]
+    rows = exported["/left_foot/samples"]
+    assert len(rows) == len(samples) > 700
+    for (log_time, publish_time, said), sample in zip(rows, samples, strict=True):
+        assert said["t"] == sample.t and log_time == AT_ZERO + round(sample.t * 1e9)
+        assert publish_time == AT_ZERO + round(sample.known_at * 1e9)
+        assert tuple(said["acc"].values()) == sample.acc and tuple(said["gyro"].values()) == sample.gyro
+        assert said["pressure"] == sum(sample.pressure)
+
+
+def test_the_samples_in_it_are_those_that_a_session_uses_when_a_site_falls_silent(tmp_path):
+    """At a site that is silent time passes with the packets of the others: what waited there for a packet that never
+    came is used then, and not when the walk has ended."""
+    packets = walks.packets()["cc2541"]
+    end = packets[len(packets) // 2].t
+    ends = {"cc2541/gyroscope": end - 0.15}  # of its last accelerations the gyroscope's part is missing
+    packets = [p for p in packets if p.site is not LEFT or p.t < ends.get(p.channel, end)]
+    decoders: dict[Site, Decoder] = {}
+    used = []
+    for packet in packets:
+        items = decoders.setdefault(packet.site, Decoder(packet.site)).feed(packet)
+        items = [i for site, d in decoders.items() if site is not packet.site for i in d.advance(packet.t)] + items
+        used += items
+    used += [item for decoder in decoders.values() for item in decoder.finish()]
+    found = messages(written(tmp_path / "walk.mcap", packets, **BEGAN))
+    for site in decoders:
+        rows = [(said["t"], publish) for _, publish, said in found[f"/{site.value}/samples"]]
+        samples = [item for item in used if isinstance(item, Sample) and item.site is site]
+        assert rows == [(s.t, AT_ZERO + round(s.known_at * 1e9)) for s in samples]
+
+
+def test_the_events_in_it_are_a_sessions(exported):
+    session = Session(poses=True)
+    events = session.feed(walks.insoles().packets) + session.finish()
+    told = [json.loads(json.dumps(event_record(e))) for e in events if not isinstance(e, LiveEvent)]
+    assert [said for _, _, said in exported["/events"]] == told
+    poses = [e for e in events if isinstance(e, FootMoved) and e.foot.value == "left"]
+    assert [said["position"]["x"] for _, _, said in exported["/left_foot/pose"]] == [e.position[0] for e in poses]
+    assert {(said["phase"], said["phase_number"]) for _, _, said in exported["/left_foot/pose"]} == {
+        ("LOADING", 0), ("STATIONARY", 1), ("PUSH_OFF", 2), ("SWING", 3),
+    }  # fmt: skip
+    steps = [e for e in events if isinstance(e, StrideTaken) and e.final and e.foot.value == "left"]
+    rows = exported["/left_foot/steps"]
+    assert [(said["number"], said["stride_length"]) for _, _, said in rows] == [
+        (step.number, step.length) for step in steps
+    ] != []  # fmt: skip
+    gait = Counter(said["event"] for _, _, said in exported["/left_foot/gait"])
+    assert gait == Counter(
+        name for e in events
+        if (name := type(e).__name__) in ("HeelStrike", "FootFlat", "HeelOff", "ToeOff") and e.foot.value == "left"
+    )  # fmt: skip
+    assert gait["ToeOff"] >= 3
+
+
+def test_a_file_tells_what_it_is_and_its_chunks_are_small(tmp_path):
+    path = written(tmp_path / "walk.mcap", walks.insoles().packets, note="Türe", **BEGAN)
+    with path.open("rb") as file:
+        reader = make_reader(file)
+        (about,) = [record for record in reader.iter_metadata() if record.name == "solepath"]
+        assert about.metadata == {
+            "format": "solepath-packets", "version": "1", "note": "Türe", "began": BEGAN["began"], "began_t": "2.0",
+        }  # fmt: skip
+        summary = reader.get_summary()
+        assert summary is not None and summary.statistics is not None
+        assert summary.statistics.message_count == sum(map(len, messages(path).values()))
+        chunks = [record for record in StreamReader(io.BytesIO(path.read_bytes()), emit_chunks=True).records
+                  if isinstance(record, Chunk)]  # fmt: skip
+    sizes = [chunk.uncompressed_size for chunk in chunks]
+    assert len(sizes) > 20 and all(4_000 <= size <= 16_000 for size in sizes[:-1])
+
+
+def test_of_a_torn_file_all_but_the_last_chunk_is_read(tmp_path):
+    """Cut anywhere, the file holds the messages of every chunk that is whole, in their order."""
+    content = written(tmp_path / "walk.mcap", walks.insoles().packets).read_bytes()
+    whole = [record for record in StreamReader(io.BytesIO(content)).records if isinstance(record, Message)]
+    ends, counts, at = [0], [0], len(MAGIC)
+    while at + 9 <= len(content) - len(MAGIC):  # opcode, length, and what they are of
+        opcode, size = struct.unpack_from("<BQ", content, at)
+        if opcode == Opcode.CHUNK:
+            chunk = StreamReader(io.BytesIO(MAGIC + content[at : at + 9 + size]), skip_magic=False)
+            ends.append(at + 9 + size)
+            counts.append(counts[-1] + messages_in(chunk))
+        at += 9 + size
+    assert len(ends) > 20 and counts[-1] == len(whole)
+    for number in (1, len(ends) // 2, len(ends) - 1):
+        for cut in (ends[number] - 1, ends[number], ends[number] + 5):
+            kept = []
+            with pytest.raises(Exception):  # noqa: B017 - whatever the library says of an end in the middle
+                for record in StreamReader(io.BytesIO(content[:cut])).records:
+                    if isinstance(record, Message):
+                        kept.append(record)
+            assert kept == whole[: counts[number if cut >= ends[number] else number - 1]]
+
+
+def messages_in(reader: StreamReader) -> int:
+    """Up to the end of what there is, which is no end of a file."""
+    count = 0
+    with suppress(EndOfFile):
+        for record in reader.records:
+            count += isinstance(record, Message)
+    return count
+
+
+ODD = [
+    Packet(-5.0, LEFT, "insole/frame", b""),
+    Packet(1e300, LEFT, "\ud800/x", b"\xff", "\udfff"),
+    Packet(0.5, Site.PELVIS, "", b"\x00"),
+    *[Packet(1.0 + k, LEFT, f"odd/{k}", b"") for k in range(1200)],
+]
+
+
+def test_whatever_a_recording_holds_can_be_exported(tmp_path):
+    path = tmp_path / "odd.mcap"
+    with McapWriter(path, {"began": "never", "\ud800": "\ud800"}) as writer:
+        for packet in ODD:
+            writer.write(packet)
+        with pytest.raises(ValueError, match="a packet at nan s cannot be recorded"):
+            writer.write(Packet(float("nan"), LEFT, "insole/frame", b""))
+    assert writer.count == len(ODD) and writer.outside > 0
+    found = messages(path)
+    assert sum(len(rows) for topic, rows in found.items() if "/packets" in topic) == len(ODD)
+    assert 1000 <= len(found) < 1010
+
+
+def test_what_cannot_be_written_is_one_clear_error(tmp_path):
+    with pytest.raises(RecordingError, match="none/walk.mcap: no such file or directory"):
+        McapWriter(tmp_path / "none" / "walk.mcap")
+    if not Path("/dev/full").is_char_device():
+        pytest.skip("no /dev/full on this system")
+    with pytest.raises(RecordingError, match=r"/dev/full: no space left on device; \d+ packets were taken"):
+        written(Path("/dev/full"), walks.insoles().packets)
+
+
+def test_import_solepath_does_not_load_mcap():
+    names = {"mcap", "solepath.recording.mcap", "solepath.recording.btsnoop"}
+    code = f"import sys, solepath; print({names} & set(sys.modules))"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "set()\n"
+
+
+def test_a_device_of_an_app_s_own_is_exported_with_its_samples_and_events(tmp_path) -> None:
+    def packets(first: int, last: int) -> list[Packet]:
+        fields = {"ticks": 0, "count": 1, "up": [9.80665]}
+        return [
+            Packet(1.0 + 0.01 * k, LEFT, "toy/data", NUMBERED.write("toy/data", {"number": k, **fields}))
+            for k in range(first, last)
+        ]
+
+    path = tmp_path / "own.mcap"
+    with McapWriter(path, profiles=iter([NUMBERED])) as writer:
+        for packet in [*packets(0, 50), *packets(53, 60)]:
+            writer.write(packet)
+    found = messages(path)
+    assert len(found["/left_foot/samples"]) == 57
+    assert "PacketsLost" in {content["event"] for _, _, content in found["/events"]}

@@ -1,0 +1,327 @@
+"""A walk as one file: what it says is what the session said, it needs nothing else, and it comes of anything."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from math import radians
+from pathlib import Path
+from random import Random
+
+import happenings
+import pytest
+from attrs import evolve
+from floors import LOW, OFFICE, Pedestrian, office
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from pages import Node, parsed, read
+from walks import insoles
+
+from solepath import Connected, LinkTrouble, PacketsLost, PlaceLost, Session, Site
+from solepath.body.gait.means import GaitMeans
+from solepath.body.place.particles import Particles
+from solepath.emulate.routes.building import BUILDING
+from solepath.emulate.routes.route import Route
+from solepath.events import Event, FootMoved, FootPressed, GaitCycleMeasured, LayoutKnown, StrideTaken, WearerMoved
+from solepath.floorplan.plan import Start
+from solepath.show.report import Report
+from solepath.show.report.page import text_of
+from solepath.show.tables.gait_rows import gait_rows
+from solepath.show.tables.table import number, percent
+from solepath.show.tally import Tally
+from solepath.types import Foot
+
+CORNER = Route().stand(1.5).walk(12.0, 1.3).turn(radians(90), radius=1.5).walk(3.0).stop(1.0)
+LEADS = {"src", "href", "action", "data", "poster", "srcset", "xlink:href", "background", "formaction", "ping", "style"}
+"""Attributes that fetch something or lead elsewhere."""
+NO_NUMBER = re.compile(r"\b(nan|inf)\b", re.IGNORECASE)
+
+
+@cache
+def walked() -> tuple[Event, ...]:
+    """All that a session with insoles says of a walk round a corner."""
+    session = Session(poses=True, pressures=True)
+    return (*session.feed(insoles(CORNER, cells=24).packets), *session.finish())
+
+
+def told(*events: Event, title: str = "a walk", **more: str) -> Report:
+    report = Report(title, recipe="default", version="1.0", **more)
+    for event in events:
+        report.add(event)
+    return report
+
+
+def shown(report: Report) -> Node:
+    return parsed(text_of(report.drawn()))
+
+
+def headings(page: Node) -> list[str]:
+    return [one.text for tag in ("h1", "h2") for one in page.all(tag)]
+
+
+def captions(page: Node) -> list[str]:
+    return [one.first("strong").text for one in page.all("figcaption")]
+
+
+# --- what it says -----------------------------------------------------------------------------------------------------
+
+
+def rows_of(page: Node) -> dict[str, list[str]]:
+    """The gait table: a row's name -> its cells."""
+    table = page.named("gait")
+    return {row.first("th").text: [cell.text for cell in row.all("td")] for row in table.all("tr")}
+
+
+def test_the_gait_table_has_the_numbers_of_the_session() -> None:
+    means = GaitMeans(memory=10**9)
+    for event in walked():
+        if isinstance(event, GaitCycleMeasured):
+            means.hear(event)
+    parameters = means.of(False)
+    assert parameters is not None
+    rows = rows_of(shown(told(*walked())))
+    for row in gait_rows(parameters):
+        spread = "" if row.sd is None else f" \N{PLUS-MINUS SIGN} {number(row.sd, row.digits)}"
+        both = f"{number(row.both, row.digits)}{spread}"
+        feet = [number(one, row.digits) for one in (row.left, row.right)]
+        assert rows[f"{row.label}, {row.unit}"] == [*feet, both, percent(row.cv), row.uneven]
+    assert rows["cadence, steps/min"][2] == number(parameters.cadence, 1)
+    assert len(rows) > 10
+
+
+def test_the_summary_says_how_long_how_far_and_what_was_done() -> None:
+    tally = Tally()
+    for event in walked():
+        tally.add(event)
+    page = shown(told(*walked(), when="on Monday"))
+    sentences = [one.text for one in page.first("ul").all("li")]
+    for foot in Foot:
+        one = tally.feet[foot]
+        assert f"The {foot.value} foot took {one.steps} strides over {one.distance:.1f} m." in sentences
+    assert any(one.startswith("Activities: standing ") and " walking " in one for one in sentences)
+    assert "Turns: 1 to the left." in sentences
+    samples = [event.t for event in walked() if isinstance(event, FootMoved)]
+    facts = page.named("facts").text
+    assert "on Monday" in facts and "default" in facts and "solepath 1.0" in facts
+    assert f"{min(samples):.1f} to {max(samples):.1f} s" in facts
+    assert "motion and pressure" in facts
+    assert "no diagnosis" in page.text
+
+
+def test_runs_and_walks_have_a_table_each() -> None:
+    strides = [event for event in walked() if isinstance(event, GaitCycleMeasured)]
+    later = [
+        evolve(one, t=one.t + 60.0, t_start=one.t_start + 60.0, t_toe_off=one.t_toe_off + 60.0, stance_time=0.3)
+        for one in strides
+    ]
+    told_of = [one.first("caption").text for one in shown(told(*strides, *later)).all("table")]
+    assert [one.partition(":")[0] for one in told_of if "steady" in one] == ["Walking", "Running"]
+
+
+def test_a_recording_whose_clock_began_long_ago_is_told_from_its_beginning() -> None:
+    moved = [evolve(event, t=event.t + 1.7e9) for event in walked() if isinstance(event, FootMoved)]
+    assert "time from the beginning, s" in shown(told(*moved)).text
+
+
+def test_what_was_wrong_is_said_in_words_and_in_the_table_of_links() -> None:
+    link = [
+        Connected(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, device="a", name="sole 7", signal=-50),
+        PacketsLost(t=3.0, known_at=3.0, site=Site.LEFT_FOOT, channel="insole/frame", count=11),
+        LinkTrouble(t=4.0, known_at=4.0, site=Site.LEFT_FOOT, what="the battery is nearly empty"),
+    ]
+    page = shown(told(*link, *walked()))
+    health = next(one for one in page.all("section") if one.attributes["aria-labelledby"] == "health")
+    assert "11" in health.text and "the battery is nearly empty" in health.text
+    assert "left foot (sole 7)" in page.named("facts").text
+    assert "Nothing was wrong" not in health.text
+    quiet = Report("quiet")
+    assert "Nothing was wrong" in shown(quiet).text
+
+
+@cache
+def heard_after(silence: float, back: float) -> tuple[Event, ...]:
+    """What a session with insoles says of a walk in whose middle nothing is heard for so long, s, and then of times so
+    much earlier."""
+    session = Session(poses=True, pressures=True)
+    events: list[Event] = []
+    now = 0.0
+    for packet in insoles(Route().stand(1.5).walk(12.0, 1.3).stop(1.0), cells=24).packets:
+        t = packet.t + 5000.0 + (silence - back if packet.t > 6.0 else 0.0)
+        if now and t - now > 1.0:
+            events += session.advance(t - 0.1)
+        now = t
+        events += session.feed(evolve(packet, t=t))
+    return (*events, *session.finish())
+
+
+@pytest.mark.parametrize(("silence", "back", "lasts"), [(60.0, 0.0, 72.0), (0.0, 1000.0, 12.0), (0.0, 0.0, 12.0)])
+def test_a_silence_and_a_clock_that_is_set_back_make_no_other_rate_and_no_longer_walk(
+    silence: float, back: float, lasts: float
+) -> None:
+    report = told(*heard_after(silence, back))
+    for one in report.links.sites.values():
+        assert one.rate == pytest.approx(100.0, abs=0.5)
+    found = re.search(r"The recording lasts (?:(\d+) min )?(\d+) s[.;]", shown(report).text)
+    assert found is not None
+    assert 60.0 * float(found[1] or 0) + float(found[2]) == pytest.approx(lasts, abs=2.0)
+
+
+def test_a_long_name_hides_nothing_else() -> None:
+    names = [
+        Connected(t=0.0, known_at=0.0, site=site, device="a", name=f"{site.value} {'W' * 240}", signal=None)
+        for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)
+    ]
+    facts = shown(told(*names, *walked())).named("facts").text
+    assert "left_foot WWW" in facts and "right_foot WWW" in facts and facts.count("motion and pressure") == 2
+
+
+# --- a file by itself -------------------------------------------------------------------------------------------------
+
+
+def test_the_file_leads_nowhere_and_runs_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "report.html"
+    report = told(*walked())
+    report.write(path)
+    text = path.read_text(encoding="utf-8")
+    assert text.startswith('<!DOCTYPE html>\n<html lang="en">')
+    page = read(path)
+    for one in page.all():
+        assert one.tag not in {"script", "link", "iframe", "object", "embed", "img", "image", "use", "a", "base"}
+        assert not LEADS & one.attributes.keys()
+        assert not any(name.startswith("on") for name in one.attributes)
+    assert not re.search(r"url\(|@import|https?:|//[a-z]", text)
+    assert page.first("meta").attributes == {"charset": "utf-8"}
+    assert len(text) < 200_000
+
+
+def test_names_from_outside_stay_text() -> None:
+    bad = '</title><script>alert("1")</script> & <b onload=x>\x00\ud800'
+    events = [
+        PlaceLost(t=1.0, known_at=1.0, what=bad),
+        LinkTrouble(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, what=bad),
+        Connected(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, device=bad, name=bad, signal=None),
+    ]
+    report = told(*events, title=bad, when=bad)
+    report.recipe = bad
+    report.plan = evolve(BUILDING, name=bad)
+    page = shown(report)
+    assert not page.all("script") and not page.all("b")
+    assert page.first("h1").text.startswith('</title><script>alert("1")</script> & <b onload=x>')
+    assert page.text.count("<script>") >= 5
+
+
+def test_a_file_that_cannot_be_written_is_named(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="report.html"):
+        Report("a walk").write(tmp_path / "no" / "report.html")
+
+
+def test_a_screen_reader_finds_its_way() -> None:
+    page = shown(told(*walked()))
+    assert page.first("html").attributes["lang"] == "en"
+    assert headings(page)[0] == "a walk"
+    assert {"Summary", "Gait", "Track", "Pressure", "Activities", "Sensors and links"} < set(headings(page))
+    ids = [one.attributes["id"] for one in page.all() if "id" in one.attributes]
+    assert len(ids) == len(set(ids))
+    named = [name for one in page.all() for name in one.attributes.get("aria-labelledby", "").split()]
+    assert set(named) <= set(ids)
+    for svg in page.all("svg"):
+        assert svg.attributes["role"] == "img"
+        assert svg.first("title").text and svg.first("desc").text
+    for table in page.all("table"):
+        assert table.first("caption").text
+        assert {one.attributes["scope"] for one in table.all("th")} == {"row", "col"}
+
+
+# --- whatever there is ------------------------------------------------------------------------------------------------
+
+
+def test_there_is_a_figure_for_what_there_is() -> None:
+    assert captions(shown(told(*walked()))) == [
+        "Mean gait cycle, walking",
+        "Stride length over time",
+        "Stride time over time",
+        "Speed over time",
+        "Track from above",
+        "Height of the feet over time",
+        "Mean load of a contact",
+        "Peak load of a contact",
+        "Mean force over a contact",
+        "Activities over time",
+    ]
+
+
+def test_there_is_a_sentence_for_what_there_is_not() -> None:
+    page = shown(Report("nothing"))
+    assert not page.all("svg") and not page.all("table")
+    for sentence in (
+        "Nothing was heard of either foot.",
+        "No stride was measured",
+        "There is no track",
+        "There is no pressure",
+        "No activity was told",
+    ):
+        assert sentence in page.text
+    planned = Report("nothing", BUILDING)
+    assert "Where on the floor plan the wearer was is not known." in shown(planned).text
+
+
+def test_one_foot_alone_has_its_own_report() -> None:
+    mine = [event for event in walked() if getattr(event, "foot", Foot.LEFT) is Foot.LEFT]
+    page = shown(told(*[event for event in mine if not isinstance(event, WearerMoved)]))
+    assert {"Mean gait cycle, walking", "Track from above", "Mean load of a contact"} <= set(captions(page))
+    assert all(cells[1] == "-" for name, cells in rows_of(page).items() if name != "parameter")
+
+
+def test_pressure_alone_has_times_and_no_track() -> None:
+    only = (GaitCycleMeasured, FootPressed, LayoutKnown)
+    lost = {"stride_length": None, "speed": None, "clearance": None, "turning_angle": None, "rise": None}
+    events = [
+        evolve(event, **lost) if isinstance(event, GaitCycleMeasured) else event
+        for event in walked()
+        if isinstance(event, only)
+    ]
+    page = shown(told(*events))
+    assert "Stride time over time" in captions(page) and "Stride length over time" not in captions(page)
+    assert "There is no track" in page.text and "how far is not known" in page.text
+    assert "stance, %" in rows_of(page)
+
+
+def test_on_a_floor_plan_the_track_is_drawn_on_it() -> None:
+    report, part, one = Report("indoors", office()), Particles(), Pedestrian(32, "0", (12.0, LOW))
+    one.walk((24.0, LOW))
+    part.set_out(Start("0", (12.0, LOW), -one.turned))
+    for told_of in one.told:
+        for event in part.follow(OFFICE, told_of.events, told_of.here):
+            report.add(event)
+    page = shown(report)
+    assert "Track on the floor plan" in captions(page)
+    assert page.named("plan").all("polyline")
+    assert "Levels where the wearer was not are left out." in page.text
+
+
+@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+@given(events=st.lists(happenings.events(), max_size=10), seed=st.integers(0, 999), count=st.integers(0, 60))
+def test_any_events_in_any_order_make_a_page_without_a_number_that_is_none(
+    events: list[Event], seed: int, count: int
+) -> None:
+    report = Report("any", BUILDING)
+    for event in [*events, *Random(seed).sample(walked(), count), *events]:
+        report.add(event)
+    for svg in shown(report).all("svg"):
+        for one in svg.all():
+            coordinates = {k: v for k, v in one.attributes.items() if k not in ("id", "class", "aria-labelledby")}
+            assert not any(NO_NUMBER.search(value) for value in coordinates.values())
+
+
+def test_memory_does_not_grow_with_the_time_walked() -> None:
+    mine = [event for event in walked() if getattr(event, "foot", Foot.LEFT) is Foot.LEFT]
+    kinds = (GaitCycleMeasured, StrideTaken, WearerMoved)
+    events = [event for kind in kinds for event in [one for one in mine if isinstance(one, kind)][-4:]]
+    report, sizes = told(*walked()), []
+    for k in range(1, 501):
+        for event in events:
+            report.add(evolve(event, t=event.t + 20.0 * k))
+        if k in (250, 500):
+            sizes.append(len(repr(report)))
+    assert report.strides[Foot.LEFT].count > 1500 and report.way.count > 2000
+    assert sizes[1] < 1.3 * sizes[0]

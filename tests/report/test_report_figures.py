@@ -1,0 +1,202 @@
+"""The report's drawings: what they show is where it belongs."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pages import parsed
+
+from solepath import ActivityChanged, FootPressed, GaitCycleMeasured
+from solepath.body.gait.means import Figure, GaitParameters, StrideFigures
+from solepath.emulate.routes.building import BUILDING
+from solepath.show.report.bounded import Thinned, coarser
+from solepath.show.report.clock import ReportClock, lasted
+from solepath.show.report.figures.axes import AxisScale, line, ticks, told
+from solepath.show.report.figures.cycle import contacts, neither, overlaps
+from solepath.show.report.figures.pressure import shade
+from solepath.show.report.soles import KEPT, STATIONS, ReportSole
+from solepath.show.tables.plan import PlanPicture
+from solepath.show.timeline import Timeline
+from solepath.types import Activity, Cell, Foot, Layout
+
+L, R = Foot.LEFT, Foot.RIGHT
+
+
+@given(st.floats(-1e9, 1e9), st.floats(1e-3, 1e9), st.integers(2, 10))
+def test_ticks_are_round_few_and_told_apart(low: float, span: float, most: int) -> None:
+    values = ticks(low, low + span, most)
+    assert 1 <= len(values) <= most
+    margin = 1e-6 * (span + abs(low))
+    assert all(low - margin <= value <= low + span + margin for value in values)
+    assert len(set(told(values))) == len(values)
+    steps = [b - a for a, b in zip(values, values[1:], strict=False)]
+    assert max(steps, default=0.0) - min(steps, default=0.0) <= 1e-3 * span + 1e-12 * abs(low)
+
+
+def test_a_scale_of_nothing_and_a_line_through_one_place_are_drawn_too() -> None:
+    assert AxisScale(3.0, 3.0, 10.0, 20.0).at(3.0) == 10.0
+    assert line([]) == ""
+    assert line([(1.0, 2.0), (1.0, 2.04)]) == "M1 2h0"
+    assert line([(1.0, 2.0), (3.0, 2.0)]) == "M1 2L3 2"
+
+
+@given(st.integers(0, 3000), st.integers(4, 100))
+def test_of_a_long_row_few_are_kept_evenly_with_the_first_and_the_last(count: int, most: int) -> None:
+    row: Thinned[tuple[int]] = Thinned(most)
+    for k in range(count):
+        row.add((k,))
+    kept = [k for (k,) in row]
+    assert len(row) <= most
+    assert row.count == count
+    if count:
+        assert kept[0] == 0 and kept[-1] == count - 1
+        assert len({b - a for a, b in zip(kept[:-1], kept[1:-1], strict=False)}) <= 1, "evenly"
+        assert len(kept) >= min(count, most // 2)
+
+
+def test_a_coarser_timeline_leaves_out_what_was_short() -> None:
+    timeline = Timeline()
+    for t, what in ((0.0, Activity.STANDING), (10.0, Activity.WALKING), (20.0, Activity.STANDING),
+                    (20.5, Activity.WALKING)):  # fmt: skip
+        timeline.add(ActivityChanged(t=t, known_at=t, activity=what, probability=None))
+    made = coarser(timeline, 40.0, 1.0)
+    assert made.spans(40.0) == [(0.0, 10.0, Activity.STANDING), (10.0, 40.0, Activity.WALKING)]
+
+
+def test_times_are_told_in_the_unit_that_suits_them() -> None:
+    assert ReportClock(0.0, 100.0).label == "time, s"
+    assert ReportClock(0.0, 900.0).of(120.0) == 2.0
+    assert ReportClock(1.7e9, 1.7e9 + 900.0).of(1.7e9 + 120.0) == 2.0
+    low, high = ReportClock(5.0, 5.0).span
+    assert low < high
+    assert [lasted(t) for t in (0.0, 59.6, 90.0, 3725.0)] == ["0.0 s", "1 min 0 s", "1 min 30 s", "1 h 2 min"]
+
+
+# --- the mean gait cycle ----------------------------------------------------------------------------------------------
+
+
+def figures(stance: float, phase: float | None) -> StrideFigures:
+    def one(value: float) -> Figure:
+        return Figure(value, None, 10)
+
+    return StrideFigures(one(1.0), one(stance), one(1.0 - stance), phase=None if phase is None else one(phase))
+
+
+def cycle(left: StrideFigures | None, right: StrideFigures | None, running: bool = False) -> GaitParameters:
+    feet = {foot: one for foot, one in ((L, left), (R, right)) if one is not None}
+    return GaitParameters(running, feet, StrideFigures(), None)
+
+
+def test_a_walker_stands_on_both_feet_twice_a_cycle() -> None:
+    known = contacts(cycle(figures(0.6, 0.5), figures(0.6, 0.5)))
+    assert known[L] == [(0.0, 0.6)]
+    assert known[R] == [(0.0, pytest.approx(0.1)), (0.5, 1.0)]
+    assert overlaps(known[L], known[R]) == [(0.0, pytest.approx(0.1)), (0.5, 0.6)]
+    assert neither(known[L], known[R]) == []
+
+
+def test_a_runner_flies_twice_a_cycle() -> None:
+    known = contacts(cycle(figures(0.35, 0.5), figures(0.35, None), True))
+    assert overlaps(known[L], known[R]) == []
+    assert neither(known[L], known[R]) == [(0.35, 0.5), (0.85, 1.0)]
+
+
+def test_a_foot_that_comes_down_nobody_knows_when_is_not_drawn_beside_the_other() -> None:
+    assert contacts(cycle(figures(0.6, None), figures(0.7, None))) == {L: [(0.0, 0.6)]}
+    assert contacts(cycle(None, figures(0.7, None))) == {R: [(0.0, 0.7)]}
+    only_right = contacts(cycle(figures(0.6, None), figures(0.6, 0.4)))
+    assert only_right[R][-1][0] == pytest.approx(0.6)
+
+
+# --- soles ------------------------------------------------------------------------------------------------------------
+
+
+def stride(start: float, off: float, end: float, **other: object) -> GaitCycleMeasured:
+    nothing = dict.fromkeys(
+        ("step_time", "initial_double_support", "terminal_double_support", "single_support", "phase", "stride_length",
+         "speed", "step_length", "step_width", "clearance", "toe_off_angle", "heel_strike_angle", "turning_angle",
+         "rise"))  # fmt: skip
+    known = {"foot": L, "number": 1, "t": end, "known_at": end, "t_start": start, "t_toe_off": off}
+    times = {"stride_time": end - start, "stance_time": off - start, "swing_time": end - off, "cadence": 110.0}
+    return GaitCycleMeasured(**(nothing | known | times | {"degraded": False, "steady": True} | other))  # type: ignore[arg-type]
+
+
+def pressed(sole: ReportSole, begin: float, heel: float) -> None:
+    """A second of samples at 100 Hz, the load going from heel to toe until 0.6 s."""
+    for k in range(100):
+        share = min(k / 60.0, 1.0)
+        load = heel if k <= 60 else 0.0
+        values = (load * (1.0 - share), load * share)
+        centre = (0.05 + 0.15 * share, 0.0) if load else None
+        t = begin + 0.01 * k
+        sole.press(FootPressed(t=t, known_at=t, foot=L, values=values, force=load, centre=centre))
+
+
+def walked() -> ReportSole:
+    sole = ReportSole(Layout(1, L, (Cell(0.05, 0.0), Cell(0.2, 0.0)), 0.25, 1.0))
+    for k in range(4):
+        pressed(sole, 1.0 * k, 100.0)
+        if k:
+            sole.stride(stride(1.0 * k, k + 0.6, k + 1.0))
+    return sole
+
+
+def test_loads_of_a_contact_are_means_and_peaks_of_each_cell_and_the_centre_goes_from_heel_to_toe() -> None:
+    sole = walked()
+    assert sole.contacts == 3 and sole.unit == "N" and sole.mapped()
+    assert [one / 3 for one in sole.means] == pytest.approx([50.0, 50.0], rel=0.02)
+    assert [one / 3 for one in sole.peaks] == pytest.approx([100.0, 100.0], rel=0.02)
+    assert [one / 3 for one in sole.forces] == pytest.approx([100.0] * STATIONS)
+    path = sole.mean_path
+    assert len(path) == STATIONS
+    assert path[0] == pytest.approx((0.05, 0.0), abs=0.004) and path[-1] == pytest.approx((0.2, 0.0), abs=0.004)
+    assert [x for x, _ in path] == sorted([x for x, _ in path])
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        {"degraded": True, "steady": False},
+        {"stance_time": 0.3},
+        {"t_toe_off": 0.4},
+        {"t_start": -9.0, "t_toe_off": -8.0},
+        {"t_start": -9.0},
+    ],
+)
+def test_a_contact_that_is_run_missing_or_too_long_does_not_count(other: dict[str, object]) -> None:
+    sole = walked()
+    sole.stride(stride(3.0, 3.6, 4.0, **other))
+    assert sole.contacts == 3
+
+
+def test_soles_keep_little_however_long_they_are_walked_on() -> None:
+    sole = ReportSole()
+    for k in range(30):
+        pressed(sole, 1.0 * k, 100.0)
+    assert len(sole.newest) <= KEPT
+    sole.press(FootPressed(t=99.0, known_at=99.0, foot=L, values=(1.0, 2.0, 3.0), force=6.0, centre=None))
+    assert sole.standing == [1.0, 2.0, 3.0] and sole.samples == 1, "another insole begins anew"
+
+
+def test_more_load_is_darker() -> None:
+    def light(colour: str) -> float:
+        r, g, b = (int(colour[i : i + 2], 16) for i in (1, 3, 5))
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b
+
+    lights = [light(shade(k / 20.0)) for k in range(21)]
+    assert lights == sorted(lights, reverse=True)
+
+
+def test_the_legend_of_a_narrow_plan_stays_within_the_picture() -> None:
+    svg = PlanPicture(BUILDING, width=380.0, columns=1).drawn("narrow")
+    width = float(svg.get("width", "0"))
+    assert width < 440.0
+    told_of = [one for one in svg.iter("text") if one.text in {"candidate", "stairs", "lift"}]
+    assert len(told_of) == 3
+    assert all(float(one.get("x", "0")) + 7.0 * len(one.text or "") < width for one in told_of)
+
+
+def test_the_reader_of_pages_refuses_what_is_not_closed() -> None:
+    with pytest.raises(AssertionError):
+        parsed("<p><b>no</p>")

@@ -1,0 +1,252 @@
+"""The packed form of a session: small, bit for bit, and refused when it is anything else.
+
+That a session packed at any moment is what it was is asked of all of them in test_contract_saved.py.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import deque
+from functools import cache
+from math import inf, nan
+from typing import Any
+
+import pytest
+from attrs import define, evolve, field
+from toys import NUMBERED
+from walks import LEFT, RIGHT, ROUGH, SHORT, machines, packets, samples
+
+from solepath import Calibration, Foot, Packet, Phase, Recipe, Session, Site, SnapshotError, recipes
+from solepath.calibration import InsoleCalibration, Limbs, Newtons, ShoeGeometry
+from solepath.emulate.routes.building import BUILDING
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.sensortags import CC2650
+from solepath.emulate.walk import emulate
+from solepath.foot.stance.stance import Load, ShoeDetector, Stance
+from solepath.types import Quat, Vec3, WalkingMode
+from solepath.types.vector import IDENTITY, ZERO
+
+
+def exact(session: Session) -> str:
+    """All that it remembers, in order, -0.0 and 0.0 told apart."""
+    return json.dumps(session.snapshot())
+
+
+@cache
+def packed(name: str = "session, whole frames") -> bytes:
+    """In the middle of a walk."""
+    machine = machines()[name]
+    session = machine.begin()
+    session.feed(machine.items[: len(machine.items) // 2])
+    return bytes(session.pack())
+
+
+# --- what it holds ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "device", [Insole(cells=48), Insole(cells=96), CC2650()], ids=["48 cells", "96 cells", "SensorTags"]
+)
+def test_the_state_of_two_devices_is_below_20_kB_at_any_moment_of_a_walk(device: Any) -> None:
+    session, largest = Session(), 0
+    for i, packet in enumerate(emulate(SHORT, devices={LEFT: device, RIGHT: evolve(device)}, radio=ROUGH).packets):
+        session.feed(packet)
+        if i % 40 == 0:
+            largest = max(largest, len(session.pack()))
+    assert 5000 < largest < 20_000
+
+
+def test_a_walk_that_is_packed_and_unpacked_again_and_again_says_the_same() -> None:
+    straight, broken = Session(poses=True), Session(poses=True)
+    for i, packet in enumerate(packets()["cc2650"]):
+        broken = Session.unpack(broken.pack()) if i % 4 == 0 else broken
+        assert repr(broken.feed(packet)) == repr(straight.feed(packet))
+    assert broken.finish() == straight.finish()
+
+
+def test_equal_sessions_are_packed_alike_and_packing_changes_nothing() -> None:
+    machine = machines()["session, samples with pressure"]
+    one, other = machine.begin(), machine.begin()
+    for i, item in enumerate(machine.items[:300]):
+        if i % 20 == 0:
+            one.pack()
+        assert one.feed(item) == other.feed(item)
+    assert one.pack() == other.pack() == one.pack() == machine.repacked(one).pack()
+
+
+def test_what_was_unpacked_twice_shares_nothing_that_changes() -> None:
+    machine = machines()["session, particles"]
+    session = machine.begin()
+    session.feed(machine.items[:400])
+    saved = session.pack()
+    one, other = (Session.unpack(saved, session.recipe, floorplan=session._plan) for _ in range(2))
+    events = session.feed(machine.items[400:])
+    assert one.feed(machine.items[400:]) == other.feed(machine.items[400:]) == events
+    assert Session.unpack(saved, session.recipe, floorplan=session._plan).pack() == saved
+
+
+KNOWN = Calibration(
+    insoles={
+        Foot.LEFT: InsoleCalibration(layout(24, Foot.LEFT), noise=tuple(0.1 * k for k in range(24))),
+        Foot.RIGHT: InsoleCalibration(newtons=Newtons((0.0, 1.7, 1e-4, 0.0), 2.0, 100.0)),
+    },
+    shoe=ShoeGeometry(),
+    drift={Foot.RIGHT: (0.01, -0.02)},
+    limbs=Limbs(),
+    weight=700.0,
+    modes={Foot.LEFT: {WalkingMode.STRAIGHT: (0.01, 0.02)}},
+    toe_out={Foot.LEFT: 0.1},
+)
+
+
+@pytest.mark.parametrize("recipe", [*recipes.BY_NAME.values()], ids=[*recipes.BY_NAME])
+def test_a_calibrated_session_of_every_recipe_goes_on_with_what_was_known(recipe: Recipe) -> None:
+    session = Session(recipe, calibration=KNOWN, pressures=True)
+    walked = packets()["few frames"]
+    session.feed(walked[:150])
+    again = Session.unpack(session.pack(), recipe)
+    assert exact(again) == exact(session) and again._state == session._state
+    assert again.feed(walked[150:250]) == session.feed(walked[150:250])
+    assert exact(again) == exact(session)
+
+
+def test_a_session_with_a_driver_of_the_apps_own_is_unpacked_with_it_and_not_without() -> None:
+    session = Session(poses=True, profiles=[NUMBERED])
+    fields: dict[str, Any] = {"ticks": 0, "count": 1, "up": [9.80665]}
+    for k in range(100):
+        data = NUMBERED.write("toy/data", {"number": k, **fields})
+        session.feed(Packet(1.0 + 0.01 * k, Site.LEFT_FOOT, "toy/data", data))
+    again = Session.unpack(session.pack(), profiles=[NUMBERED])
+    assert exact(again) == exact(session)
+    assert again.advance(9.0) == session.advance(9.0) != []
+    with pytest.raises(SnapshotError, match="toy"):
+        Session.unpack(session.pack())
+    with pytest.raises(SnapshotError, match=r"toy.*another driver"):
+        Session.unpack(session.pack(), profiles=[evolve(NUMBERED, acc_range=8.0)])
+
+
+# --- what must be given again -----------------------------------------------------------------------------------------
+
+
+def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
+    with pytest.raises(SnapshotError, match="packed with the recipe 'default', and this is 'kupt'"):
+        Session.unpack(packed(), recipes.KUPT)
+    for other, what in (
+        (evolve(recipes.DEFAULT, detector=ShoeDetector()), "packed with Cycle, and this recipe has Shoe"),
+        (evolve(recipes.DEFAULT, body=recipes.KUPT_DFPC.body), "packed with BothFeet, and this recipe has DoubleFoot"),
+        (evolve(recipes.DEFAULT, altitude=None), "that this recipe does not have"),
+        (OWN, "packed with the recipe 'default', and this is 'usual'"),
+        (evolve(OWN, name="default"), "packed with Cycle, and this recipe has Usual"),
+    ):
+        with pytest.raises(SnapshotError, match=what):
+            Session.unpack(packed(), other)
+    with pytest.raises(TypeError, match="must be a Recipe, not str"):
+        Session.unpack(packed(), "default")  # type: ignore[arg-type]
+    bare = evolve(recipes.DEFAULT, altitude=None)
+    session = Session(bare)
+    session.feed(packets()["cc2650"][:50])
+    assert exact(Session.unpack(session.pack(), bare)) == exact(session)
+    with pytest.raises(SnapshotError, match="or without one that it has"):
+        Session.unpack(session.pack())
+
+
+def test_the_floor_plan_that_it_had_must_be_given_again() -> None:
+    saved = packed("session, particles")
+    with pytest.raises(SnapshotError, match="with the floor plan that it had"):
+        Session.unpack(saved)
+    assert Session.unpack(saved, floorplan=BUILDING).place is not None
+    with pytest.raises(SnapshotError, match="without a floor plan"):
+        Session.unpack(packed(), floorplan=BUILDING)
+
+
+# --- detectors of an app's own ----------------------------------------------------------------------------------------
+
+
+@define
+class Rates:
+    """What was usual lately."""
+
+    mean: float = 0.0
+    lately: deque[float] = field(factory=lambda: deque(maxlen=8))
+    by_kind: dict[str, list[tuple[int, bool]]] = field(factory=dict)
+    large: int = 2**80
+
+
+@define
+class Usual:
+    """A foot that turns slowly. Its state is in fields of every kind, some of which its constructor takes."""
+
+    limit: float = 0.8
+    told: str = "né"
+    rates: Rates = field(factory=Rates)
+    raw: bytes = field(default=b"", init=False)
+    load: Load | None = field(default=None, init=False)
+    inner: ShoeDetector | Rates | None = field(factory=ShoeDetector, init=False)
+    phase: Phase | None = field(default=None, init=False)
+
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
+        rate = sum([w * w for w in gyro]) ** 0.5
+        self.rates.lately.append(rate)
+        self.rates.by_kind.setdefault("all", [(-1, True)])[0] = (int(t * 1e6), rate > 1.0)
+        self.rates.large += 1
+        self.raw, self.load, self.limit = bytes([int(t) % 256]), load, self.limit + 0.0
+        self.phase = None if rate > self.limit else Phase.STATIONARY
+        return Stance(ZERO, inf if self.phase is None else 0.01, rate, self.phase)
+
+
+OWN = evolve(recipes.DEFAULT, name="usual", detector=Usual())
+
+
+@define
+class Seen:
+    seen: float = 0.0
+
+
+Other = define(type("Usual", (), {"__annotations__": {"limit": "float"}, "limit": 0.8, "update": Usual.update}))
+
+
+def test_a_detector_of_the_apps_own_is_packed_whole_and_goes_on() -> None:
+    walked = samples()
+    session = Session(OWN, poses=True)
+    session.feed(walked[:700])
+    again = Session.unpack(session.pack(), OWN, parts=[Seen, Usual])
+    assert exact(again) == exact(session) and again._state == session._state
+    detector = again.feet[Foot.LEFT].detector
+    assert isinstance(detector, Usual) and detector.rates.lately.maxlen == 8 and detector.rates.large > 2**80
+    assert again.feed(walked[700:]) == session.feed(walked[700:])
+    assert exact(again) == exact(session)
+
+
+def test_a_detector_that_has_other_fields_now_is_named() -> None:
+    session = Session(OWN)
+    session.feed(samples()[:50])
+    with pytest.raises(SnapshotError, match="'Usual' that had other fields"):
+        Session.unpack(session.pack(), evolve(OWN, detector=Other()))
+    with pytest.raises(ValueError, match="one name"):
+        Session.unpack(session.pack(), OWN, parts=[Other])
+    with pytest.raises(TypeError, match="attrs class"):
+        Session.unpack(session.pack(), OWN, parts=[int])
+
+
+def test_what_cannot_be_packed_says_so_when_it_is_to_be_packed() -> None:
+    class Bare:
+        update = Usual.update
+
+    Ours = define(type("Shoe", (), {"__annotations__": {}, "update": Usual.update}))
+    for detector, what in ((Bare(), "no attrs class"), (Ours(), "give it another name")):
+        session = Session(evolve(recipes.DEFAULT, detector=detector))
+        session.feed(samples(cells=0)[:0])
+        session._state.wearer._keep(session._state.wearer._tracker(Foot.LEFT))
+        with pytest.raises(TypeError, match=what):
+            session.pack()
+    for value in (inf, nan, 10**400):
+        session = Session(OWN)
+        session.feed(samples(cells=0)[:50])
+        detector = session.feet[Foot.LEFT].detector
+        assert isinstance(detector, Usual)
+        detector.rates.mean = value
+        with pytest.raises(SnapshotError):
+            session.pack()

@@ -1,0 +1,204 @@
+"""What packed bytes may be: numbers to the bit, and for anything else SnapshotError, whatever it is."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import pytest
+from attrs import define
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from signed import signed
+from walks import machines
+
+from solepath import Foot, Session, SnapshotError
+from solepath.saving.form import HEADER
+from solepath.saving.reading import readers
+from solepath.saving.records import own_classes, own_shape, shape
+from solepath.saving.shape import shape_of
+from solepath.saving.streams import from_bytes, to_bytes
+from solepath.saving.tree import Streams, from_tree, to_tree
+
+FEW = settings(max_examples=40, deadline=None)
+
+
+@cache
+def packed() -> bytes:
+    """In the middle of a walk."""
+    machine = machines()["session, whole frames"]
+    session = machine.begin()
+    session.feed(machine.items[: len(machine.items) // 2])
+    return bytes(session.pack())
+
+
+# --- damaged and foreign ----------------------------------------------------------------------------------------------
+
+
+def refused_or_sound(data: bytes) -> None:
+    """SnapshotError, or a session that can be packed again."""
+    try:
+        session = Session.unpack(data)
+    except SnapshotError:
+        return
+    session.pack()
+
+
+@given(st.binary(max_size=400), st.booleans())
+@FEW
+def test_any_bytes_are_refused(data: bytes, with_header: bool) -> None:
+    with pytest.raises(SnapshotError):
+        Session.unpack(data)
+    if with_header:
+        refused_or_sound(signed(packed()[: HEADER.size] + data))
+
+
+@pytest.mark.parametrize("data", [None, 5, "sole", [], {}, b"", b"sole", bytearray(b"sole"), memoryview(b"x" * 99)])
+def test_what_are_no_packed_bytes_is_refused(data: Any) -> None:
+    with pytest.raises(SnapshotError, match="not a packed session"):
+        Session.unpack(data)
+
+
+def test_any_kind_of_bytes_is_read() -> None:
+    for kind in (bytes, bytearray, memoryview):
+        assert Session.unpack(kind(packed())).pack() == packed()
+
+
+@given(st.data())
+@FEW
+def test_every_flipped_bit_is_noticed(data: st.DataObject) -> None:
+    saved = bytearray(packed())
+    at = data.draw(st.integers(0, len(saved) - 1))
+    saved[at] ^= 1 << data.draw(st.integers(0, 7))
+    with pytest.raises(SnapshotError):
+        Session.unpack(bytes(saved))
+
+
+@given(st.data(), st.integers(1, 40), st.sampled_from(["flip", "cut", "insert", "zero", "fill"]))
+@settings(max_examples=150, deadline=None)
+def test_damage_behind_a_right_checksum_never_does_worse_than_be_refused(
+    data: st.DataObject, length: int, how: str
+) -> None:
+    saved = packed()
+    at = HEADER.size + data.draw(st.one_of(st.integers(0, 40), st.integers(0, len(saved) - HEADER.size - 1)))
+    inside = {
+        "flip": bytes([saved[at] ^ (1 << length % 8)]) + saved[at + 1 : at + length],
+        "cut": b"",
+        "insert": bytes(length) + saved[at : at + length],
+        "zero": bytes(length),
+        "fill": b"\xff" * length,
+    }[how]
+    refused_or_sound(signed(saved[:at] + inside + saved[at + length :]))
+
+
+@pytest.mark.parametrize("counts", [(2**32 - 1,) * 4, (2**31, 0, 0, 0), (0, 2**31, 0, 0), (0, 0, 2**31, 0), (0,) * 4])
+def test_counts_of_what_is_not_there_take_no_memory(counts: tuple[int, ...]) -> None:
+    body = b"".join([count.to_bytes(4, "little") for count in counts]) + bytes(16)
+    with pytest.raises(SnapshotError):
+        Session.unpack(signed(packed()[: HEADER.size] + body))
+
+
+def test_other_versions_forms_and_shapes_are_refused_by_name() -> None:
+    saved = packed()
+    magic, form, version, made_with, check = HEADER.unpack_from(saved)
+    body = saved[HEADER.size :]
+    for header, what in (
+        ((form, 0, made_with), "version 0"),
+        ((form, 9999, made_with), "version 9999"),
+        ((form + 1, version, made_with), "form 2"),
+        ((form, version, made_with ^ 1), "its shape is another"),
+        ((form, 1, made_with), "its shape is another"),
+    ):
+        with pytest.raises(SnapshotError, match=what):
+            Session.unpack(signed(HEADER.pack(magic, *header, check) + body))
+
+
+def test_what_is_left_over_in_any_of_the_streams_is_refused() -> None:
+    floats, ints, flags, data = from_bytes(memoryview(packed())[HEADER.size :])
+    for more in ([[], [], [], []], [[0.5], [], [], []], [[], [0], [], []], [[], [], [False], []], [[], [], [], [b"x"]]):
+        streams: Any = [floats + more[0], ints + more[1], flags + more[2], [data, *more[3]]]
+        saved = signed(packed()[: HEADER.size] + to_bytes(*streams, (0.0, 0.0)))
+        if any(more):
+            with pytest.raises(SnapshotError, match="more is packed than a session holds"):
+                Session.unpack(saved)
+        else:
+            assert Session.unpack(saved).pack() == packed()
+
+
+def test_a_word_before_the_first_is_none() -> None:
+    """Python would count from the end."""
+    read = readers(shape_of(Worded), own_shape)["Worded"]
+    for k, what in ((0, Foot.LEFT), (1, Foot.RIGHT), (-1, None), (-2, None), (2, None)):
+        streams = Streams([], [k], [], b"")
+        arguments = streams.f, streams.n, streams.m, streams.b, streams.floats, {}
+        if what is not None:
+            assert read(None, *arguments) == Worded(what)
+        else:
+            with pytest.raises((SnapshotError, IndexError)):
+                read(None, *arguments)
+
+
+@define
+class Worded:
+    """A record of one word."""
+
+    foot: Foot
+
+
+# --- numbers and trees ------------------------------------------------------------------------------------------------
+
+_FLOATS = st.one_of(
+    st.floats(allow_nan=False, allow_infinity=False),
+    st.floats(allow_nan=False, allow_infinity=False, width=32),
+    st.integers(-40_000, 40_000).map(float),
+    st.integers(-40_000, 40_000).map(lambda k: k / 1e4),
+    st.integers(-5000, 5000).map(lambda k: k * 0.05000000074505806),
+    st.sampled_from([0.0, -0.0, 5e-324, 1.7976931348623157e308, 3.4028235677973366e38, 2.0**53]),
+)
+
+
+@given(
+    st.lists(_FLOATS),
+    st.lists(st.one_of(st.integers(), st.integers(-300, 300), st.integers(-(2**70), 2**70))),
+    st.lists(st.booleans()),
+    st.lists(st.binary()),
+    st.tuples(_FLOATS, st.sampled_from([0.0, 1.0, 0.05000000074505806])),
+)
+@example([1.5, 1.5, 0.1, 0.1, 0.1, -0.0, 0.1], [-(2**63), 2**63, 2**53, -(2**53)], [], [], (0.0, 0.0))
+@example([], [2**53 - 1, 2**53 + 1, -(2**53) - 1], [], [], (0.0, 0.0))
+@settings(max_examples=100, deadline=None)
+def test_every_number_comes_back_to_the_bit(
+    floats: list[float], ints: list[int], flags: list[bool], data: list[bytes], units: tuple[float, float]
+) -> None:
+    found = from_bytes(memoryview(to_bytes(floats, ints, flags, data, units)))
+    assert repr(found) == repr((floats, ints, flags, b"".join(data)))
+
+
+@pytest.mark.parametrize("name", ["session, whole frames", "session, footstep-tracker", "session, kupt-dfpc"])
+def test_a_packed_state_is_read_by_its_shape_into_the_tree_that_a_snapshot_has(name: str) -> None:
+    machine = machines()[name]
+    session = machine.begin()
+    session.feed(machine.items[: len(machine.items) // 2])
+
+    def streams() -> Streams:
+        return Streams(*from_bytes(memoryview(session.pack())[HEADER.size :]))
+
+    def own(what: str) -> Any:
+        return own_shape(what, own_classes(None, ()))
+
+    read = streams()
+    tree: Any = to_tree(shape(), read, own)
+    read.end()
+    assert less(tree["state"], session.snapshot()["state"]) == tree["state"]
+    floats, ints, flags, data = from_tree(shape(), tree, own)
+    read = streams()
+    assert ([*read.floats], [*read.ints], [*read.flags], read.data) == (floats, ints, flags, b"".join(data))
+
+
+def less(part: Any, whole: Any) -> Any:
+    """Of the whole what is in the part."""
+    if isinstance(part, dict):
+        return {key: less(value, whole[key]) for key, value in part.items()}
+    if isinstance(part, list):
+        return [less(a, b) for a, b in zip(part, whole, strict=True)]
+    return whole

@@ -1,0 +1,317 @@
+"""What holds on the wire for all bytes and for all records."""
+
+from __future__ import annotations
+
+import json
+from binascii import crc_hqx
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import pytest
+from here import PROTOCOL
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from solepath.link.devices import DECLARED
+from solepath.types import Cell, Foot
+from solepath.wire import cc2541, cc2650, cells, device, fragment, insole, insole_control, insole_info, period, receiver
+from solepath.wire.envelope import MAGIC
+from solepath.wire.error import WireError
+from solepath.wire.fields import build_whole, parse_whole
+
+UNHURRIED = settings(deadline=None)
+"""A busy machine is no reason to fail."""
+
+VECTORS = PROTOCOL / "vectors"
+
+CODECS: dict[str, tuple[Callable[[bytes], Any], Callable[[Any], bytes]]] = {
+    "insole-frame": (insole.parse_frame, insole.build_frame),
+    "insole-fragment": (fragment.parse_fragment, fragment.build_fragment),
+    "insole-info": (insole_info.parse_info, insole_info.build_info),
+    "insole-control": (insole_control.parse_control, insole_control.build_control),
+    "cc2650-movement": (cc2650.parse_movement, cc2650.build_movement),
+    "cc2650-movement-config": (cc2650.parse_movement_config, cc2650.build_movement_config),
+    "cc2650-barometer": (cc2650.parse_barometer, cc2650.build_barometer),
+    "cc2650-barometer-config": (cc2650.parse_barometer_config, cc2650.build_barometer_config),
+    "cc2650-keys": (cc2650.parse_keys, cc2650.build_keys),
+    "cc2541-accelerometer": (cc2541.parse_accelerometer, cc2541.build_accelerometer),
+    "cc2541-accelerometer-config": (cc2541.parse_accelerometer_config, cc2541.build_accelerometer_config),
+    "cc2541-gyroscope": (cc2541.parse_gyroscope, cc2541.build_gyroscope),
+    "cc2541-gyroscope-config": (cc2541.parse_gyroscope_config, cc2541.build_gyroscope_config),
+    "cc2541-magnetometer": (cc2541.parse_magnetometer, cc2541.build_magnetometer),
+    "cc2541-magnetometer-config": (cc2541.parse_magnetometer_config, cc2541.build_magnetometer_config),
+    "cc2541-barometer": (cc2541.parse_barometer, cc2541.build_barometer),
+    "cc2541-barometer-config": (cc2541.parse_barometer_config, cc2541.build_barometer_config),
+    "cc2541-barometer-calibration": (cc2541.parse_barometer_calibration, cc2541.build_barometer_calibration),
+    "cc2541-keys": (cc2541.parse_keys, cc2541.build_keys),
+    "device-battery": (device.parse_battery, device.build_battery),
+    "device-firmware": (device.parse_firmware, device.build_firmware),
+    "receiver-connected": (receiver.parse_connected, receiver.build_connected),
+    "receiver-dropped": (receiver.parse_dropped, receiver.build_dropped),
+    "receiver-trouble": (receiver.parse_words, receiver.build_words),
+    "sensortag-period": (period.parse_period, period.build_period),
+}
+CODECS |= {
+    channel.replace("/", "-"): (partial(parse_whole, one), partial(build_whole, one))
+    for driver in DECLARED
+    for channel, one in driver.formats.items()
+}
+
+
+def packets_of(name: str) -> list[bytes]:
+    file = json.loads((VECTORS / f"{name}.json").read_text("utf-8"))
+    return [bytes.fromhex(vector["hex"]) for vector in file["vectors"]]
+
+
+SEEDS = {name: packets_of(name) for name in CODECS}
+
+
+@st.composite
+def damaged(draw: st.DrawFn, seeds: list[bytes], resealed: bool) -> bytes:
+    """A packet with some bytes changed, cut or lengthened; `resealed` gives it the CRC that fits the damage."""
+    data = bytearray(draw(st.sampled_from(seeds)))
+    for position, value in draw(st.lists(st.tuples(st.integers(0, 599), st.integers(0, 255)), max_size=4)):
+        if position < len(data):
+            data[position] = value
+    end = draw(st.sampled_from(["as it is", "cut", "lengthened"]))
+    if end == "cut":
+        del data[draw(st.integers(0, len(data))) :]
+    elif end == "lengthened":
+        data += draw(st.binary(max_size=20))
+    if resealed and len(data) >= 2:
+        data[-2:] = crc_hqx(bytes(data[:-2]), 0xFFFF).to_bytes(2, "little")
+    return bytes(data)
+
+
+def read(name: str, data: bytes) -> None:
+    """`data` is a record that is written as the same bytes, or a WireError; nothing else may come of it."""
+    parse, build = CODECS[name]
+    try:
+        record = parse(data)
+    except WireError:
+        return
+    assert build(record) == data
+
+
+@pytest.mark.parametrize("name", CODECS)
+@UNHURRIED
+@given(data=st.binary(max_size=600))
+def test_any_bytes_are_a_record_or_a_wire_error(name: str, data: bytes) -> None:
+    read(name, data)
+
+
+@pytest.mark.parametrize("name", CODECS)
+@settings(UNHURRIED, max_examples=40)
+@given(data=st.data())
+def test_any_damaged_packet_is_a_record_or_a_wire_error(name: str, data: st.DataObject) -> None:
+    read(name, data.draw(damaged(SEEDS[name], resealed=False)))
+
+
+@pytest.mark.parametrize("name", ["insole-frame", "insole-info"])
+@UNHURRIED
+@given(data=st.data())
+def test_damage_under_a_right_crc_is_a_record_or_a_wire_error(name: str, data: st.DataObject) -> None:
+    read(name, data.draw(damaged(SEEDS[name], resealed=True)))
+
+
+@pytest.mark.parametrize("name", CODECS)
+def test_bytes_in_any_kind_of_buffer_are_read_alike(name: str) -> None:
+    parse, _ = CODECS[name]
+    valid = [d for d in SEEDS[name] if not _rejected(parse, d)]
+    assert valid
+    for data in valid:
+        assert parse(bytearray(data)) == parse(data) == parse(memoryview(data))  # type: ignore[arg-type]
+
+
+def _rejected(parse: Callable[[bytes], Any], data: bytes) -> bool:
+    try:
+        parse(data)
+    except WireError:
+        return True
+    return False
+
+
+I8, I16 = st.integers(-128, 127), st.integers(-32768, 32767)
+U8, U16, U32 = st.integers(0, 255), st.integers(0, 2**16 - 1), st.integers(0, 2**32 - 1)
+BITS = st.tuples(st.booleans(), st.booleans(), st.booleans())
+FOOT = st.sampled_from(Foot)
+
+
+@st.composite
+def frames(draw: st.DrawFn) -> insole.InsoleFrame:
+    count, imu, quat = draw(st.integers(0, 128)), draw(st.booleans()), draw(st.booleans())
+    size = cells.packed_size(count) + 12 * imu + 8 * quat
+    assume(size > 0)
+    sample = st.builds(
+        insole.InsoleSample,
+        cells=st.lists(st.integers(0, 4095), min_size=count, max_size=count).map(tuple),
+        imu=st.tuples(*[I16] * 6) if imu else st.none(),
+        quat=st.tuples(*[I16] * 4) if quat else st.none(),
+    )
+    most = min(255, (512 - 16) // size)
+    samples = draw(st.lists(sample, min_size=1, max_size=min(most, 4)))
+    if draw(st.booleans()):
+        samples = (samples * most)[:most]
+    return insole.InsoleFrame(
+        draw(FOOT),
+        draw(U8),
+        draw(U16),
+        draw(U32),
+        draw(st.integers(1, 65535)),
+        tuple(samples),
+        draw(st.booleans()),
+        draw(st.booleans()),
+    )
+
+
+@UNHURRIED
+@given(frames())
+def test_every_frame_is_read_as_it_was_written(frame: insole.InsoleFrame) -> None:
+    assert insole.parse_frame(insole.build_frame(frame)) == frame
+
+
+@UNHURRIED
+@given(frames(), st.integers(2, 600), st.integers(0, 6))
+def test_every_frame_that_is_cut_can_be_joined(frame: insole.InsoleFrame, payload: int, frame_id: int) -> None:
+    data = insole.build_frame(frame)
+    assume(len(data) <= 16 * (payload - 1))
+    notifications = fragment.split(data, payload, frame_id)
+    assert all(0 < len(n) <= payload for n in notifications)
+    if notifications != [data]:
+        pieces = [fragment.parse_fragment(n) for n in notifications]
+        assert [p.index for p in pieces] == list(range(len(pieces)))
+        assert [p.last for p in pieces] == [False] * (len(pieces) - 1) + [True]
+        assert {p.frame_id for p in pieces} == {frame_id}
+        data = b"".join(p.body for p in pieces)
+    assert insole.parse_frame(data) == frame
+
+
+@UNHURRIED
+@given(frames(), st.integers(0, 10_000), st.integers(1, 255))
+def test_no_frame_survives_a_changed_byte(frame: insole.InsoleFrame, position: int, change: int) -> None:
+    data = bytearray(insole.build_frame(frame))
+    data[position % len(data)] ^= change
+    with pytest.raises(WireError):
+        insole.parse_frame(bytes(data))
+
+
+@UNHURRIED
+@given(frames(), st.integers(0, 10_000))
+def test_no_frame_is_read_from_a_part_of_it(frame: insole.InsoleFrame, length: int) -> None:
+    data = insole.build_frame(frame)
+    with pytest.raises(WireError, match="truncated"):
+        insole.parse_frame(data[: length % len(data)])
+
+
+SCALE = st.floats(0, 2.0**100, width=32)
+CELL = st.builds(
+    Cell,
+    st.integers(0, 4095).map(lambda n: n / 10_000),
+    st.integers(-2048, 2047).map(lambda n: n / 10_000),
+    st.sampled_from([0, 1, 625, 65535]).map(lambda n: n / 10_000_000),
+)
+INFOS = st.builds(
+    insole_info.InsoleInfo,
+    foot=FOOT,
+    layout=U8,
+    serial=U32,
+    tick_rate=st.integers(1, 2**32 - 1),
+    interval=st.integers(1, 65535),
+    acc_scale=SCALE,
+    gyro_scale=SCALE,
+    pressure_scale=SCALE,
+    length=U16.map(lambda n: n / 10_000),
+    cells=st.lists(CELL, max_size=60).map(tuple),
+    firmware=st.text(st.characters(codec="utf-8"), max_size=20),
+)
+
+
+@UNHURRIED
+@given(INFOS)
+def test_every_info_is_read_as_it_was_written(info: insole_info.InsoleInfo) -> None:
+    assert insole_info.parse_info(insole_info.build_info(info)) == info
+
+
+OTHERS = {
+    "insole-fragment": st.builds(
+        fragment.Fragment,
+        st.integers(0, 6),
+        st.booleans(),
+        st.integers(0, 15),
+        st.binary(min_size=1, max_size=511),
+    ),
+    "insole-control": st.one_of(
+        st.builds(insole_control.StartSampling),
+        st.builds(insole_control.StopSampling),
+        st.builds(insole_control.SetInterval, st.integers(1, 65535)),
+        st.builds(insole_control.Resend, U16, st.integers(1, 255)),
+    ),
+    "cc2650-movement": st.builds(cc2650.Movement, *[st.tuples(I16, I16, I16)] * 3),
+    "cc2650-movement-config": st.builds(
+        cc2650.MovementConfig, BITS, BITS, st.booleans(), st.booleans(), st.sampled_from([2, 4, 8, 16])
+    ),
+    "cc2650-barometer": st.builds(
+        cc2650.Cc2650Barometer,
+        st.integers(-(2**23), 2**23 - 1).map(lambda n: n / 100),
+        st.integers(0, 2**24 - 1).map(float),
+    ),
+    "cc2650-barometer-config": st.builds(cc2650.Cc2650BarometerConfig, st.booleans()),
+    "cc2650-keys": st.builds(cc2650.Cc2650Keys, st.booleans(), st.booleans(), st.booleans()),
+    "cc2541-accelerometer": st.builds(cc2541.Accelerometer, st.tuples(I8, I8, I8)),
+    "cc2541-accelerometer-config": st.builds(cc2541.AccelerometerConfig, st.integers(0, 3)),
+    "cc2541-gyroscope": st.builds(cc2541.Gyroscope, st.tuples(I16, I16, I16)),
+    "cc2541-gyroscope-config": st.builds(cc2541.GyroscopeConfig, BITS),
+    "cc2541-magnetometer": st.builds(cc2541.Magnetometer, st.tuples(I16, I16, I16)),
+    "cc2541-magnetometer-config": st.builds(cc2541.MagnetometerConfig, st.booleans()),
+    "cc2541-barometer": st.builds(cc2541.Cc2541Barometer, I16, U16),
+    "cc2541-barometer-config": st.builds(cc2541.Cc2541BarometerConfig, st.integers(0, 2)),
+    "cc2541-barometer-calibration": st.builds(cc2541.BarometerCalibration, *[U16] * 4, *[I16] * 4),
+    "cc2541-keys": st.builds(cc2541.Cc2541Keys, st.booleans(), st.booleans(), st.booleans()),
+    "device-battery": st.integers(0, 100),
+    "device-firmware": st.text(st.characters(codec="utf-8"), min_size=1, max_size=100),
+    "receiver-connected": st.builds(
+        receiver.ConnectionFrame,
+        st.text(st.characters(codec="utf-8"), max_size=62),
+        st.none() | st.integers(-128, 126),
+    ),
+    "receiver-dropped": st.integers(1, 2**32 - 1),
+    "receiver-trouble": st.text(st.characters(codec="utf-8"), min_size=1, max_size=100),
+    "sensortag-period": st.integers(1, 255).map(lambda n: n / 100),
+}
+
+
+@pytest.mark.parametrize("name", OTHERS)
+@UNHURRIED
+@given(data=st.data())
+def test_every_other_record_is_read_as_it_was_written(name: str, data: st.DataObject) -> None:
+    parse, build = CODECS[name]
+    record = data.draw(OTHERS[name])
+    assert parse(build(record)) == record
+
+
+@UNHURRIED
+@given(st.lists(st.integers(0, 4095), max_size=260))
+def test_twelve_bit_values_are_unpacked_as_they_were_packed(values: list[int]) -> None:
+    packed = cells.pack12(values)
+    assert len(packed) == cells.packed_size(len(values))
+    assert cells.unpack12(packed, len(values)) == tuple(values)
+
+
+@UNHURRIED
+@given(st.lists(st.integers(0, 4095), min_size=1, max_size=130), st.data())
+def test_each_cell_lies_where_its_number_says(values: list[int], data: st.DataObject) -> None:
+    number = data.draw(st.integers(0, len(values) - 1))
+    bits = int.from_bytes(cells.pack12(values), "little")
+    assert bits >> 12 * number & 0xFFF == values[number]
+
+
+def test_a_fragment_never_begins_as_a_frame_does() -> None:
+    heads = {
+        fragment.build_fragment(fragment.Fragment(frame_id, last, index, b"x"))[0]
+        for frame_id in range(fragment.FRAME_IDS)
+        for last in (False, True)
+        for index in range(fragment.MAX_FRAGMENTS)
+    }
+    assert len(heads) == fragment.FRAME_IDS * 2 * fragment.MAX_FRAGMENTS
+    assert MAGIC not in heads
