@@ -16,7 +16,7 @@ from solepath import Foot, Phase, Session, SnapshotError, StrideTaken, recipes
 from solepath.emulate import Route, Walker
 from solepath.emulate.sensors.insoles import layout
 from solepath.foot.stance.stance import Load, Stance
-from solepath.recipes import BY_NAME
+from solepath.recipes import NAMES, by_name
 from solepath.saving.codec import load, save
 from solepath.testing.promises import broken
 from solepath.types import Quat, Vec3
@@ -152,7 +152,7 @@ def test_what_cannot_be_saved_says_so_when_it_is_to_be_saved() -> None:
 
 # --- promises ---------------------------------------------------------------------------------------------------------
 
-DETECTORS = {type(recipe.detector).__name__: recipe.detector for recipe in BY_NAME.values()}
+DETECTORS = {type(recipe.detector).__name__: recipe.detector for recipe in map(by_name, NAMES)}
 
 
 @pytest.mark.parametrize("name", [*DETECTORS, "Quiet"])

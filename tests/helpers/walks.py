@@ -160,10 +160,10 @@ def machines() -> dict[str, Machine]:
     found.append(_session("LinearDedrift", plain, Recipe("LinearDedrift", Cycle(), LinearDedrift())))
     found.append(_session("LinearDedrift with pressure", pressed, Recipe("pressed", TwoArea(), LinearDedrift())))
     for name in RECIPES:
-        found.append(_session(name, packets()["few frames"], recipes.BY_NAME[name]))
-    found.append(_session("seven sites", suited(), recipes.WALKING_MODES))
+        found.append(_session(name, packets()["few frames"], recipes.by_name(name)))
+    found.append(_session("seven sites", suited(), recipes.by_name("walking-modes")))
     found.append(_placed("particles", plain, DEFAULT))
-    found.append(_placed("Snake game", plain, recipes.FOOTSTEP_TRACKER))
+    found.append(_placed("Snake game", plain, recipes.by_name("footstep-tracker")))
     return {one.name: one for one in found}
 
 

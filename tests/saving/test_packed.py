@@ -100,7 +100,7 @@ KNOWN = Calibration(
 )
 
 
-@pytest.mark.parametrize("recipe", [*recipes.BY_NAME.values()], ids=[*recipes.BY_NAME])
+@pytest.mark.parametrize("recipe", [recipes.by_name(name) for name in recipes.NAMES], ids=recipes.NAMES)
 def test_a_calibrated_session_of_every_recipe_goes_on_with_what_was_known(recipe: Recipe) -> None:
     session = Session(recipe, calibration=KNOWN, pressures=True)
     walked = packets()["few frames"]
@@ -131,10 +131,10 @@ def test_a_session_with_a_driver_of_the_apps_own_is_unpacked_with_it_and_not_wit
 
 def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
     with pytest.raises(SnapshotError, match="packed with the recipe 'default', and this is 'kupt'"):
-        Session.unpack(packed(), recipes.KUPT)
+        Session.unpack(packed(), recipes.by_name("kupt"))
     for other, what in (
         (evolve(recipes.DEFAULT, detector=ShoeDetector()), "packed with Cycle, and this recipe has Shoe"),
-        (evolve(recipes.DEFAULT, body=recipes.KUPT_DFPC.body), "packed with BothFeet, and this recipe has DoubleFoot"),
+        (evolve(recipes.DEFAULT, body=recipes.by_name("kupt-dfpc").body), "packed with BothFeet, and this recipe has DoubleFoot"),
         (evolve(recipes.DEFAULT, altitude=None), "that this recipe does not have"),
         (OWN, "packed with the recipe 'default', and this is 'usual'"),
         (evolve(OWN, name="default"), "packed with Cycle, and this recipe has Usual"),

@@ -41,6 +41,7 @@ from .rhythm import Rhythm
 from .stance.cycle import Cycle
 from .stance.pressure import MaximumPressure, TwoArea
 from .stance.stance import AngularRate, Detector, Graph, Load, MovingVariance, ShoeDetector
+from .view import FootPose, FootView
 from .world import Covariance3
 
 AnyDetector = (
@@ -141,6 +142,50 @@ class FootTracker:
     def covariance(self) -> Covariance3:
         """Of `position`, m^2."""
         return self.gait.covariance(self.corrector)
+
+    @property
+    def pose(self) -> FootPose | None:
+        """Where the foot is; None before any sample."""
+        return None if self.t is None else FootPose(self.foot, self.t, self.moved_at, self.position, self.covariance)
+
+    def view(self, sample: Sample, known_at: float, events: tuple[Event, ...], *, spread: bool) -> FootView:
+        """What a part of the body may see after `sample`, of which `events` came. `spread`: with the covariance."""
+        corrector, gait, insole, rest = self.corrector, self.gait, self.sole.insole, self.rest
+        layout, cells, alone = insole.layout, insole.cells, None
+        if cells and self.moved_at is None and sample.gyro is None:
+            alone = insole.centre_of_pressure(cells)
+        return FootView(
+            self.foot,
+            sample,
+            sample.t,
+            known_at,
+            events,
+            self.moved_at,
+            self.levelled,
+            gait.phase,
+            corrector.position,
+            corrector.velocity,
+            corrector.attitude,
+            gait.world.north,
+            gait.step.attitude,
+            rest.bias,
+            rest.grain if rest.count else 0.0,
+            cells,
+            insole.newtons is not None or (layout is not None and layout.scale is not None),
+            insole.highest,
+            layout,
+            alone,
+            hasattr(corrector, "shift"),
+            gait.covariance(corrector) if spread else None,
+        )
+
+    def shift(self, yaw: float, by: Vec3) -> None:
+        """From here on the foot heads `yaw` rad further and stands `by` m off (world frame): its live track and its
+        next strides; those that were taken stay as they were reported, and none gets longer by it. To be called between
+        a foot-flat and the next sample; nothing happens where the corrector cannot be shifted."""
+        move = getattr(self.corrector, "shift", None)
+        if move is not None:
+            move(yaw, self.gait.shift(yaw, by))
 
     # --- samples ---
 

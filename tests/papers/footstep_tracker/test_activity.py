@@ -22,7 +22,7 @@ from solepath.lab.train.footstep_activity import LabelledWindow, Taught, thresho
 from solepath.papers.footstep_tracker.activity.two_second_windows import LONGEST_RIDE, MOVING, TwoSecondWindows
 from solepath.papers.footstep_tracker.activity.window_model import FEATURES, Gaussian, WindowModel, seen, shipped
 from solepath.papers.footstep_tracker.activity.windows import BLOCKS, FootWindow, FootWindows
-from solepath.recipes import FOOTSTEP_TRACKER
+from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.saving.codec import load, save
 from solepath.show.timeline import Timeline
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample

@@ -27,8 +27,9 @@ from solepath.events import Event, StrideFeatures, StrideTaken, TurnMade
 from solepath.lab.train.turns import ANGLES, emulated, read, trained, walk
 from solepath.papers.footstep_tracker.footsteps import Footsteps
 from solepath.papers.footstep_tracker.projection import Projection
+from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.papers.footstep_tracker.toe_out import learnt, toe_out
-from solepath.recipes import DEFAULT, FOOTSTEP_TRACKER, Recipe
+from solepath.recipes import DEFAULT, Recipe
 from solepath.recording import PacketWriter
 from solepath.recording.samples import load_samples
 from solepath.types import Foot, Packet, Site, Turn

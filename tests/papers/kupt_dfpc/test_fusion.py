@@ -237,7 +237,7 @@ def test_two_abnormal_steps_favour_neither_foot() -> None:
 def test_the_centre_of_the_foot_is_half_way_between_the_first_and_the_last_cell() -> None:
     """The paper's lie from 34 to 166 mm and it has the centre at 100 mm, wherever the insole ends."""
     insole = Layout(3, LEFT, (Cell(0.034, 0.0), Cell(0.12, 0.0), Cell(0.166, 0.0)), 0.26)
-    session = Session(recipes.BY_NAME["kupt-dfpc"], calibration=Calibration(insoles={LEFT: InsoleCalibration(insole)}))
+    session = Session(recipes.by_name("kupt-dfpc"), calibration=Calibration(insoles={LEFT: InsoleCalibration(insole)}))
     flat = Sample(0.0, Site.LEFT_FOOT, acc=(0.0, 0.0, 9.8), gyro=(0.0, 0.0, 0.0), pressure=(1.0, 2.0, 3.0))
     session.feed(flat)
     body = DoubleFoot()
@@ -288,7 +288,7 @@ WALK = Route().stand(1.5).walk(14.0, 1.25).stop(1.5)
 @cache
 def heard(silent: bool = False) -> tuple[Session, list[Event]]:
     """A straight walk of 14 m with two insoles through the recipe; `silent`: the left one says nothing from 8 s on."""
-    session = Session(recipes.BY_NAME["kupt-dfpc"])
+    session = Session(recipes.by_name("kupt-dfpc"))
     packets = insoles(WALK).packets
     return session, session.feed([p for p in packets if not (silent and p.site is Site.LEFT_FOOT and p.t > 8.0)])
 

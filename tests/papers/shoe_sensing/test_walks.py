@@ -19,9 +19,9 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.events import ActivityChanged, Event, FlightClimbed, StrideTaken
 from solepath.foot.tracker import FootTracker
 from solepath.papers.shoe_sensing.gated_tilt import ShoeSensing
+from solepath.papers.shoe_sensing.recipe import SHOE_MAGNITUDE, SHOE_SENSING
 from solepath.papers.shoe_sensing.short_time_energy import ShortTimeEnergy
 from solepath.papers.shoe_sensing.walking_state import AnglePerMetre
-from solepath.recipes import SHOE_MAGNITUDE, SHOE_SENSING
 from solepath.recording.samples import load_samples
 from solepath.saving.codec import load, save
 from solepath.session import Session

@@ -21,8 +21,8 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, Limitation, TouchedDown, WalkingModeChanged
 from solepath.papers.walking_modes.compensation import TABLE_1
 from solepath.papers.walking_modes.modes import Modes
+from solepath.papers.walking_modes.recipe import WALKING_MODES
 from solepath.papers.walking_modes.touchdown import Height, NetAcceleration
-from solepath.recipes import WALKING_MODES
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 

@@ -19,7 +19,7 @@ from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.sensors.suit import limb_samples
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, Limitation, SampleRejected, TouchedDown, WalkingModeChanged
-from solepath.recipes import BY_NAME, DEFAULT, Recipe
+from solepath.recipes import DEFAULT, Recipe, by_name
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 
@@ -62,7 +62,7 @@ def told(
     recipe: str | Recipe, samples: Sequence[Sample], known: Calibration = KNOWN
 ) -> tuple[tuple[float, float], list[Event]]:
     """Where the walk ends, x and y, and what was said."""
-    session = Session(BY_NAME[recipe] if isinstance(recipe, str) else recipe, calibration=known)
+    session = Session(by_name(recipe) if isinstance(recipe, str) else recipe, calibration=known)
     events = [*session.feed(samples), *session.finish()]
     assert session.position is not None
     x, y, _ = session.position.position
