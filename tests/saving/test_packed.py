@@ -17,6 +17,8 @@ from toys import NUMBERED
 from walks import LEFT, RIGHT, ROUGH, SHORT, machines, packets, samples
 
 from solepath import Calibration, Foot, Packet, Phase, Recipe, Session, Site, SnapshotError, recipes
+from solepath.body.height.altitude import Altitude
+from solepath.body.part import Track
 from solepath.calibration import InsoleCalibration, Limbs, Newtons, ShoeGeometry
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.sensors.insole_device import Insole
@@ -134,8 +136,8 @@ def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
         Session.unpack(packed(), recipes.by_name("kupt"))
     for other, what in (
         (evolve(recipes.DEFAULT, detector=ShoeDetector()), "packed with Cycle, and this recipe has Shoe"),
-        (evolve(recipes.DEFAULT, body=recipes.by_name("kupt-dfpc").body), "packed with BothFeet, and this recipe has DoubleFoot"),
-        (evolve(recipes.DEFAULT, altitude=None), "that this recipe does not have"),
+        (recipes.DEFAULT.exchanged(Track, recipes.by_name("kupt-dfpc").body), "packed with BothFeet, and this recipe has DoubleFoot"),
+        (recipes.DEFAULT.exchanged(Altitude, None), "that this recipe does not have"),
         (OWN, "packed with the recipe 'default', and this is 'usual'"),
         (evolve(OWN, name="default"), "packed with Cycle, and this recipe has Usual"),
     ):
@@ -143,7 +145,7 @@ def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
             Session.unpack(packed(), other)
     with pytest.raises(TypeError, match="must be a Recipe, not str"):
         Session.unpack(packed(), "default")  # type: ignore[arg-type]
-    bare = evolve(recipes.DEFAULT, altitude=None)
+    bare = recipes.DEFAULT.exchanged(Altitude, None)
     session = Session(bare)
     session.feed(packets()["cc2650"][:50])
     assert exact(Session.unpack(session.pack(), bare)) == exact(session)

@@ -223,8 +223,8 @@ def test_who_stood_for_minutes_before_turning_began_to_turn_at_the_end_of_them()
 def test_turns_of_a_clock_that_begins_anew_are_forgotten() -> None:
     turns = Turns()
     told(turns.direction, both([(0, 0), (90, 0)]))
-    turns.interrupt(Site.LEFT_FOOT)
-    turns.interrupt(Site.PELVIS)
+    turns.reset(Site.LEFT_FOOT)
+    turns.reset(Site.PELVIS)
     assert turns.direction.stood(1e6) is None
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from views import fed
 from walks import insoles, of
 
 from solepath import Session, recipes
@@ -241,7 +242,7 @@ def test_the_centre_of_the_foot_is_half_way_between_the_first_and_the_last_cell(
     flat = Sample(0.0, Site.LEFT_FOOT, acc=(0.0, 0.0, 9.8), gyro=(0.0, 0.0, 0.0), pressure=(1.0, 2.0, 3.0))
     session.feed(flat)
     body = DoubleFoot()
-    body.foot_moved(session.feet[LEFT], flat, [step(LEFT, 2.0)])
+    fed(body, session.feet[LEFT], flat, [step(LEFT, 2.0)])
     assert body.left.latest[-1].rhythm[-1] == pytest.approx(0.1)
     assert centre_of(insole) == pytest.approx(0.1)
     assert centre_of(Layout(0, LEFT, (), 0.26)) is None
@@ -404,6 +405,6 @@ def test_similarity_does_not_change_with_unit_or_zero() -> None:
 
 def test_steps_of_a_clock_that_began_anew_are_compared_with_nothing() -> None:
     fused, _ = walked(step(LEFT, 2.0, 1.2))
-    fused.interrupt(Site.LEFT_FOOT)
+    fused.reset(Site.LEFT_FOOT)
     told = fused.step(step(RIGHT, 2.55, 1.4), CENTRE)
     assert (told.similarity, told.coefficient, told.stride_length) == (None, 1.0, 1.4)

@@ -11,6 +11,7 @@ from attrs import evolve
 from walks import of
 
 from solepath.body.fuse.position import MeanOfFeet
+from solepath.body.part import Track
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate import faults
 from solepath.emulate.routes.route import Route
@@ -26,7 +27,7 @@ from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(96, foot)) for foot in Foot})
 FAR = 25.0
-TRACKS = evolve(DEFAULT, body=MeanOfFeet())
+TRACKS = DEFAULT.exchanged(Track, MeanOfFeet())
 """The feet's own tracks, and their mean."""
 RECIPES = ("walking-modes", "touchdown-height", "touchdown-acceleration", "touchdown-pressure")
 
