@@ -17,7 +17,7 @@ from math import inf
 
 from solepath import Event, Foot, Packet, PacketsDropped, Session, Site, StreamResumed, StreamStale, StrideTaken
 from solepath.emulate import Route, emulate
-from solepath.link.known import PROFILES
+from solepath.link.catalogue import PROFILES
 from solepath.recording import read_packets
 from solepath.wire.receiver import build_dropped
 

@@ -29,7 +29,7 @@ from solepath import (
     StreamStale,
     StrideTaken,
 )
-from solepath.link.profile import INSOLE
+from solepath.link.devices.insole import PROFILE as INSOLE
 
 COLOURS = {Foot.LEFT: "#1f77b4", Foot.RIGHT: "#d95f02"}
 FIGURES = {"steps": "steps", "cadence": "steps a minute", "length": "stride, m", "asymmetry": "asymmetry of swing"}

@@ -23,7 +23,7 @@ from solepath import FootMoved, Session  # noqa: E402
 from solepath.ble import Devices, Wanted  # noqa: E402
 from solepath.emulate.devices.bench import Bench  # noqa: E402
 from solepath.emulate.routes.route import Route  # noqa: E402
-from solepath.link.profile import INSOLE  # noqa: E402
+from solepath.link.devices.insole import PROFILE as INSOLE  # noqa: E402
 
 WALK = Route().stand(2.0).walk(20.0).stop(2.0)
 VIRTUAL = 30.0

@@ -23,7 +23,7 @@ from solepath.emulate.devices.faults import parse_faults
 from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650
-from solepath.link.profile import CC2650 as PROFILE
+from solepath.link.devices.cc2650 import PROFILE
 from solepath.recording import read_packets
 from solepath.types import Packet, Site
 from solepath.wire.receiver import parse_words

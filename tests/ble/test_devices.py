@@ -23,7 +23,9 @@ from solepath.emulate.devices.memory import MemoryRadio
 from solepath.emulate.devices.peripheral import Characteristic, Service
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650 as Tag
-from solepath.link.profile import CC2650, INSOLE, Access, Write
+from solepath.link.devices.cc2650 import PROFILE as CC2650
+from solepath.link.devices.insole import PROFILE as INSOLE
+from solepath.link.profile import Access, Write
 from solepath.types import Packet, Site
 from solepath.wire.receiver import parse_dropped
 

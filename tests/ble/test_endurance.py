@@ -24,7 +24,7 @@ from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.wearers.truth import Truth
 from solepath.lab.measures.strides import position_errors
-from solepath.link.profile import INSOLE
+from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.types import Foot, Site
 
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)

@@ -33,8 +33,10 @@ from solepath.emulate.devices.faults import parse_faults
 from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650 as Tag
+from solepath.link.devices.cc2650 import PROFILE as CC2650
+from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.link.devices.reassembly import Reassembly
-from solepath.link.profile import CC2650, INSOLE, Write
+from solepath.link.profile import Write
 from solepath.types import Packet, Site
 from solepath.wire.fragment import is_fragment, parse_fragment
 from solepath.wire.insole import InsoleFrame, parse_frame

@@ -17,7 +17,10 @@ from solepath.emulate.devices.faults import parse_faults
 from solepath.emulate.sensors import sensortags
 from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.insole_device import Insole
-from solepath.link.profile import CC2541, CC2650, INSOLE, Profile
+from solepath.link.devices.cc2541 import PROFILE as CC2541
+from solepath.link.devices.cc2650 import PROFILE as CC2650
+from solepath.link.devices.insole import PROFILE as INSOLE
+from solepath.link.profile import Profile
 from solepath.types import Packet, Site
 from solepath.wire.receiver import parse_words
 

@@ -16,7 +16,7 @@ from airs import hear
 
 from solepath import Disconnected, FootMoved, PacketRejected, Session
 from solepath.ble import Devices, Wanted, scan
-from solepath.link.known import BY_NAME
+from solepath.link.catalogue import BY_NAME
 from solepath.show.tally import streamed
 from solepath.types import Packet, Site
 

@@ -18,7 +18,9 @@ from solepath.emulate.devices.peripheral import Peripheral
 from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650 as Tag
-from solepath.link.profile import CC2541, CC2650, INSOLE
+from solepath.link.devices.cc2541 import PROFILE as CC2541
+from solepath.link.devices.cc2650 import PROFILE as CC2650
+from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.types import Packet, Site
 from solepath.wire.receiver import parse_connected
 

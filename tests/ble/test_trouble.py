@@ -22,7 +22,7 @@ from solepath.ble import Backend, BluetoothError, Devices, Wanted, scan
 from solepath.ble.trouble import sentence
 from solepath.emulate.devices.memory import MemoryRadio
 from solepath.emulate.devices.peripheral import Outgoing
-from solepath.link.profile import CC2650
+from solepath.link.devices.cc2650 import PROFILE as CC2650
 from solepath.types import Packet, Site
 
 PELVIS = Site.PELVIS

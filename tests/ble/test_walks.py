@@ -29,8 +29,12 @@ from solepath.emulate.sensors import sensortags
 from solepath.emulate.sensors.device import Device
 from solepath.lab.emulated.compare import compare
 from solepath.lab.evaluate.gathered import Gathering
+from solepath.link.devices.cc2541 import PROFILE as CC2541
+from solepath.link.devices.cc2541 import PROFILE_20HZ as CC2541_20HZ
+from solepath.link.devices.cc2650 import PROFILE as CC2650
+from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.link.devices.reassembly import Reassembly
-from solepath.link.profile import CC2541, CC2541_20HZ, CC2650, INSOLE, Profile
+from solepath.link.profile import Profile
 from solepath.types import Foot, Packet, Site
 from solepath.wire.fragment import is_fragment, parse_fragment
 

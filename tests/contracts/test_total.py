@@ -25,8 +25,8 @@ from solepath import (
     Site,
     StrideTaken,
 )
+from solepath.link.catalogue import PROFILES
 from solepath.link.decoder import SET_BACK
-from solepath.link.known import PROFILES
 
 CHANNELS = sorted({channel.name for profile in PROFILES for channel in profile.channels})
 CUTS = 8

@@ -3,6 +3,7 @@
 from collections import Counter
 from itertools import pairwise
 from math import ceil, radians
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,11 +20,12 @@ from solepath.emulate.sensors.sensortags import GYRO_COUNT as TAG_GYRO_COUNT
 from solepath.emulate.walk import emulate, sampled
 from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
-from solepath.link import profile as profiles
 from solepath.link.decoder import Decoder
+from solepath.link.devices import cc2541, cc2650, insole
+from solepath.link.profile import Access, Profile
 from solepath.types import Foot, Packet, Phase, Sample, Site
 from solepath.types.vector import GRAVITY, from_rotation_vector
-from solepath.wire import cc2541, cc2650
+from solepath.wire.fields import parse_whole
 from solepath.wire.fragment import parse_fragment
 from solepath.wire.insole import InsoleFrame, parse_frame
 from solepath.wire.insole_info import parse_info
@@ -33,6 +35,10 @@ IDEAL = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.0, bandwidth
 IDEAL_IMU = Imu("ideal", IDEAL, IDEAL)
 IDEAL_CELL = CellPart("ideal", gain=0.0, preload=0.0, noise=0.0, lag=1e-6)
 PROMPT = Radio(latency=0.0, jitter=0.0)
+
+
+def said_by_tag(packet: Packet) -> Any:
+    return parse_whole({**cc2650.FORMATS, **cc2541.FORMATS}[packet.channel], packet.data)
 
 
 def frames(packets: tuple[Packet, ...], site: Site) -> list[InsoleFrame]:
@@ -177,21 +183,21 @@ def test_the_quaternion_of_an_insole_follows_the_foot() -> None:
 @pytest.mark.parametrize(
     ("device", "profile"),
     [
-        (Insole(), profiles.INSOLE),
-        (CC2650(), profiles.CC2650),
-        (CC2541(), profiles.CC2541),
-        (CC2541(rate=20.0), profiles.CC2541_20HZ),
+        (Insole(), insole.PROFILE),
+        (CC2650(), cc2650.PROFILE),
+        (CC2541(), cc2541.PROFILE),
+        (CC2541(rate=20.0), cc2541.PROFILE_20HZ),
     ],
     ids=["insole", "cc2650", "cc2541", "cc2541 at 20 Hz"],
 )
-def test_a_recording_begins_with_all_that_was_read_and_written(device: Device, profile: profiles.Profile) -> None:
+def test_a_recording_begins_with_all_that_was_read_and_written(device: Device, profile: Profile) -> None:
     walk = emulate(SHORT, devices={Site.LEFT_FOOT: device}, seed=2)
     said = [(p.channel, p.data) for p in walk.packets if p.t < SETUP]
     expected: list[str] = [*profile.reads]
     for write in profile.setup:
         expected += [write.channel, *write.then_read]
     assert [channel for channel, _ in said] == expected
-    read = {channel.name for channel in profile.channels if channel.how is not profiles.How.WRITE}
+    read = {channel.name for channel in profile.channels if channel.how is not Access.WRITE}
     assert [(c, data) for c, data in said if c not in read] == [(w.channel, w.value) for w in profile.setup]
 
 
@@ -210,16 +216,16 @@ def test_a_cc2650_saturates_in_swing_and_sends_its_settings() -> None:
     walk = emulate(SHORT, devices={Site.LEFT_FOOT: CC2650(rate=50.0)}, seed=2)
     channels = [p.channel for p in walk.packets]
     assert channels.index("cc2650/movement-config") < channels.index("cc2650/movement")
-    config = cc2650.parse_movement_config(next(p.data for p in walk.packets if p.channel == "cc2650/movement-config"))
+    config = said_by_tag(next(p for p in walk.packets if p.channel == "cc2650/movement-config"))
     assert config.range == 8
-    moves = [cc2650.parse_movement(p.data) for p in walk.packets if p.channel == "cc2650/movement"]
+    moves = [said_by_tag(p) for p in walk.packets if p.channel == "cc2650/movement"]
     assert len(moves) == pytest.approx(50 * walk.truth.duration, abs=5)
     assert max(abs(m.gyro[1]) for m in moves) >= 32767  # more than 250 degrees/s about the foot's y axis
     rest = np.array([m.acc for m in moves[:40]]) * 8 * GRAVITY / 32768
     assert np.linalg.norm(rest.mean(axis=0)) == pytest.approx(GRAVITY, rel=0.1)
     field = np.array([m.mag for m in moves[:40]]) * 4912e-6 / 32760
     assert 20e-6 < np.linalg.norm(field.mean(axis=0)) < 90e-6
-    air = [cc2650.parse_barometer(p.data).pressure for p in walk.packets if p.channel == "cc2650/barometer"]
+    air = [said_by_tag(p).pressure for p in walk.packets if p.channel == "cc2650/barometer"]
     assert all(101000 < value < 101600 for value in air)
 
 
@@ -233,10 +239,10 @@ def test_a_cc2541_sends_each_sensor_at_its_own_time(rate: float) -> None:
         assert np.diff(found) == pytest.approx(1.0 / rate, rel=1e-3)
     apart = (times["gyroscope"][0] - times["accelerometer"][0]) % (1.0 / rate)
     assert 0.0 < apart < 1.0 / rate
-    values = [cc2541.parse_accelerometer(p.data).acc for p in walk.packets if p.channel == "cc2541/accelerometer"]
+    values = [said_by_tag(p).acc for p in walk.packets if p.channel == "cc2541/accelerometer"]
     rest = np.array(values[: int(0.8 * rate)]) * GRAVITY / 16
     assert np.linalg.norm(rest, axis=1) == pytest.approx(GRAVITY, rel=0.25)
-    turns = [cc2541.parse_gyroscope(p.data).gyro for p in walk.packets if p.channel == "cc2541/gyroscope"]
+    turns = [said_by_tag(p).gyro for p in walk.packets if p.channel == "cc2541/gyroscope"]
     assert np.abs(turns).max() * TAG_GYRO_COUNT > radians(150)
 
 
@@ -252,9 +258,9 @@ def test_a_pressed_key_is_told_with_the_bits_of_each_tag() -> None:
 def test_the_raw_air_of_a_t5400_gives_the_pressure_back() -> None:
     for height in (-20.0, 0.0, 3.0, 400.0):
         pascal = float(air_pressure(np.array([height]))[0])
-        raw = cc2541.parse_barometer(cc2541.build_barometer(raw_air(pascal)))
-        assert T5400_CALIBRATION.pascal(raw) == pytest.approx(pascal, abs=2.0)
-        assert T5400_CALIBRATION.celsius(raw) == pytest.approx(24.0, abs=0.1)
+        raw = raw_air(pascal)
+        assert T5400_CALIBRATION.pascal(**raw) == pytest.approx(pascal, abs=2.0)
+        assert T5400_CALIBRATION.celsius(raw["temperature"]) == pytest.approx(24.0, abs=0.1)
 
 
 def test_a_device_above_the_ankle_is_refused() -> None:

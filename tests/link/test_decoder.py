@@ -25,14 +25,15 @@ from solepath.events import (
     StreamResumed,
     StreamStale,
 )
+from solepath.link.catalogue import PROFILES
 from solepath.link.decoder import SET_BACK, Decoder
+from solepath.link.devices import cc2541, cc2650
 from solepath.link.devices.cc2541 import counts_per_g
-from solepath.link.known import PROFILES
 from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Packet, Sample, Site
 from solepath.types.vector import GRAVITY
-from solepath.wire import cc2541, cc2650
 from solepath.wire.device import build_battery, build_firmware
+from solepath.wire.fields import build_whole
 from solepath.wire.fragment import split
 from solepath.wire.insole import InsoleFrame, InsoleSample, build_frame
 from solepath.wire.insole_info import InsoleInfo, build_info
@@ -62,8 +63,24 @@ def frame_packet(k: int, **changes: Any) -> Packet:
     return packet(10.0 + k * STEP, "insole/frame", insole_frame(k, **changes))
 
 
+def new_tag(what: str, **fields: Any) -> bytes:
+    """What a CC2650 says, or is told."""
+    return cc2650.DRIVER.write(f"cc2650/{what}", fields)
+
+
+def config(full_scale: int, **changes: Any) -> Packet:
+    everything = {"gyro_axes": (True,) * 3, "acc_axes": (True,) * 3, "mag": True, "wake_on_motion": False}
+    fields = {**everything, "range": full_scale, **changes}
+    return packet(1.05, "cc2650/movement-config", new_tag("movement-config", **fields))
+
+
+def old_tag(t: float, sensor: str, **fields: Any) -> Packet:
+    """What a sensor of a CC2541 says."""
+    return packet(t, f"cc2541/{sensor}", build_whole(cc2541.FORMATS[f"cc2541/{sensor}"], fields))
+
+
 def movement(k: int, *, acc: tuple[int, int, int] = (0, 0, 4096), gyro: tuple[int, int, int] = (0, 0, 0)) -> Packet:
-    return packet(10.0 + 0.1 * k, "cc2650/movement", cc2650.build_movement(cc2650.Movement(gyro, acc, (0, 0, 0))))
+    return packet(10.0 + 0.1 * k, "cc2650/movement", new_tag("movement", gyro=gyro, acc=acc, mag=(0, 0, 0)))
 
 
 def feed(decoder: Decoder, *packets: Packet) -> list[Any]:
@@ -467,14 +484,13 @@ def test_nothing_is_stale_before_it_began() -> None:
 
 def test_a_cc2650_is_scaled_by_its_configuration() -> None:
     decoder = Decoder(site=LEFT)
-    raw = cc2650.build_movement(cc2650.Movement((131, 0, -131), (0, 0, 4096), (0, 32760, 0)))
+    raw = new_tag("movement", gyro=(131, 0, -131), acc=(0, 0, 4096), mag=(0, 32760, 0))
     [at_8g] = feed(decoder, packet(1.0, "cc2650/movement", raw))
     assert at_8g.acc == pytest.approx((0.0, 0.0, GRAVITY))
     assert at_8g.gyro == pytest.approx((radians(131 * 500 / 65536), 0.0, -radians(131 * 500 / 65536)))
     assert at_8g.mag == pytest.approx((4912e-6, 0.0, 0.0))
-    config = cc2650.MovementConfig(range=16, mag=False, gyro_axes=(True, False, True))
-    data = cc2650.build_movement_config(config)
-    [at_16g] = feed(decoder, packet(1.05, "cc2650/movement-config", data), packet(1.1, "cc2650/movement", raw))
+    told = config(16, mag=False, gyro_axes=(True, False, True))
+    [at_16g] = feed(decoder, told, packet(1.1, "cc2650/movement", raw))
     assert at_16g.acc == pytest.approx((0.0, 0.0, 2 * GRAVITY))
     assert at_16g.gyro is None
     assert at_16g.mag is None
@@ -482,14 +498,14 @@ def test_a_cc2650_is_scaled_by_its_configuration() -> None:
 
 def test_air_pressure_rides_on_the_next_movement_sample_once() -> None:
     decoder = Decoder(site=LEFT)
-    air = cc2650.build_barometer(cc2650.Cc2650Barometer(20.0, 101325.0))
+    air = new_tag("barometer", temperature=20.0, pressure=101325.0)
     outputs = feed(decoder, movement(0), packet(10.05, "cc2650/barometer", air), movement(1), movement(2))
     assert [sample.air_pressure for sample in outputs] == [None, 101325.0, None]
 
 
 def test_air_pressure_alone_makes_samples_of_its_own() -> None:
     decoder = Decoder(site=LEFT)
-    air = cc2650.build_barometer(cc2650.Cc2650Barometer(20.0, 101325.0))
+    air = new_tag("barometer", temperature=20.0, pressure=101325.0)
     outputs = feed(decoder, packet(1.0, "cc2650/barometer", air), packet(2.0, "cc2650/barometer", air))
     assert outputs == [
         Sample(1.0, LEFT, air_pressure=101325.0, known_at=1.0),
@@ -499,8 +515,7 @@ def test_air_pressure_alone_makes_samples_of_its_own() -> None:
 
 def test_wake_on_motion_makes_silence_legal() -> None:
     decoder = Decoder(site=LEFT)
-    config = cc2650.build_movement_config(cc2650.MovementConfig(range=8, wake_on_motion=True))
-    feed(decoder, packet(9.0, "cc2650/movement-config", config), movement(0), movement(1))
+    feed(decoder, config(8, wake_on_motion=True), movement(0), movement(1))
     assert decoder.advance(60.0) == []
     outputs = decoder.feed(movement(600))
     assert [type(output) for output in outputs] == [Sample]
@@ -531,11 +546,11 @@ def test_battery_is_a_fraction() -> None:
 
 
 def acc_packet(t: float, counts: tuple[int, int, int] = (0, 0, 16)) -> Packet:
-    return packet(t, "cc2541/accelerometer", cc2541.build_accelerometer(cc2541.Accelerometer(counts)))
+    return old_tag(t, "accelerometer", acc=counts)
 
 
 def gyro_packet(t: float, counts: tuple[int, int, int] = (0, 0, 0)) -> Packet:
-    return packet(t, "cc2541/gyroscope", cc2541.build_gyroscope(cc2541.Gyroscope(counts)))
+    return old_tag(t, "gyroscope", gyro=counts)
 
 
 @pytest.mark.parametrize(
@@ -618,7 +633,7 @@ def test_a_barometer_without_calibration_is_said_once() -> None:
 
 def test_a_cc2541_keeps_the_axes_as_they_were_sent() -> None:
     decoder = Decoder(site=LEFT)
-    mag = packet(0.9, "cc2541/magnetometer", cc2541.build_magnetometer(cc2541.Magnetometer((1, 2, 3))))
+    mag = old_tag(0.9, "magnetometer", mag=(1, 2, 3))
     [sample] = feed(decoder, mag, acc_packet(1.0, (16, 32, -16)), gyro_packet(1.05, (1000, 2000, 3000)))
     scale = radians(500 / 65536)
     assert sample.acc == pytest.approx((GRAVITY, 2 * GRAVITY, -GRAVITY))

@@ -7,20 +7,18 @@ import re
 import pytest
 from here import PROTOCOL
 
+from solepath.link.catalogue import BY_NAME, PROFILES
 from solepath.link.decoder import Decoder
-from solepath.link.devices import dot, dot_orientation, orphe, thingy
-from solepath.link.known import BY_NAME, PROFILES
-from solepath.link.profile import CC2541, CC2541_20HZ, CC2650, INSOLE, Access, Profile, Write
+from solepath.link.devices import cc2541, cc2650, dot, dot_orientation, orphe, thingy
+from solepath.link.devices.cc2541 import PROFILE as CC2541
+from solepath.link.devices.cc2541 import PROFILE_20HZ as CC2541_20HZ
+from solepath.link.devices.cc2650 import PROFILE as CC2650
+from solepath.link.devices.insole import PROFILE as INSOLE
+from solepath.link.driver import Reading
+from solepath.link.profile import Access, Profile, Write
 from solepath.types import Packet, Site
-from solepath.wire.cc2541 import (
-    AccelerometerConfig,
-    GyroscopeConfig,
-    parse_accelerometer_config,
-    parse_gyroscope_config,
-)
-from solepath.wire.cc2650 import MovementConfig, parse_movement_config
+from solepath.wire.fields import parse_whole
 from solepath.wire.insole_control import StartSampling, parse_control
-from solepath.wire.period import parse_period
 
 
 def short(uuid: str) -> str:
@@ -168,10 +166,14 @@ def test_setup_says_what_the_wire_room_makes_of_it() -> None:
         return next(write.value for write in profile.setup if write.channel == channel)
 
     assert parse_control(value(INSOLE, "insole/control")) == StartSampling()
-    assert parse_movement_config(value(CC2650, "cc2650/movement-config")) == MovementConfig(range=8)
+    formats = {**cc2541.FORMATS, **cc2650.FORMATS}
+    assert cc2650.DRIVER.read("cc2650/movement-config", value(CC2650, "cc2650/movement-config"), {}) == Reading(
+        silent=False, known={"acc_range": 8, "has_acc": True, "has_gyro": True, "has_mag": True}
+    )
     for profile in (CC2541, CC2541_20HZ):
-        assert parse_accelerometer_config(value(profile, "cc2541/accelerometer-config")) == AccelerometerConfig(3)
-        assert parse_gyroscope_config(value(profile, "cc2541/gyroscope-config")) == GyroscopeConfig((True, True, True))
+        acc, gyro = "cc2541/accelerometer-config", "cc2541/gyroscope-config"
+        assert parse_whole(formats[acc], value(profile, acc)).code == 3
+        assert all(parse_whole(formats[gyro], value(profile, gyro)).axes)
     for profile, channel in (
         (CC2650, "cc2650/movement-period"),
         (CC2541, "cc2541/accelerometer-period"),
@@ -179,4 +181,5 @@ def test_setup_says_what_the_wire_room_makes_of_it() -> None:
         (CC2541_20HZ, "cc2541/accelerometer-period"),
         (CC2541_20HZ, "cc2541/gyroscope-period"),
     ):
-        assert parse_period(value(profile, channel)) == pytest.approx(1.0 / profile.nominal_rate)
+        period = parse_whole(formats[channel], value(profile, channel)).period
+        assert period == pytest.approx(1.0 / profile.nominal_rate)

@@ -26,8 +26,9 @@ from solepath.events import (
     ScaleSuspect,
     StreamStale,
 )
+from solepath.link.catalogue import DECLARED, PROFILES
 from solepath.link.decoder import Decoder
-from solepath.link.devices import DECLARED, orphe
+from solepath.link.devices import orphe
 from solepath.link.driver import Driver, Reading, TimeAxis
 from solepath.link.known import KINDS, kinds
 from solepath.link.profile import Write
@@ -44,7 +45,13 @@ def test_the_axis_is_the_best_that_a_device_has() -> None:
         TimeAxis.TICKS,
         TimeAxis.COUNT,
     ]
-    assert [driver.axis for driver in DECLARED] == [TimeAxis.COUNT, TimeAxis.TICKS, TimeAxis.TICKS, TimeAxis.ARRIVAL]
+    assert {driver.name: driver.axis for driver in DECLARED} == {
+        "cc2650": TimeAxis.ARRIVAL,
+        "orphe": TimeAxis.COUNT,
+        "dot": TimeAxis.TICKS,
+        "dot-orientation": TimeAxis.TICKS,
+        "thingy": TimeAxis.ARRIVAL,
+    }
 
 
 @pytest.mark.parametrize("count", [1, 4])
@@ -370,8 +377,10 @@ def test_a_reader_that_is_wrong_itself_is_not_hidden() -> None:
 
 
 def test_an_app_adds_devices_and_may_replace_declared_ones_but_not_ours() -> None:
-    known = {"insole", "cc2650", "cc2541", "orphe", "dot", "dot-orientation", "thingy"}
-    assert set(KINDS) == known and set(kinds([NUMBERED])) == {*known, "toy"}
+    for profile in PROFILES:
+        kind = KINDS.get(profile.name.removesuffix("-20hz"))
+        assert kind is not None and kind.profile in PROFILES
+    assert KINDS.get("toy") is None and kinds([NUMBERED]).get("toy") is not None
     other = evolve(orphe.DRIVER, limitation="")
     assert not of(Limitation, Session(profiles=[other]).feed(mode_four()))
     assert of(Limitation, Session().feed(mode_four()))

@@ -13,7 +13,7 @@ from solepath.emulate.devices.faults import Fault, What, parse_faults
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650
-from solepath.link import profile
+from solepath.link.devices import cc2650, insole
 from solepath.wire.error import WireError
 from solepath.wire.insole import parse_frame
 
@@ -21,7 +21,7 @@ MOVEMENT = "cc2650/movement"
 
 
 def tag(faults: str = "") -> Peripheral:
-    return set_up(worn(CC2650(), faults=faults), profile.CC2650)
+    return set_up(worn(CC2650(), faults=faults), cc2650.PROFILE)
 
 
 def movements(device: Peripheral, until: float) -> Heard:
@@ -119,7 +119,7 @@ def test_duplicated_notifications_come_twice() -> None:
 def test_truncated_notifications_are_shorter_and_turned_bits_are_seen_by_the_checksum() -> None:
     short = movements(tag("2 * truncate 4"), 5.0)
     assert sum(len(outgoing.value) < 18 for _, outgoing in short) in (3, 4)
-    device = set_up(worn(Insole(), faults="1 * flip 5"), profile.INSOLE)
+    device = set_up(worn(Insole(), faults="1 * flip 5"), insole.PROFILE)
     bad = []
     for t, outgoing in played(device, 3.0, "insole/frame"):
         try:
@@ -142,7 +142,7 @@ def test_a_lost_link_is_lost_once_and_at_its_time() -> None:
     assert all(t <= 2.0 for t, _ in played(device, 9.0))
     assert not device.is_connected
     assert device.visible(2.0)
-    set_up(device, profile.CC2650, now=3.0)
+    set_up(device, cc2650.PROFILE, now=3.0)
     assert len(movements(device, 9.0)) == pytest.approx(60, abs=2)
 
 
@@ -155,7 +155,7 @@ def test_nothing_is_sent_after_a_loss_that_is_noticed_late() -> None:
 
 def test_a_loss_while_there_is_no_link_ends_no_later_one() -> None:
     device = worn(CC2650(), faults="2 left_foot disconnect")
-    set_up(device, profile.CC2650, now=5.0)
+    set_up(device, cc2650.PROFILE, now=5.0)
     assert len(movements(device, 9.0)) > 30
     assert device.is_connected
 
@@ -179,7 +179,7 @@ def test_a_frozen_stream_thaws_by_itself_or_when_it_is_set_up_again() -> None:
 
 
 def test_a_frozen_insole_thaws_by_start() -> None:
-    device = set_up(worn(Insole(), faults="2 left_foot freeze"), profile.INSOLE)
+    device = set_up(worn(Insole(), faults="2 left_foot freeze"), insole.PROFILE)
     assert played(device, 5.0)[-1][0] < 2.0
     device.write("insole/control", b"\x01", 5.0)
     assert played(device, 6.0)
@@ -214,10 +214,10 @@ def test_a_request_that_hangs_is_never_answered_and_then_the_link_is_lost() -> N
 
 
 def test_a_device_that_restarts_counts_from_the_beginning_again() -> None:
-    device = set_up(worn(Insole(), faults="3 left_foot restart"), profile.INSOLE)
+    device = set_up(worn(Insole(), faults="3 left_foot restart"), insole.PROFILE)
     before = [parse_frame(outgoing.value) for _, outgoing in played(device, 9.0, "insole/frame")]
     assert not device.is_connected
-    set_up(device, profile.INSOLE, now=5.0)
+    set_up(device, insole.PROFILE, now=5.0)
     after = [parse_frame(outgoing.value) for _, outgoing in played(device, 6.0, "insole/frame")]
     assert [frame.sequence for frame in after] == list(range(len(after)))
     assert after[0].ticks == pytest.approx(2.0 * 32768, abs=400)
@@ -235,14 +235,14 @@ def test_a_name_may_be_another_one() -> None:
 
 def test_seconds_count_from_the_walks_beginning() -> None:
     device = worn(CC2650(), faults="2 left_foot disconnect", began=100.0)
-    set_up(device, profile.CC2650, now=90.0)
+    set_up(device, cc2650.PROFILE, now=90.0)
     assert played(device, 200.0)[-1][0] == pytest.approx(102.0, abs=0.11)
 
 
 def test_what_was_handed_over_is_counted_and_kept_on_request() -> None:
     device = worn(CC2650(), faults="1 * drop 4; 2 * duplicate 1")
     device.log = []
-    set_up(device, profile.CC2650)
+    set_up(device, cc2650.PROFILE)
     heard = played(device, 5.0)
     assert device.log == [outgoing for _, outgoing in heard]
     assert sum(device.sent.values()) == len(heard)
@@ -254,7 +254,7 @@ def test_a_walk_that_begins_anew_has_the_faults_of_its_script_again() -> None:
     assert device.suffered == 2 and not device.is_connected
     device.began = 10.0
     assert device.suffered == 0
-    set_up(device, profile.CC2650, now=9.0)
+    set_up(device, cc2650.PROFILE, now=9.0)
     again = movements(device, 20.0)
     assert device.suffered == 2 and not device.is_connected
     assert max(t for t, _ in again) < 12.0
@@ -267,5 +267,5 @@ def test_what_was_to_last_in_an_earlier_walk_does_not_last_in_the_next() -> None
     device.disconnected(5.0)
     device.began = 10.0
     assert device.visible(9.0) and device.name != "gone" and not device.needs_pairing
-    set_up(device, profile.CC2650, now=9.0)
+    set_up(device, cc2650.PROFILE, now=9.0)
     assert movements(device, 9.9)

@@ -22,12 +22,12 @@ from solepath.emulate.devices.standard import standard
 from solepath.emulate.sensors.device import Device, device_numbers
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
-from solepath.link import profile
+from solepath.link.devices import cc2650, insole
 from solepath.types import Site
 
-FRAME, INFO, CONTROL = (profile.INSOLE.channel(f"insole/{n}").characteristic for n in ("frame", "info", "control"))
+FRAME, INFO, CONTROL = (insole.PROFILE.channel(f"insole/{n}").characteristic for n in ("frame", "info", "control"))
 CONFIG, PERIOD, MOVEMENT = (
-    profile.CC2650.channel(n).characteristic
+    cc2650.PROFILE.channel(n).characteristic
     for n in ("cc2650/movement-config", "cc2650/movement-period", "cc2650/movement")
 )
 NAME = "CC2650 SensorTag"
@@ -61,12 +61,12 @@ def test_a_scan_finds_what_advertises_with_name_services_and_address() -> None:
         found = await BleakScanner.discover(1.0, return_adv=True, backend=reach.backend.scanner)
         names = {device.name: (address, said.service_uuids) for address, (device, said) in found.items()}
         assert names == {
-            "solepath L": ("F0:5E:00:00:00:01", list(profile.INSOLE.services)),
+            "solepath L": ("F0:5E:00:00:00:01", list(insole.PROFILE.services)),
             "SensorTag": ("F0:5E:00:00:00:02", []),
         }
         assert now() == pytest.approx(1.0, abs=0.1)
         only = await BleakScanner.discover(
-            1.0, service_uuids=list(profile.INSOLE.services), backend=reach.backend.scanner
+            1.0, service_uuids=list(insole.PROFILE.services), backend=reach.backend.scanner
         )
         assert [device.name for device in only] == ["solepath L"]
 

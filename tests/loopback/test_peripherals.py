@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 from attrs import evolve
 from benches import LEFT, RIGHT, ROUTE, Heard, begin, played, refusal, set_up, walker, worn
@@ -14,20 +16,20 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.device import Device, device_numbers
 from solepath.emulate.sensors.insole_device import TICK_RATE, Insole
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
-from solepath.link import profile
 from solepath.link.decoder import Decoder
+from solepath.link.devices import cc2541, cc2650, insole
 from solepath.link.profile import Access, Profile
 from solepath.types import Packet, Sample, Site
-from solepath.wire import cc2541, cc2650
+from solepath.wire.fields import parse_whole
 from solepath.wire.insole import InsoleFrame, parse_frame
 from solepath.wire.insole_control import Resend, SetInterval, build_control
 from solepath.wire.insole_info import parse_info
 
 START, STOP = b"\x01", b"\x02"
 DEVICES: list[tuple[Device, Profile]] = [
-    (Insole(), profile.INSOLE),
-    (CC2650(), profile.CC2650),
-    (CC2541(), profile.CC2541),
+    (Insole(), insole.PROFILE),
+    (CC2650(), cc2650.PROFILE),
+    (CC2541(), cc2541.PROFILE),
 ]
 
 
@@ -94,7 +96,7 @@ def test_attributes_refuse_what_they_are_not_made_for(device: Device, known: Pro
     with pytest.raises(Exception, match="0x06"):
         tag.subscribe("device/firmware", True, 0.0)
     keys = f"{known.name}/keys"
-    assert refusal(tag, "insole/frame" if known is profile.INSOLE else keys) == 0x02
+    assert refusal(tag, "insole/frame" if known is insole.PROFILE else keys) == 0x02
 
 
 @pytest.mark.parametrize(("device", "known"), DEVICES)
@@ -136,7 +138,7 @@ def _lasting(device: Device) -> Peripheral:
 
 
 def test_a_walk_may_be_begun_when_the_devices_run_already() -> None:
-    tag = set_up(worn(Insole(), began=1e6), profile.INSOLE)
+    tag = set_up(worn(Insole(), began=1e6), insole.PROFILE)
     still = frames(played(tag, 3.0))
     tag.began = 3.0
     walk = frames(played(tag, 3.0 + walker().duration))
@@ -174,7 +176,7 @@ def test_a_bench_tells_its_devices_apart_by_address_and_names_insoles_by_side() 
 )
 def test_frames_are_byte_for_byte_those_that_the_emulator_emits(device: Insole, site: Site) -> None:
     emitted = [n for n in device.emit(walker(), site, device_numbers(3, site)) if n.channel == "insole/frame"]
-    tag = set_up(worn(device, site), profile.INSOLE, now=-1.0, mtu=device.mtu)
+    tag = set_up(worn(device, site), insole.PROFILE, now=-1.0, mtu=device.mtu)
     assert tag.read("insole/info", -1.0) in [n.data for n in device.emit(walker(), site, device_numbers(3, site))]
     heard = played(tag, walker().duration + 1.0, "insole/frame")
     walked = [(t, outgoing.value) for t, outgoing in heard if emitted[0].t - 1e-6 <= t <= emitted[-1].t + 1e-6]
@@ -183,14 +185,14 @@ def test_frames_are_byte_for_byte_those_that_the_emulator_emits(device: Insole, 
 
 
 def test_sequence_and_ticks_count_through_before_during_and_after_the_walk() -> None:
-    found = frames(played(set_up(worn(Insole()), profile.INSOLE, now=-5.0), walker().duration + 5.0))
+    found = frames(played(set_up(worn(Insole()), insole.PROFILE, now=-5.0), walker().duration + 5.0))
     for one, following in zip(found, found[1:], strict=False):
         assert following.sequence == (one.sequence + 1) % 2**16
         assert following.ticks == (one.ticks + one.interval) % 2**32
 
 
 def test_start_while_running_and_stop_while_stopped_change_nothing() -> None:
-    tag = set_up(worn(Insole()), profile.INSOLE)
+    tag = set_up(worn(Insole()), insole.PROFILE)
     first = frames(played(tag, 1.0))
     tag.write("insole/control", START, 1.0)
     assert frames(played(tag, 2.0))[0].sequence == (first[-1].sequence + 1) % 2**16
@@ -202,17 +204,17 @@ def test_start_while_running_and_stop_while_stopped_change_nothing() -> None:
 
 
 def test_a_connection_made_again_needs_nothing_worked_out_again() -> None:
-    tag = set_up(worn(Insole()), profile.INSOLE)
+    tag = set_up(worn(Insole()), insole.PROFILE)
     signal = tag.signal()  # type: ignore[attr-defined]
     tag.disconnected(1.0)
-    set_up(tag, profile.INSOLE, now=2.0)
+    set_up(tag, insole.PROFILE, now=2.0)
     assert tag.signal() is signal  # type: ignore[attr-defined]
     assert frames(played(tag, 3.0))
 
 
 @pytest.mark.parametrize("asked", [164, 656, 1000, 3277])
 def test_an_interval_set_while_it_runs_goes_on_in_sequence_and_on_the_same_clock(asked: int) -> None:
-    tag = set_up(worn(Insole(ppm=0.0)), profile.INSOLE)
+    tag = set_up(worn(Insole(ppm=0.0)), insole.PROFILE)
     before = played(tag, 4.0)
     tag.write("insole/control", build_control(SetInterval(asked)), 4.0)
     after = played(tag, 8.0)
@@ -232,7 +234,7 @@ def test_an_interval_that_is_too_short_becomes_the_shortest_and_info_says_so() -
 
 
 def test_frames_are_sent_again_flagged_and_otherwise_the_same() -> None:
-    tag = set_up(worn(Insole()), profile.INSOLE)
+    tag = set_up(worn(Insole()), insole.PROFILE)
     first = frames(played(tag, 3.0))
     wanted = first[-20:-10]
     tag.write("insole/control", build_control(Resend(wanted[0].sequence, 10)), 3.0)
@@ -243,7 +245,7 @@ def test_frames_are_sent_again_flagged_and_otherwise_the_same() -> None:
 
 
 def test_frames_older_than_twenty_seconds_are_gone() -> None:
-    tag = set_up(worn(Insole(cells=24)), profile.INSOLE)
+    tag = set_up(worn(Insole(cells=24)), insole.PROFILE)
     first = frames(played(tag, 25.0))
     tag.write("insole/control", build_control(Resend(first[0].sequence, 255)), 25.0)
     tag.write("insole/control", build_control(Resend((first[-1].sequence + 100) % 2**16, 5)), 25.0)
@@ -270,7 +272,7 @@ def test_the_control_point_refuses_with_the_codes_of_the_protocol(value: bytes, 
 
 
 def test_with_a_small_mtu_frames_go_in_fragments_and_large_batches_shrink() -> None:
-    tag = set_up(worn(Insole(batch=8)), profile.INSOLE, mtu=23)
+    tag = set_up(worn(Insole(batch=8)), insole.PROFILE, mtu=23)
     heard = played(tag, 1.0, "insole/frame")
     assert max(len(outgoing.value) for _, outgoing in heard) == 20
     decoder, samples = Decoder(site=LEFT), []
@@ -282,8 +284,12 @@ def test_with_a_small_mtu_frames_go_in_fragments_and_large_batches_shrink() -> N
 # the CC2650
 
 
-def movements(tag: Peripheral, until: float) -> list[tuple[float, cc2650.Movement]]:
-    return [(t, cc2650.parse_movement(o.value)) for t, o in played(tag, until, "cc2650/movement")]
+def said(channel: str, value: bytes) -> Any:
+    return parse_whole({**cc2650.FORMATS, **cc2541.FORMATS}[channel], value)
+
+
+def movements(tag: Peripheral, until: float) -> list[tuple[float, Any]]:
+    return [(t, said("cc2650/movement", o.value)) for t, o in played(tag, until, "cc2650/movement")]
 
 
 def configured(config: bytes, device: CC2650 | None = None, route: Route = ROUTE) -> Peripheral:
@@ -384,7 +390,7 @@ def test_the_same_sensor_has_the_same_errors_at_another_period() -> None:
 def test_values_of_wrong_length_or_meaning_are_refused_and_change_nothing(
     channel: str, value: bytes, code: int
 ) -> None:
-    tag = set_up(worn(CC2650()), profile.CC2650)
+    tag = set_up(worn(CC2650()), cc2650.PROFILE)
     before = tag.read(channel, 0.0)
     assert refusal(tag, channel, value) == code
     assert tag.read(channel, 0.0) == before
@@ -395,13 +401,13 @@ def test_the_barometer_says_the_air_pressure_at_its_own_period() -> None:
     tag.write("cc2650/barometer-period", b"\x14", 0.0)
     assert tag.next_due() is None
     tag.write("cc2650/barometer-config", b"\x01", 0.0)
-    heard = [cc2650.parse_barometer(o.value) for _, o in played(tag, 8.0)]
+    heard = [said("cc2650/barometer", o.value) for _, o in played(tag, 8.0)]
     assert len(heard) == pytest.approx(40, abs=3)
     assert all(one.pressure == pytest.approx(101325.0, abs=300.0) for one in heard)
 
 
 def test_what_is_read_is_what_was_measured_last() -> None:
-    tag = set_up(worn(CC2650()), profile.CC2650)
+    tag = set_up(worn(CC2650()), cc2650.PROFILE)
     t, last = played(tag, 5.0, "cc2650/movement")[-1]
     assert tag.read("cc2650/movement", t) == last.value
 
@@ -428,7 +434,7 @@ def test_a_battery_empties_and_says_so(device: Device, full: int) -> None:
 
 
 def test_a_disconnected_tag_forgets_what_was_written() -> None:
-    tag = set_up(worn(CC2650()), profile.CC2650)
+    tag = set_up(worn(CC2650()), cc2650.PROFILE)
     tag.disconnected(3.0)
     begin(tag, "cc2650/movement", now=4.0)
     assert tag.read("cc2650/movement-config", 4.0) == b"\x00\x00"
@@ -441,11 +447,8 @@ def test_a_disconnected_tag_forgets_what_was_written() -> None:
 
 def axes(tag: Peripheral, sensor: str, until: float) -> list[tuple[int, int, int]]:
     data = [o.value for _, o in played(tag, until, f"cc2541/{sensor}")]
-    if sensor == "accelerometer":
-        return [cc2541.parse_accelerometer(value).acc for value in data]
-    if sensor == "gyroscope":
-        return [cc2541.parse_gyroscope(value).gyro for value in data]
-    return [cc2541.parse_magnetometer(value).mag for value in data]
+    field = {"accelerometer": "acc", "gyroscope": "gyro", "magnetometer": "mag"}[sensor]
+    return [said(f"cc2541/{sensor}", value)[field] for value in data]
 
 
 def test_each_accelerometer_code_has_a_range_of_its_own() -> None:
@@ -474,7 +477,7 @@ def test_the_gyroscope_measures_the_axes_of_its_mask(mask: int) -> None:
 
 
 def test_each_sensor_has_a_period_of_its_own() -> None:
-    tag = begin(worn(CC2541()), *(c.name for c in profile.CC2541.channels if c.how is Access.NOTIFY))
+    tag = begin(worn(CC2541()), *(c.name for c in cc2541.PROFILE.channels if c.how is Access.NOTIFY))
     tag.write("cc2541/accelerometer-period", b"\x05", 0.0)
     tag.write("cc2541/gyroscope-period", b"\x14", 0.0)
     for sensor, on in (("accelerometer", 3), ("gyroscope", 7), ("magnetometer", 1), ("barometer", 1)):
@@ -487,7 +490,7 @@ def test_each_sensor_has_a_period_of_its_own() -> None:
 
 
 def test_rebuilt_firmware_takes_twenty_hertz() -> None:
-    tag = set_up(worn(CC2541(rate=20.0)), profile.CC2541_20HZ)
+    tag = set_up(worn(CC2541(rate=20.0)), cc2541.PROFILE_20HZ)
     played(tag, 10.0)
     assert tag.sent["cc2541/accelerometer"] == pytest.approx(200, abs=2)
     assert tag.sent["cc2541/gyroscope"] == pytest.approx(200, abs=2)
@@ -498,9 +501,11 @@ def test_coefficients_can_be_read_after_they_were_fetched_and_not_before() -> No
     assert refusal(tag, "cc2541/barometer-calibration") == 0x02
     tag.write("cc2541/barometer-config", b"\x02", 0.0)
     assert not played(tag, 3.0), "fetching does not switch it on"
-    calibration = cc2541.parse_barometer_calibration(tag.read("cc2541/barometer-calibration", 3.0) or b"")
+    read = said("cc2541/barometer-calibration", tag.read("cc2541/barometer-calibration", 3.0) or b"")
+    calibration = cc2541.BarometerCalibration(*[read[f"c{n}"] for n in range(1, 9)])
     tag.write("cc2541/barometer-config", b"\x01", 3.0)
-    heard = [calibration.pascal(cc2541.parse_barometer(o.value)) for _, o in played(tag, 8.0)]
+    raw = [said("cc2541/barometer", o.value) for _, o in played(tag, 8.0)]
+    heard = [calibration.pascal(one.temperature, one.pressure) for one in raw]
     assert len(heard) in (4, 5, 6)
     assert heard == pytest.approx([101325.0] * len(heard), abs=300.0)
     tag.disconnected(8.0)

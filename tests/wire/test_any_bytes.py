@@ -13,9 +13,10 @@ from here import PROTOCOL
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from solepath.link.devices import DECLARED
+from solepath.link.catalogue import DECLARED
+from solepath.link.devices import cc2541
 from solepath.types import Cell, Foot
-from solepath.wire import cc2541, cc2650, cells, device, fragment, insole, insole_control, insole_info, period, receiver
+from solepath.wire import cells, device, fragment, insole, insole_control, insole_info, receiver
 from solepath.wire.envelope import MAGIC
 from solepath.wire.error import WireError
 from solepath.wire.fields import build_whole, parse_whole
@@ -30,32 +31,19 @@ CODECS: dict[str, tuple[Callable[[bytes], Any], Callable[[Any], bytes]]] = {
     "insole-fragment": (fragment.parse_fragment, fragment.build_fragment),
     "insole-info": (insole_info.parse_info, insole_info.build_info),
     "insole-control": (insole_control.parse_control, insole_control.build_control),
-    "cc2650-movement": (cc2650.parse_movement, cc2650.build_movement),
-    "cc2650-movement-config": (cc2650.parse_movement_config, cc2650.build_movement_config),
-    "cc2650-barometer": (cc2650.parse_barometer, cc2650.build_barometer),
-    "cc2650-barometer-config": (cc2650.parse_barometer_config, cc2650.build_barometer_config),
-    "cc2650-keys": (cc2650.parse_keys, cc2650.build_keys),
-    "cc2541-accelerometer": (cc2541.parse_accelerometer, cc2541.build_accelerometer),
-    "cc2541-accelerometer-config": (cc2541.parse_accelerometer_config, cc2541.build_accelerometer_config),
-    "cc2541-gyroscope": (cc2541.parse_gyroscope, cc2541.build_gyroscope),
-    "cc2541-gyroscope-config": (cc2541.parse_gyroscope_config, cc2541.build_gyroscope_config),
-    "cc2541-magnetometer": (cc2541.parse_magnetometer, cc2541.build_magnetometer),
-    "cc2541-magnetometer-config": (cc2541.parse_magnetometer_config, cc2541.build_magnetometer_config),
-    "cc2541-barometer": (cc2541.parse_barometer, cc2541.build_barometer),
-    "cc2541-barometer-config": (cc2541.parse_barometer_config, cc2541.build_barometer_config),
-    "cc2541-barometer-calibration": (cc2541.parse_barometer_calibration, cc2541.build_barometer_calibration),
-    "cc2541-keys": (cc2541.parse_keys, cc2541.build_keys),
     "device-battery": (device.parse_battery, device.build_battery),
     "device-firmware": (device.parse_firmware, device.build_firmware),
     "receiver-connected": (receiver.parse_connected, receiver.build_connected),
     "receiver-dropped": (receiver.parse_dropped, receiver.build_dropped),
     "receiver-trouble": (receiver.parse_words, receiver.build_words),
-    "sensortag-period": (period.parse_period, period.build_period),
 }
 CODECS |= {
-    channel.replace("/", "-"): (partial(parse_whole, one), partial(build_whole, one))
-    for driver in DECLARED
-    for channel, one in driver.formats.items()
+    "sensortag-period" if channel.endswith("-period") else channel.replace("/", "-"): (
+        partial(parse_whole, one),
+        partial(build_whole, one),
+    )
+    for formats in (cc2541.FORMATS, *[driver.formats for driver in DECLARED])
+    for channel, one in formats.items()
 }
 
 
@@ -247,27 +235,6 @@ OTHERS = {
         st.builds(insole_control.SetInterval, st.integers(1, 65535)),
         st.builds(insole_control.Resend, U16, st.integers(1, 255)),
     ),
-    "cc2650-movement": st.builds(cc2650.Movement, *[st.tuples(I16, I16, I16)] * 3),
-    "cc2650-movement-config": st.builds(
-        cc2650.MovementConfig, BITS, BITS, st.booleans(), st.booleans(), st.sampled_from([2, 4, 8, 16])
-    ),
-    "cc2650-barometer": st.builds(
-        cc2650.Cc2650Barometer,
-        st.integers(-(2**23), 2**23 - 1).map(lambda n: n / 100),
-        st.integers(0, 2**24 - 1).map(float),
-    ),
-    "cc2650-barometer-config": st.builds(cc2650.Cc2650BarometerConfig, st.booleans()),
-    "cc2650-keys": st.builds(cc2650.Cc2650Keys, st.booleans(), st.booleans(), st.booleans()),
-    "cc2541-accelerometer": st.builds(cc2541.Accelerometer, st.tuples(I8, I8, I8)),
-    "cc2541-accelerometer-config": st.builds(cc2541.AccelerometerConfig, st.integers(0, 3)),
-    "cc2541-gyroscope": st.builds(cc2541.Gyroscope, st.tuples(I16, I16, I16)),
-    "cc2541-gyroscope-config": st.builds(cc2541.GyroscopeConfig, BITS),
-    "cc2541-magnetometer": st.builds(cc2541.Magnetometer, st.tuples(I16, I16, I16)),
-    "cc2541-magnetometer-config": st.builds(cc2541.MagnetometerConfig, st.booleans()),
-    "cc2541-barometer": st.builds(cc2541.Cc2541Barometer, I16, U16),
-    "cc2541-barometer-config": st.builds(cc2541.Cc2541BarometerConfig, st.integers(0, 2)),
-    "cc2541-barometer-calibration": st.builds(cc2541.BarometerCalibration, *[U16] * 4, *[I16] * 4),
-    "cc2541-keys": st.builds(cc2541.Cc2541Keys, st.booleans(), st.booleans(), st.booleans()),
     "device-battery": st.integers(0, 100),
     "device-firmware": st.text(st.characters(codec="utf-8"), min_size=1, max_size=100),
     "receiver-connected": st.builds(
@@ -277,7 +244,6 @@ OTHERS = {
     ),
     "receiver-dropped": st.integers(1, 2**32 - 1),
     "receiver-trouble": st.text(st.characters(codec="utf-8"), min_size=1, max_size=100),
-    "sensortag-period": st.integers(1, 255).map(lambda n: n / 100),
 }
 
 

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import pytest
 from attrs import evolve
 
+from solepath.link.devices import cc2541, cc2650
 from solepath.types import Cell, Foot
-from solepath.wire import cc2541, cc2650, device, fragment, insole, insole_control, insole_info, period
+from solepath.wire import device, fragment, insole, insole_control, insole_info
 from solepath.wire.error import WireError
+from solepath.wire.fields import build_whole
 
 SAMPLE = insole.InsoleSample((1, 2), (0, 0, 0, 0, 0, 0))
 FRAME = insole.InsoleFrame(Foot.LEFT, 1, 2, 3, 4, (SAMPLE,))
@@ -19,6 +22,11 @@ INFO = insole_info.InsoleInfo(Foot.LEFT, 1, 2, 32768, 327, 0.5, 0.25, 0.125, 0.2
 
 def frame_of(*samples: insole.InsoleSample) -> insole.InsoleFrame:
     return evolve(FRAME, samples=samples)
+
+
+def tag(channel: str, **fields: Any) -> tuple[Callable[[Any], bytes], Any]:
+    """What a SensorTag does not say."""
+    return partial(build_whole, {**cc2541.FORMATS, **cc2650.FORMATS}[channel]), fields
 
 
 MISFITS: dict[str, tuple[Callable[[Any], bytes], Any]] = {
@@ -61,31 +69,27 @@ MISFITS: dict[str, tuple[Callable[[Any], bytes], Any]] = {
     "set interval over u16": (insole_control.build_control, insole_control.SetInterval(65536)),
     "resend nothing": (insole_control.build_control, insole_control.Resend(0, 0)),
     "resend 256": (insole_control.build_control, insole_control.Resend(0, 256)),
-    "a movement count over i16": (
-        cc2650.build_movement,
-        cc2650.Movement((0, 0, 32768), (0, 0, 0), (0, 0, 0)),
+    "a movement count over i16": tag("cc2650/movement", gyro=(0, 0, 32768), acc=(0, 0, 0), mag=(0, 0, 0)),
+    "a range of 3 g": tag(
+        "cc2650/movement-config", range=3, wake_on_motion=False, mag=True, acc_axes=[True] * 3, gyro_axes=[True] * 3
     ),
-    "a range of 3 g": (cc2650.build_movement_config, cc2650.MovementConfig(range=3)),
-    "a temperature over i24": (cc2650.build_barometer, cc2650.Cc2650Barometer(83886.08, 0.0)),
-    "a pressure over u24": (cc2650.build_barometer, cc2650.Cc2650Barometer(0.0, 2.0**24)),
-    "a pressure under 0": (cc2650.build_barometer, cc2650.Cc2650Barometer(0.0, -1.0)),
-    "an infinite pressure": (cc2650.build_barometer, cc2650.Cc2650Barometer(0.0, float("inf"))),
-    "an acceleration over i8": (cc2541.build_accelerometer, cc2541.Accelerometer((0, 0, 128))),
-    "range code 4": (cc2541.build_accelerometer_config, cc2541.AccelerometerConfig(4)),
-    "an angular rate under i16": (cc2541.build_gyroscope, cc2541.Gyroscope((-32769, 0, 0))),
-    "a field over i16": (cc2541.build_magnetometer, cc2541.Magnetometer((32768, 0, 0))),
-    "barometer code 3": (cc2541.build_barometer_config, cc2541.Cc2541BarometerConfig(3)),
-    "a raw pressure under 0": (cc2541.build_barometer, cc2541.Cc2541Barometer(0, -1)),
-    "a signed c1": (
-        cc2541.build_barometer_calibration,
-        cc2541.BarometerCalibration(-1, 0, 0, 0, 0, 0, 0, 0),
-    ),
+    "a temperature over i24": tag("cc2650/barometer", temperature=83886.08, pressure=0.0),
+    "a pressure over u24": tag("cc2650/barometer", temperature=0.0, pressure=2.0**24),
+    "a pressure under 0": tag("cc2650/barometer", temperature=0.0, pressure=-1.0),
+    "an infinite pressure": tag("cc2650/barometer", temperature=0.0, pressure=float("inf")),
+    "an acceleration over i8": tag("cc2541/accelerometer", acc=(0, 0, 128)),
+    "range code 4": tag("cc2541/accelerometer-config", code=4),
+    "an angular rate under i16": tag("cc2541/gyroscope", gyro=(-32769, 0, 0)),
+    "a field over i16": tag("cc2541/magnetometer", mag=(32768, 0, 0)),
+    "barometer code 3": tag("cc2541/barometer-config", code=3),
+    "a raw pressure under 0": tag("cc2541/barometer", temperature=0, pressure=-1),
+    "a signed c1": tag("cc2541/barometer-calibration", c1=-1, c2=0, c3=0, c4=0, c5=0, c6=0, c7=0, c8=0),
     "101 percent": (device.build_battery, 101),
     "an empty firmware revision": (device.build_firmware, ""),
     "a long firmware revision": (device.build_firmware, "n" * 513),
-    "no period": (period.build_period, 0.0),
-    "a period over 2.55 s": (period.build_period, 2.56),
-    "a period that is no number": (period.build_period, float("nan")),
+    "no period": tag("cc2650/movement-period", period=0.0),
+    "a period over 2.55 s": tag("cc2650/movement-period", period=2.56),
+    "a period that is no number": tag("cc2650/movement-period", period=float("nan")),
 }
 
 

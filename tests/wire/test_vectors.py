@@ -13,14 +13,14 @@ from attrs import frozen
 from here import PROTOCOL
 
 from solepath.events import Rejection
-from solepath.link.devices import DECLARED
+from solepath.link.catalogue import DECLARED, PROFILES
+from solepath.link.devices import cc2541
 from solepath.link.driver import Driver
-from solepath.link.known import PROFILES
 from solepath.saving import codec as machine
 from solepath.testing.vectors import disagreements, plain
 from solepath.types import Cell, Foot
-from solepath.wire import cc2541, cc2650, device, fragment, insole, insole_control, insole_info, period, receiver
-from solepath.wire.envelope import crc16
+from solepath.wire import device, fragment, insole, insole_control, insole_info, receiver
+from solepath.wire.envelope import seal
 from solepath.wire.error import WireError
 from solepath.wire.fields import build_whole, parse_whole
 
@@ -89,33 +89,6 @@ FORMATS = {
     "insole-control": Format(
         insole_control.parse_control, insole_control.build_control, command_fields, command_record
     ),
-    "cc2650-movement": record(cc2650.Movement, cc2650.parse_movement, cc2650.build_movement),
-    "cc2650-movement-config": record(cc2650.MovementConfig, cc2650.parse_movement_config, cc2650.build_movement_config),
-    "cc2650-barometer": record(cc2650.Cc2650Barometer, cc2650.parse_barometer, cc2650.build_barometer),
-    "cc2650-barometer-config": record(
-        cc2650.Cc2650BarometerConfig, cc2650.parse_barometer_config, cc2650.build_barometer_config
-    ),
-    "cc2650-keys": record(cc2650.Cc2650Keys, cc2650.parse_keys, cc2650.build_keys),
-    "cc2541-accelerometer": record(cc2541.Accelerometer, cc2541.parse_accelerometer, cc2541.build_accelerometer),
-    "cc2541-accelerometer-config": record(
-        cc2541.AccelerometerConfig, cc2541.parse_accelerometer_config, cc2541.build_accelerometer_config
-    ),
-    "cc2541-gyroscope": record(cc2541.Gyroscope, cc2541.parse_gyroscope, cc2541.build_gyroscope),
-    "cc2541-gyroscope-config": record(
-        cc2541.GyroscopeConfig, cc2541.parse_gyroscope_config, cc2541.build_gyroscope_config
-    ),
-    "cc2541-magnetometer": record(cc2541.Magnetometer, cc2541.parse_magnetometer, cc2541.build_magnetometer),
-    "cc2541-magnetometer-config": record(
-        cc2541.MagnetometerConfig, cc2541.parse_magnetometer_config, cc2541.build_magnetometer_config
-    ),
-    "cc2541-barometer": record(cc2541.Cc2541Barometer, cc2541.parse_barometer, cc2541.build_barometer),
-    "cc2541-barometer-config": record(
-        cc2541.Cc2541BarometerConfig, cc2541.parse_barometer_config, cc2541.build_barometer_config
-    ),
-    "cc2541-barometer-calibration": record(
-        cc2541.BarometerCalibration, cc2541.parse_barometer_calibration, cc2541.build_barometer_calibration
-    ),
-    "cc2541-keys": record(cc2541.Cc2541Keys, cc2541.parse_keys, cc2541.build_keys),
     "device-battery": single("percent", device.parse_battery, device.build_battery),
     "device-firmware": single("firmware", device.parse_firmware, device.build_firmware),
     "receiver-connected": record(receiver.ConnectionFrame, receiver.parse_connected, receiver.build_connected),
@@ -124,13 +97,21 @@ FORMATS = {
     "receiver-restarted": single("words", receiver.parse_words, receiver.build_words),
     "receiver-tick": Format(receiver.parse_nothing, lambda _: b"", lambda _: {}, lambda _: None),
     "receiver-trouble": single("words", receiver.parse_words, receiver.build_words),
-    "sensortag-period": single("period", period.parse_period, period.build_period),
 }
 
-DECLARED_FORMATS = {channel.replace("/", "-"): (d, d.formats[channel]) for d in DECLARED for channel in d.formats}
+PERIODS = ("cc2650/barometer-period", *[channel for channel in cc2541.FORMATS if channel.endswith("-period")])
+"""All periods are alike; one of them has the vectors of all."""
+FILE_OF = {"cc2650/movement-period": "sensortag-period"}
+DECLARED_FORMATS = {
+    FILE_OF.get(channel, channel.replace("/", "-")): (driver, one)
+    for driver in DECLARED
+    for channel, one in driver.formats.items()
+    if channel not in PERIODS
+}
+OLD_TAG = {channel.replace("/", "-"): one for channel, one in cc2541.FORMATS.items() if channel not in PERIODS}
 FORMATS |= {
     name: Format(partial(parse_whole, one), partial(build_whole, one), plain, lambda fields: fields)
-    for name, (_, one) in DECLARED_FORMATS.items()
+    for name, one in [*OLD_TAG.items(), *[(name, one) for name, (_, one) in DECLARED_FORMATS.items()]]
 }
 
 FILES = {path.stem: json.loads(path.read_text("utf-8")) for path in sorted(VECTORS.glob("*.json"))}
@@ -179,16 +160,12 @@ def test_a_frame_is_cut_into_the_notifications_of_the_vector(case: Any) -> None:
 )
 def test_the_t5400_is_compensated_as_its_formulas_say(vector: Any) -> None:
     physical = vector["physical"]
-    raw = cc2541.parse_barometer(bytes.fromhex(vector["hex"]))
-    calibration = cc2541.parse_barometer_calibration(bytes.fromhex(physical["calibration"]))
-    assert calibration.celsius(raw) == pytest.approx(physical["celsius"], abs=physical["tolerance"])
-    assert calibration.pascal(raw) == pytest.approx(physical["pascal"], abs=physical["tolerance"])
-
-
-def test_left_and_right_keys_are_the_other_way_round_on_the_older_tag() -> None:
-    assert cc2650.parse_keys(b"\x01").down == ("left",)
-    assert cc2541.parse_keys(b"\x01").down == ("right",)
-    assert cc2541.parse_keys(b"\x07").down == ("left", "right", "side")
+    raw = parse_whole(cc2541.FORMATS["cc2541/barometer"], bytes.fromhex(vector["hex"]))
+    fields = parse_whole(cc2541.FORMATS["cc2541/barometer-calibration"], bytes.fromhex(physical["calibration"]))
+    calibration = cc2541.BarometerCalibration(**plain(fields))
+    assert calibration.celsius(raw.temperature) == pytest.approx(physical["celsius"], abs=physical["tolerance"])
+    pascal = calibration.pascal(raw.temperature, raw.pressure)
+    assert pascal == pytest.approx(physical["pascal"], abs=physical["tolerance"])
 
 
 @pytest.mark.parametrize("name", DECLARED_FORMATS)
@@ -228,4 +205,4 @@ def test_every_channel_has_a_vector_file() -> None:
 
 
 def test_the_crc_is_ccitt_false() -> None:
-    assert crc16(b"123456789") == 0x29B1
+    assert seal(b"123456789") == b"123456789\xb1\x29"

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from attrs import frozen
 
-from ..link.known import PROFILES
+from ..link.catalogue import PROFILES
 from ..link.profile import Profile
 from ..types import SITE_OF_FOOT, Site
 

@@ -124,7 +124,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _opened(options: argparse.Namespace) -> BtsnoopLog:
-    from ..link.known import PROFILES
+    from ..link.catalogue import PROFILES
     from ..recording.btsnoop import open_btsnoop
 
     sites, handles = _once("--site", options.sites), _once("--handle", options.handles)

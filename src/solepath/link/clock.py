@@ -89,10 +89,10 @@ class Clock:
         """Whether a packet measured at `ticks` that arrived at `arrival` must be of another clock. Changes nothing."""
         if not self.xs:
             return False
-        delay = arrival - self.fitted(ticks)
+        x = (ticks - self.first_tick) / self.rate
+        delay = arrival - (self.origin + self.offset + x * (1.0 + self.drift))
         if delay < 0.0:
-            since_newest = max(0.0, (ticks - self.first_tick) / self.rate - self.xs[-1])
-            return delay < -(AHEAD + 0.01 * since_newest)
+            return delay < -(AHEAD + 0.01 * max(0.0, x - self.xs[-1]))
         if delay > BEHIND_AT_ONCE:
             return True
         return delay > BEHIND and self.behind_since is not None and arrival - self.behind_since > BEHIND_FOR
@@ -126,10 +126,11 @@ class Clock:
     def time(self, ticks: float) -> float:
         """The time of a sample measured at `ticks`, s; call once per sample, in order of ticks."""
         x = (ticks - self.first_tick) / self.rate
-        t = self.expected(ticks)
+        fitted = self.origin + self.offset + x * (1.0 + self.drift)
+        t = self._slewed(x, fitted)
         if self.last_x is not None and t <= self.last_t:  # below float resolution, or ticks that stand still
             t = self.last_t + 1e-6
-        if self.last_x is None or not -WITHIN <= self.fitted(ticks) - t <= WITHIN:
+        if self.last_x is None or not -WITHIN <= fitted - t <= WITHIN:
             self.away = x
         if x - self.away < SETTLED_FOR:
             self.doubt = t
@@ -138,10 +139,13 @@ class Clock:
 
     def expected(self, ticks: float) -> float:
         """What `time(ticks)` would assign. Changes nothing."""
-        fitted = self.fitted(ticks)
+        return self._slewed((ticks - self.first_tick) / self.rate, self.fitted(ticks))
+
+    def _slewed(self, x: float, fitted: float) -> float:
+        """The time of device second `x`, where the line is at `fitted`, s."""
         if self.last_x is None:
             return fitted if self.floor is None else max(fitted, self.floor)
-        step = (ticks - self.first_tick) / self.rate - self.last_x
+        step = x - self.last_x
         straight = self.last_t + step * (1.0 + self.drift)
         error = fitted - straight
         limit = step * (SLEW if -FAR < error < FAR else SLEW_FAR)

@@ -2,9 +2,9 @@
 
 The device is known from the channel's prefix, the first time that a packet of it can be used. What all devices have
 in common is here: whether a packet's arrival time is sound and it comes from the device that this site is bound to,
-silence, battery and firmware. Bytes and clocks are the business of insole.py, cc2650.py, cc2541.py and, for declared
-devices, stream.py; known.py has the table of all. An app that adds devices hands over its own table with every call:
-it holds functions, and a decoder is data.
+silence, battery and firmware. Bytes and clocks are the business of devices/ and, for declared devices, stream.py;
+known.py has the table of all. An app that adds devices hands over its own table with every call: it holds functions,
+and a decoder is data.
 
 A site is bound to the first device that says its address (`Packet.device`), or to the one that it was made for. From
 then on packets of other devices, and of devices that do not say, are rejected; upper and lower case are one address.
@@ -36,9 +36,8 @@ from ..types import Packet, Sample, Site
 from ..wire.device import parse_battery, parse_firmware
 from ..wire.error import WireError
 from .devices.cc2541 import Cc2541Link
-from .devices.cc2650 import Cc2650Link
 from .devices.insole import InsoleLink
-from .known import KINDS, DeviceKind, Kinds
+from .known import KINDS, Kinds
 from .receiver import said
 from .stream import StreamLink
 
@@ -62,7 +61,7 @@ class Decoder:
     site: Site
     device: str = ""
     """The address of the device that the site is bound to; "" until one is known."""
-    link: InsoleLink | Cc2650Link | Cc2541Link | StreamLink | None = None
+    link: InsoleLink | Cc2541Link | StreamLink | None = None
     """The device, once a packet of it was used."""
     firmware: str = ""
     arrived: float | None = None
@@ -82,8 +81,7 @@ class Decoder:
             return self._reject(packet, Rejection.ABSURD, f"arrival time {t:g} s")
         if packet.site is not self.site:
             return self._reject(packet, Rejection.WRONG_SITE, f"of {packet.site.value}, not {self.site.value}")
-        prefix = packet.channel.partition("/")[0]
-        if self._is_another(packet.device) and (packet.device or prefix != "receiver"):
+        if packet.device != self.device and self._is_another(packet):
             return self._reject(packet, Rejection.WRONG_DEVICE, f"of {packet.device or 'nobody'}, not {self.device}")
         if self.arrived is not None and t < self.arrived:
             if self.backwards + 1 < SET_BACK:
@@ -100,7 +98,7 @@ class Decoder:
         link, heard = self.link, self.heard
         if link is None or heard is None or self.stale or link.silence_is_legal or not isfinite(now):
             return []
-        kind = kinds.get(link.name)
+        kind = kinds.loaded.get(link.name) or kinds.get(link.name)
         if kind is None or now - heard <= kind.profile.stale_after:
             return []
         limit = kind.profile.stale_after
@@ -117,8 +115,11 @@ class Decoder:
         """Is the site bound to just this address, in whatever case? "" asks whether it is bound to none."""
         return device == self.device or device.upper() == self.device.upper()
 
-    def _is_another(self, device: str) -> bool:
-        return self.device != "" and not self.is_bound_to(device)
+    def _is_another(self, packet: Packet) -> bool:
+        """Whether a packet is of another device than the site is bound to. The receiver itself is of none."""
+        if self.device == "" or self.is_bound_to(packet.device):
+            return False
+        return packet.device != "" or packet.channel.partition("/")[0] != "receiver"
 
     def _use(self, packet: Packet, kinds: Kinds) -> Output:
         """WireError, before anything has changed, when the packet cannot be used."""
@@ -126,9 +127,10 @@ class Decoder:
         if prefix == "device" or prefix == "receiver":
             out = self._standard(packet) if prefix == "device" else self._receiver(packet)
             self.device = self.device or packet.device
-            return self._heed(packet.t, None, kinds) + out
-        kind = kinds.get(prefix)
-        if kind is None or not kind.profile.has(packet.channel):
+            self.arrived, self.backwards = packet.t, 0
+            return self.advance(packet.t, kinds) + out
+        kind = kinds.loaded.get(prefix) or kinds.get(prefix)
+        if kind is None or packet.channel not in kind.profile.channel_names:
             raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
         link = self.link
         if link is None:
@@ -139,7 +141,13 @@ class Decoder:
         out = kind.feed(link, packet.channel, packet.data, packet.t)
         self.link = link
         self.device = self.device or packet.device
-        return self._heed(packet.t, kind if packet.channel in kind.profile.streams else None, kinds) + out
+        self.arrived, self.backwards = packet.t, 0
+        if packet.channel not in kind.profile.streams:
+            return self.advance(packet.t, kinds) + out
+        if self.stale or (self.heard is not None and packet.t - self.heard > kind.profile.stale_after):
+            out = self._after_silence(packet.t, kind.profile.stale_after) + out
+        self.heard = packet.t
+        return out
 
     def _receiver(self, packet: Packet) -> Output:
         out = said(packet)
@@ -159,22 +167,19 @@ class Decoder:
             self.link.learn_firmware(self.firmware)
         return []
 
-    def _heed(self, t: float, streams: DeviceKind | None, kinds: Kinds) -> Output:
-        """A packet that was used arrived at `t`; of a kind that `streams` when it breaks a silence."""
-        self.arrived, self.backwards = t, 0
-        if streams is None:
-            return self.advance(t, kinds)
+    def _after_silence(self, t: float, limit: float) -> Output:
+        """A packet of a stream arrived at `t` after more than `limit` s without any."""
         out: Output = []
-        if self.heard is not None:
-            silent_for, limit = t - self.heard, streams.profile.stale_after
-            if not self.stale and silent_for > limit and self.link is not None and not self.link.silence_is_legal:
-                self.stale = True
-                begun = self.heard + limit
-                out.append(StreamStale(t=begun, known_at=t, site=self.site, silent_for=silent_for))
-            if self.stale:
-                self.stale = False
-                out.append(StreamResumed(t=t, known_at=t, site=self.site, silent_for=silent_for))
-        self.heard = t
+        if self.heard is None or self.link is None:
+            return out
+        silent_for = t - self.heard
+        if not self.stale and not self.link.silence_is_legal:
+            self.stale = True
+            begun = self.heard + limit
+            out.append(StreamStale(t=begun, known_at=t, site=self.site, silent_for=silent_for))
+        if self.stale:
+            self.stale = False
+            out.append(StreamResumed(t=t, known_at=t, site=self.site, silent_for=silent_for))
         return out
 
     def _begin_anew(self, packet: Packet, kinds: Kinds) -> Output:

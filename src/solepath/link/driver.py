@@ -63,7 +63,8 @@ class Reading:
     so. `mag` (T), `air_pressure` (Pa): measured beside the stream; they ride on its next sample.
 
     `battery`: 0 to 1. `keys`: which are down. `foot`: whose it is. `layout`: of the pressure cells. `rate`: samples a
-    second from this value on. `silent`: whether the device may fall silent from now on (off, or waits for motion).
+    second from this value on; or `period`: s from one notification to the next, where arrivals alone time them.
+    `silent`: whether the device may fall silent from now on (off, or waits for motion).
     `known`: numbers that later values are read with; "acc_range" is the accelerometer's full scale in g.
     """
 
@@ -78,6 +79,7 @@ class Reading:
     foot: Foot | None = None
     layout: Layout | None = None
     rate: float | None = None
+    period: float | None = None
     silent: bool | None = None
     known: Mapping[str, float] = field(factory=dict)
 

@@ -6,7 +6,8 @@ from math import sqrt
 
 from attrs import define
 
-from ..types import Vec3
+from ..events import ScaleSuspect
+from ..types import Sample, Vec3
 from ..types.vector import GRAVITY
 
 WINDOW = 1.5
@@ -31,8 +32,17 @@ class RestCheck:
     high: Vec3 = (0.0, 0.0, 0.0)
     total: Vec3 = (0.0, 0.0, 0.0)
 
+    def suspect(self, sample: Sample, assumed: float) -> list[ScaleSuspect]:
+        """The event when this sample, which has `acc`, shows that it is wrong; a full scale of `assumed` g is taken for
+        granted. Call with every such sample until `done`."""
+        magnitude = None if sample.acc is None else self.feed(sample.t, sample.acc)
+        if magnitude is None:
+            return []
+        t, known_at, words = sample.t, sample.known_at, suggestion(magnitude, assumed)
+        return [ScaleSuspect(t=t, known_at=known_at, site=sample.site, magnitude=magnitude, suggestion=words)]
+
     def feed(self, t: float, acc: Vec3) -> float | None:
-        """Mean |acc| in m/s^2 when it is known to be wrong, else None. Call with every sample until `done`."""
+        """Mean |acc| in m/s^2 when it is known to be wrong, else None."""
         x, y, z = acc
         if self.count == 0:
             self._begin(t, acc)

@@ -42,9 +42,11 @@ class Counted:
 
 @frozen
 class Taken:
-    """`lost` packets never came, the first of them at `t_missing`, s. `restarted`: None within a fit; when a new one
-    began, whether the device counts from anew as well."""
+    """When the samples of a packet were taken, s. `lost` packets before it never came, the first of them at
+    `t_missing`, s. `restarted`: None within a fit; when a new one began, whether the device counts from anew as well.
+    """
 
+    times: list[float]
     lost: int = 0
     t_missing: float = 0.0
     restarted: bool | None = None
@@ -68,24 +70,21 @@ class PacketRun:
     fresh: bool = False
     """No packet came yet since the device was connected again: counters that go back have begun anew."""
 
-    def ahead(self, ticks: int, modulus: int) -> int:
-        """Ticks after the newest packet, as a signed difference."""
-        return signed(ticks - self.ticks, modulus)
-
     def packets(self, sequence: int, modulus: int, expected: float) -> tuple[int, int]:
         """(signed difference of the sequence, packets after the newest one): the true difference is that one of all
         which the wrapping counter allows that is nearest to `expected`."""
-        d = signed(sequence - self.sequence, modulus)
+        half = modulus // 2
+        d = (sequence - self.sequence + half) % modulus - half
         return d, d + modulus * round((expected - d) / modulus)
 
     def take(self, new: Counted, rate: float, arrival: float, anew: bool = False) -> Taken:
         """Accept a packet that arrived at `arrival`, s, from a device with `rate` ticks a second.
 
         WireError, and nothing has changed, when it is a duplicate or late. `anew`: it is of another fit, whatever its
-        counters say. After this `time(j)` is to be called for each of its samples.
+        counters say.
         """
         covers = float(new.interval * new.samples)
-        clock, taken = self.clock, Taken()
+        clock, lost, t_missing, restarted = self.clock, 0, 0.0, None
         if clock is None:
             clock = self._begin(new.ticks, rate, None)
         else:
@@ -94,25 +93,20 @@ class PacketRun:
                 self._refuse_repeated(clock, new, arrival)
             last = self.ticks + e + covers - new.interval
             if e <= 0 or m <= 0 or anew or clock.rate != rate or clock.jumped(last, arrival):
-                taken = Taken(restarted=not 1 <= new.d <= REMEMBERED)
+                restarted = not 1 <= new.d <= REMEMBERED
                 clock = self._begin(new.ticks, rate, clock.last_t + self.interval / clock.rate)
             else:
                 if m > 1:
-                    taken = Taken(m - 1, clock.expected(self.ticks + self.covers))
+                    lost, t_missing = m - 1, clock.expected(self.ticks + self.covers)
                 self.ticks += e
                 self.seen = (self.seen << m | 1) & (1 << REMEMBERED) - 1 if m < REMEMBERED else 1
         self.fresh = False
         self.sequence, self.interval, self.covers = new.sequence, float(new.interval), covers
         clock.observe(self.ticks + covers - new.interval, arrival)
-        return taken
-
-    def expected(self) -> float:
-        """When the newest packet's first sample was taken, s, before `time` was called for it."""
-        return 0.0 if self.clock is None else self.clock.expected(self.ticks)
-
-    def time(self, j: int) -> float:
-        """When sample `j` (0 first) of the newest packet was taken, s; once for each, in order."""
-        return 0.0 if self.clock is None else self.clock.time(self.ticks + j * self.interval)
+        times = []
+        for j in range(new.samples):
+            times.append(clock.time(self.ticks + j * self.interval))
+        return Taken(times, lost, t_missing, restarted)
 
     def _begin(self, ticks: int, rate: float, floor: float | None) -> Clock:
         self.clock = Clock(rate, floor=floor)

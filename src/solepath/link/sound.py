@@ -12,8 +12,8 @@ from ..wire.error import WireError
 from ..wire.fields import LONGEST_VALUE, malformed
 from .driver import COUNTERS, Measured, Reading
 
-LARGEST = 1e7
-"""Nothing that a sensor of a foot measures is more, in SI units."""
+LARGEST = 1e8
+"""Nothing that a sensor of a foot says is more, in SI units: 24 bits of Pa are 1.7e7."""
 SLOWEST, FASTEST = 0.1, 10_000.0
 """Samples a second."""
 
@@ -39,6 +39,8 @@ def check(reading: object) -> Reading:
         _check_between("battery", reading.battery, 0.0, 1.0)
     if reading.rate is not None:
         _check_between("rate", reading.rate, SLOWEST, FASTEST)
+    if reading.period is not None:
+        _check_between("period", reading.period, 1.0 / FASTEST, 1.0 / SLOWEST)
     if reading.keys is not None:
         for key in _tuple("keys", reading.keys):
             _check_type("keys", key, str)

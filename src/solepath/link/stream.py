@@ -11,8 +11,6 @@ Times come from the best that the device has, by the rules of protocol/clock.md:
 
 from __future__ import annotations
 
-from math import sqrt
-
 from attrs import define, field
 
 from ..events import (
@@ -24,15 +22,14 @@ from ..events import (
     LinkEvent,
     PacketsLost,
     Rejection,
-    ScaleSuspect,
 )
-from ..types import Quat, Sample, Site, Vec3
-from ..types.vector import GRAVITY
+from ..types import Sample, Site, Vec3
+from ..types.vector import GRAVITY, unit
 from ..wire.error import WireError
 from ..wire.fields import malformed
-from .driver import COARSEST, Basis, Driver, Measured, Reading, TimeAxis
+from .driver import COARSEST, Basis, Driver, Reading, TimeAxis
 from .periodic import Periodic, periodic
-from .rest import RestCheck, suggestion
+from .rest import RestCheck
 from .run import Counted, PacketRun, Taken, signed
 from .sound import SLOWEST, check
 
@@ -96,7 +93,7 @@ class StreamLink:
         clock = self.run.clock if self.periodic is None else self.periodic.clock
         return None if clock is None else clock.doubt
 
-    def feed(self, driver: Driver, channel: str, data: bytes, arrival: float) -> Output:
+    def feed(self, channel: str, data: bytes, arrival: float, driver: Driver) -> Output:
         reading = check(driver.read(channel, data, self.known))
         self._check(driver, channel, reading)
         out = self._samples(driver, channel, reading, arrival) if reading.samples else []
@@ -124,7 +121,10 @@ class StreamLink:
             raise WireError(Rejection.WRONG_SITE, f"of a {reading.foot.value} foot")
         if reading.samples and channel not in driver.profile.streams:
             raise malformed(f"samples on {channel!r}, which is no stream")
-        if reading.rate is not None and driver.axis is TimeAxis.TICKS and reading.rate * COARSEST > driver.tick_rate:
+        axis = self.basis.axis
+        if reading.period is not None and axis is not TimeAxis.ARRIVAL:
+            raise malformed("a period, of a device that counts")
+        if reading.rate is not None and axis is TimeAxis.TICKS and reading.rate * COARSEST > driver.tick_rate:
             detail = f"{reading.rate:g} samples a second, too many for {driver.tick_rate:g} ticks a second"
             raise WireError(Rejection.ABSURD, detail)
         if reading.interval is not None and reading.interval * SLOWEST > driver.tick_rate > 0.0:
@@ -139,9 +139,14 @@ class StreamLink:
         if reading.silent is not None:
             self.silence_is_legal = reading.silent
         if reading.rate is not None and not reading.samples:
-            if driver.axis is TimeAxis.TICKS:
+            if self.basis.axis is TimeAxis.TICKS:
                 self.run.covers *= self.rate / reading.rate
             self._change(reading.rate)
+        if reading.period is not None:
+            if self.periodic is None:
+                self.periodic = periodic(reading.period)
+            elif reading.period != self.periodic.period:
+                self.periodic.change(reading.period)
 
     def _acc_range(self, driver: Driver) -> float:
         return self.known.get("acc_range", driver.acc_range)
@@ -176,20 +181,21 @@ class StreamLink:
     # --- samples ----------------------------------------------------------------------------------------------------
 
     def _samples(self, driver: Driver, channel: str, reading: Reading, arrival: float) -> Output:
-        axis, count = driver.axis, len(reading.samples)
+        axis = self.basis.axis
         rate = self.rate if reading.rate is None else reading.rate
         if axis is TimeAxis.ARRIVAL:
             self._change(rate)
-            taken, times = self._by_arrival(count, rate, arrival)
-        else:
-            tick_rate = driver.tick_rate if axis is TimeAxis.TICKS else rate * PARTS
-            counted = (self._by_ticks if axis is TimeAxis.TICKS else self._by_count)(driver, reading, rate, arrival)
-            taken = self.run.take(
-                counted, tick_rate, arrival, axis is TimeAxis.COUNT and self._stood_still(driver, arrival)
-            )
+            taken = self._by_arrival(len(reading.samples), rate, arrival)
+        elif axis is TimeAxis.TICKS:
+            counted = self._by_ticks(driver, reading, rate)
+            taken = self.run.take(counted, driver.tick_rate, arrival)
             self._change(rate)
             self._compare(driver, reading, counted)
-            times = []
+        else:
+            counted = self._by_count(driver, reading, rate, arrival)
+            taken = self.run.take(counted, rate * PARTS, arrival, anew=self._stood_still(driver, arrival))
+            self._change(rate)
+            self.coarse = int(reading.ticks or 0)
         out: Output = []
         if taken.lost:
             t = taken.t_missing
@@ -198,19 +204,32 @@ class StreamLink:
             self.told = True
             out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=driver.limitation))
         if taken.restarted is not None:
-            t = self.run.expected()
+            t = taken.times[0]
             out.append(ClockReset(t=t, known_at=max(arrival, t), site=self.site, restarted=taken.restarted))
         self.arrived = arrival
-        for j, sample in enumerate(reading.samples):
-            self._sample(driver, sample, times[j] if times else self.run.time(j), arrival, out)
+        for one, taken_at in zip(reading.samples, taken.times, strict=True):
+            t = self._in_order(taken_at)
+            mag, air_pressure = one.mag, one.air_pressure
+            if mag is None:
+                mag, self.mag = self.mag, None
+            if air_pressure is None:
+                air_pressure, self.air_pressure = self.air_pressure, None
+            quat = None if one.quat is None else unit(one.quat)
+            known_at = arrival if arrival > t else t
+            sample = Sample(
+                t, self.site, one.acc, one.gyro, one.pressure, quat, mag, air_pressure, known_at, one.saturated
+            )
+            out.append(sample)
+            if one.acc is not None and not self.rest.done:
+                out += self.rest.suspect(sample, self._acc_range(driver))
         return out
 
-    def _by_ticks(self, driver: Driver, reading: Reading, rate: float, arrival: float) -> Counted:
+    def _by_ticks(self, driver: Driver, reading: Reading, rate: float) -> Counted:
         run, count = self.run, len(reading.samples)
         if reading.ticks is None or (driver.sequence and reading.sequence is None):
             raise malformed("no device time or no sequence number, which this device has")
         interval = driver.tick_rate / rate if reading.interval is None else reading.interval
-        e = run.ahead(reading.ticks, driver.tick_modulus)
+        e = signed(reading.ticks - run.ticks, driver.tick_modulus)
         if reading.sequence is not None and driver.sequence:
             d, m = run.packets(reading.sequence, driver.sequence, e / run.covers)
             return Counted(int(reading.sequence), int(reading.ticks), interval, count, d, m, e)
@@ -246,10 +265,7 @@ class StreamLink:
         return delay > LATE_AT_ONCE if run.fresh else silence > SILENCE and delay > LATE
 
     def _compare(self, driver: Driver, reading: Reading, counted: Counted) -> None:
-        """Remember what the next packet is compared with; put the rate right when the ticks say that it was wrong."""
-        if driver.axis is TimeAxis.COUNT:
-            self.coarse = int(reading.ticks or 0)
-            return
+        """Put the rate right when the ticks say that it was wrong."""
         if driver.sequence or reading.interval is not None or counted.e <= 0:
             return
         distance = counted.e / counted.samples
@@ -261,31 +277,13 @@ class StreamLink:
         if self.odd >= STEADY:
             self.rate, self.odd, self.run.covers = driver.tick_rate / distance, 0, float(counted.e)
 
-    def _by_arrival(self, count: int, rate: float, arrival: float) -> tuple[Taken, list[float]]:
+    def _by_arrival(self, count: int, rate: float, arrival: float) -> Taken:
         if self.periodic is None:
             self.periodic = periodic(count / rate)
         slot = self.periodic.arrive(arrival, counts_losses=not self.silence_is_legal)
         apart = self.periodic.period / count
         times = [slot.t - (count - 1 - j) * apart for j in range(count)]
-        return Taken(slot.lost, slot.t_missing), times
-
-    def _sample(self, driver: Driver, one: Measured, t: float, arrival: float, out: Output) -> None:
-        t = self._in_order(t)
-        known_at = max(arrival, t)
-        mag, air_pressure = one.mag, one.air_pressure
-        if mag is None:
-            mag, self.mag = self.mag, None
-        if air_pressure is None:
-            air_pressure, self.air_pressure = self.air_pressure, None
-        quat = None if one.quat is None else _unit(one.quat)
-        out.append(
-            Sample(t, self.site, one.acc, one.gyro, one.pressure, quat, mag, air_pressure, known_at, one.saturated)
-        )
-        if one.acc is not None and not self.rest.done:
-            magnitude = self.rest.feed(t, one.acc)
-            if magnitude is not None:
-                words = suggestion(magnitude, self._acc_range(driver))
-                out.append(ScaleSuspect(t=t, known_at=known_at, site=self.site, magnitude=magnitude, suggestion=words))
+        return Taken(times, slot.lost, slot.t_missing)
 
     def _in_order(self, t: float) -> float:
         if self.last_t is not None and t <= self.last_t:
@@ -294,14 +292,7 @@ class StreamLink:
         return t
 
 
-def stream_link(driver: Driver, site: Site, ours: bool) -> StreamLink:
+def stream_link(driver: Driver, ours: bool, site: Site, firmware: str) -> StreamLink:
     """A fresh device of this kind at `site`."""
     rest = RestCheck(driver.acc_range * GRAVITY / 32768)
     return StreamLink(site, driver.name, driver.basis(ours), driver.profile.nominal_rate, rest)
-
-
-def _unit(quat: Quat) -> Quat | None:
-    """A quaternion at length 1; None for zero."""
-    w, x, y, z = quat
-    length = sqrt(w * w + x * x + y * y + z * z)
-    return (w / length, x / length, y / length, z / length) if length > 0.0 else None

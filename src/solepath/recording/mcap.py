@@ -198,8 +198,7 @@ class McapWriter:
             data["air_pressure"] = item.air_pressure
         if item.saturated:
             data["saturated"] = True
-        known_at = item.t if item.known_at is None else item.known_at
-        self._put(f"/{item.site.value}/samples", "solepath.Sample", item.t, known_at, data)
+        self._put(f"/{item.site.value}/samples", "solepath.Sample", item.t, item.known_at, data)
 
     def _event(self, event: Event) -> None:
         name, data = type(event).__name__, dict[str, Any](t=event.t)

@@ -140,7 +140,7 @@ class Packet:
 class Sample:
     """What the sensors of one site measured at one instant; what was not measured is None.
 
-    `t`: when it was measured, s. `known_at`: when it arrived, s; for samples that never were packets it is `t`.
+    `t`: when it was measured, s. `known_at`: when it was known, s; `t` where nobody says.
     `acc`: specific force in m/s^2, sensor frame (+9.81 upwards at rest). `gyro`: rad/s, sensor frame.
     `pressure`: one value per cell in the layout's order and unit (N when the device declares a scale, otherwise
     counts; more is more load). `quat`: the device's own attitude, where it sends one. `mag`: T, sensor frame.
@@ -155,8 +155,12 @@ class Sample:
     quat: Quat | None = None
     mag: Vec3 | None = None
     air_pressure: float | None = None
-    known_at: float | None = None
+    known_at: float = field()
     saturated: bool = False
+
+    @known_at.default
+    def _at_once(self) -> float:
+        return self.t
 
 
 @frozen

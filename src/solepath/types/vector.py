@@ -54,6 +54,13 @@ def normalise(q: Quat) -> Quat:
     return (w * k, x * k, y * k, z * k)
 
 
+def unit(q: Quat) -> Quat | None:
+    """A quaternion as a device sends it, of any length, at length 1; None for zero."""
+    w, x, y, z = q
+    length = sqrt(w * w + x * x + y * y + z * z)
+    return (w / length, x / length, y / length, z / length) if length > 0.0 else None
+
+
 def rotate(q: Quat, v: Vec3) -> Vec3:
     """q v q*: sensor coordinates into world coordinates when q is sensor to world."""
     w, x, y, z = q

@@ -14,12 +14,8 @@ FRAME = 0x10
 INFO = 0x11
 """Version 1, type 1."""
 
-CRC_SIZE = 2
-
-
-def crc16(data: bytes) -> int:
-    """CRC-16/CCITT-FALSE: polynomial 0x1021, start 0xFFFF, not reflected, no final XOR; "123456789" gives 0x29B1."""
-    return crc_hqx(data, 0xFFFF)
+CRC_SIZE, CRC_START = 2, 0xFFFF
+"""CRC-16/CCITT-FALSE: polynomial 0x1021, start 0xFFFF, not reflected, no final XOR; "123456789" gives 0x29B1."""
 
 
 def check_start(data: bytes, kind: int, header_size: int) -> None:
@@ -38,7 +34,7 @@ def check_end(data: bytes, size: int) -> None:
         raise WireError(Rejection.TRUNCATED, f"{len(data)} of {size} bytes")
     if len(data) > min(size, LONGEST_VALUE):
         raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes where {min(size, LONGEST_VALUE)} belong")
-    stated, computed = int.from_bytes(data[-CRC_SIZE:], "little"), crc16(data[:-CRC_SIZE])
+    stated, computed = int.from_bytes(data[-CRC_SIZE:], "little"), crc_hqx(data[:-CRC_SIZE], CRC_START)
     if stated != computed:
         raise WireError(Rejection.CHECKSUM, f"CRC {stated:#06x}, computed {computed:#06x}")
 
@@ -47,4 +43,4 @@ def seal(body: bytes) -> bytes:
     """`body` and its CRC. ValueError when that is longer than any attribute value may be."""
     if len(body) + CRC_SIZE > LONGEST_VALUE:
         raise ValueError(f"{len(body) + CRC_SIZE} bytes, an attribute value has at most {LONGEST_VALUE}")
-    return body + crc16(body).to_bytes(CRC_SIZE, "little")
+    return body + crc_hqx(body, CRC_START).to_bytes(CRC_SIZE, "little")

@@ -1,8 +1,7 @@
-"""What this room adds to construct: packed fields at one stroke, records instead of Containers, whole-value parsing.
+"""What this room adds to construct: packed fields at one stroke, bytes as digits, whole-value parsing.
 
 `Fields` stands for a run of plain numbers: one struct call instead of one construct per number, which is what makes an
-insole frame affordable at 100 Hz. `Record` puts an attrs record in the place of a Container, both ways. `Switch` is a
-byte that is on or off. `parse_whole` and `build_whole` turn construct's exceptions into ours.
+insole frame affordable at 100 Hz. `parse_whole` and `build_whole` turn construct's exceptions into ours.
 """
 
 from __future__ import annotations
@@ -20,7 +19,6 @@ from construct import (
     FormatFieldError,
     StreamError,
     TerminatedError,
-    ValidationError,
 )
 
 from ..events import Rejection
@@ -71,40 +69,6 @@ class Fields(Definition):
         return self._struct.size
 
 
-class Record(AnyAdapter):
-    """An attrs record in place of the Container of `subcon`, whose names are the record's fields."""
-
-    def __init__(self, record: type, subcon: Definition) -> None:
-        super().__init__(subcon)
-        self._record = record
-        self._names = [f.name for f in attrs.fields(record)]
-
-    def _decode(self, obj: Any, context: Any, path: str) -> Any:
-        return self._record(*[obj[name] for name in self._names])
-
-    def _encode(self, obj: Any, context: Any, path: str) -> Any:
-        return {name: getattr(obj, name) for name in self._names}
-
-
-class Switch(Definition):
-    """One byte: 0 off, 1 on, nothing else."""
-
-    def _parse(self, stream: IO[bytes], context: Any, path: str) -> bool:
-        data = stream.read(1)
-        if not data:
-            raise StreamError("needs 1 byte, has none", path=path)
-        if data[0] > 1:
-            raise ValidationError(f"{data[0]} is neither off (0) nor on (1)", path=path)
-        return data[0] == 1
-
-    def _build(self, obj: Any, stream: IO[bytes], context: Any, path: str) -> Any:
-        stream.write(b"\x01" if obj else b"\x00")
-        return obj
-
-    def _sizeof(self, context: Any, path: str) -> int:
-        return 1
-
-
 class Hex(AnyAdapter):
     """Bytes that say nothing here, kept as hexadecimal digits."""
 
@@ -135,7 +99,7 @@ def build_whole(definition: Definition, value: Any) -> bytes:
     """The bytes of `value`. ValueError when it does not fit."""
     try:
         return bytes(definition.build(value))
-    except ConstructError as error:
+    except (ConstructError, OverflowError) as error:  # the latter: an infinite number, rounded
         raise ValueError(str(error).strip().splitlines()[-1]) from error
 
 

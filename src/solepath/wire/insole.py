@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
+from struct import Struct
+from struct import error as StructError
+from typing import TYPE_CHECKING, Any
 
 from attrs import frozen
-from construct import Array, If, Struct, Terminated
+from construct import FormatFieldError
 
 from ..types import Foot
-from .cells import Packed12, packed_size
+from .cells import pack12, packed_size, unpack12
 from .envelope import CRC_SIZE, FRAME, MAGIC, check_end, check_start, seal
-from .fields import Fields, Record, build_whole, malformed, parse_whole
+from .fields import Definition, Fields, build_whole, malformed
+
+if TYPE_CHECKING:
+    from typing import IO
 
 MAX_CELLS = 128
 
@@ -50,79 +55,62 @@ class InsoleFrame:
     retransmitted: bool = False
 
 
-@frozen
-class _FrameHeader:
-    magic: int
-    kind: int
-    flags: int
-    layout: int
-    sequence: int
-    ticks: int
-    interval: int
-    samples: int
-    cells: int
+class _Samples(Definition):
+    """The samples of a frame, one after the other: cells, then IMU, then quaternion, as far as its flags have them.
 
-    @property
-    def sample_size(self) -> int:
-        return packed_size(self.cells) + (12 if self.flags & _IMU else 0) + (8 if self.flags & _QUAT else 0)
+    To parse, the context has their `count`, their `cells`, the bytes `packed` that these take, and `flags`. One step
+    for all of them: an insole frame comes 100 times a second.
+    """
 
+    def _parse(self, stream: IO[bytes], context: Any, path: str) -> tuple[InsoleSample, ...]:
+        cells, packed, flags = context.cells, context.packed, context.flags
+        samples = []
+        for _ in range(context.count):
+            values = unpack12(stream.read(packed), cells)
+            imu = _IMU_COUNTS.unpack(stream.read(_IMU_COUNTS.size)) if flags & _IMU else None
+            quat = _QUAT_COUNTS.unpack(stream.read(_QUAT_COUNTS.size)) if flags & _QUAT else None
+            samples.append(InsoleSample(values, imu, quat))
+        return tuple(samples)
 
-def _sample_count(context: Any) -> int:
-    count: int = context.header.samples
-    return count
-
-
-def _cell_count(context: Any) -> int:
-    count: int = context._.header.cells
-    return count
-
-
-def _has_imu(context: Any) -> bool:
-    return bool(context._.header.flags & _IMU)
+    def _build(self, obj: Any, stream: IO[bytes], context: Any, path: str) -> Any:
+        for sample in obj:
+            stream.write(pack12(sample.cells))
+            for numbers, part in ((_IMU_COUNTS, sample.imu), (_QUAT_COUNTS, sample.quat)):
+                if part is not None:
+                    try:
+                        stream.write(numbers.pack(*part))
+                    except StructError as error:
+                        raise FormatFieldError(f"{part} do not fit: {error}", path=path) from error
+        return obj
 
 
-def _has_quat(context: Any) -> bool:
-    return bool(context._.header.flags & _QUAT)
-
-
-_HEADER = Fields("<BBBBHIHBB", _FrameHeader)
+_HEADER = Fields("<BBBBHIHBB")
+"""Magic, kind, flags, layout, sequence, ticks, interval, samples, cells."""
 _HEADER_SIZE = 14
-
-_SAMPLE = Record(
-    InsoleSample,
-    Struct(
-        "cells" / Packed12(_cell_count),
-        "imu" / If(_has_imu, Fields("<6h")),
-        "quat" / If(_has_quat, Fields("<4h")),
-    ),
-)
-
-_BODY = Struct(
-    "header" / _HEADER,
-    "samples" / Array(_sample_count, _SAMPLE),
-    Terminated,
-)
-"""Everything but the CRC that follows it."""
+_IMU_COUNTS, _QUAT_COUNTS = Struct("<6h"), Struct("<4h")
+_SAMPLES = _Samples()
+"""What lies between the header and the CRC."""
 
 
 def parse_frame(data: bytes) -> InsoleFrame:
     """The frame in `data`. WireError when it is not one, whatever the bytes."""
     data = bytes(data)
     check_start(data, FRAME, _HEADER_SIZE)
-    header: _FrameHeader = _HEADER.parse(data)
-    check_end(data, _HEADER_SIZE + header.samples * header.sample_size + CRC_SIZE)
-    problem = _problem(header)
+    _, _, flags, layout, sequence, ticks, interval, count, cells = _HEADER.parse(data)
+    packed = packed_size(cells)
+    size = packed + (_IMU_COUNTS.size if flags & _IMU else 0) + (_QUAT_COUNTS.size if flags & _QUAT else 0)
+    check_end(data, _HEADER_SIZE + count * size + CRC_SIZE)
+    problem = _problem(flags, interval, count, cells)
     if problem:
         raise malformed(problem)
-    body = parse_whole(_BODY, data[:-CRC_SIZE])
-    flags = header.flags
+    samples = _SAMPLES.parse(data[_HEADER_SIZE:-CRC_SIZE], count=count, cells=cells, packed=packed, flags=flags)
     return InsoleFrame(
         Foot.RIGHT if flags & _RIGHT else Foot.LEFT,
-        header.layout,
-        header.sequence,
-        header.ticks,
-        header.interval,
-        tuple(body.samples),
+        layout,
+        sequence,
+        ticks,
+        interval,
+        samples,
         bool(flags & _SATURATED),
         bool(flags & _RETRANSMITTED),
     )
@@ -143,33 +131,24 @@ def build_frame(frame: InsoleFrame) -> bytes:
         | (_SATURATED if frame.saturated else 0)
         | (_RETRANSMITTED if frame.retransmitted else 0)
     )
-    header = _FrameHeader(
-        MAGIC,
-        FRAME,
-        flags,
-        frame.layout,
-        frame.sequence,
-        frame.ticks,
-        frame.interval,
-        len(frame.samples),
-        len(first.cells),
-    )
-    problem = _problem(header)
+    problem = _problem(flags, frame.interval, len(frame.samples), len(first.cells))
     if problem:
         raise ValueError(problem)
-    return seal(build_whole(_BODY, {"header": header, "samples": frame.samples}))
+    numbers = (frame.layout, frame.sequence, frame.ticks, frame.interval, len(frame.samples), len(first.cells))
+    header = build_whole(_HEADER, (MAGIC, FRAME, flags, *numbers))
+    return seal(header + build_whole(_SAMPLES, frame.samples))
 
 
-def _problem(header: _FrameHeader) -> str:
+def _problem(flags: int, interval: int, count: int, cells: int) -> str:
     """What contradicts the format although length and CRC are right; "" when nothing does."""
-    if header.flags & _RESERVED_FLAGS:
-        return f"reserved flags are set: {header.flags:#04x}"
-    if header.samples == 0:
+    if flags & _RESERVED_FLAGS:
+        return f"reserved flags are set: {flags:#04x}"
+    if count == 0:
         return "a frame without samples"
-    if header.cells > MAX_CELLS:
-        return f"{header.cells} cells, at most {MAX_CELLS}"
-    if header.sample_size == 0:
+    if cells > MAX_CELLS:
+        return f"{cells} cells, at most {MAX_CELLS}"
+    if cells == 0 and not flags & (_IMU | _QUAT):
         return "samples with neither cells nor IMU nor quaternion"
-    if header.interval == 0:
+    if interval == 0:
         return "an interval of no ticks"
     return ""

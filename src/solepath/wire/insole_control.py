@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from attrs import frozen
-from construct import Const, Int8ul, Int16ul, Struct, Terminated
+from attrs import astuple, frozen
 
 from ..events import Rejection
 from .error import WireError
-from .fields import Record, build_whole, malformed, parse_whole
+from .fields import Fields, build_whole, malformed, parse_whole
 
 
 @frozen
@@ -37,13 +36,13 @@ class Resend:
 
 Command = StartSampling | StopSampling | SetInterval | Resend
 
-_START = Record(StartSampling, Struct(Const(b"\x01"), Terminated))
-_STOP = Record(StopSampling, Struct(Const(b"\x02"), Terminated))
-_SET_INTERVAL = Record(SetInterval, Struct(Const(b"\x03"), "interval" / Int16ul, Terminated))
-_RESEND = Record(Resend, Struct(Const(b"\x04"), "first" / Int16ul, "count" / Int8ul, Terminated))
-
-_BY_OPCODE = {1: _START, 2: _STOP, 3: _SET_INTERVAL, 4: _RESEND}
-_BY_COMMAND = {StartSampling: _START, StopSampling: _STOP, SetInterval: _SET_INTERVAL, Resend: _RESEND}
+_FORMATS: dict[int, tuple[type[Command], Fields]] = {
+    1: (StartSampling, Fields("<B")),
+    2: (StopSampling, Fields("<B")),
+    3: (SetInterval, Fields("<BH")),
+    4: (Resend, Fields("<BHB")),
+}
+"""Opcode -> command; its numbers after the opcode."""
 
 
 def parse_control(data: bytes) -> Command:
@@ -51,10 +50,11 @@ def parse_control(data: bytes) -> Command:
     data = bytes(data)
     if not data:
         raise WireError(Rejection.TRUNCATED, "no opcode")
-    definition = _BY_OPCODE.get(data[0])
-    if definition is None:
+    if data[0] not in _FORMATS:
         raise malformed(f"unknown opcode {data[0]:#04x}")
-    command: Command = parse_whole(definition, data)
+    kind, definition = _FORMATS[data[0]]
+    _, *numbers = parse_whole(definition, data)
+    command = kind(*numbers)
     problem = _problem(command)
     if problem:
         raise malformed(problem)
@@ -66,7 +66,8 @@ def build_control(command: Command) -> bytes:
     problem = _problem(command)
     if problem:
         raise ValueError(problem)
-    return build_whole(_BY_COMMAND[type(command)], command)
+    (opcode,) = [opcode for opcode, (kind, _) in _FORMATS.items() if kind is type(command)]
+    return build_whole(_FORMATS[opcode][1], (opcode, *astuple(command)))
 
 
 def _problem(command: Command) -> str:

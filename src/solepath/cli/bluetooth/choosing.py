@@ -52,7 +52,7 @@ def wanted(options: argparse.Namespace) -> list[Wanted]:
     """The devices that were named; none when none was. Failure for a site or profile that there is not."""
     from ...ble import Wanted
     from ...ble.wanted import check
-    from ...link.known import BY_NAME
+    from ...link.catalogue import BY_NAME
     from ...types import Site
 
     named = [(Site.LEFT_FOOT, options.left), (Site.RIGHT_FOOT, options.right)]
@@ -79,8 +79,8 @@ def chosen(found: list[Found], kind: str | None) -> list[Wanted]:
     other device, on the right foot as in `track`. `kind`: the profile that was named. Failure where that is not
     clear."""
     from ...ble import Wanted
-    from ...link.known import BY_NAME
-    from ...link.profile import INSOLE
+    from ...link.catalogue import BY_NAME
+    from ...link.devices.insole import PROFILE as INSOLE
     from ...types import Site
 
     told = None if kind is None else BY_NAME[kind]

@@ -15,7 +15,7 @@ from ...emulate.devices.peripheral import Peripheral
 from ...emulate.sensors import insole_device, sensortags
 from ...emulate.sensors.device import Device
 from ...lab.emulated.demo import straight
-from ...link.profile import CC2541, CC2541_20HZ, CC2650, INSOLE
+from ...link.devices import cc2541, cc2650, insole
 from ...recording import printable
 from ...types import Site
 from ..common.failure import Failure
@@ -41,10 +41,10 @@ def prepared(options: argparse.Namespace) -> Bench:
         raise Failure(f"--mtu {options.mtu}: an MTU is from 23 to 517")
     _host_and_port(options)
     kinds: dict[str, Device] = {
-        INSOLE.name: insole_device.Insole(),
-        CC2650.name: sensortags.CC2650(),
-        CC2541.name: sensortags.CC2541(),
-        CC2541_20HZ.name: sensortags.CC2541(rate=20.0),
+        insole.PROFILE.name: insole_device.Insole(),
+        cc2650.PROFILE.name: sensortags.CC2650(),
+        cc2541.PROFILE.name: sensortags.CC2541(),
+        cc2541.PROFILE_20HZ.name: sensortags.CC2541(rate=20.0),
     }
     feet = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
     try:

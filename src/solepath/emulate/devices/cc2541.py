@@ -8,20 +8,18 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import partial
 
-from ...link import profile
+from ...link.devices.cc2541 import PROFILE
 from ...types import Site
-from ...wire import cc2541
 from ..sensors.device import device_numbers, foot_of, started
 from ..sensors.parts import MAG3110, T5400
 from ..sensors.sensortags import (
     CC2541,
+    CC2541_KEYS,
     GYRO_COUNT,
     MAG3110_COUNT,
-    T5400_CALIBRATION,
-    acc_bytes,
+    calibration_bytes,
+    cc2541_bytes,
     code_count,
-    gyro_bytes,
-    mag_bytes,
     raw_air,
 )
 from ..sensors.tag_signals import LATE_AIR, LATE_MAG, Series, WornTag
@@ -62,7 +60,7 @@ class CC2541Peripheral(Tag):
         }
         self._shortest = shortest(device.rate)
         super().__init__(
-            profile.CC2541,
+            PROFILE,
             (
                 Sensor("cc2541/accelerometer", 100, self._shortest, bytes(3)),
                 Sensor("cc2541/gyroscope", 100, self._shortest, bytes(6)),
@@ -90,8 +88,7 @@ class CC2541Peripheral(Tag):
             self._measured(sensor, 1.0)
 
     def begin(self) -> None:
-        down, up = (cc2541.build_keys(cc2541.Cc2541Keys(left=left)) for left in (True, False))
-        self.flow("cc2541/keys", Presses(self.device.presses, down, up), self.walk_time)
+        self.flow("cc2541/keys", Presses(self.device.presses, *CC2541_KEYS), self.walk_time)
 
     def stop(self) -> None:
         super().stop()
@@ -102,7 +99,7 @@ class CC2541Peripheral(Tag):
             return super().value(channel, t)
         if not self._fetched:
             raise AttError(READ_NOT_PERMITTED)
-        return cc2541.build_barometer_calibration(T5400_CALIBRATION)
+        return calibration_bytes()
 
     def take(self, channel: str, value: bytes, t: float) -> None:
         super().take(channel, value, t)
@@ -122,13 +119,15 @@ class CC2541Peripheral(Tag):
         series = self._measured(sensor, period)
         match sensor:
             case "cc2541/accelerometer":
-                return acc_bytes(series.count(number, self.device.part.acc, code_count(code)))
+                counts = series.count(number, self.device.part.acc, code_count(code))
+                return cc2541_bytes("accelerometer", acc=counts)
             case "cc2541/gyroscope":
                 axes = (bool(code & 1), bool(code & 2), bool(code & 4))
-                return gyro_bytes(masked(series.count(number, self.device.part.gyro, GYRO_COUNT), axes))
+                counts = masked(series.count(number, self.device.part.gyro, GYRO_COUNT), axes)
+                return cc2541_bytes("gyroscope", gyro=counts)
             case "cc2541/magnetometer":
-                return mag_bytes(series.count(number, MAG3110, MAG3110_COUNT))
-        return cc2541.build_barometer(raw_air(float(series.value(number)[0, 0])))
+                return cc2541_bytes("magnetometer", mag=series.count(number, MAG3110, MAG3110_COUNT))
+        return cc2541_bytes("barometer", **raw_air(float(series.value(number)[0, 0])))
 
     def _measured(self, sensor: str, period: float) -> Series:
         found = self._series.get((sensor, period))

@@ -9,16 +9,25 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterable
 from functools import partial
+from typing import Any
 
 import numpy as np
 
-from ...link import profile
+from ...link.devices.cc2650 import DRIVER, PROFILE
 from ...types import Site
 from ...types.vector import GRAVITY
-from ...wire import cc2650
 from ..sensors.device import device_numbers, foot_of, started
 from ..sensors.parts import AK8963, BMP280
-from ..sensors.sensortags import AK8963_COUNT, BATTERY, CC2650, GYRO_COUNT, cc2650_air, range_count
+from ..sensors.sensortags import (
+    AK8963_COUNT,
+    BATTERY,
+    CC2650,
+    CC2650_KEYS,
+    GYRO_COUNT,
+    cc2650_air,
+    movement_bytes,
+    range_count,
+)
 from ..sensors.tag_signals import LATE_AIR, Series, WornTag
 from ..wearers.walker import Walker
 from .faults import Fault
@@ -61,7 +70,7 @@ class CC2650Peripheral(Tag):
         clock = started(device_numbers(seed, site), 1.0 / device.rate, device.ppm)
         self._shortest = shortest(device.rate)
         super().__init__(
-            profile.CC2650,
+            PROFILE,
             (
                 Sensor("cc2650/movement", 100, self._shortest, bytes(18), size=2),
                 Sensor("cc2650/barometer", 100, STOCK, bytes(6)),
@@ -88,8 +97,7 @@ class CC2650Peripheral(Tag):
         self._air(1.0)
 
     def begin(self) -> None:
-        down, up = (cc2650.build_keys(cc2650.Cc2650Keys(left=left)) for left in (True, False))
-        self.flow("cc2650/keys", Presses(self.device.presses, down, up), self.walk_time)
+        self.flow("cc2650/keys", Presses(self.device.presses, *CC2650_KEYS), self.walk_time)
         self.flow("device/battery", self._battery, self.walk_time)
 
     def value(self, channel: str, t: float) -> bytes:
@@ -98,7 +106,7 @@ class CC2650Peripheral(Tag):
     def make(self, sensor: str, config: bytes, period: float) -> Make | None:
         if sensor == "cc2650/movement":
             bits = int.from_bytes(config, "little") & _MEANT
-            parsed = cc2650.parse_movement_config(bits.to_bytes(2, "little"))
+            parsed = DRIVER.parse("cc2650/movement-config", bits.to_bytes(2, "little"))
             return (0.0, partial(self._say_movement, parsed, period)) if bits & _AXES else None
         if not switch(config, 1):
             return None
@@ -106,16 +114,15 @@ class CC2650Peripheral(Tag):
             return LATE_AIR, partial(self._say_air, period)
         return 0.0, partial(constant, _ROOM[sensor])
 
-    def _say_movement(self, config: cc2650.MovementConfig, period: float, number: int) -> bytes | None:
+    def _say_movement(self, config: Any, period: float, number: int) -> bytes | None:
         if config.wake_on_motion and not self._awake(period, number):
             return None
         acc, gyro, mag = self._movement(period)
-        movement = cc2650.Movement(
+        return movement_bytes(
             masked(gyro.count(number, self.device.part.gyro, GYRO_COUNT), config.gyro_axes),
             masked(acc.count(number, self.device.part.acc, range_count(config.range)), config.acc_axes),
             masked(mag.count(number, AK8963, AK8963_COUNT), (config.mag,) * 3),
         )
-        return cc2650.build_movement(movement)
 
     def _say_air(self, period: float, number: int) -> bytes:
         return cc2650_air(float(self._air(period).value(number)[0, 0]))

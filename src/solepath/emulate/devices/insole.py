@@ -8,7 +8,7 @@ from math import ceil
 
 from attrs import Factory, define, evolve
 
-from ...link.profile import INSOLE
+from ...link.devices.insole import PROFILE as INSOLE
 from ...types import Site
 from ...wire.error import WireError
 from ...wire.fragment import FRAME_IDS, MAX_FRAGMENTS, split

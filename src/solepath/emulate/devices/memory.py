@@ -26,9 +26,9 @@ from bleak.backends.service import BleakGATTService, BleakGATTServiceCollection
 from bleak.exc import BleakDeviceNotFoundError, BleakError, BleakGATTProtocolError
 
 from ...ble.backend import Backend
+from ...link.profile import standard
 from .link import LoopbackLink
 from .peripheral import SMALLEST_MTU, WRITE_NOT_PERMITTED, Characteristic, Peripheral
-from .standard import standard
 
 ADVERTISING = 0.1
 """s between advertisements of a device."""

@@ -7,7 +7,7 @@ from math import ceil, inf
 
 from attrs import define, frozen
 
-from ...link.profile import Profile
+from ...link.profile import Profile, ti
 from ...types import Site
 from ..sensors.device import DeviceClock
 from ..sensors.sensortags import PRESS
@@ -186,11 +186,6 @@ def _table(sensor: str, service: int) -> list[tuple[str, Characteristic]]:
     """Data, configuration and period, in a row as TI numbers them."""
     rows = ((1, "", READ | NOTIFY), (2, "-config", READ | WRITE), (3, "-period", READ | WRITE))
     return [(ti(service), Characteristic(ti(service + k), sensor + end, may)) for k, end, may in rows]
-
-
-def ti(short: int) -> str:
-    """The full UUID of one of TI's."""
-    return f"f000{short:04x}-0451-4000-b000-000000000000"
 
 
 def shortest(rate: float) -> int:

@@ -7,7 +7,7 @@ from math import radians
 import numpy as np
 from attrs import frozen
 
-from ...link.profile import INSOLE
+from ...link.devices.insole import PROFILE as INSOLE
 from ...types import Foot, Layout, Sample, Site
 from ...types.vector import GRAVITY, conjugate, from_rotation_vector, multiply, rotate
 from ...wire.device import build_battery, build_firmware

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from math import radians
+from typing import Any
 
 import numpy as np
-from attrs import frozen
+from attrs import asdict, frozen
 
-from ...link import profile
+from ...link.devices import cc2541, cc2650
 from ...types import Site
 from ...types.vector import GRAVITY
-from ...wire import cc2541, cc2650
 from ...wire.device import build_battery, build_firmware
-from ...wire.period import build_period
+from ...wire.fields import build_whole
+from ...wire.sensortag import PERIOD
 from ..wearers.shoe import ON_INSTEP, Mounting
 from ..wearers.walker import Walker
 from .device import Notification, foot_of, prepared, started
@@ -31,6 +33,14 @@ TEMPERATURE = 24.0
 """Degrees Celsius."""
 BATTERY = 91
 """Percent, of the CC2650."""
+
+Counts = tuple[int, int, int]
+_ON = (True, True, True)
+_EVERYTHING = {"gyro_axes": _ON, "acc_axes": _ON, "mag": True, "wake_on_motion": False}
+CC2650_KEYS = tuple(
+    [cc2650.DRIVER.write("cc2650/keys", {"left": left, "right": False, "reed": False}) for left in (True, False)]
+)
+"""The left key down, and up."""
 
 
 @frozen
@@ -63,25 +73,24 @@ class CC2650:
             mag.counts(AK8963, AK8963_COUNT),
         )
         for k, row in enumerate(zip(*counts, strict=True)):
-            data = cc2650.build_movement(cc2650.Movement(*row))
+            data = movement_bytes(*row)
             sent.append(Notification(acc.taken(k) + HANDLING, "cc2650/movement", data))
         air = worn.air(SLOW, BMP280, rng)
         for k, (pascal,) in enumerate(air.values.tolist()):
             sent.append(Notification(air.taken(k) + HANDLING, "cc2650/barometer", cc2650_air(pascal)))
-        down, up = (cc2650.build_keys(cc2650.Cc2650Keys(left=left)) for left in (True, False))
-        sent += _keys("cc2650/keys", self.presses, down, up)
+        sent += _keys("cc2650/keys", self.presses, *CC2650_KEYS)
         return sorted(sent, key=_when)
 
     def _setup(self) -> list[Notification]:
-        config = cc2650.MovementConfig(range=self.range)
+        config = {**_EVERYTHING, "range": self.range}
         own = {
             "device/firmware": build_firmware(self.firmware),
             "device/battery": build_battery(BATTERY),
-            "cc2650/movement-period": build_period(1.0 / self.rate),
-            "cc2650/movement-config": cc2650.build_movement_config(config),
-            "cc2650/barometer-period": build_period(SLOW),
+            "cc2650/movement-period": build_whole(PERIOD, {"period": 1.0 / self.rate}),
+            "cc2650/movement-config": cc2650.DRIVER.write("cc2650/movement-config", config),
+            "cc2650/barometer-period": build_whole(PERIOD, {"period": SLOW}),
         }
-        return prepared(profile.CC2650, own)
+        return prepared(cc2650.PROFILE, own)
 
 
 T5400_CALIBRATION = cc2541.BarometerCalibration(
@@ -118,50 +127,70 @@ class CC2541:
         air = worn.air(SLOW, T5400, rng)
 
         sent = self._setup()
-        sent += _each(
-            acc, "accelerometer", [acc_bytes(row) for row in acc.counts(self.part.acc, code_count(self.code))]
-        )
-        sent += _each(gyro, "gyroscope", [gyro_bytes(row) for row in gyro.counts(self.part.gyro, GYRO_COUNT)])
-        sent += _each(mag, "magnetometer", [mag_bytes(row) for row in mag.counts(MAG3110, MAG3110_COUNT)])
-        sent += _each(air, "barometer", [cc2541.build_barometer(raw_air(pascal)) for (pascal,) in air.values.tolist()])
-        down, up = (cc2541.build_keys(cc2541.Cc2541Keys(left=left)) for left in (True, False))
-        sent += _keys("cc2541/keys", self.presses, down, up)
+        accs, gyros = acc.counts(self.part.acc, code_count(self.code)), gyro.counts(self.part.gyro, GYRO_COUNT)
+        sent += _each(acc, "accelerometer", [{"acc": row} for row in accs])
+        sent += _each(gyro, "gyroscope", [{"gyro": row} for row in gyros])
+        sent += _each(mag, "magnetometer", [{"mag": row} for row in mag.counts(MAG3110, MAG3110_COUNT)])
+        sent += _each(air, "barometer", [raw_air(pascal) for (pascal,) in air.values.tolist()])
+        sent += _keys("cc2541/keys", self.presses, *CC2541_KEYS)
         return sorted(sent, key=_when)
 
     def _setup(self) -> list[Notification]:
-        period = build_period(1.0 / self.rate)
-        config = cc2541.build_accelerometer_config(cc2541.AccelerometerConfig(self.code))
+        period = build_whole(PERIOD, {"period": 1.0 / self.rate})
+        config = cc2541_bytes("accelerometer-config", code=self.code)
         own = {
             "device/firmware": build_firmware(self.firmware),
             "cc2541/accelerometer-period": period,
             "cc2541/accelerometer-config": config,
             "cc2541/gyroscope-period": period,
-            "cc2541/magnetometer-period": build_period(SLOW),
-            "cc2541/barometer-period": build_period(SLOW),
-            "cc2541/barometer-calibration": cc2541.build_barometer_calibration(T5400_CALIBRATION),
+            "cc2541/magnetometer-period": build_whole(PERIOD, {"period": SLOW}),
+            "cc2541/barometer-period": build_whole(PERIOD, {"period": SLOW}),
+            "cc2541/barometer-calibration": calibration_bytes(),
         }
-        return prepared(profile.CC2541, own)
+        return prepared(cc2541.PROFILE, own)
 
 
-def raw_air(pascal: float) -> cc2541.Cc2541Barometer:
+def cc2541_bytes(sensor: str, **fields: Any) -> bytes:
+    """What a sensor of a CC2541 says."""
+    return build_whole(cc2541.FORMATS[f"cc2541/{sensor}"], fields)
+
+
+CC2541_KEYS = tuple([cc2541_bytes("keys", left=left, right=False, side=False) for left in (True, False)])
+"""The left key down, and up."""
+
+
+def raw_air(pascal: float) -> dict[str, int]:
     """What the T5400 reports raw at this pressure: the inverse of its compensation."""
     c = T5400_CALIBRATION
     t = round((TEMPERATURE - c.c2 / 2**10) * 2**24 / c.c1)
-    low, high = (c.pascal(cc2541.Cc2541Barometer(t, p)) for p in (0, 1))
-    return cc2541.Cc2541Barometer(t, round((pascal - low) / (high - low)))
+    low, high = c.pascal(t, 0), c.pascal(t, 1)
+    return {"temperature": t, "pressure": round((pascal - low) / (high - low))}
+
+
+def calibration_bytes() -> bytes:
+    return cc2541_bytes("barometer-calibration", **asdict(T5400_CALIBRATION))
 
 
 def _keys(channel: str, presses: tuple[float, ...], down: bytes, up: bytes) -> list[Notification]:
     return [n for t in presses for n in (Notification(t, channel, down), Notification(t + PRESS, channel, up))]
 
 
-def _each(series: Series, sensor: str, values: list[bytes]) -> list[Notification]:
-    return [Notification(series.taken(k) + HANDLING, f"cc2541/{sensor}", data) for k, data in enumerate(values)]
+def _each(series: Series, sensor: str, said: Sequence[Mapping[str, Any]]) -> list[Notification]:
+    when = [series.taken(k) + HANDLING for k in range(len(said))]
+    return [
+        Notification(t, f"cc2541/{sensor}", cc2541_bytes(sensor, **fields))
+        for t, fields in zip(when, said, strict=True)
+    ]
 
 
 def cc2650_air(pascal: float) -> bytes:
     """What the barometer of a CC2650 says of this pressure."""
-    return cc2650.build_barometer(cc2650.Cc2650Barometer(TEMPERATURE, pascal))
+    return cc2650.DRIVER.write("cc2650/barometer", {"temperature": TEMPERATURE, "pressure": pascal})
+
+
+def movement_bytes(gyro: Counts, acc: Counts, mag: Counts) -> bytes:
+    """What the movement sensor of a CC2650 says."""
+    return cc2650.DRIVER.write("cc2650/movement", {"gyro": gyro, "acc": acc, "mag": mag})
 
 
 def range_count(gravities: int) -> float:
@@ -172,18 +201,6 @@ def range_count(gravities: int) -> float:
 def code_count(code: int) -> float:
     """m/s^2 per count of the CC2541's accelerometer when 1, 2 or 3 was written to AA12."""
     return float(GRAVITY * 2**code / 128)
-
-
-def acc_bytes(row: tuple[int, int, int]) -> bytes:
-    return cc2541.build_accelerometer(cc2541.Accelerometer(row))
-
-
-def gyro_bytes(row: tuple[int, int, int]) -> bytes:
-    return cc2541.build_gyroscope(cc2541.Gyroscope(row))
-
-
-def mag_bytes(row: tuple[int, int, int]) -> bytes:
-    return cc2541.build_magnetometer(cc2541.Magnetometer(row))
 
 
 def _when(notification: Notification) -> float:

@@ -1,6 +1,2 @@
-"""Devices that are declared (../driver.py), a file each: its profile, the constructs of its values, its readers."""
-
-from ..driver import Driver
-from . import dot, dot_orientation, orphe, thingy
-
-DECLARED: tuple[Driver, ...] = (orphe.DRIVER, dot.DRIVER, dot_orientation.DRIVER, thingy.DRIVER)
+"""Devices, a file each. Those that are declared (../driver.py) have a profile, the constructs of their values and their
+readers; insole.py and cc2541.py have a link of their own beside their profile."""

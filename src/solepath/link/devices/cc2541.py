@@ -1,33 +1,40 @@
-"""One CC2541 SensorTag: five separate sensors in raw axes, scales by table, put together by the assembler."""
+"""TI CC2541 SensorTag (protocol/cc2541.md): five separate sensors in raw axes, each with a characteristic of its own.
+
+It has a link of its own, no Driver: accelerometer and gyroscope are two streams on two clocks, which assembler.py puts
+together, and what a count is worth depends on the firmware.
+"""
 
 from __future__ import annotations
 
 from math import radians
+from typing import ClassVar
 
-from attrs import define, field
+from attrs import define, field, frozen
+from construct import (
+    Array,
+    BitsInteger,
+    BitsSwapped,
+    BitStruct,
+    Const,
+    Flag,
+    Int8ul,
+    Int16sl,
+    Int16ul,
+    OneOf,
+    Struct,
+)
 
-from ...events import KeysChanged, Limitation, LinkEvent, PacketsLost, ScaleSuspect
+from ...events import KeysChanged, Limitation, LinkEvent, PacketsLost
 from ...types import Sample, Site, Vec3
 from ...types.vector import GRAVITY
-from ...wire.cc2541 import (
-    BarometerCalibration,
-    parse_accelerometer,
-    parse_accelerometer_config,
-    parse_barometer,
-    parse_barometer_calibration,
-    parse_barometer_config,
-    parse_gyroscope,
-    parse_gyroscope_config,
-    parse_keys,
-    parse_magnetometer,
-    parse_magnetometer_config,
-)
-from ...wire.period import parse_period
+from ...wire.fields import Definition, Fields, parse_whole
+from ...wire.sensortag import ON_OFF, PERIOD
 from ..periodic import Periodic, periodic
-from ..rest import RestCheck, suggestion
+from ..profile import FIRMWARE, Access, Channel, Profile, Write, standard, ti
+from ..rest import RestCheck
 from .assembler import Assembler
 
-PERIOD = 0.1
+STOCK = 0.1
 """s, what the stock profile writes; 20 Hz firmware is known by its period packet, or by its arrivals."""
 GYRO = radians(500.0 / 65536.0)
 """rad/s per count (TI, SensorTag user's guide: v * 500 / 65536 degrees/s)."""
@@ -35,6 +42,74 @@ MAG = 2000.0 / 65536.0 * 1e-6
 """T per count (the same: v * 2000 / 65536 uT)."""
 APART = 1.0
 """Seconds without inertial samples after which air pressure no longer waits for one to ride on."""
+
+
+def _profile(name: str, period: bytes, nominal_rate: float) -> Profile:
+    return Profile(
+        name=name,
+        names=("SensorTag", "TI BLE Sensor Tag"),
+        services=(),
+        channels=(
+            Channel("cc2541/accelerometer", ti(0xAA10), ti(0xAA11), Access.NOTIFY),
+            Channel("cc2541/accelerometer-config", ti(0xAA10), ti(0xAA12), Access.WRITE),
+            Channel("cc2541/accelerometer-period", ti(0xAA10), ti(0xAA13), Access.WRITE),
+            Channel("cc2541/magnetometer", ti(0xAA30), ti(0xAA31), Access.NOTIFY),
+            Channel("cc2541/magnetometer-config", ti(0xAA30), ti(0xAA32), Access.WRITE),
+            Channel("cc2541/magnetometer-period", ti(0xAA30), ti(0xAA33), Access.WRITE),
+            Channel("cc2541/barometer", ti(0xAA40), ti(0xAA41), Access.NOTIFY),
+            Channel("cc2541/barometer-config", ti(0xAA40), ti(0xAA42), Access.WRITE),
+            Channel("cc2541/barometer-calibration", ti(0xAA40), ti(0xAA43), Access.READ),
+            Channel("cc2541/barometer-period", ti(0xAA40), ti(0xAA44), Access.WRITE),
+            Channel("cc2541/gyroscope", ti(0xAA50), ti(0xAA51), Access.NOTIFY),
+            Channel("cc2541/gyroscope-config", ti(0xAA50), ti(0xAA52), Access.WRITE),
+            Channel("cc2541/gyroscope-period", ti(0xAA50), ti(0xAA53), Access.WRITE),
+            Channel("cc2541/keys", standard(0xFFE0), standard(0xFFE1), Access.NOTIFY),
+            FIRMWARE,
+        ),
+        setup=(
+            Write("cc2541/accelerometer-period", period),
+            Write("cc2541/accelerometer-config", b"\x03"),  # 8 g: the one value on which drivers agree most
+            Write("cc2541/gyroscope-period", period),
+            Write("cc2541/gyroscope-config", b"\x07"),
+            Write("cc2541/magnetometer-period", b"\x64"),
+            Write("cc2541/magnetometer-config", b"\x01"),
+            Write("cc2541/barometer-period", b"\x64"),
+            Write("cc2541/barometer-config", b"\x02", then_read=("cc2541/barometer-calibration",)),
+            Write("cc2541/barometer-config", b"\x01"),
+        ),
+        reads=("device/firmware",),
+        nominal_rate=nominal_rate,
+        streams=("cc2541/accelerometer", "cc2541/gyroscope"),
+        stale_after=2.0,
+    )
+
+
+PROFILE = _profile("cc2541", b"\x0a", 10.0)
+PROFILE_20HZ = _profile("cc2541-20hz", b"\x05", 20.0)
+"""Firmware rebuilt with a lower minimum period; from its advertisement it cannot be told from the stock one."""
+
+FORMATS: dict[str, Definition] = {
+    "cc2541/accelerometer": Struct("acc" / Fields("<3b")),
+    "cc2541/accelerometer-config": Struct("code" / OneOf(Int8ul, range(4))),
+    "cc2541/accelerometer-period": PERIOD,
+    "cc2541/gyroscope": Struct("gyro" / Fields("<3h")),
+    # From the low bit up: x, y, z.
+    "cc2541/gyroscope-config": BitsSwapped(BitStruct("axes" / Array(3, Flag), Const(0, BitsInteger(5)))),
+    "cc2541/gyroscope-period": PERIOD,
+    "cc2541/magnetometer": Struct("mag" / Fields("<3h")),
+    "cc2541/magnetometer-config": Struct("on" / ON_OFF),
+    "cc2541/magnetometer-period": PERIOD,
+    # Of the T5400, uncompensated: it needs the calibration.
+    "cc2541/barometer": Struct("temperature" / Int16sl, "pressure" / Int16ul),
+    # 0 off, 1 on, 2 fetch the coefficients so that they can be read.
+    "cc2541/barometer-config": Struct("code" / OneOf(Int8ul, range(3))),
+    "cc2541/barometer-calibration": Struct(
+        *[f"c{n}" / Int16ul for n in range(1, 5)], *[f"c{n}" / Int16sl for n in range(5, 9)]
+    ),
+    "cc2541/barometer-period": PERIOD,
+    # Not the bits of the CC2650: here the right key is bit 0.
+    "cc2541/keys": BitStruct(Const(0, BitsInteger(5)), "side" / Flag, "left" / Flag, "right" / Flag),
+}
 
 COUNTS_PER_G = {
     # (firmware revision contains, value of AA12) -> counts of the KXTJ9's 8 bits per g: protocol/cc2541.md's table.
@@ -56,6 +131,32 @@ def counts_per_g(firmware: str, code: int) -> int:
     return COUNTS_PER_G["1.4" if "1.4" in firmware else "", code]
 
 
+@frozen
+class BarometerCalibration:
+    """The T5400's coefficients, read from AA43 after writing 2 to AA42: c1 to c4 unsigned, c5 to c8 signed."""
+
+    c1: int
+    c2: int
+    c3: int
+    c4: int
+    c5: int
+    c6: int
+    c7: int
+    c8: int
+
+    def celsius(self, temperature: int) -> float:
+        """Temperature in degrees Celsius: c1 t / 2^24 + c2 / 2^10."""
+        return self.c1 * temperature / 2**24 + self.c2 / 2**10
+
+    def pascal(self, temperature: int, pressure: int) -> float:
+        """Air pressure in Pa: (S p + O) / 2^14, where S = c3 + c4 t / 2^17 + c5 t^2 / 2^34 and
+        O = c6 2^14 + c7 t / 2^3 + c8 t^2 / 2^19."""
+        t = temperature
+        sensitivity = self.c3 + self.c4 * t / 2**17 + self.c5 * t * t / 2**34
+        offset = self.c6 * 2**14 + self.c7 * t / 2**3 + self.c8 * t * t / 2**19
+        return (sensitivity * pressure + offset) / 2**14
+
+
 Output = list[Sample | LinkEvent]
 
 
@@ -67,22 +168,20 @@ class Cc2541Link:
     Losses of accelerometer and gyroscope are estimated by their periods (periodic.py); those of slower channels not.
     """
 
+    name: ClassVar[str] = "cc2541"
+
     site: Site
     assembler: Assembler
     firmware: str = ""
     code: int = WRITTEN
-    acc: Periodic = field(factory=lambda: periodic(PERIOD))
-    gyro: Periodic = field(factory=lambda: periodic(PERIOD))
+    acc: Periodic = field(factory=lambda: periodic(STOCK))
+    gyro: Periodic = field(factory=lambda: periodic(STOCK))
     acc_on: bool = True
     gyro_on: bool = True
     calibration: BarometerCalibration | None = None
     told: bool = False
     """The Limitation about the barometer was said."""
     rest: RestCheck = field(factory=lambda: RestCheck(GRAVITY / COUNTS_PER_G["", WRITTEN]))
-
-    @property
-    def name(self) -> str:
-        return "cc2541"
 
     @property
     def silence_is_legal(self) -> bool:
@@ -94,33 +193,28 @@ class Cc2541Link:
         return self.acc.clock.doubt if self.acc.clock.last_x is not None else self.gyro.clock.doubt
 
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
+        sent = parse_whole(FORMATS[channel], data)
         match channel:
             case "cc2541/accelerometer":
-                return self._acc(data, arrival)
+                return self._acc(sent.acc, arrival)
             case "cc2541/gyroscope":
-                return self._gyro(data, arrival)
+                return self._gyro(sent.gyro, arrival)
             case "cc2541/magnetometer":
-                self.assembler.mag = _scaled(parse_magnetometer(data).mag, MAG)
+                self.assembler.mag = _scaled(sent.mag, MAG)
             case "cc2541/barometer":
-                return self._barometer(data, arrival)
+                return self._barometer(sent.temperature, sent.pressure, arrival)
             case "cc2541/barometer-calibration":
-                self.calibration = parse_barometer_calibration(data)
+                self.calibration = BarometerCalibration(*[sent[f"c{n}"] for n in range(1, 9)])
             case "cc2541/accelerometer-config":
-                self._configure(parse_accelerometer_config(data).code)
+                self._configure(sent.code)
             case "cc2541/gyroscope-config":
-                self.gyro_on = any(parse_gyroscope_config(data).axes)
+                self.gyro_on = any(sent.axes)
             case "cc2541/accelerometer-period":
-                self._change(self.acc, parse_period(data))
+                self._change(self.acc, sent.period)
             case "cc2541/gyroscope-period":
-                self._change(self.gyro, parse_period(data))
-            case "cc2541/magnetometer-config":
-                parse_magnetometer_config(data)
-            case "cc2541/barometer-config":
-                parse_barometer_config(data)
-            case "cc2541/magnetometer-period" | "cc2541/barometer-period":
-                parse_period(data)
+                self._change(self.gyro, sent.period)
             case "cc2541/keys":
-                down = parse_keys(data).down
+                down = tuple([name for name in ("left", "right", "side") if sent[name]])
                 return [KeysChanged(t=arrival, known_at=arrival, site=self.site, down=down)]
         return []
 
@@ -157,28 +251,20 @@ class Cc2541Link:
         if period != stream.period:
             stream.change(period)
 
-    def _acc(self, data: bytes, arrival: float) -> Output:
-        counts = parse_accelerometer(data).acc
+    def _acc(self, counts: tuple[int, int, int], arrival: float) -> Output:
         per_g = counts_per_g(self.firmware, self.code)
         acc = _scaled(counts, GRAVITY / per_g)
         slot = self.acc.arrive(arrival)
         out = self._lost("cc2541/accelerometer", slot.lost, slot.t_missing, arrival)
         out += self.assembler.acc(slot.t, acc, self.acc.period, arrival)
         if not self.rest.done:
-            magnitude = self.rest.feed(slot.t, acc)
-            if magnitude is not None:
-                words = suggestion(magnitude, 128.0 / per_g)
-                known_at = max(arrival, slot.t)
-                out.append(
-                    ScaleSuspect(t=slot.t, known_at=known_at, site=self.site, magnitude=magnitude, suggestion=words)
-                )
+            out += self.rest.suspect(Sample(slot.t, self.site, acc, known_at=max(arrival, slot.t)), 128.0 / per_g)
         return out
 
-    def _gyro(self, data: bytes, arrival: float) -> Output:
-        gyro = _scaled(parse_gyroscope(data).gyro, GYRO)
+    def _gyro(self, counts: tuple[int, int, int], arrival: float) -> Output:
         slot = self.gyro.arrive(arrival)
         out = self._lost("cc2541/gyroscope", slot.lost, slot.t_missing, arrival)
-        out += self.assembler.gyro(slot.t, gyro, self.gyro.period, arrival)
+        out += self.assembler.gyro(slot.t, _scaled(counts, GYRO), self.gyro.period, arrival)
         return out
 
     def _lost(self, channel: str, count: int, t: float, arrival: float) -> Output:
@@ -186,15 +272,14 @@ class Cc2541Link:
             return []
         return [PacketsLost(t=t, known_at=max(arrival, t), site=self.site, channel=channel, count=count)]
 
-    def _barometer(self, data: bytes, arrival: float) -> Output:
-        raw = parse_barometer(data)
+    def _barometer(self, temperature: int, raw: int, arrival: float) -> Output:
         if self.calibration is None:
             if self.told:
                 return []
             self.told = True
             what = "no barometer calibration (AA43) from the CC2541: no air pressure"
             return [Limitation(t=arrival, known_at=arrival, site=self.site, what=what)]
-        pressure = self.calibration.pascal(raw)
+        pressure = self.calibration.pascal(temperature, raw)
         if any(s.arrived is not None and arrival - s.arrived <= APART for s in (self.acc, self.gyro)):
             self.assembler.air_pressure = pressure
             return []

@@ -1,9 +1,13 @@
-"""One insole: frames to samples, by the rules of protocol/clock.md; INFO to scales and layout."""
+"""The insole (protocol/insole.md): frames to samples, by the rules of protocol/clock.md; INFO to scales and layout.
+
+It has a link of its own, no Driver: frames come in fragments, and each must be of the layout that INFO describes.
+"""
 
 from __future__ import annotations
 
 from hashlib import blake2b
-from math import radians, sqrt
+from math import radians
+from typing import ClassVar
 
 from attrs import define, field
 
@@ -15,17 +19,17 @@ from ...events import (
     PacketRejected,
     PacketsLost,
     Rejection,
-    ScaleSuspect,
 )
-from ...types import Layout, Quat, Sample, Site, shared
-from ...types.vector import GRAVITY
+from ...types import Layout, Sample, Site, shared
+from ...types.vector import GRAVITY, unit
 from ...wire.error import WireError
 from ...wire.fragment import is_fragment, parse_fragment
-from ...wire.insole import InsoleFrame, InsoleSample, parse_frame
+from ...wire.insole import InsoleFrame, parse_frame
 from ...wire.insole_control import parse_control
 from ...wire.insole_info import InsoleInfo, parse_info
-from ..rest import RestCheck, suggestion
-from ..run import Counted, PacketRun
+from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write
+from ..rest import RestCheck
+from ..run import Counted, PacketRun, signed
 from .reassembly import Reassembly
 
 COUNTS = 32768
@@ -40,6 +44,29 @@ SEQUENCES, ALL_TICKS = 1 << 16, 1 << 32
 """Where the counters of a frame wrap."""
 FULL_PRESSURE = 4095.0
 
+
+def _uuid(short: int) -> str:
+    return f"6016{short:04x}-c8fb-4908-9b03-31fbe15925c4"
+
+
+PROFILE = Profile(
+    name="insole",
+    names=(),
+    services=(_uuid(1),),
+    channels=(
+        Channel("insole/frame", _uuid(1), _uuid(2), Access.NOTIFY),
+        Channel("insole/info", _uuid(1), _uuid(3), Access.READ),
+        Channel("insole/control", _uuid(1), _uuid(4), Access.WRITE),
+        BATTERY,
+        FIRMWARE,
+    ),
+    setup=(Write("insole/control", b"\x01"),),
+    reads=("insole/info", "device/firmware", "device/battery"),
+    nominal_rate=100.0,
+    streams=("insole/frame",),
+    stale_after=1.0,
+)
+
 Output = list[Sample | LinkEvent]
 
 
@@ -51,6 +78,9 @@ class InsoleLink:
     Latency none. Before INFO came, counts are taken for 16 g and 2000 degrees/s full scale and pressure stays in
     counts; the layout of the first frame is then the only one accepted.
     """
+
+    name: ClassVar[str] = "insole"
+    silence_is_legal: ClassVar[bool] = False
 
     site: Site
     info: bytes = b""
@@ -68,21 +98,18 @@ class InsoleLink:
     rest: RestCheck = field(factory=lambda: RestCheck(ASSUMED_ACC))
 
     @property
-    def name(self) -> str:
-        return "insole"
-
-    @property
-    def silence_is_legal(self) -> bool:
-        return False
-
-    @property
     def doubt(self) -> float | None:
         """The newest time that is not to be compared with those of other devices (clock.py), s."""
         return None if self.run.clock is None else self.run.clock.doubt
 
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
         if channel == "insole/frame":
-            return self._fragment(data, arrival) if is_fragment(data) else self._whole(data, arrival)
+            if is_fragment(data):
+                return self._fragment(data, arrival)
+            out = self._frame(parse_frame(data), arrival)
+            if self.fragments.newest is None:
+                return out
+            return self._dropped(self.fragments.drop(), arrival) + out
         if channel == "insole/info":
             return self._info(data, arrival)
         parse_control(data)  # insole/control, as it was written: frames and INFO say what became of it
@@ -109,11 +136,6 @@ class InsoleLink:
             except WireError as error:
                 out.append(self._rejected(error.reason, error.detail, arrival))
         return out
-
-    def _whole(self, data: bytes, arrival: float) -> Output:
-        out = self._frame(parse_frame(data), arrival)
-        dropped = self.fragments.drop()
-        return self._dropped(dropped, arrival) + out if dropped else out
 
     def _dropped(self, detail: str | None, arrival: float) -> Output:
         return [] if detail is None else [self._rejected(Rejection.TRUNCATED, detail, arrival)]
@@ -161,7 +183,7 @@ class InsoleLink:
                 f"layout {frame.layout} of {cells} cells, not layout {self.layout} of {self.cells}",
             )
         run = self.run
-        e = run.ahead(frame.ticks, ALL_TICKS)
+        e = signed(frame.ticks - run.ticks, ALL_TICKS)
         d, m = run.packets(frame.sequence, SEQUENCES, e / run.covers)
         counted = Counted(frame.sequence, frame.ticks, frame.interval, len(frame.samples), d, m, e, frame.retransmitted)
         taken = run.take(counted, float(self.rate), arrival)
@@ -177,39 +199,27 @@ class InsoleLink:
             what = "no INFO from the insole: 16 g and 2000 degrees/s full scale assumed, pressure in counts"
             out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=what))
         if taken.restarted is not None:
-            t = run.expected()
+            t = taken.times[0]
             out.append(ClockReset(t=t, known_at=max(arrival, t), site=self.site, restarted=taken.restarted))
-        for j, sample in enumerate(frame.samples):
-            self._sample(sample, run.time(j), arrival, frame.saturated, out)
+        a, g, n = self.acc_scale, self.gyro_scale, self.pressure_scale
+        for raw, t in zip(frame.samples, taken.times, strict=True):
+            acc = gyro = pressure = quat = None
+            if raw.imu is not None:
+                ax, ay, az, gx, gy, gz = raw.imu
+                if a > 0.0:
+                    acc = (ax * a, ay * a, az * a)
+                if g > 0.0:
+                    gyro = (gx * g, gy * g, gz * g)
+            if raw.cells:
+                pressure = tuple([c * n for c in raw.cells]) if n > 0.0 else tuple(map(float, raw.cells))
+            if raw.quat is not None:
+                quat = unit(raw.quat)
+            known_at = arrival if arrival > t else t
+            sample = Sample(t, self.site, acc, gyro, pressure, quat, known_at=known_at, saturated=frame.saturated)
+            out.append(sample)
+            if acc is not None and not self.rest.done:
+                out += self.rest.suspect(sample, a * COUNTS / GRAVITY)
         return out
-
-    def _sample(self, raw: InsoleSample, t: float, arrival: float, saturated: bool, out: Output) -> None:
-        acc = gyro = pressure = None
-        if raw.imu is not None:
-            ax, ay, az, gx, gy, gz = raw.imu
-            a, g = self.acc_scale, self.gyro_scale
-            if a > 0.0:
-                acc = (ax * a, ay * a, az * a)
-            if g > 0.0:
-                gyro = (gx * g, gy * g, gz * g)
-        if raw.cells:
-            n = self.pressure_scale
-            pressure = tuple([c * n for c in raw.cells]) if n > 0.0 else tuple(map(float, raw.cells))
-        quat = None if raw.quat is None else _unit(raw.quat)
-        known_at = arrival if arrival > t else t
-        out.append(Sample(t, self.site, acc, gyro, pressure, quat, known_at=known_at, saturated=saturated))
-        if acc is not None and not self.rest.done:
-            magnitude = self.rest.feed(t, acc)
-            if magnitude is not None:
-                words = suggestion(magnitude, self.acc_scale * COUNTS / GRAVITY)
-                out.append(ScaleSuspect(t=t, known_at=known_at, site=self.site, magnitude=magnitude, suggestion=words))
-
-
-def _unit(quat: tuple[int, int, int, int]) -> Quat | None:
-    """A Q14 quaternion at length 1; None for zero."""
-    w, x, y, z = quat
-    length = sqrt(w * w + x * x + y * y + z * z)
-    return (w / length, x / length, y / length, z / length) if length > 0.0 else None
 
 
 def _check_scales(info: InsoleInfo) -> None:
@@ -228,3 +238,8 @@ def _check_scales(info: InsoleInfo) -> None:
             f"scales of {info.acc_scale:g} m/s^2, {info.gyro_scale:g} rad/s, {info.pressure_scale:g} N per count "
             f"and {info.tick_rate} ticks per second",
         )
+
+
+def insole_link(site: Site, firmware: str) -> InsoleLink:
+    """A fresh insole at `site`."""
+    return InsoleLink(site)

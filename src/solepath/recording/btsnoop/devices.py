@@ -6,8 +6,7 @@ from collections.abc import Mapping
 
 from attrs import define, field
 
-from ...link.devices import DECLARED
-from ...link.known import PROFILES
+from ...link.catalogue import DECLARED, PROFILES
 from ...link.profile import Access as Use
 from ...link.profile import Channel, Profile
 from ...types import SITE_OF_FOOT, Foot, Site
@@ -84,7 +83,7 @@ def name_attributes(device: LoggedDevice, types: Mapping[int, str], handles: Han
 def _may_be(channel: str, wish: tuple[str, int], device: LoggedDevice, types: Mapping[int, str]) -> bool:
     """Whether discovery leaves it open, or agrees, that the attribute is this channel."""
     address, handle = wish
-    if device.profile is not None and not device.profile.has(channel):
+    if device.profile is not None and channel not in device.profile.channel_names:
         return False
     same = {each.characteristic for each in _same_characteristic(channel)}
     uuid = types.get(handle)
@@ -114,7 +113,7 @@ def no_use(
 
 def _same_characteristic(name: str) -> list[Channel]:
     """The channels, of the device that has this one, that share its characteristic."""
-    profile = next(profile for profile in PROFILES if profile.has(name))
+    profile = next(profile for profile in PROFILES if name in profile.channel_names)
     return [each for each in profile.channels if each.characteristic == profile.channel(name).characteristic]
 
 

@@ -1,0 +1,19 @@
+"""Every device that is known without being told, for who looks for devices or names them: this loads all of them."""
+
+from __future__ import annotations
+
+from .devices import cc2541, cc2650, dot, dot_orientation, insole, orphe, thingy
+from .driver import Driver
+
+DECLARED: tuple[Driver, ...] = (cc2650.DRIVER, orphe.DRIVER, dot.DRIVER, dot_orientation.DRIVER, thingy.DRIVER)
+PROFILES = (
+    insole.PROFILE,
+    cc2650.PROFILE,
+    cc2541.PROFILE,
+    cc2541.PROFILE_20HZ,
+    orphe.PROFILE,
+    dot.PROFILE,
+    dot_orientation.PROFILE,
+    thingy.PROFILE,
+)
+BY_NAME = {profile.name: profile for profile in PROFILES}
