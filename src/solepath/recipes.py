@@ -16,13 +16,15 @@ from .body.fuse.both_feet import BothFeet
 from .body.fuse.position import MeanOfFeet
 from .body.height.altitude import Altitude
 from .body.place.particles import Particles
+from .foot.cues.cues import Cues
 from .foot.cues.gait_cues import GaitCues
+from .foot.navigate.corrector import Corrector
 from .foot.navigate.dedrift import LinearDedrift
 from .foot.navigate.error_state import ErrorStateFilter
 from .foot.navigate.level import LevelGround
 from .foot.pressure.insole import InsoleLoads
 from .foot.stance.cycle import Cycle
-from .foot.tracker import AnyCorrector, AnyCues, AnyDetector
+from .foot.stance.stance import Detector
 from .papers.footstep_tracker.activity.two_second_windows import TwoSecondWindows
 from .papers.footstep_tracker.critical_cues import CriticalCues
 from .papers.footstep_tracker.footsteps import Footsteps
@@ -59,9 +61,9 @@ class Recipe:
     """
 
     name: str
-    detector: AnyDetector
-    corrector: AnyCorrector
-    cues: AnyCues = field(factory=GaitCues)
+    detector: Detector
+    corrector: Corrector
+    cues: Cues = field(factory=GaitCues)
     insole: InsoleLoads = field(factory=InsoleLoads)
     body: AnyBody = field(factory=MeanOfFeet)
     activity: AnyActivity = field(factory=Activities)

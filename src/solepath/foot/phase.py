@@ -48,6 +48,14 @@ PHASES: dict[Phase, dict[Cue, Phase]] = {
     },
 }
 
+TO_COME: dict[Phase, tuple[Cue, ...]] = {
+    Phase.STATIONARY: (Cue.LIFT, Cue.CLEAR, Cue.CONTACT, Cue.FLAT),
+    Phase.PUSH_OFF: (Cue.CLEAR, Cue.CONTACT, Cue.FLAT),
+    Phase.SWING: (Cue.CONTACT, Cue.FLAT),
+    Phase.LOADING: (Cue.FLAT,),
+}
+"""The cues of a whole step that are still to come."""
+
 BEGINS: dict[Phase, type[HeelStrike] | type[FootFlat] | type[HeelOff] | type[ToeOff]] = {
     Phase.LOADING: HeelStrike,
     Phase.STATIONARY: FootFlat,

@@ -16,7 +16,8 @@ from attrs import define, field
 from ...types import Phase, Quat, Vec3
 from ...types.vector import GRAVITY, ZERO, sub, tipped
 from ..stance.stance import Stance
-from .strapdown import LONGEST_BRIDGE, Strapdown
+from .corrector import LONGEST_BRIDGE
+from .strapdown import Strapdown
 
 
 @define

@@ -20,9 +20,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import Enum
 
-from attrs import define, evolve, field
+from attrs import define, field
 
-from ...foot.cues.inertial import InertialCues, Seen
+from ...foot.cues.cues import Cues, Seen
+from ...foot.cues.inertial import InertialCues
 from ...foot.cues.touch import Touch
 from ...foot.phase import Cue
 from ...foot.pressure.centre import centre
@@ -44,7 +45,7 @@ class StepStage(Enum):
 
 
 @define
-class CopCues:
+class CopCues(Cues):
     """Latency: toe-off one sample; heel-strike and foot-flat at the first stationary sample, as the paper has it;
     heel-off one sample."""
 
@@ -87,11 +88,6 @@ class CopCues:
     fast_since: float | None = field(default=None, init=False)
     flat: bool = field(default=False, init=False)
     """For an insole alone: both areas are loaded."""
-
-    @property
-    def axis(self) -> Vec3 | None:
-        """As in `Cues`."""
-        return self.inertial.axis
 
     @property
     def sagittal(self) -> float:
@@ -263,9 +259,7 @@ class CopCues:
 
     def anew(self) -> None:
         """As in `Cues`."""
-        axis = self.inertial.axis
-        self.inertial = evolve(self.inertial)
-        self.inertial.axis = axis
+        self.inertial = self.inertial.anew()
         self.touch = self.touch.anew()
         self._enter(StepStage.LEAVING, 0.0)
         self.cop = self.pressed_at = self.loaded_at = self.fast_since = self.mark = None

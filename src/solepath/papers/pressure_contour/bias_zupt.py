@@ -11,7 +11,8 @@ from math import atan2, exp, inf, sqrt
 from attrs import define, evolve, field
 
 from ...calibration import Calibration
-from ...foot.navigate.strapdown import LONGEST_BRIDGE, Strapdown
+from ...foot.navigate.corrector import LONGEST_BRIDGE
+from ...foot.navigate.strapdown import Strapdown
 from ...foot.stance.stance import Stance
 from ...types import Foot, Phase, Quat, Vec3
 from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, sub, tipped
