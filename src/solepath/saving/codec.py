@@ -81,6 +81,9 @@ def _placed(error: Exception, cls: type, name: str) -> Exception:
     return kind(f"{_CANNOT}{cls.__name__}.{name}: {error}")
 
 
+PARTS: dict[Any, tuple[type, ...]] = {}
+"""The classes of solepath that a Protocol stands for (parts.py); it stands for an app's own as well."""
+
 _Own = frozenset[type]
 """What open unions may hold besides what they name."""
 
@@ -119,6 +122,8 @@ def _make_codec(annotation: Any, own: _Own) -> tuple[_Saver, _Loader]:
         return (lambda member: member.value), annotation
     if isinstance(annotation, type) and attrs.has(annotation):
         return _record_codec(annotation, own)
+    if annotation in PARTS:
+        return _open_codec({cls.__name__: cls for cls in PARTS[annotation]}, own)
     if origin in (typing.Union, types.UnionType):
         return _union_codec(arguments, own)
     if origin is tuple and len(arguments) == 2 and arguments[1] is Ellipsis:

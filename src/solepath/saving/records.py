@@ -10,6 +10,7 @@ import attrs
 from ..calibration import Calibration
 from ..recipes import Recipe
 from ..session.state import SessionState
+from . import parts as _parts  # noqa: F401  the codec knows the classes of solepath from there
 from .codec import SnapshotError
 from .reading import Own, Reader, readers
 from .shape import Shape, shape_of
@@ -36,12 +37,12 @@ class Packed:
 
 
 _ODD = {
-    ("State", "wearer"): "made",
-    ("Wearer", "recipe"): "given",
-    ("Wearer", "calibration"): "given",
-    ("Wearer", "poses"): "given",
-    ("Wearer", "pressures"): "given",
-    ("Wearer", "feet"): "made",
+    ("SessionState", "wearer"): "made",
+    ("WearerParts", "recipe"): "given",
+    ("WearerParts", "calibration"): "given",
+    ("WearerParts", "poses"): "given",
+    ("WearerParts", "pressures"): "given",
+    ("WearerParts", "feet"): "made",
 }
 """What the rules of shape.py do not say: what a wearer is begun with is in the head, and feet are begun by their
 wearer."""
@@ -83,8 +84,8 @@ def packed_readers() -> tuple[Reader, Reader]:
 def own_classes(recipe: Recipe | None, parts: Iterable[type]) -> Own:
     """Those that a state may hold, by their names. TypeError and ValueError as `machine.load`."""
     ours = shape().classes.values()
-    detector = () if recipe is None or type(recipe.detector) in ours else (type(recipe.detector),)
-    own = {cls: cls.__name__ for cls in (*detector, *parts) if isinstance(cls, type)}
+    held = () if recipe is None else (type(recipe.detector), type(recipe.corrector), type(recipe.cues))
+    own = {cls: cls.__name__ for cls in (*held, *parts) if isinstance(cls, type) and cls not in ours}
     if not all([attrs.has(cls) for cls in own]) or not all([isinstance(cls, type) for cls in parts]):
         raise TypeError("a part is an attrs class")
     if len(set(own.values())) != len(own):

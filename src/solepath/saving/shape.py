@@ -32,6 +32,8 @@ from typing import Any
 
 import attrs
 
+from .codec import PARTS
+
 Type = Any
 """str | dict[str, Type], as above."""
 Fields = dict[str, Type]
@@ -170,8 +172,8 @@ class _ShapeReader:
             return {"enum": name}
         if isinstance(hint, type) and attrs.has(hint):
             return {"record": self.record(hint, not made)}
-        if origin in (typing.Union, types.UnionType):
-            return self.union(arguments, made)
+        if origin in (typing.Union, types.UnionType) or hint in PARTS:
+            return self.union(alternatives(hint), made)
         if origin is tuple and len(arguments) == 2 and arguments[1] is Ellipsis:
             return {"row": self.type(arguments[0], made)}
         if origin is tuple:
@@ -197,7 +199,9 @@ class _ShapeReader:
 
 
 def alternatives(hint: Any) -> tuple[Any, ...]:
-    """What a union is made of; of another type itself."""
+    """What a union is made of, or a Protocol stands for; of another type itself."""
+    if hint in PARTS:
+        return (*PARTS[hint], hint)
     return typing.get_args(hint) if typing.get_origin(hint) in (typing.Union, types.UnionType) else (hint,)
 
 

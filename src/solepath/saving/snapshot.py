@@ -11,6 +11,7 @@ from ..recipes import own
 from ..session.state import VERSION, SessionState
 from ..session.wearer import in_order
 from ..types import Foot, Site
+from . import parts as _parts  # noqa: F401  the codec knows the classes of solepath from there
 from .codec import Json, SnapshotError, checksum, load, save
 
 
