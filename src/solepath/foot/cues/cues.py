@@ -49,12 +49,6 @@ class Cues(Protocol):
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[Seen]:
         """The same for an insole without an inertial sensor."""
 
-    def cleared(self, t: float) -> Seen:
-        """The toe left the ground at `t`, in a gap, and the swing was under way when that ended."""
-
-    def anew(self) -> None:
-        """Times begin anew: what was learnt stays, what lasted does not."""
-
     # what cues may know or pay heed to; they need not
 
     @property
@@ -69,8 +63,16 @@ class Cues(Protocol):
         likely that of toe-off (Corrector.mark). None: neither."""
         return None
 
+    def cleared(self, t: float) -> Seen:
+        """The toe left the ground at `t`, in a gap, and the swing was under way when that ended."""
+        return Seen(Cue.CLEAR, t)
+
     def interrupt(self) -> None:
         """There was a gap: what lasts must be seen to last."""
+        return
+
+    def anew(self) -> None:
+        """Times begin anew: what was learnt stays, what lasted does not."""
         return
 
     def wear(self, layout: Layout) -> None:

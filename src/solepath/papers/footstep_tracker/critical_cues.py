@@ -52,10 +52,6 @@ class CriticalCues(Cues):
         seen = self.pressure.update(t, dt, load, phase) or self.pressure.areas(t, load, phase)
         return () if seen is None else (seen,)
 
-    def cleared(self, t: float) -> Seen:
-        """As in `Cues`."""
-        return Seen(Cue.CLEAR, t)
-
     def anew(self) -> None:
         """As in `Cues`."""
         self.pressure = PressureCues()
