@@ -22,11 +22,13 @@ from .body.gait.turns import Turns
 from .body.height.altitude import Altitude
 from .body.part import Doing, Part, Track
 from .body.worn.wear import Wear
+from .foot.cues.cues import Cues
 from .foot.cues.gait_cues import GaitCues
+from .foot.navigate.corrector import Corrector
 from .foot.navigate.error_state import ErrorStateFilter
 from .foot.pressure.insole import InsoleLoads
 from .foot.stance.cycle import Cycle
-from .foot.tracker import AnyCorrector, AnyCues, AnyDetector
+from .foot.stance.stance import Detector
 from .saving.codec import SnapshotError, save
 
 
@@ -45,11 +47,11 @@ class Recipe:
     """One choice of parts."""
 
     name: str
-    detector: AnyDetector
+    detector: Detector
     """What says that a foot stands still, or how fast it rolls."""
-    corrector: AnyCorrector
+    corrector: Corrector
     """What keeps the integration from drifting."""
-    cues: AnyCues = field(factory=GaitCues)
+    cues: Cues = field(factory=GaitCues)
     """What sees heel-strike, foot-flat, heel-off and toe-off."""
     insole: InsoleLoads = field(factory=InsoleLoads)
     """What makes a load of cells."""
@@ -109,10 +111,10 @@ _SHOE = "papers.shoe_sensing."
 
 PARTS: dict[str, str] = {
     "Cycle": _FOOT + "stance.cycle",
-    "ShoeDetector": _FOOT + "stance.stance",
-    "AngularRate": _FOOT + "stance.stance",
-    "MovingVariance": _FOOT + "stance.stance",
-    "Graph": _FOOT + "stance.stance",
+    "ShoeDetector": _FOOT + "stance.classic",
+    "AngularRate": _FOOT + "stance.classic",
+    "MovingVariance": _FOOT + "stance.classic",
+    "Graph": _FOOT + "stance.classic",
     "TwoArea": _FOOT + "stance.pressure",
     "MaximumPressure": _FOOT + "stance.pressure",
     "ErrorStateFilter": _FOOT + "navigate.error_state",

@@ -16,7 +16,7 @@ from solepath.body.fuse.both_feet import BothFeet
 from solepath.body.part import Track
 from solepath.calibration import InsoleCalibration
 from solepath.emulate.sensors.insoles import layout
-from solepath.foot.stance.stance import Load, Stance
+from solepath.foot.stance.stance import Detector, Load, Stance
 from solepath.recipes import own
 from solepath.types import Cell, Quat, Vec3, shared
 from solepath.types.vector import IDENTITY, ZERO
@@ -47,7 +47,7 @@ def test_sessions_are_begun_in_many_threads_at_once() -> None:
 
 
 @define
-class Likeness:
+class Likeness(Detector):
     """A detector whose limit is compared by nobody, and a second one that cannot be compared at all."""
 
     limit: float = field(default=0.8, eq=False)
@@ -78,7 +78,7 @@ class Loner(Likeness):
 
 
 @define(slots=False)
-class Loose:
+class Loose(Detector):
     """It may hold what is in no field."""
 
     limit: float = 0.8

@@ -30,7 +30,7 @@ from solepath.fleet.step.state import (
     read_rest,
     write_state,
 )
-from solepath.foot.stance.stance import Load, Stance
+from solepath.foot.stance.stance import Detector, Load, Stance
 from solepath.recipes import DEFAULT
 from solepath.session import Session
 from solepath.types import Packet, Quat, Site, Vec3
@@ -183,7 +183,7 @@ def test_a_state_keeps_what_is_held_whatever_it_is() -> None:
 
 
 @define
-class Unsound:
+class Unsound(Detector):
     """A detector that after a while holds what cannot be saved."""
 
     updates: int = field(default=0, init=False)

@@ -26,7 +26,7 @@ ALLOWED: dict[str, set[str]] = {
     "floorplan": {"saving"},
     "wire": {"types", "events"},
     "link": {"types", "events", "wire"},
-    "foot": {"types", "events", "calibration", "papers"},
+    "foot": {"types", "events", "calibration"},
     "body": {"types", "events", "floorplan", "foot"},
     "recipes": {"foot", "body", "papers"},
     "papers": CORE | {"recording"},

@@ -25,7 +25,8 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.emulate.walk import emulate
-from solepath.foot.stance.stance import Load, ShoeDetector, Stance
+from solepath.foot.stance.classic import ShoeDetector
+from solepath.foot.stance.stance import Detector, Load, Stance
 from solepath.types import Quat, Vec3, WalkingMode
 from solepath.types.vector import IDENTITY, ZERO
 
@@ -176,7 +177,7 @@ class Rates:
 
 
 @define
-class Usual:
+class Usual(Detector):
     """A foot that turns slowly. Its state is in fields of every kind, some of which its constructor takes."""
 
     limit: float = 0.8
@@ -237,7 +238,7 @@ def test_what_cannot_be_packed_says_so_when_it_is_to_be_packed() -> None:
     class Bare:
         update = Usual.update
 
-    Ours = define(type("Shoe", (), {"__annotations__": {}, "update": Usual.update}))
+    Ours = define(type("ShoeDetector", (), {"__annotations__": {}, "update": Usual.update}))
     for detector, what in ((Bare(), "no attrs class"), (Ours(), "give it another name")):
         session = Session(evolve(recipes.DEFAULT, detector=detector))
         session.feed(samples(cells=0)[:0])

@@ -7,11 +7,10 @@ from attrs import define, field
 from ..events import Event
 from ..types import Foot, Phase, Vec3
 from ..types.vector import ZERO, from_yaw, multiply, sub
-from .cues.gait_cues import Cues
-from .cues.inertial import Seen
+from .cues.cues import Cues, Seen
 from .gaps.gap import Leap
 from .gaps.template import Habit
-from .navigate.strapdown import Corrector
+from .navigate.corrector import Corrector
 from .phase import BEGINS, PHASES, Cue
 from .stride import StepBuilder, StretchChain
 from .turn import heading_turned

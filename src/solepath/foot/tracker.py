@@ -12,57 +12,23 @@ from typing import Any, Final
 from attrs import define, evolve, field
 
 from ..events import Event, FootMoved, SampleGap
-from ..papers.footstep_tracker.critical_cues import CriticalCues
-from ..papers.footstep_tracker.projection import Projection
-from ..papers.footstep_tracker.static_zones import StaticZones
-from ..papers.kupt_dfpc.cop_cues import CopCues
-from ..papers.kupt_dfpc.known_velocity import KnownVelocity
-from ..papers.kupt_dfpc.swing_dedrift import SwingDedrift
-from ..papers.pressure_contour.bias_zupt import BiasZupt
-from ..papers.pressure_contour.contour_stance import ContourVelocity, GyroscopeMagnitude
-from ..papers.shoe_sensing.gated_tilt import ShoeSensing
-from ..papers.shoe_sensing.short_time_energy import AccelerationMagnitude, ShortTimeEnergy
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.vector import ZERO
 from .attitude import Levelling, Rest, suspected
+from .cues.cues import Cues, Seen
 from .cues.gait_cues import GaitCues
-from .cues.inertial import Seen
 from .gait import Gait
 from .gaps.crossing import cross
 from .gaps.gap import SHORTEST
 from .limits import WITHOUT, Limits
-from .navigate.dedrift import LinearDedrift
-from .navigate.error_state import ErrorStateFilter
-from .navigate.strapdown import LONGEST_BRIDGE
+from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .pressure.insole import InsoleLoads
 from .pressure.sole import Sole
 from .rejection import refusal, rejected
 from .rhythm import Rhythm
-from .stance.cycle import Cycle
-from .stance.pressure import MaximumPressure, TwoArea
-from .stance.stance import AngularRate, Detector, Graph, Load, MovingVariance, ShoeDetector
+from .stance.stance import Detector, Load
 from .view import FootPose, FootView
 from .world import Covariance3
-
-AnyDetector = (
-    Cycle
-    | ShoeDetector
-    | AngularRate
-    | MovingVariance
-    | Graph
-    | TwoArea
-    | MaximumPressure
-    | ContourVelocity
-    | GyroscopeMagnitude
-    | KnownVelocity
-    | StaticZones
-    | ShortTimeEnergy
-    | AccelerationMagnitude
-    | Detector
-)
-"""Ours, and what an app makes (docs/extending.md)."""
-AnyCorrector = ErrorStateFilter | LinearDedrift | SwingDedrift | BiasZupt | ShoeSensing | Projection
-AnyCues = GaitCues | CopCues | CriticalCues
 
 SWING: Final = Phase.SWING
 """Looked up once: a word of an enum costs as much as five multiplications."""
@@ -76,11 +42,11 @@ class FootTracker:
     """Feed it the samples of one foot in the order of their time."""
 
     foot: Foot
-    detector: AnyDetector
-    corrector: AnyCorrector
+    detector: Detector
+    corrector: Corrector
     poses: bool = False
     """Emit FootMoved for every navigated sample."""
-    cues: AnyCues = field(factory=GaitCues)
+    cues: Cues = field(factory=GaitCues)
     needs_pressure: bool = False
     """Without pressure cells nothing is said of this foot."""
     sole: Sole = field()
@@ -200,11 +166,9 @@ class FootTracker:
 
     def _wear_parts(self, layout: Layout) -> None:
         self.sole.worn = False
-        for part in (self.detector, self.cues):
-            wear = getattr(part, "wear", None)
-            if wear is not None:
-                wear(layout)
-        self.limits.later(getattr(self.detector, "lacking", None))
+        self.detector.wear(layout)
+        self.cues.wear(layout)
+        self.limits.later(self.detector.lacking)
 
     def interrupt(self) -> None:
         """The clock of the samples begins anew, before or after the old one; what the foot did between is unknown."""
@@ -310,9 +274,7 @@ class FootTracker:
         rest, corrector, gait = self.rest, self.corrector, self.gait
         if rest.update(t, acc, gyro):
             self._check_scale(t, known_at, events)
-            scaled = getattr(self.detector, "scaled", None)
-            if scaled is not None:
-                scaled(rest.scale)
+            self.detector.scaled(rest.scale)
         k, (bx, by, bz) = rest.scale, rest.bias
         x, y, z = acc
         acc = (x * k, y * k, z * k)

@@ -119,7 +119,7 @@ def _make_codec(annotation: Any, own: _Own) -> tuple[_Saver, _Loader]:
         return (lambda member: member.value), annotation
     if isinstance(annotation, type) and attrs.has(annotation):
         return _record_codec(annotation, own)
-    if isinstance(annotation, type) and origin is None and annotation.__module__.startswith("solepath.") and not issubclass(annotation, Enum):
+    if isinstance(annotation, type) and origin is None and annotation.__module__.startswith("solepath."):
         return _open_codec({}, own)
     if origin in (typing.Union, types.UnionType):
         return _union_codec(arguments, own)
