@@ -17,7 +17,7 @@ from ..calibration import Calibration
 from ..events import Event
 from ..foot.view import FootPose, FootView
 from ..foot.world import Covariance3
-from ..types import Activity, Foot, Sample, Site, Vec3
+from ..types import Activity, Foot, Layout, Sample, Site, Vec3
 
 
 @frozen
@@ -54,6 +54,14 @@ class ClockUnsettled:
 
 
 @frozen
+class LayoutTold:
+    """The device at a site says itself where its cells are, and with it whose foot it is on; a calibration does not."""
+
+    site: Site
+    layout: Layout
+
+
+@frozen
 class Position:
     """Where the wearer is: world frame, m, with covariance xx, xy, xz, yy, yz, zz in m^2, at `t` s."""
 
@@ -63,7 +71,7 @@ class Position:
 
 
 Said = Event | Shift | Height | Instead
-Notice = Event | ClockUnsettled
+Notice = Event | ClockUnsettled | LayoutTold
 
 
 class Part:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from attrs import define, field
 
-from ..body.part import ClockUnsettled, Height, Instead, Part, Position, Said, Shift, Track
+from ..body.part import ClockUnsettled, Height, Instead, LayoutTold, Part, Position, Said, Shift, Track
 from ..calibration import Calibration
 from ..events import (
     ActivityChanged,
@@ -123,6 +123,8 @@ class WearerParts:
             tracker = self._tracker(foot)
             tracker.wear(event.layout)
             self._keep(tracker)
+            for part in self.parts:
+                part.receive(LayoutTold(site, event.layout))
         elif foot is not None and isinstance(event, ClockReset):
             self._tracker(foot).interrupt()
         events = [event]

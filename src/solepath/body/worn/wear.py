@@ -7,10 +7,10 @@ from typing import ClassVar, Final
 
 from attrs import define, field
 
-from ...events import FeetSwapped, FootHeard, FootSilent, LayoutKnown, StrideTaken
+from ...events import FeetSwapped, FootHeard, FootSilent, StrideTaken
 from ...foot.view import FootView
 from ...types import Foot
-from ..part import Notice, Part, Said
+from ..part import LayoutTold, Notice, Part, Said
 from .sides import Sides
 
 LEFT: Final = Foot.LEFT
@@ -52,7 +52,7 @@ class Wear(Part):
 
     def receive(self, event: Notice) -> Sequence[Said]:
         """The device on a foot may have said where its cells are."""
-        if isinstance(event, LayoutKnown) and event.site.foot is not None:
+        if isinstance(event, LayoutTold) and event.site.foot is not None:
             self.sides.told(event.site.foot, event.layout)
         return ()
 
