@@ -72,6 +72,12 @@ class Recipe:
         parts = tuple([part for part in known if part is not None])
         return evolve(self, name=self.name if name is None else name, parts=parts)
 
+    def order(self) -> str:
+        """The parts of the body, a line each, in the order in which they hear of what is said."""
+        place = "Particles" if self.place is None else type(self.place).__name__
+        names = [type(part).__name__ for part in self.parts]
+        return "\n".join([*names, f"{place} (with a floor plan)"])
+
     def __repr__(self) -> str:
         return f"<Recipe {self.name}>"
 

@@ -159,10 +159,12 @@ class WearerParts:
             heard = tuple(events)
             if heard and part.follows and moved is None and any([isinstance(event, LEADS) for event in heard]):
                 moved = self._moved(known_at)
-            if view is not None and part.feeds:
-                self._take(part.feed(view), events)
-            for event in heard:
-                self._take(part.receive(event), events)
+            if view is not None and part.feeds and (said := part.feed(view)):
+                self._take(said, events)
+            if heard and type(part).receive is not Part.receive:
+                for event in heard:
+                    if said := part.receive(event):
+                        self._take(said, events)
             if moved is not None and part.follows:
                 self._take(part.receive(moved), events)
             if finishing:

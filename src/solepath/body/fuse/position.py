@@ -62,7 +62,10 @@ class PlacedTrack:
 
     def place(self, own: Vec3) -> Vec3:
         """A place on its own track, among both feet, m."""
-        x, y, z = _turned(own, self.turn) if self.turn else own
+        x, y, z = own
+        if self.turn:
+            c, s = cos(self.turn), sin(self.turn)
+            x, y = c * x - s * y, s * x + c * y
         dx, dy, dz = self.offset
         return (x + dx, y + dy, z + dz)
 

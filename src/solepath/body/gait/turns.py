@@ -97,7 +97,9 @@ class Turns(Part):
             return None
         lay, now = self.lain.get(event.foot), view.stood
         self.lain[event.foot] = Lain(event.t, now)
-        stepped = any(isinstance(one, StrideTaken) and one.t == event.t for one in view.events)
+        stepped = view.covariance is not None and any(
+            [isinstance(one, StrideTaken) and one.t == event.t for one in view.events]
+        )
         if lay is None or stepped or event.t < lay.since:
             return None
         return self.direction.pivot(event.foot, lay.since, event.t, heading_turned(lay.attitude, now))
