@@ -173,18 +173,18 @@ class Session:
         if decoder is None:
             decoder = Decoder(packet.site)
         items = decoder.feed(packet, self._kinds)
-        if any([isinstance(item, PacketRejected) for item in items]):
-            # it changes nothing, so it is not a sign of time passing either
-            if packet.site in state.decoders:
+        for item in items:
+            if isinstance(item, PacketRejected):
+                # it changes nothing, so it is not a sign of time passing either
+                if packet.site not in state.decoders:
+                    return [one for one in items if isinstance(one, PacketRejected)]
                 self._take(packet.site, items, events)
-            else:
-                events += [item for item in items if isinstance(item, PacketRejected)]
-            return events
+                return events
         if packet.site not in state.decoders:
             state.decoders = in_order({**state.decoders, packet.site: decoder}, Site)
         for site, other in state.decoders.items():
-            if site is not packet.site:
-                self._take(site, other.advance(packet.t, self._kinds), events)
+            if site is not packet.site and (late := other.advance(packet.t, self._kinds)):
+                self._take(site, late, events)
         if state.now is None or packet.t > state.now:
             state.now = packet.t
         if decoder.link is not None:

@@ -99,7 +99,8 @@ class WearerParts:
         if events:
             if isinstance(events[0], SampleRejected):
                 return events
-            stride = any([isinstance(event, StrideTaken) for event in events])
+            for event in events:
+                stride = stride or isinstance(event, StrideTaken)
         t, known_at = sample.t, sample.known_at
         known_at = t if known_at is None or known_at < t else known_at
         view = tracker.view(sample, known_at, tuple(events), spread=stride)

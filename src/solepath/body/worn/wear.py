@@ -7,7 +7,7 @@ from typing import ClassVar, Final
 
 from attrs import define, field
 
-from ...events import FeetSwapped, FootHeard, FootSilent, StrideTaken
+from ...events import FeetSwapped, FootHeard, FootSilent
 from ...foot.view import FootView
 from ...types import Foot
 from ..part import LayoutTold, Notice, Part, Said
@@ -73,7 +73,7 @@ class Wear(Part):
             found.append(FootHeard(t=t, known_at=view.known_at, foot=view.foot, silent_for=silence))
         this.t = t
         this.missing = 0
-        if events and any([isinstance(event, StrideTaken) for event in events]):
+        if view.covariance is not None:  # there was a stride
             other.missing += 1
         if other.missing and other.t is not None and not other.said:
             if t < other.t:
