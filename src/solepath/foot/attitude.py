@@ -163,7 +163,7 @@ class Rest:
         """One raw sample; True when a span of rest was learnt from."""
         if self.span_start is None:
             self.span_start = t
-        # as Span.add
+        # as SampleSpan.add, which would be a call more (tests/foot/test_alike.py holds both equal)
         span = self.span
         gx, gy, gz = gyro
         lx, ly, lz = span.gyro

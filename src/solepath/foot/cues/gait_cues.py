@@ -14,7 +14,8 @@ from ...types import Layout, Phase, Vec3
 from ..phase import Cue
 from ..stance.stance import Load, Stance
 from .cues import Cues, Seen
-from .inertial import InertialCues, PressureCues
+from .inertial import InertialCues
+from .pressure import PressureCues
 from .touch import FEW, Touch
 
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from attrs import define, field
 
 from ...foot.cues.cues import Cues, Seen
-from ...foot.cues.inertial import PressureCues
+from ...foot.cues.pressure import PressureCues
 from ...foot.phase import TO_COME, Cue
 from ...foot.stance.stance import Load, Stance
 from ...types import Phase, Vec3
