@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from solepath.foot.navigate.covariance import Covariance, propagate
-from solepath.foot.navigate.update import update
+from solepath.foot.navigate.covariance import Covariance, propagate, update
 
 BLOCKS = [(0, 0), (0, 3), (0, 6), (3, 3), (3, 6), (6, 6)]
 

@@ -19,9 +19,8 @@ from solepath.emulate.sensors.ramp import Ramp
 from solepath.emulate.wearers.motion import Kinematics
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
 from solepath.emulate.wearers.walker import Walker
-from solepath.foot.navigate.covariance import HEIGHT
+from solepath.foot.navigate.covariance import HEIGHT, believed_height
 from solepath.foot.navigate.level import LevelGround
-from solepath.foot.navigate.update import believed_height
 from solepath.recipes import DEFAULT, Recipe
 from solepath.saving import codec as machine
 from solepath.types import Quat

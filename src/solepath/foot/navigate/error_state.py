@@ -21,12 +21,11 @@ from ...types.vector import GRAVITY, TIE
 from ..stance.stance import Stance
 from .clipping import Missed
 from .corrector import LONGEST_BRIDGE
-from .covariance import HEIGHT
+from .covariance import HEIGHT, believed_height, update
 from .level import LevelGround
 from .propagated import Carried
 from .recovery import Recovery
 from .strapdown import WIDEST_SERIES
-from .update import believed_height, update
 
 STATIONARY: Final = Phase.STATIONARY
 """Looked up once: a word of an enum costs as much as five multiplications."""
