@@ -53,17 +53,9 @@ class ByMotion(Cues):
     stood: float | None = field(default=None, init=False)
 
     def update(
-        self,
-        t: float,
-        dt: float,
-        acc: Vec3,
-        gyro: Vec3,
-        still: bool,
-        speed: float,
-        phase: Phase,
-        load: Load | None,
-        stance: Stance,
-    ) -> Sequence[Seen]:
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
+        load: Load | None, stance: Stance,
+    ) -> Sequence[Seen]:  # fmt: skip
         if still:
             self.stood = t
             return (Seen(Cue.CONTACT, t), Seen(Cue.FLAT, t)) if phase is not Phase.STATIONARY else ()
