@@ -18,6 +18,18 @@ COARSEST = 0.7
 """No accelerometer's count is worth more (8 bits for +-8 g are 0.61), m/s^2."""
 EQUAL = 1e-6
 """Readings that differ by less are the same count, m/s^2."""
+TILT_AT_REST, TILT_IN_STANCE, TILT_AT_ANY_TIME = 0.02, 0.06, 0.2
+"""Standard deviation of a tilt by how quiet the foot was that it was found on, rad; chosen by hand, not swept."""
+LOUDEST_LEVEL = 1e12
+"""Louder than any moment, (m/s^2)^2."""
+REMEMBERED = 20
+"""So many spans of rest count, ten seconds of it: the bias wanders."""
+LEAST_SCALE, LARGEST_SCALE = 0.8, 1.25
+"""Beyond a fifth it is a wrong range, not a scale error: cheap accelerometers do read 1.1 g."""
+YOUNG, LIFT = 4, 0.02
+"""After so many spans of rest the scale is known, and a change by a larger share is a lift starting or stopping."""
+SUSPECT = 0.15
+"""An accelerometer that is further from 1 g at rest than by this share is to be looked at."""
 
 
 @define
@@ -81,7 +93,7 @@ class Levelling:
     span: SampleSpan = field(factory=SampleSpan, init=False)
     short: SampleSpan = field(factory=SampleSpan, init=False)
     short_start: float = field(default=0.0, init=False)
-    quietest: float = field(default=1e12, init=False)
+    quietest: float = field(default=LOUDEST_LEVEL, init=False)
     """(m/s^2)^2."""
     span_start: float = field(default=0.0, init=False)
     begun: float | None = field(default=None, init=False)
@@ -102,9 +114,9 @@ class Levelling:
         self.span = SampleSpan()
         self.span_start = t
         if quiet:
-            return levelling(mean_acc), 0.02
+            return levelling(mean_acc), TILT_AT_REST
         if t - self.begun >= self.patience - TIE:
-            return levelling(mean_acc), 0.2
+            return levelling(mean_acc), TILT_AT_ANY_TIME
         return None
 
     def _walking(self, t: float, acc: Vec3, gyro: Vec3, begun: float) -> tuple[Quat, float] | None:
@@ -122,7 +134,7 @@ class Levelling:
         self.short_start = t
         stands = t - begun >= self.stride - TIE and loud <= self.alike * self.quietest
         self.quietest = min(self.quietest, loud)
-        return (levelling((ax, ay, az)), 0.06) if stands else None
+        return (levelling((ax, ay, az)), TILT_IN_STANCE) if stands else None
 
 
 @define
@@ -163,7 +175,7 @@ class Rest:
         """One raw sample; True when a span of rest was learnt from."""
         if self.span_start is None:
             self.span_start = t
-        # as Span.add
+        # as SampleSpan.add, which would be a call more (tests/foot/test_alike.py holds both equal)
         span = self.span
         gx, gy, gz = gyro
         lx, ly, lz = span.gyro
@@ -201,12 +213,10 @@ class Rest:
             return False
         self.magnitude = (ax * ax + ay * ay + az * az) ** 0.5
         scale = GRAVITY / self.magnitude if self.magnitude > 0.0 else 0.0
-        # beyond a fifth it is a wrong range, not a scale error (cheap accelerometers do read 1.1 g); later than the
-        # first rests, a change of more than 2 % is a lift starting or stopping
-        if 0.8 < scale < 1.25 and (self.count < 4 or abs(scale / self.scale - 1.0) < 0.02):
-            self.scale += (scale - self.scale) / (min(self.count, 19) + 1)
-        # the bias wanders, so the last ten seconds of rest count
-        weight = 1.0 / (min(self.count, 19) + 1)
+        spans = min(self.count + 1, REMEMBERED)
+        if LEAST_SCALE < scale < LARGEST_SCALE and (self.count < YOUNG or abs(scale / self.scale - 1.0) < LIFT):
+            self.scale += (scale - self.scale) / spans
+        weight = 1.0 / spans
         x, y, z = self.bias
         self.bias = (x + (gx - x) * weight, y + (gy - y) * weight, z + (gz - z) * weight)
         self.count += 1
@@ -215,7 +225,7 @@ class Rest:
 
 def suspected(t: float, known_at: float, site: Site, magnitude: float | None) -> ScaleSuspect | None:
     """What to say of an accelerometer that reads `magnitude` at rest, m/s^2: nothing as long as that is about 1 g."""
-    if magnitude is None or 0.85 < magnitude / GRAVITY < 1.15:
+    if magnitude is None or 1.0 - SUSPECT < magnitude / GRAVITY < 1.0 + SUSPECT:
         return None
     ratio = GRAVITY / magnitude if magnitude > 0.0 else inf
     suggestion = f"multiply acc by {ratio:.3g}" if isfinite(ratio) else "acc reads nothing at all"

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from attrs import define, field
 
+FOLLOW = 0.02
+"""Share of the newest wait in the usual one; chosen by hand."""
+ODD = 2.0
+"""A wait counts as no more than so many times the usual one, and as no less than that part of it."""
+
 
 @define
 class Rhythm:
@@ -36,11 +41,11 @@ class Rhythm:
             return False
         # the usual wait follows slowly and mistrusts the unusual
         trusted = dt
-        if trusted < 0.5 * usual:
-            trusted = 0.5 * usual
-        elif trusted > 2.0 * usual:
-            trusted = 2.0 * usual
-        self.usual = usual + 0.02 * (trusted - usual)
+        if trusted < usual / ODD:
+            trusted = usual / ODD
+        elif trusted > ODD * usual:
+            trusted = ODD * usual
+        self.usual = usual + FOLLOW * (trusted - usual)
         if dt <= self.share * usual or dt - usual <= self.least:
             self.count = 0
             return False

@@ -32,17 +32,9 @@ class Cues(Protocol):
     __slots__ = ()
 
     def update(
-        self,
-        t: float,
-        dt: float,
-        acc: Vec3,
-        gyro: Vec3,
-        still: bool,
-        speed: float,
-        phase: Phase,
-        load: Load | None,
-        stance: Stance,
-    ) -> Sequence[Seen]:
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
+        load: Load | None, stance: Stance,
+    ) -> Sequence[Seen]:  # fmt: skip
         """One corrected sample: `acc` in m/s^2, `gyro` in rad/s without bias, `still`: the evidence of zero velocity
         was believed, `speed` in m/s, `phase` before it. What was seen, in order."""
 

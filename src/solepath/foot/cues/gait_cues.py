@@ -14,7 +14,8 @@ from ...types import Layout, Phase, Vec3
 from ..phase import Cue
 from ..stance.stance import Load, Stance
 from .cues import Cues, Seen
-from .inertial import InertialCues, PressureCues
+from .inertial import InertialCues
+from .pressure import PressureCues
 from .touch import FEW, Touch
 
 
@@ -38,17 +39,9 @@ class GaitCues(Cues):
         return 0.0 if inertial.axis is None else inertial.sagittal
 
     def update(
-        self,
-        t: float,
-        dt: float,
-        acc: Vec3,
-        gyro: Vec3,
-        still: bool,
-        speed: float,
-        phase: Phase,
-        load: Load | None,
-        stance: Stance,
-    ) -> Sequence[Seen]:
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
+        load: Load | None, stance: Stance,
+    ) -> Sequence[Seen]:  # fmt: skip
         """As in `Cues`; at most one."""
         seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)
         if load is None and seen is None:

@@ -7,7 +7,8 @@ has fallen to half its peak, the steepest place of its fall. Landmarks of this k
 (Sabatini et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Gait & Posture 37, 2013).
 The ground may stop the foot later than that, or earlier: heel-strike is the middle of the impact (impact.py).
 
-`PressureCues` reads the load on the insole.
+Settings that name no source were chosen by hand on the recordings of docs/accuracy.md and not swept; those of
+heel-strike and toe-off on those that have such events.
 """
 
 from __future__ import annotations
@@ -20,7 +21,6 @@ from attrs import define, evolve, field
 from ...types import Phase, Vec3
 from ...types.vector import TIE, ZERO
 from ..phase import Cue
-from ..stance.stance import Load
 from .cues import Seen
 from .impact import Impact
 
@@ -30,8 +30,16 @@ PUSH_OFF: Final = Phase.PUSH_OFF
 LOADING: Final = Phase.LOADING
 """Looked up once: a word of an enum costs as much as five multiplications."""
 
+LEAST_TURN = 0.25
+"""A foot that has turned by less than this was not pushing off, rad."""
+ALIKE = 0.5
+"""Cosine of 60 degrees: axes that are further apart are not the same."""
 MISFITS = 3
 """Push-offs in a row about another axis after which that one is believed."""
+NEWEST = 0.2
+"""Share of the newest push-off in the axis."""
+IN_SWING = 2.0
+"""A swing that a gap has hidden was under way when its hump was taken to be so many times the least one."""
 
 
 @define
@@ -50,9 +58,9 @@ class InertialCues:
     slap: float = 1.0
     """The heel lands about when the rate comes up through this, as the ground turns the sole down, rad/s."""
     hear_out: float = 0.04
-    """Then the impact is heard out until its middle is this long ago, s,"""
+    """Then the impact is heard out until its middle is this long ago, s: heel-strike is to be known within 60 ms."""
     longest_impact: float = 0.1
-    """but not for longer than this, s."""
+    """An impact is heard out for no longer than this, s."""
     jolt: float = 1e4
     """A foot that has lost its speed has landed if the impact's squared jerk came to this, m^2/s^5: 600 m/s^3 for
     30 ms. Muscles that swing a leg reach half of that jerk, the ground some thousands."""
@@ -61,20 +69,24 @@ class InertialCues:
     shuffle_speed: float = 0.35
     """A foot that moves this fast for `shuffle_time` is in swing, however it got there, m/s."""
     reach: float = 0.2
-    """That is this much faster for each rad/s: no sensor is further from the toes, which a foot rolls over, m."""
+    """That speed is higher by this for each rad/s, m: no sensor is further from the toes, which a foot rolls over."""
     shuffle_time: float = 0.15
+    """For so long a foot must be so fast to be in swing, s."""
     loading_time: float = 0.4
-    """The same right after heel-strike, when the sensor still swings down with the sole, s."""
+    """For so long right after heel-strike, when the sensor still swings down with the sole, s."""
     lookback: float = 0.02
     """Stillness is judged over a window, so it began about this long before it showed, s."""
     rolling: float = 0.12
     """The heel came off when the sagittal rate was last below this, rad/s."""
     # state
     still_since: float | None = field(default=None, init=False)
+    """Since when the evidence of zero velocity has been believed, s; None while it is not."""
     calm: float | None = field(default=None, init=False)
     """The last moment of this stance at which the foot did not turn, s."""
     moving_since: float | None = field(default=None, init=False)
+    """Since when it has not been believed, s."""
     fast_since: float | None = field(default=None, init=False)
+    """Since when the foot has been fast, s."""
     axis: Vec3 | None = field(default=None, init=False)
     """Unit vector to the wearer's left, sensor frame; learnt from how the foot turns as the heel lifts."""
     misfits: int = field(default=0, init=False)
@@ -82,8 +94,11 @@ class InertialCues:
     turned: Vec3 = field(default=ZERO, init=False)
     """Turn since the foot began to move, rad, sensor frame."""
     peak: float = field(default=0.0, init=False)
+    """The highest sagittal rate of this push-off, rad/s."""
     trough: float = field(default=0.0, init=False)
+    """The lowest sagittal rate of this swing, rad/s."""
     toe_off: float | None = field(default=None, init=False)
+    """When the last swing began, s."""
     struck: float | None = field(default=None, init=False)
     """When the rate came up after the swing, s, until heel-strike is told."""
     force: Vec3 | None = field(default=None, init=False)
@@ -195,7 +210,7 @@ class InertialCues:
     def cleared(self, t: float) -> Seen:
         """The toe left the ground at `t`, in a gap, and the swing was under way when that ended."""
         seen = self._clear(t)
-        self.trough = -2.0 * self.hump
+        self.trough = -IN_SWING * self.hump
         return seen
 
     def _clear(self, t: float) -> Seen:
@@ -215,76 +230,21 @@ class InertialCues:
         """The heel lifts by a turn about the axis to the left; True when it turned far enough to be a push-off."""
         x, y, z = self.turned
         angle = sqrt(x * x + y * y + z * z)
-        if angle < 0.25:
+        if angle < LEAST_TURN:
             return False
         x, y, z = x / angle, y / angle, z / angle
         if self.axis is None:
             self.axis = (x, y, z)
             return True
         u, v, w = self.axis
-        if u * x + v * y + w * z < 0.5:
+        if u * x + v * y + w * z < ALIKE:
             # turned about another axis: not how this wearer pushes off, unless it keeps on doing so
             self.misfits += 1
             if self.misfits < MISFITS:
                 return False
             u, v, w = x, y, z
         self.misfits = 0
-        u, v, w = u + 0.2 * (x - u), v + 0.2 * (y - v), w + 0.2 * (z - w)
+        u, v, w = u + NEWEST * (x - u), v + NEWEST * (y - v), w + NEWEST * (z - w)
         k = 1.0 / sqrt(u * u + v * v + w * w)
         self.axis = (u * k, v * k, w * k)
         return True
-
-
-@define
-class PressureCues:
-    """Contact and clear from the total load, flat and lift from heel and forefoot. Latency: one sample."""
-
-    on: float = 0.05
-    """Contact: the load rises above this share of the wearer's full load."""
-    off: float = 0.03
-    """Clear: it falls below this."""
-    area_on: float = 0.06
-    """The same for the heel and for the forefoot alone."""
-    area_off: float = 0.03
-    recent: float = 0.3
-    """The heel's last load before a lift may date it this far back, s."""
-    # state
-    before: float = field(default=0.0, init=False)
-    heel_loaded: float | None = field(default=None, init=False)
-    """When the heel was last seen to carry load, s."""
-
-    def update(self, t: float, dt: float, load: Load, phase: Phase) -> Seen | None:
-        before, now = self.before, load.total
-        self.before = now
-        if load.heel is not None and load.heel > self.area_off:
-            self.heel_loaded = t
-        if phase is SWING:
-            return Seen(Cue.CONTACT, _crossing(t, dt, before, now, self.on)) if now > self.on else None
-        if now < self.off:
-            return Seen(Cue.CLEAR, _crossing(t, dt, before, now, self.off))
-        return None
-
-    def dated(self, lift: Seen) -> Seen:
-        """The inertial sensor saw the heel lift; the cells know when it did, if the heel has any."""
-        if self.heel_loaded is None or not 0.0 <= lift.t - self.heel_loaded < self.recent:
-            return lift
-        return Seen(lift.cue, self.heel_loaded)
-
-    def areas(self, t: float, load: Load, phase: Phase) -> Seen | None:
-        """For an insole without an inertial sensor: heel and forefoot say what stillness would have said."""
-        if load.heel is None or load.forefoot is None:
-            return None
-        if phase is LOADING and load.heel > self.area_off and load.forefoot > self.area_on:
-            return Seen(Cue.FLAT, t)
-        if phase is STATIONARY and load.heel < self.area_off and load.forefoot > self.area_on:
-            return Seen(Cue.LIFT, t)
-        if phase is PUSH_OFF and load.heel > self.area_on and load.forefoot > self.area_on:
-            return Seen(Cue.FLAT, t)
-        return None
-
-
-def _crossing(t: float, dt: float, before: float, now: float, level: float) -> float:
-    """When the straight line between the last two samples met the level, s."""
-    if (before - level) * (now - level) >= 0.0:
-        return t
-    return t - dt * (now - level) / (now - before)

@@ -24,8 +24,8 @@ Covariance = tuple[float, ...]
 Correction = tuple[float, float, float, float, float, float, float, float, float]
 """What to add to dp, dv and dt: m, m/s, rad."""
 
-HEIGHT = 5
-"""Where the variance of the height stands in a Covariance."""
+PLACE_X, PLACE_Y, HEIGHT = 0, 3, 5
+"""Where the variances of the position stand in a Covariance."""
 VELOCITY_X, VELOCITY_Y, VELOCITY_Z = 24, 27, 29
 """Where the variances of the velocity stand."""
 TILT_X, TILT_Y, YAW = 39, 42, 44
@@ -46,52 +46,13 @@ def propagate(
     sx, sy, sz = s
     dx, dy, dz = d
     (
-        ppxx,
-        ppxy,
-        ppxz,
-        ppyy,
-        ppyz,
-        ppzz,
-        pvxx,
-        pvxy,
-        pvxz,
-        pvyx,
-        pvyy,
-        pvyz,
-        pvzx,
-        pvzy,
-        pvzz,
-        ptxx,
-        ptxy,
-        ptxz,
-        ptyx,
-        ptyy,
-        ptyz,
-        ptzx,
-        ptzy,
-        ptzz,
-        vvxx,
-        vvxy,
-        vvxz,
-        vvyy,
-        vvyz,
-        vvzz,
-        vtxx,
-        vtxy,
-        vtxz,
-        vtyx,
-        vtyy,
-        vtyz,
-        vtzx,
-        vtzy,
-        vtzz,
-        ttxx,
-        ttxy,
-        ttxz,
-        ttyy,
-        ttyz,
-        ttzz,
-    ) = covariance
+        ppxx, ppxy, ppxz, ppyy, ppyz, ppzz,
+        pvxx, pvxy, pvxz, pvyx, pvyy, pvyz, pvzx, pvzy, pvzz,
+        ptxx, ptxy, ptxz, ptyx, ptyy, ptyz, ptzx, ptzy, ptzz,
+        vvxx, vvxy, vvxz, vvyy, vvyz, vvzz,
+        vtxx, vtxy, vtxz, vtyx, vtyy, vtyz, vtzx, vtzy, vtzz,
+        ttxx, ttxy, ttxz, ttyy, ttyz, ttzz,
+    ) = covariance  # fmt: skip
     # a = cov(dp + T dv, dtheta)
     axx = ptxx + dt * vtxx
     axy = ptxy + dt * vtxy
@@ -166,52 +127,13 @@ def propagate(
     ttyy += q_tt
     ttzz += q_tt
     return (
-        ppxx,
-        ppxy,
-        ppxz,
-        ppyy,
-        ppyz,
-        ppzz,
-        pvxx,
-        pvxy,
-        pvxz,
-        pvyx,
-        pvyy,
-        pvyz,
-        pvzx,
-        pvzy,
-        pvzz,
-        ptxx,
-        ptxy,
-        ptxz,
-        ptyx,
-        ptyy,
-        ptyz,
-        ptzx,
-        ptzy,
-        ptzz,
-        vvxx,
-        vvxy,
-        vvxz,
-        vvyy,
-        vvyz,
-        vvzz,
-        vtxx,
-        vtxy,
-        vtxz,
-        vtyx,
-        vtyy,
-        vtyz,
-        vtzx,
-        vtzy,
-        vtzz,
-        ttxx,
-        ttxy,
-        ttxz,
-        ttyy,
-        ttyz,
-        ttzz,
-    )
+        ppxx, ppxy, ppxz, ppyy, ppyz, ppzz,
+        pvxx, pvxy, pvxz, pvyx, pvyy, pvyz, pvzx, pvzy, pvzz,
+        ptxx, ptxy, ptxz, ptyx, ptyy, ptyz, ptzx, ptzy, ptzz,
+        vvxx, vvxy, vvxz, vvyy, vvyz, vvzz,
+        vtxx, vtxy, vtxz, vtyx, vtyy, vtyz, vtzx, vtzy, vtzz,
+        ttxx, ttxy, ttxz, ttyy, ttyz, ttzz,
+    )  # fmt: skip
 
 
 def update(
@@ -223,52 +145,13 @@ def update(
     square exceeds `limit` (then the measurement is not of this velocity).
     """
     (
-        ppxx,
-        ppxy,
-        ppxz,
-        ppyy,
-        ppyz,
-        ppzz,
-        pvxx,
-        pvxy,
-        pvxz,
-        pvyx,
-        pvyy,
-        pvyz,
-        pvzx,
-        pvzy,
-        pvzz,
-        ptxx,
-        ptxy,
-        ptxz,
-        ptyx,
-        ptyy,
-        ptyz,
-        ptzx,
-        ptzy,
-        ptzz,
-        vvxx,
-        vvxy,
-        vvxz,
-        vvyy,
-        vvyz,
-        vvzz,
-        vtxx,
-        vtxy,
-        vtxz,
-        vtyx,
-        vtyy,
-        vtyz,
-        vtzx,
-        vtzy,
-        vtzz,
-        ttxx,
-        ttxy,
-        ttxz,
-        ttyy,
-        ttyz,
-        ttzz,
-    ) = covariance
+        ppxx, ppxy, ppxz, ppyy, ppyz, ppzz,
+        pvxx, pvxy, pvxz, pvyx, pvyy, pvyz, pvzx, pvzy, pvzz,
+        ptxx, ptxy, ptxz, ptyx, ptyy, ptyz, ptzx, ptzy, ptzz,
+        vvxx, vvxy, vvxz, vvyy, vvyz, vvzz,
+        vtxx, vtxy, vtxz, vtyx, vtyy, vtyz, vtzx, vtzy, vtzz,
+        ttxx, ttxy, ttxz, ttyy, ttyz, ttzz,
+    ) = covariance  # fmt: skip
     # S = H P H' + r I is the block vv with r on its diagonal; its inverse by cofactors
     sxx = vvxx + r
     syy = vvyy + r

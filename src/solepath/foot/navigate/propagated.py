@@ -8,25 +8,141 @@ from __future__ import annotations
 
 from attrs import define, field
 
-from ...types import Vec3
+from ...types import Quat, Vec3
 from ...types.vector import GRAVITY, ZERO, normalise
-from .covariance import TILT_X, TILT_Y, VELOCITY_X, VELOCITY_Y, VELOCITY_Z, Correction, Covariance, propagate
+from .corrector import LONGEST_BRIDGE
+from .covariance import (
+    HEIGHT,
+    PLACE_X,
+    PLACE_Y,
+    TILT_X,
+    TILT_Y,
+    VELOCITY_X,
+    VELOCITY_Y,
+    VELOCITY_Z,
+    YAW,
+    Correction,
+    Covariance,
+    propagate,
+)
 from .strapdown import Strapdown
+
+SEEN_AT_REST = 0.03
+"""A tilt known better than this was seen on a foot at rest, rad; attitude.py gives 0.02 then, and 0.06 or 0.2 else."""
+SPEED_AT_REST = 0.01
+"""Standard deviation of the speed of a foot at rest, m/s; chosen by hand, as is the next."""
+SPEED_PER_TILT = 2.0
+"""The same of any other, m/s for each rad of the tilt's: 0.12 m/s in mid-stance, 0.4 m/s at any moment."""
+
+
+BRIDGED_ACC, BRIDGED_GYRO = 4.0, 0.25
+"""What a bridged gap adds to the variance of a velocity, (m/s)^2/s, and of an angle, rad^2/s: a foot accelerates by
+some 10 m/s^2 and turns by some rad/s. Chosen by hand, like all that follows."""
+GAP_SPEED, GAP_TILT = 1.0, 0.2
+"""What the velocity, m/s, and the tilt, rad, may be off by after a gap that was not bridged."""
+GAP_PACE, GAP_LONGEST = 1.5, 2.0
+"""In such a gap a foot may have gone on at so many m/s, for so many s at the most, or have stopped."""
+GAP_RISE = 0.04
+"""The variance of its height as a share of that of its place: a fifth as far up or down as along the ground."""
+LEAP_PLACE = 0.0025
+"""Variance of a place taken by habit, m^2 an axis: 5 cm, for two strides differ by some per cent."""
 
 
 @define
 class Carried(Strapdown):
     """The state, its covariance as it was `since` s ago, and where the state was then."""
 
+    heading_drift: float = 0.004
+    """Growth of the heading error, rad/sqrt(s): half a degree in the first four seconds, two in a minute. Process noise
+    of yaw is not it: that noise is there to keep tilt correctable, and over a step it cancels."""
+    leap_velocity: float = 0.3
+    """What the velocity after a stride that was taken by habit may be off by, m/s."""
+    leap_tilt: float = 0.1
+    """What the tilt may be off by then, rad."""
+    leap_yaw: float = 0.06
+    """What the heading may be off by then, rad."""
+    # state
     uncertainty: Covariance = field(default=(0.0,) * 45, init=False)
     since: float = field(default=0.0, init=False)
     """Time since the covariance was last carried forward, s."""
     start_velocity: Vec3 = field(default=ZERO, init=False)
     start_position: Vec3 = field(default=ZERO, init=False)
     acc_variance: float = field(default=0.0, init=False)
-    """What noise has added since then to the variance of a velocity, (m/s)^2,"""
+    """What noise has added since then to the variance of a velocity, (m/s)^2."""
     gyro_variance: float = field(default=0.0, init=False)
-    """and of an angle, rad^2."""
+    """What noise has added since then to the variance of an angle, rad^2."""
+    stretch: float = field(default=0.0, init=False)
+    """Time since the last anchor, s."""
+
+    def start(self, attitude: Quat, tilt_sigma: float) -> None:
+        self.attitude = attitude
+        self.velocity = self.position = self.start_velocity = self.start_position = ZERO
+        self.force = self.rate = None
+        covariance = [0.0] * 45
+        # who was not seen to lie still may be moving
+        speed = SPEED_AT_REST if tilt_sigma < SEEN_AT_REST else SPEED_PER_TILT * tilt_sigma
+        covariance[VELOCITY_X] = covariance[VELOCITY_Y] = covariance[VELOCITY_Z] = speed * speed
+        covariance[TILT_X] = covariance[TILT_Y] = tilt_sigma * tilt_sigma
+        self.uncertainty = tuple(covariance)
+        self.since = self.stretch = self.acc_variance = self.gyro_variance = 0.0
+
+    def bridge(self, dt: float) -> float:
+        if dt <= LONGEST_BRIDGE:
+            self.acc_variance += BRIDGED_ACC * dt
+            self.gyro_variance += BRIDGED_GYRO * dt
+            return dt
+        self._carry()
+        self.velocity = self.start_velocity = ZERO
+        self.force = self.rate = None
+        self._doubt(velocity=GAP_SPEED, tilt=GAP_TILT)
+        far = GAP_PACE * min(dt, GAP_LONGEST)
+        covariance = list(self.uncertainty)
+        covariance[PLACE_X] += far * far
+        covariance[PLACE_Y] += far * far
+        covariance[HEIGHT] += GAP_RISE * far * far
+        self.uncertainty = tuple(covariance)
+        return 0.0
+
+    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+        self._carry()
+        self.stretch += dt
+        self.attitude, self.velocity, self.position = attitude, velocity, position
+        self.force = self.rate = None
+        self._here()
+        self._doubt(velocity=self.leap_velocity, tilt=self.leap_tilt)
+        covariance = list(self.uncertainty)
+        for i in (PLACE_X, PLACE_Y, HEIGHT):
+            covariance[i] += LEAP_PLACE
+        covariance[YAW] += self.leap_yaw * self.leap_yaw
+        self.uncertainty = tuple(covariance)
+
+    def mend(self, yaw: float, position: Vec3) -> None:
+        self._carry()
+        Strapdown.mend(self, yaw, position)
+        self._here()
+
+    def shift(self, yaw: float, by: Vec3) -> None:
+        """Turn everything by `yaw` rad about the foot and move it `by` m, navigation frame: nothing has happened."""
+        self._carry()
+        self.turn_about(yaw, by)
+        self._here()
+
+    def anchor(self) -> tuple[float, ...]:
+        self._carry()
+        stretch = self._stretch(self.uncertainty)
+        self.stretch = 0.0
+        covariance = list(self.uncertainty)
+        # position and yaw are exact again by definition, so nothing is correlated with them: pp, pv, pt and all of yaw
+        for i in (*range(24), 32, 35, 38, 41, 43, 44):
+            covariance[i] = 0.0
+        self.uncertainty = tuple(covariance)
+        return stretch
+
+    def covariance(self) -> tuple[float, ...]:
+        return self._stretch(self._carried() if self.since > 0.0 else self.uncertainty)
+
+    def _stretch(self, covariance: Covariance) -> tuple[float, ...]:
+        return (*covariance[:6], self.heading_drift * self.heading_drift * self.stretch)
 
     def _carried(self) -> Covariance:
         """The covariance as it is now."""

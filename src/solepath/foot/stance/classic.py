@@ -6,6 +6,9 @@ Peretroukhin, Kelly, "Robust data-driven zero-velocity detection for foot-mounte
 with. All of them are causal and look back over `window` seconds (where the rate is lower than that, over as few samples
 as the statistic can do with); their evidence has no other latency. Sums run, so a sample costs the same whatever the
 window, except in MBGTD, whose statistic needs every pair of samples in the window.
+
+The papers give thresholds for their own sensors; these were chosen by hand on the recordings of docs/accuracy.md, not
+swept.
 """
 
 from __future__ import annotations
@@ -30,9 +33,13 @@ class ShoeDetector(Detector):
     """SHOE: stance hypothesis optimal estimation. T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2)."""
 
     window: float = 0.025
+    """How far back it looks, s."""
     sigma: float = 0.01
+    """Noise of the zero velocity of a foot at rest, m/s."""
     base: float = 1e4
+    """The statistic up to which the foot is at rest for certain."""
     gate: float = 3.5e5
+    """The statistic from which on it is not."""
     # state
     entries: deque[tuple[float, float, float, float, float, float]] = field(factory=deque, init=False)
     sums: tuple[float, float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0, 0.0), init=False)
@@ -78,9 +85,13 @@ class AngularRate(Detector):
     """ARE: angular rate energy. T = 1/W sum(|w|^2) / s_w^2."""
 
     window: float = 0.025
+    """How far back it looks, s."""
     sigma: float = 0.01
+    """Noise of the zero velocity of a foot at rest, m/s."""
     base: float = 5e3
+    """The statistic up to which the foot is at rest for certain."""
     gate: float = 1e5
+    """The statistic from which on it is not."""
     # state
     entries: deque[tuple[float, float]] = field(factory=deque, init=False)
     total: float = field(default=0.0, init=False)
@@ -104,9 +115,13 @@ class MovingVariance(Detector):
     """MV: acceleration moving variance. T = 1/W sum(|a - a_mean|^2) / s_a^2."""
 
     window: float = 0.05
+    """How far back it looks, s."""
     sigma: float = 0.01
+    """Noise of the zero velocity of a foot at rest, m/s."""
     base: float = 5e3
+    """The statistic up to which the foot is at rest for certain."""
     gate: float = 5e4
+    """The statistic from which on it is not."""
     # state
     entries: deque[tuple[float, float, float, float]] = field(factory=deque, init=False)
     sums: tuple[float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0), init=False)
@@ -139,9 +154,13 @@ class Graph(Detector):
     """
 
     count: int = 5
+    """Samples in the window."""
     sigma: float = 0.01
+    """Noise of the zero velocity of a foot at rest, m/s."""
     base: float = 2.0
+    """The statistic up to which the foot is at rest for certain, m/s^2."""
     gate: float = 8.0
+    """The statistic from which on it is not, m/s^2."""
     # state
     entries: deque[Vec3] = field(factory=deque, init=False)
 

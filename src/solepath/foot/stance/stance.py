@@ -38,7 +38,7 @@ class Stance(NamedTuple):
     """What one sample says about the velocity of the sensor."""
 
     v_ref: Vec3
-    """The velocity that the sensor ought to have now, m/s, navigation frame (navigate.py); zero for ZUPT."""
+    """The velocity that the sensor ought to have now, m/s, navigation frame (strapdown.py); zero for ZUPT."""
     sigma: float
     """How far to trust it, m/s an axis, for one update every 5 ms; infinite where the detector has nothing to say."""
     statistic: float

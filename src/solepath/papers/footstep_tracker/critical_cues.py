@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from attrs import define, field
 
 from ...foot.cues.cues import Cues, Seen
-from ...foot.cues.inertial import PressureCues
+from ...foot.cues.pressure import PressureCues
 from ...foot.phase import TO_COME, Cue
 from ...foot.stance.stance import Load, Stance
 from ...types import Phase, Vec3
@@ -26,17 +26,9 @@ class CriticalCues(Cues):
     pressure: PressureCues = field(factory=PressureCues)
 
     def update(
-        self,
-        t: float,
-        dt: float,
-        acc: Vec3,
-        gyro: Vec3,
-        still: bool,
-        speed: float,
-        phase: Phase,
-        load: Load | None,
-        stance: Stance,
-    ) -> Sequence[Seen]:
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
+        load: Load | None, stance: Stance,
+    ) -> Sequence[Seen]:  # fmt: skip
         """As in `Cues`: uplift, liftoff, landing and rest of the segment that ends here."""
         segment = stance.detail
         if not isinstance(segment, StepSegment) or segment.times is None:

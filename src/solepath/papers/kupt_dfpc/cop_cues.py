@@ -92,17 +92,9 @@ class CopCues(Cues):
         self.touch.wear(layout)
 
     def update(
-        self,
-        t: float,
-        dt: float,
-        acc: Vec3,
-        gyro: Vec3,
-        still: bool,
-        speed: float,
-        phase: Phase,
-        load: Load | None,
-        stance: Stance,
-    ) -> Sequence[Seen]:
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
+        load: Load | None, stance: Stance,
+    ) -> Sequence[Seen]:  # fmt: skip
         """As in `Cues`."""
         self.mark = None
         seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)

@@ -1,0 +1,78 @@
+"""From loads to cues: what the cells under a foot show.
+
+The settings were chosen by hand on the recordings of docs/accuracy.md that have cells, and not swept.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from attrs import define, field
+
+from ...types import Phase
+from ..phase import Cue
+from ..stance.stance import Load
+from .cues import Seen
+
+SWING: Final = Phase.SWING
+STATIONARY: Final = Phase.STATIONARY
+PUSH_OFF: Final = Phase.PUSH_OFF
+LOADING: Final = Phase.LOADING
+"""Looked up once: a word of an enum costs as much as five multiplications."""
+
+
+@define
+class PressureCues:
+    """Contact and clear from the total load, flat and lift from heel and forefoot. Latency: one sample."""
+
+    on: float = 0.05
+    """Contact: the load rises above this share of the wearer's full load."""
+    off: float = 0.03
+    """Clear: the load falls below this share of it."""
+    area_on: float = 0.06
+    """An area, heel or forefoot, is loaded above this share of the wearer's full load."""
+    area_off: float = 0.03
+    """An area is unloaded below this share of it."""
+    recent: float = 0.3
+    """The heel's last load before a lift may date it this far back, s."""
+    # state
+    before: float = field(default=0.0, init=False)
+    """The total load of the sample before, as a share of the wearer's full load."""
+    heel_loaded: float | None = field(default=None, init=False)
+    """When the heel was last seen to carry load, s."""
+
+    def update(self, t: float, dt: float, load: Load, phase: Phase) -> Seen | None:
+        before, now = self.before, load.total
+        self.before = now
+        if load.heel is not None and load.heel > self.area_off:
+            self.heel_loaded = t
+        if phase is SWING:
+            return Seen(Cue.CONTACT, _crossing(t, dt, before, now, self.on)) if now > self.on else None
+        if now < self.off:
+            return Seen(Cue.CLEAR, _crossing(t, dt, before, now, self.off))
+        return None
+
+    def dated(self, lift: Seen) -> Seen:
+        """The inertial sensor saw the heel lift; the cells know when it did, if the heel has any."""
+        if self.heel_loaded is None or not 0.0 <= lift.t - self.heel_loaded < self.recent:
+            return lift
+        return Seen(lift.cue, self.heel_loaded)
+
+    def areas(self, t: float, load: Load, phase: Phase) -> Seen | None:
+        """For an insole without an inertial sensor: heel and forefoot say what stillness would have said."""
+        if load.heel is None or load.forefoot is None:
+            return None
+        if phase is LOADING and load.heel > self.area_off and load.forefoot > self.area_on:
+            return Seen(Cue.FLAT, t)
+        if phase is STATIONARY and load.heel < self.area_off and load.forefoot > self.area_on:
+            return Seen(Cue.LIFT, t)
+        if phase is PUSH_OFF and load.heel > self.area_on and load.forefoot > self.area_on:
+            return Seen(Cue.FLAT, t)
+        return None
+
+
+def _crossing(t: float, dt: float, before: float, now: float, level: float) -> float:
+    """When the straight line between the last two samples met the level, s."""
+    if (before - level) * (now - level) >= 0.0:
+        return t
+    return t - dt * (now - level) / (now - before)
