@@ -19,7 +19,7 @@ way = case_study()
 tag = CC2541(rate=20.0, mounting=IN_SOLE)
 walk = emulate(way.route, devices={Site.LEFT_FOOT: tag, Site.RIGHT_FOOT: tag}, seed=2)
 
-session = Session(recipes.FOOTSTEP_TRACKER, floorplan=plan)
+session = Session(recipes.by_name("footstep-tracker"), floorplan=plan)
 possible = 100
 for event in session.feed(walk.packets) + session.finish():
     match event:

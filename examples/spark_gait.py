@@ -23,7 +23,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Gait events of a fleet, on Spark.")
     for name in ("sent", "told", "checkpoint"):
         parser.add_argument(name)
-    parser.add_argument("--recipe", choices=recipes.BY_NAME, default=recipes.DEFAULT.name)
+    parser.add_argument("--recipe", choices=recipes.NAMES, default=recipes.DEFAULT.name)
     parser.add_argument("--every", help='how often to look for new files: "10 seconds"; otherwise once')
     parser.add_argument("--files", type=int, default=100, help="files that are read at a time, at most")
     args = parser.parse_args()
@@ -33,7 +33,7 @@ def main() -> None:
     spark = SparkSession.builder.appName("solepath").config(map=STORE).getOrCreate()
     spark.sparkContext.setLogLevel("ERROR")
     sent = spark.readStream.schema(SENT_SCHEMA).option("maxFilesPerTrigger", args.files).parquet(args.sent)
-    told = gait(sent, Fleet(recipes.BY_NAME[args.recipe]))
+    told = gait(sent, Fleet(recipes.by_name(args.recipe)))
     writer = told.writeStream.format("parquet").option("checkpointLocation", args.checkpoint)
     writer = writer.trigger(processingTime=args.every) if args.every else writer.trigger(availableNow=True)
     query = writer.start(args.told)

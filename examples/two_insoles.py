@@ -20,7 +20,7 @@ for foot, insole in calibration.insoles.items():
 
 # where the cells are a device says itself; with samples of one's own the calibration says it
 insoles = {foot: evolve(insole, layout=layout(96, foot)) for foot, insole in calibration.insoles.items()}
-session = Session(recipes.KUPT_DFPC, calibration=evolve(calibration, insoles=insoles))
+session = Session(recipes.by_name("kupt-dfpc"), calibration=evolve(calibration, insoles=insoles))
 
 walk = sampled(Route().stand(2.0).walk(20.0).stop(2.0), insoles=INSOLES, seed=1)
 fused = [event for event in session.feed(walk.samples) if isinstance(event, StrideFused)]

@@ -1,8 +1,11 @@
-"""solepath: bytes of foot-worn sensors in; gait events, steps and a track out."""
+"""solepath: bytes of foot-worn sensors in; gait events, strides and a track out."""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
 
 from . import recipes
-from .body.fuse.position import Position
 from .body.gait.means import Figure, GaitParameters, StrideFigures
+from .body.part import Position
 from .calibration import Calibration, CalibrationError, read_calibration
 from .events import (
     ActivityChanged,
@@ -51,13 +54,31 @@ from .events import (
     WalkingModeChanged,
     WearerMoved,
 )
-from .floorplan.importers.reading import read_floorplan
-from .floorplan.index import IndexedPlan
-from .floorplan.plan import FloorPlan, FloorPlanError, Start
 from .recipes import Recipe
 from .saving.codec import SnapshotError
 from .session import Session
 from .types import Activity, Cell, Foot, Layout, Packet, Phase, Quat, Sample, Site, Support, Turn, Vec3, WalkingMode
+
+if TYPE_CHECKING:
+    from .floorplan.importers.reading import read_floorplan
+    from .floorplan.index import IndexedPlan
+    from .floorplan.plan import FloorPlan, FloorPlanError, Start
+
+_LATER = {
+    "FloorPlan": "floorplan.plan",
+    "FloorPlanError": "floorplan.plan",
+    "IndexedPlan": "floorplan.index",
+    "Start": "floorplan.plan",
+    "read_floorplan": "floorplan.importers.reading",
+}
+"""What an app may never need is loaded when it is first asked for: name -> module."""
+
+
+def __getattr__(name: str) -> object:
+    if name in _LATER:
+        return getattr(import_module(f"{__name__}.{_LATER[name]}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
 
 __all__ = [
     "Activity",

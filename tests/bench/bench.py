@@ -238,13 +238,13 @@ def main() -> None:
     infos = [packet for packet in walk.packets if packet.channel == "insole/info"]
     two_feet = walker.samples(Foot.RIGHT, 100.0, LSM6DSOX, layout=layout(96, Foot.RIGHT)) + pressed
     two_feet.sort(key=_moment)
-    for recipe in recipes.BY_NAME.values():
+    for recipe in map(recipes.by_name, recipes.NAMES):
         add(f"both feet, 96 cells, {recipe.name}", each(two_feet, partial(told_of, recipe, infos)))
     layouts = {site: layout(99, foot) for foot, site in SITE_OF_FOOT.items()}
     suit = limb_samples(walker, 50.0, seed=1, layouts=layouts)
     insoles = sum(sample.pressure is not None for sample in suit)
     worn = Calibration(insoles={foot: InsoleCalibration(layout(99, foot)) for foot in Foot})
-    microseconds = each(suit, partial(Session, recipes.WALKING_MODES, calibration=worn))
+    microseconds = each(suit, partial(Session, recipes.by_name("walking-modes"), calibration=worn))
     add("both feet, 99 cells, five limbs, walking-modes", microseconds * len(suit) / insoles, "us an insole sample")
     add("insole frame, 96 cells: decode", each(frames, decoder, info), "us a packet")
     add("insole frame, 96 cells: session", each(frames, Session, info), "us a packet")
@@ -260,7 +260,7 @@ def main() -> None:
     indoors = Walker(way.route, seed=1)
     wandered = [sample for foot in Foot for sample in indoors.samples(foot, 100.0, LSM6DSOX)]
     wandered.sort(key=_moment)
-    for recipe in (recipes.DEFAULT, recipes.FOOTSTEP_TRACKER, recipes.SHOE_SENSING):
+    for recipe in (recipes.DEFAULT, recipes.by_name("footstep-tracker"), recipes.by_name("shoe-sensing")):
         took = parts_of(wandered, recipe, IndexedPlan(BUILDING))
         for name, what in (("activity", "activities"), ("turns", "turns"), ("place", "place on a floor plan")):
             add(f"of it {what}, {recipe.name}", took[name])

@@ -38,8 +38,8 @@ WALKS: dict[str, tuple[Recipe, Callable[[], Any]]] = {
     "default, two insoles of 48 cells": (recipes.DEFAULT, partial(Insole, cells=48)),
     "default, two insoles of 96 cells": (recipes.DEFAULT, partial(Insole, cells=96)),
     "default, two SensorTags": (recipes.DEFAULT, CC2650),
-    "kupt-dfpc, two insoles of 48 cells": (recipes.KUPT_DFPC, partial(Insole, cells=48)),
-    "footstep-tracker, two SensorTags": (recipes.FOOTSTEP_TRACKER, CC2650),
+    "kupt-dfpc, two insoles of 48 cells": (recipes.by_name("kupt-dfpc"), partial(Insole, cells=48)),
+    "footstep-tracker, two SensorTags": (recipes.by_name("footstep-tracker"), CC2650),
 }
 
 

@@ -118,7 +118,7 @@ began = perf_counter()
 {work}
 print(perf_counter() - began)
 """
-BEGIN = "from solepath import Session, recipes; Session(recipes.BY_NAME[{name!r}])"
+BEGIN = "from solepath import Session, recipes; Session(recipes.by_name({name!r}))"
 LOADED = """
 import sys
 {work}

@@ -8,6 +8,7 @@ from math import cos, sin
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from views import fed
 
 from solepath import Session
 from solepath.body.activity.activities import Activities
@@ -44,7 +45,7 @@ class Wearing:
 
     def feed(self, sample: Sample) -> list[Event]:
         tracker = self.feet[Foot.LEFT if sample.site is Site.LEFT_FOOT else Foot.RIGHT]
-        return self.part.foot_moved(tracker, sample, tracker.feed(sample))
+        return fed(self.part, tracker, sample, tracker.feed(sample))
 
     def saved(self) -> str:
         return json.dumps(machine.save(self.part), allow_nan=False, separators=(",", ":"))
@@ -111,7 +112,7 @@ def test_a_clock_that_begins_anew_is_followed() -> None:
         wearing.feed(Sample(t=sample.t + 1000.0, site=sample.site, acc=sample.acc, gyro=sample.gyro))
     for foot, tracker in wearing.feet.items():
         tracker.interrupt()
-        wearing.part.interrupt(SITE_OF_FOOT[foot])
+        wearing.part.reset(SITE_OF_FOOT[foot])
     told = [event for sample in walk() for event in wearing.feed(sample)]
     assert told and all(event.t < 100.0 for event in told)
 

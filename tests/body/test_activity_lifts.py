@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import sin
 
+from views import fed
+
 from solepath.body.activity.activities import Activities
 from solepath.events import ActivityChanged, Event, LiftRidden
 from solepath.foot.navigate.error_state import ErrorStateFilter
@@ -35,7 +37,7 @@ def stood(lift: Callable[[float], float], until: float, shuffles: tuple[tuple[fl
             turn = 1.5 * sin(31.0 * t) if shuffling else 0.0
             up = 9.80665 + OFF[foot] + lift(t) + shake
             sample = Sample(t=t, site=SITE_OF_FOOT[foot], acc=(0.02, 0.0, up), gyro=(0.001, turn, 0.0))
-            told += part.foot_moved(tracker, sample, tracker.feed(sample))
+            told += fed(part, tracker, sample, tracker.feed(sample))
     return told + part.finish(until)
 
 

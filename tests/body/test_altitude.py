@@ -9,20 +9,22 @@ import pytest
 from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from views import fed
 from walks import samples
 
 from solepath import Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
-from solepath.body.fuse.position import Position
 from solepath.body.height.altitude import LEFT, MOVE, RIGHT, SCALE, STANDARD, UNKNOWN, Altitude
 from solepath.body.height.received import TICKS, Heard, Told
+from solepath.body.part import Height, Instead
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import SampledWalk, sampled
+from solepath.events import Event
 from solepath.recipes import Recipe
 
 RIDE = 6.4
 LIFT = Route().stand(2.0).walk(3.0).lift(RIDE, speed=1.2).walk(3.0).stop(1.0)
-BLIND = evolve(recipes.DEFAULT, altitude=None)
+BLIND = recipes.DEFAULT.exchanged(Altitude, None)
 
 
 @cache
@@ -111,25 +113,31 @@ def test_weather_and_a_door_do_not_move_who_walks_on_the_level() -> None:
 
 def test_air_says_what_stairs_came_to_where_the_steps_are_wrong() -> None:
     altitude = Altitude()
-    foot = Session()
+    foot, sample = Session(), samples(cells=0)[0]
     foot.feed(list(samples(cells=0))[:2])
     tracker = foot.feet[Foot.LEFT]
+    heights = [0.0]
+
+    def breathed(t: float, pascal: float, *events: Event) -> None:
+        for said in fed(altitude, tracker, evolve(sample, t=t, known_at=t, air_pressure=pascal), events):
+            if isinstance(said, Height):
+                heights.append(said.above)
+
     step = next(event for event in Session().feed(samples(cells=0)) if isinstance(event, StrideTaken))
     climbing = evolve(step, height_change=0.1, covariance=(0.0, 0.0, 0.0, 0.0, 0.0, 0.04))  # known to 20 cm
     begin = tracker.position[2]
     for k in range(30):
-        altitude.breathed(tracker, float(k), pressure(begin))
+        breathed(float(k), pressure(begin))
     for k in range(30, 50):  # a stair of 10 cm more than the track has it, each second
-        altitude.breathed(tracker, float(k), pressure(begin + 0.1 * (k - 29)))
-        altitude.follow([evolve(climbing, t=float(k), t_end=float(k), t_start=k - 1.0)])
+        climbed = evolve(climbing, t=float(k), t_end=float(k), t_start=k - 1.0)
+        breathed(float(k), pressure(begin + 0.1 * (k - 29)), climbed)
     for k in range(50, 60):
-        altitude.breathed(tracker, float(k), pressure(begin + 2.0))
-    here = Position(60.0, (0.0, 0.0, 0.0), (0.0,) * 6)
-    assert altitude.placed(here).position[2] == pytest.approx(2.0, abs=0.3)
-    before = altitude.placed(here)
+        breathed(float(k), pressure(begin + 2.0))
+    assert heights[-1] == pytest.approx(2.0, abs=0.3)
+    before = heights[-1]
     for k in range(60, 90):  # and a door that opens for good
-        altitude.breathed(tracker, float(k), pressure(begin + 5.0))
-    assert altitude.placed(here).position[2] == pytest.approx(before.position[2], abs=0.3)
+        breathed(float(k), pressure(begin + 5.0))
+    assert heights[-1] == pytest.approx(before, abs=0.3)
 
 
 def ride(height: float | None, lasted: float, up: bool = True) -> LiftRidden:
@@ -144,17 +152,16 @@ def test_without_air_what_no_lift_rides_has_no_height(height: float | None, last
     altitude = Altitude()
     step = next(event for event in Session().feed(samples(cells=0)) if isinstance(event, StrideTaken))
     for k in range(strides):
-        altitude.follow([evolve(step, t_start=101.0 + k, t_end=102.0 + k, t=102.0 + k)])
-    (told,) = altitude.follow([ride(height, lasted)])
-    assert isinstance(told, LiftRidden) and told.height is None
-    here = Position(120.0, (1.0, 2.0, 3.0), (0.0,) * 6)
-    assert altitude.placed(here) == here
+        altitude.receive(evolve(step, t_start=101.0 + k, t_end=102.0 + k, t=102.0 + k))
+    told = ride(height, lasted)
+    assert altitude.receive(told) == [Instead(told, evolve(told, height=None)), Height(0.0, 0.0)]
 
 
 def test_a_lift_that_stands_feet_in_it_is_believed_without_air() -> None:
     altitude = Altitude()
-    assert altitude.follow([ride(6.0, 8.0)]) == [ride(6.0, 8.0)]
-    assert altitude.placed(Position(120.0, (0.0, 0.0, 1.0), (0.0,) * 6)).position[2] == 7.0
+    instead, height = altitude.receive(ride(6.0, 8.0))
+    assert instead == Instead(ride(6.0, 8.0), ride(6.0, 8.0))
+    assert isinstance(height, Height) and height.above == 6.0
 
 
 TOLD = st.tuples(
@@ -198,9 +205,11 @@ def test_any_air_is_survived() -> None:
     altitude = Altitude()
     session = Session()
     session.feed(list(samples(cells=0))[:2])
-    tracker = session.feet[Foot.RIGHT]
+    tracker, sample = session.feet[Foot.RIGHT], samples(cells=0)[0]
+    said: list[object] = []
     for k, pascal in enumerate((0.0, 1e308, 2.1e4, 1.9e5, float("nan"), -1.0, 1e5) * 30):
-        altitude.breathed(tracker, 1e3 * k if k % 2 else -1e9 * k, pascal)
-        altitude.follow([ride(1e308, 1e-9), ride(None, 0.0)])
-    here = altitude.placed(Position(0.0, (0.0, 0.0, 0.0), (0.0,) * 6))
-    assert all([abs(v) < 1e7 for v in (*here.position, *here.covariance)])
+        t = 1e3 * k if k % 2 else -1e9 * k
+        rides = (ride(1e308, 1e-9), ride(None, 0.0))
+        said += fed(altitude, tracker, evolve(sample, t=t, known_at=t, air_pressure=pascal), rides)
+    heights = [one for one in said if isinstance(one, Height)]
+    assert heights and all([abs(v) < 1e7 for one in heights for v in (one.above, one.variance)])

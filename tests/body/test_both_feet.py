@@ -14,6 +14,7 @@ from solepath.body.fuse.agreement import HEADING, RATE, STATES, Agreement, X, Y
 from solepath.body.fuse.both_feet import BothFeet
 from solepath.body.fuse.corridor import Corridor
 from solepath.body.fuse.position import MeanOfFeet
+from solepath.body.part import Track
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
@@ -37,15 +38,14 @@ def _samples(seed: int) -> tuple[Sample, ...]:
 @cache
 def _walked(part: str) -> tuple[Session, list[Event]]:
     body = {"both": BothFeet(), "mean": MeanOfFeet(), "apart": BothFeet(feedback=False)}[part]
-    session = Session(evolve(recipes.DEFAULT, body=body))
+    session = Session(recipes.DEFAULT.exchanged(Track, body))
     events = [event for sample in _samples(102) for event in session.feed(sample)]
     return session, events
 
 
 def _apart(session: Session) -> float:
     """How far from one another the feet are, as their body has placed them, m."""
-    body = session._state.wearer.body
-    assert isinstance(body, MeanOfFeet)
+    body = next(part for part in session._state.wearer.parts if isinstance(part, MeanOfFeet))
     left = body.left.place(session.feet[Foot.LEFT].position)
     right = body.right.place(session.feet[Foot.RIGHT].position)
     return hypot(left[0] - right[0], left[1] - right[1])
@@ -118,7 +118,7 @@ def test_without_feedback_the_feet_go_their_own_ways() -> None:
 
 
 def test_a_foot_alone_is_where_its_own_track_has_it() -> None:
-    session, other = Session(), Session(evolve(recipes.DEFAULT, body=MeanOfFeet()))
+    session, other = Session(), Session(recipes.DEFAULT.exchanged(Track, MeanOfFeet()))
     for sample in walks.samples(cells=0):
         if sample.site.foot is Foot.LEFT:
             assert session.feed(sample) == other.feed(sample)

@@ -11,6 +11,7 @@ import pytest
 from attrs import define
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from views import fed
 
 from solepath import (
     FootFlat,
@@ -23,47 +24,34 @@ from solepath import (
     StrideTaken,
     ToeOff,
 )
-from solepath.body.gait.cycles import Strides
+from solepath.body.gait.cycles import GaitCycles
 from solepath.body.gait.means import MEMORY, GaitMeans, RunningMean
 from solepath.events import Event
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.tracker import FootTracker
 from solepath.saving import codec as machine
-from solepath.types import SITE_OF_FOOT, Foot, Vec3
+from solepath.types import SITE_OF_FOOT, Foot, Sample, Vec3
 
 L, R = Foot.LEFT, Foot.RIGHT
-
-
-@define
-class SideBySide:
-    """A body whose feet have tracks in one frame but for where the right one began, m."""
-
-    right: Vec3 = (0.0, 0.0, 0.0)
-
-    def common(self, foot: Foot, place: Vec3) -> Vec3 | None:
-        x, y, z = place
-        a, b, c = self.right if foot is R else (0.0, 0.0, 0.0)
-        return (x + a, y + b, z + c)
 
 
 @define
 class Walked:
     """Two feet whose events are written down."""
 
-    strides: Strides
+    strides: GaitCycles
     feet: dict[Foot, FootTracker]
-    body: object = None
 
     def told(self, foot: Foot, t: float, *events: Event) -> list[GaitCycleMeasured]:
         """The events of a sample of `t`, s."""
-        self.feet[foot].t = t
-        found = self.strides.foot_moved(self.feet[foot], self.feet, t, list(events), self.body)
+        sample = Sample(t=t, site=SITE_OF_FOOT[foot], acc=(0.0, 0.0, 9.81), gyro=(0.0, 0.0, 0.0))
+        found = fed(self.strides, self.feet[foot], sample, events)
         return [event for event in found if isinstance(event, GaitCycleMeasured)]
 
 
-def walked(*feet: Foot, body: object = None) -> Walked:
-    return Walked(Strides(), {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in feet}, body)
+def walked(*feet: Foot) -> Walked:
+    return Walked(GaitCycles(), {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in feet})
 
 
 def taken(foot: Foot, toe_off: float, struck: float, begin: Vec3, end: Vec3) -> StrideTaken:
@@ -110,17 +98,6 @@ def test_a_cycle_goes_from_contact_to_contact_and_the_other_foot_divides_it() ->
         assert stride.single_support == pytest.approx(0.4)
 
 
-def test_step_length_and_width_are_measured_along_the_stride_and_across_it() -> None:
-    """The left foot walks 0.15 m beside the right one, and its track's origin is 0.2 m before the other's."""
-    found = gone(walked(L, R, body=SideBySide((0.2, 0.0, 0.0))), 10, length=1.4)
-    lengths = {foot: [s.step_length for s in found if s.foot is foot and s.step_length is not None] for foot in Foot}
-    assert lengths[L] and lengths[R]
-    assert lengths[L] == pytest.approx([0.5] * len(lengths[L]))
-    assert lengths[R] == pytest.approx([0.9] * len(lengths[R]))
-    widths = [stride.step_width for stride in found if stride.step_width is not None]
-    assert widths == pytest.approx([0.15] * len(widths))
-
-
 def test_no_foot_is_cleared_by_less_than_nothing() -> None:
     """Its height was corrected at the foot-flat to above what the swing was seen to reach."""
     on, step = walked(L), taken(L, 0.6, 1.0, (0.0, 0.0, 0.0), (1.4, 0.0, 0.27))
@@ -162,7 +139,7 @@ def test_a_stride_waits_for_the_other_foots_samples_but_not_for_ever() -> None:
 def test_a_clock_that_begins_anew_ends_the_cycle_under_way() -> None:
     on = walked(L, R)
     before = gone(on, 6)
-    on.strides.interrupt(Site.LEFT_FOOT)
+    on.strides.reset(Site.LEFT_FOOT)
     after = gone(on, 6, begins=100.0)
     assert all(stride.t_start >= 100.0 for stride in after if stride.foot is L)
     assert [s.number for s in (*before, *after) if s.foot is L] == [1, 2, 3, 4]
@@ -195,7 +172,7 @@ PLACES = st.one_of(st.floats(-3.0, 3.0), st.sampled_from([1e30, -1e200, 1e308]))
 def test_whatever_the_feet_do_strides_are_sound_and_can_be_saved(
     does: list[tuple[Foot, type, float, float, bool]],
 ) -> None:
-    on = walked(L, R, body=SideBySide())
+    on = walked(L, R)
     t, off = 0.0, 0.0
     found: list[Event] = []
     for foot, kind, passed, place, inferred in does:
@@ -208,9 +185,9 @@ def test_whatever_the_feet_do_strides_are_sound_and_can_be_saved(
             event = kind(t=t, known_at=t, foot=foot, inferred=inferred)
         off = t if kind is ToeOff else off
         found += on.told(foot, t, event)
-        copy = machine.load(Strides, json.loads(json.dumps(machine.save(on.strides), allow_nan=False)))
+        copy = machine.load(GaitCycles, json.loads(json.dumps(machine.save(on.strides), allow_nan=False)))
         assert copy == on.strides
-    found += on.strides.finish(on.feet, t, on.body)
+    found += on.strides.finish(t)
     for stride in found:
         assert isinstance(stride, GaitCycleMeasured)
         assert stride.t_start <= stride.t_toe_off <= stride.t <= stride.known_at

@@ -15,6 +15,7 @@ from walks import LEFT, RIGHT, SHORT, of, samples
 
 from solepath import Recipe, Session, recipes
 from solepath.body.fuse.position import MeanOfFeet
+from solepath.body.part import Track
 from solepath.body.worn.sides import Average
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.faults import silent
@@ -28,7 +29,7 @@ from solepath.types import Foot, Sample, Site
 
 WALK = Route().stand(1.5).walk(16.0, 1.2).turn(radians(90), radius=1.5).walk(6.0).stop(1.0)
 OTHER = {LEFT: RIGHT, RIGHT: LEFT}
-MEAN = evolve(recipes.DEFAULT, body=MeanOfFeet())
+MEAN = recipes.DEFAULT.exchanged(Track, MeanOfFeet())
 """The feet's own tracks, and their mean."""
 
 
@@ -247,7 +248,7 @@ def test_devices_that_say_that_they_are_on_the_right_feet_are_believed() -> None
     session = Session()
     told = session.feed(emulate(WALK, seed=1).packets)
     assert of(FeetSwapped, told) == []
-    sides = session._state.wearer.wear.sides
+    sides = session._state.wearer.ask("sides")
     assert sides.left.told and sides.right.told
     assert not sides.left.turned.rows and not sides.right.turned.rows, "what their feet do need not be remembered"
     sides.left.roll = sides.right.roll = Average(count=24, mean=0.2)

@@ -17,13 +17,13 @@ from solepath.emulate.sensors.insole_device import Insole, boot
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
-from solepath.recipes import BY_NAME
+from solepath.recipes import NAMES, by_name
 from solepath.recording import PacketWriter
 from solepath.types import Foot, Site, WalkingMode
 
 ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
-PRESSED = [name for name, recipe in BY_NAME.items() if recipe.needs_pressure]
+PRESSED = [name for name in NAMES if by_name(name).needs_pressure]
 
 
 @pytest.fixture(scope="module")

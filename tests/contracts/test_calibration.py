@@ -231,7 +231,7 @@ def test_the_limits_are_those_of_the_protocol() -> None:
 OTHERS = Calibration({foot: InsoleCalibration(layout=layout(35, foot), noise=(0.5,) * 35) for foot in Foot})
 
 
-@pytest.mark.parametrize("recipe", [recipes.ZUPT, recipes.KUPT_DFPC, recipes.DEFAULT], ids=attrgetter("name"))
+@pytest.mark.parametrize("recipe", map(recipes.by_name, ("zupt", "kupt-dfpc", "default")), ids=attrgetter("name"))
 def test_a_calibration_of_another_insole_is_named_and_the_walk_goes_on_without_it(recipe: Recipe) -> None:
     items = samples(cells=96, rate=50.0)
     session, bare = Session(recipe, calibration=OTHERS), Session(recipe)
@@ -248,7 +248,7 @@ def test_a_calibration_of_another_insole_is_named_and_the_walk_goes_on_without_i
 def test_a_first_sample_that_is_cut_short_is_not_of_another_insole() -> None:
     first, *others = samples(cells=96, rate=50.0)
     known = Calibration({foot: InsoleCalibration(layout=layout(96, foot), noise=(0.0,) * 96) for foot in Foot})
-    session = Session(recipes.ZUPT, calibration=known)
+    session = Session(recipes.by_name("zupt"), calibration=known)
     told = session.feed([evolve(first, pressure=(0.0,) * 90), *others])
     assert of(CellsFailed, told) == [] and of(Limitation, told) == []
     assert all(foot.insole.layout == layout(96, foot.foot) for foot in session.feet.values())
@@ -260,7 +260,7 @@ def test_cells_that_come_apart_from_the_inertial_samples_are_compared_too() -> N
         for s in samples(cells=96, rate=50.0)
         for part in (evolve(s, pressure=None), evolve(s, t=s.t + 0.004, acc=None, gyro=None))
     ]
-    session = Session(recipes.ZUPT, calibration=OTHERS)
+    session = Session(recipes.by_name("zupt"), calibration=OTHERS)
     told = session.feed(sorted(apart, key=attrgetter("t")))
     assert [event for event in of(Limitation, told) if "no pressure" in event.what] == []
     assert of(StrideTaken, told) != []

@@ -81,7 +81,7 @@ def test_each_is_told_to_those_who_ask_for_it_only() -> None:
 
 @pytest.mark.parametrize("name", ["default", "kupt-dfpc", "walking-modes"])
 def test_after_every_step_it_is_told_where_the_wearer_is_then(name: str) -> None:
-    session = Session(recipes.BY_NAME[name], poses=True)
+    session = Session(recipes.by_name(name), poses=True)
     steps = 0
     for packet in insoles().packets:
         told = session.feed(packet)
@@ -151,7 +151,7 @@ def test_in_a_walk_the_centre_goes_from_heel_to_toe_and_is_gone_while_the_foot_s
 
 
 def test_without_a_layout_cells_are_shown_but_no_centre_of_theirs() -> None:
-    learnt = recipes.BY_NAME["kupt-dfpc"]  # a recipe of cells learns where they are, but not where from left to right
+    learnt = recipes.by_name("kupt-dfpc")  # a recipe of cells learns where they are, but not where from left to right
     for session, learns in ((Session(pressures=True), False), (Session(learnt, pressures=True), True)):
         told = session.feed(samples())
         assert any("learnt" in event.what for event in of(Limitation, told)) == learns

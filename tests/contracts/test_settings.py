@@ -12,6 +12,7 @@ from walks import RECIPES, gone, machines, packets, samples
 
 from solepath import Calibration, Foot, Recipe, Session, recipes
 from solepath.body.fuse.both_feet import BothFeet
+from solepath.body.part import Track
 from solepath.calibration import InsoleCalibration, Newtons
 from solepath.emulate.sensors.insoles import layout
 from solepath.recipes import own
@@ -78,7 +79,7 @@ def test_a_calibration_that_does_not_fit_the_insoles_is_left_out_not_changed() -
 
 def test_sessions_of_one_recipe_hold_one_copy_of_it_and_of_a_recipe_that_was_changed_another() -> None:
     body = BothFeet()
-    mine = evolve(recipes.DEFAULT, name="mine", body=body)
+    mine = recipes.DEFAULT.exchanged(Track, body, "mine")
     held = own(mine)
     assert held is own(mine) is own(evolve(mine)) and held is not mine
     assert held == mine

@@ -13,9 +13,10 @@ from walks import samples
 
 from solepath import Calibration, Foot, Session, recipes
 from solepath.body.fuse.both_feet import BothFeet
+from solepath.body.part import Track
 from solepath.calibration import InsoleCalibration
 from solepath.emulate.sensors.insoles import layout
-from solepath.foot.stance.stance import Load, Stance
+from solepath.foot.stance.stance import Detector, Load, Stance
 from solepath.recipes import own
 from solepath.types import Cell, Quat, Vec3, shared
 from solepath.types.vector import IDENTITY, ZERO
@@ -28,7 +29,7 @@ def test_sessions_are_begun_in_many_threads_at_once() -> None:
     def begin(k: int) -> None:
         try:
             for i in range(25):
-                Session(evolve(recipes.DEFAULT, body=BothFeet(reach=1.0 + 0.001 * (1000 * k + i))))
+                Session(recipes.DEFAULT.exchanged(Track, BothFeet(reach=1.0 + 0.001 * (1000 * k + i))))
         except Exception as error:
             failed.append(error)
 
@@ -46,7 +47,7 @@ def test_sessions_are_begun_in_many_threads_at_once() -> None:
 
 
 @define
-class Likeness:
+class Likeness(Detector):
     """A detector whose limit is compared by nobody, and a second one that cannot be compared at all."""
 
     limit: float = field(default=0.8, eq=False)
@@ -77,7 +78,7 @@ class Loner(Likeness):
 
 
 @define(slots=False)
-class Loose:
+class Loose(Detector):
     """It may hold what is in no field."""
 
     limit: float = 0.8
@@ -113,7 +114,7 @@ def test_recipes_are_told_apart_by_all_that_a_part_holds_and_what_no_copy_is_lik
 
 def test_minus_zero_in_a_recipe_or_in_a_calibration_stays_what_it_is() -> None:
     for zero in (0.0, -0.0):
-        recipe = evolve(recipes.DEFAULT, body=BothFeet(reach=zero))
+        recipe = recipes.DEFAULT.exchanged(Track, BothFeet(reach=zero))
         known = Calibration(toe_out={Foot.LEFT: zero}, drift={Foot.LEFT: (zero, 0.0)})
         session = Session(recipe, calibration=known)
         again = Session.unpack(session.pack(), recipe)

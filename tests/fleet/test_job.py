@@ -79,8 +79,8 @@ class Registry(Mapping[str, Calibration]):
 
 
 def test_what_is_known_of_a_wearer_is_looked_up_when_a_session_begins_and_what_is_wrong_is_told() -> None:
-    fleet = Fleet(recipes.KUPT_DFPC, calibrations=Registry())
-    plain = [one.event for one in Fleet(recipes.KUPT_DFPC).step(WEARER, None, walked().sent[:500])[1]]
+    fleet = Fleet(recipes.by_name("kupt-dfpc"), calibrations=Registry())
+    plain = [one.event for one in Fleet(recipes.by_name("kupt-dfpc")).step(WEARER, None, walked().sent[:500])[1]]
     for wearer, failures in (("unknown", 0), ("lost", 1), ("odd", 1), ("known", 0)):
         sent = [evolve(one, wearer=wearer) for one in walked().sent[:500]]
         events = [one.event for one in fleet.step(wearer, None, sent)[1]]
@@ -102,7 +102,7 @@ def test_a_job_that_is_wrong_for_every_wearer_is_refused_when_it_is_made() -> No
 
 
 def test_a_job_can_be_sent_to_its_workers() -> None:
-    fleet = Fleet(recipes.KUPT_DFPC, calibrations={WEARER: Calibration()}, floorplan=BUILDING, poses=True)
+    fleet = Fleet(recipes.by_name("kupt-dfpc"), calibrations={WEARER: Calibration()}, floorplan=BUILDING, poses=True)
     there = pickle.loads(pickle.dumps(fleet))
     assert there.step(WEARER, None, walked().sent[:250]) == fleet.step(WEARER, None, walked().sent[:250])
 

@@ -52,7 +52,7 @@ def sent_by(wearer: str) -> tuple[Sent, ...]:
 @cache
 def sessions_tell(wearer: str, recipe: str) -> list[dict[str, Any]]:
     """Rows of what a session of his own says."""
-    session = Session(recipes.BY_NAME[recipe])
+    session = Session(recipes.by_name(recipe))
     events = session.feed([sent.what for sent in sent_by(wearer)[:-1]]) + session.finish()
     return [told_row(NumberedEvent(wearer, number, event)) for number, event in enumerate(events)]
 

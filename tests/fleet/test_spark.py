@@ -22,7 +22,7 @@ from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, of_se
 from toys import BASE
 
 from solepath.fleet import TOLD_COLUMNS, Fleet, NumberedEvent, Sent, sent_line, sent_row, told_row
-from solepath.recipes import BY_NAME
+from solepath.recipes import by_name
 from solepath.session import Session
 from solepath.types import Packet, Site
 
@@ -67,7 +67,7 @@ def stream(spark: Any, directory: Path, files: int = 1) -> Any:
 @pytest.mark.parametrize("recipe", ["default", "kupt-dfpc"])
 def test_events_through_spark_are_those_of_a_session(spark, tmp_path, recipe):
     deliver(tmp_path / "sent", wearers=5, files=5)
-    events = run(stream(spark, tmp_path / "sent"), tmp_path, Fleet(BY_NAME[recipe]))
+    events = run(stream(spark, tmp_path / "sent"), tmp_path, Fleet(by_name(recipe)))
     assert events == expected(5, recipe)
     assert list(events[0]) == list(TOLD_COLUMNS)
     assert {"StrideTaken", "HeelStrike"} <= {row["event"] for row in events}

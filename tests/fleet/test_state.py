@@ -30,7 +30,7 @@ from solepath.fleet.step.state import (
     read_rest,
     write_state,
 )
-from solepath.foot.stance.stance import Load, Stance
+from solepath.foot.stance.stance import Detector, Load, Stance
 from solepath.recipes import DEFAULT
 from solepath.session import Session
 from solepath.types import Packet, Quat, Site, Vec3
@@ -145,7 +145,7 @@ def test_where_nothing_can_be_read_the_first_number_waits_for_a_row_that_has_one
 
 def test_a_session_of_another_recipe_or_of_a_building_is_refused_and_the_numbers_go_on() -> None:
     state, before = halfway()
-    for fleet in (Fleet(recipes.KUPT_DFPC), Fleet(evolve(DEFAULT, name="mine")), Fleet(floorplan=BUILDING)):
+    for fleet in (Fleet(recipes.by_name("kupt-dfpc")), Fleet(evolve(DEFAULT, name="mine")), Fleet(floorplan=BUILDING)):
         after, told = fleet.step(WEARER, state, walked().sent[HALF : HALF + 50])
         assert isinstance(told[0].event, StateRefused) and told[0].event.detail
         assert [one.number for one in told] == list(range(before, before + len(told)))
@@ -156,7 +156,7 @@ def test_a_session_of_another_recipe_or_of_a_building_is_refused_and_the_numbers
 def test_after_the_end_a_tombstone_is_left_which_every_job_can_read() -> None:
     state, told = FLEET.step(WEARER, None, walked().sent)
     assert len(state) == 54 and FLEET.open(WEARER, state).ended
-    other = Fleet(recipes.KUPT_DFPC)
+    other = Fleet(recipes.by_name("kupt-dfpc"))
     assert other.step(WEARER, state, walked().sent) == (state, [])
     again, more = other.step(WEARER, state, [evolve(one, run=1) for one in walked().sent[:HALF]])
     assert more[0].number == len(told) and not other.open(WEARER, again).ended
@@ -183,7 +183,7 @@ def test_a_state_keeps_what_is_held_whatever_it_is() -> None:
 
 
 @define
-class Unsound:
+class Unsound(Detector):
     """A detector that after a while holds what cannot be saved."""
 
     updates: int = field(default=0, init=False)
@@ -239,7 +239,7 @@ def test_a_snapshot_that_cannot_go_on_is_not_adopted() -> None:
     with pytest.raises(SnapshotError):
         FLEET.adopt({"solepath": 1})
     with pytest.raises(SnapshotError, match="zupt"):
-        FLEET.adopt(Session(recipes.BY_NAME["zupt"]).snapshot())
+        FLEET.adopt(Session(recipes.by_name("zupt")).snapshot())
 
 
 def test_told_of_a_refused_row_is_why() -> None:

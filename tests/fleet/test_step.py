@@ -20,7 +20,7 @@ from solepath.session import Session
 from solepath.types import Packet, Site
 
 FLEET = Fleet()
-BOTH = [DEFAULT, recipes.KUPT_DFPC]
+BOTH = [DEFAULT, recipes.by_name("kupt-dfpc")]
 LONG = "w" * 10_000
 
 
@@ -59,9 +59,9 @@ def test_how_a_walk_is_cut_into_calls_changes_neither_events_nor_state(cuts: lis
     assert stepped(FLEET, cut(list(sent), cuts)) == (keyed.state(), told)
 
 
-@pytest.mark.parametrize("recipe", recipes.BY_NAME)
+@pytest.mark.parametrize("recipe", recipes.NAMES)
 def test_a_wearer_leaves_no_trace_in_what_all_wearers_share(recipe: str) -> None:
-    made = recipes.BY_NAME[recipe]
+    made = recipes.by_name(recipe)
     fresh = Session(made)
     before, blank = fresh.snapshot(), fresh.pack()
     fleet = Fleet(made)

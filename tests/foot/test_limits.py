@@ -6,7 +6,6 @@ import json
 from math import hypot, isfinite, radians
 
 import pytest
-from attrs import evolve
 
 from solepath import (
     ClockReset,
@@ -24,6 +23,7 @@ from solepath import (
     recipes,
 )
 from solepath.body.fuse.position import MeanOfFeet
+from solepath.body.part import Track
 from solepath.emulate import CC2650, Route, emulate
 
 LEFT = Site.LEFT_FOOT
@@ -67,7 +67,7 @@ def test_who_was_heard_first_does_not_matter_to_a_snapshot() -> None:
 @pytest.mark.parametrize("first", [Route().stand(2).turn(radians(90)), Route().stand(2).turn(radians(90), radius=2.0)])
 def test_final_steps_are_all_seen_from_one_frame(first: Route, seed: int) -> None:
     walk = emulate(first.walk(6, 1.2).stop(2), seed=seed)
-    session = Session(evolve(recipes.DEFAULT, body=MeanOfFeet()))  # no foot is moved by the other
+    session = Session(recipes.DEFAULT.exchanged(Track, MeanOfFeet()))  # no foot is moved by the other
     steps = [event for event in session.feed(walk.packets) if isinstance(event, StrideTaken)]
     for foot in Foot:
         own = [step for step in steps if step.foot is foot]

@@ -15,8 +15,8 @@ from walks import of, samples
 from solepath import Foot, Phase, Session, SnapshotError, StrideTaken, recipes
 from solepath.emulate import Route, Walker
 from solepath.emulate.sensors.insoles import layout
-from solepath.foot.stance.stance import Load, Stance
-from solepath.recipes import BY_NAME
+from solepath.foot.stance.stance import Detector, Load, Stance
+from solepath.recipes import NAMES, by_name
 from solepath.saving.codec import load, save
 from solepath.testing.promises import broken
 from solepath.types import Quat, Vec3
@@ -26,7 +26,7 @@ WALKED = tuple(Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.LEFT, 100.0
 
 
 @define
-class Quiet:
+class Quiet(Detector):
     """A foot that turned slowly for a while."""
 
     limit: float = 0.8
@@ -143,8 +143,8 @@ def test_what_cannot_be_saved_says_so_when_it_is_to_be_saved() -> None:
     class Bare:
         update = Quiet.update
 
-    Shoe = define(type("Shoe", (), {"__annotations__": {}, "update": Quiet.update}))
-    for detector, what in ((Bare(), "no attrs class"), (Shoe(), "give it another name")):
+    Same = define(type("ShoeDetector", (), {"__annotations__": {}, "update": Quiet.update}))
+    for detector, what in ((Bare(), "no attrs class"), (Same(), "give it another name")):
         session = Session(evolve(recipes.DEFAULT, detector=detector))
         with pytest.raises(TypeError, match=what):
             session.snapshot()
@@ -152,7 +152,7 @@ def test_what_cannot_be_saved_says_so_when_it_is_to_be_saved() -> None:
 
 # --- promises ---------------------------------------------------------------------------------------------------------
 
-DETECTORS = {type(recipe.detector).__name__: recipe.detector for recipe in BY_NAME.values()}
+DETECTORS = {type(recipe.detector).__name__: recipe.detector for recipe in map(by_name, NAMES)}
 
 
 @pytest.mark.parametrize("name", [*DETECTORS, "Quiet"])

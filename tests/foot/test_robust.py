@@ -30,7 +30,7 @@ def steps(events: list[Event], foot: Foot) -> list[StrideTaken]:
 @pytest.mark.parametrize("recipe", ["default", "gyroscope", "walking-modes"])
 def test_an_attitude_that_is_none_is_taken_for_none(recipe: str, quat: tuple[float, float, float, float]) -> None:
     told = [evolve(sample, quat=quat) for sample in samples()]
-    session, plain = Session(recipes.BY_NAME[recipe]), Session(recipes.BY_NAME[recipe])
+    session, plain = Session(recipes.by_name(recipe)), Session(recipes.by_name(recipe))
     assert session.feed(told) == plain.feed(samples())
     session.snapshot()
 
@@ -38,7 +38,7 @@ def test_an_attitude_that_is_none_is_taken_for_none(recipe: str, quat: tuple[flo
 def test_an_attitude_of_any_length_is_the_same_attitude() -> None:
     ones = [evolve(sample, quat=(1.0, 0.0, 0.0, 0.0)) for sample in samples()]
     long = [evolve(sample, quat=(4.0, 0.0, 0.0, 0.0)) for sample in samples()]
-    assert Session(recipes.GYROSCOPE).feed(ones) == Session(recipes.GYROSCOPE).feed(long)
+    assert Session(recipes.by_name("gyroscope")).feed(ones) == Session(recipes.by_name("gyroscope")).feed(long)
 
 
 def test_cells_below_zero_tell_no_layout_and_raise_nothing() -> None:
@@ -75,13 +75,13 @@ def test_an_area_that_never_carries_anything_tells_nothing() -> None:
 def test_nothing_is_known_before_it_happened_in_a_gap_either(recipe: str) -> None:
     for begin in (2.9, 3.4, 3.9, 4.4):
         told = [sample for sample in samples() if not begin < sample.t < begin + 0.5]
-        for event in Session(recipes.BY_NAME[recipe]).feed(told):
+        for event in Session(recipes.by_name(recipe)).feed(told):
             assert event.known_at >= event.t
             assert isfinite(event.t)
 
 
 def test_a_guessed_layout_is_forgotten_with_its_insole() -> None:
-    session = Session(recipes.ZUPT)
+    session = Session(recipes.by_name("zupt"))
     told = [evolve(s, pressure=s.pressure and s.pressure[:20]) if s.t > 5.0 else s for s in samples()]
     session.feed(told)
     guessed: Layout | None = session.feet[Foot.LEFT].insole.layout
@@ -97,8 +97,8 @@ def test_a_walk_whose_left_heel_is_dead_goes_on_with_what_is_left() -> None:
             return sample
         return evolve(sample, pressure=tuple(0.0 if k in dead else v for k, v in enumerate(sample.pressure)))
 
-    clean = steps(Session(recipes.ZUPT).feed(samples()), Foot.LEFT)
-    events = Session(recipes.ZUPT).feed([broken(sample) for sample in samples()])
+    clean = steps(Session(recipes.by_name("zupt")).feed(samples()), Foot.LEFT)
+    events = Session(recipes.by_name("zupt")).feed([broken(sample) for sample in samples()])
     assert len(steps(events, Foot.LEFT)) >= len(clean) - 1
     assert all(step.length < 2.5 for step in steps(events, Foot.LEFT))
     assert any(isinstance(event, FootFlat) and event.foot is Foot.LEFT for event in events)

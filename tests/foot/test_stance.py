@@ -11,9 +11,10 @@ import pytest
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
+from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance, ShoeDetector
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
-from solepath.foot.stance.stance import AngularRate, Graph, Load, MovingVariance, ShoeDetector, Stance, soften
+from solepath.foot.stance.stance import Load, Stance, soften
 from solepath.types import Foot, Phase
 from solepath.types.vector import GRAVITY
 

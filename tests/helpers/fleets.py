@@ -34,7 +34,7 @@ def walked(recipe: str = "default") -> Walked:
     """A short walk with two insoles over a bad radio, and its end."""
     worn = Insole(cells=24, rate=50.0)
     packets = emulate(SHORT, devices={LEFT: worn, RIGHT: evolve(worn)}, radio=ROUGH, seed=7).packets
-    session = Session(recipes.BY_NAME[recipe])
+    session = Session(recipes.by_name(recipe))
     events = [event for packet in packets for event in session.feed(packet)] + session.finish()
     sent = [Sent(WEARER, number, packet) for number, packet in enumerate(packets)]
     return Walked((*sent, Sent(WEARER, len(sent), End())), tuple(events))

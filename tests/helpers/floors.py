@@ -22,7 +22,7 @@ from solepath import (
     StrideTaken,
     Vec3,
 )
-from solepath.body.fuse.position import Position
+from solepath.body.part import Position
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Point, Wall
 

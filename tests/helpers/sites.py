@@ -11,7 +11,8 @@ from fleets import walked
 
 from solepath.events import Event
 from solepath.fleet import Sent
-from solepath.recipes import DEFAULT, KUPT_DFPC
+from solepath.papers.kupt_dfpc.recipe import KUPT_DFPC
+from solepath.recipes import DEFAULT
 from solepath.session import Session
 from solepath.types import Packet, Site
 

@@ -26,9 +26,9 @@ from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Start
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.navigate.error_state import ErrorStateFilter
+from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance, ShoeDetector
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
-from solepath.foot.stance.stance import AngularRate, Graph, MovingVariance, ShoeDetector
 from solepath.link.decoder import Decoder
 from solepath.recipes import DEFAULT, Recipe
 from solepath.saving import codec as machine
@@ -160,10 +160,10 @@ def machines() -> dict[str, Machine]:
     found.append(_session("LinearDedrift", plain, Recipe("LinearDedrift", Cycle(), LinearDedrift())))
     found.append(_session("LinearDedrift with pressure", pressed, Recipe("pressed", TwoArea(), LinearDedrift())))
     for name in RECIPES:
-        found.append(_session(name, packets()["few frames"], recipes.BY_NAME[name]))
-    found.append(_session("seven sites", suited(), recipes.WALKING_MODES))
+        found.append(_session(name, packets()["few frames"], recipes.by_name(name)))
+    found.append(_session("seven sites", suited(), recipes.by_name("walking-modes")))
     found.append(_placed("particles", plain, DEFAULT))
-    found.append(_placed("Snake game", plain, recipes.FOOTSTEP_TRACKER))
+    found.append(_placed("Snake game", plain, recipes.by_name("footstep-tracker")))
     return {one.name: one for one in found}
 
 
@@ -236,7 +236,7 @@ SAMPLE_NAMES = tuple(
     for name in (
         "samples",
         "samples with pressure",
-        "Shoe",
+        "ShoeDetector",
         "AngularRate",
         "MovingVariance",
         "Graph",

@@ -26,11 +26,13 @@ from solepath.body.height.altitude import Altitude
 from solepath.cli.main import parser
 from solepath.emulate import Route, emulate
 from solepath.fleet import NumberedEvent, Sent, sent_line, told_row
+from solepath.foot.cues.cues import Cues
+from solepath.foot.navigate.corrector import Corrector
 from solepath.foot.pressure.insole import InsoleLoads
 from solepath.foot.stance.stance import Detector
-from solepath.foot.tracker import AnyCorrector, AnyCues, AnyDetector
 from solepath.recipes import AnyActivity, AnyBody, AnyPlace
 from solepath.recording import PacketWriter
+from solepath.saving.codec import PARTS
 from solepath.show.output import STEP_COLUMNS, TRACK_COLUMNS
 from solepath.types import Foot, Site
 
@@ -263,8 +265,9 @@ def test_columns_are_those_that_are_written():
 def test_the_table_of_parts_has_them_all():
     parts = re.findall(r"^\| (`[A-Z].*?) \| `(solepath[\w.]+)` \|", PAGES["docs/parts.md"], re.MULTILINE)
     told = {getattr(import_module(module), name) for names, module in parts for name in re.findall(r"`(\w+)`", names)}
-    kinds = (AnyDetector, AnyCorrector, AnyCues, AnyBody, AnyActivity, AnyPlace)
-    assert told == {InsoleLoads, Altitude, *(part for kind in kinds for part in get_args(kind))} - {Detector}
+    of_a_foot = {cls for protocol in (Detector, Corrector, Cues) for cls in PARTS[protocol]}
+    kinds = (AnyBody, AnyActivity, AnyPlace)
+    assert told == of_a_foot | {InsoleLoads, Altitude, *(part for kind in kinds for part in get_args(kind))}
 
 
 def test_the_demonstration_of_100_m_comes_to_what_is_quoted():

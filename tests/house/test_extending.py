@@ -14,7 +14,7 @@ from solepath.emulate import Route, Walker, emulate
 from solepath.types import Foot
 
 PAGE = (DOCS / "extending.md").read_text()
-DEVICE, DETECTOR, RECIPE = range(3)
+DEVICE, DETECTOR, CORRECTOR, CUES, RECIPE = range(5)
 
 
 @cache
@@ -30,9 +30,9 @@ def steps(metres: float) -> int:
     return len(Walker(Route().stand(2).walk(metres).stop(2)).truth().steps(Foot.LEFT))
 
 
-def test_there_are_three_programs_and_each_fits_a_screen() -> None:
+def test_there_are_five_programs_and_each_fits_a_screen() -> None:
     programs = blocks(PAGE, "python")
-    assert len(programs) == 3 and all([len(program.splitlines()) <= 50 for program in programs])
+    assert len(programs) == 5 and all([len(program.splitlines()) <= 50 for program in programs])
 
 
 def test_a_device_that_is_declared_in_forty_lines_gives_steps_and_tells_a_lost_packet() -> None:
@@ -46,6 +46,13 @@ def test_a_detector_of_ones_own_keeps_its_promises_and_is_restored_with_the_sess
     first, last = told(DETECTOR)
     assert first == "broken promises: []"
     assert last.startswith(f"{steps(10)} steps, Quiet(limit=0.7")
+
+
+def test_a_corrector_and_cues_of_ones_own_keep_their_promises_and_find_the_walk() -> None:
+    for which, what in ((CORRECTOR, "strides"), (CUES, "heel-strikes")):
+        first, last = told(which)
+        assert first == "broken promises: []"
+        assert last.startswith(f"{steps(10)} {what}")
 
 
 @pytest.mark.parametrize("what", ["default", "no rolling foot", "stance by cells", "each foot alone"])

@@ -9,44 +9,34 @@ import sys
 from pathlib import Path
 
 import pytest
+from here import DOCS
 from walks import insoles, packets
 
 import solepath
 
 ROOT = Path(solepath.__file__).parent
 
-NOUNS = {"types", "events", "calibration", "saving"}
-CORE = NOUNS | {"floorplan", "wire", "link", "foot", "body", "recipes", "papers", "session"}
-SHOWN = CORE | {"recording", "show"}
-ALLOWED: dict[str, set[str]] = {
-    "types": set(),
-    "events": {"types"},
-    "saving": CORE,
-    "calibration": {"types", "saving"},
-    "floorplan": {"saving"},
-    "wire": {"types", "events"},
-    "link": {"types", "events", "wire"},
-    "foot": {"types", "events", "calibration", "papers"},
-    "body": {"types", "events", "floorplan", "foot"},
-    "recipes": {"foot", "body", "papers"},
-    "papers": CORE | {"recording"},
-    "session": CORE,
-    "__init__": CORE,
-    # the edges: they import the rooms, no room imports them
-    "testing": CORE,
-    "recording": CORE | {"show"},
-    "show": CORE | {"recording", "lab"},
-    "ble": CORE | {"recording"},
-    "emulate": CORE | {"ble"},
-    "fleet": SHOWN | {"emulate"},
-    "lab": SHOWN | {"emulate"},
-    "cli": SHOWN | {"ble", "emulate", "fleet", "lab", "__init__"},
-    "__main__": {"cli"},
-}
-"""Room (a module or a folder of src/solepath) -> the rooms that it may import."""
+CORE = {"types", "events", "saving", "calibration", "floorplan", "wire", "link", "foot", "body", "recipes", "papers",
+        "session"}  # fmt: skip
+
+
+def rooms() -> dict[str, set[str]]:
+    """Room (a module or a folder of src/solepath) -> those that it may import, as docs/architecture.md has them."""
+    text = (DOCS / "architecture.md").read_text("utf-8").partition("<!-- rooms -->\n```text\n")[2].partition("```")[0]
+    header, *lines = text.splitlines()
+    at = header.index("may import")
+    found = {}
+    for line in lines:
+        named = set(line[at:].split()) - {"-"}
+        found[line.split()[0]] = (named - {"CORE"}) | (CORE if "CORE" in named else set())
+    return found
+
+
+ALLOWED = rooms() | {"__init__": CORE, "__main__": {"cli"}}
 
 FORBIDDEN = {"numpy", "bleak", "asyncio"}
-LIVE = CORE | {"__init__"}
+LIVE = CORE - {"papers", "saving"} | {"__init__"}
+"""Of papers and saving what is on the live path is seen when it runs, below."""
 
 
 def modules() -> dict[str, Path]:
@@ -160,5 +150,5 @@ def test_a_live_session_of_any_device_loads_neither_numpy_nor_bleak_nor_asyncio(
         if walked is insoles().packets:
             assert steps > 6
             loaded = {name.partition(".")[2] for name in live if name.startswith("solepath.")}
-            assert {room(name) for name in loaded} <= LIVE
+            assert {room(name) for name in loaded} <= CORE | {"__init__"}
             assert "link.devices.insole" in loaded and "link.devices.cc2650" not in loaded, "a device loads when heard"

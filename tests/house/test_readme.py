@@ -16,7 +16,7 @@ from quoted import NUMBER, README, below, blocks
 from solepath import Event
 from solepath.cli.main import parser
 from solepath.emulate import Radio, Route, emulate
-from solepath.recipes import BY_NAME
+from solepath.recipes import NAMES
 from solepath.recording import PacketWriter
 from solepath.types import Foot
 
@@ -70,7 +70,7 @@ def test_its_table_names_every_command():
 def test_its_table_names_every_recipe():
     table = README.split("| recipe | what it is |", 1)[1].split("\n\n", 1)[0]
     names = [name for line in table.splitlines()[2:] for name in re.findall(r"`([\w-]+)`", line.split("|")[1])]
-    assert names == list(BY_NAME)
+    assert names == list(NAMES)
 
 
 def test_its_demonstration_is_the_one_that_the_command_gives():

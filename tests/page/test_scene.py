@@ -56,7 +56,8 @@ from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.emulate.walk import emulate
-from solepath.recipes import DEFAULT, PRESSURE_CONTOUR, Recipe
+from solepath.papers.pressure_contour.recipe import PRESSURE_CONTOUR
+from solepath.recipes import DEFAULT, Recipe
 from solepath.show.page.messages import FASTEST, SLOWEST, encode, parse_command
 from solepath.show.page.player.playback import Playback
 from solepath.show.page.scene import plan_drawing

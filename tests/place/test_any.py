@@ -28,7 +28,7 @@ from hypothesis import strategies as st
 from walks import insoles
 
 from solepath import Activity, Event, FlightClimbed, Foot, LiftRidden, Placed, PlaceLost, Session, recipes
-from solepath.body.fuse.position import Position
+from solepath.body.part import Position
 from solepath.body.place.particles import Particles
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start, Wall

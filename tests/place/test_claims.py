@@ -27,7 +27,7 @@ def wandered(recipe: str, seed: int) -> PlaceScore:
     tag = CC2541(rate=20.0, mounting=IN_SOLE)
     devices = {SITE_OF_FOOT[foot]: tag if recipe == "footstep-tracker" else Insole(cells=8) for foot in Foot}
     walk = emulate(way.route, devices=devices, seed=seed)
-    session = Session(recipes.BY_NAME[recipe], floorplan=PLAN)
+    session = Session(recipes.by_name(recipe), floorplan=PLAN)
     return emulated_place.score(way, walk.walker, walk.truth, session.feed(walk.packets) + session.finish())
 
 

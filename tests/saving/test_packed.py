@@ -17,13 +17,16 @@ from toys import NUMBERED
 from walks import LEFT, RIGHT, ROUGH, SHORT, machines, packets, samples
 
 from solepath import Calibration, Foot, Packet, Phase, Recipe, Session, Site, SnapshotError, recipes
+from solepath.body.height.altitude import Altitude
+from solepath.body.part import Track
 from solepath.calibration import InsoleCalibration, Limbs, Newtons, ShoeGeometry
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.emulate.walk import emulate
-from solepath.foot.stance.stance import Load, ShoeDetector, Stance
+from solepath.foot.stance.classic import ShoeDetector
+from solepath.foot.stance.stance import Detector, Load, Stance
 from solepath.types import Quat, Vec3, WalkingMode
 from solepath.types.vector import IDENTITY, ZERO
 
@@ -100,7 +103,7 @@ KNOWN = Calibration(
 )
 
 
-@pytest.mark.parametrize("recipe", [*recipes.BY_NAME.values()], ids=[*recipes.BY_NAME])
+@pytest.mark.parametrize("recipe", [recipes.by_name(name) for name in recipes.NAMES], ids=recipes.NAMES)
 def test_a_calibrated_session_of_every_recipe_goes_on_with_what_was_known(recipe: Recipe) -> None:
     session = Session(recipe, calibration=KNOWN, pressures=True)
     walked = packets()["few frames"]
@@ -131,11 +134,11 @@ def test_a_session_with_a_driver_of_the_apps_own_is_unpacked_with_it_and_not_wit
 
 def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
     with pytest.raises(SnapshotError, match="packed with the recipe 'default', and this is 'kupt'"):
-        Session.unpack(packed(), recipes.KUPT)
+        Session.unpack(packed(), recipes.by_name("kupt"))
     for other, what in (
         (evolve(recipes.DEFAULT, detector=ShoeDetector()), "packed with Cycle, and this recipe has Shoe"),
-        (evolve(recipes.DEFAULT, body=recipes.KUPT_DFPC.body), "packed with BothFeet, and this recipe has DoubleFoot"),
-        (evolve(recipes.DEFAULT, altitude=None), "that this recipe does not have"),
+        (recipes.DEFAULT.exchanged(Track, recipes.by_name("kupt-dfpc").body), "packed with BothFeet, and this recipe has DoubleFoot"),
+        (recipes.DEFAULT.exchanged(Altitude, None), "that this recipe does not have"),
         (OWN, "packed with the recipe 'default', and this is 'usual'"),
         (evolve(OWN, name="default"), "packed with Cycle, and this recipe has Usual"),
     ):
@@ -143,7 +146,7 @@ def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
             Session.unpack(packed(), other)
     with pytest.raises(TypeError, match="must be a Recipe, not str"):
         Session.unpack(packed(), "default")  # type: ignore[arg-type]
-    bare = evolve(recipes.DEFAULT, altitude=None)
+    bare = recipes.DEFAULT.exchanged(Altitude, None)
     session = Session(bare)
     session.feed(packets()["cc2650"][:50])
     assert exact(Session.unpack(session.pack(), bare)) == exact(session)
@@ -174,7 +177,7 @@ class Rates:
 
 
 @define
-class Usual:
+class Usual(Detector):
     """A foot that turns slowly. Its state is in fields of every kind, some of which its constructor takes."""
 
     limit: float = 0.8
@@ -235,7 +238,7 @@ def test_what_cannot_be_packed_says_so_when_it_is_to_be_packed() -> None:
     class Bare:
         update = Usual.update
 
-    Ours = define(type("Shoe", (), {"__annotations__": {}, "update": Usual.update}))
+    Ours = define(type("ShoeDetector", (), {"__annotations__": {}, "update": Usual.update}))
     for detector, what in ((Bare(), "no attrs class"), (Ours(), "give it another name")):
         session = Session(evolve(recipes.DEFAULT, detector=detector))
         session.feed(samples(cells=0)[:0])

@@ -13,7 +13,7 @@ from fleets import WEARER, walked
 
 from solepath import Calibration, Session, SnapshotError, recipes
 from solepath.fleet import Fleet
-from solepath.foot.stance.stance import Load, Stance
+from solepath.foot.stance.stance import Detector, Load, Stance
 from solepath.types import Quat, Vec3
 from solepath.types.vector import IDENTITY, ZERO
 
@@ -22,7 +22,7 @@ SHORT: list[Exception] = []
 
 
 @define
-class Large:
+class Large(Detector):
     """A detector that takes room."""
 
     limit: float = 0.8

@@ -179,11 +179,11 @@ def _add_square(kinds: Any) -> argparse.ArgumentParser:
 def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
     from ..calibration import Calibration
     from ..papers.pressure_contour.square import read_marks, square_drift
-    from ..recipes import BY_NAME
+    from ..recipes import NAMES, by_name
     from ..recording.source import open_source
     from ..types import Foot
 
-    recipe = BY_NAME[known_recipe(options.recipe, list(BY_NAME))]
+    recipe = by_name(known_recipe(options.recipe, list(NAMES)))
     foot = Foot(options.foot) if options.foot else None
     marks = read_marks(options.marks) if options.marks else None
     source = open_source(options.file, foot, report=note)

@@ -136,9 +136,9 @@ def _check(options: argparse.Namespace) -> None:
     """Failure for what could only go wrong after a while."""
     from importlib.util import find_spec
 
-    from ..recipes import BY_NAME
+    from ..recipes import NAMES
 
-    known_recipe(options.recipe, list(BY_NAME))
+    known_recipe(options.recipe, list(NAMES))
     if options.seconds is not None and options.seconds > LONGEST:
         raise Failure(f"--seconds {options.seconds:g}: {LONGEST:g} is the most")
     if options.seconds is not None and options.seconds < 1.0:

@@ -66,7 +66,7 @@ def run(options: argparse.Namespace) -> int:
     from .common.loop import stopped_alike
     from .common.results import Results
 
-    recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
+    recipe = recipes.by_name(known_recipe(options.recipe, list(recipes.NAMES)))
     calibration = calibration_of(options)
     need_page(options, options.view is not None)
     view = view_of(options)

@@ -6,12 +6,11 @@ from attrs import define, field
 
 from ..events import Event
 from ..types import Foot, Phase, Vec3
-from ..types.vector import ZERO, sub
-from .cues.gait_cues import Cues
-from .cues.inertial import Seen
+from ..types.vector import ZERO, from_yaw, multiply, sub
+from .cues.cues import Cues, Seen
 from .gaps.gap import Leap
 from .gaps.template import Habit
-from .navigate.strapdown import Corrector
+from .navigate.corrector import Corrector
 from .phase import BEGINS, PHASES, Cue
 from .stride import StepBuilder, StretchChain
 from .turn import heading_turned
@@ -50,6 +49,21 @@ class Gait:
         self.began = None
         self.step.spoil(None)
         self.habit.interrupt()
+
+    def shift(self, yaw: float, by: Vec3) -> Vec3:
+        """The foot, which is flat, is turned by `yaw` rad and moved `by` m, world frame; the same move in the
+        navigation frame is returned, for the corrector."""
+        x, y, z = by
+        if self.world.north is not None:
+            c, s = self.world.north  # the turn from the navigation frame to the world frame, undone
+            x, y = c * x + s * y, c * y - s * x
+        step = self.step
+        px, py, pz = step.start
+        step.start = (px + x, py + y, pz + z)
+        step.attitude = multiply(from_yaw(yaw), step.attitude)
+        px, py, pz = self.anchored
+        self.anchored = (px + x, py + y, pz + z)
+        return (x, y, z)
 
     def see(
         self, seen: Seen, known_at: float, corrector: Corrector | None, interval: float, inferred: bool = False

@@ -1,11 +1,12 @@
 """The phases of a foot and the support of a body, as tables.
 
 Rule 1: every transition there is stands here. Rule 2: this file knows no number; what turns numbers into cues, with
-hysteresis and debounce, is cues.py.
+hysteresis and debounce, is in cues/.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from enum import Enum
 
 from ..events import FootFlat, HeelOff, HeelStrike, ToeOff
@@ -48,6 +49,14 @@ PHASES: dict[Phase, dict[Cue, Phase]] = {
     },
 }
 
+TO_COME: dict[Phase, tuple[Cue, ...]] = {
+    Phase.STATIONARY: (Cue.LIFT, Cue.CLEAR, Cue.CONTACT, Cue.FLAT),
+    Phase.PUSH_OFF: (Cue.CLEAR, Cue.CONTACT, Cue.FLAT),
+    Phase.SWING: (Cue.CONTACT, Cue.FLAT),
+    Phase.LOADING: (Cue.FLAT,),
+}
+"""The cues of a whole step that are still to come."""
+
 BEGINS: dict[Phase, type[HeelStrike] | type[FootFlat] | type[HeelOff] | type[ToeOff]] = {
     Phase.LOADING: HeelStrike,
     Phase.STATIONARY: FootFlat,
@@ -69,11 +78,17 @@ SUPPORT: dict[Phase, dict[Phase, Support]] = {  # left foot, then right foot
 
 def describe() -> str:
     """Both tables as text, for people."""
-    width = 12
-    lines = ["".join(name.ljust(width) for name in ("phase", *(cue.value for cue in Cue)))]
-    for phase, row in PHASES.items():
-        lines.append("".join(name.ljust(width) for name in (phase.name, *(row[cue].name for cue in Cue))))
-    lines += ["", "".join(name.ljust(width) for name in ("left\\right", *(phase.name for phase in Phase)))]
-    for left, joint in SUPPORT.items():
-        lines.append("".join(name.ljust(width) for name in (left.name, *(joint[right].name for right in Phase))))
-    return "\n".join(line.rstrip() for line in lines)
+    return in_columns(
+        [
+            ["phase", *(cue.value for cue in Cue)],
+            *([phase.name, *(row[cue].name for cue in Cue)] for phase, row in PHASES.items()),
+            [],
+            ["left\\right", *(phase.name for phase in Phase)],
+            *([left.name, *(joint[right].name for right in Phase)] for left, joint in SUPPORT.items()),
+        ]
+    )
+
+
+def in_columns(rows: Iterable[Iterable[str]], width: int = 12) -> str:
+    """Rows of words as lines of columns, each `width` characters wide."""
+    return "\n".join("".join(word.ljust(width) for word in row).rstrip() for row in rows)

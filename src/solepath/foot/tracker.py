@@ -12,56 +12,23 @@ from typing import Any, Final
 from attrs import define, evolve, field
 
 from ..events import Event, FootMoved, SampleGap
-from ..papers.footstep_tracker.critical_cues import CriticalCues
-from ..papers.footstep_tracker.projection import Projection
-from ..papers.footstep_tracker.static_zones import StaticZones
-from ..papers.kupt_dfpc.cop_cues import CopCues
-from ..papers.kupt_dfpc.known_velocity import KnownVelocity
-from ..papers.kupt_dfpc.swing_dedrift import SwingDedrift
-from ..papers.pressure_contour.bias_zupt import BiasZupt
-from ..papers.pressure_contour.contour_stance import ContourVelocity, GyroscopeMagnitude
-from ..papers.shoe_sensing.gated_tilt import ShoeSensing
-from ..papers.shoe_sensing.short_time_energy import AccelerationMagnitude, ShortTimeEnergy
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.vector import ZERO
 from .attitude import Levelling, Rest, suspected
+from .cues.cues import Cues, Seen
 from .cues.gait_cues import GaitCues
-from .cues.inertial import Seen
 from .gait import Gait
 from .gaps.crossing import cross
 from .gaps.gap import SHORTEST
 from .limits import WITHOUT, Limits
-from .navigate.dedrift import LinearDedrift
-from .navigate.error_state import ErrorStateFilter
-from .navigate.strapdown import LONGEST_BRIDGE
+from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .pressure.insole import InsoleLoads
 from .pressure.sole import Sole
 from .rejection import refusal, rejected
 from .rhythm import Rhythm
-from .stance.cycle import Cycle
-from .stance.pressure import MaximumPressure, TwoArea
-from .stance.stance import AngularRate, Detector, Graph, Load, MovingVariance, ShoeDetector
+from .stance.stance import Detector, Load
+from .view import FootPose, FootView
 from .world import Covariance3
-
-AnyDetector = (
-    Cycle
-    | ShoeDetector
-    | AngularRate
-    | MovingVariance
-    | Graph
-    | TwoArea
-    | MaximumPressure
-    | ContourVelocity
-    | GyroscopeMagnitude
-    | KnownVelocity
-    | StaticZones
-    | ShortTimeEnergy
-    | AccelerationMagnitude
-    | Detector
-)
-"""Ours, and what an app makes (docs/extending.md)."""
-AnyCorrector = ErrorStateFilter | LinearDedrift | SwingDedrift | BiasZupt | ShoeSensing | Projection
-AnyCues = GaitCues | CopCues | CriticalCues
 
 SWING: Final = Phase.SWING
 """Looked up once: a word of an enum costs as much as five multiplications."""
@@ -75,11 +42,11 @@ class FootTracker:
     """Feed it the samples of one foot in the order of their time."""
 
     foot: Foot
-    detector: AnyDetector
-    corrector: AnyCorrector
+    detector: Detector
+    corrector: Corrector
     poses: bool = False
     """Emit FootMoved for every navigated sample."""
-    cues: AnyCues = field(factory=GaitCues)
+    cues: Cues = field(factory=GaitCues)
     needs_pressure: bool = False
     """Without pressure cells nothing is said of this foot."""
     sole: Sole = field()
@@ -142,6 +109,50 @@ class FootTracker:
         """Of `position`, m^2."""
         return self.gait.covariance(self.corrector)
 
+    @property
+    def pose(self) -> FootPose | None:
+        """Where the foot is; None before any sample."""
+        return None if self.t is None else FootPose(self.foot, self.t, self.moved_at, self.position, self.covariance)
+
+    def view(self, sample: Sample, known_at: float, events: tuple[Event, ...], *, spread: bool) -> FootView:
+        """What a part of the body may see after `sample`, of which `events` came. `spread`: with the covariance."""
+        corrector, gait, insole, rest = self.corrector, self.gait, self.sole.insole, self.rest
+        layout, cells, alone = insole.layout, insole.cells, None
+        if cells and self.moved_at is None and sample.gyro is None:
+            alone = insole.centre_of_pressure(cells)
+        return FootView(
+            self.foot,
+            sample,
+            sample.t,
+            known_at,
+            events,
+            self.moved_at,
+            self.levelled,
+            gait.phase,
+            corrector.position,
+            corrector.velocity,
+            corrector.attitude,
+            gait.world.north,
+            gait.step.attitude,
+            rest.bias,
+            rest.grain if rest.count else 0.0,
+            cells,
+            insole.newtons is not None or (layout is not None and layout.scale is not None),
+            insole.highest,
+            layout,
+            alone,
+            hasattr(corrector, "shift"),
+            gait.covariance(corrector) if spread else None,
+        )
+
+    def shift(self, yaw: float, by: Vec3) -> None:
+        """From here on the foot heads `yaw` rad further and stands `by` m off (world frame): its live track and its
+        next strides; those that were taken stay as they were reported, and none gets longer by it. To be called between
+        a foot-flat and the next sample; nothing happens where the corrector cannot be shifted."""
+        move = getattr(self.corrector, "shift", None)
+        if move is not None:
+            move(yaw, self.gait.shift(yaw, by))
+
     # --- samples ---
 
     def wear(self, layout: Layout) -> None:
@@ -155,11 +166,9 @@ class FootTracker:
 
     def _wear_parts(self, layout: Layout) -> None:
         self.sole.worn = False
-        for part in (self.detector, self.cues):
-            wear = getattr(part, "wear", None)
-            if wear is not None:
-                wear(layout)
-        self.limits.later(getattr(self.detector, "lacking", None))
+        self.detector.wear(layout)
+        self.cues.wear(layout)
+        self.limits.later(self.detector.lacking)
 
     def interrupt(self) -> None:
         """The clock of the samples begins anew, before or after the old one; what the foot did between is unknown."""
@@ -265,9 +274,7 @@ class FootTracker:
         rest, corrector, gait = self.rest, self.corrector, self.gait
         if rest.update(t, acc, gyro):
             self._check_scale(t, known_at, events)
-            scaled = getattr(self.detector, "scaled", None)
-            if scaled is not None:
-                scaled(rest.scale)
+            self.detector.scaled(rest.scale)
         k, (bx, by, bz) = rest.scale, rest.bias
         x, y, z = acc
         acc = (x * k, y * k, z * k)

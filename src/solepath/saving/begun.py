@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..recipes import Recipe, alike
+from ..recipes import Recipe
 from ..session.state import SessionState
 from ..session.wearer import WearerParts
 from ..types import Foot, shared
@@ -38,7 +38,7 @@ def _begun(recipe: Recipe, head: Head) -> SessionState:
     Making one takes longer than all the rest, so the newest are kept; nobody else holds them."""
     global _kept
     for known, begun_with, state in _kept:
-        if known is recipe and alike(begun_with, head):
+        if known is recipe and begun_with == head:
             return state
     state = SessionState(WearerParts(recipe, head.calibration, head.poses, head.pressures))
     state.wearer.feet = {foot: state.wearer._tracker(foot) for foot in Foot}

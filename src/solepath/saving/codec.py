@@ -119,6 +119,8 @@ def _make_codec(annotation: Any, own: _Own) -> tuple[_Saver, _Loader]:
         return (lambda member: member.value), annotation
     if isinstance(annotation, type) and attrs.has(annotation):
         return _record_codec(annotation, own)
+    if isinstance(annotation, type) and origin is None and annotation.__module__.startswith("solepath."):
+        return _open_codec({}, own)
     if origin in (typing.Union, types.UnionType):
         return _union_codec(arguments, own)
     if origin is tuple and len(arguments) == 2 and arguments[1] is Ellipsis:
@@ -206,6 +208,8 @@ def _record_codec(cls: type, own: _Own) -> tuple[_Saver, _Loader]:
     hints = typing.get_type_hints(cls)
     fields: list[tuple[str, _Saver, _Loader]] = []
     for field in attrs.fields(cls):
+        if not field.metadata.get("saved", True):
+            continue
         try:
             fields.append((field.name, *_codec(hints[field.name], own)))
         except TypeError as error:
@@ -230,6 +234,9 @@ def _record_codec(cls: type, own: _Own) -> tuple[_Saver, _Loader]:
         record: Any = object.__new__(cls)
         for name, _, load_field in fields:
             object.__setattr__(record, name, load_field(value[name]))
+        for field in attrs.fields(cls):
+            if not field.metadata.get("saved", True):
+                object.__setattr__(record, field.name, None)
         return record
 
     return save_record, load_record
@@ -280,8 +287,11 @@ def _open_codec(records: dict[str, type], own: _Own) -> tuple[_Saver, _Loader]:
 
     def load_open(value: Any) -> Any:
         kind = value["kind"]
-        if kind not in known:
-            raise SnapshotError(f"a snapshot of a part {kind!r} that is not known here")
-        return _codec(known[kind], own)[1](value["is"])
+        cls = known.get(kind)
+        if cls is None:
+            from ..recipes import part_class
+
+            cls = part_class(kind)
+        return _codec(cls, own)[1](value["is"])
 
     return save_open, load_open

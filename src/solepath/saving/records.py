@@ -36,12 +36,12 @@ class Packed:
 
 
 _ODD = {
-    ("State", "wearer"): "made",
-    ("Wearer", "recipe"): "given",
-    ("Wearer", "calibration"): "given",
-    ("Wearer", "poses"): "given",
-    ("Wearer", "pressures"): "given",
-    ("Wearer", "feet"): "made",
+    ("SessionState", "wearer"): "made",
+    ("WearerParts", "recipe"): "given",
+    ("WearerParts", "calibration"): "given",
+    ("WearerParts", "poses"): "given",
+    ("WearerParts", "pressures"): "given",
+    ("WearerParts", "feet"): "made",
 }
 """What the rules of shape.py do not say: what a wearer is begun with is in the head, and feet are begun by their
 wearer."""

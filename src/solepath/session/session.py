@@ -13,17 +13,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from copy import deepcopy
 from math import inf, isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from attrs import evolve
 
-from ..body.fuse.position import Position
 from ..body.gait.means import GaitParameters
+from ..body.part import Position
 from ..calibration import Calibration, CalibrationError, unusable
 from ..events import Event, PacketRejected, Placed, SampleRejected
-from ..floorplan.index import IndexedPlan
-from ..floorplan.plan import FloorPlan, FloorPlanError, Start
-from ..floorplan.records import no_start
 from ..foot.phase import SUPPORT
 from ..foot.tracker import FootTracker
 from ..link.decoder import Decoder
@@ -35,6 +32,10 @@ from ..saving.snapshot import must_fit, restored, taken
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
 from .state import SessionState
 from .wearer import WearerParts, in_order
+
+if TYPE_CHECKING:
+    from ..floorplan.index import IndexedPlan
+    from ..floorplan.plan import FloorPlan, Start
 
 A_NUMBER = (float, int)
 
@@ -85,14 +86,10 @@ class Session:
         if why_not is not None:
             raise CalibrationError(f"calibration: {why_not}")
         self._plan = _indexed(floorplan)
-        wearer = WearerParts(own(recipe), deepcopy(known), poses, pressures)
+        wearer = WearerParts(own(recipe), deepcopy(known), poses, pressures, self._plan is not None)
         if start is not None:
-            if not isinstance(start, Start) or self._plan is None:
-                raise TypeError("start must be a Start, on a floor plan")
-            why_not = no_start(start)
-            if why_not is not None:
-                raise FloorPlanError(f"start: {why_not}")
-            wearer.place.set_out(deepcopy(start))
+            wearer.ask("set_out")(_checked(start, self._plan))
+        wearer.walks_on(self._plan)
         self._state = SessionState(wearer, None if self._plan is None else self._plan.fingerprint)
         for site, device in ({} if devices is None else devices).items():
             self.bind(site, device)
@@ -158,7 +155,7 @@ class Session:
         if known is not None and known.is_bound_to(device):
             return
         self._state.decoders = in_order({**self._state.decoders, site: Decoder(site, device)}, Site)
-        self._state.wearer.interrupt(site)
+        self._state.wearer.reset(site)
 
     def _packet(self, packet: Packet) -> list[Event]:
         state, events = self._state, list[Event]()
@@ -191,7 +188,9 @@ class Session:
         if state.now is None or packet.t > state.now:
             state.now = packet.t
         if decoder.link is not None:
-            state.wearer.strides.doubted(packet.site, decoder.link.doubt)
+            until = decoder.link.doubt
+            if until != state.wearer.unsettled.get(packet.site):
+                state.wearer.unsettle(packet.site, until)
         self._take(packet.site, items, events)
         return events
 
@@ -199,7 +198,7 @@ class Session:
         t, site = sample.t, sample.site
         if not isinstance(site, Site) or not isinstance(t, A_NUMBER):
             raise TypeError("a sample holds a time and a Site")
-        events = state.wearer.feed(sample, site in state.decoders, self._plan)
+        events = state.wearer.feed(sample, site in state.decoders)
         if events and any([isinstance(event, SampleRejected) for event in events]):
             return events
         if state.now is None or t > state.now:
@@ -212,10 +211,9 @@ class Session:
         linked = site in self._state.decoders
         for item in items:
             if isinstance(item, Sample):
-                events += wearer.feed(item, linked, self._plan)
+                events += wearer.feed(item, linked)
             else:
-                events.append(item)
-                wearer.hear(site, item)
+                events += wearer.receive(site, item)
 
     # --- out ---
 
@@ -243,18 +241,21 @@ class Session:
     @property
     def place(self) -> Placed | None:
         """Where the wearer is on the floor plan, as last told; None without one, and while the place is not known."""
-        return self._state.wearer.place.place
+        place: Placed | None = self._state.wearer.ask("place")
+        return place
 
     @property
     def activity(self) -> Activity:
         """What the wearer does, as last told; UNKNOWN before anything was."""
-        return self._state.wearer.activity.activity
+        activity: Activity | None = self._state.wearer.ask("activity")
+        return Activity.UNKNOWN if activity is None else activity
 
     @property
     def gait(self) -> GaitParameters | None:
         """Gait parameters as means of the steady strides so far, of walking or of running as the newest of them was;
         None before any. Each stride's own are events (GaitCycleMeasured)."""
-        return self._state.wearer.strides.parameters
+        gait: GaitParameters | None = self._state.wearer.ask("parameters")
+        return gait
 
     @property
     def support(self) -> Support | None:
@@ -328,15 +329,33 @@ class Session:
         session._plan = _indexed(floorplan)
         session._state = state
         must_fit(state, session._kinds, session._plan)
+        state.wearer.walks_on(session._plan)
         return session
 
 
 def _indexed(floorplan: FloorPlan | IndexedPlan | None) -> IndexedPlan | None:
-    if floorplan is None or isinstance(floorplan, IndexedPlan):
+    if floorplan is None:
+        return None
+    from ..floorplan.index import IndexedPlan
+    from ..floorplan.plan import FloorPlan
+
+    if isinstance(floorplan, IndexedPlan):
         return floorplan
     if not isinstance(floorplan, FloorPlan):
         raise TypeError(f"floorplan must be a FloorPlan, not {type(floorplan).__name__}")
     return IndexedPlan(floorplan)
+
+
+def _checked(start: Start, plan: IndexedPlan | None) -> Start:
+    from ..floorplan import plan as plans
+    from ..floorplan.records import no_start
+
+    if not isinstance(start, plans.Start) or plan is None:
+        raise TypeError("start must be a Start, on a floor plan")
+    why_not = no_start(start)
+    if why_not is not None:
+        raise plans.FloorPlanError(f"start: {why_not}")
+    return deepcopy(start)
 
 
 def _number(value: float) -> float:

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from copy import deepcopy
-from typing import TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from attrs import define, field
 
-from ..body.fuse.position import Position
-from ..body.gait.cycles import Strides
-from ..body.gait.turns import Turns
-from ..body.height.altitude import Altitude
-from ..body.worn.wear import Wear
+from ..body.part import ClockUnsettled, Height, Instead, LayoutTold, Part, Position, Said, Shift, Track
 from ..calibration import Calibration
 from ..events import (
     ActivityChanged,
@@ -27,53 +23,64 @@ from ..events import (
     TurnMade,
     WearerMoved,
 )
-from ..floorplan.index import IndexedPlan
 from ..foot.pressure.sole import Sole
 from ..foot.rejection import rejected, with_sound_attitude, wrong_time
 from ..foot.tracker import FootTracker
-from ..recipes import AnyActivity, AnyBody, AnyPlace, Recipe
+from ..foot.view import FootView
+from ..recipes import Recipe, part_class
 from ..types import Foot, Sample, Site
 
+if TYPE_CHECKING:
+    from ..floorplan.index import IndexedPlan
+
 LEADS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
-"""What a place on a floor plan follows from."""
+"""After these it is said where the wearer is, to the parts that follow it (`Part.follows`)."""
 
 _Key = TypeVar("_Key")
 _Held = TypeVar("_Held")
-_Part = TypeVar("_Part")
+_Calibrated = TypeVar("_Calibrated")
 
 
 @define
 class WearerParts:
-    """Trackers of the feet, the body that the recipe gave them, and how all of it is worn."""
+    """Trackers of the feet, and the parts of the body that the recipe has, in their order."""
 
     recipe: Recipe
     """Read only: others may hold it too."""
     calibration: Calibration
     poses: bool
-    """The feet emit FootMoved; WearerMoved after a step."""
+    """The feet emit FootMoved; WearerMoved after a stride."""
     pressures: bool = False
     """FootPressed with every sample of cells."""
+    placed: bool = False
+    """There is a floor plan, and so the recipe's place part is one of `parts`."""
     # state
-    body: AnyBody = field(init=False)
-    activity: AnyActivity = field(init=False)
-    place: AnyPlace = field(init=False)
-    altitude: Altitude | None = field(init=False)
-    turns: Turns = field(factory=Turns, init=False)
-    strides: Strides = field(factory=Strides, init=False)
-    wear: Wear = field(factory=Wear, init=False)
+    parts: list[Part] = field(init=False)
+    """In the order in which they hear of what is said."""
     feet: dict[Foot, FootTracker] = field(factory=dict, init=False)
+    height: tuple[float, float] = field(default=(0.0, 0.0), init=False)
+    """By how much the wearer is higher than the feet's tracks say, m, and the variance of that, m^2."""
+    unsettled: dict[Site, float | None] = field(factory=dict, init=False)
+    """The newest ClockUnsettled of each site."""
     unused: list[Site] = field(factory=list, init=False)
     """Sites whose samples the recipe has no use for; said once."""
 
     def __attrs_post_init__(self) -> None:
-        self.body = _calibrated(deepcopy(self.recipe.body), self.calibration)
-        self.activity = _calibrated(deepcopy(self.recipe.activity), self.calibration)
-        self.place = deepcopy(self.recipe.place)
-        self.altitude = deepcopy(self.recipe.altitude)
+        parts: list[Part] = [*self.recipe.parts]
+        if self.placed:
+            parts.append(self.recipe.place or part_class("Particles")())
+        self.parts = [deepcopy(part).calibrated(self.calibration) for part in parts]
 
-    def feed(self, sample: Sample, scale_is_said: bool, plan: IndexedPlan | None) -> list[Event]:
-        """A sample of any site. `scale_is_said`: by its link, which knows the range, so the foot need not. `plan`: the
-        floor plan, always the same."""
+    def walks_on(self, plan: IndexedPlan | None) -> None:
+        """The floor plan, which is never saved: to be given to a wearer who is new or restored."""
+        for part in self.parts:
+            if hasattr(part, "plan"):
+                part.plan = plan
+
+    # --- in ---
+
+    def feed(self, sample: Sample, scale_is_said: bool) -> list[Event]:
+        """A sample of any site. `scale_is_said`: by its link, which knows the range, so the foot need not."""
         if sample.quat is not None:
             sample = with_sound_attitude(sample)
         foot = sample.site.foot
@@ -88,93 +95,144 @@ class WearerParts:
             return events
         if known is None:
             self._keep(tracker)
-        if events and isinstance(events[0], SampleRejected):
-            return events
-        did: list[Event] = self.activity.foot_moved(tracker, sample, events)
-        if events or self.turns.under_way:
-            did += self.turns.foot_moved(tracker, sample, events)
-        events += self.wear.heard(tracker, sample, events)
-        events += self.body.foot_moved(tracker, sample, events)
-        if did:
-            events += did
-        altitude = self.altitude
-        if altitude is not None:
-            if sample.air_pressure is not None:
-                altitude.breathed(tracker, sample.t, sample.air_pressure)
-            if events:
-                events = altitude.follow(events)
-        if events or self.strides.waits:
-            known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
-            events += self.strides.foot_moved(tracker, self.feet, known_at, events, self.body)
-        if plan is not None and events:
-            self._follow(plan, events)
-        if self.poses or self.pressures:
-            self._show(tracker, sample, events)
+        stride = False
+        if events:
+            if isinstance(events[0], SampleRejected):
+                return events
+            stride = any([isinstance(event, StrideTaken) for event in events])
+        t, known_at = sample.t, sample.known_at
+        known_at = t if known_at is None or known_at < t else known_at
+        view = tracker.view(sample, known_at, tuple(events), spread=stride)
+        moved = self._flow(events, view, known_at)
+        if moved is not None and self.poses and stride:
+            events.append(moved)
         if sample.pressure:
+            if self.pressures:
+                pressed = tracker.sole.pressed_by(t, known_at, sample.pressure)
+                if pressed is not None:
+                    events.append(pressed)
             tracker.sole.insole.cells = ()
         return events
 
-    def hear(self, site: Site, event: Event) -> None:
-        """What a link says, where it matters here."""
+    def receive(self, site: Site, event: Event) -> list[Event]:
+        """What a link says, and what follows from it."""
         if isinstance(event, ClockReset):
-            self._interrupt_parts(site)
+            self._reset_parts(site)
         foot = site.foot
-        if foot is None:
-            return
-        if isinstance(event, LayoutKnown):
+        if foot is not None and isinstance(event, LayoutKnown):
             tracker = self._tracker(foot)
             tracker.wear(event.layout)
-            self.wear.told(foot, event.layout)
             self._keep(tracker)
-        elif isinstance(event, ClockReset):
+            for part in self.parts:
+                part.receive(LayoutTold(site, event.layout))
+        elif foot is not None and isinstance(event, ClockReset):
             self._tracker(foot).interrupt()
+        events = [event]
+        self._flow(events, None, event.known_at)
+        return events
 
-    def interrupt(self, site: Site) -> None:
+    def unsettle(self, site: Site, until: float | None) -> None:
+        """The times of a site's samples up to `until`, s, are not to be compared with another's."""
+        self.unsettled[site] = until
+        for part in self.parts:
+            part.receive(ClockUnsettled(site, until))
+
+    def reset(self, site: Site) -> None:
         """Another device is worn there from now on."""
-        self._interrupt_parts(site)
+        self._reset_parts(site)
         if site.foot is not None and site.foot in self.feet:
             self.feet[site.foot].interrupt()
 
-    def finish(self, known_at: float) -> list[Event]:
-        """No more samples come: what was held back. `known_at`: s, now."""
-        did: list[Event] = [*self.activity.finish(known_at), *self.turns.finish(known_at)]
-        if self.altitude is not None:
-            did = self.altitude.follow(did)
-        return did + self.strides.finish(self.feet, known_at, self.body)
+    def finish(self, now: float) -> list[Event]:
+        """No more samples come: what the parts held back, which those after them hear of. `now`: s."""
+        events: list[Event] = []
+        self._flow(events, None, now, finishing=True)
+        return events
 
-    def _follow(self, plan: IndexedPlan, events: list[Event]) -> None:
-        """Where on the plan `events` lead."""
-        if any([isinstance(event, LEADS) for event in events]):
-            here = self.position
-            if here is not None:
-                events += self.place.follow(plan, events, here)
+    def _flow(
+        self, events: list[Event], view: FootView | None, known_at: float, *, finishing: bool = False
+    ) -> WearerMoved | None:
+        """Let the parts hear in their order of `view` and `events`; what they say is added. Returns where the wearer is
+        after it, if a part wanted to know."""
+        moved = None
+        for part in self.parts:
+            heard = tuple(events)
+            if heard and part.follows and moved is None and any([isinstance(event, LEADS) for event in heard]):
+                moved = self._moved(known_at)
+            if view is not None and part.feeds and (said := part.feed(view)):
+                self._take(said, events)
+            if heard and type(part).receive is not Part.receive:
+                for event in heard:
+                    if said := part.receive(event):
+                        self._take(said, events)
+            if moved is not None and part.follows:
+                self._take(part.receive(moved), events)
+            if finishing:
+                self._take(part.finish(known_at), events)
+        if moved is None and self.poses and any([isinstance(event, StrideTaken) for event in events]):
+            moved = self._moved(known_at)
+        return moved
 
-    def _show(self, tracker: FootTracker, sample: Sample, events: list[Event]) -> None:
-        """What is there to be drawn; last of all, since no part has a use for it."""
-        known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
-        if self.poses and any([isinstance(event, StrideTaken) for event in events]):
-            here = self.position
-            if here is not None:
-                t, place, covariance = here.t, here.position, here.covariance
-                events.append(WearerMoved(t=t, known_at=max(t, known_at), position=place, covariance=covariance))
-        if self.pressures and sample.pressure:
-            pressed = tracker.sole.pressed_by(sample.t, known_at, sample.pressure)
-            if pressed is not None:
-                events.append(pressed)
+    def _take(self, said: Sequence[Said], events: list[Event]) -> None:
+        """What a part said: events are added to those of the sample, corrections are applied."""
+        for one in said:
+            if isinstance(one, Shift):
+                self.feet[one.foot].shift(one.yaw, one.by)
+            elif isinstance(one, Height):
+                self.height = (one.above, one.variance)
+            elif isinstance(one, Instead):
+                events[:] = [one.by if event is one.event else event for event in events]
+            else:
+                events.append(one)
 
-    def _interrupt_parts(self, site: Site) -> None:
-        self.body.interrupt(site)
-        if self.altitude is not None:
-            self.altitude.interrupt(site)
-        self.activity.interrupt(site)
-        self.turns.interrupt(site)
-        self.strides.interrupt(site)
+    def _moved(self, known_at: float) -> WearerMoved | None:
+        here = self.position
+        if here is None:
+            return None
+        t, place, covariance = here.t, here.position, here.covariance
+        return WearerMoved(t=t, known_at=max(t, known_at), position=place, covariance=covariance)
+
+    def _limb(self, sample: Sample) -> list[Event]:
+        """A sample from above the ankle: for the parts that have a use for it."""
+        wrong = wrong_time(sample)
+        if wrong is not None:
+            return [rejected(sample, wrong, None)]
+        site, t, known_at = sample.site, sample.t, sample.known_at
+        known_at = t if known_at is None or known_at < t else known_at
+        events: list[Event] = []
+        parts = [part for part in self.parts if site in part.sites]
+        for part in parts:
+            self._take(part.feed_limb(sample), events)
+        if not parts and site not in self.unused:
+            self.unused.append(site)
+            what = f"recipe {self.recipe.name} has no use for a sensor at the {site.value}"
+            events.append(Limitation(t=t, known_at=known_at, site=site, what=what))
+        return events
+
+    def _reset_parts(self, site: Site) -> None:
+        for part in self.parts:
+            part.reset(site)
+
+    # --- out ---
 
     @property
     def position(self) -> Position | None:
-        """As the recipe's body has it, at the height that the recipe finds; None before any sample."""
-        found = self.body.position(self.feet)
-        return found if found is None or self.altitude is None else self.altitude.placed(found)
+        """As the recipe's track has it, at the height that its parts find; None before any sample."""
+        poses = {foot: pose for foot, tracker in self.feet.items() if (pose := tracker.pose) is not None}
+        track = next((part for part in self.parts if isinstance(part, Track)), None)
+        found = None if track is None else track.position(poses)
+        above, variance = self.height
+        if found is None or (above == 0.0 and variance == 0.0):
+            return found
+        x, y, z = found.position
+        xx, xy, xz, yy, yz, zz = found.covariance
+        return Position(found.t, (x, y, z + above), (xx, xy, xz, yy, yz, zz + variance))
+
+    def ask(self, name: str) -> Any:
+        """What the first part that has something of this name says of it; None where none has."""
+        return next((getattr(part, name) for part in self.parts if hasattr(part, name)), None)
+
+    # --- feet ---
 
     def _tracker(self, foot: Foot) -> FootTracker:
         """The foot's own tracker, or a new one that nobody holds yet."""
@@ -202,27 +260,13 @@ class WearerParts:
         if tracker.foot not in self.feet:
             self.feet = in_order({**self.feet, tracker.foot: tracker}, Foot)
 
-    def _limb(self, sample: Sample) -> list[Event]:
-        """A sample from above the ankle: the body's, if it has a use for it."""
-        wrong = wrong_time(sample)
-        if wrong is not None:
-            return [rejected(sample, wrong, None)]
-        if sample.site in self.body.sites:
-            return self.body.limb_moved(sample)
-        if sample.site in self.unused:
-            return []
-        self.unused.append(sample.site)
-        known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
-        what = f"recipe {self.recipe.name} has no use for a sensor at the {sample.site.value}"
-        return [Limitation(t=sample.t, known_at=known_at, site=sample.site, what=what)]
-
 
 def in_order(held: dict[_Key, _Held], keys: Iterable[_Key]) -> dict[_Key, _Held]:
     """The same in the order of the enum: what is done site by site must not depend on who was heard first."""
     return {key: held[key] for key in keys if key in held}
 
 
-def _calibrated(part: _Part, known: Calibration, *foot: Foot) -> _Part:
-    """The part with what is known that concerns it; `foot`: whose it is, none for a body's."""
+def _calibrated(part: _Calibrated, known: Calibration, foot: Foot) -> _Calibrated:
+    """The part of a foot with what is known that concerns it."""
     calibrated = getattr(part, "calibrated", None)
-    return part if calibrated is None else calibrated(*foot, known)
+    return part if calibrated is None else calibrated(foot, known)

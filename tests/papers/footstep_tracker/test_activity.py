@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from views import fed
 
 from solepath.events import ActivityChanged, LiftRidden
 from solepath.foot.navigate.error_state import ErrorStateFilter
@@ -22,7 +23,7 @@ from solepath.lab.train.footstep_activity import LabelledWindow, Taught, thresho
 from solepath.papers.footstep_tracker.activity.two_second_windows import LONGEST_RIDE, MOVING, TwoSecondWindows
 from solepath.papers.footstep_tracker.activity.window_model import FEATURES, Gaussian, WindowModel, seen, shipped
 from solepath.papers.footstep_tracker.activity.windows import BLOCKS, FootWindow, FootWindows
-from solepath.recipes import FOOTSTEP_TRACKER
+from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.saving.codec import load, save
 from solepath.show.timeline import Timeline
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample
@@ -125,7 +126,7 @@ def samples(acc, seconds, feet=tuple(Foot), rate=RATE, begin=0.0):
 
 def told(items, part=None):
     part = TwoSecondWindows() if part is None else part
-    return [event for item in items for event in part.foot_moved(FEET[item.site.foot], item, [])]
+    return [event for item in items for event in fed(part, FEET[item.site.foot], item, [])]
 
 
 def timeline(events):
@@ -335,7 +336,7 @@ def test_any_numbers_give_events_in_order_of_being_known(items):
     for dt, left, acc in items:
         t += 0.05 * dt**4 + 1e-3
         foot = Foot.LEFT if left else Foot.RIGHT
-        found += part.foot_moved(FEET[foot], Sample(t=t, site=SITE_OF_FOOT[foot], acc=acc), [])
+        found += fed(part, FEET[foot], Sample(t=t, site=SITE_OF_FOOT[foot], acc=acc), [])
     assert all(a.known_at <= b.known_at for a, b in zip(found, found[1:], strict=False))
     assert all(event.t <= event.known_at for event in found)
     json.dumps(save(part), allow_nan=False)
@@ -344,7 +345,7 @@ def test_any_numbers_give_events_in_order_of_being_known(items):
 def test_a_clock_that_begins_anew_begins_all_windows_anew():
     part = TwoSecondWindows()
     told(samples(lambda t: 0.0, 6.0, begin=100.0), part)
-    part.interrupt(SITE_OF_FOOT[Foot.LEFT])
+    part.reset(SITE_OF_FOOT[Foot.LEFT])
     assert part.activity is Activity.UNKNOWN
     (first,) = told(samples(lambda t: 0.0, 6.0), part)
     assert first.t == 0.0 and first.activity is STILL

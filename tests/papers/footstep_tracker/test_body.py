@@ -27,8 +27,9 @@ from solepath.events import Event, StrideFeatures, StrideTaken, TurnMade
 from solepath.lab.train.turns import ANGLES, emulated, read, trained, walk
 from solepath.papers.footstep_tracker.footsteps import Footsteps
 from solepath.papers.footstep_tracker.projection import Projection
+from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.papers.footstep_tracker.toe_out import learnt, toe_out
-from solepath.recipes import DEFAULT, FOOTSTEP_TRACKER, Recipe
+from solepath.recipes import DEFAULT, Recipe
 from solepath.recording import PacketWriter
 from solepath.recording.samples import load_samples
 from solepath.types import Foot, Packet, Site, Turn
@@ -222,8 +223,8 @@ def test_who_stood_for_minutes_before_turning_began_to_turn_at_the_end_of_them()
 def test_turns_of_a_clock_that_begins_anew_are_forgotten() -> None:
     turns = Turns()
     told(turns.direction, both([(0, 0), (90, 0)]))
-    turns.interrupt(Site.LEFT_FOOT)
-    turns.interrupt(Site.PELVIS)
+    turns.reset(Site.LEFT_FOOT)
+    turns.reset(Site.PELVIS)
     assert turns.direction.stood(1e6) is None
 
 

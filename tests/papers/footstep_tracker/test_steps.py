@@ -263,7 +263,7 @@ def stride(rate: float, *, lasts: float = 0.6, rests: float = 0.4, strides: int 
 
 @pytest.mark.parametrize("rate", [20.0, 60.0, 100.0, 400.0])
 def test_every_stride_is_a_segment_at_any_rate(rate: float) -> None:
-    found = [one.segment for one in feed(StaticZones(), stride(rate)) if one.segment is not None]
+    found = [one.detail for one in feed(StaticZones(), stride(rate)) if isinstance(one.detail, StepSegment)]
     times = [segment.times for segment in found if segment.times is not None]
     assert len(times) == 3
     for k, one in enumerate(times):
@@ -273,7 +273,7 @@ def test_every_stride_is_a_segment_at_any_rate(rate: float) -> None:
 
 def test_a_fast_foot_that_lies_still_for_a_tenth_of_a_second_has_static_zones() -> None:
     found = feed(StaticZones(), stride(100.0, lasts=0.55, rests=0.15, strides=5))
-    assert sum(one.segment is not None and one.segment.times is not None for one in found) == 5
+    assert sum(isinstance(one.detail, StepSegment) and one.detail.times is not None for one in found) == 5
 
 
 def test_a_foot_that_never_rests_fills_no_memory() -> None:
@@ -393,7 +393,7 @@ def test_the_cues_of_a_step_come_all_at_once_with_their_own_times() -> None:
         (Cue.CONTACT, 1.6),
         (Cue.FLAT, 1.7),
     ]
-    assert not cues.update(1.9, 0.01, ZERO, ZERO, True, 0.0, Phase.STATIONARY, None, stance._replace(segment=None))
+    assert not cues.update(1.9, 0.01, ZERO, ZERO, True, 0.0, Phase.STATIONARY, None, stance._replace(detail=None))
 
 
 def test_the_habit_of_a_straight_step_is_no_turn_and_a_corner_is() -> None:

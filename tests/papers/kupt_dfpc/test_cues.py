@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from math import inf
 
 import pytest
@@ -9,12 +10,13 @@ import pytest
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
-from solepath.foot.cues.inertial import Seen
+from solepath.foot.cues.cues import Seen
 from solepath.foot.cues.touch import Touch
 from solepath.foot.phase import PHASES, Cue
 from solepath.foot.pressure.insole import InsoleLoads
 from solepath.foot.stance.stance import Load, Stance
-from solepath.papers.kupt_dfpc.cop_cues import CopCues, StepStage
+from solepath.papers.kupt_dfpc.cop_cues import CopCues
+from solepath.papers.kupt_dfpc.stages import STAGES, CellCue, StepStage, describe
 from solepath.types import Cell, Foot, Layout, Phase, Vec3
 from solepath.types.vector import GRAVITY, ZERO
 
@@ -157,6 +159,35 @@ def test_before_any_load_is_known_the_inertial_cues_speak() -> None:
             seen.append(one.cue)
             phase = PHASES[phase][one.cue]
     assert seen == [Cue.LIFT, Cue.CLEAR]
+
+
+# --- the table of stages ----------------------------------------------------------------------------------------------
+
+
+NEAR = dict(zip(StepStage, (Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING, Phase.LOADING), strict=True))
+"""The phase that a foot is in, or will be said to have been in."""
+
+
+@pytest.mark.parametrize(("stage", "cue"), list(product(StepStage, CellCue)))
+def test_every_stage_knows_what_to_make_of_every_cue_of_the_cells(stage: StepStage, cue: CellCue) -> None:
+    after, reported = STAGES[stage][cue]
+    assert isinstance(after, StepStage)
+    assert after is not stage or set(reported) <= {Cue.CONTACT}, "what is reported goes with another stage"
+    # one after the other they end in the phase that the next stage stands for
+    phase = NEAR[stage]
+    for one in reported:
+        phase = PHASES[phase][one]
+    assert not reported or cue is CellCue.LINGERS or phase is NEAR[after]
+
+
+def test_the_table_of_stages_has_none_too_many_and_can_be_printed() -> None:
+    assert set(STAGES) == set(StepStage)
+    assert all(set(row) == set(CellCue) for row in STAGES.values())
+    head, *rows = describe().splitlines()
+    assert head.split() == ["stage", *(cue.value for cue in CellCue)]
+    assert [row.split()[0] for row in rows] == [stage.name for stage in StepStage]
+    landing = "LANDING STANDING contact flat LANDING FLYING contact clear LANDING LANDING LANDING contact"
+    assert rows[3].split() == landing.split()
 
 
 # --- insoles alone ----------------------------------------------------------------------------------------------------

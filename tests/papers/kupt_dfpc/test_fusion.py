@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from views import fed
 from walks import insoles, of
 
 from solepath import Session, recipes
@@ -237,11 +238,11 @@ def test_two_abnormal_steps_favour_neither_foot() -> None:
 def test_the_centre_of_the_foot_is_half_way_between_the_first_and_the_last_cell() -> None:
     """The paper's lie from 34 to 166 mm and it has the centre at 100 mm, wherever the insole ends."""
     insole = Layout(3, LEFT, (Cell(0.034, 0.0), Cell(0.12, 0.0), Cell(0.166, 0.0)), 0.26)
-    session = Session(recipes.BY_NAME["kupt-dfpc"], calibration=Calibration(insoles={LEFT: InsoleCalibration(insole)}))
+    session = Session(recipes.by_name("kupt-dfpc"), calibration=Calibration(insoles={LEFT: InsoleCalibration(insole)}))
     flat = Sample(0.0, Site.LEFT_FOOT, acc=(0.0, 0.0, 9.8), gyro=(0.0, 0.0, 0.0), pressure=(1.0, 2.0, 3.0))
     session.feed(flat)
     body = DoubleFoot()
-    body.foot_moved(session.feet[LEFT], flat, [step(LEFT, 2.0)])
+    fed(body, session.feet[LEFT], flat, [step(LEFT, 2.0)])
     assert body.left.latest[-1].rhythm[-1] == pytest.approx(0.1)
     assert centre_of(insole) == pytest.approx(0.1)
     assert centre_of(Layout(0, LEFT, (), 0.26)) is None
@@ -288,7 +289,7 @@ WALK = Route().stand(1.5).walk(14.0, 1.25).stop(1.5)
 @cache
 def heard(silent: bool = False) -> tuple[Session, list[Event]]:
     """A straight walk of 14 m with two insoles through the recipe; `silent`: the left one says nothing from 8 s on."""
-    session = Session(recipes.BY_NAME["kupt-dfpc"])
+    session = Session(recipes.by_name("kupt-dfpc"))
     packets = insoles(WALK).packets
     return session, session.feed([p for p in packets if not (silent and p.site is Site.LEFT_FOOT and p.t > 8.0)])
 
@@ -404,6 +405,6 @@ def test_similarity_does_not_change_with_unit_or_zero() -> None:
 
 def test_steps_of_a_clock_that_began_anew_are_compared_with_nothing() -> None:
     fused, _ = walked(step(LEFT, 2.0, 1.2))
-    fused.interrupt(Site.LEFT_FOOT)
+    fused.reset(Site.LEFT_FOOT)
     told = fused.step(step(RIGHT, 2.55, 1.4), CENTRE)
     assert (told.similarity, told.coefficient, told.stride_length) == (None, 1.0, 1.4)

@@ -39,7 +39,7 @@ def samples(seed: int, foot: Foot, rate: float) -> tuple[Sample, ...]:
 
 
 def run(recipe: str, walk: tuple[Sample, ...]) -> list[Event]:
-    session = Session(recipes.BY_NAME[recipe], calibration=LAYOUTS)
+    session = Session(recipes.by_name(recipe), calibration=LAYOUTS)
     return session.feed(walk) + session.finish()
 
 
@@ -118,7 +118,7 @@ def test_how_the_sensor_is_mounted_makes_no_difference() -> None:
 
 def test_both_feet_walk_the_same_way_at_once() -> None:
     both = sorted((s for foot in Foot for s in samples(221, foot, 30.0)), key=lambda s: s.t)
-    session = Session(recipes.BY_NAME["kupt"], calibration=LAYOUTS)
+    session = Session(recipes.by_name("kupt"), calibration=LAYOUTS)
     session.feed(both)
     ends = [hypot(*session.feet[foot].position[:2]) for foot in Foot]
     assert ends == pytest.approx([20.0, 20.0], abs=0.6)
@@ -129,7 +129,7 @@ def test_a_session_saved_in_mid_step_goes_on_to_the_same_bits(t: float) -> None:
     """In push-off, swing, landing and stance, wherever these moments fall."""
     walk = samples(222, Foot.LEFT, 100.0)
     cut = next(k for k, sample in enumerate(walk) if sample.t > t)
-    session = Session(recipes.BY_NAME["kupt"], calibration=LAYOUTS, poses=True)
+    session = Session(recipes.by_name("kupt"), calibration=LAYOUTS, poses=True)
     session.feed(walk[:cut])
     saved = json.loads(json.dumps(session.snapshot(), allow_nan=False))
     assert Session.restore(saved).feed(walk[cut:]) == session.feed(walk[cut:])
@@ -164,7 +164,7 @@ def test_when_the_clock_begins_anew_the_next_steps_are_found() -> None:
     """As when a device restarts: the same walk again, at earlier times."""
     walk = samples(221, Foot.LEFT, 100.0)
     late = [evolve(sample, t=sample.t + 1000.0) for sample in walk]
-    session = Session(recipes.BY_NAME["kupt"], calibration=LAYOUTS)
+    session = Session(recipes.by_name("kupt"), calibration=LAYOUTS)
     first = steps(session.feed(late))
     session.feet[Foot.LEFT].interrupt()
     again = steps(session.feed(walk))
@@ -176,7 +176,7 @@ def test_when_the_clock_begins_anew_the_next_steps_are_found() -> None:
 
 def test_a_session_can_be_saved_at_any_sample_of_its_first_steps() -> None:
     """Before the load is known, and as it becomes known in the first landing."""
-    session = Session(recipes.BY_NAME["kupt"], calibration=LAYOUTS)
+    session = Session(recipes.by_name("kupt"), calibration=LAYOUTS)
     for sample in samples(222, Foot.LEFT, 30.0)[:120]:
         session.feed(sample)
         json.dumps(session.snapshot(), allow_nan=False)
@@ -185,7 +185,7 @@ def test_a_session_can_be_saved_at_any_sample_of_its_first_steps() -> None:
 def test_insoles_that_say_nothing_of_their_cells_make_no_step_longer_than_the_wearers() -> None:
     """Before the order of loading has told where the cells are there are no areas, and the foot still stands."""
     walk = samples(223, Foot.RIGHT, 100.0)
-    session = Session(recipes.BY_NAME["kupt"])
+    session = Session(recipes.by_name("kupt"))
     found, true = steps(session.feed(walk) + session.finish()), walker(223).truth().steps(Foot.RIGHT)
     assert len(found) == len(true)
     assert sum(step.length for step in found) == pytest.approx(sum(step.length for step in true), abs=0.6)

@@ -10,7 +10,8 @@ from walks import of
 from solepath import Session, StrideTaken
 from solepath.calibration import Calibration
 from solepath.lab.evaluate.insoles import in_dataset
-from solepath.recipes import DEFAULT, GYROSCOPE, PRESSURE_CONTOUR, Recipe
+from solepath.papers.pressure_contour.recipe import GYROSCOPE, PRESSURE_CONTOUR
+from solepath.recipes import DEFAULT, Recipe
 from solepath.recording.samples import load_samples
 
 LONGEST = 2.0

@@ -17,8 +17,9 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import AttitudePart
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.papers.pressure_contour.bias_zupt import BiasZupt
+from solepath.papers.pressure_contour.recipe import GYROSCOPE
 from solepath.papers.pressure_contour.square import CornerMark, check, fit_square, fitted, read_marks, square_drift
-from solepath.recipes import DEFAULT, GYROSCOPE, Recipe
+from solepath.recipes import DEFAULT, Recipe
 from solepath.recording.decoded import recorded
 from solepath.types import Foot, Packet, Sample, Site, Vec3
 

@@ -22,7 +22,8 @@ from solepath.foot.pressure.insole import InsoleLoads as Cells
 from solepath.foot.stance.stance import Load
 from solepath.link.decoder import Decoder
 from solepath.papers.pressure_contour.contour_stance import ContourVelocity, GyroscopeMagnitude
-from solepath.recipes import GYROSCOPE, PRESSURE_CONTOUR, Recipe
+from solepath.papers.pressure_contour.recipe import GYROSCOPE, PRESSURE_CONTOUR
+from solepath.recipes import Recipe
 from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Layout, Phase, Sample, Site
 from solepath.types.vector import GRAVITY, ZERO

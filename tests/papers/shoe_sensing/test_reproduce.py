@@ -11,7 +11,7 @@ from solepath.lab.reproduce import shoe_sensing, shoe_walks
 from solepath.lab.reproduce.published import NORMALISED
 from solepath.lab.reproduce.published import SHOE_SENSING as PAPER
 from solepath.lab.reproduce.shoe_walks import FOOT, STATES, heard, judged, matched, route_of, tour_route, worn
-from solepath.recipes import SHOE_SENSING
+from solepath.papers.shoe_sensing.recipe import SHOE_SENSING
 
 
 def step(t: float, lasting: float = 1.0, length: float = 1.2) -> StrideTaken:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from attrs import evolve
+from views import fed
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import MPU6050
@@ -19,9 +20,9 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.events import ActivityChanged, Event, FlightClimbed, StrideTaken
 from solepath.foot.tracker import FootTracker
 from solepath.papers.shoe_sensing.gated_tilt import ShoeSensing
+from solepath.papers.shoe_sensing.recipe import SHOE_MAGNITUDE, SHOE_SENSING
 from solepath.papers.shoe_sensing.short_time_energy import ShortTimeEnergy
 from solepath.papers.shoe_sensing.walking_state import AnglePerMetre
-from solepath.recipes import SHOE_MAGNITUDE, SHOE_SENSING
 from solepath.recording.samples import load_samples
 from solepath.saving.codec import load, save
 from solepath.session import Session
@@ -114,7 +115,7 @@ def test_a_foot_that_only_fidgets_is_in_the_end_unknown() -> None:
     for sample in samples[:1200]:
         events = foot.feed(sample)
         # the steps are kept from it, as if the foot had come down where it stood
-        told += part.foot_moved(foot, sample, [event for event in events if not isinstance(event, StrideTaken)])
+        told += fed(part, foot, sample, [event for event in events if not isinstance(event, StrideTaken)])
     kinds = [event.activity for event in told if isinstance(event, ActivityChanged)]
     assert kinds == [Activity.STANDING, Activity.UNKNOWN]
 
@@ -150,11 +151,11 @@ def test_a_saved_session_goes_on_in_the_middle_of_the_stairs() -> None:
 def test_a_clock_that_begins_anew_is_told_on_the_new_one() -> None:
     part = AnglePerMetre()
     part.since, part.moved_at, part.stepped_at = 1000.0, 1000.0, 1000.0
-    part.interrupt(worn(LEVEL, 1)[0][0].site)
+    part.reset(worn(LEVEL, 1)[0][0].site)
     foot, told = FootTracker(Foot.LEFT, ShortTimeEnergy(), ShoeSensing()), []
     for sample in worn(LEVEL, 1)[0][:800]:
         if sample.site.foot is Foot.LEFT:
-            told += part.foot_moved(foot, sample, foot.feed(sample))
+            told += fed(part, foot, sample, foot.feed(sample))
     assert told[0].activity is Activity.STANDING and told[0].t < 3.0
     assert load(AnglePerMetre, save(part)) == part
 
@@ -225,7 +226,7 @@ def test_a_step_higher_than_stairs_have_is_neither_upstairs_nor_downstairs(heigh
                 evolve(one, height_change=height) if isinstance(one, StrideTaken) and one.number % 3 == 0 else one
                 for one in foot.feed(sample)
             ]
-            told += part.foot_moved(foot, sample, events)
+            told += fed(part, foot, sample, events)
     assert [what for _, what in changes(told)] == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
     assert not any(isinstance(event, FlightClimbed) for event in told)
 

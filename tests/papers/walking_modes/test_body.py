@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import of
 
+from solepath.body.part import Track
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.laps import MARK_SPEED, marked
 from solepath.emulate.routes.route import Route
@@ -21,15 +22,15 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, Limitation, TouchedDown, WalkingModeChanged
 from solepath.papers.walking_modes.compensation import TABLE_1
 from solepath.papers.walking_modes.modes import Modes
+from solepath.papers.walking_modes.recipe import WALKING_MODES
 from solepath.papers.walking_modes.touchdown import Height, NetAcceleration
-from solepath.recipes import WALKING_MODES
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 
 LAYOUTS = {SITE_OF_FOOT[foot]: layout(99, foot) for foot in Foot}
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(99, foot)) for foot in Foot})
 AROUND = Route().stand(2.0).walk(4.0, MARK_SPEED).turn(pi / 2, 2.0).walk(3.0).stop(1.0)
-III = evolve(WALKING_MODES, body=Modes())
+III = WALKING_MODES.exchanged(Track, Modes())
 
 
 @cache
@@ -45,7 +46,7 @@ def suit(route: Route = AROUND, north: float = 0.0, seed: int = 101) -> tuple[Sa
 
 @cache
 def told(heading: float | None = None, north: float = 0.0) -> list[Event]:
-    session = Session(evolve(III, body=Modes(heading=heading)), calibration=KNOWN)
+    session = Session(III.exchanged(Track, Modes(heading=heading)), calibration=KNOWN)
     return [*session.feed(suit(north=north)), *session.finish()]
 
 
@@ -79,7 +80,7 @@ def test_touchdowns_are_final_once_the_first_heading_is() -> None:
 
 @pytest.mark.parametrize("method", [Height(), NetAcceleration()])
 def test_the_other_methods_go_the_same_way_less_well(method: Height | NetAcceleration) -> None:
-    session = Session(evolve(III, body=Modes(method, heading=0.0)), calibration=KNOWN)
+    session = Session(III.exchanged(Track, Modes(method, heading=0.0)), calibration=KNOWN)
     session.feed(suit())
     position, end = session.position, walker().route.end
     assert position is not None
@@ -87,7 +88,7 @@ def test_the_other_methods_go_the_same_way_less_well(method: Height | NetAcceler
 
 
 def test_the_position_is_midway_between_the_feet_and_says_how_far_it_may_be_off() -> None:
-    session = Session(evolve(III, body=Modes(heading=0.0)), calibration=KNOWN)
+    session = Session(III.exchanged(Track, Modes(heading=0.0)), calibration=KNOWN)
     session.feed(suit())
     position, end = session.position, walker().route.end
     assert position is not None
@@ -122,7 +123,7 @@ def test_who_stands_is_told_to_stand() -> None:
 
 def test_the_compensation_of_the_mode_is_added_along_the_way() -> None:
     straight = {foot: {WalkingMode.STRAIGHT: (0.02, 0.0)} for foot in Foot}
-    session = Session(evolve(III, body=Modes(compensation=straight, heading=0.0)), calibration=KNOWN)
+    session = Session(III.exchanged(Track, Modes(compensation=straight, heading=0.0)), calibration=KNOWN)
     downs = of(TouchedDown, session.feed(suit()))
     ahead = [down for down in downs if down.mode is WalkingMode.STRAIGHT and down.t < 6.0]
     assert ahead and all(down.compensation[0] == pytest.approx(0.02, abs=0.002) for down in ahead[:-1])
@@ -163,7 +164,7 @@ def test_sensors_without_attitudes_are_taken_upright_by_gravity() -> None:
 
 
 def test_a_sensor_that_falls_silent_leaves_the_feet_to_their_own_tracks() -> None:
-    session = Session(evolve(III, body=Modes(heading=0.0)), calibration=KNOWN)
+    session = Session(III.exchanged(Track, Modes(heading=0.0)), calibration=KNOWN)
     events = session.feed([s for s in suit() if s.site is not Site.LEFT_SHANK or s.t < 5.0])
     assert len(of(TouchedDown, events)) == sum(len(strides) for strides in walker().plan.strides.values())
 

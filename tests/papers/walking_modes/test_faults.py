@@ -11,6 +11,7 @@ from attrs import evolve
 from walks import of
 
 from solepath.body.fuse.position import MeanOfFeet
+from solepath.body.part import Track
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate import faults
 from solepath.emulate.routes.route import Route
@@ -19,14 +20,14 @@ from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.sensors.suit import limb_samples
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, Limitation, SampleRejected, TouchedDown, WalkingModeChanged
-from solepath.recipes import BY_NAME, DEFAULT, Recipe
+from solepath.recipes import DEFAULT, Recipe, by_name
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(96, foot)) for foot in Foot})
 FAR = 25.0
-TRACKS = evolve(DEFAULT, body=MeanOfFeet())
+TRACKS = DEFAULT.exchanged(Track, MeanOfFeet())
 """The feet's own tracks, and their mean."""
 RECIPES = ("walking-modes", "touchdown-height", "touchdown-acceleration", "touchdown-pressure")
 
@@ -62,7 +63,7 @@ def told(
     recipe: str | Recipe, samples: Sequence[Sample], known: Calibration = KNOWN
 ) -> tuple[tuple[float, float], list[Event]]:
     """Where the walk ends, x and y, and what was said."""
-    session = Session(BY_NAME[recipe] if isinstance(recipe, str) else recipe, calibration=known)
+    session = Session(by_name(recipe) if isinstance(recipe, str) else recipe, calibration=known)
     events = [*session.feed(samples), *session.finish()]
     assert session.position is not None
     x, y, _ = session.position.position

@@ -15,14 +15,15 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from math import floor
-from typing import Final, Protocol
+from typing import ClassVar, Final
 
 from attrs import define, field
 
 from ...events import ActivityChanged, Event, LiftRidden, StrideFeatures, StrideTaken
-from ...foot.tracker import FootTracker
-from ...types import Activity, Foot, Sample, Site
+from ...foot.view import FootView
+from ...types import Activity, Foot, Site
 from ...types.vector import TIE, ZERO
+from ..part import Doing, Said
 from .air import NOTHING, PressureHeight
 from .features import BLOCK, REACH, FootWindow
 from .flights import Flights
@@ -48,29 +49,11 @@ AFOOT = {Activity.STAIRS_UP: 1, Activity.STAIRS_DOWN: -1}
 RIDDEN = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
 
 
-class ActivityPart(Protocol):
-    """Samples and steps of both feet in, what the wearer does out. A plain record, as every machine is.
-
-    A part with a method `calibrated(calibration) -> Self` is replaced by what that returns before it is used.
-    """
-
-    @property
-    def activity(self) -> Activity:
-        """The newest that it told, final or not; UNKNOWN before any."""
-
-    def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
-        """A foot has used `sample` (a barometer's too), and `events` are what came of it; returns what follows."""
-
-    def interrupt(self, site: Site) -> None:
-        """The clock of the samples of a site begins anew."""
-
-    def finish(self, known_at: float) -> list[Event]:
-        """Nothing more comes: whatever was held back comes out. `known_at`: s, now."""
-
-
 @define
-class Activities:
+class Activities(Doing):
     """`model`: what was learnt of moving feet; None: what comes with this release."""
+
+    feeds: ClassVar[bool] = True
 
     model: MotionModel | None = None
     # state
@@ -92,8 +75,8 @@ class Activities:
     steps: deque[StrideTaken] = field(factory=deque, init=False)
     """Steps whose activity is not known yet, without their features."""
 
-    def interrupt(self, site: Site) -> None:
-        """The clock of the samples of a site begins anew: what is under way there is forgotten."""
+    def reset(self, site: Site) -> None:
+        """The clock of the samples of a site restarts: what is under way there is forgotten."""
         if site.foot is None:
             return
         (self.left if site.foot is LEFT else self.right).anew()
@@ -102,34 +85,35 @@ class Activities:
         if self.left.index is None and self.right.index is None:
             self._anew()
 
-    def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
-        """A foot has used `sample`, and `events` are what came of it."""
+    def feed(self, view: FootView) -> Sequence[Said]:
+        """A sample of a foot, a barometer's too, and what came of it."""
+        sample = view.sample
         acc, t, origin = sample.acc, sample.t, self.origin
-        side = self.left if foot.foot is LEFT else self.right
+        side = self.left if view.foot is LEFT else self.right
         if origin is None:
             if acc is None:
-                return []
+                return ()
             self.origin = origin = t
         since = (t - origin + TIE) / BLOCK
-        told: list[Event] = []
+        told: Sequence[Said] = ()
         if sample.air_pressure is not None and side.index is not None:
-            self.air.add(foot.foot, floor(since), sample.air_pressure)
+            self.air.add(view.foot, floor(since), sample.air_pressure)
         if acc is not None:
             if side.index is None or since >= side.index + 1:
                 side.close()
-                side.begin(floor(since), foot)
-                told = self._judge(sample)
-            side.add(acc, sample.gyro, foot.corrector if foot.levelled else None)
-        if events:
-            side.heard(events, foot.corrector.position[2])
-            for event in events:
+                side.begin(floor(since), view.gyro_bias, view.acc_grain)
+                told = self._judge(t, view.known_at)
+            side.add(acc, sample.gyro, view if view.levelled else None)
+        if view.events:
+            side.heard(view.events, view.position[2])
+            for event in view.events:
                 if isinstance(event, StrideTaken):
                     self.steps.append(_slimmed(event, event.known_at))
                     if len(self.steps) > WAITING:
                         self.steps.popleft()
         return told
 
-    def finish(self, known_at: float) -> list[Event]:
+    def finish(self, now: float) -> Sequence[Said]:
         """Nothing more comes: what was told so far is final, and so is what is said of the last second."""
         told: list[Event] = []
         sides = [side for side in (self.left, self.right) if side.index is not None]
@@ -139,19 +123,18 @@ class Activities:
         while self.next <= last and last - self.next < PATIENT:
             self._judge_block(self.next)
             self.next += 1
-        self._tell(known_at, told, True)
+        self._tell(now, told, True)
         return told
 
     # --- blocks ---
 
-    def _judge(self, sample: Sample) -> list[Event]:
+    def _judge(self, t: float, known_at: float) -> list[Event]:
         """Judge the blocks that are complete in all feet that are heard."""
         heard = [side.index for side in (self.left, self.right) if side.index is not None]
         newest = max(heard)
         complete = min([index for index in heard if newest - index < SILENT]) - 1 - REACH
         if complete < self.next:
             return []
-        known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
         told: list[Event] = []
         quiet = 0
         while self.next <= complete:
@@ -160,7 +143,7 @@ class Activities:
             if quiet > PATIENT:
                 self.next = max(self.next, complete - REACH)
         self._tell(known_at, told)
-        self._count_flights(sample.t, known_at, told)
+        self._count_flights(t, known_at, told)
         return told
 
     def _judge_block(self, index: int) -> bool:

@@ -7,13 +7,13 @@ number, so little depends on the rate. Accelerometers clip at anything from 2 g:
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 from math import log, sqrt
 from typing import Protocol
 
 from attrs import define, field
 
 from ...events import Event, FootFlat, HeelStrike, StrideTaken
-from ...foot.tracker import FootTracker
 from ...types import Vec3
 from ...types.vector import ZERO
 from .block import ActivityBlock, BlockStride
@@ -48,8 +48,10 @@ COUNT = STEP + 11
 class FootTrack(Protocol):
     """Where a foot is: position in m and velocity in m/s, z up."""
 
-    position: Vec3
-    velocity: Vec3
+    @property
+    def position(self) -> Vec3: ...
+    @property
+    def velocity(self) -> Vec3: ...
 
 
 @define
@@ -82,14 +84,15 @@ class FootWindow:
     """The newest, at most `KEPT`, oldest first."""
     steps: deque[BlockStride] = field(factory=deque)
 
-    def begin(self, index: int, foot: FootTracker) -> None:
-        """A block begins."""
+    def begin(self, index: int, bias: Vec3, grain: float) -> None:
+        """A block begins. `bias`: of the gyroscope, rad/s; `grain`: what a count of the accelerometer is worth, m/s^2,
+        0 when nobody knows."""
         self.index = index
         self.force = self.squares = self.rate_squares = 0.0
         self.acc_bins = [0] * BINS
         self.gyro_bins = [0] * BINS
-        self.bias = foot.rest.bias
-        self.grain = foot.rest.grain if foot.rest.count else 0.0
+        self.bias = bias
+        self.grain = grain
         self.tracked = False
         self.climb = self.sink = self.speed = 0.0
 
@@ -128,7 +131,7 @@ class FootWindow:
         elif z < self.bottom:
             self.bottom = z
 
-    def heard(self, events: list[Event], height: float) -> None:
+    def heard(self, events: Sequence[Event], height: float) -> None:
         """What came of the sample, and how high the foot is, m."""
         for event in events:
             if isinstance(event, StrideTaken):

@@ -78,7 +78,7 @@ class Agreement:
     @property
     def lost(self) -> bool:
         """The feet have gone so far that nothing is known."""
-        return not all([self.covariance[k][k] < LARGEST for k in range(COUNT)])
+        return any([not row[k] < LARGEST for k, row in enumerate(self.covariance)])
 
     def beside(self, foot: int, place: float, heading: float) -> None:
         """Foot 0 or 1 was set beside the other, to `place` m and `heading` rad: but for that their errors are the same.
@@ -153,11 +153,20 @@ class Agreement:
         """How the feet stand to each other: `z`, of this variance, is the sum of the terms. Returns what to add to
         every state; None when the square of z is more than `limit` times what is likely."""
         p = self.covariance
-        ph = [sum([row[one] * k for one, k in terms]) for row in p]
-        s = variance + sum([ph[one] * k for one, k in terms])
+        ph, gains, found = [0.0] * COUNT, [0.0] * COUNT, [0.0] * COUNT
+        for j, row in enumerate(p):
+            total = 0.0
+            for one, k in terms:
+                total += row[one] * k
+            ph[j] = total
+        total = 0.0
+        for one, k in terms:
+            total += ph[one] * k
+        s = variance + total
         if not z * z <= limit * s:
             return None
-        gains = [one / s for one in ph]
+        for j, one_of in enumerate(ph):
+            gains[j] = one_of / s
         for left in range(STATES):
             right = left + STATES
             own, others = p[left][left] - p[left][right], p[right][right] - p[left][right]
@@ -166,7 +175,8 @@ class Agreement:
                 share = min(1.0, max(0.0, own / (own + others)))
                 gains[left], gains[right] = share * between, (share - 1.0) * between
         self._joseph(gains, ph, s)
-        found = [gain * z for gain in gains]
+        for j, gain in enumerate(gains):
+            found[j] = gain * z
         self.rates[0] += found[RATE]
         self.rates[1] += found[RATE + STATES]
         return found

@@ -7,7 +7,7 @@ m long lies L turn / 8 inside the way. Feet that are further apart than legs spr
 
 In the first metres this places the two tracks beside one another, whatever way the first steps led (facing.py), and
 changes neither. From then on what is found is handed back to the feet, each at its own foot-flat
-(foot/navigate/shifted.py): both hold the heading that they agree on, live and in their later steps. A step that was
+(`Shift`): both hold the heading that they agree on, live and in their later steps. A step that was
 taken stays as it was told.
 
 With the feet held together their mean does not shrink as they drift apart, and neither is better than the other: each
@@ -16,21 +16,20 @@ has been given its share by how unsure it was. A foot that falls silent and come
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import atan2, cos, hypot, sin
 
 from attrs import define, field
 
-from ...events import Event, StrideTaken
-from ...foot.navigate.error_state import ErrorStateFilter
-from ...foot.navigate.shifted import shift
-from ...foot.tracker import FootTracker
-from ...types import Foot, Sample, Site, Vec3
+from ...events import StrideTaken
+from ...foot.view import FootPose, FootView
+from ...types import Foot, Site, Vec3
 from ...types.vector import ZERO, sub
+from ..part import Position, Said, Shift
 from .agreement import HEADING, RATE, STATES, WIDTH, Agreement, Term, X, Y
 from .corridor import Corridor
 from .facing import Askew, Facing, FacingStride, lay_alongside
-from .position import MeanOfFeet, Position
+from .position import MeanOfFeet
 
 FARTHEST = 1e6
 """Tracks that lead further than this, m, or strides whose variance is more (m^2), are no walk."""
@@ -48,8 +47,8 @@ class BothFeet(MeanOfFeet):
 
     Latency: none; what a step says of the other foot is known with it, and the other's track follows at its own next
     foot-flat, its place in `position` at once. `straight_corridors` believes that who seems to walk straight does
-    (corridor.py). `feedback`: hand corrections back to the feet. Correctors other than the error-state filter keep
-    their tracks.
+    (corridor.py). `feedback`: hand corrections back to the feet. A foot whose corrector cannot be shifted keeps
+    its track.
     """
 
     straight_corridors: bool = field(default=False, kw_only=True)
@@ -94,34 +93,33 @@ class BothFeet(MeanOfFeet):
     bases: list[tuple[float, Vec3]] = field(factory=lambda: [(0.0, ZERO), (0.0, ZERO)], init=False)
     """Turn and offset at which the tracks were placed; what has come since is the feet's own to take."""
 
-    def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
+    def feed(self, view: FootView) -> Sequence[Said]:
         """As for `MeanOfFeet`; at a step, what it says of both."""
         waited = self.left.waits or self.right.waits
-        MeanOfFeet.foot_moved(self, foot, sample, events)
+        MeanOfFeet.feed(self, view)
         if not self.met:
             if self.left.t is None or self.right.t is None:
-                return []
+                return ()
             self._meet()
-        if not events:
-            return []
-        if self.left.waits or self.right.waits:
-            return []
+        if not view.events or self.left.waits or self.right.waits:
+            return ()
         if waited:
             self.agreement.beside(0 if self.newest is Foot.LEFT else 1, *BESIDE)
             self._placed_anew()
-        for event in events:
+        said: list[Said] = []
+        for event in view.events:
             if isinstance(event, StrideTaken):
-                self._stride(foot, event)
-        return []
+                said += self._stride(event, view.takes_shifts)
+        return said
 
-    def interrupt(self, site: Site) -> None:
+    def reset(self, site: Site) -> None:
         """As for `MeanOfFeet`."""
-        MeanOfFeet.interrupt(self, site)
+        MeanOfFeet.reset(self, site)
         if site.foot is not None:
             self.strides[0 if site.foot is Foot.LEFT else 1] = None
             self.corridor.interrupt()
 
-    def position(self, feet: Mapping[Foot, FootTracker]) -> Position | None:
+    def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
         """None before any sample. Of two feet the covariance is that of their mean at the newest step."""
         found = MeanOfFeet.position(self, feet)
         left, right = self.left, self.right
@@ -146,13 +144,13 @@ class BothFeet(MeanOfFeet):
     def _placed_anew(self) -> None:
         self.bases = [(placed.turn, placed.offset) for placed in (self.left, self.right)]
 
-    def _stride(self, foot: FootTracker, taken: StrideTaken) -> None:
+    def _stride(self, taken: StrideTaken, takes_shifts: bool) -> Sequence[Said]:
         index = 0 if taken.foot is Foot.LEFT else 1
         this = self.left if index == 0 else self.right
         numbers = (*taken.position, *taken.displacement, *taken.covariance)
         if not all([abs(v) < FARTHEST for v in numbers]) or self.agreement.lost:
             self._give_up()
-            return
+            return ()
         own = taken.position
         c, s = cos(this.turn), sin(this.turn)
         x, y, _ = taken.displacement
@@ -184,7 +182,7 @@ class BothFeet(MeanOfFeet):
             if self.straight_corridors:
                 x, y, z = this.place(own)
                 self._hold(index, taken, (x - dx, y - dy, z), (x, y, z))
-        self._hand_back(index, foot)
+        return self._hand_back(index, taken.foot, takes_shifts)
 
     def _lined_up(self, index: int, taken: StrideTaken) -> bool:
         """Whether the tracks of both feet had to be laid beside one another anew, within the first metres."""
@@ -280,20 +278,23 @@ class BothFeet(MeanOfFeet):
         self._take(found)
         self.agreement.turned_alike(rate, self.corridor.drift[2])
 
-    def _hand_back(self, index: int, foot: FootTracker) -> None:
-        """The foot takes what was found since the tracks were placed."""
+    def _hand_back(self, index: int, foot: Foot, takes_shifts: bool) -> Sequence[Said]:
+        """The foot is to take what was found since the tracks were placed."""
         this = self.left if index == 0 else self.right
         stride = self.strides[index]
         if stride is None:
-            return
+            return ()
         if self.way < self.settles:
             self.bases[index] = (this.turn, this.offset)
-        elif self.feedback and isinstance(foot.corrector, ErrorStateFilter):
+        elif self.feedback and takes_shifts:
             place, yaw = this.place(stride.end), this.turn
             this.turn, this.offset = self.bases[index]
             own = this.undone(place)
-            shift(foot.gait, foot.corrector, yaw - this.turn, sub(own, stride.end))
-            stride.end, this.here = own, foot.position
+            by = sub(own, stride.end)
+            (x, y, z), (dx, dy, dz) = this.here, by
+            stride.end, this.here = own, (x + dx, y + dy, z + dz)
+            return [Shift(foot, yaw - this.turn, by)]
+        return ()
 
     def _give_up(self) -> None:
         """Of how the tracks lie to one another nothing is known that would be of use."""

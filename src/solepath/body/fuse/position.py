@@ -9,17 +9,16 @@ as well. Without absence nothing is turned or set.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import atan2, cos, hypot, sin
-from typing import Final
+from typing import ClassVar, Final
 
-from attrs import define, field, frozen
+from attrs import define, field
 
-from ...events import Event, StrideTaken
-from ...foot.tracker import FootTracker
-from ...foot.world import Covariance3
-from ...types import Foot, Sample, Site, Vec3
+from ...foot.view import FootPose, FootView
+from ...types import Foot, Site, Vec3
 from ...types.vector import ZERO, sub
+from ..part import Position, Said, Track
 
 LEFT: Final = Foot.LEFT
 """Looked up once: a word of an enum costs as much as five multiplications."""
@@ -30,15 +29,6 @@ STRIDES = 3
 """So many strides of both feet say how a foot that came back stands to the other."""
 LEAST_WAY = 1.0
 """and must lead this far, m."""
-
-
-@frozen
-class Position:
-    """Where the wearer is: world frame, m, with covariance xx, xy, xz, yy, yz, zz in m^2, at `t` s."""
-
-    t: float
-    position: Vec3
-    covariance: Covariance3
 
 
 @define
@@ -72,7 +62,10 @@ class PlacedTrack:
 
     def place(self, own: Vec3) -> Vec3:
         """A place on its own track, among both feet, m."""
-        x, y, z = _turned(own, self.turn) if self.turn else own
+        x, y, z = own
+        if self.turn:
+            c, s = cos(self.turn), sin(self.turn)
+            x, y = c * x - s * y, s * x + c * y
         dx, dy, dz = self.offset
         return (x + dx, y + dy, z + dz)
 
@@ -90,12 +83,14 @@ class PlacedTrack:
 
 
 @define
-class MeanOfFeet:
+class MeanOfFeet(Track):
     """The mean of the feet that are heard, each in the world frame of its own first heading.
 
     Of feet that were set beside one another the covariance is that of the one which was heard all along: the errors
     that they had by then are the same.
     """
+
+    feeds: ClassVar[bool] = True
 
     # state
     left: PlacedTrack = field(factory=PlacedTrack, init=False)
@@ -106,16 +101,11 @@ class MeanOfFeet:
     """While a foot waits, after the newest steps of both: whether the left one took it, where the waiting foot's own
     track has it, and where the other is."""
 
-    @property
-    def sites(self) -> tuple[Site, ...]:
-        """None: it takes feet only."""
-        return ()
-
-    def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
+    def feed(self, view: FootView) -> Sequence[Said]:
         """Nothing follows, but it is seen who is absent and who has come back."""
-        if sample.acc is None or sample.gyro is None:
-            return []
-        t, is_left = sample.t, foot.foot is LEFT
+        t, is_left = view.t, view.foot is LEFT
+        if view.sample.acc is None or view.sample.gyro is None:
+            return ()
         this, other = (self.left, self.right) if is_left else (self.right, self.left)
         back = False
         if this.t is None:
@@ -126,29 +116,25 @@ class MeanOfFeet:
             back = this.absent
         elif t > this.t and other.t is not None:
             other.alone += t - this.t
-        this.t, this.alone, this.here = t, 0.0, foot.gait.world.vector(foot.corrector.position)
+        this.t, this.alone, this.here = t, 0.0, view.world(view.position)
         if back:
             self._came_back(this, other)
-        if events and any([isinstance(event, StrideTaken) for event in events]):
-            xx, _, _, yy, _, zz = foot.covariance
+        if view.covariance is not None:  # there was a stride
+            xx, _, _, yy, _, zz = view.covariance
             this.variance = (0.5 * (xx + yy), zz)
             if other.t is not None and not other.absent:
                 self._stepped(is_left, this)
-        return []
+        return ()
 
-    def limb_moved(self, sample: Sample) -> list[Event]:
-        """Never called: it has no such sites."""
-        return []
-
-    def interrupt(self, site: Site) -> None:
-        """Times of the foot begin anew, and it is as if it were heard for the first time."""
+    def reset(self, site: Site) -> None:
+        """Times of the foot restart, and it is as if it were heard for the first time."""
         if site.foot is not None:
             placed = self._placed(site.foot)
             placed.t, placed.alone = None, 0.0
 
-    def position(self, feet: Mapping[Foot, FootTracker]) -> Position | None:
+    def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
         """None before any sample."""
-        known = [foot for foot in feet.values() if foot.t is not None]
+        known = list(feet.values())
         if not known:
             return None
         heard = self._heard(known)
@@ -166,12 +152,12 @@ class MeanOfFeet:
         if len(heard) == 1:
             across, up = self._placed(heard[0].foot).spread
             xx, yy, zz = xx + across, yy + across, zz + up
-        t = max([foot.t for foot in known if foot.t is not None])
+        t = max([foot.t for foot in known])
         return Position(t, (x, y, z), (xx, xy, xz, yy, yz, zz))
 
     # --- who is there ---
 
-    def _heard(self, known: list[FootTracker]) -> list[FootTracker]:
+    def _heard(self, known: list[FootPose]) -> list[FootPose]:
         """Of two feet those that have a track, are not absent and do not wait; never none."""
         moving = [foot for foot in known if foot.moved_at is not None]
         if len(moving) < 2:
@@ -188,7 +174,7 @@ class MeanOfFeet:
     def _placed(self, foot: Foot) -> PlacedTrack:
         return self.left if foot is LEFT else self.right
 
-    def _place(self, foot: FootTracker) -> Vec3:
+    def _place(self, foot: FootPose) -> Vec3:
         return self._placed(foot.foot).place(foot.position)
 
     def _lean(self, foot: Foot) -> Vec3:

@@ -5,13 +5,15 @@ Latency: as GaitCycleMeasured has it. Costs nothing on a sample of which no even
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
+from typing import ClassVar
 
 from attrs import define, field
 
-from ...events import Event, FootFlat, HeelOff, HeelStrike, SampleGap, StrideTaken, ToeOff
-from ...foot.tracker import FootTracker
+from ...events import FootFlat, HeelOff, HeelStrike, SampleGap, StrideTaken, ToeOff
+from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
+from ..part import ClockUnsettled, Notice, Part, Said
 from .footfalls import Footfalls
 from .means import GaitMeans, GaitParameters
 from .measuring import OTHER, measured
@@ -21,31 +23,50 @@ PATIENCE = 0.5
 
 
 @define
-class Strides:
+class Followed:
+    """How far the samples of one foot have come."""
+
+    t: float | None = None
+    """The newest sample, s; None before any."""
+    tracked: bool = False
+    """The foot has a track."""
+
+
+@define
+class GaitCycles(Part):
     """Events of both feet in, GaitCycleMeasured out; what it adds up is in `means`."""
+
+    feeds: ClassVar[bool] = True
 
     # state
     left: Footfalls = field(factory=Footfalls, init=False)
     right: Footfalls = field(factory=Footfalls, init=False)
+    left_followed: Followed = field(factory=Followed, init=False)
+    right_followed: Followed = field(factory=Followed, init=False)
     means: GaitMeans = field(factory=GaitMeans, init=False)
     waits: bool = field(default=False, init=False)
     """A cycle waits for samples of the other foot."""
-    left_doubt: float | None = field(default=None, init=False)
-    right_doubt: float | None = field(default=None, init=False)
-    """Up to which time of a foot's samples its clock cannot be compared with the other's, s; None without any doubt."""
+    left_unsettled: float | None = field(default=None, init=False)
+    right_unsettled: float | None = field(default=None, init=False)
+    """Up to which time of a foot's samples its clock cannot be compared with the other's, s; None where it can."""
 
     @property
     def parameters(self) -> GaitParameters | None:
         """The running means of walking or running, whichever the newest steady stride was; None before any."""
         return self.means.parameters
 
-    def foot_moved(
-        self, foot: FootTracker, feet: Mapping[Foot, FootTracker], known_at: float, events: list[Event], body: object
-    ) -> list[Event]:
-        """`events` are what came of a sample of `foot`, known at `known_at`, s. `feet`: all that were heard; `body`: of
-        the recipe."""
-        this = self._falls(foot.foot)
-        for event in events:
+    def feed(self, view: FootView) -> Sequence[Said]:
+        """A sample of a foot, and what came of it."""
+        is_left = view.foot is Foot.LEFT
+        followed = self.left_followed if is_left else self.right_followed
+        t = view.t
+        if followed.t is None or t > followed.t:
+            followed.t = t
+        if not view.events and not self.waits:
+            return ()
+        followed.tracked = view.levelled
+        this = self.left if is_left else self.right
+        for event in view.events:
             if isinstance(event, HeelStrike):
                 this.landed(event.t, event.inferred)
             elif isinstance(event, FootFlat):
@@ -60,79 +81,78 @@ class Strides:
                 this.lifted(event.t, event.inferred)
             elif isinstance(event, StrideTaken):
                 this.stepped(event)
-            elif isinstance(event, SampleGap) and event.site is SITE_OF_FOOT[foot.foot]:
+            elif isinstance(event, SampleGap) and event.site is SITE_OF_FOOT[view.foot]:
                 this.lost(event.t, event.duration)
         if this.ended is not None and this.ended.flat:
             this.settle()
-        return self._release(feet, known_at, body)
+        return self._release(view.known_at)
 
-    def finish(self, feet: Mapping[Foot, FootTracker], known_at: float, body: object) -> list[Event]:
-        """No more samples come: what waited. `known_at`: s, now."""
+    def finish(self, now: float) -> Sequence[Said]:
+        """No more samples come: what waited."""
         for falls in (self.left, self.right):
             falls.settle()
         self.waits = False
         counts = [(foot, len(self._falls(foot).waiting)) for foot in Foot]
-        return [event for foot, count in counts for event in self._measured(foot, feet, known_at, body, count)]
+        return [event for foot, count in counts for event in self._measured(foot, now, count)]
 
-    def doubted(self, site: Site, until: float | None) -> None:
-        """The times of a site's samples up to `until`, s, are not to be compared with the other foot's."""
-        if site.foot is Foot.LEFT:
-            self.left_doubt = until
-        elif site.foot is Foot.RIGHT:
-            self.right_doubt = until
+    def receive(self, event: Notice) -> Sequence[Said]:
+        """Whether the times of a site's samples can be compared with the other foot's."""
+        if isinstance(event, ClockUnsettled):
+            if event.site.foot is Foot.LEFT:
+                self.left_unsettled = event.until
+            elif event.site.foot is Foot.RIGHT:
+                self.right_unsettled = event.until
+        return ()
 
-    def interrupt(self, site: Site) -> None:
-        """The clock of a site's samples begins anew: what is under way there has no length, and the other foot's times
+    def reset(self, site: Site) -> None:
+        """The clock of a site's samples restarts: what is under way there has no length, and the other foot's times
         cannot be compared with it any more."""
         if site.foot is not None:
             self.means.interrupt(site.foot)
             count = self._falls(site.foot).count
             if site.foot is Foot.LEFT:
-                self.left = Footfalls(count=count)
+                self.left, self.left_followed.t = Footfalls(count=count), None
             else:
-                self.right = Footfalls(count=count)
-
-    @property
-    def _doubts(self) -> tuple[float | None, float | None]:
-        return self.left_doubt, self.right_doubt
+                self.right, self.right_followed.t = Footfalls(count=count), None
 
     def _falls(self, foot: Foot) -> Footfalls:
         return self.left if foot is Foot.LEFT else self.right
 
-    def _release(self, feet: Mapping[Foot, FootTracker], known_at: float, body: object) -> list[Event]:
+    def _followed(self, foot: Foot) -> Followed:
+        return self.left_followed if foot is Foot.LEFT else self.right_followed
+
+    def _release(self, known_at: float) -> Sequence[Said]:
         """The strides whose time both feet are past, or that waited long enough."""
         if not self.left.waiting and not self.right.waiting:
             self.waits = False
-            return []
-        told: list[Event] = []
+            return ()
+        said: list[Said] = []
         for foot in Foot:
-            own, other = feet.get(foot), feet.get(OTHER[foot])
+            own, other = self._followed(foot).t, self._followed(OTHER[foot]).t
             waiting = self._falls(foot).waiting
             ready = 0
             for cycle in waiting:
-                past = other is None or other.t is None or other.t >= cycle.end
-                tired = own is None or own.t is None or own.t - cycle.end >= PATIENCE
+                past = other is None or other >= cycle.end
+                tired = own is None or own - cycle.end >= PATIENCE
                 if not past and not tired:
                     break
                 ready += 1
             if ready:
-                told += self._measured(foot, feet, known_at, body, ready)
+                said += self._measured(foot, known_at, ready)
         self.waits = bool(self.left.waiting or self.right.waiting)
-        return told
+        return said
 
-    def _measured(
-        self, foot: Foot, feet: Mapping[Foot, FootTracker], known_at: float, body: object, count: int
-    ) -> list[Event]:
+    def _measured(self, foot: Foot, known_at: float, count: int) -> list[Said]:
         """The first `count` of the cycles that wait."""
         falls, other = self._falls(foot), self._falls(OTHER[foot])
         cycles, falls.waiting = falls.waiting[:count], falls.waiting[count:]
-        tracked = foot in feet and feet[foot].levelled
-        told: list[Event] = []
+        tracked, unsettled = self._followed(foot).tracked, (self.left_unsettled, self.right_unsettled)
+        said: list[Said] = []
         for cycle in cycles:
             falls.count += 1
-            compared = not any([doubt is not None and doubt > cycle.start for doubt in self._doubts])
+            compared = not any([until is not None and until > cycle.start for until in unsettled])
             before = self.means.newest(foot)
-            stride = measured(foot, falls.count, cycle, before, other, tracked, compared, known_at, body)
+            stride = measured(foot, falls.count, cycle, before, other, tracked, compared, known_at)
             self.means.hear(stride)
-            told.append(stride)
-        return told
+            said.append(stride)
+        return said

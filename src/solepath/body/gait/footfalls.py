@@ -9,7 +9,6 @@ from __future__ import annotations
 from attrs import define, field
 
 from ...events import StrideTaken
-from ...types import Vec3
 
 STANDS = 2.0
 """Longer is no stance of a stride, and no swing, s."""
@@ -20,7 +19,7 @@ GAP = 0.1
 FOUND = 0.05
 """Within so long after a gap a foot is found to be on the ground or off it, s, which is no event of that time."""
 KEPT = 4
-"""Newest contacts, toe-offs and places of a foot that are remembered for the other's strides."""
+"""Newest contacts and toe-offs of a foot that are remembered for the other's strides."""
 
 
 @define
@@ -62,8 +61,6 @@ class Footfalls:
     silent_from: float | None = None
     heard_from: float | None = None
     """The newest gap longer than GAP, s: of what the foot did meanwhile only is known that it had done it then."""
-    places: list[tuple[float, Vec3]] = field(factory=list)
-    """Contact (s) and place (own track, m) of the newest steps."""
 
     def landed(self, t: float, inferred: bool) -> None:
         """The foot touched the ground at `t`, s."""
@@ -107,7 +104,6 @@ class Footfalls:
     def stepped(self, step: StrideTaken) -> None:
         """The foot is flat after a step."""
         contact = step.t_end if step.t_heel_strike is None else step.t_heel_strike
-        self.places = [*self.places[1 - KEPT :], (contact, step.position)]
         cycle = self.ended
         # a runner's foot may go through several cycles without being flat: then nobody knows which way was whose
         if cycle is not None and cycle.end == contact and cycle.toe_off == step.t_toe_off:

@@ -15,12 +15,8 @@ It is counted once the next stride of the foot follows, so that the last one bef
 
 from __future__ import annotations
 
-from math import hypot
-from typing import Protocol
-
-from ...events import GaitCycleMeasured, StrideTaken
-from ...types import Foot, Vec3
-from ...types.vector import sub
+from ...events import GaitCycleMeasured
+from ...types import Foot
 from .footfalls import Footfalls, PendingCycle
 
 ALIKE = 1.5
@@ -31,18 +27,7 @@ CLIMBS = 0.15
 """A ramp for wheelchairs climbs 1 in 12, stairs 1 in 2."""
 ABSURD = 1e4
 """No figure of a stride is as large, m, rad: it is none."""
-LEAST_WAY = 0.2
-"""A shorter stride has no direction to measure a step along, m."""
 OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
-
-
-class Shared(Protocol):
-    """A body that measures where one foot is from the other has this method; the Body protocol does not ask for it. One
-    that supposes that a foot lands half-way along the other's stride must not: all steps would be as long."""
-
-    def common(self, foot: Foot, place: Vec3) -> Vec3 | None:
-        """A place on a foot's own track (StrideTaken.position), m, in a frame that both feet share, z up; None while
-        they share none."""
 
 
 def measured(
@@ -54,10 +39,9 @@ def measured(
     tracked: bool,
     compared: bool,
     known_at: float,
-    body: object,
 ) -> GaitCycleMeasured:
     """A cycle of `foot` in numbers. `before`: the foot's newest stride; `other`: the other foot; `tracked`: the foot
-    has a track; `compared`: the feet's clocks can be, over the whole cycle; `body`: of the recipe."""
+    has a track; `compared`: the feet's clocks can be, over the whole cycle."""
     start, toe_off, end, step = cycle.start, cycle.toe_off, cycle.end, cycle.step
     time = end - start
     between = [t for t in other.contacts if start < t < end]
@@ -67,7 +51,6 @@ def measured(
         earlier = [t for t in other.toe_offs if start - 0.5 * time < t < struck]
         cleared = earlier[-1] if earlier else None
     length = None if step is None else _sound(step.length)
-    along, across = (None, None) if step is None or struck is None else placed(foot, step, other, struck, body)
     contact = struck if compared else None
     cleared = cleared if compared else None
     return GaitCycleMeasured(
@@ -88,8 +71,8 @@ def measured(
         phase=None if contact is None else (contact - start) / time,
         stride_length=length,
         speed=None if length is None else length / time,
-        step_length=along,
-        step_width=across,
+        step_length=None,
+        step_width=None,
         # a height that was corrected at the foot-flat may be above all that the swing was seen to reach
         clearance=None if step is None else _sound(max(0.0, step.features.clearance)),
         toe_off_angle=None if step is None else _sound(step.features.toe_off_angle),
@@ -117,28 +100,6 @@ def is_steady(cycle: PendingCycle, time: float, before: GaitCycleMeasured | None
 
 def _alike(one: float, other: float) -> bool:
     return one < ALIKE * other and other < ALIKE * one
-
-
-def placed(
-    foot: Foot, step: StrideTaken, other: Footfalls, struck: float, body: object
-) -> tuple[float | None, float | None]:
-    """Step length and step width, m: how the place where the other foot came down at `struck`, s, lies to the line of
-    the step."""
-    stood = [place for contact, place in other.places if contact == struck]
-    if not stood or not hasattr(body, "common"):  # isinstance of a protocol takes 20 us
-        return None, None
-    shared: Shared = body
-    begin = shared.common(foot, sub(step.position, step.displacement))
-    end, beside = shared.common(foot, step.position), shared.common(OTHER[foot], stood[-1])
-    if begin is None or end is None or beside is None:
-        return None, None
-    dx, dy, _ = sub(end, begin)
-    way = hypot(dx, dy)
-    if not LEAST_WAY <= way < ABSURD:
-        return None, None
-    x, y, _ = sub(end, beside)
-    left = (dx * y - dy * x) / way  # of the other foot
-    return _sound((dx * x + dy * y) / way), _sound(left if foot is Foot.LEFT else -left)
 
 
 def _sound(value: float | None) -> float | None:

@@ -10,14 +10,17 @@ other's angle is taken.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import pi
+from typing import ClassVar
 
 from attrs import define, field
 
-from ...events import Event, FootFlat, StrideTaken, TurnMade
-from ...foot.tracker import FootTracker
+from ...events import FootFlat, StrideTaken, TurnMade
 from ...foot.turn import heading_turned
-from ...types import Foot, Quat, Sample, Site, Turn
+from ...foot.view import FootView
+from ...types import Foot, Quat, Site, Turn
+from ..part import Part, Said
 from .direction import Direction, TurnProcess
 
 SLIGHT = 0.61
@@ -57,56 +60,57 @@ class Lain:
 
 
 @define
-class Turns:
+class Turns(Part):
     """What the wearer's steps turned, and what the feet did between them. Latency: as `Direction` has it."""
+
+    feeds: ClassVar[bool] = True
 
     # state
     direction: Direction = field(factory=Direction, init=False)
     lain: dict[Foot, Lain] = field(factory=dict, init=False)
 
-    @property
-    def under_way(self) -> bool:
-        """A turn has begun, so that it may be over without any footfall."""
-        return self.direction.began is not None
-
-    def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[TurnMade]:
-        """The turns that are over: `events` are what came of `sample`."""
+    def feed(self, view: FootView) -> Sequence[Said]:
+        """The turns that are over."""
+        if not view.events and self.direction.began is None:
+            return ()
         found: list[TurnProcess] = []
-        known_at = sample.t
-        for event in events:
+        known_at = view.t
+        for event in view.events:
             if not isinstance(event, StrideTaken | FootFlat):
                 continue
-            turned = self._footfall(foot, event, events)
+            turned = self._footfall(view, event)
             if turned is not None:
                 known_at = event.known_at
                 found.append(turned)
         if not found and self.direction.began is not None:
-            turned = self.direction.stood(sample.t)
+            turned = self.direction.stood(view.t)
             if turned is not None:
-                known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
+                known_at = view.known_at
                 found.append(turned)
         return [made(turned, known_at) for turned in found if abs(turned.angle) > 0.5 * SLIGHT]
 
-    def _footfall(self, foot: FootTracker, event: StrideTaken | FootFlat, events: list[Event]) -> TurnProcess | None:
+    def _footfall(self, view: FootView, event: StrideTaken | FootFlat) -> TurnProcess | None:
         """A step is one by itself; a foot that is flat without one may have pivoted."""
         if isinstance(event, StrideTaken):
             return self.direction.step(event)
-        if not foot.levelled:
+        if not view.levelled:
             return None
-        lay, now = self.lain.get(event.foot), foot.gait.step.attitude
+        lay, now = self.lain.get(event.foot), view.stood
         self.lain[event.foot] = Lain(event.t, now)
-        stepped = any(isinstance(one, StrideTaken) and one.t == event.t for one in events)
+        stepped = view.covariance is not None and any(
+            [isinstance(one, StrideTaken) and one.t == event.t for one in view.events]
+        )
         if lay is None or stepped or event.t < lay.since:
             return None
         return self.direction.pivot(event.foot, lay.since, event.t, heading_turned(lay.attitude, now))
 
-    def finish(self, known_at: float) -> list[TurnMade]:
+    def finish(self, now: float) -> Sequence[Said]:
         """Nobody steps any more: the turn under way, if any, is over."""
         turned = self.direction.finish()
-        return [] if turned is None or abs(turned.angle) <= 0.5 * SLIGHT else [made(turned, known_at)]
+        return [] if turned is None or abs(turned.angle) <= 0.5 * SLIGHT else [made(turned, now)]
 
-    def interrupt(self, site: Site) -> None:
-        """The clock of a site's samples begins anew."""
+    def reset(self, site: Site) -> None:
+        """The clock of a site's samples restarts."""
         if site.foot is not None:
             self.direction.interrupt(site.foot)
             self.lain.pop(site.foot, None)

@@ -19,14 +19,16 @@ read after that still settles its height, for as long as the offsets are better 
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 from math import log
+from typing import ClassVar
 
 from attrs import define, evolve, field
 
-from ...events import Event, LiftRidden, StrideTaken
-from ...foot.tracker import FootTracker
+from ...events import LiftRidden, StrideTaken
+from ...foot.view import FootView
 from ...types import Foot, Site
-from ..fuse.position import Position
+from ..part import Height, Instead, Notice, Part, Said
 from .received import Heard, Told
 
 SCALE = 8578.0
@@ -111,8 +113,10 @@ class PendingReadings:
 
 
 @define
-class Altitude:
+class Altitude(Part):
     """`air`: use the air pressure; `lifts`: follow lifts. Latency: none for the air; a ride is known after it."""
+
+    feeds: ClassVar[bool] = True
 
     air: bool = True
     lifts: bool = True
@@ -144,17 +148,20 @@ class Altitude:
     strides: deque[tuple[float, float]] = field(factory=deque, init=False)
     """Begin and end of the newest, in whole hundredths of a second."""
 
-    def breathed(self, foot: FootTracker, t: float, pressure: float) -> None:
-        """A foot's barometer reads `pressure` Pa at `t` s."""
-        z = foot.position[2]
+    def feed(self, view: FootView) -> Sequence[Said]:
+        """A foot's barometer may have been read."""
+        pressure = view.sample.air_pressure
+        if pressure is None:
+            return ()
+        t, z = view.t, view.position[2]
         if not (self.air and 2e4 < pressure < 2e5 and abs(z) < FARTHEST):
-            return
-        which = LEFT if foot.foot is Foot.LEFT else RIGHT
+            return ()
+        which = LEFT if view.foot is Foot.LEFT else RIGHT
         side = self.sides[which]
         side.total += SCALE * log(STANDARD / pressure) - z
         side.count += 1
         if side.since is not None and 0.0 <= t - side.since < EVERY:
-            return
+            return ()
         height = side.total / side.count
         if side.last is not None:
             # of consecutive ones the difference varies by 2 noise + drift^2; a ride or a gust counts little
@@ -162,31 +169,22 @@ class Altitude:
             self.noise += 0.05 * (min(square, 3.0 * self.noise) - self.noise)
             self.noise = max(self.noise, 1e-4)
         side.since, side.total, side.count, side.last = t, 0.0, 0, height
-        self._keep((t, which, height, self.noise))
+        return self._keep((t, which, height, self.noise))
 
-    def follow(self, events: list[Event]) -> list[Event]:
-        """The same events; a ride's height is what is made of it here."""
-        told = events
-        for index, event in enumerate(events):
-            if isinstance(event, StrideTaken):
-                self._stepped(event)
-            elif self.lifts and isinstance(event, LiftRidden):
-                if told is events:
-                    told = list(events)
-                told[index] = self._ridden(event)
-        return told
+    def receive(self, event: Notice) -> Sequence[Said]:
+        """A stride makes the correction less sure; a ride's height is what is made of it here."""
+        if isinstance(event, StrideTaken):
+            return self._stepped(event)
+        if self.lifts and isinstance(event, LiftRidden):
+            ridden = self._ridden(event)
+            return [Instead(event, ridden), self._height()]
+        return ()
 
-    def placed(self, found: Position) -> Position:
-        """Where the wearer is, at the height that is right."""
-        up = self.now.values[0]
-        if up == 0.0 and self.doubt == 0.0:
-            return found
-        x, y, z = found.position
-        xx, xy, xz, yy, yz, zz = found.covariance
-        return Position(found.t, (x, y, z + up), (xx, xy, xz, yy, yz, zz + self.doubt))
+    def _height(self) -> Height:
+        return Height(self.now.values[0], self.doubt)
 
-    def interrupt(self, site: Site) -> None:
-        """The clock of a foot begins anew, or it wears another barometer: its offset is not known any more."""
+    def reset(self, site: Site) -> None:
+        """The clock of a foot restarts, or it wears another barometer: its offset is not known any more."""
         if site.foot is None:
             return
         which = LEFT if site.foot is Foot.LEFT else RIGHT
@@ -198,22 +196,22 @@ class Altitude:
 
     # --- what came ---
 
-    def _stepped(self, step: StrideTaken) -> None:
+    def _stepped(self, step: StrideTaken) -> Sequence[Said]:
         self.strides.append((float(round(100.0 * step.t_start)), float(round(100.0 * step.t_end))))
         if step.length < STRODE:
             self.strides.pop()
         elif len(self.strides) > STRIDES:
             self.strides.popleft()
         if self.now.known[LEFT] is None and self.now.known[RIGHT] is None:
-            return
+            return ()
         height, variance = abs(step.height_change), step.covariance[5]
         if not LEVEL < height < FARTHEST or not variance < FARTHEST:
-            return
+            return ()
         wrong = (self.share * height) ** 2 + max(0.0, variance)
         if step.degraded:
             wrong *= self.degraded * self.degraded
         # of the mean of both feet each step is a half
-        self._keep((step.t, MOVE, 0.0, 0.25 * wrong))
+        return self._keep((step.t, MOVE, 0.0, 0.25 * wrong))
 
     def _ridden(self, ride: LiftRidden) -> LiftRidden:
         """The ride, at the height that it most likely had."""
@@ -248,11 +246,12 @@ class Altitude:
 
     # --- the filter ---
 
-    def _keep(self, one: Told) -> None:
+    def _keep(self, one: Told) -> Sequence[Said]:
         kept = self.kept
         while (oldest := kept.oldest) is not None and (one[0] - oldest > KEPT or kept.count >= 8.0 * KEPT):
             self._use(self.base, kept.pop())
         self._use(self.now, kept.add(one))
+        return [self._height()]
 
     def _use(self, heights: Heights, one: Told) -> None:
         t, which, value, variance = one

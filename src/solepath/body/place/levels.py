@@ -10,11 +10,11 @@ from math import hypot
 
 from attrs import define, field
 
+from ...events import WearerMoved
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import ConnectorKind, FloorPlan, Point
 from ...types import Vec3
 from ...types.vector import ZERO
-from ..fuse.position import Position
 from .arrivals import anew, changing, out
 from .crowd import Row, packed, resampled, unpacked
 from .landings import Landing, landings, ways_out
@@ -120,7 +120,7 @@ class Levels(Readings):
                 rows = self.stepped(plan, rows, move, ROUGH, 0.0)
         return rows
 
-    def shown(self, plan: FloorPlan, rows: list[Row], here: Position) -> tuple[list[Row], dict[int, float]]:
+    def shown(self, plan: FloorPlan, rows: list[Row], here: WearerMoved) -> tuple[list[Row], dict[int, float]]:
         """Who changes level is on the one that is nearer, and about half-way on either. The rows so, and for every
         landing at which one of them entered the height that they have come to, m, no further than the next landing."""
         entered = {row[7] for row in rows if row[7]}
@@ -142,7 +142,7 @@ class Levels(Readings):
         return told, heights
 
     def _climbed(
-        self, plan: FloorPlan, stops: list[Landing], entered: Landing, here: Position
+        self, plan: FloorPlan, stops: list[Landing], entered: Landing, here: WearerMoved
     ) -> tuple[float, Landing | None]:
         """How far above where they entered those are who change level, m, and the next landing on their way."""
         passage = self.references.passage

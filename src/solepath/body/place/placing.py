@@ -9,14 +9,26 @@ The track itself is never bent. Latency: a place is told with the step that lead
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import hypot, isfinite, pi
+from typing import ClassVar
 
 from attrs import define, field
 
-from ...events import Event, Placed, PlaceLost, StrideTaken, TurnMade
+from ...events import (
+    ActivityChanged,
+    Event,
+    FlightClimbed,
+    LiftRidden,
+    Placed,
+    PlaceLost,
+    StrideTaken,
+    TurnMade,
+    WearerMoved,
+)
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
-from ..fuse.position import Position
+from ..part import Notice, Said
 from .arrivals import fan, nowhere
 from .crowd import AGREED, Row, believed, effective, packed, unpacked
 from .levels import FARTHEST, FEW, ROUGH, Levels
@@ -40,11 +52,21 @@ CLEAR, FADE, ASIDE = 0.9, 0.88, 3.0
 its own with each step: floors are often alike, and then no wall ever decides."""
 
 
+LEADS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
+"""What a place follows from."""
+
+
 @define
 class Placing(Levels):
     """What both methods do alike: they start, change level, end and tell. How they extend the track is their own."""
 
+    follows: ClassVar[bool] = True
+
     # state
+    plan: IndexedPlan | None = field(default=None, init=False, eq=False, repr=False, metadata={"saved": False})
+    """Where the wearer is; whoever makes or restores a session sets it, since it is not saved."""
+    waiting: list[Event] = field(factory=list, init=False)
+    """What was said since the wearer moved last."""
     start: Start | None = field(default=None, init=False)
     begun: bool = field(default=False, init=False)
     t: float | None = field(default=None, init=False)
@@ -69,8 +91,18 @@ class Placing(Levels):
             raise ValueError(f"a start's place, heading and spread are numbers, not {numbers}")
         self.start = start
 
-    def follow(self, plan: IndexedPlan, events: list[Event], here: Position) -> list[Event]:
-        """One step, one activity, or what has come together. Never raises, whatever the track does."""
+    def receive(self, event: Notice) -> Sequence[Said]:
+        """What leads somewhere waits until it is known where the wearer is after it."""
+        if isinstance(event, LEADS):
+            self.waiting.append(event)
+        elif isinstance(event, WearerMoved) and self.plan is not None:
+            events, self.waiting = self.waiting, []
+            return self.follow(self.plan, events, event)
+        return ()
+
+    def follow(self, plan: IndexedPlan, events: list[Event], here: WearerMoved) -> list[Event]:
+        """One step, one activity, or what has come together; the wearer is `here` after it. Never raises, whatever the
+        track does."""
         told: list[Event] = []
         if not all([isfinite(v) for v in (here.t, *here.position)]):
             return told
@@ -106,7 +138,7 @@ class Placing(Levels):
 
     # --- the flow ---
 
-    def _begin(self, plan: IndexedPlan, here: Position, known_at: float, told: list[Event]) -> None:
+    def _begin(self, plan: IndexedPlan, here: WearerMoved, known_at: float, told: list[Event]) -> None:
         start = self.start
         if start is None:
             what = "no start was given, so the place is not known before the first stairs or lift"
@@ -125,7 +157,7 @@ class Placing(Levels):
         self.crowd = packed(fan(self.scattered, plan, level, start.place, start.spread, start.heading, count, 0, 1.0))
 
     def _move(
-        self, plan: IndexedPlan, here: Position, steps: list[StrideTaken], known_at: float, told: list[Event]
+        self, plan: IndexedPlan, here: WearerMoved, steps: list[StrideTaken], known_at: float, told: list[Event]
     ) -> None:
         """The track since the last step, for all rows."""
         x, y, _ = here.position
@@ -173,7 +205,7 @@ class Placing(Levels):
 
     # --- what is told ---
 
-    def _told(self, plan: IndexedPlan, here: Position, known_at: float) -> Event:
+    def _told(self, plan: IndexedPlan, here: WearerMoved, known_at: float) -> Event:
         rows = unpacked(self.crowd)
         known = plan.plan.heights_known
         shown, heights = self.shown(plan.plan, rows, here)

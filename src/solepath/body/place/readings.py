@@ -9,6 +9,7 @@ from attrs import define, field
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
+from ..part import Part
 from .crowd import Row, packed, resampled
 from .noise import NOISE, ROWS, following
 
@@ -25,7 +26,7 @@ WAYS, OF_THEM = 12, 8
 
 
 @define
-class Readings(ABC):
+class Readings(Part, ABC):
     """How a method extends readings is its own; what is left is here."""
 
     most: int = 260

@@ -16,10 +16,9 @@ from math import hypot, isfinite
 
 from attrs import define, field, frozen
 
-from ...events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken
+from ...events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, WearerMoved
 from ...floorplan.plan import ConnectorKind, FloorPlan
 from ...types import Activity, Foot, Vec3
-from ..fuse.position import Position
 from .landings import HIGH, LOW
 from .passage import Passage
 
@@ -118,7 +117,7 @@ class References:
         """The track from `t` on: the place then, and those that are kept of later."""
         return [self.at(t), *(place[1:] for place in self.track if place[0] > t)]
 
-    def hear(self, plan: FloorPlan, events: list[Event], here: Position) -> list[Reference]:
+    def hear(self, plan: FloorPlan, events: list[Event], here: WearerMoved) -> list[Reference]:
         """What `events` mean; the wearer is at `here` now."""
         x, y, z = here.position
         self.track.append((here.t, round(x, 3), round(y, 3), round(z, 3)))
@@ -200,7 +199,7 @@ class References:
         if passage.t_left is not None and event.t > passage.t_left:
             passage.t_left, passage.end = event.t, self.at(event.t)
 
-    def _settle(self, passage: Passage, left: float, plan: FloorPlan, here: Position, told: list[Reference]) -> None:
+    def _settle(self, passage: Passage, left: float, plan: FloorPlan, here: WearerMoved, told: list[Reference]) -> None:
         """Stairs or a lift were left: for another level, for a landing, or they never were any."""
         up, height = passage.up > 0, passage.height(here.position)
         waited = here.t - left

@@ -27,9 +27,9 @@ from math import hypot, sqrt
 
 from attrs import define, field
 
-from ...events import Event, StrideTaken, ToeOff
-from ...foot.tracker import FootTracker
-from ...types import Foot, Layout, Sample, Vec3
+from ...events import StrideTaken, ToeOff
+from ...foot.view import FootView
+from ...types import Foot, Layout, Vec3
 from ...types.vector import conjugate, rotate
 from .turned import RateIntegral
 
@@ -118,38 +118,38 @@ class Sides:
     left: SideSigns = field(factory=SideSigns, init=False)
     right: SideSigns = field(factory=SideSigns, init=False)
 
-    def swapped(self, foot: FootTracker, sample: Sample, events: list[Event]) -> bool:
-        """`foot` has used `sample` and said `events`; True once both feet look like the other."""
-        is_left = foot.foot is Foot.LEFT
+    def swapped(self, view: FootView) -> bool:
+        """A foot has used a sample; True once both feet look like the other."""
+        is_left = view.foot is Foot.LEFT
         side = self.left if is_left else self.right
-        self.keep(side, foot, sample)
-        if not events:
+        self.keep(side, view)
+        if not view.events:
             return False
         judged = False
-        for event in events:
+        for event in view.events:
             if isinstance(event, StrideTaken):
                 judged = True
-                _land(side, event, rotate(conjugate(foot.corrector.attitude), UP))
+                _land(side, event, rotate(conjugate(view.attitude), UP))
                 side.turned.keep_newest()
             elif isinstance(event, ToeOff) and side.sideways:
                 judged = True
                 _leave(side, is_left)
         if not judged:
             return False
-        layout = foot.insole.layout
-        side.mirrored = layout is not None and layout.foot is not foot.foot
+        layout = view.layout
+        side.mirrored = layout is not None and layout.foot is not view.foot
         return self._agree()
 
-    def keep(self, side: SideSigns, foot: FootTracker, sample: Sample) -> None:
-        """What `sample` of the foot on that side adds to the evidence."""
+    def keep(self, side: SideSigns, view: FootView) -> None:
+        """What a sample of the foot on that side adds to the evidence."""
         if self.left.told or self.right.told:
             return
-        gyro = sample.gyro
+        gyro = view.sample.gyro
         if gyro is None:
-            if foot.moved_at is None and sample.pressure:
-                _press(side, sample.t, foot)
+            if view.moved_at is None and view.sample.pressure:
+                _press(side, view.t, view.centre_alone)
             return
-        t, turned = sample.t, side.turned
+        t, turned = view.t, side.turned
         dt = HIDDEN if turned.t is None else t - turned.t
         if 0.0 <= dt < RARELY:
             return
@@ -225,13 +225,11 @@ def _ahead(left: Vec3, up: Vec3) -> Vec3 | None:
     return (x / length, y / length, z / length) if length > 0.5 else None
 
 
-def _press(side: SideSigns, t: float, foot: FootTracker) -> None:
+def _press(side: SideSigns, t: float, centre: tuple[float, float] | None) -> None:
     """Look at the centre of pressure of an insole without an inertial sensor."""
     if side.seen_at is not None and 0.0 <= t - side.seen_at < LATE:
         return
     side.seen_at = t
-    insole = foot.insole
-    centre = insole.centre_of_pressure(insole.cells)
     if centre is None:
         return
     side.sideways.append(centre[1])

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Final
+from collections.abc import Sequence
+from typing import ClassVar, Final
 
 from attrs import define, field
 
-from ...events import Event, FeetSwapped, FootHeard, FootSilent, StrideTaken
-from ...foot.tracker import FootTracker
-from ...types import Foot, Layout, Sample
+from ...events import FeetSwapped, FootHeard, FootSilent, StrideTaken
+from ...foot.view import FootView
+from ...types import Foot
+from ..part import LayoutTold, Notice, Part, Said
 from .sides import Sides
 
 LEFT: Final = Foot.LEFT
@@ -28,7 +30,7 @@ class Hearing:
 
 
 @define
-class Wear:
+class Wear(Part):
     """Hears every sample of both feet.
 
     A foot that was heard before is silent when the other has taken `steps` steps and `seconds` since its last sample:
@@ -36,6 +38,8 @@ class Wear:
     that was never heard: a recording may be of one foot. Recipes of two feet go on with the one that is left.
     FeetSwapped is said once, as `Sides` sees it.
     """
+
+    feeds: ClassVar[bool] = True
 
     steps: int = 3
     seconds: float = 3.0
@@ -46,25 +50,27 @@ class Wear:
     swapped: bool = field(default=False, init=False)
     """That has been said."""
 
-    def told(self, foot: Foot, layout: Layout) -> None:
-        """The device on `foot` has said where its cells are."""
-        self.sides.told(foot, layout)
+    def receive(self, event: Notice) -> Sequence[Said]:
+        """The device on a foot may have said where its cells are."""
+        if isinstance(event, LayoutTold) and event.site.foot is not None:
+            self.sides.told(event.site.foot, event.layout)
+        return ()
 
-    def heard(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
-        """`foot` has used `sample`, and `events` are what came of it."""
-        t = sample.t
-        is_left = foot.foot is LEFT
+    def feed(self, view: FootView) -> Sequence[Said]:
+        """A foot was heard."""
+        t, events = view.t, view.events
+        is_left = view.foot is LEFT
         this, other = (self.left, self.right) if is_left else (self.right, self.left)
         if not (events or this.said or other.missing):
             this.t, this.missing = t, 0
             if not self.swapped:
-                self.sides.keep(self.sides.left if is_left else self.sides.right, foot, sample)
-            return []
-        found: list[Event] = []
+                self.sides.keep(self.sides.left if is_left else self.sides.right, view)
+            return ()
+        found: list[Said] = []
         if this.said:
             this.said = False
             silence = 0.0 if this.t is None else max(0.0, t - this.t)
-            found.append(FootHeard(t=t, known_at=_known_at(sample), foot=foot.foot, silent_for=silence))
+            found.append(FootHeard(t=t, known_at=view.known_at, foot=view.foot, silent_for=silence))
         this.t = t
         this.missing = 0
         if events and any([isinstance(event, StrideTaken) for event in events]):
@@ -75,13 +81,10 @@ class Wear:
             elif other.missing >= self.steps and t - other.t >= self.seconds:
                 other.said = True
                 silent = Foot.RIGHT if is_left else LEFT
-                found.append(FootSilent(t=t, known_at=_known_at(sample), foot=silent, silent_for=t - other.t))
-        if not self.swapped and self.sides.swapped(foot, sample, events):
+                found.append(FootSilent(t=t, known_at=view.known_at, foot=silent, silent_for=t - other.t))
+        if not self.swapped and self.sides.swapped(view):
             self.swapped = True
             self.sides.forget()
-            found.append(FeetSwapped(t=t, known_at=_known_at(sample)))
+            found.append(FeetSwapped(t=t, known_at=view.known_at))
         return found
 
-
-def _known_at(sample: Sample) -> float:
-    return sample.t if sample.known_at is None else max(sample.t, sample.known_at)

@@ -52,7 +52,7 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     from ... import recipes
 
-    recipe = recipes.BY_NAME[known_recipe(options.recipe, list(recipes.BY_NAME))]
+    recipe = recipes.by_name(known_recipe(options.recipe, list(recipes.NAMES)))
     calibration = calibration_of(options)
     need_page(options, options.view is not None)
     view = view_of(options)

@@ -13,7 +13,7 @@ from random import Random
 
 from attrs import asdict, define, evolve, frozen
 
-from ...recipes import BY_NAME, Recipe
+from ...recipes import Recipe, by_name
 from ...recording import PacketWriter, read_packets
 from ...types import Packet
 from ..rows import read_sent
@@ -142,7 +142,7 @@ class Wearers:
 
     @property
     def recipe(self) -> Recipe:
-        return BY_NAME[self.plan.recipe]
+        return by_name(self.plan.recipe)
 
     @property
     def bundles(self) -> int:

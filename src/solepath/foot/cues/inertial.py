@@ -13,14 +13,15 @@ The ground may stop the foot later than that, or earlier: heel-strike is the mid
 from __future__ import annotations
 
 from math import sqrt
-from typing import Final, NamedTuple
+from typing import Final
 
-from attrs import define, field
+from attrs import define, evolve, field
 
 from ...types import Phase, Vec3
 from ...types.vector import TIE, ZERO
 from ..phase import Cue
 from ..stance.stance import Load
+from .cues import Seen
 from .impact import Impact
 
 SWING: Final = Phase.SWING
@@ -31,12 +32,6 @@ LOADING: Final = Phase.LOADING
 
 MISFITS = 3
 """Push-offs in a row about another axis after which that one is believed."""
-
-
-class Seen(NamedTuple):
-    cue: Cue
-    t: float
-    """When it happened, s."""
 
 
 @define
@@ -190,6 +185,12 @@ class InertialCues:
     def interrupt(self) -> None:
         """What lasts must be seen to last: a gap counts neither as stillness nor as speed."""
         self.still_since = self.fast_since = None
+
+    def anew(self) -> InertialCues:
+        """For times that begin anew: the axis is kept."""
+        fresh = evolve(self)
+        fresh.axis = self.axis
+        return fresh
 
     def cleared(self, t: float) -> Seen:
         """The toe left the ground at `t`, in a gap, and the swing was under way when that ended."""

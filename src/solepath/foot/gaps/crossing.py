@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from ...events import Event
 from ...types import Vec3
-from ..cues.gait_cues import Cues
+from ..cues.cues import Cues
 from ..gait import Gait
-from ..navigate.strapdown import LONGEST_BRIDGE, Corrector
+from ..navigate.corrector import LONGEST_BRIDGE, Corrector
 from .gap import NoLeap, leap
 
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from ...types import Quat, Vec3
 from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, sub
-from ..navigate.strapdown import LONGEST_BRIDGE, Corrector
+from ..navigate.corrector import LONGEST_BRIDGE, Corrector
 from ..turn import heading_turned
 from .moment import StrideMoment, TemplateStride, at, length, limited, moments, turned
 from .template import Habit

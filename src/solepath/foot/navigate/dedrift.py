@@ -16,7 +16,8 @@ from attrs import define, field
 from ...types import Phase, Quat, Vec3
 from ...types.vector import GRAVITY, ZERO, sub, tipped
 from ..stance.stance import Stance
-from .strapdown import LONGEST_BRIDGE, Strapdown
+from .corrector import LONGEST_BRIDGE
+from .strapdown import Strapdown
 
 
 @define
@@ -30,8 +31,8 @@ class LinearDedrift(Strapdown):
     """Evidence with a sigma above this is no stance, m/s."""
     tilt_rate: float = 2.0
     """How fast stance pulls the tilt towards gravity, 1/s."""
-    drift: float = 0.01
-    """What is left of a stretch after dedrift, as a share of its length."""
+    share: float = 0.01
+    """What a stretch is wrong by, as a share of its length."""
     turn_drift: float = 0.002
     """Growth of the heading error, rad/sqrt(s)."""
     # state
@@ -64,7 +65,7 @@ class LinearDedrift(Strapdown):
         half = 0.5 * self.swing
         self.position = (x + (rx - vx) * half, y + (ry - vy) * half, z + (rz - vz) * half)
         self.velocity = stance.v_ref
-        self._level(self.swing)
+        self._level()
         self.swing = 0.0
         return True
 
@@ -91,14 +92,17 @@ class LinearDedrift(Strapdown):
         return stretch
 
     def covariance(self) -> tuple[float, ...]:
-        variance = (self.drift * self.length) ** 2
+        variance = (self.share * self.length) ** 2
         yaw = self.turn_drift * self.turn_drift * self.lasted
         return (variance, 0.0, 0.0, variance, 0.0, variance, yaw)
 
-    def _level(self, dt: float) -> None:
-        """Turn the attitude about f x z so that the specific force points up, by 1 - exp(-rate dt) of the way."""
-        if self.force is None:
-            return
-        fx, fy, _ = self.force
+    def _level(self) -> None:
+        """The foot stands: the specific force points up."""
+        if self.force is not None:
+            self._pull(self.force, self.swing)
+
+    def _pull(self, force: Vec3, dt: float) -> None:
+        """Turn the attitude about `force` x z so that `force`, m/s^2, points up, by 1 - exp(-rate dt) of the way."""
+        fx, fy, _ = force
         share = 0.5 * (1.0 - exp(-self.tilt_rate * min(dt, 0.1))) / GRAVITY
         self.attitude = tipped(self.attitude, share * fy, -share * fx)

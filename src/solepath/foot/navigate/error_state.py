@@ -20,6 +20,7 @@ from ...types import Phase, Quat, Vec3
 from ...types.vector import GRAVITY, TIE, ZERO
 from ..stance.stance import Stance
 from .clipping import Missed
+from .corrector import LONGEST_BRIDGE
 from .covariance import (
     HEIGHT,
     TILT_X,
@@ -35,7 +36,7 @@ from .covariance import (
 from .level import LevelGround
 from .propagated import Carried
 from .recovery import Recovery
-from .strapdown import LONGEST_BRIDGE, WIDEST_SERIES, Strapdown
+from .strapdown import WIDEST_SERIES, Strapdown
 
 STATIONARY: Final = Phase.STATIONARY
 """Looked up once: a word of an enum costs as much as five multiplications."""

@@ -1,82 +1,26 @@
 """Strapdown navigation of one foot: attitude, velocity and position from specific force and angular rate.
 
 The frame is z up with the heading that the sensor had when it was levelled; the tracker turns it into the world frame.
-What keeps the integration from drifting is a corrector (`eskf.ErrorStateFilter`, `dedrift.LinearDedrift`): both
-are this strapdown plus a way of using stance evidence, and both satisfy `Corrector`.
+What keeps the integration from drifting is a corrector (`ErrorStateFilter`, `LinearDedrift`): this strapdown and a way
+of using stance evidence.
 """
 
 from __future__ import annotations
 
 from math import cos, sin, sqrt
-from typing import Protocol
 
 from attrs import define, field
 
 from ...types import Quat, Vec3
 from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, multiply, normalise, rotate
-from ..phase import Cue
-from ..stance.stance import Stance
+from .corrector import Corrector
 
-LONGEST_BRIDGE = 0.25
-"""A gap longer than this is not integrated over: a foot turns and turns back within it, s."""
 WIDEST_SERIES = 0.06
 """Square of the half angle, rad^2, up to which the series below are good to 1e-12."""
 
 
-class Corrector(Protocol):
-    """What the tracker needs of a way to navigate."""
-
-    attitude: Quat
-    velocity: Vec3
-    position: Vec3
-    rate: Vec3 | None
-    """Angular rate of the last sample, sensor frame, rad/s; None when there was none or a gap since."""
-
-    @property
-    def error_index(self) -> float | None:
-        """By how much the integration missed a known velocity in the motion that ended last, m/s (StrideFeatures)."""
-
-    def start(self, attitude: Quat, tilt_sigma: float) -> None:
-        """Stand still at the origin with this attitude, its tilt known to `tilt_sigma` rad."""
-
-    def told(self, attitude: Quat) -> None:
-        """The device says its own attitude at the sample that comes next: sensor to a world of its own, z up."""
-
-    def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
-        """One sample: `acc` in m/s^2 and `gyro` in rad/s, sensor frame, bias removed, `dt` s after the one before;
-        `saturated` when the device says that a sensor was at the end of its range."""
-
-    def correct(self, t: float, stance: Stance) -> bool:
-        """Use the evidence of the sample just predicted; True when it agreed with the motion so far."""
-
-    def mark(self, t: float, cue: Cue) -> None:
-        """Of all samples so far the one just corrected, at `t` s, is most likely that of heel-strike (CONTACT), or the
-        one before it that of toe-off (CLEAR)."""
-
-    def bridge(self, dt: float) -> float:
-        """`dt` s without samples lie before the next one: trust the motion accordingly less. Returns how long to
-        integrate over: all of it, or 0 after `LONGEST_BRIDGE`, when the foot is taken up where it was."""
-
-    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
-        """`dt` s without samples lie before the next one, and this is where the foot is taken to be by its habit."""
-
-    def mend(self, yaw: float, position: Vec3) -> None:
-        """A gap has spoilt the stride that ends here: turn the attitude by `yaw` rad, and take `position`, m."""
-
-    def flat(self, start: Vec3, turn: float) -> None:
-        """The foot is flat again, turned by `turn` rad since it was so at `start`, m: a corrector that knows whether a
-        step was level puts the height right."""
-
-    def anchor(self) -> tuple[float, ...]:
-        """Begin a new stretch here. Returns the covariance of the stretch that ends: position xx, xy, xz, yy, yz, zz
-        (m^2) and yaw (rad^2)."""
-
-    def covariance(self) -> tuple[float, ...]:
-        """What `anchor` would return now, changing nothing."""
-
-
 @define
-class Strapdown:
+class Strapdown(Corrector):
     """Attitude by the rotation vector, velocity and position by the trapezoidal rule; dt is each sample's own."""
 
     attitude: Quat = field(default=IDENTITY, init=False)
@@ -87,25 +31,11 @@ class Strapdown:
     rate: Vec3 | None = field(default=None, init=False)
     """Angular rate of the last sample, sensor frame, rad/s."""
 
-    @property
-    def error_index(self) -> float | None:
-        """As in `Corrector`; one that knows no velocity but zero has none."""
-        return None
-
-    def told(self, attitude: Quat) -> None:
-        """As in `Corrector`; not used here."""
-
-    def mark(self, t: float, cue: Cue) -> None:
-        """As in `Corrector`; not used here."""
-
     def mend(self, yaw: float, position: Vec3) -> None:
         """As in `Corrector`."""
         self.attitude = normalise(multiply(from_yaw(yaw), self.attitude))
         self.position = position
         self.force = None
-
-    def flat(self, start: Vec3, turn: float) -> None:
-        """As in `Corrector`; heights stay as integration has them."""
 
     def turn_about(self, yaw: float, by: Vec3) -> None:
         """Turn attitude, velocity and force by `yaw` rad about the foot, and move it `by` m."""

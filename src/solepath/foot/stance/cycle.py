@@ -17,8 +17,9 @@ from attrs import define, field
 
 from ...types import Phase, Quat, Vec3
 from ...types.vector import GRAVITY, IDENTITY, TIE, ZERO
+from .classic import SIGMA_ACC, SIGMA_GYRO, ShoeDetector
 from .sensor_height import EMPTY, Lever
-from .stance import SIGMA_ACC, SIGMA_GYRO, Load, ShoeDetector, Stance
+from .stance import Detector, Load, Stance
 
 ACC_SQUARE = SIGMA_ACC**2
 GYRO_SQUARE = SIGMA_GYRO**2
@@ -33,7 +34,7 @@ told = tuple.__new__
 
 
 @define
-class Cycle:
+class Cycle(Detector):
     """SHOE's statistic against a threshold learnt from the last cycle, with noise from the motion. Latency: 25 ms."""
 
     share: float = 0.45
@@ -74,7 +75,7 @@ class Cycle:
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
-        # SHOE's sums, as Shoe.parts
+        # SHOE's sums, as ShoeDetector.parts
         ax, ay, az = acc
         wx, wy, wz = gyro
         a2, w2 = ax * ax + ay * ay + az * az, wx * wx + wy * wy + wz * wz

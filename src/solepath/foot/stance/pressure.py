@@ -1,4 +1,4 @@
-"""Stance evidence from pressure cells; the same signature as the inertial detectors in stance.py.
+"""Stance evidence from pressure cells; the same signature as the inertial detectors in classic.py.
 
 Without cells, or while the wearer's full load is not known yet, both have nothing to say (sigma is infinite).
 """
@@ -11,13 +11,13 @@ from attrs import define
 
 from ...types import Phase, Quat, Vec3
 from ...types.vector import IDENTITY, ZERO
-from .stance import Load, Stance
+from .stance import Detector, Load, Stance
 
 _SILENT = Stance(ZERO, inf, 0.0, None)
 
 
 @define
-class TwoArea:
+class TwoArea(Detector):
     """Heel area and forefoot area both loaded: the sole lies flat, so the sensor between them stands still.
 
     After "Smart insole-based indoor localization system for Internet of Things applications", stationary epoch
@@ -40,7 +40,7 @@ class TwoArea:
 
 
 @define
-class MaximumPressure:
+class MaximumPressure(Detector):
     """The most loaded cell beyond a threshold: the foot is down (equation (6) of "Improving accuracy of real-time
     positioning and path tracking by using an error compensation algorithm against walking modes", method III).
 

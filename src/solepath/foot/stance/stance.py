@@ -1,28 +1,20 @@
-"""Stance evidence from inertial signals alone.
+"""Stance evidence: what a detector says of a foot, and what it is asked.
 
 A stance detector never answers yes or no: for every sample it says which velocity the sensor ought to have now and how
 far to trust that (`Stance`). Detectors share one signature, so they and the correctors that use them are
-interchangeable. All of them are causal and look back over `window` seconds (where the rate is lower than that, over as
-few samples as the statistic can do with); their evidence has no other latency.
-
-SHOE, ARE and MV are those of Skog, Handel, Nilsson, Rantakokko, "Zero-velocity detection: an algorithm evaluation"
-(IEEE Trans. Biomed. Eng. 57, 2010); the memory-based graph-theoretic detector (MBGTD) is the one that Wagstaff,
-Peretroukhin, Kelly, "Robust data-driven zero-velocity detection for foot-mounted inertial navigation" (2019) compare
-with. Sums run, so a sample costs the same whatever the window, except in MBGTD, whose statistic needs every pair of
-samples in the window.
+interchangeable.
 """
 
 from __future__ import annotations
 
-from collections import deque
 from math import inf, sqrt
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, Self
 
-from attrs import define, field, frozen
+from attrs import frozen
 
-from ...papers.footstep_tracker.segment import StepSegment
-from ...types import Phase, Quat, Vec3
-from ...types.vector import GRAVITY, IDENTITY, ZERO
+from ...calibration import Calibration
+from ...types import Foot, Layout, Phase, Quat, Vec3
+from ...types.vector import IDENTITY, ZERO
 
 
 @frozen
@@ -54,25 +46,22 @@ class Stance(NamedTuple):
     hint: Phase | None
     """STATIONARY where the detector is certain, SWING where it is certain of the opposite, LOADING or PUSH_OFF where
     v_ref is that of a shoe that rolls over heel or forefoot, otherwise None."""
-    segment: StepSegment | None = None
-    """The step that ends with this sample, from a detector that cuts the samples into steps."""
+    detail: object = None
+    """What the detector hands to the cues and the corrector of its own recipe; nobody else looks at it."""
 
 
 class Detector(Protocol):
-    """What says that a foot stands still, or how fast it rolls. An app's own may stand in a Recipe beside ours, if it
-    keeps this; promises.py tries that, docs/extending.md shows one.
+    """What says that a foot stands still, or how fast it rolls. An app's own extends this and may stand in a Recipe
+    beside ours; testing/promises.py tries whether it keeps what follows, docs/extending.md shows one.
 
-    An attrs class (`@define`) with fields of kinds that machine.py can save. When times begin anew, after a restart of
-    the device, the session goes on with `evolve(detector)`: fields with `init=False` are then as at first, settings and
+    An attrs class (`@define`) with fields of kinds that can be saved. When times begin anew, after a restart of the
+    device, the session goes on with `evolve(detector)`: fields with `init=False` are then as at first, settings and
     whatever else `__init__` takes stay. A detector reads no clock and no random numbers, costs the same at every
     sample, remembers no more the longer it is fed, and never raises: samples are finite, but otherwise of any size (up
     to 500 m/s^2, 100 rad/s) and at any distance in time.
-
-    It may have, besides: `wear(layout: Layout) -> None`, told once it is known where the cells are; `lacking: str |
-    None`, read after that: what it must do without, a sentence that becomes a Limitation; `scaled(scale: float) ->
-    None`, told what acc is multiplied by from now on; `calibrated(foot: Foot, calibration: Calibration)`, which returns
-    the detector to be used for that foot.
     """
+
+    __slots__ = ()
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
@@ -81,11 +70,24 @@ class Detector(Protocol):
         sensor frame, scale and bias of the gyroscope seen to; `load` None without pressure cells; `attitude`: sensor to
         navigation frame, predicted to this sample (of no meaning before the foot was levelled)."""
 
+    # what a detector may pay heed to; it need not
 
-SIGMA_ACC = 0.01
-"""Noise of the accelerometer that scales the statistics, m/s^2."""
-SIGMA_GYRO = 0.1 * 3.141592653589793 / 180.0
-"""Noise of the gyroscope that scales the statistics, rad/s."""
+    @property
+    def lacking(self) -> str | None:
+        """What it must do without, a sentence that becomes a Limitation; read when it was told of a layout."""
+        return None
+
+    def wear(self, layout: Layout) -> None:
+        """Where the cells are; told once that is known, and again when it changes."""
+        return
+
+    def scaled(self, scale: float) -> None:
+        """What acc is multiplied by from now on, so that it reads 1 g at rest."""
+        return
+
+    def calibrated(self, foot: Foot, calibration: Calibration) -> Self:
+        """The detector to be used for that foot, with what the calibration says of it."""
+        return self
 
 
 def soften(statistic: float, sigma: float, base: float, gate: float) -> Stance:
@@ -94,149 +96,3 @@ def soften(statistic: float, sigma: float, base: float, gate: float) -> Stance:
         return Stance(ZERO, inf, statistic, None)
     hint = Phase.STATIONARY if statistic < base else None
     return Stance(ZERO, sigma * sqrt(max(1.0, statistic / base)), statistic, hint)
-
-
-@define
-class ShoeDetector:
-    """SHOE: stance hypothesis optimal estimation. T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2)."""
-
-    window: float = 0.025
-    sigma: float = 0.01
-    base: float = 1e4
-    gate: float = 3.5e5
-    # state
-    entries: deque[tuple[float, float, float, float, float, float]] = field(factory=deque, init=False)
-    sums: tuple[float, float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0, 0.0), init=False)
-
-    def update(
-        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
-    ) -> Stance:
-        from_acc, from_gyro = self.parts(t, acc, gyro)
-        statistic = from_acc / SIGMA_ACC**2 + from_gyro / SIGMA_GYRO**2
-        return soften(statistic, self.sigma, self.base, self.gate)
-
-    def parts(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[float, float]:
-        """The two means of the statistic before scaling: specific force off gravity, (m/s^2)^2, and rate, (rad/s)^2."""
-        ax, ay, az = acc
-        wx, wy, wz = gyro
-        a2 = ax * ax + ay * ay + az * az
-        w2 = wx * wx + wy * wy + wz * wz
-        sx, sy, sz, s2, sw = self.sums
-        sx += ax
-        sy += ay
-        sz += az
-        s2 += a2
-        sw += w2
-        entries = self.entries
-        entries.append((t, ax, ay, az, a2, w2))
-        oldest = t - self.window + 1e-9
-        while entries[0][0] < oldest and len(entries) > 1:
-            _, ax, ay, az, a2, w2 = entries.popleft()
-            sx -= ax
-            sy -= ay
-            sz -= az
-            s2 -= a2
-            sw -= w2
-        self.sums = (sx, sy, sz, s2, sw)
-        n = len(entries)
-        # sum |a - g u|^2 with u the direction of the mean: sum a^2 - 2 g |sum a| + n g^2
-        off = s2 - 2.0 * GRAVITY * sqrt(sx * sx + sy * sy + sz * sz) + n * GRAVITY * GRAVITY
-        return (off / n if off > 0.0 else 0.0), (sw / n if sw > 0.0 else 0.0)
-
-
-@define
-class AngularRate:
-    """ARE: angular rate energy. T = 1/W sum(|w|^2) / s_w^2."""
-
-    window: float = 0.025
-    sigma: float = 0.01
-    base: float = 5e3
-    gate: float = 1e5
-    # state
-    entries: deque[tuple[float, float]] = field(factory=deque, init=False)
-    total: float = field(default=0.0, init=False)
-
-    def update(
-        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
-    ) -> Stance:
-        wx, wy, wz = gyro
-        w2 = wx * wx + wy * wy + wz * wz
-        self.entries.append((t, w2))
-        self.total += w2
-        oldest = t - self.window + 1e-9
-        while len(self.entries) > 1 and self.entries[0][0] < oldest:
-            self.total -= self.entries.popleft()[1]
-        statistic = max(0.0, self.total) / len(self.entries) / SIGMA_GYRO**2
-        return soften(statistic, self.sigma, self.base, self.gate)
-
-
-@define
-class MovingVariance:
-    """MV: acceleration moving variance. T = 1/W sum(|a - a_mean|^2) / s_a^2."""
-
-    window: float = 0.05
-    sigma: float = 0.01
-    base: float = 5e3
-    gate: float = 5e4
-    # state
-    entries: deque[tuple[float, float, float, float]] = field(factory=deque, init=False)
-    sums: tuple[float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0), init=False)
-
-    def update(
-        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
-    ) -> Stance:
-        ax, ay, az = acc
-        sx, sy, sz, s2 = self.sums
-        sx, sy, sz, s2 = sx + ax, sy + ay, sz + az, s2 + ax * ax + ay * ay + az * az
-        entries = self.entries
-        entries.append((t, ax, ay, az))
-        oldest = t - self.window + 1e-9
-        while len(entries) > 2 and entries[0][0] < oldest:
-            _, ax, ay, az = entries.popleft()
-            sx, sy, sz, s2 = sx - ax, sy - ay, sz - az, s2 - ax * ax - ay * ay - az * az
-        self.sums = (sx, sy, sz, s2)
-        n = len(entries)
-        variance = max(0.0, s2 / n - (sx * sx + sy * sy + sz * sz) / (n * n))
-        return soften(variance / SIGMA_ACC**2, self.sigma, self.base, self.gate)
-
-
-@define
-class Graph:
-    """MBGTD: how well the window can be cut into an early and a late part that are far from each other.
-
-    For every pair of cuts a < b, counted from 0 as in published code, the distances |a_i - a_j| between the samples up
-    to a and the samples from b on are summed and divided by (b - a) (W - b + 1); T is the largest of
-    these, in m/s^2. Costs O(W^2) a sample.
-    """
-
-    count: int = 5
-    sigma: float = 0.01
-    base: float = 2.0
-    gate: float = 8.0
-    # state
-    entries: deque[Vec3] = field(factory=deque, init=False)
-
-    def update(
-        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
-    ) -> Stance:
-        entries = self.entries
-        entries.append(acc)
-        while len(entries) > self.count:
-            entries.popleft()
-        w = len(entries)
-        if w < 3:
-            return Stance(ZERO, inf, 0.0, None)
-        # column[j] grows, row by row, into the sum over i <= a of |a_i - a_j|
-        column = [0.0] * w
-        largest = 0.0
-        for a in range(w - 1):
-            x, y, z = entries[a]
-            for j in range(a + 1, w):
-                u, v, q = entries[j]
-                u, v, q = x - u, y - v, z - q
-                column[j] += sqrt(u * u + v * v + q * q)
-            tail = 0.0
-            for b in range(w - 1, a, -1):
-                tail += column[b]
-                largest = max(largest, tail / ((b - a) * (w - b + 1)))
-        return soften(largest, self.sigma, self.base, self.gate)

@@ -13,6 +13,8 @@ import attrs
 from attrs import frozen
 
 from ...body.fuse.position import MeanOfFeet
+from ...body.height.altitude import Altitude
+from ...body.part import Track
 from ...foot.navigate.level import LevelGround
 from ...recipes import DEFAULT, Recipe
 from .report import Result
@@ -47,8 +49,8 @@ WITHOUT: dict[str, Recipe] = {
     "no tilt aiding": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, tilt_rate=0.0)),
     "no noise of what lies between samples": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, between=0.0)),
     "no recovery of a clipped gyroscope": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, recover=False)),
-    "each foot by itself": attrs.evolve(DEFAULT, body=MeanOfFeet()),
-    "no heights of lifts and of the air": attrs.evolve(DEFAULT, altitude=None),
+    "each foot by itself": DEFAULT.exchanged(Track, MeanOfFeet()),
+    "no heights of lifts and of the air": DEFAULT.exchanged(Altitude, None),
 }
 """By what is missing."""
 

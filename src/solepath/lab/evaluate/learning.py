@@ -13,8 +13,8 @@ from typing import Any
 from attrs import frozen
 
 from ...body.activity.activities import Activities
+from ...body.part import Doing
 from ...papers.footstep_tracker.activity.two_second_windows import TwoSecondWindows
-from ...recipes import AnyActivity
 from ...recording import RecordingError
 from ..train import activities, footstep_activity
 from ..train.folds import FOLDS, fold_of
@@ -34,7 +34,7 @@ class Learner:
     """What there is to learn from in the data directory."""
     features: Callable[[Any], Any]
     """Of a source; runs in another process, so a function of a module. RecordingError when it cannot be read."""
-    teach: Callable[[Sequence[Any]], AnyActivity]
+    teach: Callable[[Sequence[Any]], Doing]
 
 
 def _recordings(folder: Path) -> Sources:
@@ -95,13 +95,13 @@ def lessons(folder: Path, recipes: Sequence[Chosen]) -> list[Lesson]:
     return [Lesson(kind, source, subject) for kind in kinds for source, subject in LEARNERS[kind].sources(folder)]
 
 
-Taught = dict[tuple[type, int], AnyActivity]
+Taught = dict[tuple[type, int], Doing]
 """By kind of part and the number of the fold that it was not taught on."""
 
 
 def kind_of(recipe: Chosen) -> type | None:
     """The kind of the recipe's activity part, where it learns."""
-    kind = type(recipe_of(recipe).activity)
+    kind = type(next(part for part in recipe_of(recipe).parts if isinstance(part, Doing)))
     return kind if kind in LEARNERS else None
 
 
@@ -117,7 +117,7 @@ def taught(lessons: Sequence[Lesson], features: Sequence[Any]) -> Taught:
     return found
 
 
-def part_for(recipe: Chosen, meta: Meta, parts: Taught) -> AnyActivity | None:
+def part_for(recipe: Chosen, meta: Meta, parts: Taught) -> Doing | None:
     """The part that was taught without this recording's wearer; None where the recipe's learns nothing."""
     kind = kind_of(recipe)
     return None if kind is None else parts[kind, fold_of(meta["subject"])]

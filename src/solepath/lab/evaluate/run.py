@@ -13,9 +13,10 @@ import numpy as np
 from attrs import frozen
 
 from ... import recipes
+from ...body.part import Doing
 from ...calibration import Calibration, merged
 from ...events import Event, LiftRidden, TurnMade
-from ...recipes import AnyActivity, Recipe
+from ...recipes import Recipe
 from ...recording.samples import load_samples
 from ...session import Session
 from ...show.timeline import Timeline
@@ -28,7 +29,7 @@ Chosen = str | Recipe
 
 
 def recipe_of(chosen: Chosen) -> Recipe:
-    return chosen if isinstance(chosen, Recipe) else recipes.BY_NAME[chosen]
+    return chosen if isinstance(chosen, Recipe) else recipes.by_name(chosen)
 
 
 @frozen
@@ -40,7 +41,7 @@ class RunSettings:
 
     recipe: Chosen
     calibration: Calibration = Calibration()
-    activity: AnyActivity | None = None
+    activity: Doing | None = None
 
 
 @frozen(eq=False)
@@ -82,7 +83,7 @@ def run(
     known = how.calibration if calibration is None else merged(how.calibration, calibration)
     recipe = recipe_of(how.recipe)
     if how.activity is not None:
-        recipe = attrs.evolve(recipe, activity=how.activity)
+        recipe = recipe.exchanged(Doing, how.activity)
     session = Session(recipe, calibration=known, poses=poses)
     recording = load_samples(path)
     samples = list(recording)

@@ -22,7 +22,7 @@ from ...emulate.wearers.shoe import IN_SOLE
 from ...emulate.wearers.wearers import wearer
 from ...events import Event, StrideTaken, TurnMade
 from ...papers.footstep_tracker.toe_out import learnt, toe_out
-from ...recipes import BY_NAME, Recipe
+from ...recipes import Recipe, by_name
 from ...session import Session
 from ...types import Foot, Site, Turn
 from ..emulated import activity as emulated_activity
@@ -87,7 +87,7 @@ def walked(seed: int) -> FootstepWalked:
     known = wears(seed)
     calibration = _calibrated(known, seed)
     one_foot, by_height, two_feet, step_one, step_two = _corridor(known, calibration, seed)
-    windows = emulated_activity.score(BY_NAME[NAME], seed).windows
+    windows = emulated_activity.score(by_name(NAME), seed).windows
     turned, classes = _turns(known, calibration, seed)
     places = tuple(_placed(known, calibration, way, seed) for way in (case_study(), wandering(seed)))
     return FootstepWalked(one_foot, by_height, two_feet, step_one, step_two, windows, turned, classes, places)
@@ -121,7 +121,7 @@ def _corridor(
     known: Wears, calibration: Calibration, seed: int
 ) -> tuple[float, float, float, tuple[float, ...], tuple[float, ...]]:
     walk = emulate(corridor().route, wearer=known.who, devices=_tags(), seed=seed)
-    session = Session(BY_NAME[NAME], calibration=calibration)
+    session = Session(by_name(NAME), calibration=calibration)
     events = session.feed(walk.packets) + session.finish()
     here = session.position
     two_feet = 0.0 if here is None else hypot(here.position[0], here.position[1])
@@ -190,7 +190,7 @@ def _turn(known: Wears, calibration: Calibration, angle: float, rng: np.random.G
     radius = float(rng.uniform(0.0, 1.2))
     route = Route(speed=float(rng.uniform(0.9, 1.3))).stand(2.5).walk(6.0).turn(angle, radius if radius > 0.4 else 0.0)
     walk = emulate(route.walk(6.0).stop(3.0), wearer=known.who, devices=_tags(), seed=seed)
-    return [event for event in _heard(walk, BY_NAME[NAME], calibration) if isinstance(event, TurnMade)]
+    return [event for event in _heard(walk, by_name(NAME), calibration) if isinstance(event, TurnMade)]
 
 
 # --- place, fig. 13 (f) to (h) ----------------------------------------------------------------------------------------
@@ -198,4 +198,4 @@ def _turn(known: Wears, calibration: Calibration, angle: float, rng: np.random.G
 
 def _placed(known: Wears, calibration: Calibration, way: Way, seed: int) -> PlaceScore:
     walk = emulate(way.route, wearer=known.who, devices=_tags(), seed=seed)
-    return emulated_place.score(way, walk.walker, walk.truth, _heard(walk, BY_NAME[NAME], calibration, way))
+    return emulated_place.score(way, walk.walker, walk.truth, _heard(walk, by_name(NAME), calibration, way))

@@ -25,7 +25,7 @@ from ...emulate.sensors.insole_device import boot
 from ...emulate.walk import EmulatedWalk, emulate
 from ...events import StrideTaken
 from ...papers.pressure_contour.square import fit_square
-from ...recipes import BY_NAME
+from ...recipes import by_name
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
 from . import published
@@ -162,7 +162,7 @@ def walk(job: ContourJob) -> ContourWalked:
     closing, tracks = {}, [_true_path(walked, halt)]
     for name, recipe in RECIPES.items():
         known = parts.layouts
-        drift = fit_square(parts.before, foot=FOOT, recipe=BY_NAME[recipe], calibration=known)
+        drift = fit_square(parts.before, foot=FOOT, recipe=by_name(recipe), calibration=known)
         events = heard(recipe, parts.after, merged(known, drift))
         steps = [one for one in events if isinstance(one, StrideTaken) and one.final]
         track = np.array([(0.0, 0.0), *((x, y) for x, y, _ in (one.position for one in steps))])

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from ...recipes import SHOE_SENSING
+from ...papers.shoe_sensing.recipe import SHOE_SENSING
 from ..measures.strides import mean_magnitude
 from . import published
 from .picture import Drawn, Floor, PictureTrack

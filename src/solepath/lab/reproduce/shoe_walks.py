@@ -19,7 +19,8 @@ from ...emulate.wearers.truth import TrueStep, Truth
 from ...emulate.wearers.walker import Walker
 from ...events import Event, FlightClimbed, StrideTaken
 from ...papers.shoe_sensing.gated_tilt import ShoeSensing
-from ...recipes import SHOE_MAGNITUDE, SHOE_SENSING, Recipe
+from ...papers.shoe_sensing.recipe import SHOE_MAGNITUDE, SHOE_SENSING
+from ...recipes import Recipe
 from ...session import Session
 from ...types import Foot, Sample
 from ..measures.alignment import Floats, align

@@ -29,7 +29,7 @@ from ...emulate.wearers.wearers import SUBJECTS
 from ...events import TouchedDown
 from ...papers.walking_modes.calibrate import MODES, ModeMark, mean_errors, step_errors, touchdowns
 from ...papers.walking_modes.modes import Modes
-from ...recipes import BY_NAME
+from ...recipes import by_name
 from ...recording.decoded import Recorded
 from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Sample
@@ -208,10 +208,9 @@ def walk(job: ModesJob) -> ModesWalked:
 
 def _touchdowns(recipe: str, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
     """What a session says that knows how the first side of the rectangle lies."""
-    chosen = BY_NAME[recipe]
-    if not isinstance(chosen.body, Modes):
-        raise TypeError(f"recipe {recipe} tells no touchdowns")
-    session = Session(evolve(chosen, body=evolve(chosen.body, heading=0.0)), calibration=calibration)
+    chosen = by_name(recipe)
+    modes = next(part for part in chosen.parts if isinstance(part, Modes))
+    session = Session(chosen.exchanged(Modes, evolve(modes, heading=0.0)), calibration=calibration)
     said = session.feed(samples) + session.finish()
     return {foot: [e for e in said if isinstance(e, TouchedDown) and e.final and e.foot is foot] for foot in Foot}
 

@@ -12,7 +12,7 @@ from ...emulate.routes.route import Route, Stand
 from ...emulate.walk import EmulatedWalk
 from ...emulate.wearers.walker import Walker
 from ...events import Event
-from ...recipes import BY_NAME
+from ...recipes import by_name
 from ...recording.decoded import recorded
 from ...session import Session
 from ...types import Sample
@@ -56,7 +56,7 @@ def cut(walk: EmulatedWalk, t: float) -> WalkParts:
 
 def heard(recipe: str, samples: Sequence[Sample], calibration: Calibration) -> list[Event]:
     """All that a session of the named recipe says."""
-    session = Session(BY_NAME[recipe], calibration=calibration)
+    session = Session(by_name(recipe), calibration=calibration)
     return session.feed(samples) + session.finish()
 
 

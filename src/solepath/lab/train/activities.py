@@ -37,7 +37,7 @@ from ...emulate.walk import emulate
 from ...emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
 from ...emulate.wearers.walker import Walker
 from ...foot.navigate.dedrift import LinearDedrift
-from ...foot.stance.stance import ShoeDetector
+from ...foot.stance.classic import ShoeDetector
 from ...foot.tracker import FootTracker
 from ...link.decoder import Decoder
 from ...recipes import Recipe
@@ -139,7 +139,8 @@ def _features(
             if window.index is not None:
                 window.close()
                 yield from _judged(window, window.index - REACH, begin)
-            window.begin(index, tracker)
+            rest = tracker.rest
+            window.begin(index, rest.bias, rest.grain if rest.count else 0.0)
         if sample.acc is not None:
             window.add(sample.acc, sample.gyro, tracker.corrector if tracker.levelled else None)
         if events:

@@ -27,7 +27,7 @@ from ...emulate.wearers.gait import Wearer
 from ...emulate.wearers.shoe import IN_SOLE
 from ...emulate.wearers.wearers import wearer
 from ...events import StrideTaken
-from ...recipes import FOOTSTEP_TRACKER
+from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from ...session import Session
 from ...types import SITE_OF_FOOT, Turn
 

@@ -10,41 +10,20 @@ from collections.abc import Sequence
 
 from attrs import define, field
 
-from ...foot.cues.inertial import PressureCues, Seen
-from ...foot.phase import Cue
+from ...foot.cues.cues import Cues, Seen
+from ...foot.cues.inertial import PressureCues
+from ...foot.phase import TO_COME, Cue
 from ...foot.stance.stance import Load, Stance
 from ...types import Phase, Vec3
-
-_OF_A_STEP = {
-    Phase.STATIONARY: (Cue.LIFT, Cue.CLEAR, Cue.CONTACT, Cue.FLAT),
-    Phase.PUSH_OFF: (Cue.CLEAR, Cue.CONTACT, Cue.FLAT),
-    Phase.SWING: (Cue.CONTACT, Cue.FLAT),
-    Phase.LOADING: (Cue.FLAT,),
-}
-"""What is still to tell of a step, by the phase that was told last (a gap in the samples may have told some of it)."""
+from .segment import StepSegment
 
 
 @define
-class CriticalCues:
+class CriticalCues(Cues):
     """Latency: all four are known when the static zone that ends the step is, `StaticZones.brief` after foot-flat; so
     toe-off some 0.6 s after it happened. An insole without an inertial sensor is left to `PressureCues`."""
 
     pressure: PressureCues = field(factory=PressureCues)
-
-    @property
-    def axis(self) -> Vec3 | None:
-        """As in `Cues`: none is told sample by sample."""
-        return None
-
-    @property
-    def sagittal(self) -> float:
-        """As in `Cues`."""
-        return 0.0
-
-    @property
-    def mark(self) -> Cue | None:
-        """As in `Cues`: no corrector is told."""
-        return None
 
     def update(
         self,
@@ -59,26 +38,19 @@ class CriticalCues:
         stance: Stance,
     ) -> Sequence[Seen]:
         """As in `Cues`: uplift, liftoff, landing and rest of the segment that ends here."""
-        segment = stance.segment
-        if segment is None or segment.times is None:
+        segment = stance.detail
+        if not isinstance(segment, StepSegment) or segment.times is None:
             if still and phase is not Phase.STATIONARY:
                 return (Seen(Cue.FLAT, t),)
             return ()
         times = segment.times
         when = {Cue.LIFT: times.uplift, Cue.CLEAR: times.liftoff, Cue.CONTACT: times.landing, Cue.FLAT: times.rest}
-        return [Seen(cue, when[cue]) for cue in _OF_A_STEP[phase]]
+        return [Seen(cue, when[cue]) for cue in TO_COME[phase]]
 
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[Seen]:
         """As in `Cues`."""
         seen = self.pressure.update(t, dt, load, phase) or self.pressure.areas(t, load, phase)
         return () if seen is None else (seen,)
-
-    def cleared(self, t: float) -> Seen:
-        """As in `Cues`."""
-        return Seen(Cue.CLEAR, t)
-
-    def interrupt(self) -> None:
-        """As in `Cues`: nothing lasts here."""
 
     def anew(self) -> None:
         """As in `Cues`."""

@@ -13,15 +13,16 @@ direction, which is the mean of what both feet turned (section IV.D). What the p
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import cos, hypot, pi, sin
+from typing import ClassVar
 
 from attrs import define, field
 
-from ...body.fuse.position import Position
-from ...events import Event, StrideTaken
-from ...foot.tracker import FootTracker
-from ...types import Foot, Sample, Site, Vec3
+from ...body.part import Notice, Position, Said, Track
+from ...events import StrideTaken
+from ...foot.view import FootPose, FootView
+from ...types import Foot, Vec3
 from ...types.vector import ZERO
 
 FURTHEST_APART = 1.0
@@ -55,9 +56,11 @@ class FootWay:
 
 
 @define
-class Footsteps:
+class Footsteps(Track):
     """Where the wearer is by the steps of both feet; between them it goes on with half of what the track of either foot
     has moved since its last step. World frame, height 0. Latency: none beyond the steps' own."""
+
+    feeds: ClassVar[bool] = True
 
     # state
     left: FootWay = field(factory=FootWay, init=False)
@@ -67,27 +70,18 @@ class Footsteps:
     restarts: int = field(default=0, init=False)
     """How often the feet were a metre apart."""
 
-    @property
-    def sites(self) -> tuple[Site, ...]:
-        """None: it takes feet only."""
+    def feed(self, view: FootView) -> Sequence[Said]:
+        """Nothing follows, but it is seen which feet are there."""
+        way = self._way(view.foot)
+        if not way.heard and view.sample.acc is not None and view.sample.gyro is not None:
+            way.heard = True
         return ()
 
-    def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
-        """Nothing follows; the steps among `events` are taken."""
-        way = self._way(foot.foot)
-        if not way.heard and sample.acc is not None and sample.gyro is not None:
-            way.heard = True
-        for event in events:
-            if isinstance(event, StrideTaken):
-                self.step(event)
-        return []
-
-    def limb_moved(self, sample: Sample) -> list[Event]:
-        """Never called: it has no such sites."""
-        return []
-
-    def interrupt(self, site: Site) -> None:
-        """Steps are taken as they come: no time is kept."""
+    def receive(self, event: Notice) -> Sequence[Said]:
+        """Nothing follows; strides are taken as they come."""
+        if isinstance(event, StrideTaken):
+            self.step(event)
+        return ()
 
     def step(self, taken: StrideTaken) -> None:
         """One step of either foot."""
@@ -129,9 +123,9 @@ class Footsteps:
     def _way(self, foot: Foot) -> FootWay:
         return self.left if foot is Foot.LEFT else self.right
 
-    def position(self, feet: Mapping[Foot, FootTracker]) -> Position | None:
+    def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
         """None before any sample."""
-        known = [foot for foot in feet.values() if foot.t is not None]
+        known = list(feet.values())
         if not known:
             return None
         x, y = self._mean()
@@ -144,7 +138,7 @@ class Footsteps:
             x, y = x + k * dx, y + k * dy
         covariances = [foot.covariance for foot in present]
         xx, xy, xz, yy, yz, zz = (sum([c[i] for c in covariances]) * k * k for i in range(6))
-        t = max([foot.t for foot in known if foot.t is not None])
+        t = max([foot.t for foot in known])
         return Position(t, (x, y, 0.0), (xx, xy, xz, yy, yz, zz))
 
     def _other(self, foot: Foot) -> FootWay:

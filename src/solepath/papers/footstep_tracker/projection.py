@@ -17,7 +17,8 @@ from attrs import define, evolve, field
 
 from ...body.gait.turning_steps import TurningSteps
 from ...calibration import Calibration
-from ...foot.navigate.strapdown import LONGEST_BRIDGE, Strapdown
+from ...foot.navigate.corrector import LONGEST_BRIDGE
+from ...foot.navigate.strapdown import Strapdown
 from ...foot.stance.stance import Stance
 from ...foot.turn import heading_turned
 from ...types import Foot, Phase, Quat, Vec3
@@ -107,11 +108,11 @@ class Projection(Strapdown):
     def correct(self, t: float, stance: Stance) -> bool:
         if stance.hint is not Phase.STATIONARY:
             return False
-        if stance.segment is None:
-            if self.printed or self.rate is None or abs(rotate(self.attitude, self.rate)[2]) < PIVOT:
-                self.attitude = self.stood
-        else:
-            self._rest(stance.segment)
+        segment = stance.detail
+        if isinstance(segment, StepSegment):
+            self._rest(segment)
+        elif self.printed or self.rate is None or abs(rotate(self.attitude, self.rate)[2]) < PIVOT:
+            self.attitude = self.stood
         self.position, self.velocity = self.anchored, ZERO
         self._level(min(self.moving, 0.1))
         self.stood, self.moving = self.attitude, 0.0

@@ -24,7 +24,7 @@ from math import inf
 
 from attrs import define, field
 
-from ...foot.stance.stance import Load, Stance
+from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Phase, Quat, Vec3
 from ...types.vector import GRAVITY, IDENTITY, ZERO
 from .critical_times import Row, critical_times
@@ -78,10 +78,12 @@ class StaticRun:
 
 
 @define
-class StaticZones:
+class StaticZones(Detector):
     """Zero velocity in static zones, nothing to say of the rest. The first sample of a zone brings the segment that it
-    ends (`Stance.segment`). Latency: `brief` after the foot lies still and `smooth` more at rates above 20 Hz, or
-    `length` when the gyroscope is not quiet. At 10 Hz three samples take 0.2 s: the least for a zone.
+    ends, a `StepSegment` in `Stance.detail`.
+
+    Latency: `brief` after the foot lies still and `smooth` more at rates above 20 Hz, or `length` when the gyroscope is
+    not quiet. At 10 Hz three samples take 0.2 s: the least for a zone.
     """
 
     within: float = 0.5

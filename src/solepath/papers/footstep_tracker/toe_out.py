@@ -16,7 +16,7 @@ from attrs import frozen
 
 from ...calibration import Calibration, CalibrationError
 from ...events import StrideTaken
-from ...recipes import FOOTSTEP_TRACKER
+from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from ...session import Session
 from ...types import Foot, Packet, Sample
 

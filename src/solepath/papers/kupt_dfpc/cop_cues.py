@@ -12,39 +12,32 @@ sample A to B of the figure), rests there in the air, and jumps from there to th
   heel-strike, and no mark is set, so that nothing is calibrated by it.
 
 Where there is no load yet (it is not known before it has fallen and risen once) the inertial cues speak. A foot that
-slides away without ever leaving the ground has cleared it when it has been fast for `shuffle_time`.
+slides away without ever leaving the ground has cleared it when it has been fast for `shuffle_time`. What follows from
+what the cells show is the table of stages.py.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from enum import Enum
 
-from attrs import define, evolve, field
+from attrs import define, field
 
-from ...foot.cues.inertial import InertialCues, Seen
+from ...foot.cues.cues import Cues, Seen
+from ...foot.cues.inertial import InertialCues
 from ...foot.cues.touch import Touch
 from ...foot.phase import Cue
 from ...foot.pressure.centre import centre
 from ...foot.stance.stance import Load, Stance
 from ...types import Layout, Phase, Vec3
 from ...types.vector import TIE
+from .stages import STAGES, CellCue, StepStage
 
 FARTHEST = 1e3
 """No centre of pressure jumps so far, m."""
 
 
-class StepStage(Enum):
-    """What the cells have seen of a step; not the phase, which is told late."""
-
-    STANDING = "standing"  # stationary
-    LEAVING = "leaving"  # motion has started, the foot is on the ground or was so a moment ago
-    FLYING = "flying"  # in the air
-    LANDING = "landing"  # on the ground again after a normal swing
-
-
 @define
-class CopCues:
+class CopCues(Cues):
     """Latency: toe-off one sample; heel-strike and foot-flat at the first stationary sample, as the paper has it;
     heel-off one sample."""
 
@@ -87,11 +80,6 @@ class CopCues:
     fast_since: float | None = field(default=None, init=False)
     flat: bool = field(default=False, init=False)
     """For an insole alone: both areas are loaded."""
-
-    @property
-    def axis(self) -> Vec3 | None:
-        """As in `Cues`."""
-        return self.inertial.axis
 
     @property
     def sagittal(self) -> float:
@@ -143,7 +131,7 @@ class CopCues:
             self.flat = False
             found = self._step(t, False, self.touch.update(t, load), load)
             if self.stage is StepStage.LANDING:
-                found += self._strike()
+                found += self._dated((Cue.CONTACT,), t)
             return found
         self.flat = min(load.heel, load.forefoot) >= (self.area_off if self.flat else self.area_on)
         return self._step(t, self.flat, self.touch.update(t, load), load)
@@ -167,75 +155,62 @@ class CopCues:
         now = self.middle if airborne else on_ground
         self.cop = now
         jump = 0.0 if was is None or now is None else abs(now - was)
-        if stationary and not airborne:
-            self.loaded_at = t
-            return self._stationary(t)
         found: list[Seen] = []
-        if self.stage is StepStage.STANDING:
-            found.append(Seen(Cue.LIFT, t))
-            self._enter(StepStage.LEAVING, t)
-        if self.stage is StepStage.LEAVING:
-            if before is not None and jump > self.jump:
-                self.jump = jump
-                self.moment = before
-                self.mark = Cue.CLEAR
-            if airborne:
-                toe_off = self.moment if self.moment is not None else self.loaded_at
-                found.append(Seen(Cue.CLEAR, t if toe_off is None else toe_off))
-                self.stage = StepStage.FLYING
-                self.airborne_since = t
-        elif self.stage is StepStage.FLYING:
-            rested = self.airborne_since is not None and t - self.airborne_since >= self.rest - TIE
-            if not airborne and rested:
-                self._enter(StepStage.LANDING, t)
-            elif not airborne:
-                self.stage = StepStage.LEAVING  # it was not in the air yet: the best candidate may still come
-        if self.stage is StepStage.LANDING:
-            found += self._landing(t, airborne, jump)
+        for cue in self._cell_cues(t, stationary, airborne):
+            stage, reported = STAGES[self.stage][cue]
+            found += self._dated(reported, t)
+            if stage is self.stage or cue is CellCue.LEAVES or cue is CellCue.BRUSHES:
+                self.stage = stage  # what is looked for goes on
+            else:
+                self._enter(stage, t)
+            if cue is CellCue.MOVES or cue is CellCue.LANDS:
+                self._compare(jump, before, t)
         if not airborne:
-            self.loaded_at = t
+            self.loaded_at, self.airborne_since = t, None
+        elif self.airborne_since is None:
+            self.airborne_since = t
         return found
 
-    def _landing(self, t: float, airborne: bool, jump: float) -> list[Seen]:
+    def _cell_cues(self, t: float, stationary: bool, airborne: bool) -> list[CellCue]:
+        """From numbers to cues: what this sample shows, in order."""
+        rested = self.airborne_since is not None and t - self.airborne_since >= self.rest - TIE
+        landing = self.stage is StepStage.LANDING
         if airborne:
-            if self.airborne_since is None:
-                self.airborne_since = t
-            elif t - self.airborne_since >= self.rest - TIE:
-                # it flies again and was never flat: toe walking, running
-                found = self._strike()
-                found.append(Seen(Cue.CLEAR, self.airborne_since if self.loaded_at is None else self.loaded_at))
-                self.stage = StepStage.FLYING
-                return found
-            return []
-        self.airborne_since = None
-        if not self.told and jump > self.jump:
-            self.jump = jump
-            self.moment = t
-            self.mark = Cue.CONTACT
-        return self._strike() if t - self.since >= self.longest_landing - TIE else []
+            if landing:
+                return [CellCue.LEAVES] if rested else []
+            return [CellCue.MOVES, CellCue.LEAVES]
+        if self.stage is StepStage.FLYING:
+            touched = CellCue.LANDS if rested else CellCue.BRUSHES
+            return [touched, CellCue.STANDS] if stationary else [touched]
+        if stationary:
+            return [CellCue.STANDS]
+        lingers = landing and t - self.since >= self.longest_landing - TIE
+        return [CellCue.MOVES, CellCue.LINGERS] if lingers else [CellCue.MOVES]
 
-    def _stationary(self, t: float) -> list[Seen]:
-        """The foot stands: motion end, or a stance that goes on."""
-        if self.stage is StepStage.STANDING:
-            return []
+    def _compare(self, jump: float, before: float | None, t: float) -> None:
+        """The centre of pressure has jumped by `jump` m since the sample at `before` s: the best candidate so far?"""
+        if jump <= self.jump:
+            return
+        if self.stage is StepStage.LEAVING and before is not None:
+            self.jump, self.moment, self.mark = jump, before, Cue.CLEAR
+        elif self.stage is StepStage.LANDING and not self.told:
+            self.jump, self.moment, self.mark = jump, t, Cue.CONTACT
+
+    def _dated(self, cues: Sequence[Cue], t: float) -> list[Seen]:
+        """The cues with their times."""
         found: list[Seen] = []
-        since = self.airborne_since
-        if self.stage is StepStage.FLYING and since is not None and t - since >= self.rest - TIE:
-            # it came down flat: the first sample of stance is the one after the jump
-            self._enter(StepStage.LANDING, t)
-            self.moment = t
-            self.mark = Cue.CONTACT
-        if self.stage is StepStage.LANDING:
-            found += self._strike()
-        found.append(Seen(Cue.FLAT, t))
-        self._enter(StepStage.STANDING, t)
+        for cue in cues:
+            at: float | None = t
+            if cue is Cue.CONTACT:
+                at, self.told = None if self.told else self.moment, self.told or self.moment is not None
+            elif cue is Cue.CLEAR:
+                landing = self.stage is StepStage.LANDING  # the candidate is one for heel-strike
+                at = self.moment if self.moment is not None and not landing else self.loaded_at
+                if at is None:
+                    at = self.airborne_since if landing else t
+            if at is not None:
+                found.append(Seen(cue, at))
         return found
-
-    def _strike(self) -> list[Seen]:
-        if self.told or self.moment is None:
-            return []
-        self.told = True
-        return [Seen(Cue.CONTACT, self.moment)]
 
     def _enter(self, stage: StepStage, t: float) -> None:
         self.stage = stage
@@ -263,9 +238,7 @@ class CopCues:
 
     def anew(self) -> None:
         """As in `Cues`."""
-        axis = self.inertial.axis
-        self.inertial = evolve(self.inertial)
-        self.inertial.axis = axis
+        self.inertial = self.inertial.anew()
         self.touch = self.touch.anew()
         self._enter(StepStage.LEAVING, 0.0)
         self.cop = self.pressed_at = self.loaded_at = self.fast_since = self.mark = None

@@ -29,16 +29,17 @@ What the paper leaves open is settled here:
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import isfinite, sqrt
+from typing import ClassVar
 
 from attrs import define, field
 
-from ...body.fuse.position import Position
-from ...events import Event, StrideFused, StrideTaken
+from ...body.part import Position, Said, Track
+from ...events import StrideFused, StrideTaken
 from ...foot.pressure.centre import centre
-from ...foot.tracker import FootTracker
-from ...types import Foot, Sample, Site, Vec3
+from ...foot.view import FootPose, FootView
+from ...types import Foot, Site, Vec3
 from ...types.vector import ZERO, sub
 
 POINTS = 64
@@ -89,7 +90,7 @@ class CalibratedPath:
 
 
 @define
-class DoubleFoot:
+class DoubleFoot(Track):
     """Both feet's steps in, one `StrideFused` for each out. Latency: none beyond the step's own; the choice of (13) is
     made anew after every step and is final for it. O(1) memory.
 
@@ -98,6 +99,8 @@ class DoubleFoot:
     by half a stride when the choice changes. Its covariance is that of the foot's own track, and over it the square of
     what calibration has moved the path by: either may be right.
     """
+
+    feeds: ClassVar[bool] = True
 
     patience: float = 1.0
     """s."""
@@ -112,24 +115,13 @@ class DoubleFoot:
     """The sum of (13), m^2/s: positive when the left foot errs more."""
     chosen: Foot | None = field(default=None, init=False)
 
-    @property
-    def sites(self) -> tuple[Site, ...]:
-        """None: it takes feet only."""
-        return ()
+    def feed(self, view: FootView) -> Sequence[Said]:
+        """The strides of a foot, fused."""
+        strides = [event for event in view.events if isinstance(event, StrideTaken)] if view.events else []
+        middle = None if view.layout is None or not strides else centre(view.layout)
+        return [self.step(stride, middle) for stride in strides]
 
-    def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
-        """The steps among `events`, fused."""
-        steps = [event for event in events if isinstance(event, StrideTaken)] if events else []
-        if not steps:
-            return []
-        layout = foot.insole.layout
-        return [self.step(step, None if layout is None else centre(layout)) for step in steps]
-
-    def limb_moved(self, sample: Sample) -> list[Event]:
-        """Never called: it has no such sites."""
-        return []
-
-    def interrupt(self, site: Site) -> None:
+    def reset(self, site: Site) -> None:
         """The foot's steps so far have times of another clock: nothing is compared with them."""
         if site.foot is not None:
             self._path(site.foot).latest = []
@@ -221,9 +213,9 @@ class DoubleFoot:
     def _path(self, foot: Foot) -> CalibratedPath:
         return self.left if foot is Foot.LEFT else self.right
 
-    def position(self, feet: Mapping[Foot, FootTracker]) -> Position | None:
+    def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
         """None before any sample."""
-        times = {foot: tracker.t for foot, tracker in feet.items() if tracker.t is not None}
+        times = {foot: pose.t for foot, pose in feet.items()}
         if not times:
             return None
         newest = max(times.values())

@@ -13,7 +13,8 @@ from attrs import define, evolve, field
 
 from ...calibration import Calibration, ShoeGeometry
 from ...foot.cues.touch import Touch
-from ...foot.stance.stance import Load, ShoeDetector, Stance
+from ...foot.stance.classic import ShoeDetector
+from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Foot, Layout, Phase, Quat, Vec3
 from ...types.vector import IDENTITY, ZERO
 from .kinematics import Sagittal, shoe_for, velocity
@@ -23,7 +24,7 @@ LEAST_TURN = 0.5
 
 
 @define
-class KnownVelocity:
+class KnownVelocity(Detector):
     """Which velocity the sensor has, from the load on the two areas that its circuit board parts (section III.C.1).
 
     Both areas loaded: the foot is stationary, velocity zero. Then the forefoot alone: the shoe rolls over its forefoot

@@ -202,7 +202,7 @@ class SwingDedrift(LinearDedrift):
         x, y, z = self.base
         self.position = (x + way[0], y + way[1], z + way[2])
         self.velocity = ZERO
-        self._level(duration)
+        self._level()
         self.swing = 0.0
         self.stood = True
 

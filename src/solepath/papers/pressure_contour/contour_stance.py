@@ -9,7 +9,7 @@ from math import hypot, inf, sqrt
 
 from attrs import define, field
 
-from ...foot.stance.stance import Load, Stance
+from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Layout, Phase, Quat, Vec3
 from ...types.vector import IDENTITY, TIE, ZERO
 from .contour import Contours
@@ -21,7 +21,7 @@ TARE_SAMPLES = 200
 
 
 @define
-class GyroscopeMagnitude:
+class GyroscopeMagnitude(Detector):
     """The sensor hardly turns, so it stands still: |w| has stayed below a threshold for `lasting` s, and has not risen
     above `release` times the quietest moment of this stance since. The statistic is |w|, rad/s. Latency: `lasting`.
 
@@ -122,7 +122,7 @@ class GyroscopeMagnitude:
 
 
 @define
-class ContourVelocity:
+class ContourVelocity(Detector):
     """The contours of the loaded heel move by no more than `threshold` (3), so the shoe stands still; until they move
     by more than `leave` for longer than `hold`, or the heel is no longer loaded. The statistic is their speed, m/s.
 

@@ -26,7 +26,8 @@ from attrs import frozen
 
 from ...calibration import Calibration, CalibrationError, bounded_text
 from ...events import StrideTaken
-from ...recipes import PRESSURE_CONTOUR, Recipe
+from ...papers.pressure_contour.recipe import PRESSURE_CONTOUR
+from ...recipes import Recipe
 from ...session import Session
 from ...types import Foot, Packet, Sample, Vec3
 from ...types.vector import from_yaw, rotate

@@ -9,7 +9,7 @@ from math import inf, sqrt
 
 from attrs import define, field
 
-from ...foot.stance.stance import Load, Stance
+from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Phase, Quat, Vec3
 from ...types.vector import GRAVITY, IDENTITY, TIE, ZERO
 
@@ -22,7 +22,7 @@ LONGEST = 0.1
 
 
 @define
-class ShortTimeEnergy:
+class ShortTimeEnergy(Detector):
     """x = sqrt(accX^2 + accY^2 + accZ^2) - g; E_n = sum over m = n-N+1 .. n of [x(m) w(n-m)]^2; stationary where
     E < E_T = 0.05. The statistic is E. Latency: `window`.
 
@@ -103,7 +103,7 @@ class ShortTimeEnergy:
 
 
 @define
-class AccelerationMagnitude:
+class AccelerationMagnitude(Detector):
     """The acceleration is as large as gravity, so the foot stands: what Li et al. compare with, in section 4.2.1, of
     which they give no threshold. Jimenez and others, "A comparison of pedestrian dead-reckoning algorithms using a
     low-cost MEMS IMU" (IEEE WISP 2009), condition C1: 9 m/s^2 < |a| < 11 m/s^2. The statistic is |a| - g, m/s^2. No

@@ -4,20 +4,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import ClassVar
+
 from attrs import define, field
 
 from ...body.activity.flights import Flights
 from ...body.activity.steepness import of_stairs, steepness
+from ...body.part import Doing, Said
 from ...events import ActivityChanged, Event, StrideTaken
-from ...foot.tracker import FootTracker
-from ...types import Activity, Foot, Phase, Sample, Site
+from ...foot.view import FootView
+from ...types import Activity, Foot, Phase, Site
 from ...types.vector import TIE
 
 _OF_STEP = {0: Activity.WALKING, 1: Activity.STAIRS_UP, -1: Activity.STAIRS_DOWN}
 
 
 @define
-class AnglePerMetre:
+class AnglePerMetre(Doing):
     """Each step of each foot is level, upstairs or downstairs by its own angle per metre; flights are counted.
 
     The paper tells three states and takes walking and jogging for one: a level step is WALKING, however fast. It has no
@@ -30,6 +34,8 @@ class AnglePerMetre:
     on and dates what is told; a foot whose times are elsewhere is left out until they come within `lost` s of the
     other's, or the other begins anew too, or says nothing for `silent` s.
     """
+
+    feeds: ClassVar[bool] = True
 
     stands: float = 1.2
     """Longer than a foot of a slow walker stands, s."""
@@ -52,8 +58,8 @@ class AnglePerMetre:
     stepped_at: float | None = field(default=None, init=False)
     """The end of the last step, or the last moment of standing; at first as above, s."""
 
-    def interrupt(self, site: Site) -> None:
-        """As in `ActivityPart`."""
+    def reset(self, site: Site) -> None:
+        """The clock of a foot restarts."""
         foot = site.foot
         if foot is None:
             return
@@ -61,23 +67,23 @@ class AnglePerMetre:
         self.clocks.pop(foot, None)
         self.apart[foot] = None
 
-    def finish(self, known_at: float) -> list[Event]:
-        """As in `ActivityPart`."""
-        return [*self.flights.finish(known_at)]
+    def finish(self, now: float) -> Sequence[Said]:
+        """A flight that is under way is over."""
+        return self.flights.finish(now)
 
-    def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
-        """As in `ActivityPart`."""
-        t = sample.t
-        if foot.moved_at != t or not foot.levelled:
-            return []
-        if self.apart and not self._dates(foot.foot, t):
-            return []
-        self.clocks[foot.foot] = t
+    def feed(self, view: FootView) -> Sequence[Said]:
+        """A sample of a foot, and the strides that came of it."""
+        t = view.t
+        if view.moved_at != t or not view.levelled:
+            return ()
+        if self.apart and not self._dates(view.foot, t):
+            return ()
+        self.clocks[view.foot] = t
         if self.moved_at is None or self.stepped_at is None:
             self.moved_at = self.stepped_at = t
-        known_at = t if sample.known_at is None else max(t, sample.known_at)
+        known_at = view.known_at
         told: list[Event] = []
-        for event in events:
+        for event in view.events:
             if isinstance(event, StrideTaken):
                 began = event.t_start if event.t_toe_off is None else max(event.t_start, event.t_toe_off)
                 self.stepped_at = max(self.stepped_at, event.t)
@@ -88,7 +94,7 @@ class AnglePerMetre:
                 elif self.activity is Activity.STANDING:
                     self._tell(Activity.UNKNOWN, began, known_at, told)
                 told += self.flights.stepped(event, way)
-        if foot.phase is not Phase.STATIONARY:
+        if view.phase is not Phase.STATIONARY:
             if t > self.moved_at:
                 self.moved_at = t
             if t - self.stepped_at > self.lost and self.activity is not Activity.UNKNOWN:

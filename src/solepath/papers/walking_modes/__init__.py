@@ -1,0 +1,1 @@
+"""Gong et al. 2023: each foot measured from the other at touchdown, compensated by walking mode; seven sensors."""

@@ -19,7 +19,7 @@ from ...calibration import Calibration, CalibrationError
 from ...events import TouchedDown
 from ...foot.navigate.error_state import ErrorStateFilter
 from ...foot.stance.cycle import Cycle
-from ...recipes import Recipe
+from ...recipes import Recipe, usual
 from ...recording.decoded import Recorded
 from ...session import Session
 from ...types import Foot, WalkingMode
@@ -84,7 +84,7 @@ def touchdowns(walk: Recorded, known: Calibration, heading: float | None = None)
     for foot, layout in walk.layouts.items():
         insole = known.insole(foot)
         insoles[foot] = insole if insole.layout is not None else evolve(insole, layout=layout)
-    recipe = Recipe("marked walk", Cycle(), ErrorStateFilter(), body=Modes(heading=heading))
+    recipe = Recipe("marked walk", Cycle(), ErrorStateFilter(), parts=usual(Modes(heading=heading)))
     session = Session(recipe, calibration=evolve(known, insoles=insoles))
     events = [*session.feed(walk.samples), *session.finish()]
     return sorted([event for event in events if isinstance(event, TouchedDown)], key=_time)

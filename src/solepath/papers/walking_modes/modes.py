@@ -23,17 +23,18 @@ What the paper leaves open, and what is taken here:
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from math import atan2, hypot
+from typing import ClassVar
 
 from attrs import define, evolve, field
 
-from ...body.fuse.position import Position
+from ...body.part import Position, Said, Track
 from ...calibration import Calibration, Limbs
 from ...events import Event, Limitation, TouchedDown, WalkingModeChanged
 from ...foot.rejection import rejected
-from ...foot.tracker import FootTracker
+from ...foot.view import FootPose, FootView
 from ...foot.world import Covariance3
 from ...types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 from ...types.vector import TIE, ZERO, sub
@@ -57,10 +58,13 @@ PATIENCE = 0.06
 
 
 @define
-class Modes:
+class Modes(Track):
     """See above. `compensation`: epsilon_P, None for methods I to III. `weight`, `th`: see `Recognition`. `heading`:
     where the wearer looks at the start, in the world that the devices share, rad, where it is known
     (`LowerLimbs.heading`)."""
+
+    feeds: ClassVar[bool] = True
+    sites: ClassVar[tuple[Site, ...]] = ABOVE
 
     touchdown: AnyTouchdown = field(factory=PressureTouchdown)
     compensation: Compensation | None = None
@@ -118,14 +122,9 @@ class Modes:
             compensation=compensation,
         )
 
-    @property
-    def sites(self) -> tuple[Site, ...]:
-        """Pelvis, thighs and shanks."""
-        return ABOVE
-
     # --- samples ---
 
-    def limb_moved(self, sample: Sample) -> list[Event]:
+    def feed_limb(self, sample: Sample) -> Sequence[Said]:
         """A sample of pelvis, thigh or shank: its attitude, or acceleration and angular velocity."""
         t = sample.t
         wrong = self.above.take(sample, self.places.chain)
@@ -133,28 +132,26 @@ class Modes:
             return [rejected(sample, wrong, self.above.times.get(sample.site))]
         return self._awaited(t, t if sample.known_at is None else max(t, sample.known_at))
 
-    def interrupt(self, site: Site) -> None:
-        """The clock of a site begins anew."""
+    def reset(self, site: Site) -> None:
+        """The clock of a site restarts."""
         self.places.chain.interrupt(site)
-        self.places.tracks.interrupt(site)
+        self.places.tracks.reset(site)
         self.above.interrupt(site)
 
-    def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
+    def feed(self, view: FootView) -> Sequence[Said]:
         """A sample of a foot: who carries, what has come down, and what the contact that ended tells."""
-        t = sample.t
-        known_at = t if sample.known_at is None else max(t, sample.known_at)
+        foot, t, known_at, sample = view.foot, view.t, view.known_at, view.sample
         self.above.passed(t)
-        self.places.moved(foot, sample, events)
-        if foot.levelled and self.above.times:  # without sensors above the ankles there is no chain
+        self.places.moved(view)
+        if view.levelled and self.above.times:  # without sensors above the ankles there is no chain
             if sample.quat is not None:
-                self.places.chain.told(SITE_OF_FOOT[foot.foot], t, sample.quat)
+                self.places.chain.told(SITE_OF_FOOT[foot], t, sample.quat)
             elif sample.acc is not None:
-                north = foot.gait.world.north
-                heading = None if north is None else atan2(-north[1], north[0])
-                self.places.chain.told_own(SITE_OF_FOOT[foot.foot], t, foot.corrector.attitude, heading)
-        usable = self.signs.moved(foot, sample, events, self.places.sides[foot.foot].track[2])
-        told = self._pressed(foot, t, known_at) if usable and foot.insole.cells else []
-        return told + self._carry(foot.foot, t, known_at)
+                heading = None if view.north is None else atan2(-view.north[1], view.north[0])
+                self.places.chain.told_own(SITE_OF_FOOT[foot], t, view.attitude, heading)
+        self.signs.moved(view, self.places.sides[foot].track[2])
+        told = self._pressed(view) if view.cells else []
+        return told + self._carry(foot, t, known_at)
 
     def _carry(self, foot: Foot, t: float, known_at: float) -> list[Event]:
         events = self._awaited(t, known_at)
@@ -223,18 +220,18 @@ class Modes:
                 return []
         return self._flushed(known_at)
 
-    def _pressed(self, foot: FootTracker, t: float, known_at: float) -> list[Event]:
+    def _pressed(self, view: FootView) -> list[Event]:
         """The cells of a foot: what they show of it, and whether they tell another mode."""
-        state, insole = self.signs.pressed(foot), foot.insole
-        both_heard = OTHER[foot.foot] in self.signs.shown
-        mode = self.recognition.pressed(foot.foot, state, insole.cells, insole.layout, t, both_heard)
+        foot, t, known_at, state = view.foot, view.t, view.known_at, self.signs.pressed(view)
+        both_heard = OTHER[foot] in self.signs.shown
+        mode = self.recognition.pressed(foot, state, view.cells, view.layout, t, both_heard)
         told: list[Event] = []
         if mode is not None:
-            told.append(WalkingModeChanged(t=t, known_at=known_at, mode=mode, foot=foot.foot))
-        if self.recognition.blind(foot.foot) and foot.foot not in self.blind:
-            self.blind.append(foot.foot)
-            what = f"the cells of the {foot.foot.value} insole do not tell left from right: no walking modes"
-            told.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[foot.foot], what=what))
+            told.append(WalkingModeChanged(t=t, known_at=known_at, mode=mode, foot=foot))
+        if self.recognition.blind(foot) and foot not in self.blind:
+            self.blind.append(foot)
+            what = f"the cells of the {foot.value} insole do not tell left from right: no walking modes"
+            told.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[foot], what=what))
         return told
 
     # --- places ---
@@ -285,16 +282,16 @@ class Modes:
         what = f"{why}: the feet are where their own inertial tracks have them"
         return [Limitation(t=t, known_at=known_at, site=None, what=what)]
 
-    def position(self, feet: Mapping[Foot, FootTracker]) -> Position | None:
+    def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
         """The mean of both feet: where the carrying one came down, and where the other is now."""
-        known = [tracker for tracker in feet.values() if tracker.t is not None]
+        known = list(feet.values())
         if not known:
             return None
-        t = max([tracker.t for tracker in known if tracker.t is not None])
-        for tracker in known:
-            if OTHER[tracker.foot] not in feet or self.places.unheard(OTHER[tracker.foot], t):
-                x, y, z = self.places.middle(tracker.foot)
-                return Position(t, (x, y, z), self._covariance(x, y, [tracker]))
+        t = max([pose.t for pose in known])
+        for pose in known:
+            if OTHER[pose.foot] not in feet or self.places.unheard(OTHER[pose.foot], t):
+                x, y, z = self.places.middle(pose.foot)
+                return Position(t, (x, y, z), self._covariance(x, y, [pose]))
         carrying = self.carrier.foot
         places = []
         for foot, side in self.places.sides.items():
@@ -303,7 +300,7 @@ class Modes:
         x, y, z = (0.5 * (places[0][axis] + places[1][axis]) for axis in range(3))
         return Position(t, (x, y, z), self._covariance(x, y, known))
 
-    def _covariance(self, x: float, y: float, known: list[FootTracker]) -> Covariance3:
+    def _covariance(self, x: float, y: float, known: list[FootPose]) -> Covariance3:
         """Touchdowns that err each for itself and all alike, and a first heading that errs; z is the tracks'."""
         each = self.step_sigma**2 * (1 + self.touchdowns)
         scale, turn = self.scale_sigma**2, self.heading_sigma**2

@@ -15,9 +15,8 @@ from attrs import define, field
 
 from ...body.fuse.position import MeanOfFeet, PlacedTrack
 from ...calibration import Limbs
-from ...events import Event
-from ...foot.tracker import FootTracker
-from ...types import Foot, Sample, Vec3
+from ...foot.view import FootView
+from ...types import Foot, Vec3
 from ...types.vector import ZERO, sub
 from .limbs.limbs import LowerLimbs
 from .mode import LEAST_STEP
@@ -78,18 +77,18 @@ class FootPlaces:
             place = (0.0, sign * self.apart, 0.0)
             self.sides[foot] = FootPlace(place, place, (self.limbs.foot, 0.0))
 
-    def moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> None:
+    def moved(self, view: FootView) -> None:
         """A sample of a foot: where its own track has it."""
         left, right = self.tracks.left, self.tracks.right
         was_left, was_right, waited = left.offset, right.offset, (left.waits, right.waits)
-        self.tracks.foot_moved(foot, sample, events)
+        self.tracks.feed(view)
         if left.offset is not was_left:
             self._shifted(Foot.LEFT, left, was_left, waited[0])
         if right.offset is not was_right:
             self._shifted(Foot.RIGHT, right, was_right, waited[1])
-        if foot.levelled:
-            placed = left if foot.foot is Foot.LEFT else right
-            self.sides[foot.foot].track = placed.place(placed.here)
+        if view.levelled:
+            placed = left if view.foot is Foot.LEFT else right
+            self.sides[view.foot].track = placed.place(placed.here)
 
     def _shifted(self, foot: Foot, placed: PlacedTrack, offset: Vec3, waited: bool) -> None:
         """Its track lies elsewhere among both than with `offset` before."""

@@ -7,8 +7,8 @@ from math import hypot
 from attrs import define, field
 
 from ...events import Event, FootFlat, Limitation, StrideTaken
-from ...foot.tracker import FootTracker
-from ...types import SITE_OF_FOOT, Foot, Phase, Sample
+from ...foot.view import FootView
+from ...types import SITE_OF_FOOT, Foot, Phase
 from ...types.vector import GRAVITY, rotate
 from .evidence import SignEvidence
 from .touchdown import AnyTouchdown, Flags, FootState, Height, NetAcceleration, PressureTouchdown
@@ -30,31 +30,27 @@ class Signs:
     def __attrs_post_init__(self) -> None:
         self.evidence = {foot: SignEvidence() for foot in Foot}
 
-    def moved(self, foot: FootTracker, sample: Sample, events: list[Event], height: float) -> bool:
-        """A sample of a foot, and what came of it; `height` of its own track, m. Whether it has cells to be used."""
-        state, evidence = self.shown.get(foot.foot), self.evidence[foot.foot]
+    def moved(self, view: FootView, height: float) -> None:
+        """A sample of a foot, and what came of it; `height` of its own track, m."""
+        state, evidence = self.shown.get(view.foot), self.evidence[view.foot]
         if state is None:
-            state = self.shown[foot.foot] = FootState()
-        state.swings = foot.phase is Phase.SWING
-        if events:
-            for event in events:
-                if isinstance(event, StrideTaken):
-                    evidence.stepped()
-                elif isinstance(event, FootFlat):
-                    state.floor = height
-        if isinstance(self.method, NetAcceleration) and foot.levelled and sample.acc is not None:
-            x, y, z = rotate(foot.corrector.attitude, sample.acc)
+            state = self.shown[view.foot] = FootState()
+        state.swings = view.phase is Phase.SWING
+        for event in view.events:
+            if isinstance(event, StrideTaken):
+                evidence.stepped()
+            elif isinstance(event, FootFlat):
+                state.floor = height
+        if isinstance(self.method, NetAcceleration) and view.levelled and view.sample.acc is not None:
+            x, y, z = rotate(view.attitude, view.sample.acc)
             state.acceleration = hypot(x, y, z - GRAVITY)
-        usable = bool(sample.pressure) and bool(foot.sole.health.usable(sample.pressure or ()))
-        evidence.heard(sample.t, usable or not isinstance(self.method, PressureTouchdown))
-        return usable
+        evidence.heard(view.t, bool(view.cells) or not isinstance(self.method, PressureTouchdown))
 
-    def pressed(self, foot: FootTracker) -> FootState:
-        """The cells of the foot's newest sample can be used. Returns what it shows."""
-        state, insole = self.shown[foot.foot], foot.insole
-        state.pressure = max(insole.cells)
-        newtons = insole.newtons is not None or (insole.layout is not None and insole.layout.scale is not None)
-        state.full = None if newtons else insole.highest
+    def pressed(self, view: FootView) -> FootState:
+        """The foot's newest sample has cells. Returns what it shows."""
+        state = self.shown[view.foot]
+        state.pressure = max(view.cells)
+        state.full = None if view.cells_in_newtons else view.highest_cell
         return state
 
     def down(self, t: float, alone: Foot | None, known_at: float, events: list[Event]) -> Flags:

@@ -33,11 +33,15 @@ set off is told as not final until its second pulse.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import ClassVar
+
 from attrs import define, field
 
+from ....body.part import Doing, Said
 from ....events import ActivityChanged, Event, LiftRidden
-from ....foot.tracker import FootTracker
-from ....types import Activity, Foot, Sample, Site
+from ....foot.view import FootView
+from ....types import Activity, Foot, Site
 from .hmm import forward, spread, weighed
 from .window_model import WindowModel, shipped
 from .windows import BLOCKS, HOP, WINDOW, FootWindow, FootWindows
@@ -99,8 +103,10 @@ class LiftPulses:
 
 
 @define
-class TwoSecondWindows:
+class TwoSecondWindows(Doing):
     """The activity part of footstep-tracker. `model`: what it was taught; None is what comes with this release."""
+
+    feeds: ClassVar[bool] = True
 
     model: WindowModel | None = None
     # state
@@ -120,34 +126,29 @@ class TwoSecondWindows:
     told: float | None = field(default=None, init=False)
     """`t` of the newest event."""
 
-    def interrupt(self, site: Site) -> None:
-        """The clock of the samples of a site begins anew: so do all windows."""
+    def reset(self, site: Site) -> None:
+        """The clock of the samples of a site restarts: so do all windows."""
         if site.foot is not None:
             self.origin = self.decided = self.belief = self.ride = self.told = None
             self.activity = Activity.UNKNOWN
             self.feet, self.standing = {}, {}
 
-    def finish(self, known_at: float) -> list[Event]:
-        """As in `ActivityPart`: half a window tells nothing."""
-        return []
-
-    def foot_moved(self, foot: FootTracker, sample: Sample, events: list[Event]) -> list[Event]:
-        """A foot has used `sample`."""
-        acc = sample.acc
+    def feed(self, view: FootView) -> Sequence[Said]:
+        """A sample of a foot."""
+        acc, t = view.sample.acc, view.t
         if acc is None:
-            return []
-        t = sample.t
-        windows = self.feet.get(foot.foot)
+            return ()
+        windows = self.feet.get(view.foot)
         if windows is None or self.origin is None:
             if self.origin is None:
                 self.origin = t
             windows = FootWindows()
-            self.feet = {**self.feet, foot.foot: windows}
+            self.feet = {**self.feet, view.foot: windows}
             self.feet = {one: self.feet[one] for one in Foot if one in self.feet}
-            self.standing.setdefault(foot.foot, Standing())
-        if not windows.update(t - self.origin, acc, sample.gyro):
-            return []
-        return self._full(t if sample.known_at is None else max(t, sample.known_at))
+            self.standing.setdefault(view.foot, Standing())
+        if not windows.update(t - self.origin, acc, view.sample.gyro):
+            return ()
+        return self._full(view.known_at)
 
     def _full(self, known_at: float) -> list[Event]:
         """A half-second of one foot is over: decide about every window that no foot will add to."""

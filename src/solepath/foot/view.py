@@ -1,0 +1,81 @@
+"""What a part of the body may see of a foot: a record of one foot at one sample, and nothing that it could change."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ..events import Event
+from ..types import Foot, Layout, Phase, Quat, Sample, Vec3
+from .world import Covariance3
+
+
+class FootView(NamedTuple):
+    """One foot right after one of its samples. Vectors are in the foot's own navigation frame, z up, whose heading is
+    that of the moment when the foot was levelled; `world` turns them into the world frame."""
+
+    foot: Foot
+    """Whose sample it is."""
+    sample: Sample
+    """The sample as the link or the app gave it, calibration not applied."""
+    t: float
+    """Its time, s."""
+    known_at: float
+    """When the sample was known, s; never earlier than `t`."""
+    events: tuple[Event, ...]
+    """What the foot said of this sample, in order."""
+    moved_at: float | None
+    """The newest sample with both acc and gyro, s; `t` where this one has both; None before any."""
+    levelled: bool
+    """Which way is up is known: the foot is followed."""
+    phase: Phase
+    """What the foot is doing after `events`."""
+    position: Vec3
+    """Of the sensor, m."""
+    velocity: Vec3
+    """Of the sensor, m/s."""
+    attitude: Quat
+    """Sensor to navigation frame."""
+    north: tuple[float, float] | None
+    """cos and sin of the turn from the navigation frame to the world frame; None until the first heading is known."""
+    stood: Quat
+    """`attitude` when the foot was last flat."""
+    gyro_bias: Vec3
+    """What the gyroscope shows at rest, rad/s, sensor frame."""
+    acc_grain: float
+    """What a count of the accelerometer is worth, m/s^2; 0 when nobody knows."""
+    cells: tuple[float, ...]
+    """What the pressure cells show, calibrated and noise taken off; () without any that can be used."""
+    cells_in_newtons: bool
+    """Whether `cells` are in N; else they are in the unit of the samples."""
+    highest_cell: float
+    """The most loaded cell of late, as `cells`."""
+    layout: Layout | None
+    """Where the cells are; None when nobody knows."""
+    centre_alone: tuple[float, float] | None
+    """Centre of pressure (x, y), foot frame, m, of an insole without an inertial sensor; None otherwise."""
+    takes_shifts: bool
+    """Whether this foot's corrector can be turned and moved by a `Shift` (body/part.py)."""
+    covariance: Covariance3 | None
+    """Of `position`, world frame, m^2; given with a stride, None otherwise: it takes long."""
+
+    def world(self, v: Vec3) -> Vec3:
+        """A vector of the navigation frame, in the world frame."""
+        if self.north is None:
+            return v
+        c, s = self.north
+        x, y, z = v
+        return (c * x - s * y, s * x + c * y, z)
+
+
+class FootPose(NamedTuple):
+    """Where one foot is now."""
+
+    foot: Foot
+    t: float
+    """The newest sample, s."""
+    moved_at: float | None
+    """The newest sample with both acc and gyro, s; None before any."""
+    position: Vec3
+    """Of the sensor, world frame, m."""
+    covariance: Covariance3
+    """Of `position`, m^2."""

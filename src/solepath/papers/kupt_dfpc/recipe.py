@@ -1,0 +1,32 @@
+"""The recipes of Chen et al. 2019."""
+
+from __future__ import annotations
+
+from attrs import evolve
+
+from ...foot.navigate.dedrift import LinearDedrift
+from ...foot.pressure.insole import InsoleLoads
+from ...recipes import Recipe, usual
+from .cop_cues import CopCues
+from .fusion import DoubleFoot
+from .known_velocity import KnownVelocity
+from .swing_dedrift import SwingDedrift
+
+BOARD = 0.44
+"""Where the circuit board parts an insole into two areas, as a share of its length: 12.5 cm of a shoe of 28.5 cm."""
+
+KUPT = Recipe(
+    "kupt",
+    KnownVelocity(),
+    SwingDedrift(),
+    CopCues(),
+    InsoleLoads(heel_ends=BOARD, forefoot_begins=BOARD),
+    needs_pressure=True,
+)
+"""Velocity known from heel-strike to toe-off, without the fusion of both feet."""
+
+KUPT_DFPC = evolve(KUPT, name="kupt-dfpc", parts=usual(DoubleFoot()))
+"""Chen et al. 2019: the same, and both feet calibrating each other's strides."""
+
+ZUPT = evolve(KUPT, name="zupt", corrector=LinearDedrift())
+"""The same stationary epochs, velocity known in them only: what Chen et al. compare with."""

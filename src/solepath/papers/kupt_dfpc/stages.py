@@ -1,0 +1,80 @@
+"""What the cells have seen of a step, as a table; what turns loads into its cues is cop_cues.py.
+
+A stage is not a phase. A toe-off is known as soon as the foot is in the air, but a heel-strike only once the foot lies
+flat, and a foot that was in the air for no more than a moment had not left the ground yet.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from ...foot.phase import Cue, in_columns
+
+
+class StepStage(Enum):
+    """How far a step is, as far as the cells tell."""
+
+    STANDING = "standing"  # stationary
+    LEAVING = "leaving"  # motion has started, the foot is on the ground or was so a moment ago
+    FLYING = "flying"  # in the air
+    LANDING = "landing"  # on the ground again after a normal swing
+
+
+class CellCue(Enum):
+    """What the cells show."""
+
+    STANDS = "stands"  # it lies still on the ground
+    MOVES = "moves"  # it does so no longer
+    LEAVES = "leaves"  # it is in the air
+    BRUSHES = "brushes"  # it is on the ground again, too soon for a swing
+    LANDS = "lands"  # it is on the ground again after a normal swing
+    LINGERS = "lingers"  # it landed long ago and does not lie still
+
+
+_STANDING, _LEAVING, _FLYING, _LANDING = StepStage
+_LIFT, _CLEAR, _CONTACT, _FLAT = (Cue.LIFT,), (Cue.CLEAR,), (Cue.CONTACT,), (Cue.FLAT,)
+
+STAGES: dict[StepStage, dict[CellCue, tuple[StepStage, tuple[Cue, ...]]]] = {
+    _STANDING: {
+        CellCue.STANDS: (_STANDING, ()),
+        CellCue.MOVES: (_LEAVING, _LIFT),
+        CellCue.LEAVES: (_FLYING, _LIFT + _CLEAR),
+        CellCue.BRUSHES: (_STANDING, ()),
+        CellCue.LANDS: (_STANDING, ()),
+        CellCue.LINGERS: (_STANDING, ()),
+    },
+    _LEAVING: {
+        CellCue.STANDS: (_STANDING, _FLAT),
+        CellCue.MOVES: (_LEAVING, ()),
+        CellCue.LEAVES: (_FLYING, _CLEAR),
+        CellCue.BRUSHES: (_LEAVING, ()),
+        CellCue.LANDS: (_LEAVING, ()),
+        CellCue.LINGERS: (_LEAVING, ()),
+    },
+    _FLYING: {
+        CellCue.STANDS: (_STANDING, _FLAT),
+        CellCue.MOVES: (_FLYING, ()),
+        CellCue.LEAVES: (_FLYING, ()),
+        CellCue.BRUSHES: (_LEAVING, ()),  # it was not in the air yet: the best candidate for toe-off may still come
+        CellCue.LANDS: (_LANDING, ()),
+        CellCue.LINGERS: (_FLYING, ()),
+    },
+    _LANDING: {
+        CellCue.STANDS: (_STANDING, _CONTACT + _FLAT),
+        CellCue.MOVES: (_LANDING, ()),
+        CellCue.LEAVES: (_FLYING, _CONTACT + _CLEAR),  # it flies again and was never flat: toe walking, running
+        CellCue.BRUSHES: (_LANDING, ()),
+        CellCue.LANDS: (_LANDING, ()),
+        CellCue.LINGERS: (_LANDING, _CONTACT),
+    },
+}
+"""Stage and cue -> the next stage, and what is reported: one contact a landing."""
+
+
+def describe() -> str:
+    """The table as text, for people: the next stage, and what is reported."""
+    rows = [
+        [stage.name, *(" ".join((after.name, *(cue.value for cue in reported))) for after, reported in row.values())]
+        for stage, row in STAGES.items()
+    ]
+    return in_columns([["stage", *(cue.value for cue in CellCue)], *rows], 24)

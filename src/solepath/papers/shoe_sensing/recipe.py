@@ -1,0 +1,19 @@
+"""The recipes of Li et al. 2016."""
+
+from __future__ import annotations
+
+from ...recipes import Recipe, usual
+from .gated_tilt import ShoeSensing
+from .short_time_energy import AccelerationMagnitude, ShortTimeEnergy
+from .walking_state import AnglePerMetre
+
+SHOE_SENSING = Recipe("shoe-sensing", ShortTimeEnergy(), ShoeSensing(), parts=usual(activity=AnglePerMetre()))
+"""Li et al. 2016: short-time energy, tilt fed back in stance, height errors of level strides taken out."""
+
+SHOE_MAGNITUDE = Recipe(
+    "acceleration-magnitude",
+    AccelerationMagnitude(),
+    ShoeSensing(behind=0.0),
+    parts=usual(activity=AnglePerMetre()),
+)
+"""The same with stance where the acceleration is as large as gravity: what Li et al. compare with."""

@@ -1,0 +1,28 @@
+"""Parts of the body, fed as a wearer feeds them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from solepath.body.part import Part
+from solepath.events import Event, StrideTaken
+from solepath.foot.tracker import FootTracker
+from solepath.foot.view import FootView
+from solepath.types import Sample
+
+
+def seen(tracker: FootTracker, sample: Sample, events: Iterable[Event]) -> FootView:
+    """The foot after a sample of which `events` came."""
+    known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
+    found = tuple(events)
+    stride = any(isinstance(event, StrideTaken) for event in found)
+    return tracker.view(sample, known_at, found, spread=stride)
+
+
+def fed(part: Part, tracker: FootTracker, sample: Sample, events: Sequence[Event]) -> list[Any]:
+    """What a part says of a sample of a foot and of what came of it."""
+    said = [*part.feed(seen(tracker, sample, events))] if part.feeds else []
+    for event in events:
+        said += part.receive(event)
+    return said
