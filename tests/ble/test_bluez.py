@@ -26,7 +26,7 @@ from solepath.emulate.sensors.sensortags import CC2650
 from solepath.link.devices.cc2650 import PROFILE
 from solepath.recording import read_packets
 from solepath.types import Packet, Site
-from solepath.wire.receiver import parse_words
+from solepath.wire.fields import parse_text
 
 pytestmark = [
     pytest.mark.skipif(sys.platform != "linux", reason="BlueZ is Linux's"),
@@ -84,7 +84,7 @@ def frames(count: int) -> Callable[[list[Packet]], bool]:
 
 
 def troubles(packets: list[Packet]) -> list[str]:
-    return [parse_words(packet.data) for packet in packets if packet.channel == "receiver/trouble"]
+    return [parse_text(packet.data) for packet in packets if packet.channel == "receiver/trouble"]
 
 
 def test_a_scan_tells_who_advertises_and_leaves_the_adapter_alone_afterwards(on_a_bus):

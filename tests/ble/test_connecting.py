@@ -16,7 +16,7 @@ from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import Fault, What, parse_faults
 from solepath.emulate.devices.peripheral import AttError
 from solepath.types import Site
-from solepath.wire.receiver import parse_words
+from solepath.wire.fields import parse_text
 
 
 def test_a_device_that_left_before_it_was_connected_is_soon_looked_for_again():
@@ -26,7 +26,7 @@ def test_a_device_that_left_before_it_was_connected_is_soon_looked_for_again():
         async with memory(bench) as backend, Devices([Wanted(None, "solepath L")], backend=backend) as devices:
             return await hear(devices, 60.0)
 
-    troubles = [(p.t, parse_words(p.data)) for p in in_virtual_time(main) if p.channel == "receiver/trouble"]
+    troubles = [(p.t, parse_text(p.data)) for p in in_virtual_time(main) if p.channel == "receiver/trouble"]
     (connecting, unanswered), (searching, unheard) = troubles
     assert unanswered.startswith("the device does not answer: bring it near") and connecting == pytest.approx(10.0)
     assert unheard.startswith("no device 'solepath L' is heard") and 20.0 < searching < 30.0

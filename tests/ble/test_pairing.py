@@ -22,7 +22,7 @@ from solepath.link.devices.cc2650 import PROFILE as CC2650
 from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.link.profile import Profile
 from solepath.types import Packet, Site
-from solepath.wire.receiver import parse_words
+from solepath.wire.fields import parse_text
 
 LEFT = Site.LEFT_FOOT
 ROUTE = Route().stand(2.0).walk(6.0).stop(2.0)
@@ -57,7 +57,7 @@ def heard(tier: str, faults: str, pair: bool, seconds: float, kind: str = "insol
 
 
 def troubles(packets: list[Packet]) -> list[str]:
-    return [parse_words(packet.data) for packet in packets if packet.channel == "receiver/trouble"]
+    return [parse_text(packet.data) for packet in packets if packet.channel == "receiver/trouble"]
 
 
 def streamed(packets: list[Packet], profile: Profile) -> list[float]:

@@ -151,3 +151,4 @@ def test_a_live_session_of_any_device_loads_neither_numpy_nor_bleak_nor_asyncio(
             assert steps > 6
             loaded = {name.partition(".")[2] for name in live if name.startswith("solepath.")}
             assert {room(name) for name in loaded} <= CORE | {"__init__"}
+            assert "link.devices.insole" in loaded and "link.devices.cc2650" not in loaded, "a device loads when heard"

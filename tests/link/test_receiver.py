@@ -22,8 +22,9 @@ from solepath import (
 )
 from solepath.link.decoder import Decoder
 from solepath.types import Foot, Sample
+from solepath.wire.fields import build_text
 from solepath.wire.insole import InsoleFrame, InsoleSample, build_frame
-from solepath.wire.receiver import ConnectionFrame, build_connected, build_dropped, build_words
+from solepath.wire.receiver import ConnectionFrame, build_connected, build_dropped
 
 LEFT = Site.LEFT_FOOT
 CHARGED = b"\x64"
@@ -42,9 +43,9 @@ def test_what_the_receiver_says_becomes_events() -> None:
     session = Session()
     said = [
         ("receiver/connected", build_connected(ConnectionFrame("solepath L", -61))),
-        ("receiver/trouble", build_words("the battery is low")),
+        ("receiver/trouble", build_text("the battery is low")),
         ("receiver/dropped", build_dropped(7)),
-        ("receiver/restarted", build_words("insole/frame")),
+        ("receiver/restarted", build_text("insole/frame")),
         ("receiver/disconnected", b""),
     ]
     events = session.feed([packet(float(t), *one, device="F0:01") for t, one in enumerate(said)])

@@ -414,13 +414,10 @@ def test_what_is_read_is_what_was_measured_last() -> None:
 
 def test_keys_are_told_when_they_go_down_and_when_they_come_up() -> None:
     presses = (4.0, 1.0)
-    for device, keys, parse in (
-        (CC2650(presses=presses), "cc2650/keys", cc2650.parse_keys),
-        (CC2541(presses=presses), "cc2541/keys", cc2541.parse_keys),
-    ):
+    for device, keys in ((CC2650(presses=presses), "cc2650/keys"), (CC2541(presses=presses), "cc2541/keys")):
         heard = played(begin(worn(device), keys), 10.0)
         expected = [(1.0, True), (1.25, False), (4.0, True), (4.25, False)]
-        assert [(round(t, 3), parse(o.value).left) for t, o in heard] == expected
+        assert [(round(t, 3), said(keys, o.value).left) for t, o in heard] == expected
         assert not played(begin(worn(device), keys, now=5.0), 10.0), "what is over is not told later"
 
 

@@ -19,7 +19,7 @@ from solepath.types import Cell, Foot
 from solepath.wire import cells, device, fragment, insole, insole_control, insole_info, receiver
 from solepath.wire.envelope import MAGIC
 from solepath.wire.error import WireError
-from solepath.wire.fields import build_whole, parse_whole
+from solepath.wire.fields import build_text, build_whole, parse_text, parse_whole
 
 UNHURRIED = settings(deadline=None)
 """A busy machine is no reason to fail."""
@@ -35,7 +35,7 @@ CODECS: dict[str, tuple[Callable[[bytes], Any], Callable[[Any], bytes]]] = {
     "device-firmware": (device.parse_firmware, device.build_firmware),
     "receiver-connected": (receiver.parse_connected, receiver.build_connected),
     "receiver-dropped": (receiver.parse_dropped, receiver.build_dropped),
-    "receiver-trouble": (receiver.parse_words, receiver.build_words),
+    "receiver-trouble": (parse_text, build_text),
 }
 CODECS |= {
     "sensortag-period" if channel.endswith("-period") else channel.replace("/", "-"): (

@@ -22,7 +22,7 @@ from solepath.types import Cell, Foot
 from solepath.wire import device, fragment, insole, insole_control, insole_info, receiver
 from solepath.wire.envelope import seal
 from solepath.wire.error import WireError
-from solepath.wire.fields import build_whole, parse_whole
+from solepath.wire.fields import build_text, build_whole, parse_text, parse_whole
 
 VECTORS = PROTOCOL / "vectors"
 
@@ -94,9 +94,9 @@ FORMATS = {
     "receiver-connected": record(receiver.ConnectionFrame, receiver.parse_connected, receiver.build_connected),
     "receiver-disconnected": Format(receiver.parse_nothing, lambda _: b"", lambda _: {}, lambda _: None),
     "receiver-dropped": single("count", receiver.parse_dropped, receiver.build_dropped),
-    "receiver-restarted": single("words", receiver.parse_words, receiver.build_words),
+    "receiver-restarted": single("words", parse_text, build_text),
     "receiver-tick": Format(receiver.parse_nothing, lambda _: b"", lambda _: {}, lambda _: None),
-    "receiver-trouble": single("words", receiver.parse_words, receiver.build_words),
+    "receiver-trouble": single("words", parse_text, build_text),
 }
 
 PERIODS = ("cc2650/barometer-period", *[channel for channel in cc2541.FORMATS if channel.endswith("-period")])

@@ -12,7 +12,7 @@ from bleak.backends.characteristic import BleakGATTCharacteristic
 from ..link.decoder import Decoder
 from ..link.profile import Profile
 from ..types import Packet, Site
-from ..wire.receiver import build_words
+from ..wire.fields import build_text
 from .setup import read, subscribe, write_setup
 from .voice import Voice
 from .waiting import either
@@ -60,7 +60,7 @@ class Listening:
             if frozen is None:
                 continue
             channel, remedy = frozen
-            self.voice.say("receiver/restarted", build_words(channel))
+            self.voice.say("receiver/restarted", build_text(channel))
             if remedy is Remedy.RECONNECT:
                 return
             await write_setup(self.client, self.profile, self.voice)

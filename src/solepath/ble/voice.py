@@ -7,7 +7,7 @@ import asyncio
 from attrs import define, field
 
 from ..types import Packet, Site
-from ..wire.receiver import build_words
+from ..wire.fields import build_text
 from .inbox import Inbox
 
 REPEAT = 60.0
@@ -45,7 +45,7 @@ class Voice:
         if now - self._told.get(what, -REPEAT) >= REPEAT:
             self._told = {one: t for one, t in self._told.items() if now - t < REPEAT}
             self._told[what] = now
-            self.say("receiver/trouble", build_words(shortened(what, LONGEST)))
+            self.say("receiver/trouble", build_text(shortened(what, LONGEST)))
 
     def _packet(self, channel: str, data: bytes) -> Packet:
         return Packet(asyncio.get_running_loop().time(), self.site, channel, data, self.address)

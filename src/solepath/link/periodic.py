@@ -23,6 +23,7 @@ from math import floor
 from attrs import define
 
 from .clock import Clock
+from .run import Taken
 
 HOLE = 1.5
 """Periods between two arrivals, from which on a loss is possible."""
@@ -46,15 +47,6 @@ WIDE = 6
 """Holes in a row before the period is taken to be longer."""
 NEW_PHASE = 5.0
 """Seconds of silence after which the device may have begun to measure anew: slots are counted from there."""
-
-
-@define
-class Arrival:
-    """One notification: its time, and how many before it never came, the first of them at `t_missing`."""
-
-    t: float
-    lost: int
-    t_missing: float
 
 
 @define
@@ -91,7 +83,7 @@ class Periodic:
     wide_since: float = 0.0
     """Arrival before the first of them, s."""
 
-    def arrive(self, arrival: float, counts_losses: bool = True) -> Arrival:
+    def arrive(self, arrival: float, counts_losses: bool = True) -> Taken:
         """The notification that arrived at `arrival` (s, not before the one before it).
 
         With `counts_losses` False silence is legal (wake on motion) and says nothing about losses.
@@ -112,7 +104,7 @@ class Periodic:
         settled = self.settled >= SETTLED
         if behind < -0.5 * period and (settled or self.doubtful) or arrival - t_missing < -(AHEAD + period):
             self.doubtful = self.slipped = 0
-            return Arrival(self.clock.time(self.slot + 0.25), 0, 0.0)
+            return Taken([self.clock.time(self.slot + 0.25)])
         lost = self._lost(hole, behind, period)
         self.slot += 1.0 + lost
         self.settled = min(self.settled + 1, SETTLED)
@@ -124,7 +116,7 @@ class Periodic:
             if settled:
                 late = max(0.0, min(4.0 * period, arrival - self.clock.fitted(self.slot)))
                 self.jitter += (late - self.jitter) / 16.0
-        return Arrival(self.clock.time(self.slot), lost, t_missing)
+        return Taken([self.clock.time(self.slot)], lost, t_missing)
 
     def change(self, period: float) -> None:
         """Another period (s) was written to the device; slots are counted anew from the next packet."""
@@ -172,7 +164,7 @@ class Periodic:
         self.period = round((arrival - self.wide_since) / self.wide, 2)
         return True
 
-    def _begin(self, arrival: float, lost: int, t_missing: float) -> Arrival:
+    def _begin(self, arrival: float, lost: int, t_missing: float) -> Taken:
         """Count slots from here, in a new fit whose times come after those of the old one."""
         times_from = None if self.clock.last_x is None else self.clock.last_t + 0.5 * self.period
         self.clock = Clock(1.0 / self.period, floor=times_from)
@@ -180,7 +172,7 @@ class Periodic:
         self.slot, self.arrived = 0.0, arrival
         self.slipped = self.doubtful = self.settled = self.count = self.wide = 0
         self.began = arrival
-        return Arrival(self.clock.time(0.0), lost, t_missing)
+        return Taken([self.clock.time(0.0)], lost, t_missing)
 
 
 def periodic(period: float) -> Periodic:

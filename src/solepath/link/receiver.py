@@ -5,7 +5,8 @@ from __future__ import annotations
 from ..events import Connected, Disconnected, LinkEvent, LinkTrouble, PacketsDropped, Rejection, StreamRestarted
 from ..types import Packet
 from ..wire.error import WireError
-from ..wire.receiver import parse_connected, parse_dropped, parse_nothing, parse_words
+from ..wire.fields import parse_text
+from ..wire.receiver import parse_connected, parse_dropped, parse_nothing
 
 
 def said(packet: Packet) -> list[LinkEvent]:
@@ -24,7 +25,7 @@ def said(packet: Packet) -> list[LinkEvent]:
         case "receiver/dropped":
             return [PacketsDropped(t=t, known_at=t, site=site, count=parse_dropped(packet.data))]
         case "receiver/restarted":
-            return [StreamRestarted(t=t, known_at=t, site=site, channel=parse_words(packet.data))]
+            return [StreamRestarted(t=t, known_at=t, site=site, channel=parse_text(packet.data))]
         case "receiver/trouble":
-            return [LinkTrouble(t=t, known_at=t, site=site, what=parse_words(packet.data))]
+            return [LinkTrouble(t=t, known_at=t, site=site, what=parse_text(packet.data))]
     raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from attrs import define, frozen
 
-from ..events import Rejection
+from ..events import ClockReset, PacketsLost, Rejection
+from ..types import Site
 from ..wire.error import WireError
 from .clock import Clock
 
@@ -50,6 +51,17 @@ class Taken:
     lost: int = 0
     t_missing: float = 0.0
     restarted: bool | None = None
+
+    def events(self, site: Site, channel: str, arrival: float) -> list[PacketsLost | ClockReset]:
+        """What is to be said before its samples, in order."""
+        found: list[PacketsLost | ClockReset] = []
+        if self.lost:
+            t = self.t_missing
+            found.append(PacketsLost(t=t, known_at=max(arrival, t), site=site, channel=channel, count=self.lost))
+        if self.restarted is not None:
+            t = self.times[0]
+            found.append(ClockReset(t=t, known_at=max(arrival, t), site=site, restarted=self.restarted))
+        return found
 
 
 @define

@@ -11,16 +11,14 @@ Times come from the best that the device has, by the rules of protocol/clock.md:
 
 from __future__ import annotations
 
-from attrs import define, field
+from attrs import define, evolve, field
 
 from ..events import (
     BatteryLevel,
-    ClockReset,
     KeysChanged,
     LayoutKnown,
     Limitation,
     LinkEvent,
-    PacketsLost,
     Rejection,
 )
 from ..types import Sample, Site, Vec3
@@ -196,16 +194,10 @@ class StreamLink:
             taken = self.run.take(counted, rate * PARTS, arrival, anew=self._stood_still(driver, arrival))
             self._change(rate)
             self.coarse = int(reading.ticks or 0)
-        out: Output = []
-        if taken.lost:
-            t = taken.t_missing
-            out.append(PacketsLost(t=t, known_at=max(arrival, t), site=self.site, channel=channel, count=taken.lost))
+        out: Output = [*taken.events(self.site, channel, arrival)]
         if driver.limitation and not self.told:
             self.told = True
             out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=driver.limitation))
-        if taken.restarted is not None:
-            t = taken.times[0]
-            out.append(ClockReset(t=t, known_at=max(arrival, t), site=self.site, restarted=taken.restarted))
         self.arrived = arrival
         for one, taken_at in zip(reading.samples, taken.times, strict=True):
             t = self._in_order(taken_at)
@@ -280,10 +272,9 @@ class StreamLink:
     def _by_arrival(self, count: int, rate: float, arrival: float) -> Taken:
         if self.periodic is None:
             self.periodic = periodic(count / rate)
-        slot = self.periodic.arrive(arrival, counts_losses=not self.silence_is_legal)
-        apart = self.periodic.period / count
-        times = [slot.t - (count - 1 - j) * apart for j in range(count)]
-        return Taken(times, slot.lost, slot.t_missing)
+        taken = self.periodic.arrive(arrival, counts_losses=not self.silence_is_legal)
+        (last,), apart = taken.times, self.periodic.period / count
+        return evolve(taken, times=[last - (count - 1 - j) * apart for j in range(count)])
 
     def _in_order(self, t: float) -> float:
         if self.last_t is not None and t <= self.last_t:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable
 from io import BytesIO
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import attrs
 from construct import (
@@ -32,8 +32,6 @@ if TYPE_CHECKING:  # construct's classes take type arguments in its stubs only
 else:
     Definition = Construct
     AnyAdapter = Adapter
-
-T = TypeVar("T")
 
 LONGEST_VALUE = 512
 """Bytes; no attribute value is longer (Bluetooth Core, vol 3 part F, 3.2.9), so no frame, record or string is."""

@@ -1,4 +1,7 @@
-"""What a receiver says of itself (protocol/receiver.md): connections, packets that it dropped, time passing."""
+"""What a receiver says of itself (protocol/receiver.md): connections, packets that it dropped, time passing.
+
+receiver/restarted (a channel's name) and receiver/trouble (a sentence) are texts, as fields.py reads and writes them.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ from construct import Int8sl, Int32ul, Struct, Terminated
 
 from ..events import Rejection
 from .error import WireError
-from .fields import build_text, build_whole, malformed, parse_text, parse_whole
+from .fields import build_whole, malformed, parse_whole
 
 UNKNOWN_SIGNAL = 127
 """dBm that no receiver measures: the signal strength is not known (as in the Bluetooth HCI)."""
@@ -63,10 +66,6 @@ def build_dropped(count: int) -> bytes:
     if count < 1:
         raise ValueError(f"{count} packets dropped")
     return build_whole(_COUNT, {"count": count})
-
-
-parse_words, build_words = parse_text, build_text
-"""receiver/restarted (a channel's name) and receiver/trouble (a sentence)."""
 
 
 def parse_nothing(data: bytes) -> None:

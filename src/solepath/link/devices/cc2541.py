@@ -24,7 +24,7 @@ from construct import (
     Struct,
 )
 
-from ...events import KeysChanged, Limitation, LinkEvent, PacketsLost
+from ...events import KeysChanged, Limitation, LinkEvent
 from ...types import Sample, Site, Vec3
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, parse_whole
@@ -254,23 +254,20 @@ class Cc2541Link:
     def _acc(self, counts: tuple[int, int, int], arrival: float) -> Output:
         per_g = counts_per_g(self.firmware, self.code)
         acc = _scaled(counts, GRAVITY / per_g)
-        slot = self.acc.arrive(arrival)
-        out = self._lost("cc2541/accelerometer", slot.lost, slot.t_missing, arrival)
-        out += self.assembler.acc(slot.t, acc, self.acc.period, arrival)
+        taken = self.acc.arrive(arrival)
+        (t,) = taken.times
+        out: Output = [*taken.events(self.site, "cc2541/accelerometer", arrival)]
+        out += self.assembler.acc(t, acc, self.acc.period, arrival)
         if not self.rest.done:
-            out += self.rest.suspect(Sample(slot.t, self.site, acc, known_at=max(arrival, slot.t)), 128.0 / per_g)
+            out += self.rest.suspect(Sample(t, self.site, acc, known_at=max(arrival, t)), 128.0 / per_g)
         return out
 
     def _gyro(self, counts: tuple[int, int, int], arrival: float) -> Output:
-        slot = self.gyro.arrive(arrival)
-        out = self._lost("cc2541/gyroscope", slot.lost, slot.t_missing, arrival)
-        out += self.assembler.gyro(slot.t, _scaled(counts, GYRO), self.gyro.period, arrival)
+        taken = self.gyro.arrive(arrival)
+        (t,) = taken.times
+        out: Output = [*taken.events(self.site, "cc2541/gyroscope", arrival)]
+        out += self.assembler.gyro(t, _scaled(counts, GYRO), self.gyro.period, arrival)
         return out
-
-    def _lost(self, channel: str, count: int, t: float, arrival: float) -> Output:
-        if count == 0:
-            return []
-        return [PacketsLost(t=t, known_at=max(arrival, t), site=self.site, channel=channel, count=count)]
 
     def _barometer(self, temperature: int, raw: int, arrival: float) -> Output:
         if self.calibration is None:

@@ -12,12 +12,10 @@ from typing import ClassVar
 from attrs import define, field
 
 from ...events import (
-    ClockReset,
     LayoutKnown,
     Limitation,
     LinkEvent,
     PacketRejected,
-    PacketsLost,
     Rejection,
 )
 from ...types import Layout, Sample, Site, shared
@@ -188,19 +186,14 @@ class InsoleLink:
         counted = Counted(frame.sequence, frame.ticks, frame.interval, len(frame.samples), d, m, e, frame.retransmitted)
         taken = run.take(counted, float(self.rate), arrival)
         out: Output = []
-        if taken.lost:
-            t = taken.t_missing
-            known_at = max(arrival, t)
-            out.append(PacketsLost(t=t, known_at=known_at, site=self.site, channel="insole/frame", count=taken.lost))
+        if taken.lost or taken.restarted is not None:
+            out += taken.events(self.site, "insole/frame", arrival)
         if self.layout is None:
             self.layout, self.cells = frame.layout, cells
         if not self.info and not self.told:
             self.told = True
             what = "no INFO from the insole: 16 g and 2000 degrees/s full scale assumed, pressure in counts"
             out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=what))
-        if taken.restarted is not None:
-            t = taken.times[0]
-            out.append(ClockReset(t=t, known_at=max(arrival, t), site=self.site, restarted=taken.restarted))
         a, g, n = self.acc_scale, self.gyro_scale, self.pressure_scale
         for raw, t in zip(frame.samples, taken.times, strict=True):
             acc = gyro = pressure = quat = None
