@@ -143,8 +143,8 @@ def test_what_cannot_be_saved_says_so_when_it_is_to_be_saved() -> None:
     class Bare:
         update = Quiet.update
 
-    Shoe = define(type("Shoe", (), {"__annotations__": {}, "update": Quiet.update}))
-    for detector, what in ((Bare(), "no attrs class"), (Shoe(), "give it another name")):
+    ShoeDetector = define(type("ShoeDetector", (), {"__annotations__": {}, "update": Quiet.update}))
+    for detector, what in ((Bare(), "no attrs class"), (ShoeDetector(), "give it another name")):
         session = Session(evolve(recipes.DEFAULT, detector=detector))
         with pytest.raises(TypeError, match=what):
             session.snapshot()
@@ -217,6 +217,13 @@ class Altered(Quiet):
 
 
 @define
+class Learning(Quiet):
+    def update(self, t: float, *rest: Any) -> Stance:
+        self.limit = 0.9
+        return Quiet.update(self, t, *rest)
+
+
+@define
 class Lost(Quiet):
     best: float = field(default=0.0, init=False)
 
@@ -233,6 +240,7 @@ class Lost(Quiet):
         (Forgetful(), "in no field"),
         (Sharing(), "share"),
         (Altered(), "its field counts comes back as a dict and was a Counter"),
+        (Learning(), "its setting limit changes"),
         (Lost(), "cannot hold Lost.best: inf"),
         (Reckless(), "sigma is above 0"),
         (Reckless(), "v_ref"),

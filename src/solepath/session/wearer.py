@@ -32,6 +32,7 @@ from ..foot.pressure.sole import Sole
 from ..foot.rejection import rejected, with_sound_attitude, wrong_time
 from ..foot.tracker import FootTracker
 from ..recipes import AnyActivity, AnyBody, AnyPlace, Recipe
+from ..saving.schema import MADE_AGAIN
 from ..types import Foot, Sample, Site
 
 LEADS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
@@ -61,7 +62,7 @@ class WearerParts:
     turns: Turns = field(factory=Turns, init=False)
     strides: Strides = field(factory=Strides, init=False)
     wear: Wear = field(factory=Wear, init=False)
-    feet: dict[Foot, FootTracker] = field(factory=dict, init=False)
+    feet: dict[Foot, FootTracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)
     unused: list[Site] = field(factory=list, init=False)
     """Sites whose samples the recipe has no use for; said once."""
 

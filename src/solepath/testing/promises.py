@@ -19,6 +19,7 @@ from ..foot.pressure.insole import InsoleLoads
 from ..foot.rejection import ABSURD_ACC, ABSURD_GYRO
 from ..foot.stance.stance import Detector, Load, Stance
 from ..saving.codec import Json, SnapshotError, load, save
+from ..saving.schema import record_of, remembers
 from ..types import Layout, Phase, Quat, Sample, Vec3
 from ..types.vector import IDENTITY
 
@@ -58,12 +59,22 @@ def broken(detector: Detector, samples: Iterable[Sample], layout: Layout | None 
     found += [f"saved and restored, {what}" for what in altered]
     if not altered and _said(restored, moments[half:]) != after:
         found.append("saved and restored, it does not go on as before: it remembers what is in no field")
+    found += [
+        f"its setting {name} changes: what does is state, a field with init=False" for name in _unsettled(worn, one)
+    ]
     if late > GROWTH * early:
         found.append("it remembers more and more")
     kept: Any = one
     for stance in (*said, *_said(one, _absurd(moments)), *_said(evolve(kept), moments)):
         found += [what for what in _unsound(stance) if what not in found]
     return found
+
+
+def _unsettled(before: Any, after: Any) -> list[str]:
+    """Settings that are not what they were: a packed session would lose that."""
+    cls = type(before)
+    settings = record_of(cls, made=True).defaults if remembers(cls) else {}
+    return [name for name in settings if getattr(before, name) != getattr(after, name)]
 
 
 def _moments(samples: Iterable[Sample], layout: Layout | None) -> Iterator[Moment]:

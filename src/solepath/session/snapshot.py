@@ -8,10 +8,11 @@ from typing import Any
 from ..floorplan.index import IndexedPlan
 from ..link.known import Kinds
 from ..recipes import own
-from ..session.state import VERSION, SessionState
-from ..session.wearer import in_order
+from ..saving.codec import Classes, Json, SnapshotError, checksum, load, save
+from ..saving.schema import is_record
 from ..types import Foot, Site
-from .codec import Json, SnapshotError, checksum, load, save
+from .state import VERSION, SessionState
+from .wearer import in_order
 
 
 def taken(state: SessionState) -> dict[str, Json]:
@@ -21,20 +22,32 @@ def taken(state: SessionState) -> dict[str, Json]:
 
 
 def restored(saved: Any, parts: Iterable[type]) -> SessionState:
-    """The state that was taken. SnapshotError, TypeError and ValueError as `Session.restore`
-    has them."""
+    """The state that was taken. SnapshotError, TypeError and ValueError as `Session.restore` has them."""
+    classes = by_name(parts)
     if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
         raise SnapshotError("not a snapshot of a session")
     version = saved["solepath"]
     if type(version) is not int or version != VERSION:
         raise SnapshotError(f"a snapshot of version {version!r:.80}; this release reads version {VERSION} alone")
-    state = load(SessionState, saved["state"], parts)
+    state = load(SessionState, saved["state"], classes)
     state.decoders = in_order(state.decoders, Site)
     state.wearer.feet = in_order(state.wearer.feet, Foot)
     if checksum(save(state)) != saved["check"]:
         raise SnapshotError("the snapshot was damaged: its checksum is another")
     state.wearer.recipe = own(state.wearer.recipe)
     return state
+
+
+def by_name(parts: Iterable[type]) -> Classes:
+    """Looks up classes of an app's own. TypeError for what is no record, ValueError for two of one name."""
+    classes = list(dict.fromkeys(parts))
+    for cls in classes:
+        if not is_record(cls):
+            raise TypeError(f"a part is an attrs class, and {cls!r} is none")
+    named = {cls.__name__: cls for cls in classes}
+    if len(named) != len(classes):
+        raise ValueError("two parts have one name")
+    return named.get
 
 
 def must_fit(state: SessionState, known: Kinds, plan: IndexedPlan | None) -> None:
