@@ -63,7 +63,7 @@ class Recipe:
     needs_pressure: bool = False
     """Without pressure cells it has nothing to say."""
 
-    def exchanged(self, kind: type[Part], by: Part | None, name: str | None = None) -> Recipe:
+    def exchanged(self, kind: type, by: Part | None, name: str | None = None) -> Recipe:
         """The same with another part in the place of the one of this kind, or without it; by another name if one is
         given. LookupError where there is none of this kind."""
         if not any([isinstance(part, kind) for part in self.parts]):
@@ -170,7 +170,7 @@ def part_class(name: str) -> type[Any]:
     """The class of the part of this name, one of PARTS. SnapshotError for another."""
     module = PARTS.get(name)
     if module is None:
-        raise SnapshotError(f"a snapshot of a part {name!r} that is not known here")
+        raise SnapshotError(f"a snapshot of a part {name!r:.80} that is not known here")
     found: type[Any] = getattr(import_module(f"{__package__}.{module}"), name)
     return found
 

@@ -26,8 +26,20 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.emulate.walk import emulate
-from solepath.saving.records import Head, Packed, shape
+from solepath.saving.nodes import (
+    DictNode,
+    EnumNode,
+    MaybeNode,
+    Node,
+    OpenNode,
+    RecordNode,
+    RowNode,
+    ScalarNode,
+    TupleNode,
+)
+from solepath.saving.schema import record_in
 from solepath.saving.streams import to_bytes
+from solepath.session.packed import STATE
 
 ROUTE = Route().stand(2.0).walk(40.0, 1.3).turn(1.57, radius=1.5).walk(20.0).turn(-0.8, radius=2.0).walk(10.0).stop(2.0)
 """A minute."""
@@ -109,47 +121,49 @@ class Account:
     def __init__(self) -> None:
         self.bytes: Counter[str] = Counter()
         self.counts: Counter[str] = Counter()
-        self.shape = shape()
-
-    def record(self, name: str, record: Any) -> None:
-        for field, kind in self.shape.records[name].items():
-            self.value(kind, getattr(record, field), f"{name.removeprefix('state of ')}.{field}")
 
     def add(self, at: str, bits: float) -> None:
         self.bytes[at] += bits / 8.0
         self.counts[at] += 1
 
-    def value(self, kind: Any, value: Any, at: str) -> None:
-        if kind == "float":
-            self.add(at, 3 + 8 * (len(to_bytes([value], [], [], [], (0.05000000074505806, 0.0))) - NOTHING - 3))
-        elif kind == "int":
-            self.add(at, 8 * (len(to_bytes([], [value], [], [], (0.0, 0.0))) - NOTHING - 2) + 2)
-        elif kind == "bool":
-            self.add(at, 1)
-        elif isinstance(kind, str):
-            self.add(at, 8 * len(value) + 10)
-        else:
-            self.inner(*next(iter(kind.items())), value, at)
+    def value(self, node: Node, value: Any, at: str) -> None:
+        match node:
+            case RecordNode(cls, _, fields):
+                for field, inner in fields.items():
+                    self.value(inner, getattr(value, field), f"{cls.__name__}.{field}")
+            case ScalarNode(kind):
+                self.scalar(kind, value, at)
+            case EnumNode():
+                self.add(at, 10)
+            case OpenNode():
+                self.add(at, 10)
+                self.value(record_in(node, type(value)), value, at)
+            case MaybeNode(of):
+                self.add(at, 1)
+                if value is not None:
+                    self.value(of, value, at)
+            case TupleNode(items):
+                for item, held in zip(items, value, strict=True):
+                    self.value(item, held, at)
+            case RowNode(_, of):
+                self.add(at, 10)
+                for held in value:
+                    self.value(of, held, at)
+            case DictNode(key, of):
+                self.add(at, 10)
+                for name, held in value.items():
+                    self.value(key, name, at)
+                    self.value(of, held, at)
 
-    def inner(self, how: str, of: Any, value: Any, at: str) -> None:
-        if how == "record":
-            self.record(of, value)
-        elif how == "enum":
-            self.add(at, 10)
-        elif how == "one of":
-            self.add(at, 10)
-            self.record(next(name for name in of if self.shape.classes[name] is type(value)), value)
-        elif how == "maybe":
+    def scalar(self, kind: type, value: Any, at: str) -> None:
+        if kind is float:
+            self.add(at, 3 + 8 * (len(to_bytes([value], [], [], [], (0.05000000074505806, 0.0))) - NOTHING - 3))
+        elif kind is int:
+            self.add(at, 8 * (len(to_bytes([], [value], [], [], (0.0, 0.0))) - NOTHING - 2) + 2)
+        elif kind is bool:
             self.add(at, 1)
-            if value is not None:
-                self.value(of, value, at)
-        elif how == "tuple":
-            for item, held in zip(of, value, strict=True):
-                self.value(item, held, at)
         else:
-            self.add(at, 10)
-            for item in value.items() if how == "dict" else value:
-                self.value({"tuple": of} if how == "dict" else of, item, at)
+            self.add(at, 8 * len(value) + 10)
 
 
 NOTHING = len(to_bytes([], [], [], [], (0.0, 0.0)))
@@ -157,9 +171,8 @@ NOTHING = len(to_bytes([], [], [], [], (0.0, 0.0)))
 
 def fields(session: Session, most: int) -> None:
     """Prints which take the most."""
-    account, wearer = Account(), session._state.wearer
-    head = Head(wearer.recipe.name, wearer.calibration, wearer.poses, wearer.pressures)
-    account.record(account.shape.root, Packed(head, session._state))
+    account = Account()
+    account.value(STATE, session._state, "")
     for at, size in account.bytes.most_common(most):
         print(f"{size:8.0f} bytes, {account.counts[at]:4} items   {at}")
 

@@ -14,7 +14,7 @@ from walks import samples
 
 from solepath import Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
 from solepath.body.height.altitude import LEFT, MOVE, RIGHT, SCALE, STANDARD, UNKNOWN, Altitude
-from solepath.body.height.received import TICKS, Heard, Told
+from solepath.body.height.received import Heard, Told
 from solepath.body.part import Height, Instead
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
@@ -176,8 +176,7 @@ def test_what_the_filter_was_told_is_kept_to_a_hundredth_of_a_second_and_a_tenth
 ) -> None:
     heard, used = Heard(), []
     for since, which, value, variance in told:
-        last = heard.last / TICKS
-        t = min(max(start + since, last - 300.0), last + 300.0) if heard.rows else start
+        t = start + since
         used.append(heard.add((t, which, value, variance)))
         assert used[-1][0] == pytest.approx(t, abs=0.006) and used[-1][1] == which
         assert used[-1][2] == pytest.approx(value, abs=6e-5) and used[-1][3] == pytest.approx(variance)

@@ -318,7 +318,7 @@ def test_a_stride_is_remembered_as_it_was_wherever_on_earth_it_was() -> None:
     assert rows[7].rate == (0.0, -5.0, 0.25) and rows[7].force == 5.0 and rows[7].attitude == IDENTITY
     assert corrected(habit.now) == pytest.approx(0.35 * 0.224, abs=1e-6)  # it went so far to the left, and is not there
     habit.keep(1e9 + 1.0, IDENTITY, (1e300, 0.0, 0.0), (far, far, 0.0), (0.0, 3.0, 4.0), ZERO)
-    assert habit.now == b"" and habit.lifted is None
+    assert habit.now == [] and habit.lifted is None
 
 
 def test_a_toe_off_or_heel_strike_at_one_of_the_moments_that_are_remembered_is_at_that_moment() -> None:

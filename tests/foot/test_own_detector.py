@@ -217,6 +217,13 @@ class Altered(Quiet):
 
 
 @define
+class Learning(Quiet):
+    def update(self, t: float, *rest: Any) -> Stance:
+        self.limit = 0.9
+        return Quiet.update(self, t, *rest)
+
+
+@define
 class Lost(Quiet):
     best: float = field(default=0.0, init=False)
 
@@ -233,6 +240,7 @@ class Lost(Quiet):
         (Forgetful(), "in no field"),
         (Sharing(), "share"),
         (Altered(), "its field counts comes back as a dict and was a Counter"),
+        (Learning(), "its setting limit changes"),
         (Lost(), "cannot hold Lost.best: inf"),
         (Reckless(), "sigma is above 0"),
         (Reckless(), "v_ref"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from binascii import crc32
 
-from solepath.saving.form import HEADER
+from solepath.session.packed import HEADER
 
 
 def signed(data: bytes) -> bytes:

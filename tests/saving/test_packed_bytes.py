@@ -13,12 +13,11 @@ from signed import signed
 from walks import machines
 
 from solepath import Foot, Session, SnapshotError
-from solepath.saving.form import HEADER
-from solepath.saving.reading import readers
-from solepath.saving.records import own_classes, own_shape, shape
-from solepath.saving.shape import shape_of
+from solepath.saving.codec import no_class
+from solepath.saving.packed import Streams, read
+from solepath.saving.schema import record_of
 from solepath.saving.streams import from_bytes, to_bytes
-from solepath.saving.tree import Streams, from_tree, to_tree
+from solepath.session.packed import HEADER
 
 FEW = settings(max_examples=40, deadline=None)
 
@@ -98,16 +97,16 @@ def test_counts_of_what_is_not_there_take_no_memory(counts: tuple[int, ...]) -> 
         Session.unpack(signed(packed()[: HEADER.size] + body))
 
 
-def test_other_versions_forms_and_shapes_are_refused_by_name() -> None:
+def test_other_versions_forms_and_schemas_are_refused_by_name() -> None:
     saved = packed()
     magic, form, version, made_with, check = HEADER.unpack_from(saved)
     body = saved[HEADER.size :]
     for header, what in (
         ((form, 0, made_with), "version 0"),
         ((form, 9999, made_with), "version 9999"),
-        ((form + 1, version, made_with), "form 2"),
-        ((form, version, made_with ^ 1), "its shape is another"),
-        ((form, 1, made_with), "its shape is another"),
+        ((form + 1, version, made_with), "form 3"),
+        ((form, version, made_with ^ 1), "its schema is another"),
+        ((form, 1, made_with), "version 1"),
     ):
         with pytest.raises(SnapshotError, match=what):
             Session.unpack(signed(HEADER.pack(magic, *header, check) + body))
@@ -127,15 +126,13 @@ def test_what_is_left_over_in_any_of_the_streams_is_refused() -> None:
 
 def test_a_word_before_the_first_is_none() -> None:
     """Python would count from the end."""
-    read = readers(shape_of(Worded), own_shape)["Worded"]
     for k, what in ((0, Foot.LEFT), (1, Foot.RIGHT), (-1, None), (-2, None), (2, None)):
         streams = Streams([], [k], [], b"")
-        arguments = streams.f, streams.n, streams.m, streams.b, streams.floats, {}
         if what is not None:
-            assert read(None, *arguments) == Worded(what)
+            assert read(record_of(Worded), streams, no_class) == Worded(what)
         else:
             with pytest.raises((SnapshotError, IndexError)):
-                read(None, *arguments)
+                read(record_of(Worded), streams, no_class)
 
 
 @define
@@ -145,7 +142,7 @@ class Worded:
     foot: Foot
 
 
-# --- numbers and trees ------------------------------------------------------------------------------------------------
+# --- numbers ----------------------------------------------------------------------------------------------------------
 
 _FLOATS = st.one_of(
     st.floats(allow_nan=False, allow_infinity=False),
@@ -172,33 +169,3 @@ def test_every_number_comes_back_to_the_bit(
 ) -> None:
     found = from_bytes(memoryview(to_bytes(floats, ints, flags, data, units)))
     assert repr(found) == repr((floats, ints, flags, b"".join(data)))
-
-
-@pytest.mark.parametrize("name", ["session, whole frames", "session, footstep-tracker", "session, kupt-dfpc"])
-def test_a_packed_state_is_read_by_its_shape_into_the_tree_that_a_snapshot_has(name: str) -> None:
-    machine = machines()[name]
-    session = machine.begin()
-    session.feed(machine.items[: len(machine.items) // 2])
-
-    def streams() -> Streams:
-        return Streams(*from_bytes(memoryview(session.pack())[HEADER.size :]))
-
-    def own(what: str) -> Any:
-        return own_shape(what, own_classes(None, ()))
-
-    read = streams()
-    tree: Any = to_tree(shape(), read, own)
-    read.end()
-    assert less(tree["state"], session.snapshot()["state"]) == tree["state"]
-    floats, ints, flags, data = from_tree(shape(), tree, own)
-    read = streams()
-    assert ([*read.floats], [*read.ints], [*read.flags], read.data) == (floats, ints, flags, b"".join(data))
-
-
-def less(part: Any, whole: Any) -> Any:
-    """Of the whole what is in the part."""
-    if isinstance(part, dict):
-        return {key: less(value, whole[key]) for key, value in part.items()}
-    if isinstance(part, list):
-        return [less(a, b) for a, b in zip(part, whole, strict=True)]
-    return whole

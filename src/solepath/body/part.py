@@ -7,9 +7,9 @@ returns (`Shift`, `Height`, `Instead`), and the wearer applies it.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import ClassVar, Self
+from typing import ClassVar, Protocol, Self
 
 from attrs import frozen
 
@@ -74,7 +74,7 @@ Said = Event | Shift | Height | Instead
 Notice = Event | ClockUnsettled | LayoutTold
 
 
-class Part:
+class Part(Protocol):
     """A part of the body that does nothing. Derive from it, as a plain record (`@define`), and say what you do.
 
     Of each sample of a foot a part first gets its view, if it declares `feeds`, then every event of it: the foot's, and
@@ -113,9 +113,10 @@ class Part:
 
     def reset(self, site: Site) -> None:
         """The clock of a site's samples restarts, or another device is worn there."""
+        return None
 
 
-class Track(Part, ABC):
+class Track(Part):
     """The part that says where the wearer is. A recipe has one, and one only."""
 
     __slots__ = ()

@@ -1,55 +1,52 @@
-"""Saving and restoring: every machine is a plain record, and a plain record is JSON.
+"""Saving and restoring as JSON: a record becomes an object of its fields (schema.py says what those may be).
 
-A machine is an attrs class whose fields are floats, ints, strings, booleans, None, bytes, enums, tuples, lists, deques,
-dicts with string or enum keys, and other such records. `save` turns it into a JSON-able value, `load` builds it again
-from the type annotations, which say what is in it (deque[float], not deque); a deque with a maxlen carries it; a field
-typed as a union of records carries the class name. A union with a Protocol in it is
-open: it also takes records of an app's own, whose classes are to be named again to load them. Nothing else may be held
-across two samples: no generators, closures, rebound methods or arrays.
-
-    feed(...) -> list of what came out     advance(now) -> the same     finish() -> the same
+Tuples, lists and deques become lists; a deque with a maxlen {"maxlen": most, "is": list}, an open record {"kind": name
+of its class, "is": its fields}, an enum its value, bytes base64. What is loaded is checked against the annotations.
 """
 
 from __future__ import annotations
 
 import json
 import re
-import types
-import typing
 from base64 import b64decode, b64encode
 from binascii import crc32
 from collections import deque
-from collections.abc import Callable, Iterable
-from enum import Enum
+from collections.abc import Callable
 from math import isfinite
 from typing import Any, TypeVar
 
-import attrs
+from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, RowNode, ScalarNode, TupleNode
+from .schema import is_record, node_of, placed, record_of
 
 T = TypeVar("T")
 
 Json = None | bool | int | float | str | list["Json"] | dict[str, "Json"]
+Classes = Callable[[str], type | None]
+"""The class of an open record by its name; None where there is none. A dict's `get` is one."""
 _Saver = Callable[[Any], Json]
-_Loader = Callable[[Any], Any]
+_Loader = Callable[[Any, Classes], Any]
 
 
 class SnapshotError(ValueError):
     """A snapshot is not one of ours, is of another version, or does not fit the records of this release."""
 
 
+def no_class(name: str) -> None:
+    """Knows none: open records are not loaded."""
+
+
 def save(record: object) -> Json:
-    """A JSON-able copy of `record`, an attrs instance. TypeError when a field is of a kind that cannot be saved,
-    SnapshotError when it holds a value that cannot; both name its class and the field."""
-    return _codec(type(record))[0](record)
+    """A JSON-able copy of `record`. TypeError when a field is of a kind that cannot be saved, SnapshotError when it
+    holds a value that cannot; both name its class and the field."""
+    return _codec(record_of(type(record)))[0](record)
 
 
-def load(cls: type[T], value: Json, own: Iterable[type] = ()) -> T:
-    """The record of class `cls` that `save` turned into `value`. `own`: classes that an open union may hold besides
-    those that it names. SnapshotError when it does not fit; TypeError for what is no attrs class, ValueError for two of
-    one name."""
-    codec = _codec(cls, _distinct(own))
+def load(cls: type[T], value: Json, classes: Classes = no_class) -> T:
+    """The record of class `cls` that `save` turned into `value`. `classes`: looks up the classes of open records.
+    SnapshotError when it does not fit; TypeError for what is no record."""
+    loader = _codec(record_of(cls))[1]
     try:
-        loaded: T = codec[1](value)
+        loaded: T = loader(value, classes)
     except SnapshotError:
         raise
     except (TypeError, ValueError, KeyError, IndexError, AttributeError, OverflowError, RecursionError) as error:
@@ -59,7 +56,7 @@ def load(cls: type[T], value: Json, own: Iterable[type] = ()) -> T:
 
 def load_value(annotation: Any, value: Json) -> Any:
     """What a field of this type holds. ValueError, TypeError and the like when it does not fit."""
-    return _codec(annotation)[1](value)
+    return _codec(node_of(annotation))[1](value, no_class)
 
 
 def checksum(value: Json) -> int:
@@ -70,94 +67,43 @@ def checksum(value: Json) -> int:
 
 _MINUS_ZERO = re.compile(r"-0\.0(?=[],}])")
 
-_CANNOT = "a snapshot cannot hold "
+_CODECS: dict[RecordNode, tuple[_Saver, _Loader]] = {}
 
 
-def _placed(error: Exception, cls: type, name: str) -> Exception:
-    """The same with the class and the field, once: those of the innermost record are what is to be mended."""
-    if str(error).startswith(_CANNOT):
-        return error
-    kind = TypeError if isinstance(error, TypeError) else SnapshotError
-    return kind(f"{_CANNOT}{cls.__name__}.{name}: {error}")
+def _codec(node: Node) -> tuple[_Saver, _Loader]:
+    match node:
+        case ScalarNode(kind):
+            return _scalar_codec(kind)
+        case EnumNode(cls):
+            return (lambda word: word.value), (lambda value, _: cls(value))
+        case MaybeNode(of):
+            return _maybe_codec(*_codec(of))
+        case TupleNode(items):
+            return _tuple_codec([_codec(item) for item in items])
+        case RowNode(kind, of):
+            return _deque_codec(*_codec(of)) if kind is deque else _row_codec(kind, *_codec(of))
+        case DictNode(key, of):
+            return _table_codec(*_codec(key), *_codec(of))
+        case OpenNode():
+            return _open_codec(node)
+        case RecordNode():
+            if node not in _CODECS:
+                _CODECS[node] = _record_codec(node)
+            return _CODECS[node]
 
 
-_Own = frozenset[type]
-"""What open unions may hold besides what they name."""
-
-
-def _distinct(own: Iterable[type]) -> _Own:
-    classes = frozenset(own)
-    for cls in classes:
-        if not (isinstance(cls, type) and attrs.has(cls)):
-            raise TypeError(f"a part is an attrs class, and {cls!r} is none")
-    if len({cls.__name__ for cls in classes}) != len(classes):
-        raise ValueError("two parts have one name")
-    return classes
-
-
-_CODECS: dict[tuple[Any, _Own], tuple[_Saver, _Loader]] = {}
-
-
-def _codec(annotation: Any, own: _Own = frozenset()) -> tuple[_Saver, _Loader]:
-    codec = _CODECS.get((annotation, own))
-    if codec is None:
-        codec = _CODECS[annotation, own] = _make_codec(annotation, own)
-    return codec
-
-
-def _make_codec(annotation: Any, own: _Own) -> tuple[_Saver, _Loader]:
-    origin, arguments = typing.get_origin(annotation), typing.get_args(annotation)
-    if annotation is float:
+def _scalar_codec(kind: type) -> tuple[_Saver, _Loader]:
+    if kind is float:
         return _save_float, _load_float
-    if annotation in (int, str, bool):
-        return _exactly(annotation), _exactly(annotation)
-    if annotation is None or annotation is type(None):
-        return _exactly(type(None)), _exactly(type(None))
-    if annotation is bytes:
-        return (lambda v: b64encode(v).decode()), (lambda text: b64decode(text, validate=True))
-    if isinstance(annotation, type) and issubclass(annotation, Enum):
-        return (lambda member: member.value), annotation
-    if isinstance(annotation, type) and attrs.has(annotation):
-        return _record_codec(annotation, own)
-    if isinstance(annotation, type) and origin is None and annotation.__module__.startswith("solepath."):
-        return _open_codec({}, own)
-    if origin in (typing.Union, types.UnionType):
-        return _union_codec(arguments, own)
-    if origin is tuple and len(arguments) == 2 and arguments[1] is Ellipsis:
-        save_item, load_item = _codec(arguments[0], own)
-        return (lambda v: [save_item(i) for i in v]), (lambda v: tuple([load_item(i) for i in _list(v)]))
-    if origin is tuple:
-        return _fixed_tuple_codec(arguments, own)
-    if origin is list:
-        save_item, load_item = _codec(arguments[0], own)
-        return (lambda v: [save_item(i) for i in v]), (lambda v: [load_item(i) for i in _list(v)])
-    if origin is deque:
-        return _deque_codec(arguments[0], own)
-    if origin is dict:
-        (save_key, load_key), (save_item, load_item) = _codec(arguments[0], own), _codec(arguments[1], own)
-        return (
-            lambda v: {typing.cast(str, save_key(k)): save_item(i) for k, i in v.items()},
-            lambda v: {load_key(k): load_item(i) for k, i in v.items()},
-        )
-    if annotation in (tuple, list, deque, dict):
-        what = "dict[str, float]" if annotation is dict else f"{annotation.__name__}[float]"
-        raise TypeError(f"its type does not say what is in it; write {what}, or whatever it is")
-    raise TypeError(f"{annotation!r} is no number, string, enum, bytes, tuple, list, deque, dict or attrs class")
+    if kind is bytes:
+        return (lambda data: b64encode(data).decode()), (lambda text, _: b64decode(text, validate=True))
 
-
-def _list(value: Any) -> list[Any]:
-    if not isinstance(value, list):
-        raise SnapshotError(f"expected a list, found {type(value).__name__}")
-    return value
-
-
-def _exactly(kind: type) -> Callable[[Any], Any]:
-    def check(value: Any) -> Any:
+    def check(value: Any, _: object = None) -> Any:
         if type(value) is not kind:
             raise SnapshotError(f"expected {kind.__name__}, found {value!r}")
         return value
 
-    return check
+    return check, check
 
 
 def _save_float(value: Any) -> Json:
@@ -167,131 +113,130 @@ def _save_float(value: Any) -> Json:
     return number
 
 
-def _load_float(value: Any) -> float:
+def _load_float(value: Any, _: object) -> float:
     if type(value) is not float and type(value) is not int:
         raise SnapshotError(f"expected a number, found {value!r}")
     return float(value)
 
 
-def _deque_codec(item: Any, own: _Own) -> tuple[_Saver, _Loader]:
+def _list(value: Any) -> list[Any]:
+    if not isinstance(value, list):
+        raise SnapshotError(f"expected a list, found {type(value).__name__}")
+    return value
+
+
+def _maybe_codec(save_one: _Saver, load_one: _Loader) -> tuple[_Saver, _Loader]:
+    return (
+        lambda value: None if value is None else save_one(value),
+        lambda value, classes: None if value is None else load_one(value, classes),
+    )
+
+
+def _tuple_codec(codecs: list[tuple[_Saver, _Loader]]) -> tuple[_Saver, _Loader]:
+    savers, loaders = [save_one for save_one, _ in codecs], [load_one for _, load_one in codecs]
+
+    def load_tuple(value: Any, classes: Classes) -> tuple[Any, ...]:
+        if len(_list(value)) != len(loaders):
+            raise SnapshotError(f"expected {len(loaders)} items, found {len(value)}")
+        return tuple([load_one(item, classes) for load_one, item in zip(loaders, value, strict=True)])
+
+    return (lambda value: [save_one(item) for save_one, item in zip(savers, value, strict=True)]), load_tuple
+
+
+def _row_codec(kind: type, save_one: _Saver, load_one: _Loader) -> tuple[_Saver, _Loader]:
+    return (
+        lambda value: [save_one(item) for item in value],
+        lambda value, classes: kind([load_one(item, classes) for item in _list(value)]),
+    )
+
+
+def _deque_codec(save_one: _Saver, load_one: _Loader) -> tuple[_Saver, _Loader]:
     """A list; where the deque has a maxlen, which the annotation does not tell, a dict with both."""
-    save_item, load_item = _codec(item, own)
 
     def save_deque(value: Any) -> Json:
-        items: list[Json] = [save_item(i) for i in value]
+        items: list[Json] = [save_one(item) for item in value]
         most = getattr(value, "maxlen", None)
         return items if most is None else {"maxlen": most, "is": items}
 
-    def load_deque(value: Any) -> deque[Any]:
-        if not isinstance(value, dict):
-            return deque([load_item(i) for i in _list(value)])
-        most, items = value["maxlen"], _list(value["is"])
-        if type(most) is not int or most < len(items) or value.keys() != {"maxlen", "is"}:
-            raise SnapshotError(f"not a deque: {value!r:.80}")
-        return deque([load_item(i) for i in items], most)
+    def load_deque(value: Any, classes: Classes) -> deque[Any]:
+        most = None
+        if isinstance(value, dict):
+            most, items = value["maxlen"], _list(value["is"])
+            if type(most) is not int or most < len(items) or value.keys() != {"maxlen", "is"}:
+                raise SnapshotError(f"not a deque: {value!r:.80}")
+            value = items
+        return deque([load_one(item, classes) for item in _list(value)], most)
 
     return save_deque, load_deque
 
 
-def _fixed_tuple_codec(arguments: tuple[Any, ...], own: _Own) -> tuple[_Saver, _Loader]:
-    codecs = [_codec(a, own) for a in arguments]
-
-    def load_tuple(value: Any) -> tuple[Any, ...]:
-        if len(_list(value)) != len(codecs):
-            raise SnapshotError(f"expected {len(codecs)} items, found {len(value)}")
-        return tuple([load_item(i) for (_, load_item), i in zip(codecs, value, strict=True)])
-
-    return (lambda value: [save_item(i) for (save_item, _), i in zip(codecs, value, strict=True)]), load_tuple
+def _table_codec(save_key: Any, load_key: _Loader, save_one: _Saver, load_one: _Loader) -> tuple[_Saver, _Loader]:
+    return (
+        lambda value: {save_key(key): save_one(item) for key, item in value.items()},
+        lambda value, classes: {load_key(key, classes): load_one(item, classes) for key, item in value.items()},
+    )
 
 
-def _record_codec(cls: type, own: _Own) -> tuple[_Saver, _Loader]:
-    hints = typing.get_type_hints(cls)
-    fields: list[tuple[str, _Saver, _Loader]] = []
-    for field in attrs.fields(cls):
-        if not field.metadata.get("saved", True):
-            continue
-        try:
-            fields.append((field.name, *_codec(hints[field.name], own)))
-        except TypeError as error:
-            raise _placed(error, cls, field.name) from error
+def _record_codec(node: RecordNode) -> tuple[_Saver, _Loader]:
+    cls = node.cls
+    fields = [(name, *_codec(of)) for name, of in node.fields.items()]
+    names = set(node.fields)
 
     def save_record(record: Any) -> Json:
         saved: dict[str, Json] = {}
         for name, save_field, _ in fields:
             try:
                 saved[name] = save_field(getattr(record, name))
-            except (TypeError, ValueError) as error:
-                raise _placed(error, cls, name) from error
+            except TypeError as error:
+                raise TypeError(placed(error, cls, name)) from error
+            except ValueError as error:
+                raise SnapshotError(placed(error, cls, name)) from error
         return saved
 
-    def load_record(value: Any) -> Any:
+    def load_record(value: Any, classes: Classes) -> Any:
         if not isinstance(value, dict):
             raise SnapshotError(f"expected {cls.__name__}, found {type(value).__name__}")
-        unknown = value.keys() - {name for name, *_ in fields}
-        missing = {name for name, *_ in fields} - value.keys()
-        if unknown or missing:
-            raise SnapshotError(f"{cls.__name__} does not have the fields {sorted(unknown | missing)}")
+        if value.keys() != names:
+            raise SnapshotError(f"{cls.__name__} does not have the fields {sorted(value.keys() ^ names)}")
         record: Any = object.__new__(cls)
         for name, _, load_field in fields:
-            object.__setattr__(record, name, load_field(value[name]))
-        for field in attrs.fields(cls):
-            if not field.metadata.get("saved", True):
-                object.__setattr__(record, field.name, None)
+            object.__setattr__(record, name, load_field(value[name], classes))
+        for name, default in node.defaults.items():
+            object.__setattr__(record, name, default)
         return record
 
     return save_record, load_record
 
 
-def _union_codec(arguments: tuple[Any, ...], own: _Own) -> tuple[_Saver, _Loader]:
-    """None | float and the like are told apart by their JSON type, records by the name of their class."""
-    records = {a.__name__: a for a in arguments if isinstance(a, type) and attrs.has(a)}
-    others = [a for a in arguments if a is not type(None) and a not in records.values()]
-    if any([getattr(a, "_is_protocol", False) for a in others]):
-        return _open_codec(records, own)
-    if len(others) > 1 or (others and records):
-        raise TypeError(f"it could not tell apart {arguments!r}")
-
-    def save_union(value: Any) -> Json:
-        if value is None:
-            return None
-        if others:
-            return _codec(others[0])[0](value)
-        if type(value) not in records.values():
-            raise TypeError(f"a {type(value).__name__} where {' or '.join(records)} is known")
-        saved = _codec(type(value))[0](value)
-        return {"kind": type(value).__name__, "is": saved} if len(records) > 1 else saved
-
-    def load_union(value: Any) -> Any:
-        if value is None:
-            return None
-        if others:
-            return _codec(others[0], own)[1](value)
-        if len(records) == 1:
-            return _codec(next(iter(records.values())), own)[1](value)
-        return _codec(records[value["kind"]], own)[1](value["is"])
-
-    return save_union, load_union
-
-
-def _open_codec(records: dict[str, type], own: _Own) -> tuple[_Saver, _Loader]:
-    """A union with a Protocol in it: what an app has made may stand where ours do, under a name that is not ours."""
-    known = {cls.__name__: cls for cls in own} | records
-
+def _open_codec(node: OpenNode) -> tuple[_Saver, _Loader]:
     def save_open(value: Any) -> Json:
         cls = type(value)
-        if not attrs.has(cls):
-            raise TypeError(f"{cls.__name__} is no attrs class")
-        if records.get(cls.__name__, cls) is not cls:
-            raise TypeError(f"it could not tell this {cls.__name__} from solepath's own: give it another name")
-        return {"kind": cls.__name__, "is": _codec(cls)[0](value)}
+        check_open(node, cls)
+        return {"kind": cls.__name__, "is": _codec(record_of(cls))[0](value)}
 
-    def load_open(value: Any) -> Any:
-        kind = value["kind"]
-        cls = known.get(kind)
-        if cls is None:
-            from ..recipes import part_class
-
-            cls = part_class(kind)
-        return _codec(cls, own)[1](value["is"])
+    def load_open(value: Any, classes: Classes) -> Any:
+        return _codec(record_of(class_in(node, value["kind"], classes)))[1](value["is"], classes)
 
     return save_open, load_open
+
+
+def check_open(node: OpenNode, cls: type) -> None:
+    """TypeError where an object of that class may not be saved there."""
+    if node.known.get(cls.__name__) is cls:
+        return
+    if not node.others:
+        raise TypeError(f"a {cls.__name__} where {' or '.join(node.known)} is known")
+    if not is_record(cls):
+        raise TypeError(f"{cls.__name__} is no attrs class")
+    if cls.__name__ in node.known:
+        raise TypeError(f"it could not tell this {cls.__name__} from solepath's own: give it another name")
+
+
+def class_in(node: OpenNode, kind: Any, classes: Classes) -> type:
+    """The class of that name. SnapshotError where nobody knows it."""
+    found = node.known.get(kind)
+    if found is None and node.others and isinstance(kind, str):
+        found = classes(kind)
+    if found is None:
+        raise SnapshotError(f"a snapshot of a part {kind!r:.80} that is not known here")
+    return found

@@ -28,8 +28,8 @@ from ..link.driver import Driver
 from ..link.known import Kinds, kinds
 from ..recipes import DEFAULT, Recipe, own
 from ..saving.codec import Json
-from ..saving.snapshot import must_fit, restored, taken
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
+from .snapshot import must_fit, restored, taken
 from .state import SessionState
 from .wearer import WearerParts, in_order
 
@@ -287,17 +287,17 @@ class Session:
     ) -> Session:
         """A session that goes on where `saved` was taken. A snapshot holds no functions and no floor plan: `profiles`
         and `floorplan` are to be given again, and `parts`, the classes of stance detectors of the app's own.
-        SnapshotError when it is not a snapshot of this version or an older one, was damaged, was taken with another
-        floor plan, or is of a device that is not among the profiles, or is there with other counters, rates or ranges,
-        or stands in the place of a device of ours then and not now, or of a detector that is not among the parts.
-        Whether its functions are the same cannot be seen: that is for the app to keep. TypeError and ValueError for
-        profiles and parts that are none, or two of one name."""
+        SnapshotError when it is not a snapshot of this version, was damaged, was taken with another floor plan, or is
+        of a device that is not among the profiles, or is there with other counters, rates or ranges, or stands in the
+        place of a device of ours then and not now, or of a detector that is not among the parts. Whether its functions
+        are the same cannot be seen: that is for the app to keep. TypeError and ValueError for profiles and parts that
+        are none, or two of one name."""
         return cls._of(restored(saved, parts), profiles, floorplan)
 
     def pack(self) -> bytes:
         """Everything the session remembers, in 10 to 20 kB and some 0.3 ms: for where many are saved often
         (protocol/snapshot.md). Its recipe is not in it. Needs numpy. TypeError and SnapshotError as `snapshot`."""
-        from ..saving.form import pack
+        from .packed import pack
 
         return pack(self._state)
 
@@ -317,7 +317,7 @@ class Session:
         believed: those of `recipe` hold from here on, so that one that was tuned goes on. What is not to go on gets
         another name. SnapshotError when it was another by that, for any bytes that are no packed session, and where
         `restore` has one. A checksum tells damage, not intent: a state is believed, as code is."""
-        from ..saving.form import unpack
+        from .packed import unpack
 
         return cls._of(unpack(data, recipe, parts), profiles, floorplan)
 

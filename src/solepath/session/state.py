@@ -8,9 +8,9 @@ from ..link.decoder import Decoder
 from ..types import Site
 from .wearer import WearerParts
 
-VERSION = 2
-"""Of all that is remembered: one more for every release that remembers something else, or has other settings
-(`python -m solepath.saving.pin` says whether; saving/upgrades.py goes from one to the next)."""
+VERSION = 3
+"""Of all that is remembered: one more for every release that remembers something else, or has other settings. A state
+of another version is refused."""
 
 
 @define
@@ -20,7 +20,8 @@ class SessionState:
     wearer: WearerParts
     plan: int | None = None
     """Fingerprint of the floor plan; None without one."""
-    now: float | None = None
+    # state
+    now: float | None = field(default=None, init=False)
     """The latest moment that anything is known of, s."""
-    decoders: dict[Site, Decoder] = field(factory=dict)
-    finished: bool = False
+    decoders: dict[Site, Decoder] = field(factory=dict, init=False)
+    finished: bool = field(default=False, init=False)

@@ -28,6 +28,7 @@ from ..foot.rejection import rejected, with_sound_attitude, wrong_time
 from ..foot.tracker import FootTracker
 from ..foot.view import FootView
 from ..recipes import Recipe, part_class
+from ..saving.schema import MADE_AGAIN
 from ..types import Foot, Sample, Site
 
 if TYPE_CHECKING:
@@ -55,9 +56,9 @@ class WearerParts:
     placed: bool = False
     """There is a floor plan, and so the recipe's place part is one of `parts`."""
     # state
-    parts: list[Part] = field(init=False)
+    parts: list[Part] = field(init=False, metadata=MADE_AGAIN)
     """In the order in which they hear of what is said."""
-    feet: dict[Foot, FootTracker] = field(factory=dict, init=False)
+    feet: dict[Foot, FootTracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)
     height: tuple[float, float] = field(default=(0.0, 0.0), init=False)
     """By how much the wearer is higher than the feet's tracks say, m, and the variance of that, m^2."""
     unsettled: dict[Site, float | None] = field(factory=dict, init=False)

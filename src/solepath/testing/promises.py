@@ -27,6 +27,7 @@ from ..foot.stance.cycle import Cycle
 from ..foot.stance.stance import Detector, Stance
 from ..foot.tracker import FootTracker
 from ..saving.codec import Json, SnapshotError, load, save
+from ..saving.schema import record_of, remembers
 from ..types import Foot, Layout, Phase, Sample, Site
 from ..types.vector import IDENTITY, ZERO
 
@@ -71,6 +72,9 @@ def broken(part: Detector | Corrector | Cues, samples: Iterable[Sample], layout:
     found += [f"saved and restored, {what}" for what in altered]
     if not altered and repr(_said(other, walked[half:])) != repr(after):
         found.append("saved and restored, it does not go on as before: it remembers what is in no field")
+    found += [
+        f"its setting {name} changes: what does is state, a field with init=False" for name in _unsettled(part, one.part)
+    ]
     if late > GROWTH * early:
         found.append("it remembers more and more")
     said += _said(one, _absurd(walked))
@@ -82,6 +86,13 @@ def broken(part: Detector | Corrector | Cues, samples: Iterable[Sample], layout:
         for sentence in place.unsound(what):
             unsound.setdefault(sentence.partition(",")[0], sentence)  # the first of its kind
     return [*found, *unsound.values()]
+
+
+def _unsettled(before: Any, after: Any) -> list[str]:
+    """Settings that are not what they were: a packed session would lose that."""
+    cls = type(before)
+    settings = record_of(cls, made=True).defaults if remembers(cls) else {}
+    return [name for name in settings if getattr(before, name) != getattr(after, name)]
 
 
 # --- where a part is tried --------------------------------------------------------------------------------------------

@@ -15,13 +15,13 @@ class ActivityBlock:
     """Mean |acc|, m/s^2."""
     variance: float
     """Of |acc|, (m/s^2)^2."""
-    acc_bins: bytes
+    acc_bins: tuple[int, ...]
     """Samples in each bin of |acc|; 255 is as many or more."""
     rates: int
     """Samples with a gyroscope."""
     rate: float
     """Mean square of |gyro|, (rad/s)^2."""
-    gyro_bins: bytes
+    gyro_bins: tuple[int, ...]
     tracked: bool
     climb: float
     """Largest velocity upwards, m/s,"""

@@ -155,10 +155,10 @@ class FootWindow:
                 n,
                 round(mean, 6),
                 round(max(0.0, self.squares / n - mean * mean), 6),
-                _packed(self.acc_bins),
+                _limited(self.acc_bins),
                 rates,
                 round(self.rate_squares / rates, 6) if rates else 0.0,
-                _packed(self.gyro_bins),
+                _limited(self.gyro_bins),
                 self.tracked,
                 round(self.climb, 4),
                 round(self.sink, 4),
@@ -310,11 +310,11 @@ def _logarithm(variance: float) -> float:
     return 0.25 * log(1e-4 if variance < 1e-4 else 1e4 if variance > 1e4 else variance)
 
 
-def _packed(bins: list[int]) -> bytes:
-    return bytes(bins) if max(bins) < 256 else bytes([min(n, 255) for n in bins])
+def _limited(bins: list[int]) -> tuple[int, ...]:
+    return tuple([min(n, 255) for n in bins])
 
 
-def _shares(bins: list[bytes], counts: list[int]) -> list[float]:
+def _shares(bins: list[tuple[int, ...]], counts: list[int]) -> list[float]:
     """Shares of each bin among the samples of the blocks of one third of a window."""
     whole = sum(counts)
     if len(bins) == 1:

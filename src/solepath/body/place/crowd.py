@@ -1,7 +1,7 @@
 """Many places at which the wearer may be, and what they come to together.
 
 Each is one reading of the track: where the wearer is now, how the track lies in the plan (turned and stretched), and
-how much it is believed. They are kept packed, since there are many of them and a snapshot must be small.
+how much it is believed. Its numbers have few digits, since there are many of them and a snapshot must be small.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ Row = tuple[float, float, float, float, float, int, int, int]
 of the plan: a turn and a stretch. Weight. Level, as an index into the plan's. Where it came from: 0 the start, else one
 more than the index of a connector. Where it may be changing level: 0 nowhere, else Landing.index."""
 
-_ROW, _PLACE, _COUNT = Struct("<ffeeeH"), Struct("<HHH"), Struct("<H")
-"""A row has x, y, a, b, its weight, and which of the few combinations of level, origin and landing that follow."""
+_DIGITS = Struct("<ffeee")
+"""x, y are kept as float32, a, b and the weight as float16."""
 
 FAR = 1e5
 """Nothing is so far from the origin of a plan, m."""
@@ -38,37 +38,18 @@ FAINT = 0.002
 """A candidate of less weight counts to the heaviest."""
 
 
-def packed(rows: list[Row]) -> bytes:
+def rounded(rows: list[Row]) -> list[Row]:
     """The rows, the weights so that the largest is 1; those that are too far or too light to keep are left out. a, b
     and the weight keep three digits: a turn by 0.0005 rad is less than any track is good for."""
     most = max([row[4] for row in rows], default=0.0)
     if not most > 0.0:
-        return b""
-    k, pack = 1.0 / most, _ROW.pack
-    numbers: dict[tuple[int, int, int], int] = {}
-    number = numbers.setdefault
-    body = b"".join(
-        [
-            pack(x, y, a, b, w * k, number((level, origin, held), len(numbers)))
-            for x, y, a, b, w, level, origin, held in rows
-            if -FAR < x < FAR and -FAR < y < FAR and w * k > 1e-5
-        ]
-    )
-    return b"".join([_COUNT.pack(len(numbers)), *[_PLACE.pack(*key) for key in numbers], body])
-
-
-def unpacked(crowd: bytes) -> list[Row]:
-    """The rows again. What is none of ours gives none: a snapshot may have been damaged."""
-    if len(crowd) < _COUNT.size:
         return []
-    begin = _COUNT.size + _COUNT.unpack_from(crowd)[0] * _PLACE.size
-    if begin > len(crowd) or (len(crowd) - begin) % _ROW.size:
-        return []
-    places = list(_PLACE.iter_unpack(crowd[_COUNT.size : begin]))
-    try:
-        return [(x, y, a, b, w, *places[k]) for x, y, a, b, w, k in _ROW.iter_unpack(crowd[begin:])]
-    except IndexError:
-        return []
+    k, pack, unpack = 1.0 / most, _DIGITS.pack, _DIGITS.unpack
+    return [
+        (*unpack(pack(x, y, a, b, w * k)), level, origin, held)
+        for x, y, a, b, w, level, origin, held in rows
+        if -FAR < x < FAR and -FAR < y < FAR and w * k > 1e-5
+    ]
 
 
 def resampled(rows: list[Row], count: int, offset: float) -> list[Row]:

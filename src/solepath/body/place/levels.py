@@ -16,7 +16,7 @@ from ...floorplan.plan import ConnectorKind, FloorPlan, Point
 from ...types import Vec3
 from ...types.vector import ZERO
 from .arrivals import anew, changing, out
-from .crowd import Row, packed, resampled, unpacked
+from .crowd import Row, resampled, rounded
 from .landings import Landing, landings, ways_out
 from .noise import following
 from .pace import StrideScale
@@ -57,16 +57,16 @@ class Levels(Readings):
 
     def hold(self, plan: FloorPlan, held: Held) -> None:
         """Who is near stairs or a lift may be changing level from now on, or may not: both are followed."""
-        rows = unpacked(self.crowd)
+        rows = self.crowd
         if rows:
             rows = [row for row in rows if not row[7]] or rows
             self.keep(rows + changing(plan, rows, held.kind, self.since(held.t)))
 
     def release(self) -> None:
         """Nobody was changing level."""
-        rows = unpacked(self.crowd)
+        rows = self.crowd
         walking = [row for row in rows if not row[7]]
-        self.crowd = packed(walking or [(x, y, a, b, w, level, came, 0) for x, y, a, b, w, level, came, _ in rows])
+        self.crowd = rounded(walking or [(x, y, a, b, w, level, came, 0) for x, y, a, b, w, level, came, _ in rows])
 
     def since(self, t: float) -> Point:
         """The way since then, m, track."""
@@ -78,7 +78,7 @@ class Levels(Readings):
         where they are as far as the arrival is not sure."""
         if not any([connector.kind is arrived.kind for connector in plan.plan.connectors]):
             return  # the plan does not have them all
-        rows = unpacked(self.crowd)
+        rows = self.crowd
         held = [row for row in rows if row[7]]
         rows = [row for row in rows if not row[7]] or [(*row[:7], 0) for row in rows]
         if rows and not held:

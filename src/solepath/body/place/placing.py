@@ -28,9 +28,10 @@ from ...events import (
 )
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
+from ...saving.schema import NOT_SAVED
 from ..part import Notice, Said
 from .arrivals import fan, nowhere
-from .crowd import AGREED, Row, believed, effective, packed, unpacked
+from .crowd import AGREED, Row, believed, effective, rounded
 from .levels import FARTHEST, FEW, ROUGH, Levels
 from .readings import ABOUT, looked, mistold
 from .reference import Arrived, Held
@@ -63,7 +64,7 @@ class Placing(Levels):
     follows: ClassVar[bool] = True
 
     # state
-    plan: IndexedPlan | None = field(default=None, init=False, eq=False, repr=False, metadata={"saved": False})
+    plan: IndexedPlan | None = field(default=None, init=False, eq=False, repr=False, metadata=NOT_SAVED)
     """Where the wearer is; whoever makes or restores a session sets it, since it is not saved."""
     waiting: list[Event] = field(factory=list, init=False)
     """What was said since the wearer moved last."""
@@ -154,7 +155,7 @@ class Placing(Levels):
             return
         level = plan.number(start.level)
         count = self.most if start.heading is None else 2 * FEW
-        self.crowd = packed(fan(self.scattered, plan, level, start.place, start.spread, start.heading, count, 0, 1.0))
+        self.crowd = rounded(fan(self.scattered, plan, level, start.place, start.spread, start.heading, count, 0, 1.0))
 
     def _move(
         self, plan: IndexedPlan, here: WearerMoved, steps: list[StrideTaken], known_at: float, told: list[Event]
@@ -170,7 +171,7 @@ class Placing(Levels):
             self._forget()
             return
         self.last = here.position
-        rows = unpacked(self.crowd)
+        rows = self.crowd
         if not rows:
             return
         move = (move[0] * self.pace.factor, move[1] * self.pace.factor)
@@ -185,7 +186,7 @@ class Placing(Levels):
             rows = looked(plan, rows)
         stays = _stay(rows, came_from)
         self.stuck = self.stuck + hypot(*move) if stays else 0.0
-        self.crowd = packed(rows) if self.stuck <= STUCK else b""
+        self.crowd = rounded(rows) if self.stuck <= STUCK else []
         if not self.crowd:
             where = "" if before is None else f" near ({before.position[0]:.1f}, {before.position[1]:.1f})"
             level = "" if before is None else f" on level {before.level}"
@@ -196,17 +197,17 @@ class Placing(Levels):
 
     def _turned(self, plan: IndexedPlan, t: float) -> None:
         """The wearer has turned about, until `t` s."""
-        rows = unpacked(self.crowd)
+        rows = self.crowd
         self.keep(rows + mistold(plan, rows, self.since(t)))
         self.wide = WIDE
 
     def _forget(self) -> None:
-        self.crowd, self.newest, self.outside, self.stuck = b"", None, 0, 0.0
+        self.crowd, self.newest, self.outside, self.stuck = [], None, 0, 0.0
 
     # --- what is told ---
 
     def _told(self, plan: IndexedPlan, here: WearerMoved, known_at: float) -> Event:
-        rows = unpacked(self.crowd)
+        rows = self.crowd
         known = plan.plan.heights_known
         shown, heights = self.shown(plan.plan, rows, here)
         candidates, spread = believed(
@@ -236,9 +237,9 @@ class Placing(Levels):
                 else row
                 for row, told in zip(rows, shown, strict=True)
             ]
-            self.crowd = packed(rows)
+            self.crowd = rounded(rows)
         if not few:
-            self.crowd = packed(self.thinned(rows, wanted))
+            self.crowd = rounded(self.thinned(rows, wanted))
         self.newest = Placed(
             t=here.t,
             known_at=known_at,

@@ -10,7 +10,7 @@ from attrs import define, field
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
 from ..part import Part
-from .crowd import Row, packed, resampled
+from .crowd import Row, resampled, rounded
 from .noise import NOISE, ROWS, following
 
 JUMP = 4.0
@@ -32,7 +32,7 @@ class Readings(Part, ABC):
     most: int = 260
     """More readings of the track than this are never kept."""
     # state
-    crowd: bytes = field(default=b"", init=False)
+    crowd: list[Row] = field(factory=list, init=False)
     random: int = field(default=1, init=False)
 
     # --- how a method differs ---
@@ -54,7 +54,7 @@ class Readings(Part, ABC):
 
     def keep(self, rows: list[Row]) -> None:
         """These from now on, or as many that stand for them."""
-        self.crowd = packed(rows if len(rows) <= self.most else self.thinned(rows, self.most))
+        self.crowd = rounded(rows if len(rows) <= self.most else self.thinned(rows, self.most))
 
     def stepped(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
         """All rows a move (m, track) further."""

@@ -211,5 +211,5 @@ class _StateReader:
 
 
 READERS: Mapping[int, Callable[[_StateReader], OtherState]] = {1: _read_1}
-"""By version: each makes of its layout what the newest has. What a session remembers has versions and steps of its own
-(solepath.saving.upgrades)."""
+"""By version: each makes of its layout what the newest has. What a session remembers has a version of its own
+(session/state.py)."""

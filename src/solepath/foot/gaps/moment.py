@@ -10,10 +10,12 @@ from attrs import define, frozen
 from ...types import Quat, Vec3
 from ...types.vector import normalise, sub
 
-ROW = Struct("<15f")
-"""A moment as it is kept: all numbers of `StrideMoment` in their order, rounded to float32. That is 60 bytes rather
-than some
-700 as objects, and changes by less than 1e-6 of itself what is good for some per cent."""
+MomentRow = tuple[
+    float, float, float, float, float, float, float, float, float, float, float, float, float, float, float
+]  # fmt: skip
+"""A moment as it is kept: all numbers of `StrideMoment` in their order, rounded to float32, which changes by less than
+1e-6 of itself what is good for some per cent."""
+_SINGLES = Struct("<15f")
 
 
 @frozen
@@ -35,8 +37,8 @@ class StrideMoment:
 class TemplateStride:
     """A stride that was seen whole."""
 
-    rows: bytes
-    """Moments from the heel's rise to just before foot-flat (`ROW`), in order; never none."""
+    rows: list[MomentRow]
+    """Moments from the heel's rise to just before foot-flat, in order; never none."""
     toe_off: float
     """s after the heel's rise."""
     heel_strike: float
@@ -46,15 +48,20 @@ class TemplateStride:
     @property
     def lasted(self) -> float:
         """The last moment, s after the heel's rise."""
-        since: float = ROW.unpack_from(self.rows, len(self.rows) - ROW.size)[0]
-        return since
+        return self.rows[-1][0]
 
 
-def moments(rows: bytes) -> list[StrideMoment]:
+def moment_row(since: float, attitude: Quat, velocity: Vec3, position: Vec3, rate: Vec3, force: float) -> MomentRow:
+    """A moment as it is kept. OverflowError beyond 3e38, where float32 ends: this is no stride."""
+    row: MomentRow = _SINGLES.unpack(_SINGLES.pack(since, *attitude, *velocity, *position, *rate, force))
+    return row
+
+
+def moments(rows: list[MomentRow]) -> list[StrideMoment]:
     """What was kept, in order."""
     return [
         StrideMoment(t, (qw, qx, qy, qz), (vx, vy, vz), (px, py, pz), (rx, ry, rz), force)
-        for t, qw, qx, qy, qz, vx, vy, vz, px, py, pz, rx, ry, rz, force in ROW.iter_unpack(rows)
+        for t, qw, qx, qy, qz, vx, vy, vz, px, py, pz, rx, ry, rz, force in rows
     ]
 
 
@@ -78,12 +85,12 @@ def at(moments: list[StrideMoment], since: float) -> StrideMoment:
     return before
 
 
-def corrected(rows: bytes) -> float:
+def corrected(rows: list[MomentRow]) -> float:
     """How far zero velocity moved the foot in a stride when it came down, m: what the velocities do not tell."""
-    first, last = ROW.unpack_from(rows), ROW.unpack_from(rows, len(rows) - ROW.size)
+    first, last = rows[0], rows[-1]
     before, ax, ay, az = first[0], *first[5:8]
     x, y, z = sub(last[8:11], first[8:11])
-    for t, _, _, _, _, bx, by, bz, *_ in ROW.iter_unpack(rows):
+    for t, _, _, _, _, bx, by, bz, *_ in rows:
         k = 0.5 * (t - before)
         x, y, z = x - k * (ax + bx), y - k * (ay + by), z - k * (az + bz)
         before, ax, ay, az = t, bx, by, bz

@@ -14,7 +14,7 @@ from attrs import define, field
 
 from ...types import Quat, Vec3
 from ...types.vector import ZERO, single, sub
-from .moment import ROW, TemplateStride, corrected, limited, turned
+from .moment import MomentRow, TemplateStride, corrected, limited, moment_row, turned
 from .straight import StraightOn, share
 
 
@@ -57,8 +57,8 @@ class Habit:
     last: TemplateStride | None = field(default=None, init=False)
     age: int = field(default=1000, init=False)
     """Strides since `last`."""
-    now: bytes = field(default=b"", init=False)
-    """Moments of the stride under way (`ROW`)."""
+    now: list[MomentRow] = field(factory=list, init=False)
+    """Moments of the stride under way."""
     origin: Vec3 = field(default=ZERO, init=False)
     """Where the first of them was; their positions are from here, m."""
     stance: float = field(default=0.0, init=False)
@@ -84,7 +84,7 @@ class Habit:
         if self.stood_since is not None and self.guessed == 0.0:
             self.stance = t - self.stood_since
         self.lifted = self.due = t
-        self.now = b""
+        self.now = []
 
     def guess(self, lifted: float, duration: float) -> None:
         """The heel rose at `lifted`, s, and for `duration` of the stride since, s, the last one stands in."""
@@ -98,7 +98,7 @@ class Habit:
     def interrupt(self) -> None:
         """Nobody knows what the foot does now."""
         self.lifted = self.stood_since = None
-        self.now = b""
+        self.now = []
         self.straight_on.footfalls = 0
 
     def keep(self, t: float, attitude: Quat, velocity: Vec3, position: Vec3, acc: Vec3, gyro: Vec3) -> None:
@@ -111,15 +111,15 @@ class Habit:
         now = self.now
         if not now:
             self.origin = position
-        elif len(now) >= self.most * ROW.size:
-            self.now = b""
+        elif len(now) >= self.most:
+            self.now = []
             self.lifted = None
             return
         try:
             way = sub(position, self.origin)
-            self.now = now + ROW.pack(t - self.lifted, *attitude, *velocity, *way, *gyro, hypot(*acc))
-        except OverflowError:  # float32 goes to 3e38: this is no stride
-            self.now = b""
+            now.append(moment_row(t - self.lifted, attitude, velocity, way, gyro, hypot(*acc)))
+        except OverflowError:
+            self.now = []
             self.lifted = None
 
     def flat(
@@ -137,7 +137,7 @@ class Habit:
         crossed, self.crossed = self.crossed, False
         lasted = None if self.landed is None else t - self.landed
         self.landed = t
-        self.now = b""
+        self.now = []
         self.lifted = None
         self.stood_since = t
         sparse = interval if interval > self.dense else 0.0
@@ -171,7 +171,7 @@ class Habit:
         self.age = min(self.age + 1, 1000)
         if self.lifted is None or toe_off is None or self.guessed > 0.0 or self.crossed:
             return
-        if len(self.now) < self.least * ROW.size:
+        if len(self.now) < self.least:
             return
         if corrected(self.now) > self.drift:
             return

@@ -3,38 +3,62 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ..floorplan.index import IndexedPlan
 from ..link.known import Kinds
-from ..recipes import own
-from ..session.state import VERSION, SessionState
-from ..session.wearer import in_order
+from ..recipes import PARTS, Recipe, own, part_class
+from ..saving.codec import Classes, Json, SnapshotError, checksum, load, save
+from ..saving.schema import is_record
 from ..types import Foot, Site
-from .codec import Json, SnapshotError, checksum, load, save
+from .state import VERSION, SessionState
+from .wearer import in_order
+
+if TYPE_CHECKING:
+    from ..floorplan.index import IndexedPlan
 
 
 def taken(state: SessionState) -> dict[str, Json]:
     """It carries a checksum of itself: a session made of damaged numbers could do anything later."""
+    check_names(state.wearer.recipe)
     told = save(state)
     return {"solepath": VERSION, "check": checksum(told), "state": told}
 
 
 def restored(saved: Any, parts: Iterable[type]) -> SessionState:
-    """The state that was taken. SnapshotError, TypeError and ValueError as `Session.restore`
-    has them."""
+    """The state that was taken. SnapshotError, TypeError and ValueError as `Session.restore` has them."""
+    classes = by_name(parts)
     if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
         raise SnapshotError("not a snapshot of a session")
     version = saved["solepath"]
     if type(version) is not int or version != VERSION:
         raise SnapshotError(f"a snapshot of version {version!r:.80}; this release reads version {VERSION} alone")
-    state = load(SessionState, saved["state"], parts)
+    state = load(SessionState, saved["state"], classes)
     state.decoders = in_order(state.decoders, Site)
     state.wearer.feet = in_order(state.wearer.feet, Foot)
     if checksum(save(state)) != saved["check"]:
         raise SnapshotError("the snapshot was damaged: its checksum is another")
     state.wearer.recipe = own(state.wearer.recipe)
     return state
+
+
+def check_names(recipe: Recipe) -> None:
+    """TypeError for a part of an app's own that is called as one of ours: it would be restored as that."""
+    for part in (recipe.detector, recipe.corrector, recipe.cues, *recipe.parts, recipe.place):
+        name = type(part).__name__
+        if name in PARTS and part_class(name) is not type(part):
+            raise TypeError(f"it could not tell this {name} from solepath's own: give it another name")
+
+
+def by_name(parts: Iterable[type]) -> Classes:
+    """Looks classes of parts up, an app's first. TypeError for what is no record, ValueError for two of one name."""
+    classes = list(dict.fromkeys(parts))
+    for cls in classes:
+        if not is_record(cls):
+            raise TypeError(f"a part is an attrs class, and {cls!r} is none")
+    named = {cls.__name__: cls for cls in classes}
+    if len(named) != len(classes):
+        raise ValueError("two parts have one name")
+    return lambda name: named.get(name) or part_class(name)
 
 
 def must_fit(state: SessionState, known: Kinds, plan: IndexedPlan | None) -> None:

@@ -1,0 +1,325 @@
+"""protocol/snapshot/states.json against the packer, and against a reader that was written after protocol/snapshot.md
+alone: with the standard library, a schema as JSON, and none of solepath."""
+
+from __future__ import annotations
+
+import base64
+import json
+import struct
+import subprocess
+import sys
+import zlib
+from collections import deque
+from collections.abc import Iterator
+from functools import cache
+from math import isfinite
+from typing import Any, Protocol
+
+import pytest
+from attrs import define, evolve, field
+from here import PROTOCOL
+from walks import machines, samples
+
+from solepath import Foot, Phase, Session, recipes
+from solepath.foot.stance.stance import ShoeDetector
+from solepath.saving.codec import save
+from solepath.saving.packed import Lists, Streams, read, told_of, write
+from solepath.saving.schema import MADE_AGAIN, NOT_SAVED, check_of, described, record_of
+from solepath.saving.streams import from_bytes, to_bytes
+
+FILE = json.loads((PROTOCOL / "snapshot" / "states.json").read_text("utf-8"))
+HEADER = struct.Struct("<4sHHII")
+
+
+# --- a reader of its own ----------------------------------------------------------------------------------------------
+
+
+def bits(data: bytes, width: int, count: int) -> list[int]:
+    whole = int.from_bytes(data, "little")
+    return [whole >> width * k & (1 << width) - 1 for k in range(count)]
+
+
+def streams(body: bytes) -> tuple[list[float], list[int], list[int], bytes]:
+    """The body's floats, ints, flags and bytes. ValueError for none."""
+    at = 0
+
+    def take(length: int) -> bytes:
+        nonlocal at
+        if at + length > len(body):
+            raise ValueError("too short")
+        at += length
+        return body[at - length : at]
+
+    floats, ints, flags, told, left, right = struct.unpack("<4I2d", take(32))
+    classes = bits(take(-(-(floats + ints) // 8) * 3), 3, floats + ints)
+
+    def numbers(code: str, members: tuple[int, ...]) -> Any:
+        count = sum([k in members for k in classes])
+        return iter(struct.unpack(f"<{count}{code}", take(count * struct.calcsize("<" + code))))
+
+    counts, singles, doubles = numbers("h", (4, 5, 6, 7)), numbers("f", (1,)), numbers("d", (2,))
+    found: list[float] = []
+    last: float | None = None
+    for k in classes:
+        if k == 0:
+            found.append(0.0)
+        elif k == 1:
+            found.append(next(singles))
+        elif k in (2, 3):
+            last = next(doubles) if k == 2 else last
+            if last is None:
+                raise ValueError("no double before")
+            found.append(last)
+        else:
+            count = float(next(counts))
+            found.append({4: count, 5: count / 10_000, 6: count * left, 7: count * right}[k])
+    if not all([isfinite(number) for number in found]) or any([number % 1.0 for number in found[floats:]]):
+        raise ValueError("not finite, or not whole")
+    whole = [int(number) for number in found[floats:]]
+    true = bits(take(-(-flags // 8)), 1, flags)
+    large = [int(word) for word in take(told).split()]
+    if whole.count(-(2**63)) != len(large):
+        raise ValueError("too many large ints, or too few")
+    large.reverse()
+    return found[:floats], [large.pop() if n == -(2**63) else n for n in whole], true, body[at:]
+
+
+class Tree:
+    """What a body holds, by its schema. `parts`: the schemas of open records, by what is told of them."""
+
+    def __init__(self, schema: dict[str, Any], parts: dict[str, Any], body: bytes) -> None:
+        self.schema, self.parts = schema, parts
+        floats, ints, flags, self.data = streams(body)
+        self.scalars = {"float": iter(floats), "int": iter(ints), "bool": map(bool, flags)}
+
+    def roots(self) -> list[dict[str, Any]]:
+        return [self.record(name) for name in self.schema["roots"]]
+
+    def record(self, name: str) -> dict[str, Any]:
+        return {field: self.value(kind) for field, kind in self.schema["records"][name].items()}
+
+    def some(self, kind: Any) -> list[Any]:
+        return [self.value(kind) for _ in range(self.value("int"))]
+
+    def open(self, names: list[str]) -> dict[str, Any]:
+        k = self.value("int")
+        if k < len(names):
+            return {"kind": names[k].removeprefix("state of ").split(" ")[0], "is": self.record(names[k])}
+        told = self.value("str")
+        around, self.schema = self.schema, self.parts[told]
+        (fields,) = self.roots()
+        self.schema = around
+        return {"kind": told.split(" ")[0], "is": fields}
+
+    def value(self, kind: Any) -> Any:
+        if kind in ("str", "bytes"):
+            length = self.value("int")
+            told, self.data = self.data[:length], self.data[length:]
+            return told.decode() if kind == "str" else base64.b64encode(told).decode()
+        if isinstance(kind, str):
+            return next(self.scalars[kind])
+        match kind:
+            case {"enum": name}:
+                return self.schema["enums"][name][self.value("int")]
+            case {"record": name}:
+                return self.record(name)
+            case {"one of": names}:
+                return self.open(names)
+            case {"maybe": inner}:
+                return self.value(inner) if self.value("bool") else None
+            case {"tuple": items}:
+                return [self.value(item) for item in items]
+            case {"row": inner} | {"list": inner}:
+                return self.some(inner)
+            case {"deque": inner}:
+                most = self.value({"maybe": "int"})
+                items = self.some(inner)
+                return items if most is None else {"maxlen": most, "is": items}
+            case {"dict": both}:
+                return {str(key): value for key, value in self.some({"tuple": both})}
+        raise ValueError(f"{kind} is no type")
+
+    def left(self) -> Any:
+        """What was not read."""
+        return self.data or [number for scalar in self.scalars.values() for number in scalar]
+
+
+# --- records of every kind --------------------------------------------------------------------------------------------
+
+
+class Hat(Protocol):
+    """What a `Wardrobe` has on top."""
+
+    size: float
+
+
+@define
+class Cap:
+    size: float = 57.0
+    worn: int = field(default=0, init=False)
+
+
+@define
+class Bag:
+    """No part: it has no state of its own."""
+
+    size: float = 30.0
+    holds: list[str] = field(factory=list)
+
+
+class Tally:
+    """A plain class."""
+
+    count: int
+    seen: dict[Foot, float]
+
+    def __init__(self) -> None:
+        self.count, self.seen = 0, {}
+
+
+@define
+class Wardrobe:
+    name: str
+    hats: tuple[Hat, ...] = ()
+    limit: float = 0.5
+    # state
+    top: Hat = field(factory=Cap, init=False)
+    lent: Hat | None = field(default=None, init=False)
+    spare: dict[str, Cap] = field(factory=lambda: {"red": Cap(58.0)}, init=False, metadata=MADE_AGAIN)
+    either: Cap | Bag | None = field(default=None, init=False)
+    tally: Tally = field(factory=Tally, init=False)
+    phase: Phase = field(default=Phase.SWING, init=False)
+    raw: bytes = field(default=b"", init=False)
+    place: tuple[float, int] | None = field(default=None, init=False)
+    rows: deque[tuple[float, float]] = field(factory=lambda: deque(maxlen=3), init=False)
+    flags: list[bool] = field(factory=list, init=False)
+    plan: str | None = field(default=None, init=False, metadata=NOT_SAVED)
+
+
+CLASSES = {"Cap": Cap, "Bag": Bag}.get
+
+
+def used() -> Wardrobe:
+    """A `Wardrobe` with something in every field."""
+    one = Wardrobe("né", (Cap(1.5), Bag(2.5, ["a", "b"])))
+    one.top.worn, one.lent, one.spare["red"].worn, one.either = 3, Cap(60.0), 2**70, Bag(4.0)
+    one.tally.count, one.tally.seen, one.phase, one.raw = 7, {Foot.RIGHT: 0.1}, Phase.LOADING, b"\x00\xff"
+    one.place, one.flags, one.plan = (-0.0, -3), [True, False], "not saved"
+    one.rows.extend([(0.1, 0.2), (0.1, 1e-9)])
+    return one
+
+
+def body_of(one: Wardrobe, made: bool) -> bytes:
+    lists: Lists = ([], [], [], [])
+    write(record_of(Wardrobe, made), one, lists)
+    return to_bytes(*lists, (0.0, 0.0))
+
+
+@pytest.mark.parametrize("made", [False, True], ids=["whole", "state"])
+def test_a_record_of_every_kind_comes_back_and_is_read_by_its_schema_alone(made: bool) -> None:
+    one, fresh = used(), Wardrobe("né", (Cap(1.5), Bag(2.5)), limit=0.75)
+    body = body_of(one, made)
+    found = Streams(*from_bytes(memoryview(body)))
+    again = read(record_of(Wardrobe, made), found, CLASSES, fresh if made else None)
+    found.end()
+    saved: Any = save(one)
+    assert save(again) == (saved | {"limit": 0.75} if made else saved)
+    assert again.plan is None and again.rows.maxlen == 3 and again.raw == one.raw
+    state = record_of(Wardrobe, made)
+    parts = {told_of(record): described(record) for record in (record_of(Cap), record_of(Cap, True), record_of(Bag))}
+    tree = Tree(described(state), parts, body)
+    (fields,) = tree.roots()
+    assert not tree.left()
+    assert json.dumps(fields) == json.dumps(less(fields, saved))
+
+
+def less(part: Any, whole: Any) -> Any:
+    """Of the whole what is in the part."""
+    if isinstance(part, dict):
+        return {key: less(value, whole[key]) for key, value in part.items()}
+    if isinstance(part, list):
+        return [less(a, b) for a, b in zip(part, whole, strict=True)]
+    return whole
+
+
+@pytest.mark.parametrize("state", FILE["states"], ids=lambda state: state["id"])
+def test_a_state_of_the_file_is_read_by_the_schema_beside_it(state: dict[str, Any]) -> None:
+    tree = Tree(state["schema"], state["parts"], bytes.fromhex(state["hex"]))
+    assert repr(tree.roots()) == repr(state["trees"])
+    assert not tree.left()
+
+
+def test_the_first_state_of_the_file_is_what_is_packed_today() -> None:
+    (state,) = FILE["states"]
+    assert state["hex"] == body_of(used(), made=True).hex()
+    assert state["schema"] == described(record_of(Wardrobe, made=True))
+
+
+# --- sessions ---------------------------------------------------------------------------------------------------------
+
+
+@cache
+def printed() -> dict[str, Any]:
+    """What the command says."""
+    command = [sys.executable, "-m", "solepath.session.schema"]
+    told: dict[str, Any] = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
+    return told
+
+
+def sessions() -> Iterator[Session]:
+    yield from map(Session, recipes.BY_NAME.values())
+    for name in ("session, whole frames", "session, cc2650", "session, footstep-tracker", "session, kupt-dfpc"):
+        session = machines()[name].begin()
+        session.feed(machines()[name].items[:700])
+        yield session
+
+
+def test_every_session_is_read_by_the_printed_schema_alone() -> None:
+    told = printed()
+    for session in sessions():
+        data = session.pack()
+        magic, form, version, made_with, check = HEADER.unpack_from(data)
+        assert (magic, form, version) == (b"sole", 2, told["version"])
+        assert made_with == zlib.crc32(json.dumps(told["session"], separators=(",", ":")).encode())
+        assert check == zlib.crc32(data[:12] + bytes(4) + data[16:])
+        tree = Tree(told["session"], told["parts"], data[16:])
+        head, state = tree.roots()
+        assert not tree.left()
+        assert head["recipe"] == session.recipe.name
+        whole: Any = session.snapshot()["state"]
+        assert json.dumps(state) == json.dumps(less(state, whole))
+
+
+def test_a_session_with_a_detector_of_the_apps_own_is_read_with_its_schema_beside() -> None:
+    session = Session(evolve(recipes.DEFAULT, name="own", detector=Mine()))
+    session.feed(samples(cells=0)[:50])
+    record = record_of(Mine, made=True)
+    assert told_of(record) == f"Mine {check_of(described(record)):08x}"
+    tree = Tree(printed()["session"], {told_of(record): described(record)}, session.pack()[16:])
+    _, state = tree.roots()
+    assert not tree.left()
+    assert state["wearer"]["feet"]["left"]["detector"]["kind"] == "Mine"
+
+
+@define
+class Mine(ShoeDetector):
+    """A detector of an app's own."""
+
+
+# --- bodies -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("body", FILE["bodies"], ids=lambda body: body["id"])
+def test_a_body_holds_what_it_is_said_to_hold(body: dict[str, Any]) -> None:
+    data = bytes.fromhex(body["hex"])
+    if body["result"] == "valid":
+        expected = {**body["streams"], "bytes": bytes.fromhex(body["streams"]["bytes"])}
+        for floats, ints, flags, rest in (streams(data), from_bytes(memoryview(data))):
+            found = {"floats": floats, "ints": ints, "flags": [bool(flag) for flag in flags], "bytes": rest}
+            assert repr(found) == repr(expected)
+        return
+    with pytest.raises(ValueError, match="too|not|no double"):
+        streams(data)
+    # nothing but these, which unpacking turns into SnapshotError
+    with pytest.raises((ValueError, IndexError, StopIteration)):
+        from_bytes(memoryview(data))
