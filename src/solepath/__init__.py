@@ -51,6 +51,7 @@ from .events import (
     WalkingModeChanged,
     WearerMoved,
 )
+from .events.frame import to_frame
 from .floorplan.importers.reading import read_floorplan
 from .floorplan.index import IndexedPlan
 from .floorplan.plan import FloorPlan, FloorPlanError, Start
@@ -84,6 +85,7 @@ __all__ = [
     "FootMoved",
     "FootPressed",
     "FootSilent",
+    "GaitCycleMeasured",
     "GaitParameters",
     "HeelOff",
     "HeelStrike",
@@ -114,14 +116,13 @@ __all__ = [
     "Site",
     "SnapshotError",
     "Start",
-    "StrideFeatures",
-    "StrideTaken",
     "StreamRestarted",
     "StreamResumed",
     "StreamStale",
+    "StrideFeatures",
     "StrideFigures",
     "StrideFused",
-    "GaitCycleMeasured",
+    "StrideTaken",
     "Support",
     "ToeOff",
     "TouchedDown",
@@ -134,4 +135,5 @@ __all__ = [
     "read_calibration",
     "read_floorplan",
     "recipes",
+    "to_frame",
 ]

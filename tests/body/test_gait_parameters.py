@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 from functools import cache
-from math import pi
+from math import degrees, pi
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +16,7 @@ from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.truth import Truth
 from solepath.emulate.wearers.walker import Walker
-from solepath.show.output import GAIT_COLUMNS, TrackFiles
+from solepath.show.output import CYCLE_COLUMNS, TrackFiles
 from solepath.show.tables.gait import gait_lines
 from solepath.show.tally import Tally
 
@@ -267,11 +267,12 @@ def test_gait_csv_has_a_line_for_each_stride_and_nothing_where_nothing_could_be_
             files.write(stride)
     with (tmp_path / "gait_cycles.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
-    assert len(rows) == len(strides) and tuple(rows[0]) == GAIT_COLUMNS
+    assert len(rows) == len(strides) and tuple(rows[0]) == CYCLE_COLUMNS
     for row, stride in zip(rows, strides, strict=True):
-        assert (row["foot"], row["steady"], row["step_time"]) == ("right", str(int(stride.steady)), "")
-        assert float(row["t"]) == stride.t
-        assert float(row["stride_length"]) == pytest.approx(stride.stride_length, abs=1e-6)
+        assert (row["foot"], row["steady"], row["step_time_s"]) == ("right", str(int(stride.steady)), "")
+        assert float(row["t_s"]) == stride.t
+        assert float(row["stride_length_m"]) == pytest.approx(stride.stride_length, abs=1e-6)
+        assert float(row["toe_off_angle_deg"]) == pytest.approx(degrees(stride.toe_off_angle), abs=1e-6)
 
 
 def test_the_table_is_of_walking_and_of_running_each_if_there_was_any() -> None:

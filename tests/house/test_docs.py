@@ -31,7 +31,7 @@ from solepath.foot.stance.stance import Detector
 from solepath.foot.tracker import AnyCorrector, AnyCues, AnyDetector
 from solepath.recipes import AnyActivity, AnyBody, AnyPlace
 from solepath.recording import PacketWriter
-from solepath.show.output import STEP_COLUMNS, TRACK_COLUMNS
+from solepath.show.output import STRIDE_COLUMNS, TRACK_COLUMNS
 from solepath.types import Foot, Site
 
 MARKDOWN = {**PAGES, **{f"protocol/{path.name}": path.read_text() for path in (PROTOCOL).glob("*.md")}}
@@ -257,7 +257,7 @@ def test_every_page_can_be_reached_from_the_readme():
 
 def test_columns_are_those_that_are_written():
     assert f"`{','.join(TRACK_COLUMNS)}`" in PAGES["docs/commands.md"]
-    assert f"`{','.join(STEP_COLUMNS)}`" in PAGES["docs/commands.md"]
+    assert f"`{','.join(STRIDE_COLUMNS)}`" in PAGES["docs/commands.md"]
 
 
 def test_the_table_of_parts_has_them_all():

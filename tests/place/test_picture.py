@@ -139,8 +139,8 @@ def test_track_writes_places_and_the_picture_and_says_where_the_wearer_is(
     with (tmp_path / "places.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert len(rows) >= 4 and {row["level"] for row in rows} == {"0"}
-    assert all(0.0 < float(row["x"]) < 30.0 and row["candidates"] == "1" for row in rows)
-    assert abs(degrees(float(rows[-1]["heading"])) - 30.0) < 12.0
+    assert all(0.0 < float(row["x_m"]) < 30.0 and row["candidates"] == "1" for row in rows)
+    assert abs(float(rows[-1]["heading_deg"]) - 30.0) < 12.0
     events = [json.loads(line) for line in (tmp_path / "events.jsonl").read_text().splitlines()]
     assert [event["level"] for event in events if event["event"] == "Placed"] == [row["level"] for row in rows]
     svg = ElementTree.parse(tmp_path / "plan.svg").getroot()

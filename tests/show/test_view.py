@@ -35,7 +35,6 @@ from solepath.events import (
 )
 from solepath.session import Session
 from solepath.show.monitor import Monitor
-from solepath.show.output import event_record
 from solepath.show.tables.plot import plot
 from solepath.show.tables.status import status
 from solepath.show.tables.summary import link_health, summary, worn
@@ -167,41 +166,6 @@ def test_what_is_wrong_with_how_it_is_worn_is_told_once():
         "the feet look swapped: what comes as the left one is like a right one",
         "right: silent 1 times while the other walked on",
     ]
-
-
-def test_events_of_bodies_and_of_wear_are_strict_json_with_feet_and_modes_by_their_names():
-    told = json.loads(json.dumps([event_record(FUSED), event_record(down(WalkingMode.LEFT_TIGHT))], allow_nan=False))
-    assert (told[0]["event"], told[0]["foot"], told[0]["chosen"]) == ("StrideFused", "left", "right")
-    assert told[0]["similarity"] is None and told[0]["position"] == [5.0, 0.25, 0.0]
-    assert (told[1]["event"], told[1]["mode"]) == ("TouchedDown", "LEFT_TIGHT")
-    failed = CellsFailed(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, fault=CellFault.STUCK, cells=(3,))
-    assert event_record(failed) == {
-        "event": "CellsFailed", "t": 1.0, "known_at": 1.0, "final": True, "foot": "left", "site": "left_foot",
-        "fault": "stuck", "cells": [3],
-    }  # fmt: skip
-    swapped = event_record(FeetSwapped(t=1.0, known_at=1.0))
-    assert swapped == {"event": "FeetSwapped", "t": 1.0, "known_at": 1.0, "final": True}
-
-
-def test_an_event_is_written_with_its_name_and_times_first_and_records_within_it_as_objects():
-    record = event_record(STEP)
-    assert list(record)[:5] == ["event", "t", "known_at", "final", "foot"]
-    assert record["event"] == "StrideTaken" and record["foot"] == "left" and record["position"] == [1.25, 0.0, 0.0]
-    assert record["features"]["clearance"] == 0.125 and record["t_toe_off"] is None
-
-
-def test_numbers_that_are_none_are_null_in_json():
-    gap = SampleGap(t=0.0, known_at=float("inf"), site=Site.PELVIS, duration=float("nan"))
-    assert event_record(gap) == {
-        "event": "SampleGap", "t": 0.0, "known_at": None, "final": True, "site": "pelvis", "duration": None
-    }  # fmt: skip
-
-
-def test_a_layout_is_written_whole():
-
-    layout = Layout(2, Foot.LEFT, (Cell(0.0, 0.0), Cell(0.25, 0.0)), 0.25)
-    record = event_record(LayoutKnown(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, layout=layout))
-    assert record["layout"]["cells"][1] == {"x": 0.25, "y": 0.0, "area": 1e-4}
 
 
 def test_of_a_sensor_that_is_on_no_foot_the_samples_are_counted_too():

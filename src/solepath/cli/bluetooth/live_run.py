@@ -19,7 +19,7 @@ from ...recipes import Recipe
 from ...recording import PacketWriter, RecordingError, printable, why
 from ...session import Session
 from ...show.monitor import Monitor
-from ...show.output import EVENTS, PLACES, STEPS, TRACK, TrackFiles
+from ...show.output import EVENTS, GAIT_CYCLES, PLACES, STRIDES, TRACK, TrackFiles
 from ...show.page.scene.scene import Scene
 from ...show.tables.placed import PlaceCounts
 from ...show.tables.summary import summary
@@ -147,7 +147,7 @@ def check_writable(record: Path | None, out: Path | None, places: bool = False) 
     try:
         if out is not None:
             out.mkdir(parents=True, exist_ok=True)
-        names = (EVENTS, TRACK, STEPS, PLACES) if places else (EVENTS, TRACK, STEPS)
+        names = (EVENTS, TRACK, STRIDES, GAIT_CYCLES, *([PLACES] if places else []))
         for path in [*([record] if record else []), *([out / name for name in names] if out else [])]:
             there = path.exists()
             if not there or path.is_file() or path.is_dir():  # a pipe would take it for the end
