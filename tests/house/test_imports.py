@@ -35,7 +35,7 @@ ALLOWED: dict[str, set[str]] = {
     # the edges: they import the rooms, no room imports them
     "testing": CORE,
     "recording": CORE,
-    "show": CORE | {"recording", "lab"},
+    "show": CORE | {"recording"},
     "ble": CORE | {"recording"},
     "emulate": CORE | {"ble"},
     "fleet": SHOWN | {"emulate"},

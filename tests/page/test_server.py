@@ -96,7 +96,7 @@ def test_a_watcher_sees_the_walk() -> None:
             assert scene["frame"]["feet"] == {"left": None, "right": None}
             for index, packet in enumerate(insoles().packets):
                 for event in session.feed(packet):
-                    page.scene.take(event)
+                    page.scene.take(None, [event])
                 if index % 50 == 0:
                     await asyncio.sleep(0.01)
             steps = points = frames = 0
@@ -626,7 +626,7 @@ def walked(watch: Callable[[Page], Awaitable[None]] | None) -> list[Any]:
                 await watch(page)
             for index, packet in enumerate(insoles().packets):
                 for event in session.feed(packet):
-                    page.scene.take(event)
+                    page.scene.take(None, [event])
                     events.append(event)
                 if index % 20 == 0:
                     await asyncio.sleep(0)

@@ -22,6 +22,6 @@ class Happening:
 
     def to_dict(self) -> dict[str, Any]:
         """The event as plain data for strict JSON, the same as its line of events.jsonl: `event` (the class's name),
-        `t`, `known_at`, `final`, `foot` where it has one, then its other fields in SI units; enums by their values, null
-        for a number that is none."""
+        `t`, `known_at`, `final`, `foot` where it has one, then its other fields in SI units; enums by their values,
+        null for a number that is none."""
         return record_of(self)

@@ -1,8 +1,8 @@
 """What `track` writes: events.jsonl, track.csv, strides.csv and gait_cycles.csv, with a floor plan also places.csv.
 
-events.jsonl is for programs, in SI units and radians; the tables are for people, with the unit of a column in its header
-and angles in degrees. Times are the recording's own, written so that reading gives the same float again; places in m to
-the micrometre.
+events.jsonl is for programs, in SI units and radians; the tables are for people, with the unit of a column in its
+header and angles in degrees. Times are the recording's own, written so that reading gives the same float again; places
+in m to the micrometre.
 """
 
 from __future__ import annotations

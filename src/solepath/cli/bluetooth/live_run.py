@@ -18,10 +18,10 @@ from ...floorplan.plan import Start
 from ...recipes import Recipe
 from ...recording import PacketWriter, RecordingError, printable, why
 from ...session import Session
-from ...show.monitor import Monitor
+from ...show.observer import Observer
 from ...show.output import EVENTS, GAIT_CYCLES, PLACES, STRIDES, TRACK, TrackFiles
 from ...show.page.scene.scene import Scene
-from ...show.tables.placed import PlaceCounts
+from ...show.tables.placed import place_lines
 from ...show.tables.summary import summary
 from ...types import Packet
 from ..common.failure import Failure, note
@@ -48,8 +48,7 @@ async def listen(
     session = Session(
         recipe, calibration=calibration, poses=True, pressures=view is not None, floorplan=plan, start=start
     )
-    monitor = Monitor(session)
-    places = None if plan is None else PlaceCounts()
+    observer = Observer()
     scene: Scene | None = None
     async with AsyncExitStack() as stack:
         async with unless_told(stop):
@@ -60,36 +59,33 @@ async def listen(
             heard = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
         if view is not None:
             drawn = None if plan is None else plan.plan
-            scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration))
+            scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration), observer=observer)
             await stack.enter_async_context(page_of(scene, view))
         # not before: a search in vain replaces nothing of an earlier run
         files = LiveFiles(options.record, options.out, plan is not None)
+        watcher = observer if scene is None else scene
+
+        def take(packet: Packet | None, events: list[Event]) -> None:
+            watcher.take(packet, events)
+            for event in events:
+                files.event(event)
+
         try:
-            with shown(monitor, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
+            with shown(observer, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
                 async for packet in until(heard, stop, seconds):
                     files.packet(packet)
-                    for event in monitor.take(packet):
-                        files.event(event)
-                        if places is not None:
-                            places.add(event)
-                        if scene is not None:
-                            scene.take(event)
-                    if scene is not None:
-                        scene.tick(packet.t)  # when nothing comes, there is a packet that says so
+                    take(packet, session.feed(packet))
                     report()
                     if files.failure is not None:
                         break
         except asyncio.CancelledError:
             note("interrupted")
         finally:
-            for event in monitor.finish():
-                files.event(event)
-                if places is not None:
-                    places.add(event)
+            take(None, session.finish())
             files.close()
-    print(summary(monitor.tally, title=f"recipe {recipe.name}", seconds=0.0))
-    if places is not None:
-        print("\n".join(places.lines()))
+    print(summary(observer, title=f"recipe {recipe.name}", seconds=0.0))
+    if plan is not None:
+        print("\n".join(place_lines(observer.places)))
     if files.failure is not None:
         raise Failure(files.failure)
     if options.record:

@@ -10,6 +10,7 @@ from attrs import define, field
 
 from ....events import FootMoved, FootPressed, StrideTaken
 from ....types import Foot, Layout, Phase, Vec3
+from ...observer import FootCounts
 from .lists import Recent, ThinnedTrack
 from .rounding import placed, shown
 
@@ -39,9 +40,6 @@ class FootScene:
     """Beginning of each phase of late, s, and its name; None for a time in which the foot is not heard."""
     position: Vec3 | None = field(default=None, init=False)
     track: ThinnedTrack[Point] = field(factory=ThinnedTrack, init=False)
-    steps: int = field(default=0, init=False)
-    distance: float = field(default=0.0, init=False)
-    """Sum of the stride lengths, m."""
     layout: Layout | None = field(default=None, init=False)
     cells: tuple[float, ...] | None = field(default=None, init=False)
     """The newest values; None while there are none."""
@@ -89,8 +87,6 @@ class FootScene:
     def stepped(self, event: StrideTaken) -> None:
         """A step ended."""
         if event.final:
-            self.steps += 1
-            self.distance += event.length
             self._reach(event.t, event.position)
 
     def wear(self, layout: Layout) -> bool:
@@ -118,7 +114,7 @@ class FootScene:
 
     # --- what a page shows ---
 
-    def frame(self, rate: float) -> dict[str, Any] | None:
+    def frame(self, rate: float, counts: FootCounts) -> dict[str, Any] | None:
         """As "feet" of a frame; None before it was heard of. `rate`: samples a second."""
         if not self.heard:
             return None
@@ -131,8 +127,8 @@ class FootScene:
             "force": None if cells is None else shown(self.force, 1),
             "centre": None if self.centre is None or cells is None else placed(self.centre, 4),
             "rate": rate,
-            "steps": self.steps,
-            "distance": shown(self.distance, 2),
+            "steps": counts.strides,
+            "distance": shown(counts.distance, 2),
         }
 
     def _colours(self) -> str | None:

@@ -7,7 +7,7 @@ from typing import Any
 
 from attrs import define, field
 
-from ....events import Candidate, Placed, PlaceLost, WearerMoved
+from ....events import Candidate, Placed, WearerMoved
 from ....types import Vec3
 from .feet import SPACING, Point
 from .lists import ThinnedTrack
@@ -25,8 +25,6 @@ class Whereabouts:
 
     moved: WearerMoved | None = None
     track: ThinnedTrack[Point] = field(factory=ThinnedTrack)
-    place: Placed | None = None
-    """None while it is not known."""
     places: ThinnedTrack[PlacePoint] = field(factory=ThinnedTrack)
     level: str | None = None
     """The last one that there was no doubt of."""
@@ -43,7 +41,6 @@ class Whereabouts:
 
     def found(self, event: Placed) -> str | None:
         """A place on the plan; the level where it is another one than before, and beyond doubt."""
-        self.place = event
         if any([one.level != event.level for one in event.candidates]):
             return None
         x, y, z = placed(event.position)
@@ -53,9 +50,9 @@ class Whereabouts:
         self.level = event.level
         return event.level
 
-    def lose(self, event: PlaceLost) -> None:
+    def lose(self) -> None:
         """There is no place any more."""
-        self.place = self.level = None
+        self.level = None
 
     def wearer_frame(self) -> dict[str, Any] | None:
         """As "wearer" of a frame."""
@@ -64,9 +61,8 @@ class Whereabouts:
             return None
         return {"t": shown(moved.t), "position": placed(moved.position), "covariance": placed(moved.covariance, 6)}
 
-    def place_frame(self) -> dict[str, Any] | None:
-        """As "place" of a frame."""
-        place = self.place
+    def place_frame(self, place: Placed | None) -> dict[str, Any] | None:
+        """As "place" of a frame; None while it is not known."""
         if place is not self._told[0]:
             self._told = (place, None if place is None else _place(place))
         return self._told[1]
