@@ -1,6 +1,5 @@
 """Tables, plots and summaries: what people are shown."""
 
-
 from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st

@@ -63,26 +63,18 @@ async def listen(
             await stack.enter_async_context(page_of(scene, view))
         # not before: a search in vain replaces nothing of an earlier run
         files = LiveFiles(options.record, options.out, plan is not None)
-        watcher = observer if scene is None else scene
-
-        def take(packet: Packet | None, events: list[Event]) -> None:
-            watcher.take(packet, events)
-            for event in events:
-                files.event(event)
-
+        going_on = LiveSession(session, observer if scene is None else scene, files)
         try:
             with shown(observer, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
                 async for packet in until(heard, stop, seconds):
-                    files.packet(packet)
-                    take(packet, session.feed(packet))
+                    going_on.take(packet)
                     report()
                     if files.failure is not None:
                         break
         except asyncio.CancelledError:
             note("interrupted")
         finally:
-            take(None, session.finish())
-            files.close()
+            going_on.finish()
     print(summary(observer, title=f"recipe {recipe.name}", seconds=0.0))
     if plan is not None:
         print("\n".join(place_lines(observer.places)))
@@ -93,6 +85,30 @@ async def listen(
     if options.out:
         print(f"written to {printable(str(options.out))}")
     return 0
+
+
+@define
+class LiveSession:
+    """A session that is shown and written while it goes on."""
+
+    session: Session
+    watcher: Observer | Scene
+    files: LiveFiles
+
+    def take(self, packet: Packet) -> None:
+        """The next packet."""
+        self.files.packet(packet)
+        self._tell(packet, self.session.feed(packet))
+
+    def finish(self) -> None:
+        """No more will come: what was held back is shown and written, too."""
+        self._tell(None, self.session.finish())
+        self.files.close()
+
+    def _tell(self, packet: Packet | None, events: list[Event]) -> None:
+        self.watcher.take(packet, events)
+        for event in events:
+            self.files.event(event)
 
 
 @define(init=False)
