@@ -53,7 +53,7 @@ class Results:
         self._report = None
         if self.report is not None:
             check_writable(self.report)
-            self._report = Report(self.title, self.plan, self.recipe, self.when, _version(), self.observer)
+            self._report = Report(self.title, self.plan, self.recipe, self.when, observer=self.observer)
 
     def begin(self) -> None:
         """There is something to write, or there will be nothing."""
@@ -115,9 +115,3 @@ def _named(written: Path, wanted: Path | None) -> Iterator[None]:
     except OSError as error:
         name = str(wanted) if error.filename == str(written) else error.filename
         raise OSError(error.errno, error.strerror, name) from None
-
-
-def _version() -> str:
-    from importlib.metadata import version
-
-    return version("solepath")

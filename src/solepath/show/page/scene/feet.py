@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from math import dist, inf
+from math import inf
 from typing import Any
 
 from attrs import define, field
@@ -11,14 +11,9 @@ from attrs import define, field
 from ....events import FootMoved, FootPressed, StrideTaken
 from ....types import Foot, Layout, Phase, Vec3
 from ...observer import FootCounts
-from .lists import Recent, ThinnedTrack
+from .lists import Recent, WalkedTrack
 from .rounding import placed, shown
 
-Point = tuple[float | None, ...]
-"""(t, x, y, z) in s and m."""
-
-SPACING = 0.02
-"""m; a foot that is put down nearer to where it stood adds no point to its track."""
 RIBBON = 20.0
 """s of phases that are kept."""
 MOST_PHASES = 500
@@ -39,7 +34,7 @@ class FootScene:
     phases: Recent[tuple[float, str | None]] = field(factory=lambda: Recent(MOST_PHASES), init=False)
     """Beginning of each phase of late, s, and its name; None for a time in which the foot is not heard."""
     position: Vec3 | None = field(default=None, init=False)
-    track: ThinnedTrack[Point] = field(factory=ThinnedTrack, init=False)
+    track: WalkedTrack = field(factory=WalkedTrack, init=False)
     layout: Layout | None = field(default=None, init=False)
     cells: tuple[float, ...] | None = field(default=None, init=False)
     """The newest values; None while there are none."""
@@ -47,8 +42,6 @@ class FootScene:
     centre: tuple[float, float] | None = field(default=None, init=False)
     peak: float = field(default=0.0, init=False)
     """What the brightest colour stands for: the highest value so far."""
-    _last: Vec3 | None = field(default=None, init=False)
-    """The newest point of the track."""
     _map: tuple[tuple[float, ...] | None, float, str | None] = field(default=(None, 0.0, None), init=False)
     """Cells and peak, and what they were last shown as."""
 
@@ -59,8 +52,8 @@ class FootScene:
         self.position = event.position
         if event.phase is not self.phase:
             self.begin(event.t, event.phase)
-        if self._last is None:
-            self._reach(event.t, event.position)
+        if not self.track.count:
+            self.track.reach(event.t, event.position)
 
     def pressed(self, event: FootPressed) -> None:
         """Cells of one sample."""
@@ -87,7 +80,7 @@ class FootScene:
     def stepped(self, event: StrideTaken) -> None:
         """A step ended."""
         if event.final:
-            self._reach(event.t, event.position)
+            self.track.reach(event.t, event.position)
 
     def wear(self, layout: Layout) -> bool:
         """Where the cells are; whether that is new."""
@@ -106,11 +99,6 @@ class FootScene:
         """What it does now is not known."""
         self.begin(t, None)
         self.cells = self.centre = None
-
-    def _reach(self, t: float, position: Vec3) -> None:
-        if self._last is None or dist(position, self._last) >= SPACING:
-            self._last = position
-            self.track.add((shown(t), *placed(position)))
 
     # --- what a page shows ---
 

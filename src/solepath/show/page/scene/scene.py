@@ -214,7 +214,7 @@ class Scene:
             places = where.places.since(known["places"])
             if places is None or None in tracks.values():
                 return self.whole()
-            phases = {foot.value: one.phases.since(known[f"phases {foot.value}"]) for foot, one in self.feet.items()}
+            phases = {foot.value: one.phases.since(known[f"phases {foot}"]) for foot, one in self.feet.items()}
             message |= _filled("tracks", {name: points for name, points in tracks.items() if points})
             message |= _filled("phases", {name: begun for name, begun in phases.items() if begun})
             message |= _filled("places", places)

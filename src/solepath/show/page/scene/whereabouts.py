@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from math import dist
 from typing import Any
 
 from attrs import define, field
 
 from ....events import Candidate, Placed, WearerMoved
-from ....types import Vec3
-from .feet import SPACING, Point
-from .lists import ThinnedTrack
+from .lists import ThinnedTrack, WalkedTrack
 from .rounding import placed, shown
 
 MOST_CANDIDATES = 40
@@ -24,20 +21,16 @@ class Whereabouts:
     """The wearer's track has a point for each step, the places one for each step whose level is decided."""
 
     moved: WearerMoved | None = None
-    track: ThinnedTrack[Point] = field(factory=ThinnedTrack)
+    track: WalkedTrack = field(factory=WalkedTrack)
     places: ThinnedTrack[PlacePoint] = field(factory=ThinnedTrack)
     level: str | None = None
     """The last one that there was no doubt of."""
-    _last: Vec3 | None = None
-    """The newest point of the track."""
     _told: tuple[Placed | None, dict[str, Any] | None] = (None, None)
 
     def stepped(self, event: WearerMoved) -> None:
         """Where the wearer is after a step."""
         self.moved = event
-        if self._last is None or dist(event.position, self._last) >= SPACING:
-            self._last = event.position
-            self.track.add((shown(event.t), *placed(event.position)))
+        self.track.reach(event.t, event.position)
 
     def found(self, event: Placed) -> str | None:
         """A place on the plan; the level where it is another one than before, and beyond doubt."""
