@@ -94,7 +94,8 @@ class Scene:
         for event in events:
             if isfinite(event.known_at) and isfinite(event.t):
                 self._show(event)
-        self._hush()
+        if not events:
+            self._hush()
 
     def tick(self, t: float) -> None:
         """It is `t` s, on the clock of the packets, whether or not anything was heard."""
