@@ -60,6 +60,7 @@ from .session import Session
 from .types import Activity, Cell, Foot, Layout, Packet, Phase, Quat, Sample, Site, Support, Turn, Vec3, WalkingMode
 
 if TYPE_CHECKING:
+    from .events.frame import to_frame
     from .floorplan.importers.reading import read_floorplan
     from .floorplan.index import IndexedPlan
     from .floorplan.plan import FloorPlan, FloorPlanError, Start
@@ -70,6 +71,7 @@ _LATER = {
     "IndexedPlan": "floorplan.index",
     "Start": "floorplan.plan",
     "read_floorplan": "floorplan.importers.reading",
+    "to_frame": "events.frame",
 }
 """What an app may never need is loaded when it is first asked for: name -> module."""
 
@@ -105,6 +107,7 @@ __all__ = [
     "FootMoved",
     "FootPressed",
     "FootSilent",
+    "GaitCycleMeasured",
     "GaitParameters",
     "HeelOff",
     "HeelStrike",
@@ -135,14 +138,13 @@ __all__ = [
     "Site",
     "SnapshotError",
     "Start",
-    "StrideFeatures",
-    "StrideTaken",
     "StreamRestarted",
     "StreamResumed",
     "StreamStale",
+    "StrideFeatures",
     "StrideFigures",
     "StrideFused",
-    "GaitCycleMeasured",
+    "StrideTaken",
     "Support",
     "ToeOff",
     "TouchedDown",
@@ -155,4 +157,5 @@ __all__ = [
     "read_calibration",
     "read_floorplan",
     "recipes",
+    "to_frame",
 ]

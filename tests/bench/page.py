@@ -66,9 +66,9 @@ async def serve(way: str, seconds: float) -> None:
             wait = began + packet.t - loop.time()
             if wait > 0.0:
                 await asyncio.sleep(wait)
-            for event in session.feed(packet):
-                if page is not None:
-                    page.scene.take(event)
+            events = session.feed(packet)
+            if page is not None:
+                page.scene.take(packet, events)
         print(json.dumps(process_time() - used), flush=True)
 
 

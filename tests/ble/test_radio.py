@@ -17,7 +17,7 @@ from airs import hear
 from solepath import Disconnected, FootMoved, PacketRejected, Session
 from solepath.ble import Devices, Wanted, scan
 from solepath.link.catalogue import BY_NAME
-from solepath.show.tally import streamed
+from solepath.show.links import streamed
 from solepath.types import Packet, Site
 
 ADDRESS, PROFILE = os.environ.get("SOLEPATH_RADIO", ""), os.environ.get("SOLEPATH_RADIO_PROFILE", "")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 from functools import cache
-from math import pi
+from math import degrees, pi
 from pathlib import Path
 
 import numpy as np
@@ -16,9 +16,9 @@ from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.truth import Truth
 from solepath.emulate.wearers.walker import Walker
-from solepath.show.output import GAIT_COLUMNS, TrackFiles
+from solepath.show.observer import Observer
+from solepath.show.output import CYCLE_COLUMNS, TrackFiles
 from solepath.show.tables.gait import gait_lines
-from solepath.show.tally import Tally
 
 LEVEL = Route().stand(1.5).walk(14.0, 1.3).stop(1.0)
 BENT = Route().stand(1.5).walk(7.0, 1.2).turn(pi / 2, radius=1.0).walk(7.0).stop(1.0)
@@ -267,22 +267,23 @@ def test_gait_csv_has_a_line_for_each_stride_and_nothing_where_nothing_could_be_
             files.write(stride)
     with (tmp_path / "gait_cycles.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
-    assert len(rows) == len(strides) and tuple(rows[0]) == GAIT_COLUMNS
+    assert len(rows) == len(strides) and tuple(rows[0]) == CYCLE_COLUMNS
     for row, stride in zip(rows, strides, strict=True):
-        assert (row["foot"], row["steady"], row["step_time"]) == ("right", str(int(stride.steady)), "")
-        assert float(row["t"]) == stride.t
-        assert float(row["stride_length"]) == pytest.approx(stride.stride_length, abs=1e-6)
+        assert (row["foot"], row["steady"], row["step_time_s"]) == ("right", str(int(stride.steady)), "")
+        assert float(row["t_s"]) == stride.t
+        assert float(row["stride_length_m"]) == pytest.approx(stride.stride_length, abs=1e-6)
+        assert float(row["toe_off_angle_deg"]) == pytest.approx(degrees(stride.toe_off_angle), abs=1e-6)
 
 
 def test_the_table_is_of_walking_and_of_running_each_if_there_was_any() -> None:
-    tally = Tally()
-    assert gait_lines(tally.gait) == []
+    observer = Observer()
+    assert gait_lines(observer.gait) == []
     for stride in walked(LEVEL)[1]:
-        tally.add(stride)
-    text = "\n".join(gait_lines(tally.gait))
+        observer.add(stride)
+    text = "\n".join(gait_lines(observer.gait))
     assert "walking, steady strides" in text and "running" not in text
     for word in ("cadence", "stride length", "stance %", "heel-strike angle", "coordination"):
         assert word in text
     for stride in walked(JOGGED)[1]:
-        tally.add(stride)
-    assert "running, steady strides" in "\n".join(gait_lines(tally.gait))
+        observer.add(stride)
+    assert "running, steady strides" in "\n".join(gait_lines(observer.gait))

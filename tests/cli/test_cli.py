@@ -8,7 +8,7 @@ import re
 import subprocess
 import sys
 from contextlib import redirect_stderr, redirect_stdout
-from math import hypot, radians
+from math import degrees, hypot, radians
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +23,6 @@ from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import LiveEvent
 from solepath.recording import PacketWriter, read_packets
-from solepath.show.output import event_record
 from solepath.types import Foot, Packet, Site
 
 ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
@@ -217,19 +216,21 @@ def test_steps_and_track_are_tables_of_the_same_walk(tracked):
     _, out = tracked
     steps, track = rows_in(out / "strides.csv"), rows_in(out / "track.csv")
     assert list(steps[0]) == [
-        "foot", "t_start", "t_end", "x", "y", "z", "stride_length", "heading_change", "height_change", "degraded",
+        "foot", "t_start_s", "t_end_s", "x_m", "y_m", "z_m", "stride_length_m", "heading_change_deg", "height_change_m",
+        "degraded",
     ]  # fmt: skip
-    assert list(track[0]) == ["t", "foot", "x", "y", "z", "phase"]
+    assert list(track[0]) == ["t_s", "foot", "x_m", "y_m", "z_m", "phase"]
     taken = [event for event in events_in(out) if event["event"] == "StrideTaken"]
-    assert [(row["foot"], float(row["t_end"])) for row in steps] == [(event["foot"], event["t_end"]) for event in taken]
+    ends = [(row["foot"], float(row["t_end_s"])) for row in steps]
+    assert ends == [(event["foot"], event["t_end"]) for event in taken]
     assert {row["phase"] for row in track} == {"LOADING", "STATIONARY", "PUSH_OFF", "SWING"}
     for foot in ("left", "right"):
-        times = [float(row["t"]) for row in track if row["foot"] == foot]
+        times = [float(row["t_s"]) for row in track if row["foot"] == foot]
         assert times == sorted(times) and len(times) > 1000
-        walked = sum(float(row["stride_length"]) for row in steps if row["foot"] == foot)
+        walked = sum(float(row["stride_length_m"]) for row in steps if row["foot"] == foot)
         assert walked == pytest.approx(8.0, rel=0.1)
         last = [row for row in track if row["foot"] == foot][-1]
-        assert hypot(float(last["x"]), float(last["y"])) == pytest.approx(8.0, rel=0.1)
+        assert hypot(float(last["x_m"]), float(last["y_m"])) == pytest.approx(8.0, rel=0.1)
 
 
 @pytest.fixture(scope="module")
@@ -244,10 +245,10 @@ def test_every_column_of_steps_is_what_the_session_said(tracked, told):
     assert len(taken) > 8 and max(abs(step.heading_change) for step in taken) > 0.01
     for row, step in zip(rows_in(tracked[1] / "strides.csv"), taken, strict=True):
         assert row["foot"] == step.foot.value and row["degraded"] == str(int(step.degraded))
-        assert (float(row["t_start"]), float(row["t_end"])) == (step.t_start, step.t_end)
+        assert (float(row["t_start_s"]), float(row["t_end_s"])) == (step.t_start, step.t_end)
         x, y, z = step.position
-        lengths = {"x": x, "y": y, "z": z, "stride_length": step.length, "height_change": step.height_change}
-        for column, value in (lengths | {"heading_change": step.heading_change}).items():
+        lengths = {"x_m": x, "y_m": y, "z_m": z, "stride_length_m": step.length, "height_change_m": step.height_change}
+        for column, value in (lengths | {"heading_change_deg": degrees(step.heading_change)}).items():
             assert float(row[column]) == pytest.approx(value, abs=1e-6), column
     assert any(step.degraded for step in taken)
 
@@ -255,8 +256,8 @@ def test_every_column_of_steps_is_what_the_session_said(tracked, told):
 def test_every_column_of_track_is_what_the_session_said(tracked, told):
     moved = [event for event in told if isinstance(event, FootMoved)]
     for row, event in zip(rows_in(tracked[1] / "track.csv"), moved, strict=True):
-        assert (float(row["t"]), row["foot"], row["phase"]) == (event.t, event.foot.value, event.phase.value)
-        assert [float(row[axis]) for axis in "xyz"] == pytest.approx(event.position, abs=1e-6)
+        assert (float(row["t_s"]), row["foot"], row["phase"]) == (event.t, event.foot.value, event.phase.value)
+        assert [float(row[f"{axis}_m"]) for axis in "xyz"] == pytest.approx(event.position, abs=1e-6)
 
 
 def test_events_of_the_link_name_the_foot_too(tracked, told):
@@ -270,7 +271,7 @@ def test_events_of_the_link_name_the_foot_too(tracked, told):
 
 def test_events_of_what_is_no_foot_name_none():
     lost = PacketsLost(t=1.0, known_at=1.0, site=Site.PELVIS, channel="insole/frame", count=2)
-    assert "foot" not in event_record(lost) and event_record(lost)["site"] == "pelvis"
+    assert "foot" not in lost.to_dict() and lost.to_dict()["site"] == "pelvis"
 
 
 def test_a_recording_of_one_foot_is_of_the_foot_that_is_named(one_foot, tmp_path):
@@ -288,7 +289,7 @@ def test_the_times_written_are_the_recordings_own(one_foot, tmp_path):
     later["t"] = later["t"] + 1.7e9 + 1 / 3
     np.savez(tmp_path / "later.npz", **later)
     assert solepath("track", tmp_path / "later.npz", "--out", tmp_path).returncode == 0
-    times = [float(row["t"]) for row in rows_in(tmp_path / "track.csv")]
+    times = [float(row["t_s"]) for row in rows_in(tmp_path / "track.csv")]
     assert times[0] >= later["t"][0] and times[-1] == later["t"][-1]
     assert set(times) <= set(later["t"].tolist())
 
@@ -316,7 +317,7 @@ def test_a_bad_row_ends_the_walk_there_and_what_came_before_is_written(one_foot,
     done = solepath("track", tmp_path / "bad.npz", "--out", tmp_path)
     assert one_line(done).endswith("bad.npz: acc, row 700: is nan, not a finite number (t = 7 s)")
     assert "recipe default: 7.0 s" in done.stdout
-    assert [float(row["t"]) for row in rows_in(tmp_path / "track.csv")][-1] == columns["t"][699]
+    assert [float(row["t_s"]) for row in rows_in(tmp_path / "track.csv")][-1] == columns["t"][699]
     assert rows_in(tmp_path / "strides.csv")
 
 

@@ -18,10 +18,15 @@ from typing import Any
 
 import pytest
 from commands import refused, run
+from shown import frame
+from walks import insoles
 
+from solepath import ActivityChanged, Session
+from solepath.cli.bluetooth.live_run import LiveFiles, LiveSession
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import emulate
 from solepath.recording import PacketWriter
+from solepath.show.page.scene.scene import Scene
 
 aiohttp = pytest.importorskip("aiohttp")
 
@@ -373,3 +378,16 @@ def test_live_sensors_and_their_silence_are_seen_on_the_page(tmp_path: Path):
             out, err = process.communicate(timeout=TAKES)
     assert (process.returncode, err) == (0, "") and f"written to {tmp_path}" in out
     assert "FootPressed" not in (tmp_path / "events.jsonl").read_text()
+
+
+def test_what_a_live_session_says_at_its_end_reaches_the_page_too() -> None:
+    session, other = Session(poses=True, pressures=True), Session(poses=True, pressures=True)
+    live = LiveSession(session, scene := Scene("Live", "default"), LiveFiles(None, None))
+    for packet in insoles().packets:
+        live.take(packet)
+        other.feed(packet)
+    before = frame(scene)["activity"]
+    live.finish()
+    (last,) = [event for event in other.finish() if isinstance(event, ActivityChanged)]
+    after = frame(scene)["activity"]
+    assert (after["now"], after["since"]) == (last.activity.value, round(last.t, 3)) != (before["now"], before["since"])

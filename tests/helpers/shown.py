@@ -34,8 +34,8 @@ TIMES = frozenset({"t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_str
 """Fields of events that are moments, s."""
 CONNECTED = "document.getElementById('connection').dataset.state === 'open'"
 
-Told = tuple[float, tuple[Event, ...]]
-"""When it was told, s, and what."""
+Told = tuple[Packet, tuple[Event, ...]]
+"""What a session was fed, and what it said of that."""
 
 
 def squares(count: int) -> Route:
@@ -54,14 +54,14 @@ def walked(route: Route, cells: int = 96) -> tuple[Packet, ...]:
 def told(packets: Iterable[Packet], session: Session | None = None) -> tuple[Told, ...]:
     """What a session tells a page of these packets."""
     made = Session(poses=True, pressures=True) if session is None else session
-    return tuple((packet.t, tuple(made.feed(packet))) for packet in packets)
+    return tuple((packet, tuple(made.feed(packet))) for packet in packets)
 
 
 def shown(events: Iterable[Event], scene: Scene | None = None) -> Scene:
     """A scene that has taken them."""
     scene = Scene("a walk", "default") if scene is None else scene
     for event in events:
-        scene.take(event)
+        scene.take(None, [event])
     return scene
 
 
@@ -88,7 +88,7 @@ def corridor_walk() -> tuple[Told, ...]:
 
 def between(begin: float, end: float) -> list[Told]:
     """What is told between these moments of the walk round the square."""
-    return [one for one in square() if begin < one[0] <= end]
+    return [one for one in square() if begin < one[0].t <= end]
 
 
 def fresh(title: str = "round a square") -> Scene:
@@ -107,23 +107,22 @@ def placed(seconds: float) -> Scene:
 
 
 def _taken(scene: Scene, walk: Iterable[Told], seconds: float) -> Scene:
-    for t, events in walk:
-        if t > seconds:
+    for packet, events in walk:
+        if packet.t > seconds:
             break
-        for event in events:
-            scene.take(event)
+        scene.take(packet, events)
     return scene
 
 
 def again(walk: tuple[Told, ...], seconds: float) -> Iterator[Told]:
     """The walk, and again from where it ended, for so many s at the least."""
-    length = walk[-1][0] - walk[0][0] + 0.01
+    length = walk[-1][0].t - walk[0][0].t + 0.01
     return chain.from_iterable(_later(walk, k * length) for k in range(int(seconds / length) + 1))
 
 
 def _later(walk: tuple[Told, ...], by: float) -> Iterator[Told]:
-    for t, events in walk:
-        yield t + by, tuple(later(event, by) for event in events)
+    for packet, events in walk:
+        yield evolve(packet, t=packet.t + by), tuple(later(event, by) for event in events)
 
 
 def later(event: Event, by: float) -> Event:
@@ -142,17 +141,16 @@ async def show(scene: Scene, walk: Iterable[Told], speed: float = 1.0, until: fl
     clock = asyncio.get_running_loop().time
     due: float | None = None
     last = clock()
-    for t, events in walk:
-        if until is not None and t > until:
+    for packet, events in walk:
+        if until is not None and packet.t > until:
             break
-        due = t if due is None else due
-        while t > due:
+        due = packet.t if due is None else due
+        while packet.t > due:
             await asyncio.sleep(REFRESH)
             now = clock()
             due += speed * min(now - last, LONGEST_PART)
             last = now
-        for event in events:
-            scene.take(event)
+        scene.take(packet, events)
 
 
 @asynccontextmanager

@@ -199,17 +199,17 @@ def test_a_plan_shows_the_wearer_once_that_is_decided_and_gives_up_the_way_to_wh
             await view.until(f"{seen}.view === 'track' && {note}.startsWith('Where on the plan is not known yet')")
             for k in range(4):
                 t, walked = 1.0 + k, 0.8 * k
-                scene.take(WearerMoved(t=t, known_at=t, position=(walked, 0.0, 0.0), covariance=(0.01,) * 6))
-                scene.take(place(t, 5.0 + walked, ground, 25.0 + walked))
+                scene.take(None, [WearerMoved(t=t, known_at=t, position=(walked, 0.0, 0.0), covariance=(0.01,) * 6)])
+                scene.take(None, [place(t, 5.0 + walked, ground, 25.0 + walked)])
             await view.until(f"{seen}.view === 'plan' && {seen}.points === '4' && {seen}.since === '0'")
             name = BUILDING.levels[0].name or ground
             await view.until(f"{note} === '2 possible places; the likeliest, on {name}, has 60 %.'")
             spoken = await words(view, "track")
             assert spoken is not None and "The wearer is" not in spoken
-            scene.take(place(5.0, 27.4, ground))
+            scene.take(None, [place(5.0, 27.4, ground)])
             await view.until(f"{seen}.since === '4' && document.getElementById('track-note').hidden")
             await view.until("document.getElementById('track').ariaLabel.includes('The wearer is on')")
-            scene.take(place(6.0, 27.5, upper))
+            scene.take(None, [place(6.0, 27.5, upper)])
             await view.until(f"{seen}.level === '{upper}'")
             assert await view.tab.evaluate(f"{seen}.since") == "4"
 
@@ -238,7 +238,7 @@ def test_a_lost_link_shows_and_recovers(browser: Browsing) -> None:
             async def listen() -> None:
                 async for packet in found:
                     for event in session.feed(packet):
-                        scene.take(event)
+                        scene.take(None, [event])
 
             bench.began = asyncio.get_running_loop().time()
             async with meanwhile(listen()):
@@ -281,8 +281,8 @@ def test_names_from_the_air_are_shown_as_text(browser: Browsing) -> None:
     async def main(chromium: Browser) -> None:
         scene = after(6.0, hostile)
         name = hostile.ljust(248, "W")  # as long as a device can have one
-        scene.take(Connected(t=6.0, known_at=6.0, site=LEFT, device="F0:5E:00:00:00:01", name=name, signal=-50))
-        scene.take(LinkTrouble(t=6.0, known_at=6.0, site=LEFT, what="W" * 300))
+        scene.take(None, [Connected(t=6.0, known_at=6.0, site=LEFT, device="F0:5E:00:00:00:01", name=name, signal=-50)])
+        scene.take(None, [LinkTrouble(t=6.0, known_at=6.0, site=LEFT, what="W" * 300)])
         async with opened(chromium, scene, width=PHONE) as (view, _):
             assert await text(view, "title") == hostile
             await view.until("document.getElementById('links').textContent.includes('onerror')")

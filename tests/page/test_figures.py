@@ -23,6 +23,7 @@ from solepath import (
     FootPressed,
     GaitCycleMeasured,
     LayoutKnown,
+    Packet,
     PacketsLost,
     Phase,
     Placed,
@@ -137,7 +138,7 @@ def test_a_knock_of_a_hundredth_of_a_second_does_not_either() -> None:
 def test_a_scale_is_for_both_feet_and_only_grows() -> None:
     scene, tops = shown(worn()), []
     for event in walk():
-        scene.take(event)
+        scene.take(None, [event])
         tops.append(frame(scene)["scales"]["kPa"]["top"] if isinstance(event, GaitCycleMeasured) else None)
     seen = [top for top in tops if top is not None]
     assert seen == sorted(seen)
@@ -164,14 +165,20 @@ def test_cells_that_nobody_turns_into_newtons_end_in_counts() -> None:
 
 
 def test_a_loss_is_that_of_the_last_ten_seconds() -> None:
-    def heard(begin: float, end: float) -> list[Event]:
-        return [moved(begin + 0.01 * k, known_at=begin + 0.01 * k + 0.02) for k in range(round(100 * (end - begin)))]
+    scene = Scene("a walk", "default")
 
-    outage = PacketsLost(t=12.0, known_at=12.0, site=Site.LEFT_FOOT, channel="insole/frame", count=1000)
-    scene = shown([*heard(0.0, 2.0), outage, *heard(12.0, 14.0)])
+    def heard(begin: float, end: float) -> None:
+        for k in range(round(100 * (end - begin))):
+            t = begin + 0.01 * k
+            scene.take(Packet(t + 0.02, Site.LEFT_FOOT, "insole/frame", b""), [moved(t, known_at=t + 0.02)])
+
+    heard(0.0, 2.0)
+    shown([PacketsLost(t=12.0, known_at=12.0, site=Site.LEFT_FOOT, channel="insole/frame", count=1000)], scene)
+    heard(12.0, 14.0)
     link = frame(scene)["links"]["left foot"]
     assert (link["lost"], 0.7 < link["loss"] < 0.9) == (1000, True)
-    link = frame(shown(heard(14.0, 24.0), scene))["links"]["left foot"]
+    heard(14.0, 24.0)
+    link = frame(scene)["links"]["left foot"]
     assert (link["lost"], link["loss"]) == (1000, 0.0)
     scene.tick(27.0)
     link = frame(scene)["links"]["left foot"]

@@ -43,7 +43,7 @@ def test_the_page_does_not_say_that_somebody_walks_of_whom_nothing_is_heard(brow
             assert angle.rstrip().endswith("°"), "degrees, not a share of an angle"
             assert "settle with 30 and more" in await text("gait-note")
             for site in SITE_OF_FOOT.values():
-                scene.take(Disconnected(t=12.0, known_at=12.0, site=site))
+                scene.take(None, [Disconnected(t=12.0, known_at=12.0, site=site)])
             scene.tick(15.0)
             await view.until("document.getElementById('activity').textContent === 'Not known, last: walking'")
             assert await text("since") in ("no foot is heard for 2 s", "no foot is heard for 3 s")

@@ -62,11 +62,11 @@ from solepath.show.page.messages import FASTEST, SLOWEST, encode, parse_command
 from solepath.show.page.player.playback import Playback
 from solepath.show.page.scene import plan_drawing
 from solepath.show.page.scene.lists import MOST_POINTS, RECENT
-from solepath.show.page.scene.scene import MOST_LINES, Scene
+from solepath.show.page.scene.log import MOST_LINES
+from solepath.show.page.scene.scene import Scene
 from solepath.show.page.scene.sentences import sentence
 from solepath.show.tables.gait import gait_lines
 from solepath.show.tables.gait_rows import gait_rows
-from solepath.show.tally import Tally
 from solepath.types import Turn
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
@@ -168,7 +168,7 @@ def agree(events: list[Event], looks: list[int], scene: Scene | None = None) -> 
     message, cursor = scene.whole()
     reader.take(encode(message))
     for index, event in enumerate(events):
-        scene.take(event)
+        scene.take(None, [event])
         for _ in range(looks.count(index)):
             news, cursor = scene.since(cursor)
             if news is not None:
@@ -259,14 +259,12 @@ def test_cells_are_one_byte_each_of_the_highest_so_far() -> None:
 
 def test_the_gait_is_the_table_of_the_terminal() -> None:
     _, events = fed(insoles(Route().stand(1.5).walk(14.0, 1.3).stop(1.0)).packets)
-    tally, scene = Tally(), shown(events)
-    for event in events:
-        tally.add(event)
-    told = frame(scene)["gait"]
-    parameters = tally.gait.of(False)
+    scene = shown(events)
+    told, means = frame(scene)["gait"], scene.observer.gait
+    parameters = means.of(False)
     assert parameters is not None
     assert told["cadence"] == round(parameters.cadence or 0.0, 1)
-    lines = gait_lines(tally.gait)
+    lines = gait_lines(means)
     assert [row["name"] for row in told["rows"]] == [row.name for row in gait_rows(parameters)]
     for row in told["rows"]:
         line = next(line for line in lines if line.startswith(f"{row['label']} {row['unit']} "))
@@ -377,9 +375,13 @@ def test_a_sensor_that_is_on_no_foot_has_a_link_and_no_rate() -> None:
 
 
 def test_losses_are_shares_of_the_packets_that_were_sent() -> None:
-    packets_of_two = [moved(0.02 * k + 0.01 * j, known_at=0.02 * k + 0.05) for k in range(30) for j in (0, 1)]
-    lost = PacketsLost(t=0.7, known_at=0.7, site=Site.LEFT_FOOT, channel="insole/frame", count=10)
-    link = frame(shown([*packets_of_two, lost]))["links"]["left foot"]
+    scene = Scene("a walk", "default")
+    for k in range(30):
+        t = 0.02 * k + 0.05
+        packet = Packet(t, Site.LEFT_FOOT, "insole/frame", b"")
+        scene.take(packet, [moved(t - 0.05, known_at=t), moved(t - 0.04, known_at=t)])
+    shown([PacketsLost(t=0.7, known_at=0.7, site=Site.LEFT_FOOT, channel="insole/frame", count=10)], scene)
+    link = frame(scene)["links"]["left foot"]
     assert (link["lost"], link["loss"]) == (10, 0.25)
 
 
@@ -454,7 +456,7 @@ def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
             if isinstance(event, StrideTaken | WearerMoved | Placed):
                 x, y, z = event.position
                 event = evolve(event, position=(x + lap, y, z))
-            scene.take(event)
+            scene.take(None, [event])
         if lap % 125 == 124:
             message = scene.whole()[0]
             assert all(len(track) <= MOST_POINTS for track in message["tracks"].values())
@@ -487,15 +489,15 @@ def test_the_log_speaks_of_feet_and_not_of_events() -> None:
 
 def test_a_low_battery_is_said_once() -> None:
     levels = [BatteryLevel(t=t, known_at=t, site=Site.LEFT_FOOT, level=0.2 - 0.01 * t) for t in (1.0, 6.0, 7.0, 8.0)]
-    assert [line[2] for line in shown(levels).log.items] == ["left foot: the battery is at 14 %"]
+    assert [line[2] for line in shown(levels).log.lines.items] == ["left foot: the battery is at 14 %"]
 
 
 def test_a_silence_that_the_link_told_is_not_told_again_of_the_foot() -> None:
     stale = StreamStale(t=1.0, known_at=2.0, site=Site.LEFT_FOOT, silent_for=1.0)
     silent = FootSilent(t=1.0, known_at=2.5, foot=LEFT, silent_for=1.5)
     heard = FootHeard(t=3.0, known_at=3.0, foot=LEFT, silent_for=2.0)
-    assert len(shown([moved(0.5), stale, silent]).log.items) == 1
-    assert len(shown([moved(1.9), moved(2.5), silent, heard]).log.items) == 2
+    assert len(shown([moved(0.5), stale, silent]).log.lines.items) == 1
+    assert len(shown([moved(1.9), moved(2.5), silent, heard]).log.lines.items) == 2
 
 
 def test_a_name_from_the_air_cannot_break_a_line() -> None:
@@ -536,7 +538,7 @@ def test_messages_are_made_of_the_keys_that_the_protocol_names() -> None:
     events = [event for event in eventful() if not isinstance(event, PlaceLost)]
     scene = shown(events, Scene("a walk", "default", "recording", BUILDING, Playback(0.0, 1.0, 0.0)))
     for event in fed(insoles(Route().stand(1.5).walk(14.0, 1.3).stop(1.0)).packets)[1]:
-        scene.take(later(event, 100.0))
+        scene.take(None, [later(event, 100.0)])
     message = json.loads(encode(scene.whole()[0]))
     told = message["frame"]
     assert message.keys() == keys("`scene`")

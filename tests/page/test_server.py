@@ -16,12 +16,19 @@ from typing import Any
 from urllib.parse import urlsplit
 
 import pytest
-from aiohttp import ClientError, ClientSession, ClientWebSocketResponse, WSMsgType, WSServerHandshakeError
+from aiohttp import (
+    ClientError,
+    ClientSession,
+    ClientWebSocketResponse,
+    WSCloseCode,
+    WSMsgType,
+    WSServerHandshakeError,
+)
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import insoles
 
-from solepath import Foot, Session
+from solepath import Foot, LinkTrouble, Session, Site
 from solepath.show.page.messages import Command, CommandError, parse_command
 from solepath.show.page.scene.scene import Scene
 from solepath.show.page.server import connection, offences, server, watcher
@@ -95,12 +102,11 @@ def test_a_watcher_sees_the_walk() -> None:
             scene = await scene_of(watching)
             assert scene["frame"]["feet"] == {"left": None, "right": None}
             for index, packet in enumerate(insoles().packets):
-                for event in session.feed(packet):
-                    page.scene.take(event)
+                page.scene.take(packet, session.feed(packet))
                 if index % 50 == 0:
                     await asyncio.sleep(0.01)
             steps = points = frames = 0
-            while steps < page.scene.feet[Foot.LEFT].steps:
+            while steps < page.scene.observer.feet[Foot.LEFT].strides:
                 news = json.loads(await watching.receive_str())
                 frames += news["type"] == "frame"
                 if news["type"] == "scene":  # the soles are known now
@@ -121,6 +127,26 @@ def test_a_watcher_hears_something_every_second_even_when_nothing_happens() -> N
     run(main())
 
 
+def test_what_came_last_is_shown_before_the_end() -> None:
+    """As what a session says when it is finished, after which the page goes."""
+
+    async def main() -> None:
+        async with served() as (page, client, url):
+            watching = await client.ws_connect(f"{url}ws")
+            await scene_of(watching)
+            trouble = LinkTrouble(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, what="the last that was said")
+            page.scene.take(None, [trouble])
+            ending = asyncio.create_task(page.__aexit__(None, None, None))
+            texts = []
+            while (message := await watching.receive()).type is WSMsgType.TEXT:
+                texts.append(message.data)
+            await ending
+            assert "the last that was said" in texts[-1] and watching.close_code == WSCloseCode.GOING_AWAY
+            await watching.close()
+
+    run(main())
+
+
 def test_another_scene_is_sent_whole_as_after_a_seek() -> None:
     async def main() -> None:
         async with served() as (page, client, url), client.ws_connect(f"{url}ws") as watching:
@@ -133,7 +159,7 @@ def test_another_scene_is_sent_whole_as_after_a_seek() -> None:
 
 def test_the_page_is_made_of_the_files_that_are_installed() -> None:
     async def main() -> None:
-        names = {one.name for one in (files("solepath.show.page") / "static").iterdir()}
+        names = {one.name for one in (files("solepath.show.page.server") / "static").iterdir()}
         assert "index.html" in names
         async with served() as (_, client, url):
             for name in ("", *names):
@@ -149,7 +175,7 @@ def test_the_page_is_made_of_the_files_that_are_installed() -> None:
                         assert head.headers["Content-Length"] == answer.headers["Content-Length"]
                     kind = answer.headers["Content-Type"].partition(";")[0]
                     assert kind == server.KINDS[f".{(name or 'index.html').rpartition('.')[2]}"]
-            text = "".join((files("solepath.show.page") / "static" / name).read_text() for name in names)
+            text = "".join((files("solepath.show.page.server") / "static" / name).read_text() for name in names)
             for elsewhere in ("https:", "//cdn"):
                 assert elsewhere not in text.replace('"https:"', "").replace("'https:'", "")
 
@@ -625,9 +651,9 @@ def walked(watch: Callable[[Page], Awaitable[None]] | None) -> list[Any]:
             if watch is not None:
                 await watch(page)
             for index, packet in enumerate(insoles().packets):
-                for event in session.feed(packet):
-                    page.scene.take(event)
-                    events.append(event)
+                said = session.feed(packet)
+                page.scene.take(packet, said)
+                events.extend(said)
                 if index % 20 == 0:
                     await asyncio.sleep(0)
 

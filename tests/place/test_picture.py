@@ -20,7 +20,8 @@ from solepath.cli.common.floorplan import start_of
 from solepath.floorplan.importers.geojson import write_floorplan
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall
 from solepath.recording import PacketWriter
-from solepath.show.tables.placed import PlaceCounts
+from solepath.show.places import PlaceCounts
+from solepath.show.tables.placed import place_lines
 from solepath.show.tables.plan import PlanPicture, colour
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -93,7 +94,7 @@ def test_the_summary_says_when_the_wearer_was_found_and_on_which_levels() -> Non
         for event in [*told.events, *part.follow(OFFICE, told.events, told.here)]:
             places.add(event)
     assert places.last is not None and places.last.level == "1"
-    lines = places.lines()
+    lines = place_lines(places)
     assert lines[0].startswith("place: found after ") and " steps, at " in lines[0]
     assert lines[1].startswith("at the end: level 1, (") and "within" in lines[1]
     assert lines[2].startswith("levels: 0 from ") and ", 1 from " in lines[2]
@@ -103,8 +104,9 @@ def test_the_summary_says_when_the_wearer_was_found_and_on_which_levels() -> Non
 def test_the_summary_of_a_wearer_who_was_never_found_says_so() -> None:
     places = PlaceCounts()
     places.add(PlaceLost(t=3.0, known_at=3.0, what="the plan is of another building"))
-    assert places.lines()[0] == "place: not found; 0 steps with several candidates"
-    assert places.lines()[1] == "from 3.0 s without a place: the plan is of another building"
+    lines = place_lines(places)
+    assert lines[0] == "place: not found; 0 steps with several candidates"
+    assert lines[1] == "from 3.0 s without a place: the plan is of another building"
 
 
 # --- commands ---
@@ -139,8 +141,8 @@ def test_track_writes_places_and_the_picture_and_says_where_the_wearer_is(
     with (tmp_path / "places.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert len(rows) >= 4 and {row["level"] for row in rows} == {"0"}
-    assert all(0.0 < float(row["x"]) < 30.0 and row["candidates"] == "1" for row in rows)
-    assert abs(degrees(float(rows[-1]["heading"])) - 30.0) < 12.0
+    assert all(0.0 < float(row["x_m"]) < 30.0 and row["candidates"] == "1" for row in rows)
+    assert abs(float(rows[-1]["heading_deg"]) - 30.0) < 12.0
     events = [json.loads(line) for line in (tmp_path / "events.jsonl").read_text().splitlines()]
     assert [event["level"] for event in events if event["event"] == "Placed"] == [row["level"] for row in rows]
     svg = ElementTree.parse(tmp_path / "plan.svg").getroot()

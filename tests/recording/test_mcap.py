@@ -20,7 +20,6 @@ from solepath import FootMoved, Packet, Sample, Session, Site, StrideTaken
 from solepath.events import LiveEvent
 from solepath.link.decoder import Decoder
 from solepath.recording import RecordingError
-from solepath.show.output import event_record
 
 pytest.importorskip("mcap", reason="the extra mcap is not installed")
 from mcap.exceptions import EndOfFile  # noqa: E402
@@ -138,7 +137,7 @@ def test_the_samples_in_it_are_those_that_a_session_uses_when_a_site_falls_silen
 def test_the_events_in_it_are_a_sessions(exported):
     session = Session(poses=True)
     events = session.feed(walks.insoles().packets) + session.finish()
-    told = [json.loads(json.dumps(event_record(e))) for e in events if not isinstance(e, LiveEvent)]
+    told = [json.loads(json.dumps(e.to_dict())) for e in events if not isinstance(e, LiveEvent)]
     assert [said for _, _, said in exported["/events"]] == told
     poses = [e for e in events if isinstance(e, FootMoved) and e.foot.value == "left"]
     assert [said["position"]["x"] for _, _, said in exported["/left_foot/pose"]] == [e.position[0] for e in poses]

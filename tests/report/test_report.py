@@ -28,7 +28,6 @@ from solepath.show.report import Report
 from solepath.show.report.page import text_of
 from solepath.show.tables.gait_rows import gait_rows
 from solepath.show.tables.table import number, percent
-from solepath.show.tally import Tally
 from solepath.types import Foot
 
 CORNER = Route().stand(1.5).walk(12.0, 1.3).turn(radians(90), radius=1.5).walk(3.0).stop(1.0)
@@ -46,8 +45,7 @@ def walked() -> tuple[Event, ...]:
 
 def told(*events: Event, title: str = "a walk", **more: str) -> Report:
     report = Report(title, recipe="default", version="1.0", **more)
-    for event in events:
-        report.add(event)
+    report.take(None, events)
     return report
 
 
@@ -90,14 +88,13 @@ def test_the_gait_table_has_the_numbers_of_the_session() -> None:
 
 
 def test_the_summary_says_how_long_how_far_and_what_was_done() -> None:
-    tally = Tally()
-    for event in walked():
-        tally.add(event)
-    page = shown(told(*walked(), when="on Monday"))
+    report = told(*walked(), when="on Monday")
+    page = shown(report)
     sentences = [one.text for one in page.first("ul").all("li")]
     for foot in Foot:
-        one = tally.feet[foot]
-        assert f"The {foot.value} foot took {one.steps} strides over {one.distance:.1f} m." in sentences
+        taken = [event for event in walked() if isinstance(event, StrideTaken) and event.foot is foot]
+        distance = sum(event.length for event in taken)
+        assert f"The {foot.value} foot took {len(taken)} strides over {distance:.1f} m." in sentences
     assert any(one.startswith("Activities: standing ") and " walking " in one for one in sentences)
     assert "Turns: 1 to the left." in sentences
     samples = [event.t for event in walked() if isinstance(event, FootMoved)]
@@ -138,28 +135,28 @@ def test_what_was_wrong_is_said_in_words_and_in_the_table_of_links() -> None:
     assert "Nothing was wrong" in shown(quiet).text
 
 
-@cache
-def heard_after(silence: float, back: float) -> tuple[Event, ...]:
-    """What a session with insoles says of a walk in whose middle nothing is heard for so long, s, and then of times so
-    much earlier."""
-    session = Session(poses=True, pressures=True)
-    events: list[Event] = []
+def heard_after(silence: float, back: float) -> Report:
+    """Of a walk with insoles in whose middle nothing is heard for so long, s, and then comes at times so much
+    earlier."""
+    session, report = Session(poses=True, pressures=True), Report("a walk")
     now = 0.0
     for packet in insoles(Route().stand(1.5).walk(12.0, 1.3).stop(1.0), cells=24).packets:
         t = packet.t + 5000.0 + (silence - back if packet.t > 6.0 else 0.0)
         if now and t - now > 1.0:
-            events += session.advance(t - 0.1)
+            report.take(None, session.advance(t - 0.1))
         now = t
-        events += session.feed(evolve(packet, t=t))
-    return (*events, *session.finish())
+        packet = evolve(packet, t=t)
+        report.take(packet, session.feed(packet))
+    report.take(None, session.finish())
+    return report
 
 
 @pytest.mark.parametrize(("silence", "back", "lasts"), [(60.0, 0.0, 72.0), (0.0, 1000.0, 12.0), (0.0, 0.0, 12.0)])
 def test_a_silence_and_a_clock_that_is_set_back_make_no_other_rate_and_no_longer_walk(
     silence: float, back: float, lasts: float
 ) -> None:
-    report = told(*heard_after(silence, back))
-    for one in report.links.sites.values():
+    report = heard_after(silence, back)
+    for one in report.observer.links.values():
         assert one.rate == pytest.approx(100.0, abs=0.5)
     found = re.search(r"The recording lasts (?:(\d+) min )?(\d+) s[.;]", shown(report).text)
     assert found is not None
@@ -291,8 +288,7 @@ def test_on_a_floor_plan_the_track_is_drawn_on_it() -> None:
     one.walk((24.0, LOW))
     part.set_out(Start("0", (12.0, LOW), -one.turned))
     for told_of in one.told:
-        for event in part.follow(OFFICE, told_of.events, told_of.here):
-            report.add(event)
+        report.take(None, part.follow(OFFICE, told_of.events, told_of.here))
     page = shown(report)
     assert "Track on the floor plan" in captions(page)
     assert page.named("plan").all("polyline")
@@ -305,8 +301,7 @@ def test_any_events_in_any_order_make_a_page_without_a_number_that_is_none(
     events: list[Event], seed: int, count: int
 ) -> None:
     report = Report("any", BUILDING)
-    for event in [*events, *Random(seed).sample(walked(), count), *events]:
-        report.add(event)
+    report.take(None, [*events, *Random(seed).sample(walked(), count), *events])
     for svg in shown(report).all("svg"):
         for one in svg.all():
             coordinates = {k: v for k, v in one.attributes.items() if k not in ("id", "class", "aria-labelledby")}
@@ -319,8 +314,7 @@ def test_memory_does_not_grow_with_the_time_walked() -> None:
     events = [event for kind in kinds for event in [one for one in mine if isinstance(one, kind)][-4:]]
     report, sizes = told(*walked()), []
     for k in range(1, 501):
-        for event in events:
-            report.add(evolve(event, t=event.t + 20.0 * k))
+        report.take(None, [evolve(event, t=event.t + 20.0 * k) for event in events])
         if k in (250, 500):
             sizes.append(len(repr(report)))
     assert report.strides[Foot.LEFT].count > 1500 and report.way.count > 2000

@@ -7,18 +7,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pages import parsed
 
-from solepath import ActivityChanged, FootPressed, GaitCycleMeasured
+from solepath import FootPressed, GaitCycleMeasured
 from solepath.body.gait.means import Figure, GaitParameters, StrideFigures
 from solepath.emulate.routes.building import BUILDING
-from solepath.show.report.bounded import Thinned, coarser
+from solepath.show.report.bounded import Thinned
 from solepath.show.report.clock import ReportClock, lasted
 from solepath.show.report.figures.axes import AxisScale, line, ticks, told
 from solepath.show.report.figures.cycle import contacts, neither, overlaps
 from solepath.show.report.figures.pressure import shade
 from solepath.show.report.soles import KEPT, STATIONS, ReportSole
 from solepath.show.tables.plan import PlanPicture
-from solepath.show.timeline import Timeline
-from solepath.types import Activity, Cell, Foot, Layout
+from solepath.types import Cell, Foot, Layout
 
 L, R = Foot.LEFT, Foot.RIGHT
 
@@ -53,15 +52,6 @@ def test_of_a_long_row_few_are_kept_evenly_with_the_first_and_the_last(count: in
         assert kept[0] == 0 and kept[-1] == count - 1
         assert len({b - a for a, b in zip(kept[:-1], kept[1:-1], strict=False)}) <= 1, "evenly"
         assert len(kept) >= min(count, most // 2)
-
-
-def test_a_coarser_timeline_leaves_out_what_was_short() -> None:
-    timeline = Timeline()
-    for t, what in ((0.0, Activity.STANDING), (10.0, Activity.WALKING), (20.0, Activity.STANDING),
-                    (20.5, Activity.WALKING)):  # fmt: skip
-        timeline.add(ActivityChanged(t=t, known_at=t, activity=what, probability=None))
-    made = coarser(timeline, 40.0, 1.0)
-    assert made.spans(40.0) == [(0.0, 10.0, Activity.STANDING), (10.0, 40.0, Activity.WALKING)]
 
 
 def test_times_are_told_in_the_unit_that_suits_them() -> None:

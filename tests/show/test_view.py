@@ -1,27 +1,17 @@
 """Tables, plots and summaries: what people are shown."""
 
-import json
-import re
-
-import pytest
 from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
-from walks import SHORT, packets
 
-from solepath.emulate.radio import CLEAN, Radio
-from solepath.emulate.sensors.insole_device import Insole
-from solepath.emulate.walk import emulate
 from solepath.events import (
     CellFault,
     CellsFailed,
     FeetSwapped,
     FootHeard,
-    FootMoved,
     FootSilent,
     HeelStrike,
     InsoleNeverUnloads,
-    LayoutKnown,
     Limitation,
     PacketRejected,
     PacketsLost,
@@ -34,14 +24,12 @@ from solepath.events import (
     TouchedDown,
 )
 from solepath.session import Session
-from solepath.show.monitor import Monitor
-from solepath.show.output import event_record
+from solepath.show.observer import Observer
 from solepath.show.tables.plot import plot
 from solepath.show.tables.status import status
 from solepath.show.tables.summary import link_health, summary, worn
 from solepath.show.tables.table import milliseconds, number, percent, table
-from solepath.show.tally import Tally
-from solepath.types import Cell, Foot, Layout, Packet, Phase, Sample, Site, WalkingMode
+from solepath.types import Foot, Packet, Sample, Site, WalkingMode
 
 STEP = StrideTaken(
     t=2.0, known_at=2.0625, foot=Foot.LEFT, number=1, t_start=1.0, t_end=2.0, displacement=(1.25, 0.0, 0.0),
@@ -81,51 +69,41 @@ def test_any_track_fits_its_frame(track, width, height):
     assert len(lines) == height and all(len(line) == width for line in lines)
 
 
-def test_a_tally_counts_what_was_said_of_each_foot():
-    tally = Tally()
+def test_a_summary_counts_what_was_said_of_each_foot():
+    observer = Observer()
     for n in range(11):
-        tally.fed_sample(Sample(n * 0.25 + (1.5 if n > 5 else 0.0), Site.LEFT_FOOT))
-    tally.add(SampleGap(t=1.25, known_at=3.0, site=Site.LEFT_FOOT, duration=1.75))
-    tally.add(HeelStrike(t=1.9375, known_at=2.0, foot=Foot.LEFT))
-    tally.add(HeelStrike(t=1.9375, known_at=2.0, foot=Foot.LEFT, final=False))
-    tally.add(STEP)
-    left = tally.feet[Foot.LEFT]
-    assert (left.samples, left.gaps, left.rate) == (11, 1, 4.0)
-    assert (left.heel_strikes, left.steps, left.degraded, left.distance) == (1, 1, 1, 1.25)
-    assert tally.duration == 4.0
-    text = summary(tally, title="walk.npz", seconds=2.0)
+        observer.take(Sample(n * 0.25 + (1.5 if n > 5 else 0.0), Site.LEFT_FOOT), [])
+    strike = HeelStrike(t=1.9375, known_at=2.0, foot=Foot.LEFT)
+    gap = SampleGap(t=1.25, known_at=3.0, site=Site.LEFT_FOOT, duration=1.75)
+    observer.take(None, [gap, strike, evolve(strike, final=False), STEP])
+    left, link = observer.feet[Foot.LEFT], observer.links[Site.LEFT_FOOT]
+    assert (link.samples, link.gaps, link.gap_time, link.rate) == (11, 1, 1.75, 4.0)
+    assert (left.events[HeelStrike], left.strides, left.degraded, left.distance) == (1, 1, 1, 1.25)
+    text = summary(observer, title="walk.npz", seconds=2.0)
     assert text.splitlines()[0] == "walk.npz: 4.0 s"
     assert "left: 1 of 1 steps degraded" in text and "2 times as fast as walked" in text
     # 62.5 ms, and only of what is final; a half is rounded to the even millisecond
     assert "known after it happened, median: heel-strike 62 ms\n" in text
 
 
-def test_of_packets_a_tally_counts_the_samples_with_a_position():
-    tally = Tally()
-    tally.fed_packet(Packet(0.5, Site.RIGHT_FOOT, "insole/frame", b""))
-    moved = FootMoved(
-        t=0.25, known_at=0.5, foot=Foot.RIGHT, position=(1.0, 2.0, 3.0), velocity=(0.0, 0.0, 0.0), phase=Phase.SWING
-    )
-    tally.add(moved)
-    right = tally.feet[Foot.RIGHT]
-    assert (right.samples, right.phase, right.position, right.rate) == (1, Phase.SWING, (1.0, 2.0, 3.0), None)
-
-
 def test_a_healthy_link_is_not_mentioned_and_a_bad_one_line_by_line():
-    tally = Tally()
-    assert link_health(tally) == []
-    tally.came = 100
-    tally.add(PacketsLost(t=0.0, known_at=1.0, site=Site.LEFT_FOOT, channel="insole/frame", count=3))
+    observer = Observer()
+    assert link_health(observer) == []
+    frame = Packet(1.0, Site.LEFT_FOOT, "insole/frame", b"")
+    for _ in range(97):
+        observer.take(frame, [])
+    observer.add(PacketsLost(t=0.0, known_at=1.0, site=Site.LEFT_FOOT, channel="insole/frame", count=3))
     for reason in (Rejection.CHECKSUM, Rejection.DUPLICATE, Rejection.CHECKSUM):
-        tally.add(PacketRejected(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, channel="insole/frame", reason=reason))
-    assert link_health(tally) == ["3 of 100 packets lost", "3 packets rejected (checksum 2, duplicate 1)"]
+        rejected = PacketRejected(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, channel="insole/frame", reason=reason)
+        observer.take(frame, [rejected])
+    assert link_health(observer) == ["3 of 100 packets lost", "3 packets rejected (checksum 2, duplicate 1)"]
 
 
 def test_what_a_session_does_without_and_suspects_is_told():
-    tally = Tally()
-    tally.add(Limitation(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, what="no gyroscope"))
-    tally.add(ScaleSuspect(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, magnitude=4.9, suggestion="16 g, not 8 g"))
-    text = summary(tally, title="walk", seconds=0.0)
+    observer = Observer()
+    observer.add(Limitation(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, what="no gyroscope"))
+    observer.add(ScaleSuspect(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, magnitude=4.9, suggestion="16 g, not 8 g"))
+    text = summary(observer, title="walk", seconds=0.0)
     assert "limitation, left foot: no gyroscope" in text
     assert "suspect scale, left foot: |acc| is 4.90 m/s^2 at rest: 16 g, not 8 g" in text
 
@@ -142,25 +120,25 @@ def down(mode: WalkingMode) -> TouchedDown:
 
 
 def test_what_both_feet_did_together_is_summed_up():
-    tally = Tally()
-    tally.add(FUSED)
+    observer = Observer()
+    observer.add(FUSED)
     for mode in (WalkingMode.LEFT_WIDE, WalkingMode.STRAIGHT, WalkingMode.STRAIGHT):
-        tally.add(down(mode))
-    text = summary(tally, title="walk", seconds=0.0)
+        observer.add(down(mode))
+    text = summary(observer, title="walk", seconds=0.0)
     assert "both feet fused: 5.25 m, at the end by the right foot's path" in text
     assert "3 touchdowns: STRAIGHT 2, LEFT_WIDE 1" in text
 
 
 def test_what_is_wrong_with_how_it_is_worn_is_told_once():
-    tally = Tally()
-    assert worn(tally) == []
+    observer = Observer()
+    assert worn(observer) == []
     for cells in ((3, 11), (3, 11), tuple(range(40))):
-        tally.add(CellsFailed(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, fault=CellFault.DEAD, cells=cells))
-    tally.add(InsoleNeverUnloads(t=1.0, known_at=1.0, site=Site.RIGHT_FOOT, seconds=5.0))
-    tally.add(FeetSwapped(t=1.0, known_at=1.0))
-    tally.add(FootSilent(t=1.0, known_at=1.0, foot=Foot.RIGHT, silent_for=2.0))
-    tally.add(FootHeard(t=3.0, known_at=3.0, foot=Foot.RIGHT, silent_for=4.0))
-    assert worn(tally) == [
+        observer.add(CellsFailed(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, fault=CellFault.DEAD, cells=cells))
+    observer.add(InsoleNeverUnloads(t=1.0, known_at=1.0, site=Site.RIGHT_FOOT, seconds=5.0))
+    observer.add(FeetSwapped(t=1.0, known_at=1.0))
+    observer.add(FootSilent(t=1.0, known_at=1.0, foot=Foot.RIGHT, silent_for=2.0))
+    observer.add(FootHeard(t=3.0, known_at=3.0, foot=Foot.RIGHT, silent_for=4.0))
+    assert worn(observer) == [
         "left foot: cells 3, 11 dead, left out",
         "left foot: 40 cells dead, left out",
         "right foot: the insole never unloads; phases come from the inertial sensor",
@@ -169,71 +147,8 @@ def test_what_is_wrong_with_how_it_is_worn_is_told_once():
     ]
 
 
-def test_events_of_bodies_and_of_wear_are_strict_json_with_feet_and_modes_by_their_names():
-    told = json.loads(json.dumps([event_record(FUSED), event_record(down(WalkingMode.LEFT_TIGHT))], allow_nan=False))
-    assert (told[0]["event"], told[0]["foot"], told[0]["chosen"]) == ("StrideFused", "left", "right")
-    assert told[0]["similarity"] is None and told[0]["position"] == [5.0, 0.25, 0.0]
-    assert (told[1]["event"], told[1]["mode"]) == ("TouchedDown", "LEFT_TIGHT")
-    failed = CellsFailed(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, fault=CellFault.STUCK, cells=(3,))
-    assert event_record(failed) == {
-        "event": "CellsFailed", "t": 1.0, "known_at": 1.0, "final": True, "foot": "left", "site": "left_foot",
-        "fault": "stuck", "cells": [3],
-    }  # fmt: skip
-    swapped = event_record(FeetSwapped(t=1.0, known_at=1.0))
-    assert swapped == {"event": "FeetSwapped", "t": 1.0, "known_at": 1.0, "final": True}
-
-
-def test_an_event_is_written_with_its_name_and_times_first_and_records_within_it_as_objects():
-    record = event_record(STEP)
-    assert list(record)[:5] == ["event", "t", "known_at", "final", "foot"]
-    assert record["event"] == "StrideTaken" and record["foot"] == "left" and record["position"] == [1.25, 0.0, 0.0]
-    assert record["features"]["clearance"] == 0.125 and record["t_toe_off"] is None
-
-
-def test_numbers_that_are_none_are_null_in_json():
-    gap = SampleGap(t=0.0, known_at=float("inf"), site=Site.PELVIS, duration=float("nan"))
-    assert event_record(gap) == {
-        "event": "SampleGap", "t": 0.0, "known_at": None, "final": True, "site": "pelvis", "duration": None
-    }  # fmt: skip
-
-
-def test_a_layout_is_written_whole():
-
-    layout = Layout(2, Foot.LEFT, (Cell(0.0, 0.0), Cell(0.25, 0.0)), 0.25)
-    record = event_record(LayoutKnown(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, layout=layout))
-    assert record["layout"]["cells"][1] == {"x": 0.25, "y": 0.0, "area": 1e-4}
-
-
-def test_of_a_sensor_that_is_on_no_foot_the_samples_are_counted_too():
-    monitor = Monitor(Session(poses=True))
-    site = Site.PELVIS
-    for packet in packets()["cc2650"]:
-        if packet.site is Site.LEFT_FOOT and packet.t < 10.0:
-            monitor.take(evolve(packet, site=site))
-    (line,) = status(monitor)
-    assert re.match(r"pelvis: ([6-9]|10|11) Hz", line)
-
-
-@pytest.mark.parametrize("batch", [1, 4])
-def test_loss_is_a_share_of_packets_not_of_samples(batch):
-    walk = emulate(SHORT, devices={Site.LEFT_FOOT: Insole(cells=8, batch=batch)}, radio=Radio(loss=0.25), seed=1)
-    monitor = Monitor(Session(poses=True))
-    for packet in walk.packets:
-        monitor.take(packet)
-    assert monitor.links[Site.LEFT_FOOT].loss == pytest.approx(0.25, abs=0.06)
-    assert monitor.links[Site.LEFT_FOOT].samples > 0.9 * batch * monitor.links[Site.LEFT_FOOT].came
-
-
-def test_a_frame_in_pieces_is_one_packet():
-    monitor = Monitor(Session(poses=True))
-    for packet in emulate(SHORT, devices={Site.LEFT_FOOT: Insole(mtu=60)}, radio=CLEAN, seed=1).packets:
-        monitor.take(packet)
-    link = monitor.links[Site.LEFT_FOOT]
-    assert link.came == link.samples == monitor.tally.came < 0.5 * monitor.tally.packets
-
-
 def test_control_codes_of_devices_do_not_reach_the_terminal():
-    monitor = Monitor(Session(poses=True))
-    monitor.take(Packet(1.0, Site.LEFT_FOOT, "receiver/trouble", b"\x1b[31mA\x07 is none"))
-    for text in (*status(monitor), *link_health(monitor.tally)):
+    observer, packet = Observer(), Packet(1.0, Site.LEFT_FOOT, "receiver/trouble", b"\x1b[31mA\x07 is none")
+    observer.take(packet, Session().feed(packet))
+    for text in (*status(observer), *link_health(observer)):
         assert text.isprintable() and "A" in text

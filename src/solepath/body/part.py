@@ -113,7 +113,7 @@ class Part(Protocol):
 
     def reset(self, site: Site) -> None:
         """The clock of a site's samples restarts, or another device is worn there."""
-        return None
+        return
 
 
 class Track(Part):

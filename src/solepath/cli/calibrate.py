@@ -197,7 +197,7 @@ def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
     else:
         verdict = "the laps do not agree on it, so that nothing is taken off (--whole does all the same)"
     return Calibration(drift={found.foot: found.slope if options.whole else found.kept}), [
-        f"{found.foot.value} foot: {found.visits} visits of {found.marks} marks, drift {1000.0 * x:.2f}, "
+        f"{found.foot} foot: {found.visits} visits of {found.marks} marks, drift {1000.0 * x:.2f}, "
         f"{1000.0 * y:.2f} mm/s within {1000.0 * found.scatter:.2f}: {verdict}",
     ]
 
@@ -235,7 +235,7 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> Learnt:
     ]
     lines = [table(["foot", "steps", "along the foot m", "toe-out degrees"], rows)]
     if all([one.angle is None for one in found]):
-        far = " and ".join([f"{one.along:.1f} m of the {one.foot.value} foot" for one in found])
+        far = " and ".join([f"{one.along:.1f} m of the {one.foot} foot" for one in found])
         raise Failure(f"nothing is learnt: the steps come to {far}, less than the {options.distance:g} m of the walk")
     if "none" in angles:
         lines.append("none: these steps come to less than the walk, which no angle explains: nothing is learnt of it")

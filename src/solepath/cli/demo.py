@@ -74,17 +74,14 @@ def run(options: argparse.Namespace) -> int:
     if view is not None:
         _show(demo, view, pace)
     elif sys.stdout.isatty() and _rich_is_there():
-        from ..show.tables.terminal import play
-
-        play(demo, PACE if options.speed is None else options.speed)
+        _draw(demo, PACE if options.speed is None else options.speed)
     else:
         _tell(demo)
     print()
-    tally = demo.monitor.tally
-    told = [*gait_lines(tally.gait), comparison_table(demo.comparison()), ""]
+    told = [*gait_lines(demo.observer.gait), comparison_table(demo.comparison()), ""]
     if (place := demo.place()) is not None:
         told += [place_table(place), ""]
-    print("\n".join([*told, *latency(tally)]))
+    print("\n".join([*told, *latency(demo.observer)]))
     return 0
 
 
@@ -109,7 +106,7 @@ def _show(demo: Demo, view: View, pace: float) -> None:
     from .common.view import play, run_rest
 
     scene = Scene("An emulated walk", "default", "demo", plan=None if demo.plan is None else demo.plan.plan)
-    player = Player(KeptItems(demo.walk.packets), demo.monitor.session, scene, demo.plan, told=demo.told)
+    player = Player(KeptItems(demo.walk.packets), demo.session, scene, demo.plan, told=demo.told)
     player.speed(pace)
     play(player, view, once=not attended())
     run_rest(player, "walk")
@@ -136,6 +133,28 @@ def _rich_is_there() -> bool:
     return False
 
 
+def _draw(demo: Demo, speed: float) -> None:
+    """Played in the terminal at `speed` times real time, redrawn as it goes."""
+    from time import monotonic, sleep
+
+    from rich.console import Console
+
+    from ..show.tables.terminal import FRAMES, picture, screen
+
+    def title() -> str:
+        return f"{demo.observer.now:5.1f} of {demo.duration:.1f} s, {speed:g} times real time"
+
+    console, began = Console(), monotonic()
+    with screen(console) as drawn:
+        for packet in demo.play():
+            if (ahead := packet.t / speed - (monotonic() - began)) > 0.5 / FRAMES:
+                drawn.draw(demo.observer, title())
+                sleep(ahead)
+            else:
+                drawn.show(demo.observer, title())
+    console.print(picture(demo.observer, title()))
+
+
 def _tell(demo: Demo) -> None:
     """Lines of plain text instead of a picture, as fast as it goes."""
     from ..show.tables.plot import plot
@@ -146,10 +165,10 @@ def _tell(demo: Demo) -> None:
     for packet in demo.play():
         if packet.t >= due:
             due += REPORT_EVERY
-            feet = (f"{foot.value} {demo.monitor.tally.foot(foot).steps} steps" for foot in Foot)
+            feet = (f"{foot} {demo.observer.foot(foot).strides} steps" for foot in Foot)
             print(f"{packet.t:6.1f} s  {', '.join(feet)}", flush=True)
     print(
         "\n".join(
-            ["", *(line.rstrip() for line in plot(demo.monitor.track, 72, 16)), "", *link_health(demo.monitor.tally)]
+            ["", *(line.rstrip() for line in plot(demo.observer.track.points, 72, 16)), "", *link_health(demo.observer)]
         )
     )

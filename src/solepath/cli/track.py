@@ -100,7 +100,7 @@ def run(options: argparse.Namespace) -> int:
             seconds = _straight(reading, session, results)
         else:
             shown = _played(reading, session, results, plan, calibration, view, pace)
-        if reading.failure is None or results.tally.first is not None:
+        if reading.failure is None or results.observer.items:
             results.print(seconds)
     if reading.failure is None:
         return 0

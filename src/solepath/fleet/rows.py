@@ -10,7 +10,6 @@ from collections.abc import Mapping
 from operator import index
 from typing import Any
 
-from ..show.output import event_record
 from ..types import Packet, Site
 from .step.sent import LONGEST_DATA, LONGEST_NAME, MOST, End, NumberedEvent, Sent, Tick, Unreadable
 
@@ -178,7 +177,7 @@ _FIELDS = json.JSONEncoder(allow_nan=False)
 def told_row(told: NumberedEvent) -> dict[str, Any]:
     """The row of an event, with the columns of TOLD_COLUMNS. `fields`: what else the event has, as JSON, in the words
     of events.jsonl. Half a character in the wearer's name is written `\\ud800`: a table holds UTF-8."""
-    record, wearer = event_record(told.event), told.wearer
+    record, wearer = told.event.to_dict(), told.wearer
     if not wearer.isascii():
         wearer = wearer.encode("utf-8", "backslashreplace").decode()
     first = {key: record.pop(key, None) for key in ("event", "t", "known_at", "final", "foot")}

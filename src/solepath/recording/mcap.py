@@ -31,9 +31,9 @@ from typing import Any
 from mcap.writer import CompressionType, Writer
 
 from ..events import Event, FootFlat, FootMoved, HeelOff, HeelStrike, LiveEvent, StrideTaken, ToeOff
+from ..events.record import json_ready
 from ..link.driver import Driver
 from ..session import Session
-from ..show.output import event_record, plain
 from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Vec3
 from .packets import FORMAT, VERSION, RecordingError, began, why
 
@@ -203,7 +203,7 @@ class McapWriter:
     def _event(self, event: Event) -> None:
         name, data = type(event).__name__, dict[str, Any](t=event.t)
         if not isinstance(event, LiveEvent):
-            self._put("/events", "solepath.Event", event.t, event.known_at, event_record(event))
+            self._put("/events", "solepath.Event", event.t, event.known_at, event.to_dict())
         match event:
             case FootMoved(phase=phase):
                 data |= {"position": _xyz(event.position), "velocity": _xyz(event.velocity)}
@@ -234,7 +234,7 @@ class McapWriter:
         try:
             text = json.dumps(data, allow_nan=False)
         except ValueError:  # a device may send a float that is no number
-            text = json.dumps(plain(data))
+            text = json.dumps(json_ready(data))
         self._writer.add_message(channel, self._ns(t), text.encode(), self._ns(known_at), sequence)
 
     def _ns(self, t: float) -> int:

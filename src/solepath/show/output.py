@@ -1,6 +1,8 @@
 """What `track` writes: events.jsonl, track.csv, strides.csv and gait_cycles.csv, with a floor plan also places.csv.
 
-Times are the recording's own, written so that reading gives the same float again; places in m to the micrometre.
+events.jsonl is for programs, in SI units and radians; the tables are for people, with the unit of a column in its
+header and angles in degrees. Times are the recording's own, written so that reading gives the same float again; places
+in m to the micrometre.
 """
 
 from __future__ import annotations
@@ -9,81 +11,82 @@ import csv
 import json
 from collections.abc import Callable
 from contextlib import ExitStack
-from enum import Enum
-from math import isfinite
+from math import degrees
 from pathlib import Path
 from types import TracebackType
 from typing import Any, TextIO
 
-import attrs
 from attrs import define, field
 
 from ..events import Event, FootMoved, GaitCycleMeasured, LiveEvent, Placed, StrideTaken
-from ..events.fleet import FleetEvent
-from ..types import Site
 
-EVENTS, TRACK, STEPS, GAIT = "events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"
+EVENTS, TRACK, STRIDES, GAIT_CYCLES = "events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"
 PLACES, PLAN = "places.csv", "plan.svg"
-TRACK_COLUMNS = ("t", "foot", "x", "y", "z", "phase")
-STEP_COLUMNS = (
-    "foot", "t_start", "t_end", "x", "y", "z", "stride_length", "heading_change", "height_change", "degraded",
+TRACK_COLUMNS = ("t_s", "foot", "x_m", "y_m", "z_m", "phase")
+STRIDE_COLUMNS = (
+    "foot", "t_start_s", "t_end_s", "x_m", "y_m", "z_m", "stride_length_m", "heading_change_deg", "height_change_m",
+    "degraded",
 )  # fmt: skip
-GAIT_TIMES = ("t_start", "t_toe_off", "t")
-GAIT_MEASURES = (
-    "stride_time", "stance_time", "swing_time", "step_time", "initial_double_support", "terminal_double_support",
-    "single_support", "stance_share", "double_support_share", "cadence", "stride_length", "step_length", "step_width",
-    "speed", "clearance", "toe_off_angle", "heel_strike_angle", "turning_angle", "rise", "phase",
-)  # fmt: skip
-GAIT_COLUMNS = ("foot", "number", *GAIT_TIMES, *GAIT_MEASURES, "degraded", "steady")
-PLACE_COLUMNS = ("t", "level", "x", "y", "z", "spread", "heading", "candidates", "weight")
-FIRST_KEYS = ("t", "known_at", "final", "foot")
+CYCLE_TIMES = ("t_start", "t_toe_off", "t")
+CYCLE_MEASURES = (
+    ("stride_time", "s"),
+    ("stance_time", "s"),
+    ("swing_time", "s"),
+    ("step_time", "s"),
+    ("initial_double_support", "s"),
+    ("terminal_double_support", "s"),
+    ("single_support", "s"),
+    ("stance_share", ""),
+    ("double_support_share", ""),
+    ("cadence", "steps_per_min"),
+    ("stride_length", "m"),
+    ("step_length", "m"),
+    ("step_width", "m"),
+    ("speed", "m_per_s"),
+    ("clearance", "m"),
+    ("toe_off_angle", "deg"),
+    ("heel_strike_angle", "deg"),
+    ("turning_angle", "deg"),
+    ("rise", "m"),
+    ("phase", ""),
+)
+"""Of a GaitCycleMeasured: its field, and the unit in which it is written; a share has none."""
+CYCLE_COLUMNS = (
+    "foot",
+    "number",
+    *[f"{name}_s" for name in CYCLE_TIMES],
+    *[f"{name}_{unit}" if unit else name for name, unit in CYCLE_MEASURES],
+    "degraded",
+    "steady",
+)
+PLACE_COLUMNS = ("t_s", "level", "x_m", "y_m", "z_m", "spread_m", "heading_deg", "candidates", "weight")
 
 
-def plain(value: Any) -> Any:
-    """`value` as JSON knows it: records as objects, enums by what they are called, tuples as lists, bytes as hex, and
-    null for a number that is none."""
-    match value:
-        case Enum():
-            return plain(value.value)
-        case float():
-            return value if isfinite(value) else None
-        case bytes():
-            return value.hex()
-        case tuple() | list():
-            return [plain(item) for item in value]
-        case dict():
-            return {str(plain(key)): plain(item) for key, item in value.items()}
-        case _ if attrs.has(type(value)):
-            return {a.name: plain(getattr(value, a.name)) for a in attrs.fields(type(value))}
-        case _:
-            return value
+def _stride_row(event: StrideTaken) -> list[str]:
+    x, y, z = event.position
+    lengths = (x, y, z, event.length, degrees(event.heading_change), event.height_change)
+    numbers = [f"{value:.6f}" for value in lengths]
+    return [event.foot.value, repr(event.t_start), repr(event.t_end), *numbers, str(int(event.degraded))]
 
 
-def event_record(event: Event | FleetEvent) -> dict[str, Any]:
-    """One event as a JSON object: its class's name, its times, its foot where it has one, then its own fields.
+def _cycle_row(event: GaitCycleMeasured) -> list[str]:
+    """What could not be told is left empty."""
+    times = [repr(getattr(event, name)) for name in CYCLE_TIMES]
+    measures = [_measure(getattr(event, name), unit) for name, unit in CYCLE_MEASURES]
+    return [event.foot.value, str(event.number), *times, *measures, str(int(event.degraded)), str(int(event.steady))]
 
-    An event of the link has a site; where that is a foot, the foot is told too."""
-    fields = plain(event)
-    site = getattr(event, "site", None)
-    if isinstance(site, Site) and site.foot is not None:
-        fields.setdefault("foot", site.foot.value)
-    first = {key: fields.pop(key) for key in FIRST_KEYS if key in fields}
-    return {"event": type(event).__name__, **first, **fields}
+
+def _measure(value: float | None, unit: str) -> str:
+    if value is None:
+        return ""
+    return f"{degrees(value) if unit == 'deg' else value:.6f}"
 
 
 def _place_row(event: Placed) -> list[str]:
     first = event.candidates[0]
-    numbers = [f"{v:.3f}" for v in (*event.position, event.spread)]
-    heading = "" if first.heading is None else f"{first.heading:.4f}"
+    numbers = [f"{value:.3f}" for value in (*event.position, event.spread)]
+    heading = "" if first.heading is None else f"{degrees(first.heading):.2f}"
     return [repr(event.t), event.level, *numbers, heading, str(len(event.candidates)), f"{first.weight:.4f}"]
-
-
-def _gait_row(event: GaitCycleMeasured) -> list[str]:
-    """What could not be told is left empty."""
-    times = [repr(getattr(event, name)) for name in GAIT_TIMES]
-    values = [getattr(event, name) for name in GAIT_MEASURES]
-    measures = ["" if value is None else f"{value:.6f}" for value in values]
-    return [event.foot.value, str(event.number), *times, *measures, str(int(event.degraded)), str(int(event.steady))]
 
 
 @define
@@ -103,27 +106,29 @@ class TrackFiles:
     _stack: ExitStack = field(factory=ExitStack, init=False)
     _events: TextIO = field(init=False)
     _track: TextIO = field(init=False)
-    _steps: Any = field(init=False)
-    _gait: Any = field(init=False)
+    _strides: Any = field(init=False)
+    _cycles: Any = field(init=False)
     _places: Any = field(default=None, init=False)
 
     def __attrs_post_init__(self) -> None:
         self.directory.mkdir(parents=True, exist_ok=True)
-        self._events, self._track, steps = (self._open(name) for name in (EVENTS, TRACK, STEPS))
+        self._events, self._track = self._open(EVENTS), self._open(TRACK)
         self._track.write(",".join(TRACK_COLUMNS) + "\n")
-        self._steps = csv.writer(steps, lineterminator="\n")
-        self._steps.writerow(STEP_COLUMNS)
-        self._gait = csv.writer(self._open(GAIT), lineterminator="\n")
-        self._gait.writerow(GAIT_COLUMNS)
+        self._strides = self._table(STRIDES, STRIDE_COLUMNS)
+        self._cycles = self._table(GAIT_CYCLES, CYCLE_COLUMNS)
         if self.places:
-            self._places = csv.writer(self._open(PLACES), lineterminator="\n")
-            self._places.writerow(PLACE_COLUMNS)
+            self._places = self._table(PLACES, PLACE_COLUMNS)
 
     def _open(self, name: str) -> TextIO:
         path = self.directory / name
         if self.beside is not None:
             path = self.beside(path)
         return self._stack.enter_context(path.open("w", encoding="utf-8", newline=""))
+
+    def _table(self, name: str, columns: tuple[str, ...]) -> Any:
+        table = csv.writer(self._open(name), lineterminator="\n")
+        table.writerow(columns)
+        return table
 
     def write(self, event: Event) -> None:
         try:
@@ -140,14 +145,11 @@ class TrackFiles:
             self._track.write(f"{event.t!r},{event.foot.value},{x:.6f},{y:.6f},{z:.6f},{event.phase.value}\n")
         if isinstance(event, LiveEvent):
             return
-        self._events.write(json.dumps(event_record(event), allow_nan=False) + "\n")
+        self._events.write(json.dumps(event.to_dict(), allow_nan=False) + "\n")
         if isinstance(event, StrideTaken) and event.final:
-            x, y, z = event.position
-            lengths = (x, y, z, event.length, event.heading_change, event.height_change)
-            row = [event.foot.value, repr(event.t_start), repr(event.t_end), *(f"{v:.6f}" for v in lengths)]
-            self._steps.writerow([*row, int(event.degraded)])
+            self._strides.writerow(_stride_row(event))
         elif isinstance(event, GaitCycleMeasured):
-            self._gait.writerow(_gait_row(event))
+            self._cycles.writerow(_cycle_row(event))
         elif isinstance(event, Placed) and self._places is not None:
             self._places.writerow(_place_row(event))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from itertools import pairwise
+from math import inf
 
 from attrs import define, field
 
@@ -13,11 +14,15 @@ from ..types import Activity
 
 @define
 class Timeline:
-    """Activities over the time so far."""
+    """Activities over the time so far. `most`: with more changes than so many the shortest activities are left out, and
+    go to the one before, until half as many are left; None keeps all."""
 
-    _starts: list[float] = field(factory=list)
+    most: int | None = None
+    _starts: list[float] = field(factory=list, init=False)
     """s, rising."""
-    _activities: list[Activity] = field(factory=list)
+    _activities: list[Activity] = field(factory=list, init=False)
+    _shortest: float = field(default=1.0, init=False)
+    """s: what lasts for less is left out next."""
 
     def add(self, event: ActivityChanged) -> None:
         """The next event, in the order in which they were told."""
@@ -26,6 +31,19 @@ class Timeline:
         self._cut(event.t)
         self._starts.append(event.t)
         self._activities.append(event.activity)
+        if self.most is not None and len(self._starts) > self.most:
+            while len(self._starts) > self.most // 2:
+                self._coarsen()
+
+    @property
+    def last(self) -> tuple[float, Activity]:
+        """Since when the wearer does, s, what was told last; UNKNOWN since 0 before anything was."""
+        if not self._starts:
+            return 0.0, Activity.UNKNOWN
+        k = len(self._starts) - 1
+        while k > 0 and self._activities[k - 1] is self._activities[-1]:
+            k -= 1
+        return self._starts[k], self._activities[-1]
 
     def at(self, t: float) -> Activity:
         """What the wearer did at `t` s; UNKNOWN before anything was told."""
@@ -49,3 +67,12 @@ class Timeline:
         while self._starts and self._starts[-1] >= t:
             self._starts.pop()
             self._activities.pop()
+
+    def _coarsen(self) -> None:
+        """Leave out what lasted for less than `_shortest`, which doubles."""
+        spans, self._starts, self._activities = self.spans(inf), [], []
+        for start, end, what in spans:
+            if end - start >= self._shortest and (not self._activities or self._activities[-1] is not what):
+                self._starts.append(start)
+                self._activities.append(what)
+        self._shortest *= 2.0

@@ -72,9 +72,8 @@ def broken(part: Detector | Corrector | Cues, samples: Iterable[Sample], layout:
     found += [f"saved and restored, {what}" for what in altered]
     if not altered and repr(_said(other, walked[half:])) != repr(after):
         found.append("saved and restored, it does not go on as before: it remembers what is in no field")
-    found += [
-        f"its setting {name} changes: what does is state, a field with init=False" for name in _unsettled(part, one.part)
-    ]
+    changed = _unsettled(part, one.part)
+    found += [f"its setting {name} changes: what does is state, a field with init=False" for name in changed]
     if late > GROWTH * early:
         found.append("it remembers more and more")
     said += _said(one, _absurd(walked))

@@ -25,6 +25,9 @@ class Word(Enum):
 
     __hash__ = object.__hash__
 
+    def __str__(self) -> str:
+        return str(self.value)
+
 
 class Foot(Word):
     """One of the wearer's feet."""

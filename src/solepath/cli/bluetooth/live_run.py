@@ -18,10 +18,10 @@ from ...floorplan.plan import Start
 from ...recipes import Recipe
 from ...recording import PacketWriter, RecordingError, printable, why
 from ...session import Session
-from ...show.monitor import Monitor
-from ...show.output import EVENTS, PLACES, STEPS, TRACK, TrackFiles
+from ...show.observer import Observer
+from ...show.output import EVENTS, GAIT_CYCLES, PLACES, STRIDES, TRACK, TrackFiles
 from ...show.page.scene.scene import Scene
-from ...show.tables.placed import PlaceCounts
+from ...show.tables.placed import place_lines
 from ...show.tables.summary import summary
 from ...types import Packet
 from ..common.failure import Failure, note
@@ -48,8 +48,7 @@ async def listen(
     session = Session(
         recipe, calibration=calibration, poses=True, pressures=view is not None, floorplan=plan, start=start
     )
-    monitor = Monitor(session)
-    places = None if plan is None else PlaceCounts()
+    observer = Observer()
     scene: Scene | None = None
     async with AsyncExitStack() as stack:
         async with unless_told(stop):
@@ -60,36 +59,25 @@ async def listen(
             heard = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
         if view is not None:
             drawn = None if plan is None else plan.plan
-            scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration))
+            scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration), observer=observer)
             await stack.enter_async_context(page_of(scene, view))
         # not before: a search in vain replaces nothing of an earlier run
         files = LiveFiles(options.record, options.out, plan is not None)
+        going_on = LiveSession(session, observer if scene is None else scene, files)
         try:
-            with shown(monitor, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
+            with shown(observer, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
                 async for packet in until(heard, stop, seconds):
-                    files.packet(packet)
-                    for event in monitor.take(packet):
-                        files.event(event)
-                        if places is not None:
-                            places.add(event)
-                        if scene is not None:
-                            scene.take(event)
-                    if scene is not None:
-                        scene.tick(packet.t)  # when nothing comes, there is a packet that says so
+                    going_on.take(packet)
                     report()
                     if files.failure is not None:
                         break
         except asyncio.CancelledError:
             note("interrupted")
         finally:
-            for event in monitor.finish():
-                files.event(event)
-                if places is not None:
-                    places.add(event)
-            files.close()
-    print(summary(monitor.tally, title=f"recipe {recipe.name}", seconds=0.0))
-    if places is not None:
-        print("\n".join(places.lines()))
+            going_on.finish()
+    print(summary(observer, title=f"recipe {recipe.name}", seconds=0.0))
+    if plan is not None:
+        print("\n".join(place_lines(observer.places)))
     if files.failure is not None:
         raise Failure(files.failure)
     if options.record:
@@ -97,6 +85,30 @@ async def listen(
     if options.out:
         print(f"written to {printable(str(options.out))}")
     return 0
+
+
+@define
+class LiveSession:
+    """A session that is shown and written while it goes on."""
+
+    session: Session
+    watcher: Observer | Scene
+    files: LiveFiles
+
+    def take(self, packet: Packet) -> None:
+        """The next packet."""
+        self.files.packet(packet)
+        self._tell(packet, self.session.feed(packet))
+
+    def finish(self) -> None:
+        """No more will come: what was held back is shown and written, too."""
+        self._tell(None, self.session.finish())
+        self.files.close()
+
+    def _tell(self, packet: Packet | None, events: list[Event]) -> None:
+        self.watcher.take(packet, events)
+        for event in events:
+            self.files.event(event)
 
 
 @define(init=False)
@@ -147,7 +159,7 @@ def check_writable(record: Path | None, out: Path | None, places: bool = False) 
     try:
         if out is not None:
             out.mkdir(parents=True, exist_ok=True)
-        names = (EVENTS, TRACK, STEPS, PLACES) if places else (EVENTS, TRACK, STEPS)
+        names = (EVENTS, TRACK, STRIDES, GAIT_CYCLES, *([PLACES] if places else []))
         for path in [*([record] if record else []), *([out / name for name in names] if out else [])]:
             there = path.exists()
             if not there or path.is_file() or path.is_dir():  # a pipe would take it for the end

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from ...show.monitor import Monitor
+from ...show.observer import Observer
 from ...show.tables.status import status
 
 REPORT_EVERY = 5.0
@@ -14,7 +14,7 @@ REPORT_EVERY = 5.0
 
 
 @contextmanager
-def shown(monitor: Monitor, title: str) -> Iterator[Callable[[], None]]:
+def shown(observer: Observer, title: str) -> Iterator[Callable[[], None]]:
     """How the session goes: a picture in a terminal that can draw one, else lines now and then."""
     from importlib.util import find_spec
 
@@ -24,16 +24,16 @@ def shown(monitor: Monitor, title: str) -> Iterator[Callable[[], None]]:
         from ...show.tables.terminal import screen
 
         with screen(Console()) as drawn:
-            yield lambda: drawn.show(monitor, title)
+            yield lambda: drawn.show(observer, title)
         return
     began: float | None = None
     due = REPORT_EVERY
 
     def report() -> None:
         nonlocal began, due
-        began = monitor.now if began is None else began
-        if monitor.now - began >= due:
+        began = observer.now if began is None else began
+        if observer.now - began >= due:
             due += REPORT_EVERY
-            print("\n".join(f"{monitor.now - began:6.1f} s  {line}" for line in status(monitor)), flush=True)
+            print("\n".join(f"{observer.now - began:6.1f} s  {line}" for line in status(observer)), flush=True)
 
     yield report

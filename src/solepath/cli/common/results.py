@@ -12,12 +12,12 @@ from attrs import define, field
 from ...events import Event
 from ...floorplan.plan import FloorPlan
 from ...recording import printable
+from ...show.observer import Observer
 from ...show.output import PLAN, TrackFiles
 from ...show.report import Report
-from ...show.tables.placed import PlaceCounts
+from ...show.tables.placed import place_lines
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import summary
-from ...show.tally import Tally
 from ...types import Packet, Sample
 from .failure import check_writable
 from .replacing import Replacing
@@ -38,8 +38,7 @@ class Results:
     recipe: str = ""
     when: str = ""
     """The recording began, to be read."""
-    tally: Tally = field(factory=Tally, init=False)
-    places: PlaceCounts = field(factory=PlaceCounts, init=False)
+    observer: Observer = field(factory=Observer, init=False)
     _picture: PlanPicture | None = field(init=False)
     _report: Report | None = field(init=False)
     _files: TrackFiles | None = field(default=None, init=False)
@@ -54,7 +53,7 @@ class Results:
         self._report = None
         if self.report is not None:
             check_writable(self.report)
-            self._report = Report(self.title, self.plan, self.recipe, self.when, _version())
+            self._report = Report(self.title, self.plan, self.recipe, self.when, observer=self.observer)
 
     def begin(self) -> None:
         """There is something to write, or there will be nothing."""
@@ -68,18 +67,12 @@ class Results:
 
     def told(self, item: Packet | Sample | None, events: list[Event]) -> None:
         """What the session said of an item; of none, at the end."""
-        if isinstance(item, Sample):
-            self.tally.fed_sample(item)
-        elif item is not None:
-            self.tally.fed_packet(item)
+        watcher = self.observer if self._report is None else self._report
+        watcher.take(item, events)
         for event in events:
-            self.tally.add(event)
             if self._files is not None:
                 self._files.write(event)
-            if self._report is not None:
-                self._report.add(event)
             if self._picture is not None:
-                self.places.add(event)
                 self._picture.add(event)
 
     def print(self, seconds: float) -> None:
@@ -89,9 +82,9 @@ class Results:
             with _named(self._picture_at, self.out):
                 self._picture.write(self._picture_at, self.title)
         self._replacing.keep()
-        print(summary(self.tally, title=self.title, seconds=seconds))
+        print(summary(self.observer, title=self.title, seconds=seconds))
         if self._picture is not None:
-            print("\n".join(self.places.lines()))
+            print("\n".join(place_lines(self.observer.places)))
         if self.out is not None:
             print(f"written to {printable(str(self.out))}")
         if self._report is not None and self._report_at is not None:
@@ -122,9 +115,3 @@ def _named(written: Path, wanted: Path | None) -> Iterator[None]:
     except OSError as error:
         name = str(wanted) if error.filename == str(written) else error.filename
         raise OSError(error.errno, error.strerror, name) from None
-
-
-def _version() -> str:
-    from importlib.metadata import version
-
-    return version("solepath")

@@ -15,7 +15,7 @@ from ...emulate.walk import EmulatedWalk, emulate
 from ...events import Event, Placed, PlaceLost, TurnMade
 from ...floorplan.index import IndexedPlan
 from ...session import Session
-from ...show.monitor import Monitor
+from ...show.observer import Observer
 from ...types import Foot, Packet, Sample
 from ..evaluate.gathered import Gathering
 from .compare import FootComparison, compare
@@ -49,14 +49,15 @@ WAY = 8
 @define
 class Demo:
     """A walk on its way through a session. `play` goes on packet by packet, so that whoever shows it sets the pace;
-    `told` is for whoever feeds `monitor.session`, or one like it, himself."""
+    `told` is for whoever feeds `session`, or one like it, himself."""
 
     walk: EmulatedWalk
-    monitor: Monitor
+    session: Session
     way: Way | None = None
     """Through the emulated building; None where there is none."""
     plan: IndexedPlan | None = None
     """Of that building."""
+    observer: Observer = field(factory=Observer)
     gathering: Gathering = field(factory=Gathering)
     _placed: list[Event] = field(factory=list)
 
@@ -67,15 +68,13 @@ class Demo:
     def play(self) -> Iterator[Packet]:
         """Each packet after the session has taken it."""
         for packet in self.walk.packets:
-            self._gather(self.monitor.take(packet))
+            self.told(packet, self.session.feed(packet))
             yield packet
-        self._gather(self.monitor.finish())
+        self.told(None, self.session.finish())
 
     def told(self, packet: Packet | Sample | None, events: list[Event]) -> None:
         """What a session said of a packet; of none, at the end."""
-        self._gather(self.monitor.heard(packet, events) if isinstance(packet, Packet) else self.monitor.count(events))
-
-    def _gather(self, events: list[Event]) -> None:
+        self.observer.take(packet, events)
         for event in events:
             self.gathering.add(event)
             if isinstance(event, Placed | PlaceLost | TurnMade):
@@ -102,7 +101,7 @@ def radio(loss: float | None = None, jitter: float | None = None) -> Radio:
 
 def make_demo(seed: int, route: Route = ROUTE, radio: Radio = RADIO, *, pressures: bool = False) -> Demo:
     """The walk of this seed, not yet played. `pressures`: its session emits FootPressed."""
-    return Demo(emulate(route, radio=radio, seed=seed), Monitor(Session(poses=True, pressures=pressures)))
+    return Demo(emulate(route, radio=radio, seed=seed), Session(poses=True, pressures=pressures))
 
 
 def make_indoors(seed: int, radio: Radio = RADIO, *, pressures: bool = False) -> Demo:
@@ -110,4 +109,4 @@ def make_indoors(seed: int, radio: Radio = RADIO, *, pressures: bool = False) ->
     out."""
     way, plan = wandering(WAY), IndexedPlan(BUILDING)
     session = Session(poses=True, pressures=pressures, floorplan=plan)
-    return Demo(emulate(way.route, radio=radio, seed=seed), Monitor(session), way, plan)
+    return Demo(emulate(way.route, radio=radio, seed=seed), session, way, plan)

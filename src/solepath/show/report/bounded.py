@@ -3,37 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isfinite
-from typing import Any, Generic, TypeVar
+from typing import Generic, TypeVar
 
-import attrs
 from attrs import define, field
 
-from ...events import ActivityChanged, Event, FootPressed
-from ..timeline import Timeline
-
 T = TypeVar("T")
-
-LARGEST = 1e12
-"""No number of an event is as large, in whatever unit: it is none."""
-
-
-def finite(value: Any) -> bool:
-    """Whether every number in a record is one."""
-    if isinstance(value, float):
-        return isfinite(value) and abs(value) < LARGEST
-    if isinstance(value, tuple):
-        return all(map(finite, value))
-    if attrs.has(type(value)):
-        return all([finite(getattr(value, one.name)) for one in attrs.fields(type(value))])
-    return True
-
-
-def sound(event: Event) -> bool:
-    """Whether every number in an event is one; quickly for those of every sample."""
-    if isinstance(event, FootPressed):
-        return finite(event.t) and finite(event.force) and isfinite(sum(event.values)) and finite(event.centre)
-    return finite(event)
 
 
 @define
@@ -65,12 +39,3 @@ class Thinned(Generic[T]):
 
     def __len__(self) -> int:
         return len(self.kept)
-
-
-def coarser(timeline: Timeline, until: float, shortest: float) -> Timeline:
-    """The same without activities that lasted for less than `shortest` s: they go to the one before."""
-    made = Timeline()
-    for begin, end, what in timeline.spans(until):
-        if end - begin >= shortest and made.at(begin) is not what:
-            made.add(ActivityChanged(t=begin, known_at=begin, activity=what, probability=None))
-    return made

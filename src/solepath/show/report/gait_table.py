@@ -6,7 +6,7 @@ from xml.etree.ElementTree import Element
 
 from ...body.gait.means import GaitMeans, GaitParameters, StrideFigures
 from ...types import Foot
-from ..tables.gait_rows import ENOUGH, GaitRow, gait_rows, strides_of
+from ..tables.gait_rows import ENOUGH, gait_rows, strides_of
 from ..tables.table import number, percent
 from .markup import add, table
 
@@ -47,7 +47,8 @@ def _table(parent: Element, parameters: GaitParameters) -> None:
     rows = [["steady strides", *[number(one, 0) for one in strides], "-", "-", "-"]]
     together = parameters.both if None not in columns else None
     rows.append(["cadence, steps/min", *[_cadence(one) for one in (*columns, together)], "-", "-"])
-    rows += [_row(row) for row in gait_rows(parameters)]
+    # the standard deviation on a line of its own
+    rows += [[f"{row.label}, {row.unit}", *row.cells("\n\N{PLUS-MINUS SIGN}")] for row in gait_rows(parameters)]
     caption = f"{what}: means of steady strides, of both feet \N{PLUS-MINUS SIGN} standard deviation"
     table(parent, caption, HEADER, rows, "numbers gait")
     if parameters.coordination is not None:
@@ -56,14 +57,6 @@ def _table(parent: Element, parameters: GaitParameters) -> None:
     if count < ENOUGH:
         said = f"Of {count} strides: figures settle with {ENOUGH} and more (Galna et al. 2013)."
         add(parent, "p", said, class_="note")
-
-
-def _row(row: GaitRow) -> list[str]:
-    """The standard deviation on a line of its own."""
-    spread = "" if row.sd is None else f"\n\N{PLUS-MINUS SIGN} {number(row.sd, row.digits)}"
-    feet = [number(one, row.digits) for one in (row.left, row.right)]
-    both = f"{number(row.both, row.digits)}{spread}"
-    return [f"{row.label}, {row.unit}", *feet, both, percent(row.cv), row.uneven]
 
 
 def _cadence(figures: StrideFigures | None) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from xml.etree.ElementTree import Element
@@ -9,7 +10,6 @@ from xml.etree.ElementTree import Element
 from attrs import define, evolve, field
 
 from ...events import (
-    ActivityChanged,
     Event,
     FootMoved,
     FootPressed,
@@ -21,9 +21,9 @@ from ...events import (
     WearerMoved,
 )
 from ...floorplan.plan import FloorPlan
-from ...types import Foot, Phase
-from ..tally import Tally
-from .bounded import Thinned, coarser, sound
+from ...types import Foot, Packet, Phase, Sample
+from ..observer import Observer
+from .bounded import Thinned
 from .clock import ReportClock
 from .figures.activity import activity_figure
 from .figures.cycle import cycle_figure
@@ -31,7 +31,6 @@ from .figures.pressure import pressure_figures
 from .figures.stride import DrawnStride, stride_figures
 from .figures.track import Stood, height_figure, plan_figure, track_figure
 from .gait_table import gait_tables
-from .links import Links
 from .markup import add, sentences, table
 from .page import save, section, skeleton
 from .soles import ReportSole
@@ -41,8 +40,6 @@ STRIDES, PLACES, POINTS = 1200, 1000, 1500
 """Kept of a foot's strides, of places on the plan, and of points of a track: more are thinned evenly."""
 CANDIDATES = 40
 """Kept of a place's, the heaviest."""
-CHANGES = 2000
-"""Of activities; of more, the shortest are left out."""
 OFTEN = 0.5
 """s: the height of a foot that stands is not looked at more often."""
 
@@ -70,8 +67,8 @@ class Report:
     """Gathers what a session with `poses` and `pressures` says, in bounded memory; then writes it down.
 
     `title`: what the page is called, such as the recording's name. `plan`: that the session had. `recipe`: its name.
-    `when`: of the walk, as it shall be read: nothing in here looks at a clock. `version`: of solepath.
-    An event with a number that is none is left out.
+    `when`: of the walk, as it shall be read: nothing in here looks at a clock. `version`: of solepath. `observer`: of
+    that session; the report feeds it. An event with a number that is none is left out.
     """
 
     title: str
@@ -79,19 +76,14 @@ class Report:
     recipe: str = ""
     when: str = ""
     version: str = field(factory=_installed)
+    observer: Observer = field(factory=Observer)
     # state
-    tally: Tally = field(factory=Tally, init=False)
-    links: Links = field(factory=Links, init=False)
     soles: dict[Foot, ReportSole] = field(factory=dict, init=False)
     strides: dict[Foot, Thinned[DrawnStride]] = field(init=False)
     prints: dict[Foot, Thinned[Stood]] = field(factory=_points, init=False)
     heights: dict[Foot, Thinned[Stood]] = field(factory=_points, init=False)
     way: Thinned[Stood] = field(factory=lambda: Thinned(POINTS), init=False)
     places: Thinned[Placed | PlaceLost] = field(factory=lambda: Thinned(PLACES), init=False)
-    changes: int = field(default=0, init=False)
-    """Of the activity, since the timeline was made coarser."""
-    shortest: float = field(default=1.0, init=False)
-    """s: what is left out of a timeline that is too long."""
     sampled: tuple[float, float] | None = field(default=None, init=False)
     """First and last sample, s ..."""
     spanned: tuple[float, float] | None = field(default=None, init=False)
@@ -100,31 +92,29 @@ class Report:
     def __attrs_post_init__(self) -> None:
         self.strides = {foot: Thinned(STRIDES) for foot in Foot}
 
-    def add(self, event: Event) -> None:
-        """One event, in the order in which the session told them."""
-        if not sound(event):
-            return
-        self.links.hear(event)
+    def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
+        """What the session was fed, and what it said of that. None: nothing came, time passed or the session ended."""
+        self.observer.fed(item, events)
+        for event in events:
+            if self.observer.add(event):
+                self._draw(event)
+
+    def _draw(self, event: Event) -> None:
         self.spanned = _wider(self.spanned, event.t)
         match event:
             case FootMoved():
                 self.sampled = _wider(self.sampled, event.t)
                 self._height(event)
-                return
             case FootPressed():
                 self.sampled = _wider(self.sampled, event.t)
                 self._sole(event.foot).press(event)
-                return
             case GaitCycleMeasured():
-                if event.stride_time < 1e-3:
-                    return
                 self.strides[event.foot].add(DrawnStride.of(event))
                 self._sole(event.foot).stride(event)
             case StrideTaken(final=True):
                 self.prints[event.foot].add(Stood(event.t, event.position))
             case WearerMoved():
                 self.way.add(Stood(event.t, event.position))
-                return
             case LayoutKnown(site=site, layout=layout) if site.foot is not None:
                 self._sole(site.foot).layout = layout
             case Placed(candidates=candidates):
@@ -133,9 +123,6 @@ class Report:
                 self.places.add(event)
             case _:
                 pass
-        self.tally.add(event)
-        if isinstance(event, ActivityChanged):
-            self._changed(event.t)
 
     def _sole(self, foot: Foot) -> ReportSole:
         return self.soles.setdefault(foot, ReportSole())
@@ -144,14 +131,6 @@ class Report:
         last = self.heights[event.foot].last
         if event.phase is Phase.STATIONARY and (last is None or not 0.0 <= event.t - last.t < OFTEN):
             self.heights[event.foot].add(Stood(event.t, event.position))
-
-    def _changed(self, t: float) -> None:
-        self.changes += 1
-        if self.changes >= CHANGES:
-            while len(self.tally.timeline.spans(t)) > CHANGES // 2:
-                self.tally.timeline = coarser(self.tally.timeline, t, self.shortest)
-                self.shortest *= 2.0
-            self.changes = CHANGES // 2
 
     @property
     def clock(self) -> ReportClock:
@@ -171,13 +150,13 @@ class Report:
         self._facts(main, clock)
         part = section(main, "summary", "Summary")
         measured = {foot: some.count for foot, some in self.strides.items()}
-        sentences(part, overview(self.tally, clock, self.spanned is not None, measured, self.links.lasted()))
+        sentences(part, overview(self.observer, clock, self.spanned is not None, measured))
         part = section(main, "gait", "Gait")
-        if not gait_tables(part, self.tally.gait):
+        if not gait_tables(part, self.observer.gait):
             add(part, "p", NO_STRIDE if not any(measured.values()) else NO_STEADY)
         shown = add(part, "div", class_="figures")
         for running in (False, True):
-            parameters = self.tally.gait.of(running)
+            parameters = self.observer.gait.of(running)
             if parameters is not None:
                 cycle_figure(shown, parameters)
         stride_figures(shown, {foot: list(some) for foot, some in self.strides.items()}, clock)
@@ -186,7 +165,7 @@ class Report:
         if not pressure_figures(add(part, "div", class_="figures"), self.soles):
             add(part, "p", "There is no pressure in this recording.")
         part = section(main, "activity", "Activities")
-        if not activity_figure(add(part, "div", class_="figures"), self.tally.timeline.spans(clock.end), clock):
+        if not activity_figure(add(part, "div", class_="figures"), self.observer.timeline.spans(clock.end), clock):
             add(part, "p", "No activity was told.")
         self._health(section(main, "health", "Sensors and links"))
         return html
@@ -194,7 +173,7 @@ class Report:
     def _facts(self, main: Element, clock: ReportClock) -> None:
         facts = add(main, "dl", class_="facts")
         when = f"{clock.begin:.1f} to {clock.end:.1f} s of its own clock" if self.spanned else ""
-        told = [("When", self.when), ("Recording", when), ("Sensors", sensors(self.links))]
+        told = [("When", self.when), ("Recording", when), ("Sensors", sensors(self.observer))]
         told += [("Recipe", self.recipe), ("Made by", f"solepath {self.version}".rstrip())]
         for name, words in told:
             if words:
@@ -213,16 +192,16 @@ class Report:
         height_figure(shown, {foot: list(some) for foot, some in self.heights.items()}, clock)
 
     def _health(self, part: Element) -> None:
-        header, *rows = link_rows(self.links)
+        header, *rows = link_rows(self.observer)
         if rows:
             table(part, "What came from each sensor", header, rows, "numbers links")
-        told = wrong(self.tally)
+        told = wrong(self.observer)
         if told:
             add(part, "h3", "What was wrong")
             sentences(part, told)
         else:
             add(part, "p", "Nothing was wrong with the sensors and their links.")
-        limits = without(self.tally)
+        limits = without(self.observer)
         if limits:
             add(part, "h3", "What had to be done without")
             sentences(part, limits)

@@ -26,10 +26,7 @@ def _table(parameters: GaitParameters) -> list[str]:
     rows = [["strides", *strides, "-", "-", "-"]]
     rows.append(["cadence steps/min", "-", "-", number(parameters.cadence, 1), "-", "-"])
     for row in gait_rows(parameters):
-        spread = "" if row.sd is None else f" +- {number(row.sd, row.digits)}"
-        feet = [number(one, row.digits) for one in (row.left, row.right)]
-        both = f"{number(row.both, row.digits)}{spread}"
-        rows.append([f"{row.label} {row.unit}", *feet, both, percent(row.cv), row.uneven])
+        rows.append([f"{row.label} {row.unit}", *row.cells(" +-")])
     lines = table(header, rows).splitlines()
     if parameters.coordination is not None:
         lines.append(f"phase coordination index {percent(parameters.coordination)} %")

@@ -9,6 +9,7 @@ from attrs import frozen
 
 from ...body.gait.means import Figure, GaitParameters
 from ...types import Foot
+from .table import number, percent
 
 DEGREES = "deg"
 ENOUGH = 30
@@ -56,6 +57,12 @@ class GaitRow:
     cv: float | None
     asymmetry: float | None
     difference: float | None
+
+    def cells(self, apart: str) -> list[str]:
+        """As it is written in a table: left, right, both +- SD (`apart` stands between the two), CV in %, asymmetry."""
+        both = number(self.both, self.digits) + ("" if self.sd is None else f"{apart} {number(self.sd, self.digits)}")
+        feet = [number(one, self.digits) for one in (self.left, self.right)]
+        return [*feet, both, percent(self.cv), self.uneven]
 
     @property
     def uneven(self) -> str:

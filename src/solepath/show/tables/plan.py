@@ -73,7 +73,7 @@ class PlanPicture:
         width = 2.0 * MARGIN + columns * frame.width + (columns - 1) * GAP
         lines = 2 if width < NARROW else 1
         height = HEAD + rows * (frame.height + GAP) + lines * FOOT
-        size = {"width": _px(width), "height": _px(height), "viewBox": f"0 0 {_px(width)} {_px(height)}"}
+        size = {"width": px(width), "height": px(height), "viewBox": f"0 0 {px(width)} {px(height)}"}
         svg = Element("svg", {"xmlns": "http://www.w3.org/2000/svg", **size, "font-family": "system-ui, sans-serif"})
         SubElement(svg, "title").text = _plain(title)
         SubElement(svg, "rect", {"width": "100%", "height": "100%", "fill": PAPER})
@@ -83,14 +83,14 @@ class PlanPicture:
             top = HEAD + (k // columns) * (frame.height + GAP)
             name = f"level {level.id}" if level.name in ("", level.id) else f"{level.name} ({level.id})"
             _text(svg, left, top - 8.0, f"{name}, {level.elevation:.1f} m", size=13.0, colour=SOFT)
-            move = {"transform": f"translate({_px(left)} {_px(top)})"}
+            move = {"transform": f"translate({px(left)} {px(top)})"}
             panel = SubElement(svg, "g", move)
             self._level(panel, level, frame)
         self._legend(svg, frame, width, height - lines * FOOT + 14.0)
         return svg
 
     def _level(self, panel: Element, level: Level, frame: _Frame) -> None:
-        size = {"width": _px(frame.width), "height": _px(frame.height)}
+        size = {"width": px(frame.width), "height": px(frame.height)}
         SubElement(panel, "rect", {**size, "rx": "6", "fill": PAPER if level.rooms else FLOOR})
         for room in level.rooms:
             SubElement(panel, "polygon", {"points": frame.points(room), "fill": FLOOR})
@@ -101,10 +101,10 @@ class PlanPicture:
         lines = {"stroke-linecap": "round", "fill": "none"}
         doors = "".join([frame.line(door.start, door.end) for door in level.doors])
         if doors:
-            SubElement(panel, "path", {"d": doors, "stroke": DOOR, "stroke-width": _px(frame.pen * 0.8), **lines})
+            SubElement(panel, "path", {"d": doors, "stroke": DOOR, "stroke-width": px(frame.pen * 0.8), **lines})
         walls = "".join([frame.line(wall.start, wall.end) for wall in level.walls])
         if walls:
-            SubElement(panel, "path", {"d": walls, "stroke": EDGE, "stroke-width": _px(frame.pen), **lines})
+            SubElement(panel, "path", {"d": walls, "stroke": EDGE, "stroke-width": px(frame.pen), **lines})
         self._candidates(panel, level.id, frame)
         self._track(panel, level.id, frame)
 
@@ -117,7 +117,7 @@ class PlanPicture:
                 if one.level == level:
                     x, y = frame.at(one.position[:2])
                     faint = f"{0.06 + 0.5 * one.weight:.2f}"
-                    SubElement(group, "circle", {"cx": _px(x), "cy": _px(y), "r": "2.2", "fill-opacity": faint})
+                    SubElement(group, "circle", {"cx": px(x), "cy": px(y), "r": "2.2", "fill-opacity": faint})
 
     def _track(self, panel: Element, level: str, frame: _Frame) -> None:
         """Where it is decided solid, before that as dots only."""
@@ -143,20 +143,20 @@ class PlanPicture:
             if end.level == level:
                 x, y = frame.at(end.position[:2])
                 ring = {"fill": fill, "stroke": PAPER, "stroke-width": "2"}
-                SubElement(panel, "circle", {"cx": _px(x), "cy": _px(y), "r": "6", **ring})
+                SubElement(panel, "circle", {"cx": px(x), "cy": px(y), "r": "6", **ring})
                 _text(panel, x + 9.0, y + 4.0, word, size=11.0, colour=fill, weight="600", halo=True)
 
     def _legend(self, svg: Element, frame: _Frame, width: float, top: float) -> None:
         """Scale, time, what the marks mean, and north where the plan knows it."""
         metres = _round_length(120.0 / frame.scale)
         bar = metres * frame.scale
-        path = f"M{_px(MARGIN)} {_px(top + 4)}v6h{_px(bar)}v-6"
+        path = f"M{px(MARGIN)} {px(top + 4)}v6h{px(bar)}v-6"
         SubElement(svg, "path", {"d": path, "fill": "none", "stroke": INK, "stroke-width": "1.5"})
         _text(svg, MARGIN, top + 28.0, f"{metres:g} m", size=12.0)
         left = MARGIN + max(bar, 60.0) + 40.0
         if self.places:
             for k in range(40):
-                piece = {"x": _px(left + 3.0 * k), "y": _px(top + 2.0), "width": "3.2", "height": "8"}
+                piece = {"x": px(left + 3.0 * k), "y": px(top + 2.0), "width": "3.2", "height": "8"}
                 SubElement(svg, "rect", {**piece, "fill": colour(k / 39.0)})
             first, last = self.places[0].t, self.places[-1].t
             _text(svg, left, top + 28.0, f"{first:.0f} s", size=12.0)
@@ -165,7 +165,7 @@ class PlanPicture:
         if width < NARROW:
             left, top = MARGIN + 5.0, top + 0.8 * FOOT
         for fill, opacity, word in ((CANDIDATE, "0.4", "candidate"), (STAIRS, "1", "stairs"), (LIFT, "1", "lift")):
-            dot = {"cx": _px(left), "cy": _px(top + 6.0), "r": "5", "fill": fill, "fill-opacity": opacity}
+            dot = {"cx": px(left), "cy": px(top + 6.0), "r": "5", "fill": fill, "fill-opacity": opacity}
             SubElement(svg, "circle", dot)
             _text(svg, left + 10.0, top + 10.0, word, size=12.0)
             left += 30.0 + 8.0 * len(word)
@@ -206,11 +206,11 @@ class _Frame:
         return ((point[0] - self.left) * self.scale, (self.top - point[1]) * self.scale)
 
     def points(self, ring: tuple[Point, ...]) -> str:
-        return " ".join([f"{_px(x)},{_px(y)}" for x, y in map(self.at, ring)])
+        return " ".join([f"{px(x)},{px(y)}" for x, y in map(self.at, ring)])
 
     def line(self, start: Point, end: Point) -> str:
         (x, y), (x1, y1) = self.at(start), self.at(end)
-        return f"M{_px(x)} {_px(y)}L{_px(x1)} {_px(y1)}"
+        return f"M{px(x)} {px(y)}L{px(x1)} {px(y1)}"
 
 
 def _connector(
@@ -220,7 +220,7 @@ def _connector(
     x, y = frame.at(place)
     if outline:
         SubElement(panel, "polygon", {"points": frame.points(outline), "fill": fill, "fill-opacity": "0.55"})
-    mark = SubElement(panel, "g", {"transform": f"translate({_px(x)} {_px(y)})"})
+    mark = SubElement(panel, "g", {"transform": f"translate({px(x)} {px(y)})"})
     SubElement(mark, "title").text = _plain(name)
     SubElement(mark, "circle", {"r": "7", "fill": fill, "stroke": PAPER, "stroke-width": "1.5"})
     stairs, lift = "M-4 3h2.7v-2.3h2.7v-2.3h2.7", "M-2.6 -0.8l2.6 -3l2.6 3M-2.6 0.8l2.6 3l2.6 -3"
@@ -231,10 +231,10 @@ def _connector(
 def _north(svg: Element, x: float, y: float, bearing: float) -> None:
     """An arrow to true north: the plan's +y, which is up here, lies `bearing` clockwise from it."""
     east, up = -sin(bearing), cos(bearing)
-    path = f"M{_px(x - 12 * east)} {_px(y + 12 * up)}L{_px(x + 12 * east)} {_px(y - 12 * up)}"
+    path = f"M{px(x - 12 * east)} {px(y + 12 * up)}L{px(x + 12 * east)} {px(y - 12 * up)}"
     for side in (0.5, -0.5):
         dx, dy = -sin(bearing + side), cos(bearing + side)
-        path += f"M{_px(x + 12 * east)} {_px(y - 12 * up)}l{_px(-7 * dx)} {_px(7 * dy)}"
+        path += f"M{px(x + 12 * east)} {px(y - 12 * up)}l{px(-7 * dx)} {px(7 * dy)}"
     SubElement(svg, "path", {"d": path, "fill": "none", "stroke": INK, "stroke-width": "1.6"})
     _text(svg, x + 20.0 * east, y - 20.0 * up + 4.0, "N", size=11.0, weight="600", anchor="middle")
 
@@ -269,7 +269,7 @@ def _text(
     anchor: str = "start",
     halo: bool = False,
 ) -> None:
-    look = {"x": _px(x), "y": _px(y), "font-size": _px(size), "font-weight": weight, "text-anchor": anchor}
+    look = {"x": px(x), "y": px(y), "font-size": px(size), "font-weight": weight, "text-anchor": anchor}
     plain = _plain(words)
     if halo:
         edge = {"fill": PAPER, "stroke": PAPER, "stroke-width": "3", "stroke-linejoin": "round"}
@@ -282,7 +282,7 @@ def _plain(words: str) -> str:
     return "".join([c if c.isprintable() else " " for c in words])
 
 
-def _px(value: float) -> str:
-    """Short, and the same everywhere."""
+def px(value: float) -> str:
+    """Pixels in words: short, and the same everywhere."""
     short = f"{value:.1f}".removesuffix(".0")
     return "0" if short == "-0" else short

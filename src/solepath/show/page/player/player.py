@@ -23,7 +23,6 @@ from ....floorplan.index import IndexedPlan
 from ....session import Session
 from ....types import Packet, Sample
 from ..messages import FASTEST, SLOWEST, Command
-from ..scene.rounding import shown
 from ..scene.scene import Scene
 from .kept import KeptItems
 from .playback import Playback
@@ -176,7 +175,7 @@ class Player:
     def _feed(self) -> None:
         item = self.items[self._next]
         events = self.session.feed(item)
-        self._show(events)
+        self.scene.take(item, events)
         t = self.items.t(self._next)
         self._next += 1
         if self._next > self._frontier:
@@ -192,17 +191,13 @@ class Player:
             return
         self._finished = True
         events = self.session.finish()
-        self._show(events)
+        self.scene.take(None, events)
         if self.fault:
-            self.scene.log.add((shown(self.items.end), "link", self.fault))
+            self.scene.log.add(self.items.end, "link", self.fault)
         if self._frontier <= len(self.items):
             self._frontier = len(self.items) + 1
             if self.told is not None:
                 self.told(None, events)
-
-    def _show(self, events: list[Event]) -> None:
-        for event in events:
-            self.scene.take(event)
 
     # --- moments ---
 

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from math import dist, inf
+from math import inf
 from typing import Any
 
 from attrs import define, field
 
 from ....events import FootMoved, FootPressed, StrideTaken
 from ....types import Foot, Layout, Phase, Vec3
-from .lists import Recent, ThinnedTrack
+from ...observer import FootCounts
+from .lists import Recent, WalkedTrack
 from .rounding import placed, shown
 
-Point = tuple[float | None, ...]
-"""(t, x, y, z) in s and m."""
-
-SPACING = 0.02
-"""m; a foot that is put down nearer to where it stood adds no point to its track."""
 RIBBON = 20.0
 """s of phases that are kept."""
 MOST_PHASES = 500
@@ -38,10 +34,7 @@ class FootScene:
     phases: Recent[tuple[float, str | None]] = field(factory=lambda: Recent(MOST_PHASES), init=False)
     """Beginning of each phase of late, s, and its name; None for a time in which the foot is not heard."""
     position: Vec3 | None = field(default=None, init=False)
-    track: ThinnedTrack[Point] = field(factory=ThinnedTrack, init=False)
-    steps: int = field(default=0, init=False)
-    distance: float = field(default=0.0, init=False)
-    """Sum of the stride lengths, m."""
+    track: WalkedTrack = field(factory=WalkedTrack, init=False)
     layout: Layout | None = field(default=None, init=False)
     cells: tuple[float, ...] | None = field(default=None, init=False)
     """The newest values; None while there are none."""
@@ -49,8 +42,6 @@ class FootScene:
     centre: tuple[float, float] | None = field(default=None, init=False)
     peak: float = field(default=0.0, init=False)
     """What the brightest colour stands for: the highest value so far."""
-    _last: Vec3 | None = field(default=None, init=False)
-    """The newest point of the track."""
     _map: tuple[tuple[float, ...] | None, float, str | None] = field(default=(None, 0.0, None), init=False)
     """Cells and peak, and what they were last shown as."""
 
@@ -61,8 +52,8 @@ class FootScene:
         self.position = event.position
         if event.phase is not self.phase:
             self.begin(event.t, event.phase)
-        if self._last is None:
-            self._reach(event.t, event.position)
+        if not self.track.count:
+            self.track.reach(event.t, event.position)
 
     def pressed(self, event: FootPressed) -> None:
         """Cells of one sample."""
@@ -89,9 +80,7 @@ class FootScene:
     def stepped(self, event: StrideTaken) -> None:
         """A step ended."""
         if event.final:
-            self.steps += 1
-            self.distance += event.length
-            self._reach(event.t, event.position)
+            self.track.reach(event.t, event.position)
 
     def wear(self, layout: Layout) -> bool:
         """Where the cells are; whether that is new."""
@@ -111,14 +100,9 @@ class FootScene:
         self.begin(t, None)
         self.cells = self.centre = None
 
-    def _reach(self, t: float, position: Vec3) -> None:
-        if self._last is None or dist(position, self._last) >= SPACING:
-            self._last = position
-            self.track.add((shown(t), *placed(position)))
-
     # --- what a page shows ---
 
-    def frame(self, rate: float) -> dict[str, Any] | None:
+    def frame(self, rate: float, counts: FootCounts) -> dict[str, Any] | None:
         """As "feet" of a frame; None before it was heard of. `rate`: samples a second."""
         if not self.heard:
             return None
@@ -131,8 +115,8 @@ class FootScene:
             "force": None if cells is None else shown(self.force, 1),
             "centre": None if self.centre is None or cells is None else placed(self.centre, 4),
             "rate": rate,
-            "steps": self.steps,
-            "distance": shown(self.distance, 2),
+            "steps": counts.strides,
+            "distance": shown(counts.distance, 2),
         }
 
     def _colours(self) -> str | None:

@@ -6,16 +6,25 @@ How many items were ever added is a reader's number. A reader that adds what is 
 from __future__ import annotations
 
 from collections import deque
+from math import dist
 from typing import Generic, TypeVar
 
 from attrs import define, field
 
+from ....types import Vec3
+from .rounding import placed, shown
+
 T = TypeVar("T")
+
+TrackPoint = tuple[float | None, ...]
+"""(t, x, y, z) in s and m."""
 
 MOST_POINTS = 2000
 """Of a track; one more, and every second is left out."""
 RECENT = 1000
 """Points that a reader may be behind."""
+SPACING = 0.02
+"""m; who stands nearer to where they stood adds no point to their track."""
 
 
 @define
@@ -44,6 +53,20 @@ class ThinnedTrack(Generic[T]):
         if new > len(self._recent):
             return None
         return list(self._recent)[-new:]
+
+
+@define
+class WalkedTrack(ThinnedTrack[TrackPoint]):
+    """Where somebody stood, from one place to another."""
+
+    _last: Vec3 | None = None
+    """The newest point, m."""
+
+    def reach(self, t: float, position: Vec3) -> None:
+        """At `t` s at this place."""
+        if self._last is None or dist(position, self._last) >= SPACING:
+            self._last = position
+            self.add((shown(t), *placed(position)))
 
 
 @define

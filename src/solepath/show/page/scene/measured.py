@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from attrs import asdict, define, field
+from attrs import asdict, define
 
 from ....body.gait.means import GaitMeans, GaitParameters
 from ....events import GaitCycleMeasured
@@ -15,27 +15,18 @@ from .rounding import shown
 
 @define
 class SceneMeasures:
-    """Running means over the newest strides, of walking or of running as the newest was."""
+    """Running means over the newest strides, of walking or of running as the newest was: written down anew when a
+    stride came."""
 
-    means: GaitMeans = field(factory=GaitMeans)
+    _newest: tuple[GaitCycleMeasured | None, GaitCycleMeasured | None] = (None, None)
     _told: dict[str, Any] | None = None
-    _new: bool = False
-    """A stride came since it was told."""
 
-    def take(self, stride: GaitCycleMeasured) -> None:
-        """One more stride."""
-        self.means.hear(stride)
-        self._new = True
-
-    def interrupt(self, foot: Foot) -> None:
-        """The foot's times begin anew."""
-        self.means.interrupt(foot)
-
-    def frame(self) -> dict[str, Any] | None:
+    def frame(self, means: GaitMeans) -> dict[str, Any] | None:
         """As "gait" of a frame; None before any steady stride."""
-        if self._new:
-            self._new = False
-            parameters = self.means.parameters
+        newest = (means.left, means.right)
+        if newest[0] is not self._newest[0] or newest[1] is not self._newest[1]:
+            self._newest = newest
+            parameters = means.parameters
             self._told = None if parameters is None else _told(parameters)
         return self._told
 

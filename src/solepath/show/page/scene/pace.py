@@ -1,4 +1,4 @@
-"""How fast the wearer goes now: cadence and speed of the newest strides, and nothing once they are over."""
+"""What the wearer does now; and how fast, by the newest strides, and nothing once they are over."""
 
 from __future__ import annotations
 
@@ -54,3 +54,12 @@ class ScenePace:
 
 def _mean(values: list[float]) -> float:
     return sum(values) / len(values)
+
+
+def activity_frame(since: float, activity: Activity, unheard_since: float | None) -> dict[str, Any]:
+    """As "activity" of a frame: what the wearer does, and since when, s. `unheard_since`: when a foot was heard last,
+    s, while none is; then what the wearer does is not known."""
+    if unheard_since is None:
+        return {"now": activity.value, "since": shown(since), "last": None}
+    last = None if activity is Activity.UNKNOWN else activity.value
+    return {"now": Activity.UNKNOWN.value, "since": shown(unheard_since), "last": last}

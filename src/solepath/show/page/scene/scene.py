@@ -5,21 +5,18 @@ protocol/page.md says what the messages hold. Nothing here knows a clock, a thre
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from math import inf, isfinite
+from collections.abc import Callable, Sequence
+from math import isfinite
 from typing import Any
 
 from attrs import define, field, frozen
 
 from ....events import (
-    ActivityChanged,
-    BatteryLevel,
     ClockReset,
     Event,
     FootFlat,
     FootMoved,
     FootPressed,
-    FootSilent,
     GaitCycleMeasured,
     HeelOff,
     HeelStrike,
@@ -32,28 +29,20 @@ from ....events import (
 )
 from ....floorplan.plan import FloorPlan
 from ....foot.phase import BEGINS, SUPPORT
-from ....types import SITE_OF_FOOT, Foot, Phase, Site
+from ....types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site
+from ...observer import REJECTED, FootCounts, Observer
 from ..player.playback import Playback
-from .doings import Doings
 from .feet import FootScene
-from .links import SceneLink, unheard_since
-from .lists import Recent
+from .links import link_frame, unheard_since
+from .log import SceneLog
 from .measured import SceneMeasures
-from .pace import ScenePace
+from .pace import ScenePace, activity_frame
 from .plan_drawing import drawn
 from .rounding import shown
 from .scales import Scales
-from .sentences import LOW, sentence
 from .whereabouts import Whereabouts
 
-__all__ = ["Cursor", "Playback", "Scene"]
-
 VERSION = 1
-MOST_LINES = 50
-"""Of the log."""
-
-LogLine = tuple[float | None, str, str]
-"""(t, kind, sentence)."""
 
 
 @frozen
@@ -70,10 +59,11 @@ class Cursor:
 class Scene:
     """One session, which is to be made with `poses=True` and `pressures=True`. Times in s on the session's clock;
     lengths in m, world frame, or the plan's for what is on `plan`. `source`: "live", "demo" or "recording".
-    `newtons`: the feet whose calibration turns counts into N. `playback`: the player writes it.
+    `newtons`: the feet whose calibration turns counts into N. `playback`: the player writes it. `observer`: what it is
+    a picture of; the scene feeds it.
 
-    `take` is cheap: it is called for every event of every sample. `since` costs some 0.1 ms, and is for 30 times a
-    second at the most. Memory is bounded, whatever is walked. Not to be used by two threads at once.
+    `take` is cheap: it is called for every packet. `since` costs some 0.1 ms, and is for 30 times a second at the most.
+    Memory is bounded, whatever is walked. Not to be used by two threads at once.
     """
 
     title: str
@@ -82,83 +72,76 @@ class Scene:
     plan: FloorPlan | None = None
     playback: Playback | None = None
     newtons: tuple[Foot, ...] = ()
+    observer: Observer = field(factory=Observer)
     # state
-    now: float = field(default=-inf, init=False)
-    """The latest moment that anything is known of, s."""
     feet: dict[Foot, FootScene] = field(factory=lambda: {foot: FootScene(foot) for foot in Foot}, init=False)
-    links: dict[Site, SceneLink] = field(factory=dict, init=False)
     whereabouts: Whereabouts = field(factory=Whereabouts, init=False)
-    doings: Doings = field(factory=Doings, init=False)
     measured: SceneMeasures = field(factory=SceneMeasures, init=False)
     pace: ScenePace = field(factory=ScenePace, init=False)
     scales: Scales = field(factory=Scales, init=False)
-    log: Recent[LogLine] = field(factory=lambda: Recent(MOST_LINES), init=False)
+    log: SceneLog = field(factory=SceneLog, init=False)
     layouts: int = field(default=0, init=False)
     """How often one became known: a page that drew others needs the scene anew."""
 
     # --- in ---
 
-    def take(self, event: Event) -> None:
-        """The next event of the session, in the order in which they are told."""
-        known_at = event.known_at
-        if not (isfinite(known_at) and isfinite(event.t)):
-            return  # of no session
-        if known_at > self.now:
-            self.now = known_at
-        kind = type(event)
-        take = TAKEN.get(kind)
-        if take is not None:
-            take(self, event)
-            if kind is FootMoved or kind is FootPressed:
-                return
-        self._tell(event)
-        site = getattr(event, "site", None)
-        if site is not None:
-            self._link(site).take(event)
+    def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
+        """What the session was fed, and what it said of that. None: nothing came, time passed or the session ended."""
+        for event in events:
+            if not isinstance(event, REJECTED):
+                self.tick(event.known_at)  # who was silent until now is drawn so before what ends the silence
+        self.observer.fed(item, events)
+        for event in events:
+            if isfinite(event.known_at) and isfinite(event.t):
+                self._show(event)
+        if not events:
             self._hush()
 
     def tick(self, t: float) -> None:
         """It is `t` s, on the clock of the packets, whether or not anything was heard."""
-        if self.now < t < inf:
-            self.now = t
-        self._hush()
+        if t > self.now:
+            self.observer.advance(t)
+            self._hush()
+
+    @property
+    def now(self) -> float:
+        """The latest moment that anything is known of, s."""
+        return self.observer.now
+
+    def _show(self, event: Event) -> None:
+        self.log.tell(event, self.observer)
+        self.observer.add(event)
+        take = TAKEN.get(type(event))
+        if take is not None:
+            take(self, event)
+        if getattr(event, "site", None) is not None:
+            self._hush()
 
     def _hush(self) -> None:
-        """What a foot does that is not heard is not known."""
+        """What a foot does that is not heard is not known. What it has begun since then shows that it is heard again,
+        though the sample that does comes after it."""
         for foot, one in self.feet.items():
-            link = self.links.get(SITE_OF_FOOT[foot])
-            if one.phase is not None and link is not None and link.state(self.now) != "ok":
+            link = self.observer.links.get(SITE_OF_FOOT[foot])
+            if one.phase is None or link is None or link.state(self.now) == "ok":
+                continue
+            if not one.began_after(link.silent_from):
                 one.fall_silent(min(self.now, link.silent_from))
 
-    def _link(self, site: Site) -> SceneLink:
-        link = self.links.get(site)
-        if link is None:
-            link = self.links[site] = SceneLink(site.foot is not None)
-        return link
-
-    def _heard_again(self, event: FootMoved | FootPressed | HeelStrike | FootFlat | HeelOff | ToeOff) -> SceneLink:
-        """The link of a foot that something is told of. Where it was silent until now that is shown, whether or not
-        somebody has looked meanwhile; once, though the phase that ends it may come before the sample."""
-        link = self._link(SITE_OF_FOOT[event.foot])
-        if event.known_at > link.silent_from and not self.feet[event.foot].began_after(link.silent_from):
-            self._hush()
-        return link
+    def _connected(self, foot: Foot) -> bool:
+        """Whether what comes of a foot is no straggler of a connection that is gone."""
+        return self.observer.link(SITE_OF_FOOT[foot]).broken_at is None
 
     def _moved(self, event: FootMoved) -> None:
-        link = self._heard_again(event)
-        link.sampled(event.t, event.known_at, link.moves)
-        if link.lost_at is None:
+        if self._connected(event.foot):
             self.feet[event.foot].moved(event)
 
     def _pressed(self, event: FootPressed) -> None:
-        link = self._heard_again(event)
-        link.sampled(event.t, event.known_at, link.presses)
-        if link.lost_at is None:
+        if self._connected(event.foot):
             self.feet[event.foot].pressed(event)
             self.scales.press(event.foot, event.values)
 
     def _began(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
-        if self._heard_again(event).lost_at is None:
+        if self._connected(event.foot):
             self.feet[event.foot].begin(event.t, PHASES[type(event)])
 
     def _stepped(self, event: StrideTaken) -> None:
@@ -170,36 +153,18 @@ class Scene:
             self.layouts += 1
             self.scales.wear(foot, event.layout, foot in self.newtons or event.layout.scale is not None)
 
-    def _measured(self, event: GaitCycleMeasured) -> None:
-        self.measured.take(event)
-        self.pace.take(event)
-
     def _reset(self, event: ClockReset) -> None:
         if event.site.foot is not None:
-            self.measured.interrupt(event.site.foot)
             self.pace.interrupt(event.site.foot)
 
     def _placed(self, event: Placed) -> None:
         level = self.whereabouts.found(event)
         if level is not None:
-            self.log.add((shown(event.t), "place", f"on {self._level(level)}"))
+            self.log.add(event.t, "place", f"on {self._level(level)}")
 
     def _level(self, level: str) -> str:
         names = [] if self.plan is None else [one.name for one in self.plan.levels if one.id == level]
         return names[0] if names and names[0] else f"level {level}"
-
-    def _tell(self, event: Event) -> None:
-        """A line of the log, where it is worth one and was not said just now."""
-        told = sentence(event)
-        if told is None:
-            return
-        if isinstance(event, FootSilent) and self._link(SITE_OF_FOOT[event.foot]).state(self.now) != "ok":
-            return
-        if isinstance(event, BatteryLevel):
-            before = self._link(event.site).health.battery
-            if before is not None and before <= LOW:
-                return
-        self.log.add((shown(event.t), *told))
 
     # --- out ---
 
@@ -223,7 +188,7 @@ class Scene:
             },
             "places": list(where.places.points),
             "phases": {foot.value: list(one.phases.items) for foot, one in feet.items()},
-            "log": list(self.log.items),
+            "log": list(self.log.lines.items),
             "frame": {
                 "type": "frame",
                 "t": self._t(),
@@ -250,11 +215,11 @@ class Scene:
             places = where.places.since(known["places"])
             if places is None or None in tracks.values():
                 return self.whole()
-            phases = {foot.value: one.phases.since(known[f"phases {foot.value}"]) for foot, one in self.feet.items()}
+            phases = {foot.value: one.phases.since(known[f"phases {foot}"]) for foot, one in self.feet.items()}
             message |= _filled("tracks", {name: points for name, points in tracks.items() if points})
             message |= _filled("phases", {name: begun for name, begun in phases.items() if begun})
             message |= _filled("places", places)
-            message |= _filled("log", self.log.since(known["log"]))
+            message |= _filled("log", self.log.lines.since(known["log"]))
         if not message:
             return None, cursor
         return {"type": "frame", "t": self._t(), **message}, Cursor(self.layouts, numbers, values)
@@ -275,26 +240,26 @@ class Scene:
             "places": where.places.count,
             "phases left": left.phases.count,
             "phases right": right.phases.count,
-            "log": self.log.count,
+            "log": self.log.lines.count,
         }
 
     def _values(self) -> dict[str, Any]:
-        now = self.now
-        links = {site: self.links[site].frame(now) for site in Site if site in self.links}
+        now, seen = self.now, self.observer
+        links = {site: link_frame(seen.links[site], now) for site in Site if site in seen.links}
         feet: dict[str, Any] = {}
         for foot, one in self.feet.items():
             link = links.get(SITE_OF_FOOT[foot])
-            feet[foot.value] = one.frame(0.0 if link is None else link["rate"])
-        unheard, (since, activity) = unheard_since(self.links, now), self.doings.last
+            feet[foot.value] = one.frame(0.0 if link is None else link["rate"], seen.feet.get(foot, NOTHING))
+        unheard, (since, activity) = unheard_since(seen.links, now), seen.timeline.last
         return {
             "feet": feet,
             "wearer": self.whereabouts.wearer_frame(),
-            "place": self.whereabouts.place_frame(),
-            "activity": self.doings.frame(unheard),
+            "place": self.whereabouts.place_frame(seen.places.last),
+            "activity": activity_frame(since, activity, unheard),
             "pace": None if unheard is not None else self.pace.frame(now, activity, since),
             "support": self._support(),
             "scales": self.scales.frame(),
-            "gait": self.measured.frame(),
+            "gait": self.measured.frame(seen.gait_of_late),
             "links": {site.words: link for site, link in links.items()},
             "playback": None if self.playback is None else self.playback.frame(),
         }
@@ -304,6 +269,8 @@ class Scene:
         return None if left is None or right is None else SUPPORT[left][right].value
 
 
+NOTHING = FootCounts()
+"""Of a foot that nothing is known of."""
 PHASES: dict[type, Phase] = {event: phase for phase, event in BEGINS.items()}
 
 TAKEN: dict[type, Callable[[Scene, Any], None]] = {
@@ -314,15 +281,14 @@ TAKEN: dict[type, Callable[[Scene, Any], None]] = {
     HeelOff: Scene._began,
     ToeOff: Scene._began,
     StrideTaken: Scene._stepped,
-    GaitCycleMeasured: Scene._measured,
+    GaitCycleMeasured: lambda scene, event: scene.pace.take(event),
     WearerMoved: lambda scene, event: scene.whereabouts.stepped(event),
     Placed: Scene._placed,
-    PlaceLost: lambda scene, event: scene.whereabouts.lose(event),
-    ActivityChanged: lambda scene, event: scene.doings.take(event),
+    PlaceLost: lambda scene, event: scene.whereabouts.lose(),
     LayoutKnown: Scene._laid_out,
     ClockReset: Scene._reset,
 }
-"""What changes the scene besides a link and the log."""
+"""What changes the scene, besides the observer and the log."""
 
 
 def _filled(key: str, value: Any) -> dict[str, Any]:

@@ -87,9 +87,9 @@ def _wear(event: Event) -> tuple[str, str] | None:
         case FeetSwapped():
             return "wear", "the insoles may be swapped: what comes as the left foot looks like a right one"
         case FootSilent(foot=foot):
-            return "wear", f"{foot.value} foot: nothing comes while the other foot walks on"
+            return "wear", f"{foot} foot: nothing comes while the other foot walks on"
         case FootHeard(foot=foot, silent_for=seconds):
-            return "wear", f"{foot.value} foot: heard again after {seconds:.1f} s"
+            return "wear", f"{foot} foot: heard again after {seconds:.1f} s"
         case _:
             return None
 

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from math import dist
 from typing import Any
 
 from attrs import define, field
 
-from ....events import Candidate, Placed, PlaceLost, WearerMoved
-from ....types import Vec3
-from .feet import SPACING, Point
-from .lists import ThinnedTrack
+from ....events import Candidate, Placed, WearerMoved
+from .lists import ThinnedTrack, WalkedTrack
 from .rounding import placed, shown
 
 MOST_CANDIDATES = 40
@@ -24,26 +21,19 @@ class Whereabouts:
     """The wearer's track has a point for each step, the places one for each step whose level is decided."""
 
     moved: WearerMoved | None = None
-    track: ThinnedTrack[Point] = field(factory=ThinnedTrack)
-    place: Placed | None = None
-    """None while it is not known."""
+    track: WalkedTrack = field(factory=WalkedTrack)
     places: ThinnedTrack[PlacePoint] = field(factory=ThinnedTrack)
     level: str | None = None
     """The last one that there was no doubt of."""
-    _last: Vec3 | None = None
-    """The newest point of the track."""
     _told: tuple[Placed | None, dict[str, Any] | None] = (None, None)
 
     def stepped(self, event: WearerMoved) -> None:
         """Where the wearer is after a step."""
         self.moved = event
-        if self._last is None or dist(event.position, self._last) >= SPACING:
-            self._last = event.position
-            self.track.add((shown(event.t), *placed(event.position)))
+        self.track.reach(event.t, event.position)
 
     def found(self, event: Placed) -> str | None:
         """A place on the plan; the level where it is another one than before, and beyond doubt."""
-        self.place = event
         if any([one.level != event.level for one in event.candidates]):
             return None
         x, y, z = placed(event.position)
@@ -53,9 +43,9 @@ class Whereabouts:
         self.level = event.level
         return event.level
 
-    def lose(self, event: PlaceLost) -> None:
+    def lose(self) -> None:
         """There is no place any more."""
-        self.place = self.level = None
+        self.level = None
 
     def wearer_frame(self) -> dict[str, Any] | None:
         """As "wearer" of a frame."""
@@ -64,9 +54,8 @@ class Whereabouts:
             return None
         return {"t": shown(moved.t), "position": placed(moved.position), "covariance": placed(moved.covariance, 6)}
 
-    def place_frame(self) -> dict[str, Any] | None:
-        """As "place" of a frame."""
-        place = self.place
+    def place_frame(self, place: Placed | None) -> dict[str, Any] | None:
+        """As "place" of a frame; None while it is not known."""
         if place is not self._told[0]:
             self._told = (place, None if place is None else _place(place))
         return self._told[1]

@@ -2,7 +2,7 @@
 
     async with Page(scene) as page:
         print(page.url)
-        ...                             # scene.take(event), from the same event loop
+        ...                             # scene.take(packet, events), from the same event loop
 
 It needs aiohttp (the extra `view`).
 """

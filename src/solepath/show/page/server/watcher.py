@@ -44,6 +44,9 @@ class Watcher:
         )
         self._socket.headers.update(HEADERS)
         self._transport: asyncio.WriteTransport | None = None
+        self._scene: Scene | None = None
+        """The scene that was sent, up to `_cursor`."""
+        self._cursor: Cursor | None = None
 
     async def watch(self, request: web.BaseRequest) -> web.StreamResponse:
         """From the handshake to the end. Refused when the request is none for a WebSocket."""
@@ -64,12 +67,15 @@ class Watcher:
         return self._socket
 
     async def end(self) -> None:
-        """The page is going away."""
+        """The page is going away: what has changed since the last frame, and the end."""
         try:
             async with asyncio.timeout(1.0):
                 if self._unread():
                     self._abort()
                 else:
+                    news = self._next()
+                    if news is not None:
+                        await self._socket.send_str(encode(news))
                     await self._socket.close(code=WSCloseCode.GOING_AWAY, message=b"ended")
         except (TimeoutError, ConnectionError):
             self._abort()
@@ -91,8 +97,6 @@ class Watcher:
     async def _show_all(self, transport: asyncio.WriteTransport) -> None:
         """TimeoutError when the browser does not read."""
         loop = asyncio.get_running_loop()
-        scene: Scene | None = None
-        cursor: Cursor | None = None
         sent = due = loop.time()
         while not self._socket.closed:
             now = loop.time()
@@ -100,7 +104,7 @@ class Watcher:
                 if now - sent > PATIENCE:
                     raise TimeoutError
             else:
-                message, scene, cursor = self._next(scene, cursor)
+                message = self._next()
                 if message is None and now - sent >= HEARTBEAT:
                     message = self._page.scene.heartbeat()
                 if message is not None:
@@ -110,19 +114,17 @@ class Watcher:
             due = max(due + INTERVAL, loop.time())  # what a sleep oversleeps does not add up
             await asyncio.sleep(due - loop.time())
 
-    def _next(self, scene: Scene | None, cursor: Cursor | None) -> tuple[dict[str, Any] | None, Scene, Cursor]:
-        """What to send, and of which scene, up to where."""
-        newest = self._page.scene
-        if cursor is None or newest is not scene:
-            message, cursor = newest.whole()
+    def _next(self) -> dict[str, Any] | None:
+        """What to send now; None where nothing has changed."""
+        newest, message = self._page.scene, None
+        if self._cursor is None or newest is not self._scene:
+            message, self._cursor = newest.whole()
         else:
-            changed, cursor = newest.since(cursor)
-            if changed is None:
-                return None, newest, cursor
-            message = changed
-        if message["type"] == "scene":
+            message, self._cursor = newest.since(self._cursor)
+        self._scene = newest
+        if message is not None and message["type"] == "scene":
             message["control"] = self._steers and self._page.commands is not None
-        return message, newest, cursor
+        return message
 
     def _unread(self) -> bool:
         """What was sent is still here, since the browser has not read what went before."""

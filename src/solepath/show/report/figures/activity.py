@@ -5,9 +5,10 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element
 
 from ....types import Activity
+from ...tables.plan import px
 from ..clock import ReportClock, lasted
 from ..markup import add, figure
-from .axes import AxisScale, drawing, px, ticks, told, write
+from .axes import AxisScale, drawing, ticks, told, write
 
 ROW = 20.0
 LEFT = 96.0

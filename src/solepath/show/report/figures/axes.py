@@ -11,6 +11,7 @@ from xml.etree.ElementTree import Element
 
 from attrs import define, frozen
 
+from ...tables.plan import px
 from ..markup import add
 
 WIDTH = 400.0
@@ -18,12 +19,6 @@ LEFT, RIGHT, TOP, BOTTOM = 40.0, 10.0, 24.0, 36.0
 """Margins of a chart, px."""
 
 Point = tuple[float, float]
-
-
-def px(value: float) -> str:
-    """Short, and the same everywhere."""
-    short = f"{value:.1f}".removesuffix(".0")
-    return "0" if short == "-0" else short
 
 
 def ticks(low: float, high: float, most: int = 6) -> list[float]:

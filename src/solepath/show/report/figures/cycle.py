@@ -6,8 +6,9 @@ from xml.etree.ElementTree import Element
 
 from ....body.gait.means import GaitParameters
 from ....types import Foot
+from ...tables.plan import px
 from ..markup import add, figure
-from .axes import AxisScale, drawing, px, write
+from .axes import AxisScale, drawing, write
 
 BARS = (30.0, 66.0)
 """Upper edges, px."""
@@ -62,7 +63,7 @@ def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
         return False
     how = "running" if parameters.running else "walking"
     feet = [foot for foot in Foot if foot in known]
-    parts = [f"{foot.value} stance {100.0 * sum([b - a for a, b in known[foot]]):.0f} %" for foot in feet]
+    parts = [f"{foot} stance {100.0 * sum([b - a for a, b in known[foot]]):.0f} %" for foot in feet]
     both = overlaps(*[known[foot] for foot in feet]) if len(feet) == 2 else []
     flights = neither(*[known[foot] for foot in feet]) if len(feet) == 2 else []
     parts += [f"double support {100.0 * sum([b - a for a, b in both]):.0f} %"] if len(feet) == 2 and both else []
@@ -85,7 +86,7 @@ def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
         stood = known[foot]
         for a, b in stood:
             left, wide = x.at(a), x.at(b) - x.at(a)
-            add(svg, "rect", class_=f"stance {foot.value}", x=px(left), y=px(y), width=px(wide), height=px(THICK))
+            add(svg, "rect", class_=f"stance {foot}", x=px(left), y=px(y), width=px(wide), height=px(THICK))
         a, b = max(stood, key=lambda span: span[1] - span[0])
         share = sum([d - c for c, d in stood])
         write(svg, 0.5 * (x.at(a) + x.at(b)), y + 16.0, f"stance {100.0 * share:.0f} %", "onbar", "middle")

@@ -6,9 +6,10 @@ from math import hypot
 from xml.etree.ElementTree import Element
 
 from ....types import Foot, Layout
+from ...tables.plan import px
 from ..markup import add, figure, table
 from ..soles import STATIONS, ReportSole
-from .axes import Chart, around, drawing, line, px, write
+from .axes import Chart, around, drawing, line, write
 from .track import legend_lines
 
 SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")
@@ -53,7 +54,7 @@ def pressure_figures(parent: Element, soles: dict[Foot, ReportSole]) -> bool:
         add(parent, "p", f"Where the cells of the {words} lie is not known, so that no map can be drawn.")
     for foot in pressed:
         if walked and foot not in walked:
-            add(parent, "p", f"No whole stride of the {foot.value} foot was measured with its pressure.")
+            add(parent, "p", f"No whole stride of the {foot} foot was measured with its pressure.")
     return True
 
 
@@ -91,7 +92,7 @@ def _map(
         layout = soles[foot].layout
         x = 0.0 if layout is None else layout.cells[k].x / max(layout.length, 1e-6)
         load = f"{values[k]:.3g} {soles[foot].unit} a cell"
-        said.append(f"{foot.value}: highest {load}, at {100.0 * x:.0f} % of the length from the heel")
+        said.append(f"{foot}: highest {load}, at {100.0 * x:.0f} % of the length from the heel")
     svg = drawing(f"pressure-{name}", title, f"{'; '.join(said)}.", TALL + 66.0)
     for foot, sole in soles.items():
         if sole.layout is not None:
@@ -145,15 +146,15 @@ def _sole(
 def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
     curves = {foot: [force / sole.contacts for force in sole.forces] for foot, sole in soles.items()}
     unit = _unit(soles)
-    said = [f"{foot.value}: at most {max(curve):.0f} {soles[foot].unit}" for foot, curve in curves.items()]
+    said = [f"{foot}: at most {max(curve):.0f} {soles[foot].unit}" for foot, curve in curves.items()]
     svg = drawing("force", "Mean force over a contact", f"{'; '.join(said)}.", 190.0)
     values = [value for curve in curves.values() for value in curve]
     labels = ("% of the contact, from heel-strike to toe-off", f"sum of the cells, {unit}")
     chart = Chart.of(svg, (0.0, 100.0), around(values, least=1.0, zero=True), labels, 190.0)
     for foot, curve in curves.items():
-        chart.path([(100.0 * k / (STATIONS - 1), value) for k, value in enumerate(curve)], f"line {foot.value}")
+        chart.path([(100.0 * k / (STATIONS - 1), value) for k, value in enumerate(curve)], f"line {foot}")
     legend_lines(svg, list(curves))
-    counted = ", ".join([f"{foot.value} {sole.contacts}" for foot, sole in soles.items()])
+    counted = ", ".join([f"{foot} {sole.contacts}" for foot, sole in soles.items()])
     figure(parent, svg, "Mean force over a contact", f"Contacts: {counted}.")
 
 

@@ -9,9 +9,10 @@ from attrs import frozen
 
 from ....events import GaitCycleMeasured
 from ....types import Foot
+from ...tables.plan import px
 from ..clock import ReportClock
 from ..markup import add, figure
-from .axes import TOP, Chart, around, drawing, px, write
+from .axes import TOP, Chart, around, drawing, write
 
 HEIGHT = 190.0
 DISC, CROSS = "h0", "m-2.6-2.6l5.2 5.2m0-5.2l-5.2 5.2"
@@ -95,9 +96,9 @@ def _panel(
     for foot, some in known.items():
         for counted in (False, True):
             points = [(clock.of(one.t), value) for one, value in some if one.steady is counted]
-            chart.marks(points, SHAPES[foot], f"mark {foot.value}{'' if counted else ' faint'}")
+            chart.marks(points, SHAPES[foot], f"mark {foot}{'' if counted else ' faint'}")
         if dense(some):
-            chart.path(means([(clock.of(one.t), value) for one, value in some if one.steady]), f"line {foot.value}")
+            chart.path(means([(clock.of(one.t), value) for one, value in some if one.steady]), f"line {foot}")
     every = [pair for some in known.values() for pair in some]
     turning = [clock.of(one.t) for one, _ in every if one.turns]
     if turning:
@@ -116,5 +117,5 @@ def legend(svg: Element, feet: Sequence[Foot]) -> None:
     for foot in reversed(feet):
         write(svg, x, y, foot.value, "tick", "end")
         x -= 5.6 * len(foot.value) + 8.0
-        add(svg, "path", class_=f"mark {foot.value}", d=f"M{px(x)} {px(y - 4.0)}{SHAPES[foot]}")
+        add(svg, "path", class_=f"mark {foot}", d=f"M{px(x)} {px(y - 4.0)}{SHAPES[foot]}")
         x -= 12.0

@@ -11,10 +11,10 @@ from attrs import evolve, frozen
 from ....events import Placed, PlaceLost
 from ....floorplan.plan import FloorPlan
 from ....types import Foot, Vec3
-from ...tables.plan import PlanPicture
+from ...tables.plan import PlanPicture, px
 from ..clock import ReportClock
 from ..markup import add, figure
-from .axes import WIDTH, AxisScale, Chart, around, drawing, line, marks, px, ticks, told, write
+from .axes import WIDTH, AxisScale, Chart, around, drawing, line, marks, ticks, told, write
 from .stride import SHAPES
 
 PRINTS = 160
@@ -68,7 +68,7 @@ def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[
     if beside:
         for foot, some in prints.items():
             if d := marks([at(one) for one in some], SHAPES[foot]):
-                add(svg, "path", d=d, class_=f"mark {foot.value}")
+                add(svg, "path", d=d, class_=f"mark {foot}")
     _times(svg, way, at, clock)
     if way:
         for one, word in ((way[0], "start"), (way[-1], "end")):
@@ -150,7 +150,7 @@ def height_figure(parent: Element, heights: dict[Foot, list[Stood]], clock: Repo
     svg = drawing("height", "Height over time", what, 180.0)
     chart = Chart.of(svg, clock.span, around(values, least=1.0), (clock.label, "height, m"), 180.0)
     for foot, some in known.items():
-        chart.path([(clock.of(one.t), one.position[2]) for one in some], f"line {foot.value}")
+        chart.path([(clock.of(one.t), one.position[2]) for one in some], f"line {foot}")
     legend_lines(svg, list(known))
     figure(parent, svg, "Height of the feet over time", "Of the foot on the ground, against where it began.")
     return True
@@ -162,7 +162,7 @@ def legend_lines(svg: Element, feet: Sequence[Foot]) -> None:
     for foot in reversed(feet):
         write(svg, x, 12.0, foot.value, "tick", "end")
         x -= 5.6 * len(foot.value) + 8.0
-        add(svg, "path", class_=f"line {foot.value}", d=f"M{px(x - 20.0)} 8h20")
+        add(svg, "path", class_=f"line {foot}", d=f"M{px(x - 20.0)} 8h20")
         x -= 30.0
 
 

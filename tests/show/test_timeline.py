@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from solepath import Activity, ActivityChanged, FlightClimbed, LiftRidden, Turn, TurnMade
+from solepath.show.observer import Observer
 from solepath.show.tables.summary import summary
-from solepath.show.tally import Tally
 from solepath.show.timeline import Timeline
 
 
@@ -44,17 +44,33 @@ def test_time_before_the_first_activity_and_after_the_end_is_nobodys():
     assert line.spans(1.0) == [] and line.lasted(2.0) == {}
 
 
+def test_a_timeline_of_too_many_changes_leaves_out_what_was_short_and_keeps_the_newest():
+    line = Timeline(most=4)
+    for t, what in (
+        (0.0, Activity.STANDING),
+        (10.0, Activity.WALKING),
+        (20.0, Activity.STANDING),
+        (20.5, Activity.WALKING),
+        (30.0, Activity.STANDING),
+    ):
+        line.add(told(t, what))
+    assert line.last == (30.0, Activity.STANDING)
+    assert line.spans(40.0) == [(10.0, 30.0, Activity.WALKING), (30.0, 40.0, Activity.STANDING)]
+
+
 def test_the_summary_says_what_the_wearer_did():
-    tally = Tally()
-    tally.fed(0.0)
-    tally.fed(20.0)
-    tally.add(told(0.0, Activity.WALKING))
-    tally.add(told(12.0, Activity.ELEVATOR_DOWN))
-    tally.add(LiftRidden(t=18.0, known_at=19.0, t_start=12.0, up=False, height=-4.2))
-    tally.add(FlightClimbed(t=9.0, known_at=9.0, t_start=3.0, up=True, steps=10, height=1.6))
-    tally.add(TurnMade(t=5.0, known_at=5.0, t_start=4.0, angle=1.5, turn=Turn.LEFT))
-    tally.add(TurnMade(t=7.0, known_at=7.0, t_start=6.0, angle=0.2, turn=None))
-    lines = summary(tally, title="walk", seconds=0.0).splitlines()
+    observer = Observer()
+    for event in (
+        told(0.0, Activity.WALKING),
+        told(12.0, Activity.ELEVATOR_DOWN),
+        LiftRidden(t=18.0, known_at=19.0, t_start=12.0, up=False, height=-4.2),
+        FlightClimbed(t=9.0, known_at=9.0, t_start=3.0, up=True, steps=10, height=1.6),
+        TurnMade(t=5.0, known_at=5.0, t_start=4.0, angle=1.5, turn=Turn.LEFT),
+        TurnMade(t=7.0, known_at=7.0, t_start=6.0, angle=0.2, turn=None),
+    ):
+        observer.add(event)
+    observer.advance(20.0)
+    lines = summary(observer, title="walk", seconds=0.0).splitlines()
     assert lines[-4:] == [
         "activities: WALKING 12 s, ELEVATOR_DOWN 8 s",
         "flights: 1 up",

@@ -1,0 +1,287 @@
+"""The one observer of a session: what it was fed and what it said, counted as it goes on, for whoever shows it.
+
+    observer = Observer()
+    observer.take(packet, session.feed(packet))
+    observer.take(None, session.finish())
+
+Terminal, summary, page and report read from it. What counts as lost or rejected, and what a rate is, is said in
+links.py.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from math import inf
+
+from attrs import define, field
+
+from ..body.gait.means import GaitMeans
+from ..events import (
+    ActivityChanged,
+    CellsFailed,
+    ClockReset,
+    Event,
+    FeetSwapped,
+    FlightClimbed,
+    FootFlat,
+    FootMoved,
+    FootPressed,
+    FootSilent,
+    GaitCycleMeasured,
+    HeelOff,
+    HeelStrike,
+    InsoleNeverUnloads,
+    LiftRidden,
+    Limitation,
+    LinkTrouble,
+    PacketRejected,
+    SampleRejected,
+    ScaleSuspect,
+    StrideFused,
+    StrideTaken,
+    ToeOff,
+    TouchedDown,
+    TurnMade,
+)
+from ..link.decoder import Decoder
+from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Turn, Vec3, WalkingMode
+from .links import BACK, LinkLedger, Stretches, in_pieces, streamed
+from .places import PlaceCounts
+from .sound import sound
+from .timeline import Timeline
+from .track import LiveTrack
+
+GAIT_EVENTS: dict[type[Event], str] = {
+    HeelStrike: "heel-strike",
+    FootFlat: "foot-flat",
+    HeelOff: "heel-off",
+    ToeOff: "toe-off",
+}
+"""The events of a foot's phases, and what they are called."""
+REJECTED = (PacketRejected, SampleRejected)
+"""What changes nothing, and so is no sign of time passing either."""
+EVER = 10**9
+"""More strides than anybody takes."""
+NAMED = 8
+"""Cells that are named one by one."""
+MOST_SENTENCES = 100
+"""Of one kind, each another: later ones are not kept."""
+MOST_CHANGES = 2000
+"""Of the activity: of more, the shortest are left out."""
+
+
+@define
+class FootCounts:
+    """What one foot did so far."""
+
+    strides: int = 0
+    """Final ones."""
+    degraded: int = 0
+    """Of them, those with samples missing or saturated."""
+    distance: float = 0.0
+    """Sum of the stride lengths, m."""
+    events: Counter[type[Event]] = field(factory=Counter)
+    """Final ones of GAIT_EVENTS."""
+    phase: Phase | None = None
+    position: Vec3 | None = None
+    """Live, world frame, m."""
+
+
+@define
+class Observer:
+    """Counts over a whole session, or so far, from a session made with `poses=True`. Memory is bounded. An event with a
+    number that is none is left out."""
+
+    items: int = 0
+    """Packets and samples that were fed, used or not."""
+    now: float = -inf
+    """The latest moment that anything is known of, s; after a clock was set back, by that clock."""
+    time: Stretches = field(factory=Stretches)
+    """From the first to the last packet or sample that was used, s: by the arrival of packets, by the own time of
+    samples that never were packets."""
+    links: dict[Site, LinkLedger] = field(factory=dict)
+    """Of every site that was heard of."""
+    feet: dict[Foot, FootCounts] = field(factory=dict)
+    track: LiveTrack = field(factory=LiveTrack)
+    timeline: Timeline = field(factory=lambda: Timeline(MOST_CHANGES))
+    """What the wearer did when."""
+    gait: GaitMeans = field(factory=lambda: GaitMeans(memory=EVER))
+    """Of all steady strides, none fading."""
+    gait_of_late: GaitMeans = field(factory=GaitMeans)
+    """The same as `Session.gait` has it: old strides fade."""
+    places: PlaceCounts = field(factory=PlaceCounts)
+    fused: StrideFused | None = None
+    """The last one: how far the wearer came by both feet."""
+    modes: Counter[WalkingMode] = field(factory=Counter)
+    """Touchdowns by the walking mode that they were in."""
+    flights: Counter[bool] = field(factory=Counter)
+    """Flights of stairs: upwards (True) and downwards."""
+    rides: Counter[bool] = field(factory=Counter)
+    """Rides in a lift, as well."""
+    turns: Counter[Turn] = field(factory=Counter)
+    delays: dict[type[Event], Counter[int]] = field(factory=lambda: {kind: Counter() for kind in GAIT_EVENTS})
+    """By gait event: how often one was known so many tenths of a millisecond after it happened."""
+    limitations: list[str] = field(factory=list)
+    """What the session does without; each sentence once, here and in the three lists that follow."""
+    suspects: list[str] = field(factory=list)
+    """Accelerometers whose scale cannot be right."""
+    worn: list[str] = field(factory=list)
+    """What is wrong with how sensors are worn, or with their cells."""
+    troubles: list[str] = field(factory=list)
+    """What the receiver could not do."""
+    silences: Counter[Foot] = field(factory=Counter)
+    """How often nothing came of a foot while the other one walked on."""
+    _elsewhere: dict[Site, Decoder] = field(factory=dict)
+    """What counts the samples in packets of sites that are no feet: a session says nothing of them."""
+
+    # --- in ---
+
+    def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
+        """What the session was fed, and what it said of that. None: nothing came, time passed or the session ended."""
+        self.fed(item, events)
+        for event in events:
+            self.add(event)
+
+    def fed(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
+        """The first half of `take`: the item alone. `events` say whether it was used; `add` takes them."""
+        if item is None:
+            return
+        self.items += 1
+        rejection = PacketRejected if isinstance(item, Packet) else SampleRejected
+        if any([isinstance(event, rejection) for event in events]):
+            return
+        self.time.add(item.t)
+        self.advance(item.t)
+        if isinstance(item, Sample):
+            self.link(item.site).sampled(item.t, item.t if item.known_at is None else item.known_at)
+            return
+        sampled = any([isinstance(event, FootMoved | FootPressed) for event in events])
+        if streamed(item.channel) and (sampled or not in_pieces(item)):
+            self.link(item.site).arrived(item.t)
+        if item.site.foot is None:
+            decoder = self._elsewhere.setdefault(item.site, Decoder(item.site))
+            for one in decoder.feed(item):
+                if isinstance(one, Sample):
+                    self.link(item.site).sampled(one.t, item.t)
+
+    def advance(self, now: float) -> None:
+        """It is `now` s, on the clock of the packets, whether or not anything came."""
+        if self.now < now < inf:
+            self.now = now
+
+    def add(self, event: Event) -> bool:
+        """The next event of the session, in the order in which they are said; False when it is left out."""
+        if not sound(event):
+            return False
+        if not isinstance(event, REJECTED):
+            self.advance(event.known_at)
+        match event:
+            case FootMoved(t=t, known_at=known_at, foot=foot, position=position):
+                one, link = self.foot(foot), self.link(SITE_OF_FOOT[foot])
+                one.phase, one.position = event.phase, position
+                link.sampled(t, known_at)
+                link.moves = True
+                self.track.add(foot, position[0], position[1])
+            case FootPressed(t=t, known_at=known_at, foot=foot):
+                link = self.link(SITE_OF_FOOT[foot])
+                link.sampled(t, known_at)
+                link.presses = True
+            case HeelStrike() | FootFlat() | HeelOff() | ToeOff():
+                self._phase(event)
+            case _:
+                site = getattr(event, "site", None)
+                if site is not None:
+                    self.link(site).take(event)
+                self._count(event)
+                self._note(event)
+                self.places.add(event)
+        return True
+
+    def link(self, site: Site) -> LinkLedger:
+        """The ledger of a site, a new one where there is none."""
+        found = self.links.get(site)
+        if found is None:
+            found = self.links[site] = LinkLedger(counted=site.foot is not None)
+        return found
+
+    def foot(self, foot: Foot) -> FootCounts:
+        """The counts of a foot, new ones where there are none."""
+        return self.feet.setdefault(foot, FootCounts())
+
+    def _phase(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
+        if event.final:
+            self.foot(event.foot).events[type(event)] += 1
+            self.delays[type(event)][round(1e4 * (event.known_at - event.t))] += 1
+
+    def _count(self, event: Event) -> None:
+        match event:
+            case StrideTaken(final=True):
+                one = self.foot(event.foot)
+                one.strides += 1
+                one.degraded += event.degraded
+                one.distance += event.length
+            case GaitCycleMeasured():
+                self.gait.hear(event)
+                self.gait_of_late.hear(event)
+            case ClockReset(known_at=known_at) if known_at < self.now - BACK:
+                self.now = known_at
+            case ActivityChanged():
+                self.timeline.add(event)
+            case StrideFused(final=True):
+                self.fused = event
+            case TouchedDown(mode=mode, final=True):
+                self.modes[mode] += 1
+            case FlightClimbed(up=up, final=True):
+                self.flights[up] += 1
+            case LiftRidden(up=up, final=True):
+                self.rides[up] += 1
+            case TurnMade(turn=turn, final=True) if turn is not None:
+                self.turns[turn] += 1
+            case FootSilent(foot=foot):
+                self.silences[foot] += 1
+            case _:
+                pass
+
+    def _note(self, event: Event) -> None:
+        """A sentence of what goes wrong, once."""
+        match event:
+            case LinkTrouble(site=site, what=what):
+                _once(self.troubles, f"{site.words}: {what}")
+            case Limitation(site=site, what=what):
+                _once(self.limitations, what if site is None else f"{site.words}: {what}")
+            case ScaleSuspect(site=site, magnitude=magnitude, suggestion=suggestion):
+                more = f": {suggestion}" if suggestion else ""
+                _once(self.suspects, f"{site.words}: |acc| is {magnitude:.2f} m/s^2 at rest{more}")
+            case CellsFailed(site=site, fault=fault, cells=cells):
+                _once(self.worn, f"{site.words}: {_cells(cells)} {fault.value}, left out")
+            case InsoleNeverUnloads(site=site):
+                _once(self.worn, f"{site.words}: the insole never unloads; phases come from the inertial sensor")
+            case FeetSwapped():
+                _once(self.worn, "the feet look swapped: what comes as the left one is like a right one")
+            case _:
+                pass
+
+    # --- out ---
+
+    @property
+    def heard(self) -> list[Foot]:
+        """The feet that anything is known of."""
+        return [foot for foot in Foot if foot in self.feet or self.samples(foot)]
+
+    def samples(self, foot: Foot) -> int:
+        """Samples of a foot that were used."""
+        link = self.links.get(SITE_OF_FOOT[foot])
+        return 0 if link is None else link.samples
+
+
+def _once(sentences: list[str], one: str) -> None:
+    if one not in sentences and len(sentences) < MOST_SENTENCES:
+        sentences.append(one)
+
+
+def _cells(numbers: tuple[int, ...]) -> str:
+    """Cells in words: their numbers, or how many they are where nobody would read them all."""
+    if len(numbers) > NAMED:
+        return f"{len(numbers)} cells"
+    return f"cell{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"
