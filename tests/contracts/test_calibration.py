@@ -231,7 +231,7 @@ def test_the_limits_are_those_of_the_protocol() -> None:
 OTHERS = Calibration({foot: InsoleCalibration(layout=layout(35, foot), noise=(0.5,) * 35) for foot in Foot})
 
 
-@pytest.mark.parametrize("recipe", map(recipes.by_name, ("zupt", "kupt-dfpc", "default")), ids=attrgetter("name"))
+@pytest.mark.parametrize("recipe", [recipes.by_name(name) for name in ("zupt", "kupt-dfpc", "default")], ids=attrgetter("name"))
 def test_a_calibration_of_another_insole_is_named_and_the_walk_goes_on_without_it(recipe: Recipe) -> None:
     items = samples(cells=96, rate=50.0)
     session, bare = Session(recipe, calibration=OTHERS), Session(recipe)

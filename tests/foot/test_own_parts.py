@@ -20,7 +20,7 @@ from solepath.foot.navigate.corrector import Corrector
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.phase import Cue
 from solepath.foot.stance.stance import Load, Stance
-from solepath.recipes import BY_NAME
+from solepath.recipes import NAMES, by_name
 from solepath.testing.promises import broken
 from solepath.types import Layout, Vec3
 
@@ -105,7 +105,7 @@ def test_cues_of_ones_own_are_told_where_the_cells_are_and_speak_for_an_insole_a
 # --- promises ---------------------------------------------------------------------------------------------------------
 
 PARTS: dict[str, Any] = {
-    **{type(part).__name__: part for recipe in BY_NAME.values() for part in (recipe.corrector, recipe.cues)},
+    **{type(part).__name__: part for recipe in map(by_name, NAMES) for part in (recipe.corrector, recipe.cues)},
     "Resets": Resets(),
     "ByMotion": ByMotion(),
 }

@@ -21,7 +21,7 @@ from here import PROTOCOL
 from walks import machines, samples
 
 from solepath import Foot, Phase, Session, recipes
-from solepath.foot.stance.stance import ShoeDetector
+from solepath.foot.stance.classic import ShoeDetector
 from solepath.saving.codec import save
 from solepath.saving.packed import Lists, Streams, read, told_of, write
 from solepath.saving.schema import MADE_AGAIN, NOT_SAVED, check_of, described, record_of
@@ -267,7 +267,7 @@ def printed() -> dict[str, Any]:
 
 
 def sessions() -> Iterator[Session]:
-    yield from map(Session, recipes.BY_NAME.values())
+    yield from map(Session, map(recipes.by_name, recipes.NAMES))
     for name in ("session, whole frames", "session, cc2650", "session, footstep-tracker", "session, kupt-dfpc"):
         session = machines()[name].begin()
         session.feed(machines()[name].items[:700])
