@@ -393,7 +393,7 @@ def test_the_cues_of_a_step_come_all_at_once_with_their_own_times() -> None:
         (Cue.CONTACT, 1.6),
         (Cue.FLAT, 1.7),
     ]
-    assert not cues.update(1.9, 0.01, ZERO, ZERO, True, 0.0, Phase.STATIONARY, None, stance._replace(segment=None))
+    assert not cues.update(1.9, 0.01, ZERO, ZERO, True, 0.0, Phase.STATIONARY, None, stance._replace(detail=None))
 
 
 def test_the_habit_of_a_straight_step_is_no_turn_and_a_corner_is() -> None:
