@@ -26,7 +26,7 @@ HERE = HELPERS
 LISTEN = """
 import asyncio, sys
 from bleak import BleakClient, BleakScanner
-from solepath.loopback import radio
+from solepath.emulate.controllers import radio
 from solepath.emulate.controllers.tcp import reach
 from strap import BEAT, CONTROL
 

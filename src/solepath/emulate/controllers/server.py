@@ -19,7 +19,8 @@ from bumble.host import Host
 from bumble.transport.common import AsyncPipeSink, Transport
 
 from ...ble.backend import Backend
-from ..devices.peripheral import AttError, Peripheral
+from ..devices.attributes import AttError
+from ..devices.peripheral import Peripheral
 from .central import backend_of
 from .controller import VirtualAir, VirtualController
 from .gatt import advertisement, furnish

@@ -9,7 +9,7 @@ from attrs import frozen
 
 from ...link.profile import Profile
 from ...wire.device import build_battery, build_firmware
-from .peripheral import Characteristic, Service
+from .attributes import Characteristic, Service, standard
 
 READ = frozenset({"read"})
 NOTIFY = frozenset({"notify"})
@@ -20,11 +20,6 @@ DRAIN = 600.0
 
 _INFORMATION = {"manufacturer": 0x2A29, "model": 0x2A24, "hardware": 0x2A27, "software": 0x2A28}
 _DEVICE_INFORMATION = 0x180A
-
-
-def standard(short: int) -> str:
-    """The full UUID of a 16-bit one."""
-    return f"0000{short:04x}-0000-1000-8000-00805f9b34fb"
 
 
 def services(

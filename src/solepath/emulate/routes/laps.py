@@ -10,6 +10,7 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterable, Sequence
 from math import atan2, cos, hypot, pi, sin, tan
+from operator import attrgetter
 from pathlib import Path
 
 import numpy as np
@@ -224,7 +225,7 @@ def marks(walker: Walker, per_lap: int | None = None) -> tuple[FloorMark, ...]:
                 lap, number = (0, k) if per_lap is None else divmod(k, per_lap)
                 at = aimed.end
                 found.append(FloorMark(foot, k + 1, stride.foot_flat, at.x, at.y, mode_of(stride), lap, number))
-    return tuple(sorted(found, key=_moment))
+    return tuple(sorted(found, key=attrgetter("t")))
 
 
 def corners(walker: Walker) -> tuple[LapCorner, ...]:
@@ -268,7 +269,3 @@ def _easy(behind: Point, here: Point, there: Point) -> bool:
 
 def _wrapped(angle: float) -> float:
     return atan2(sin(angle), cos(angle))
-
-
-def _moment(mark: FloorMark) -> float:
-    return mark.t

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import radians
+from operator import attrgetter
 
 import numpy as np
 from attrs import frozen
@@ -70,7 +71,7 @@ class CC2650:
             sent.append(Notification(air.taken(k) + HANDLING, "cc2650/barometer", cc2650_air(pascal)))
         down, up = (cc2650.build_keys(cc2650.Cc2650Keys(left=left)) for left in (True, False))
         sent += _keys("cc2650/keys", self.presses, down, up)
-        return sorted(sent, key=_when)
+        return sorted(sent, key=attrgetter("t"))
 
     def _setup(self) -> list[Notification]:
         config = cc2650.MovementConfig(range=self.range)
@@ -126,7 +127,7 @@ class CC2541:
         sent += _each(air, "barometer", [cc2541.build_barometer(raw_air(pascal)) for (pascal,) in air.values.tolist()])
         down, up = (cc2541.build_keys(cc2541.Cc2541Keys(left=left)) for left in (True, False))
         sent += _keys("cc2541/keys", self.presses, down, up)
-        return sorted(sent, key=_when)
+        return sorted(sent, key=attrgetter("t"))
 
     def _setup(self) -> list[Notification]:
         period = build_period(1.0 / self.rate)
@@ -184,7 +185,3 @@ def gyro_bytes(row: tuple[int, int, int]) -> bytes:
 
 def mag_bytes(row: tuple[int, int, int]) -> bytes:
     return cc2541.build_magnetometer(cc2541.Magnetometer(row))
-
-
-def _when(notification: Notification) -> float:
-    return notification.t
