@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from attrs import define, field, frozen
 from bleak import BleakScanner
@@ -14,7 +14,6 @@ from bleak.backends.scanner import AdvertisementData
 from ..link.profile import Profile
 from .backend import NATIVE, Backend
 from .trouble import FAILURES, BluetoothError, sentence
-from .waiting import either
 from .wanted import identify
 
 RETRY = 2.0
@@ -90,7 +89,9 @@ class Scanner:
         self._heard_at = now()
         while self._listeners and now() - self._heard_at < DEAF:
             self._changed.clear()
-            await either(self._changed, DEAF)
+            with suppress(TimeoutError):
+                async with asyncio.timeout(DEAF):
+                    await self._changed.wait()
 
     def _hear(self, found: Found) -> None:
         self._heard_at = found.t
