@@ -37,7 +37,7 @@ from solepath.calibration import (
     unusable,
     write_calibration,
 )
-from solepath.calibration.calibration import _limits
+from solepath.calibration.limits import _limits
 from solepath.emulate.sensors.insoles import layout
 from solepath.events import CellsFailed, Limitation
 from solepath.foot.pressure.insole import in_newtons
