@@ -70,8 +70,8 @@ def _recording(command: argparse.ArgumentParser) -> None:
 
 def _recorded(path: Path, foot: str | None = None) -> Recorded:
     """What a recording holds. RecordingError when it cannot be read to its end."""
+    from ..recording import open_source
     from ..recording.decoded import recorded
-    from ..recording.source import open_source
     from ..types import Foot
 
     return recorded(open_source(path, Foot(foot) if foot else None, report=note))
@@ -180,7 +180,7 @@ def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
     from ..calibration import Calibration
     from ..papers.pressure_contour.square import read_marks, square_drift
     from ..recipes import BY_NAME
-    from ..recording.source import open_source
+    from ..recording import open_source
     from ..types import Foot
 
     recipe = BY_NAME[known_recipe(options.recipe, list(BY_NAME))]
@@ -223,7 +223,7 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> Learnt:
     from math import degrees
 
     from ..papers.footstep_tracker.toe_out import learnt, toe_out
-    from ..recording.source import open_source
+    from ..recording import open_source
     from ..show.tables.table import number, table
     from ..types import Foot
 

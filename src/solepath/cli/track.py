@@ -16,7 +16,7 @@ from .common.view import View, add_speed, add_view, attended, need_page, newtons
 if TYPE_CHECKING:
     from ..calibration import Calibration
     from ..floorplan.index import IndexedPlan
-    from ..recording.source import Source
+    from ..recording import Source
     from ..session import Session
     from ..types import Packet, Sample
     from .common.results import Results
@@ -59,8 +59,7 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from .. import recipes
-    from ..recording import RecordingError
-    from ..recording.source import open_source
+    from ..recording import RecordingError, open_source
     from ..session import Session
     from ..types import Foot
     from .common.loop import stopped_alike

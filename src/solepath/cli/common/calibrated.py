@@ -11,7 +11,7 @@ from .failure import Failure
 if TYPE_CHECKING:
     from ...calibration import Calibration
     from ...recipes import Recipe
-    from ...recording.source import Source
+    from ...recording import Source
 
 
 def add_calibration(command: argparse.ArgumentParser) -> None:
@@ -47,8 +47,7 @@ def check_pressure(recipe: Recipe, source: Source) -> None:
 
 def _pressed(source: Source) -> bool:
     from ...link.decoder import Decoder
-    from ...recording import RecordingError
-    from ...recording.source import open_source
+    from ...recording import RecordingError, open_source
     from ...types import Packet, Sample, Site
 
     if source.samples is not None:
