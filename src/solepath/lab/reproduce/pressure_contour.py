@@ -14,6 +14,7 @@ stood. The rate of the samples is not in the paper.
 from __future__ import annotations
 
 from math import atan2, cos, sin
+from operator import attrgetter
 
 import numpy as np
 from attrs import evolve, frozen
@@ -118,7 +119,7 @@ def _paper(name: str, unit: str) -> Statistics:
 
 def _notes(done: list[ContourWalked]) -> tuple[str, ...]:
     lines = []
-    for one in sorted(done, key=_number):
+    for one in sorted(done, key=attrgetter("number")):
         paper = published.LOOPS[one.number]
         ours = ", ".join(f"{name.lower()} {error:.2f} m" for name, error in one.closing.items())
         lines.append(
@@ -130,10 +131,6 @@ def _notes(done: list[ContourWalked]) -> tuple[str, ...]:
         "the means of its six percentages."
     )
     return tuple(lines)
-
-
-def _number(one: ContourWalked) -> int:
-    return one.number
 
 
 def route_of(job: ContourJob) -> tuple[Route, Route]:
