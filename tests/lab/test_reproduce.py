@@ -12,7 +12,6 @@ from solepath.cli import main
 from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes import ways
 from solepath.lab.reproduce import footstep_walks, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
-from solepath.lab.reproduce.experiments import EXPERIMENTS
 from solepath.lab.reproduce.picture import Boxes, Drawn, Floor, PictureTrack
 from solepath.lab.reproduce.pool import each
 from solepath.lab.reproduce.published import (
@@ -167,10 +166,6 @@ def test_boxes_and_floors_are_drawn_in_the_format_that_the_ending_names(tmp_path
 
 
 # --- the command ------------------------------------------------------------------------------------------------------
-
-
-def test_the_command_knows_every_experiment():
-    assert tuple(EXPERIMENTS) == NAMES
 
 
 LONGEST = "footstep-tracker"

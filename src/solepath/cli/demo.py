@@ -7,8 +7,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .common.failure import Failure, note, positive, seconds, seed, share
-from .common.view import View, add_speed, add_view, aiohttp_is_there, attended, pace_of, view_of
+from .common.failure import Failure, is_there, note, positive, seconds, seed, share
+from .common.loop import attended
+from .common.view import View, add_speed, add_view, pace_of, view_of
 
 if TYPE_CHECKING:
     from ..lab.emulated.demo import Demo
@@ -95,7 +96,7 @@ def _view(options: argparse.Namespace) -> View | None:
     view = view_of(options)
     if view is not None or options.terminal or not sys.stdout.isatty():
         return view
-    if aiohttp_is_there():
+    if is_there("aiohttp"):
         return View(browser=not options.no_browser)
     note("the page in the browser needs aiohttp (pip install 'solepath[view]')")
     return None
@@ -128,9 +129,7 @@ def _record(demo: Demo, path: Path) -> None:
 
 
 def _rich_is_there() -> bool:
-    from importlib.util import find_spec
-
-    if find_spec("rich") is not None:
+    if is_there("rich"):
         return True
     note("the live view needs rich (pip install rich); plain text without it")
     return False

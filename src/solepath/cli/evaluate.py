@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from .common.calibrated import add_calibration, calibration_of
 from .common.failure import Failure, known_recipe, note
+from .common.files import write_json
 
 if TYPE_CHECKING:
     from ..lab.evaluate.report import Result
@@ -66,8 +67,6 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    import json
-
     from .. import recipes
     from ..lab.evaluate import ablation
     from ..lab.evaluate.changes import read_scores
@@ -132,7 +131,5 @@ def run(options: argparse.Namespace) -> int:
     if before is not None:
         print(comparison_tables(before, as_json(results)))
     if options.json:
-        with options.json.open("w", encoding="utf-8") as file:
-            json.dump(as_json(results), file, indent=1, allow_nan=False)
-            file.write("\n")
+        write_json(options.json, as_json(results))
     return 0

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-import os
 import sys
 from contextlib import AsyncExitStack
 
@@ -18,7 +17,8 @@ from ...lab.emulated.demo import straight
 from ...link.profile import CC2541, CC2541_20HZ, CC2650, INSOLE
 from ...recording import printable
 from ...types import Site
-from ..common.failure import Failure
+from ..common.failure import Failure, host_and_port, in_words
+from ..common.loop import attended
 from .choosing import UNATTENDED
 
 LONGEST = 5000.0
@@ -39,7 +39,7 @@ def prepared(options: argparse.Namespace) -> Bench:
         raise Failure(f"--distance {options.distance:g}: {LONGEST:g} m is as far as emulated wearers walk")
     if not 23 <= options.mtu <= 517:
         raise Failure(f"--mtu {options.mtu}: an MTU is from 23 to 517")
-    _host_and_port(options)
+    host_and_port("--listen", options.listen)
     kinds: dict[str, Device] = {
         INSOLE.name: insole_device.Insole(),
         CC2650.name: sensortags.CC2650(),
@@ -65,27 +65,20 @@ def prepared(options: argparse.Namespace) -> Bench:
     return bench
 
 
-def _host_and_port(options: argparse.Namespace) -> tuple[str, int]:
-    host, colon, port = options.listen.rpartition(":")
-    if not colon or not host or not port.isdecimal() or int(port) > 65535:
-        raise Failure(f"--listen {options.listen}: that is not HOST:PORT")
-    return host.strip("[]"), int(port)
-
-
 async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio.Event) -> int:
     """Until it is told to stop; the exit status."""
     bench.began = asyncio.get_running_loop().time() + 1e6  # until somebody is connected the wearer stands
     async with AsyncExitStack() as stack:
         try:
-            at, number = await stack.enter_async_context(serve(bench.peripherals, *_host_and_port(options)))
+            where = host_and_port("--listen", options.listen)
+            at, number = await stack.enter_async_context(serve(bench.peripherals, *where))
         except OSError as error:
-            why = os.strerror(error.errno).lower() if error.errno and error.errno > 0 else error.strerror or str(error)
-            raise Failure(f"--listen {options.listen}: {why}") from None
+            raise Failure(f"--listen {options.listen}: {in_words(error)}") from None
         print(f"serving at tcp:{at}:{number}", flush=True)
         for peripheral in bench.peripherals:
             print(f"  {peripheral.address}  {peripheral.site.words}  {printable(peripheral.name)}", flush=True)
         seconds = options.duration
-        if seconds is None and not (sys.stdin.isatty() or sys.stdout.isatty()):
+        if seconds is None and not attended():
             seconds = UNATTENDED
         tasks = [asyncio.create_task(work) for work in (_walk_when_connected(bench), _tell(bench))]
         try:

@@ -25,6 +25,7 @@ from ...show.tables.placed import PlaceCounts
 from ...show.tables.summary import summary
 from ...types import Packet
 from ..common.failure import Failure, note
+from ..common.files import check_writable
 from ..common.loop import unless_told
 from ..common.view import View, newtons_of, page_of
 from .air import air, until
@@ -43,7 +44,7 @@ async def listen(
 ) -> int:
     """Until it is told to stop; the exit status."""
     devices = wanted(options)
-    check_writable(options.record, options.out, plan is not None)
+    check_all_writable(options.record, options.out, plan is not None)
     seconds = how_long(options)
     session = Session(
         recipe, calibration=calibration, poses=True, pressures=view is not None, floorplan=plan, start=start
@@ -142,18 +143,14 @@ class LiveFiles:
                 self.failure = self.failure or _words(error)
 
 
-def check_writable(record: Path | None, out: Path | None, places: bool = False) -> None:
+def check_all_writable(record: Path | None, out: Path | None, places: bool = False) -> None:
     """Failure now when these will not be opened later. What is in them stays."""
     try:
         if out is not None:
             out.mkdir(parents=True, exist_ok=True)
         names = (EVENTS, TRACK, STEPS, PLACES) if places else (EVENTS, TRACK, STEPS)
         for path in [*([record] if record else []), *([out / name for name in names] if out else [])]:
-            there = path.exists()
-            if not there or path.is_file() or path.is_dir():  # a pipe would take it for the end
-                path.open("ab").close()
-            if not there:
-                path.unlink()
+            check_writable(path)
     except OSError as error:
         raise Failure(_words(error)) from None
 

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 
 from ...show.monitor import Monitor
 from ...show.tables.status import status
+from ..common.failure import is_there
 
 REPORT_EVERY = 5.0
 """s between two lines where there is no terminal."""
@@ -16,9 +17,7 @@ REPORT_EVERY = 5.0
 @contextmanager
 def shown(monitor: Monitor, title: str) -> Iterator[Callable[[], None]]:
     """How the session goes: a picture in a terminal that can draw one, else lines now and then."""
-    from importlib.util import find_spec
-
-    if sys.stdout.isatty() and find_spec("rich") is not None:
+    if sys.stdout.isatty() and is_there("rich"):
         from rich.console import Console
 
         from ...show.tables.terminal import screen

@@ -1,4 +1,4 @@
-"""The calibration that a command runs with, and whether a recording has what a recipe needs."""
+"""The calibration that a command runs with."""
 
 from __future__ import annotations
 
@@ -10,8 +10,6 @@ from .failure import Failure
 
 if TYPE_CHECKING:
     from ...calibration import Calibration
-    from ...recipes import Recipe
-    from ...recording import Source
 
 
 def add_calibration(command: argparse.ArgumentParser) -> None:
@@ -34,35 +32,3 @@ def calibration_of(options: argparse.Namespace) -> Calibration | None:
         return read_calibration(options.calibration)
     except CalibrationError as error:
         raise Failure(printable(str(error), 2000)) from None
-
-
-def check_pressure(recipe: Recipe, source: Source) -> None:
-    """Failure when the recipe needs pressure cells and nothing in the recording comes from any. It reads packets only
-    until the first sample with pressure."""
-    from ...recording import printable
-
-    if recipe.needs_pressure and not _pressed(source):
-        raise Failure(f"recipe {recipe.name} needs pressure cells; {printable(str(source.path))} has none")
-
-
-def _pressed(source: Source) -> bool:
-    from ...link.decoder import Decoder
-    from ...recording import RecordingError, open_source
-    from ...types import Packet, Sample, Site
-
-    if source.samples is not None:
-        return any("pressure" in table.columns for table in source.samples.tables)
-    decoders: dict[Site, Decoder] = {}
-    try:
-        for item in open_source(source.path, source.foot, report=_said_later):
-            if isinstance(item, Packet):
-                found = decoders.setdefault(item.site, Decoder(item.site)).feed(item)
-                if any(isinstance(one, Sample) and one.pressure for one in found):
-                    return True
-    except RecordingError:
-        return True  # whatever is wrong with it is said when it is run
-    return False
-
-
-def _said_later(sentence: str) -> None:
-    """The run itself reports it."""
