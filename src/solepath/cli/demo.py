@@ -51,7 +51,8 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from ..lab.emulated.demo import ROUTE, make_demo, make_indoors, radio, straight
+    from ..emulate.demo import ROUTE, radio, straight
+    from ..lab.emulated.demo import make_demo, make_indoors
     from ..lab.tables.comparison import comparison_table, place_table
     from ..show.tables.gait import gait_lines
     from ..show.tables.summary import latency

@@ -7,13 +7,13 @@ import asyncio
 import sys
 from contextlib import AsyncExitStack
 
-from ...emulate.controllers.tcp import serve
+from ...emulate.controllers import serve
+from ...emulate.demo import straight
 from ...emulate.devices.bench import Bench
 from ...emulate.devices.faults import parse_faults
 from ...emulate.devices.peripheral import Peripheral
 from ...emulate.sensors import insole_device, sensortags
 from ...emulate.sensors.device import Device
-from ...lab.emulated.demo import straight
 from ...link.profile import CC2541, CC2541_20HZ, CC2650, INSOLE
 from ...recording import printable
 from ...types import Site
