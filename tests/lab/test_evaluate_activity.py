@@ -14,8 +14,7 @@ from solepath.lab.evaluate.learning import Learner, Lesson, lessons, part_for, t
 from solepath.lab.measures.confusion import CLASSES, ActivityScore
 from solepath.lab.measures.score import Scored, summarise
 from solepath.lab.train import footstep_activity
-from solepath.lab.train.folds import FOLDS, fold_of
-from solepath.lab.train.hugadb import LABELS, labels, recordings
+from solepath.lab.train.hugadb import FOLDS, LABELS, fold_of, labels, recordings
 from solepath.show.timeline import Timeline
 from solepath.types import Activity
 

@@ -12,8 +12,6 @@ from solepath.cli import main
 from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes import ways
 from solepath.lab.reproduce import footstep_walks, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
-from solepath.lab.reproduce.picture import Boxes, Drawn, Floor, PictureTrack
-from solepath.lab.reproduce.pool import each
 from solepath.lab.reproduce.published import (
     CORNERS,
     KUPT_DFPC,
@@ -23,7 +21,18 @@ from solepath.lab.reproduce.published import (
     WALKING_MODES,
     corner_row,
 )
-from solepath.lab.reproduce.tables import FigureRow, Reproduction, Statistics, as_json, statistics
+from solepath.lab.reproduce.tables import (
+    Boxes,
+    Drawn,
+    FigureRow,
+    Floor,
+    PictureTrack,
+    Reproduction,
+    Statistics,
+    as_json,
+    statistics,
+)
+from solepath.lab.reproduce.walks import each
 from solepath.lab.tables.reproduced import reproduced
 from solepath.lab.train import emulated
 

@@ -15,7 +15,6 @@ from .common.files import write_json
 
 if TYPE_CHECKING:
     from ..lab.evaluate.report import Result
-    from ..recipes import Recipe
 
 ENVIRONMENT = "SOLEPATH_DATA"
 
@@ -89,8 +88,8 @@ def run(options: argparse.Namespace) -> int:
         raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
     if options.walks < 1 or options.seed < 0:
         raise Failure("--walks must be 1 or more, and --seed not negative")
-    known: list[str | Recipe] = list(recipes.BY_NAME)
-    chosen: list[str | Recipe] = [known_recipe(name, list(recipes.BY_NAME)) for name in options.recipe]
+    known = list(recipes.BY_NAME.values())
+    chosen = [recipes.BY_NAME[known_recipe(name, list(recipes.BY_NAME))] for name in options.recipe]
     if options.ablation:
         if chosen:
             raise Failure("--ablation chooses the recipes itself, so it goes without --recipe")

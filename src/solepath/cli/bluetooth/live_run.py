@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-from contextlib import AsyncExitStack
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import AsyncExitStack, contextmanager
 from pathlib import Path
 
 from attrs import define
@@ -22,15 +24,15 @@ from ...show.monitor import Monitor
 from ...show.output import EVENTS, PLACES, STEPS, TRACK, TrackFiles
 from ...show.page.scene.scene import Scene
 from ...show.tables.placed import PlaceCounts
+from ...show.tables.status import status
 from ...show.tables.summary import summary
 from ...types import Packet
-from ..common.failure import Failure, note
+from ..common.failure import Failure, is_there, note
 from ..common.files import check_writable
 from ..common.loop import unless_told
 from ..common.view import View, newtons_of, page_of
 from .air import air, until
 from .choosing import LISTENED, chosen, how_long, wanted
-from .showing import shown
 
 
 async def listen(
@@ -159,3 +161,31 @@ def _words(error: RecordingError | OSError) -> str:
     if isinstance(error, RecordingError):
         return str(error)
     return f"{error.filename}: {why(error)}" if error.filename else why(error)
+
+
+REPORT_EVERY = 5.0
+"""s between two lines where there is no terminal."""
+
+
+@contextmanager
+def shown(monitor: Monitor, title: str) -> Iterator[Callable[[], None]]:
+    """How the session goes: a picture in a terminal that can draw one, else lines now and then."""
+    if sys.stdout.isatty() and is_there("rich"):
+        from rich.console import Console
+
+        from ...show.tables.terminal import screen
+
+        with screen(Console()) as drawn:
+            yield lambda: drawn.show(monitor, title)
+        return
+    began: float | None = None
+    due = REPORT_EVERY
+
+    def report() -> None:
+        nonlocal began, due
+        began = monitor.now if began is None else began
+        if monitor.now - began >= due:
+            due += REPORT_EVERY
+            print("\n".join(f"{monitor.now - began:6.1f} s  {line}" for line in status(monitor)), flush=True)
+
+    yield report

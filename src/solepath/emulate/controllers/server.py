@@ -24,8 +24,7 @@ from ..devices.peripheral import Peripheral
 from .central import backend_of
 from .controller import VirtualAir, VirtualController
 from .gatt import advertisement, furnish
-from .pairing import just_works
-from .radio import VirtualRadio, end_link
+from .radio import VirtualRadio, end_link, just_works
 
 _T = TypeVar("_T")
 

@@ -16,8 +16,7 @@ from ...wire.insole import InsoleFrame, build_frame
 from ...wire.insole_control import Resend, SetInterval, StartSampling, StopSampling, parse_control
 from ...wire.insole_info import build_info
 from ..sensors.device import device_numbers, foot_of
-from ..sensors.insole_device import BATTERY, TICK_RATE, Insole
-from ..sensors.insole_signal import InsoleSignal
+from ..sensors.insole_device import BATTERY, TICK_RATE, Insole, InsoleSignal
 from .attributes import AttError
 from .peripheral import Peripheral, Worn
 from .standard import NOTIFY, READ, WRITE, Battery, information, services

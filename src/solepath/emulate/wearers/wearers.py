@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ...calibration import Limbs
 from .gait import Wearer
 from .shoe import Rocker, Shoe
@@ -48,6 +50,12 @@ def wearer(stature: float, mass: float, foot_length: float) -> Wearer:
         centre_height=plain.centre_height * stature / STATURE,
         walk_ratio=plain.walk_ratio * (stature / STATURE) ** 1.5,
     )
+
+
+def anybody(rng: np.random.Generator) -> tuple[Wearer, float]:
+    """Somebody between 1.55 m and 1.92 m tall, neither thin nor fat, and the stature, m."""
+    stature = float(rng.uniform(1.55, 1.92))
+    return wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature), stature
 
 
 SUBJECTS = (

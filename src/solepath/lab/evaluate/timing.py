@@ -17,8 +17,7 @@ from ..measures.matching import TOLERANCE, Matching, interval_errors, match
 from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore, stride_score
 from .insoles import force_sensors, switches
-from .recorded import Meta, scored, truth_of
-from .run import RecordingRun, RunSettings, run
+from .run import Meta, RecordingRun, RunSettings, run, scored, truth_of
 
 LEG = 10.0
 """m of ipol_10m_uturn and gaitmap_examples."""

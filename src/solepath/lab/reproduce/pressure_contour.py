@@ -30,10 +30,8 @@ from ...recipes import BY_NAME
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
 from . import published
-from .picture import Drawn, Floor, PictureTrack
-from .pool import Progress, each
-from .tables import FigureRow, Reproduction, Statistics
-from .walks import cut, heard, laid, rest_after, then, thinned
+from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, Statistics
+from .walks import Progress, cut, each, heard, laid, rest_after, then, thinned
 
 NAME = "pressure-contour"
 WALKS = 6

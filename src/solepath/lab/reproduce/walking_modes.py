@@ -35,10 +35,9 @@ from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ...types.vector import GRAVITY
 from . import published
-from .picture import Drawn, Floor, PictureTrack
-from .pool import Progress, each
 from .published import corner_row
-from .tables import FigureRow, Reproduction, statistics
+from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, statistics
+from .walks import Progress, each
 
 NAME = "walking-modes"
 WALKS = 40

@@ -46,10 +46,9 @@ from ...recording.samples import load_samples
 from ...types import SITE_OF_FOOT, Activity, Foot, Sample, Site
 from ...types.vector import TIE
 from . import emulated
-from .activities_course import LabelledCourse, Said, Span, chances, shifts, spans
+from .activities_course import LabelledCourse, Said, chances, shifts
 from .activities_net import CLASSES, networks, usual
-from .folds import FOLDS
-from .hugadb import labels, recordings
+from .hugadb import FOLDS, Span, labels, recordings, spans
 
 Floats = NDArray[np.float64]
 Label = Callable[[float], Activity | None]
@@ -189,7 +188,7 @@ def level_walks(data: Path) -> Iterator[Blocks]:
     for number, folder in enumerate(LEVEL_WALKS):
         for path in sorted((data / folder).glob("*.npz"))[::2]:
             samples = sorted(load_samples(path), key=attrgetter("t"))
-            yield blocks_of(samples, _walking, recipes.DEFAULT, 1000 + number, only_steps=True)
+            yield blocks_of(samples, lambda t: Activity.WALKING, recipes.DEFAULT, 1000 + number, only_steps=True)
 
 
 def emulated_walks(seeds: Iterable[int] = EMULATED) -> Iterator[Blocks]:
@@ -215,10 +214,6 @@ def _worn(walker: Walker, device: tuple[float, Imu, Mounting] | CC2650 | CC2541,
         outputs = [one for packet in walk.packets if packet.site is site for one in decoder.feed(packet)]
         found += [one for one in outputs if isinstance(one, Sample)]
     return sorted(found, key=attrgetter("t"))
-
-
-def _walking(t: float) -> Activity:
-    return Activity.WALKING
 
 
 def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
