@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
 from functools import cache
-from math import hypot, inf, radians, sqrt
+from math import hypot, radians, sqrt
 from typing import Any
 
 import pytest
 from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from spoiled import silent
 from walks import LEFT, RIGHT, SHORT, of, samples
 
 from solepath import Recipe, Session, recipes
@@ -49,13 +49,8 @@ def said(kind: Any, items: tuple[Sample, ...], session: Session | None = None) -
 # --- a foot that falls silent ---
 
 
-def silent(items: Iterable[Sample], foot: Site, begin: float, end: float = inf) -> tuple[Sample, ...]:
-    """The same without what the foot says from `begin` s until `end`."""
-    return tuple(s for s in items if s.site is not foot or not begin <= s.t < end)
-
-
 def without(foot: Site, begin: float, end: float) -> tuple[Sample, ...]:
-    return silent(walk(), foot, begin, end)
+    return tuple(s for s in walk() if s.site is not foot or not begin <= s.t < end)
 
 
 @pytest.mark.parametrize("foot", [LEFT, RIGHT])
@@ -120,7 +115,7 @@ def both(route: Route) -> tuple[Sample, ...]:
 
 @pytest.mark.parametrize("foot", [LEFT, RIGHT])
 def test_a_silent_foot_does_not_hold_the_wearer_back(foot: Site) -> None:
-    alone = silent(both(FAR), foot, 12.0)
+    alone = tuple(silent(both(FAR), foot, 12.0))
     for recipe, least in ((recipes.DEFAULT, 1.0), (MEAN, 1.2)):
         x, y, across, along = place(alone, recipe)
         whole = place(both(FAR), recipe)
@@ -131,7 +126,7 @@ def test_a_silent_foot_does_not_hold_the_wearer_back(foot: Site) -> None:
 
 @pytest.mark.parametrize("foot", [LEFT, RIGHT])
 def test_a_foot_that_comes_back_is_set_beside_the_other(foot: Site) -> None:
-    away = silent(both(FAR), foot, 8.0, 20.0)
+    away = tuple(silent(both(FAR), foot, 8.0, 20.0))
     for recipe, least in ((recipes.DEFAULT, 1.0), (MEAN, 1.2)):
         x, _, across, _ = place(away, recipe)
         assert x == pytest.approx(40.0, abs=0.8)
@@ -140,19 +135,19 @@ def test_a_foot_that_comes_back_is_set_beside_the_other(foot: Site) -> None:
 
 @pytest.mark.parametrize("foot", [LEFT, RIGHT])
 def test_a_foot_that_was_away_while_the_wearer_turned_is_turned_too(foot: Site) -> None:
-    x, y, _, _ = place(silent(both(ROUND), foot, 11.0, 20.0))
+    x, y, _, _ = place(tuple(silent(both(ROUND), foot, 11.0, 20.0)))
     u, v, _, _ = place(both(ROUND))
     assert hypot(x - u, y - v) < 1.6
 
 
 def test_feet_that_take_turns_in_falling_silent_lose_nothing_of_the_way() -> None:
     one = silent(both(FAR), LEFT, 8.0, 12.0)
-    x, _, _, _ = place(silent(silent(one, RIGHT, 18.0, 22.0), LEFT, 27.0, 30.0))
+    x, _, _, _ = place(tuple(silent(silent(one, RIGHT, 18.0, 22.0), LEFT, 27.0, 30.0)))
     assert x == pytest.approx(40.0, abs=0.9)
 
 
 def test_a_foot_that_is_switched_on_while_the_other_walks_is_set_beside_it() -> None:
-    x, _, _, _ = place(silent(both(FAR), RIGHT, -1.0, 15.0))
+    x, _, _, _ = place(tuple(silent(both(FAR), RIGHT, -1.0, 15.0)))
     assert x == pytest.approx(40.0, abs=1.2)
 
 
@@ -193,7 +188,7 @@ def test_while_both_feet_are_heard_the_place_is_their_mean_to_the_last_digit(who
 @given(st.integers(0, 10_000))
 @settings(max_examples=5, deadline=None)
 def test_a_session_saved_while_a_foot_is_away_goes_on_to_the_same_place(cut: int) -> None:
-    items = silent(walk(), LEFT, 4.0, 9.0)
+    items = tuple(silent(walk(), LEFT, 4.0, 9.0))
     k = cut % len(items)
     session = Session()
     session.feed(items[:k])

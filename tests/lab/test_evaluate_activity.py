@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from solepath import recipes
 from solepath.events import ActivityChanged, LiftRidden
 from solepath.lab.evaluate import learning
 from solepath.lab.evaluate.activity import CLIMBED, compared, rides, spans, stairs_figures, windows
@@ -205,7 +206,7 @@ def test_every_wearer_of_the_recordings_has_a_fold(data_dir):
 
 
 def test_stairs_are_in_two_folders(data_dir):
-    (stairs,) = evaluate(data_dir, ["footstep-tracker"], only=["stairs"])
+    (stairs,) = evaluate(data_dir, [recipes.FOOTSTEP_TRACKER], only=["stairs"])
     assert {scored.recording for scored in stairs.scores} == set(CLIMBED)
     (summary,) = stairs.summaries
     assert (summary.mean["stairs_called"] or 0.0) > 0.5 and (summary.mean["level_called"] or 0.0) < 0.1
@@ -228,7 +229,7 @@ def test_windows_of_a_recording_carry_the_activity_of_their_middle(data_dir):
 
 @pytest.mark.soak
 def test_the_papers_classifier_in_five_folds(data_dir):
-    (result,) = evaluate(data_dir, ["footstep-tracker"], only=["hugadb"], processes=2)
+    (result,) = evaluate(data_dir, [recipes.FOOTSTEP_TRACKER], only=["hugadb"], processes=2)
     (every,) = [summary for summary in result.summaries if summary.group == "all"]
     assert every.count == 115 and not result.failures
     assert (every.together["accuracy"] or 0.0) > 0.74
