@@ -191,7 +191,7 @@ def test_what_is_scored_on_a_wearer_was_taught_without_that_wearer(monkeypatch):
 
 
 def test_a_recipe_whose_part_learns_nothing_keeps_its_own():
-    assert part_for("shoe-sensing", {"subject": 1}, {}) is None
+    assert part_for(recipes.BY_NAME["shoe-sensing"], {"subject": 1}, {}) is None
 
 
 # --- recorded ---------------------------------------------------------------------------------------------------------
@@ -213,9 +213,9 @@ def test_stairs_are_in_two_folders(data_dir):
 
 
 def test_each_recording_is_learnt_from_once_whatever_the_folds(data_dir):
-    assert len(lessons(data_dir, ["footstep-tracker", "footstep-tracker"])) == 115
-    assert not lessons(data_dir, ["shoe-sensing"])
-    default = lessons(data_dir, ["default"])
+    assert len(lessons(data_dir, [recipes.FOOTSTEP_TRACKER] * 2)) == 115
+    assert not lessons(data_dir, [recipes.SHOE_SENSING])
+    default = lessons(data_dir, [recipes.DEFAULT])
     assert {lesson.subject for lesson in default} - {None} == {wearer for fold in FOLDS for wearer in fold}
 
 
