@@ -25,7 +25,7 @@ from bleak.backends.scanner import AdvertisementData, AdvertisementDataCallback,
 from bleak.backends.service import BleakGATTService, BleakGATTServiceCollection
 from bleak.exc import BleakDeviceNotFoundError, BleakError, BleakGATTProtocolError
 
-from solepath.ble.backend import Backend
+from solepath.ble.air import Backend
 from solepath.emulate.devices.attributes import (
     SMALLEST_MTU,
     WRITE_NOT_PERMITTED,

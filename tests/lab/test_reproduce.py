@@ -33,7 +33,7 @@ from solepath.lab.reproduce.tables import (
     statistics,
 )
 from solepath.lab.reproduce.walks import each
-from solepath.lab.tables.reproduced import reproduced
+from solepath.lab.tables.comparison import reproduced
 from solepath.lab.train import emulated
 
 FIVE = ["mean", "std", "q1", "median", "q3"]

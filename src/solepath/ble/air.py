@@ -1,4 +1,4 @@
-"""Who advertises: one scan for all that are sought, however many seek, and only while somebody does."""
+"""Who advertises: one scan for all that are sought, however many seek, and only while somebody does; and whose Bluetooth."""
 
 from __future__ import annotations
 
@@ -8,13 +8,26 @@ from contextlib import contextmanager, suppress
 
 from attrs import define, field, frozen
 from bleak import BleakScanner
+from bleak.backends.client import BaseBleakClient
 from bleak.backends.device import BLEDevice
-from bleak.backends.scanner import AdvertisementData
+from bleak.backends.scanner import AdvertisementData, BaseBleakScanner
 
 from ..link.profile import Profile
-from .backend import NATIVE, Backend
 from .trouble import FAILURES, BluetoothError, sentence
 from .wanted import identify
+
+
+@frozen
+class Backend:
+    """Classes that bleak is given as `backend=` for clients and scanners; None leaves the choice to bleak."""
+
+    client: type[BaseBleakClient] | None = None
+    scanner: type[BaseBleakScanner] | None = None
+
+
+NATIVE = Backend()
+"""The Bluetooth of this machine."""
+
 
 RETRY = 2.0
 """s before a scan that failed is begun again."""

@@ -15,8 +15,7 @@ from bleak_retry_connector import establish_connection
 from ..types import Site
 from ..wire.receiver import LONGEST_NAME, build_connected
 from ..wire.receiver import ConnectionFrame as Made
-from .air import WEAKEST, Found, Scanner
-from .backend import Backend
+from .air import WEAKEST, Backend, Found, Scanner
 from .inbox import Voice, shortened
 from .listening import Listening
 from .search import FORGET, Search

@@ -9,9 +9,9 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .common.calibrated import add_calibration, calibration_of
 from .common.failure import Failure, known_recipe, note
 from .common.files import write_json
+from .common.recorded import add_calibration, calibration_of
 
 if TYPE_CHECKING:
     from ..lab.evaluate.report import Result
@@ -72,10 +72,8 @@ def run(options: argparse.Namespace) -> int:
     from ..lab.evaluate.datasets import EMULATED
     from ..lab.evaluate.jobs import evaluate, evaluate_emulated, find
     from ..lab.evaluate.report import as_json
-    from ..lab.tables.ablation import ablation_table
-    from ..lab.tables.changes import comparison_tables
     from ..lab.tables.markdown import accuracy_table
-    from ..lab.tables.scores import score_table
+    from ..lab.tables.scores import ablation_table, comparison_tables, score_table
     from ..recording import RecordingError
     from ..show.tables.progress import progress_bar
 

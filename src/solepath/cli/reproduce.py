@@ -52,7 +52,7 @@ def run(options: argparse.Namespace) -> int:
             check_writable(path)
 
     from ..lab.reproduce.tables import as_json
-    from ..lab.tables.reproduced import reproduced
+    from ..lab.tables.comparison import reproduced
     from ..recording import printable
     from ..show.tables.progress import progress_bar
 

@@ -1,4 +1,4 @@
-"""The recording that a command reads, of which foot, and whether it has what a recipe needs."""
+"""The recording that a command reads, of which foot, whether it has what a recipe needs, and its calibration."""
 
 from __future__ import annotations
 
@@ -65,3 +65,29 @@ def _pressed(source: Source) -> bool:
 
 def _said_later(sentence: str) -> None:
     """The run itself reports it."""
+
+
+if TYPE_CHECKING:
+    from ...calibration import Calibration
+
+
+def add_calibration(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--calibration",
+        metavar="FILE",
+        type=Path,
+        help="what is known of wearer, shoes and insoles, as `solepath calibrate` writes it",
+    )
+
+
+def calibration_of(options: argparse.Namespace) -> Calibration | None:
+    """What --calibration names; None without it. Failure when that is no calibration."""
+    from ...calibration import CalibrationError, read_calibration
+    from ...recording import printable
+
+    if options.calibration is None:
+        return None
+    try:
+        return read_calibration(options.calibration)
+    except CalibrationError as error:
+        raise Failure(printable(str(error), 2000)) from None

@@ -18,7 +18,7 @@ from bumble.gatt import Characteristic
 from bumble.host import Host
 from bumble.transport.common import AsyncPipeSink, Transport
 
-from ...ble.backend import Backend
+from ...ble.air import Backend
 from ..devices.attributes import AttError
 from ..devices.peripheral import Peripheral
 from .central import backend_of

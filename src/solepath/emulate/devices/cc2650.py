@@ -18,8 +18,8 @@ from ..sensors.device import device_numbers, started
 from ..sensors.parts import AK8963, BMP280
 from ..sensors.sensortags import AK8963_COUNT, BATTERY, CC2650, GYRO_COUNT, cc2650_air, range_count
 from ..sensors.tag_signals import LATE_AIR, Series
+from .attributes import Battery
 from .peripheral import Worn
-from .standard import Battery
 from .tag import HUMIDITY, INFRARED, LIGHT, STOCK, Make, Presses, Sensor, Tag, masked, room, shortest, switch
 
 WAKES = 0.040 * GRAVITY

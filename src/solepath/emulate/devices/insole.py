@@ -17,9 +17,8 @@ from ...wire.insole_control import Resend, SetInterval, StartSampling, StopSampl
 from ...wire.insole_info import build_info
 from ..sensors.device import device_numbers, foot_of
 from ..sensors.insole_device import BATTERY, TICK_RATE, Insole, InsoleSignal
-from .attributes import AttError
+from .attributes import NOTIFY, READ, WRITE, AttError, Battery, information, services
 from .peripheral import Peripheral, Worn
-from .standard import NOTIFY, READ, WRITE, Battery, information, services
 
 UNKNOWN_OPCODE = 0x80
 WRONG_VALUE = 0x81

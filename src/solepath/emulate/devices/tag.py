@@ -12,9 +12,8 @@ from ...link.profile import Profile
 from ..sensors.device import DeviceClock, device_numbers, foot_of
 from ..sensors.sensortags import CC2541, CC2650, PRESS
 from ..sensors.tag_signals import HANDLING, Series, WornTag
-from .attributes import REFUSED, WRONG_LENGTH, AttError, Characteristic
+from .attributes import NOTIFY, READ, REFUSED, WRITE, WRONG_LENGTH, AttError, Characteristic, information, services
 from .peripheral import Peripheral, Worn
-from .standard import NOTIFY, READ, WRITE, information, services
 
 MTU = 23
 """Stock firmware agrees to no larger one."""

@@ -23,8 +23,8 @@ from time import perf_counter
 import numpy as np
 from attrs import frozen
 
+from ...emulate.routes.path import ahead
 from ...emulate.routes.route import Route
-from ...emulate.routes.stairs import ahead
 from ...emulate.sensors.insole_device import Insole
 from ...emulate.walk import SampledWalk, sampled
 from ...emulate.wearers.gait import Wearer

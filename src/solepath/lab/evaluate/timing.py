@@ -11,9 +11,8 @@ import numpy as np
 from ...types import Foot, Turn
 from ..measures.alignment import at_times
 from ..measures.contacts import force_contacts, merged, switch_contacts
-from ..measures.errors import Errors
 from ..measures.legs import leg_errors, turned_about
-from ..measures.matching import TOLERANCE, Matching, interval_errors, match
+from ..measures.matching import TOLERANCE, Errors, Matching, interval_errors, match
 from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore, stride_score
 from .insoles import force_sensors, switches

@@ -9,8 +9,8 @@ import numpy as np
 
 from ...types import Foot
 from ..measures.alignment import at_times, path_length, track_error
-from ..measures.errors import Errors
 from ..measures.legs import leg_errors
+from ..measures.matching import Errors
 from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore, marker_rests, position_errors, surveyed_score
 from .gathered import FootRun

@@ -17,9 +17,8 @@ from ...emulate.routes.route import Route
 from ...emulate.routes.ways import Way, case_study, corridor, wandering
 from ...emulate.sensors.sensortags import CC2541
 from ...emulate.walk import EmulatedWalk, emulate
-from ...emulate.wearers.gait import Wearer
+from ...emulate.wearers.gait import Wearer, anybody
 from ...emulate.wearers.shoe import IN_SOLE
-from ...emulate.wearers.wearers import anybody
 from ...events import Event, StrideTaken, TurnMade
 from ...papers.footstep_tracker.toe_out import learnt, toe_out
 from ...recipes import BY_NAME, Recipe

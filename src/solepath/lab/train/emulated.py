@@ -16,10 +16,9 @@ from ...emulate.routes.route import Route
 from ...emulate.sensors.parts import MPU6050
 from ...emulate.sensors.sensortags import CC2650
 from ...emulate.walk import EmulatedWalk, emulate
-from ...emulate.wearers.gait import Wearer
+from ...emulate.wearers.gait import Wearer, anybody
 from ...emulate.wearers.shoe import IN_SOLE
 from ...emulate.wearers.walker import Walker
-from ...emulate.wearers.wearers import anybody
 from ...link.decoder import Decoder
 from ...types import SITE_OF_FOOT, Foot, Sample
 

@@ -23,8 +23,8 @@ from ...body.gait.turns import features
 from ...emulate.routes.route import Route
 from ...emulate.sensors.sensortags import CC2541
 from ...emulate.walk import EmulatedWalk, emulate
+from ...emulate.wearers.gait import anybody
 from ...emulate.wearers.shoe import IN_SOLE
-from ...emulate.wearers.wearers import anybody
 from ...events import StrideTaken
 from ...recipes import FOOTSTEP_TRACKER
 from ...session import Session
