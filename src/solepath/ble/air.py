@@ -1,4 +1,4 @@
-"""Who advertises: one scan for all that are sought, however many seek, and only while somebody does; and whose Bluetooth."""
+"""Who advertises: one scan for all that seek, however many, only while somebody does; and whose Bluetooth it is."""
 
 from __future__ import annotations
 

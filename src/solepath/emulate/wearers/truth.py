@@ -187,11 +187,6 @@ class Truth:
         return elevation(self.plan, np.atleast_1d(np.asarray(t, dtype=np.float64)))
 
 
-def truth(plan: WalkPlan, path_length: float, feet: dict[Foot, FootTruth]) -> Truth:
-    """The truth of a plan with both of its feet."""
-    return Truth(plan.duration, path_length, feet, activities(plan), flights(plan), rides(plan), plan)
-
-
 def foot_truth(foot: Foot, plan: WalkPlan, motion: FootMotion, mounting: Mounting) -> FootTruth:
     """The truth of one foot for a sensor mounted like this."""
     strides = plan.strides[foot]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from math import degrees
 
 from ...show.tables.table import milliseconds, number, percent, table
@@ -14,25 +15,10 @@ from ..evaluate.report import Result
 from ..measures.confusion import CLASSES
 from ..measures.score import Figures, Summary
 
-
-def _metres(value: float | None) -> str:
-    return number(value, 3)
-
-
-def _short_metres(value: float | None) -> str:
-    return number(value, 1)
-
-
-def _hundredths(share: float | None) -> str:
-    return percent(share, 2)
-
-
-def _count(value: float | None) -> str:
-    return number(value, 0)
-
-
-def _share(value: float | None) -> str:
-    return number(value, 3)
+_metres = _share = partial(number, digits=3)
+_short_metres = partial(number, digits=1)
+_count = partial(number, digits=0)
+_hundredths = partial(percent, digits=2)
 
 
 def _degrees(value: float | None) -> str:
