@@ -8,9 +8,8 @@ import sys
 
 from solepath import Connected, Disconnected, LinkTrouble, Session, Site, StrideTaken
 from solepath.ble import NATIVE, Backend, BluetoothError, Devices, Wanted
-from solepath.emulate import Route
-from solepath.emulate.controllers.server import virtual_air
-from solepath.emulate.devices.bench import Bench
+from solepath.emulate import Bench, Route
+from solepath.emulate.controllers import virtual_air
 
 
 async def listen(left: str, right: str, backend: Backend = NATIVE, seconds: float = 600.0) -> None:

@@ -9,10 +9,7 @@ from math import hypot
 from pathlib import Path
 
 from solepath import ActivityChanged, LiftRidden, Placed, Session, Site, read_floorplan, recipes
-from solepath.emulate.routes.ways import case_study
-from solepath.emulate.sensors.sensortags import CC2541
-from solepath.emulate.walk import emulate
-from solepath.emulate.wearers.shoe import IN_SOLE
+from solepath.emulate import CC2541, IN_SOLE, case_study, emulate
 
 plan = read_floorplan(Path(__file__).with_name("building.geojson"))
 way = case_study()

@@ -6,8 +6,7 @@
 from attrs import evolve
 
 from solepath import Session, Site, StrideFused, recipes
-from solepath.emulate import Insole, Route, sampled
-from solepath.emulate.sensors.insoles import layout
+from solepath.emulate import Insole, Route, layout, sampled
 from solepath.papers.kupt_dfpc.noise import pressure_noise
 
 INSOLES = {site: Insole(rate=30.0) for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}

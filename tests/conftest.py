@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from solepath import recipes
 from solepath.lab.evaluate.jobs import evaluate
 from solepath.lab.evaluate.report import Result
 
@@ -34,7 +35,7 @@ def evaluated(data_dir: Path) -> Callable[[str, str], Result]:
 
     @cache
     def of(data_set: str, recipe: str) -> Result:
-        (result,) = evaluate(data_dir, [recipe], only=[data_set], processes=2)
+        (result,) = evaluate(data_dir, [recipes.BY_NAME[recipe]], only=[data_set], processes=2)
         return result
 
     return of

@@ -12,11 +12,11 @@ from attrs import evolve
 from belts import RATE, READ_AFTER, STRAP, address, asked, strap
 from benches import LEFT, RIGHT
 from bleak.exc import BleakDBusError, BleakError
+from memory_radio import MemoryRadio
 
 from solepath.ble import Backend, Devices, Wanted
 from solepath.emulate import Route
 from solepath.emulate.devices.bench import Bench
-from solepath.emulate.devices.memory import MemoryRadio
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.link.profile import Access
 from solepath.types import Packet, Site

@@ -12,9 +12,9 @@ from strap import Strap
 
 from solepath.ble import Backend, Devices, Wanted
 from solepath.emulate import Route
+from solepath.emulate.devices.attributes import AttError
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import Fault, What, parse_faults
-from solepath.emulate.devices.peripheral import AttError
 from solepath.types import Site
 from solepath.wire.fields import parse_text
 

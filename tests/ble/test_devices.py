@@ -13,14 +13,14 @@ from belts import RATE, READ_AFTER, STRAP, Asked, address, asked, strap
 from benches import LEFT, RIGHT, ROUTE
 from bleak.backends.scanner import BaseBleakScanner
 from bleak.exc import BleakDBusError, BleakError
+from memory_radio import MemoryRadio
 from strap import BATTERY, BEAT, CONTROL, HEART_RATE, LEVEL, Strap
 
 from solepath import BatteryLevel, LayoutKnown, PacketRejected, PacketsDropped, Session
 from solepath.ble import Backend, BluetoothError, ConnectionState, Devices, Wanted
 from solepath.emulate import Route
+from solepath.emulate.devices.attributes import Characteristic, Service
 from solepath.emulate.devices.bench import Bench
-from solepath.emulate.devices.memory import MemoryRadio
-from solepath.emulate.devices.peripheral import Characteristic, Service
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650 as Tag
 from solepath.link.devices.cc2650 import PROFILE as CC2650

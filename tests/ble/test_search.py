@@ -8,12 +8,12 @@ import pytest
 from airs import hear, in_virtual_time
 from belts import STRAP, address, asked, strap
 from benches import LEFT, RIGHT, ROUTE
+from memory_radio import MemoryRadio
 
 from solepath.ble import Backend, ConnectionState, Devices, Wanted, scan
 from solepath.emulate.devices import cc2650
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
-from solepath.emulate.devices.memory import MemoryRadio
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.insole_device import Insole

@@ -16,12 +16,12 @@ from bleak.exc import (
     BleakGATTProtocolError,
     BleakGATTProtocolErrorCode,
 )
+from memory_radio import MemoryRadio
 from strap import Strap
 
 from solepath.ble import Backend, BluetoothError, Devices, Wanted, scan
 from solepath.ble.trouble import sentence
-from solepath.emulate.devices.memory import MemoryRadio
-from solepath.emulate.devices.peripheral import Outgoing
+from solepath.emulate.devices.attributes import Outgoing
 from solepath.link.devices.cc2650 import PROFILE as CC2650
 from solepath.types import Packet, Site
 

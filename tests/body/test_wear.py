@@ -11,6 +11,7 @@ import pytest
 from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from spoiled import silent
 from walks import LEFT, RIGHT, SHORT, of, samples
 
 from solepath import Recipe, Session, recipes
@@ -18,7 +19,6 @@ from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import Track
 from solepath.body.worn.sides import Average
 from solepath.calibration import Calibration, InsoleCalibration
-from solepath.emulate.faults import silent
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.walk import emulate

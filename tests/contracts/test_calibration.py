@@ -37,7 +37,7 @@ from solepath.calibration import (
     unusable,
     write_calibration,
 )
-from solepath.calibration.calibration import _limits
+from solepath.calibration.limits import _limits
 from solepath.emulate.sensors.insoles import layout
 from solepath.events import CellsFailed, Limitation
 from solepath.foot.pressure.insole import in_newtons
@@ -231,7 +231,10 @@ def test_the_limits_are_those_of_the_protocol() -> None:
 OTHERS = Calibration({foot: InsoleCalibration(layout=layout(35, foot), noise=(0.5,) * 35) for foot in Foot})
 
 
-@pytest.mark.parametrize("recipe", [recipes.by_name(name) for name in ("zupt", "kupt-dfpc", "default")], ids=attrgetter("name"))
+KNOWN = [recipes.by_name(name) for name in ("zupt", "kupt-dfpc", "default")]
+
+
+@pytest.mark.parametrize("recipe", KNOWN, ids=attrgetter("name"))
 def test_a_calibration_of_another_insole_is_named_and_the_walk_goes_on_without_it(recipe: Recipe) -> None:
     items = samples(cells=96, rate=50.0)
     session, bare = Session(recipe, calibration=OTHERS), Session(recipe)

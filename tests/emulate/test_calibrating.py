@@ -1,4 +1,4 @@
-"""What is measured by hand for calibrations is what is true of the emulated shoe and insole, to a hand's accuracy."""
+"""What is measured by hand for a calibration is what is true of the emulated shoe, to a hand's accuracy."""
 
 from math import cos, radians, sin
 from pathlib import Path
@@ -8,12 +8,9 @@ import pytest
 
 from solepath.emulate.routes.postures import PITCHES, REPEATED, posture, postures, write_postures
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.gauge import MOST, RPPS_99, TWELVE_BIT, ForceCurve, gauge, uncalibrated, write_gauge
-from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.shoe import IN_SOLE, Mounting, Shoe
 from solepath.emulate.wearers.walker import Walker
 from solepath.papers.kupt_dfpc.shoe import fit_shoe
-from solepath.papers.walking_modes.newton import fit_gauge
 from solepath.types import Foot
 
 
@@ -63,41 +60,3 @@ def test_the_calibration_of_a_shoe_reads_the_postures_and_finds_the_shoe(tmp_pat
         )
         assert radius == pytest.approx(posture(pitch).radius, abs=0.0015)
         assert to_toe == pytest.approx(posture(pitch).to_toe, abs=0.0015)
-
-
-@pytest.mark.parametrize("characteristic", [RPPS_99, TWELVE_BIT])
-def test_counts_rise_with_the_force_and_lead_back_to_it(characteristic: ForceCurve) -> None:
-    forces = np.linspace(1.0, 195.0, 50)
-    counts = characteristic.counts(forces)
-    assert (np.diff(counts) > 0).all() and counts.max() < characteristic.full
-    assert characteristic.newtons(counts) == pytest.approx(forces, abs=0.1)
-    assert characteristic.counts(np.array([-5.0, 0.0, 1e4])).tolist() == [0.0, 0.0, characteristic.full]
-    assert np.ptp(np.diff(counts) / np.diff(forces)) > 0.3 * np.mean(np.diff(counts) / np.diff(forces))  # no line
-
-
-def test_the_calibration_of_newtons_reads_the_gauge_and_finds_the_cubic(tmp_path: Path) -> None:
-    pressed = gauge(seed=5)
-    assert pressed == gauge(seed=5) != gauge(seed=6)
-    assert all(0.0 <= one.newtons <= MOST for one in pressed)
-    write_gauge(tmp_path / "gauge.csv", pressed)
-    found = fit_gauge(tmp_path / "gauge.csv").newtons
-    counts = RPPS_99.counts(np.linspace(10.0, 190.0, 19))
-    fitted = np.polynomial.polynomial.polyval(counts, found.coefficients)
-    assert fitted == pytest.approx(RPPS_99.newtons(counts), rel=0.015, abs=0.5)
-
-
-def test_a_gauge_is_off_by_its_accuracy() -> None:
-    off = [
-        one.newtons / float(RPPS_99.newtons(np.array([one.counts]))[0]) - 1.0
-        for seed in range(60)
-        for one in gauge(seed=seed, forces=(100.0, 150.0), noise=0.0)
-    ]
-    assert np.std(off) == pytest.approx(0.005, rel=0.3)
-
-
-def test_an_uncalibrated_insole_says_counts_where_others_say_newtons() -> None:
-    walker = Walker(Route().stand(1.0).walk(2.0, 1.2).stop(1.0), seed=1)
-    samples = walker.samples(Foot.LEFT, 50.0, layout=layout(99, Foot.LEFT))
-    for one, raw in zip(samples, uncalibrated(samples), strict=True):
-        assert raw.acc == one.acc and raw.t == one.t
-        assert RPPS_99.newtons(np.array(raw.pressure)) == pytest.approx(np.array(one.pressure), abs=0.1)

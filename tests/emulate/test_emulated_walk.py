@@ -20,6 +20,7 @@ from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.lab.emulated.compare import FootComparison, compare
 from solepath.lab.evaluate.gathered import Gathering
+from solepath.wire.insole import parse_frame
 
 WALK = Route().stand(3.0).walk(100.0, 1.3).stop(2.0)
 BAD = Radio(loss=0.05, jitter=0.05)
@@ -238,3 +239,18 @@ def test_a_link_cut_nearly_once_a_second_loses_no_step_and_little_of_its_length(
     assert sum(step.degraded for step in of(StrideTaken, told)) > 20
     for one in compared.values():
         assert one.length_error <= 0.05
+
+
+def test_broken_cells_of_a_device_say_the_same_in_every_frame() -> None:
+    route = Route().stand(1.0).walk(3.0, 1.2).stop(1.0)
+    device = Insole(cells=24, broken=((2, 0), (9, 300)))
+    walk = emulate(route, devices={LEFT: device}, radio=Radio(), seed=2)
+    whole = emulate(route, devices={LEFT: Insole(cells=24)}, radio=Radio(), seed=2)
+    frames, sound = (
+        [parse_frame(p.data).samples[0] for p in one.packets if p.channel == "insole/frame"] for one in (walk, whole)
+    )
+    for frame, as_it_was in zip(frames, sound, strict=True):
+        assert frame.cells[2] == 0 and frame.cells[9] == 300 and frame.imu == as_it_was.imu
+        assert [c for k, c in enumerate(frame.cells) if k not in (2, 9)] == [
+            c for k, c in enumerate(as_it_was.cells) if k not in (2, 9)
+        ]

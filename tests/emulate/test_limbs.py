@@ -15,12 +15,11 @@ from solepath.emulate.sensors.parts import CRE_CC02, WORN_RESISTIVE
 from solepath.emulate.sensors.suit import limb_samples, strapped, suit
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.curves import Array
-from solepath.emulate.wearers.gait import Wearer, step_length
+from solepath.emulate.wearers.gait import SUBJECTS, Wearer, step_length
 from solepath.emulate.wearers.limbs import SLACK, Body, ankle_place
 from solepath.emulate.wearers.shoe import Mounting
 from solepath.emulate.wearers.turning import matrices, multiplied, quaternions
 from solepath.emulate.wearers.walker import Walker
-from solepath.emulate.wearers.wearers import SUBJECTS
 from solepath.link.decoder import Decoder
 from solepath.types import Foot, Quat, Sample, Site
 from solepath.types.vector import GRAVITY

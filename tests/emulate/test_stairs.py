@@ -8,15 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from solepath.emulate.routes.path import Flight
 from solepath.emulate.routes.route import Route
-from solepath.emulate.routes.stairs import Flight
 from solepath.emulate.routes.styles import Manner
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.emulate.walk import emulate
-from solepath.emulate.wearers.gait import PlannedStride, Wearer
+from solepath.emulate.wearers.gait import SUBJECTS, PlannedStride, Wearer
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
 from solepath.emulate.wearers.walker import Walker
-from solepath.emulate.wearers.wearers import SUBJECTS
 from solepath.link.decoder import Decoder
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample, Site
 from solepath.types.vector import GRAVITY

@@ -10,12 +10,12 @@ import pytest
 from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from ramp import Ramp
 from walks import of
 
 from solepath import Foot, Sample, Session, StrideTaken
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX, MPU6050, Imu
-from solepath.emulate.sensors.ramp import Ramp
 from solepath.emulate.wearers.motion import Kinematics
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
 from solepath.emulate.wearers.walker import Walker

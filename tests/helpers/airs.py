@@ -8,11 +8,11 @@ from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from typing import Any, TypeVar
 
 import looptime
+from memory_radio import MemoryRadio
 
 from solepath.ble import Backend, Devices
 from solepath.emulate.controllers.server import virtual_air
 from solepath.emulate.devices.bench import Bench
-from solepath.emulate.devices.memory import MemoryRadio
 from solepath.types import Packet
 
 T = TypeVar("T")

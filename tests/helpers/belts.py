@@ -6,11 +6,11 @@ from typing import Any
 
 from attrs import define, evolve, field
 from bleak.backends.characteristic import BleakGATTCharacteristic
+from memory_radio import MemoryRadio
 from strap import BATTERY, BEAT, CONTROL, HEART_RATE, LEVEL, LOG, PAGE, Strap
 
 from solepath.ble import Backend
 from solepath.emulate.devices.faults import parse_faults
-from solepath.emulate.devices.memory import MemoryRadio
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.link.profile import Access, Channel, Profile, Write
 

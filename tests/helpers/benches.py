@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from functools import cache
 
+from solepath.emulate.devices.attributes import AttError, Outgoing
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
-from solepath.emulate.devices.peripheral import AttError, Outgoing, Peripheral
+from solepath.emulate.devices.peripheral import Peripheral
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.device import Device
 from solepath.emulate.wearers.walker import Walker

@@ -16,9 +16,10 @@ import bus
 from bleak.exc import BleakError, BleakGATTProtocolError
 from bus import Refused
 from dbus_fast import Variant
+from memory_radio import LoopbackLink
 
-from solepath.emulate.devices.link import LoopbackLink
-from solepath.emulate.devices.peripheral import Characteristic, Peripheral, Service
+from solepath.emulate.devices.attributes import Characteristic, Service
+from solepath.emulate.devices.peripheral import Peripheral
 
 ADAPTER = "/org/bluez/hci0"
 HEARD = 0.1

@@ -11,7 +11,8 @@ from typing import Any
 from attrs import frozen
 
 from solepath.emulate.controllers.tcp import serve
-from solepath.emulate.devices.peripheral import WRONG_LENGTH, AttError, Characteristic, Peripheral, Service
+from solepath.emulate.devices.attributes import WRONG_LENGTH, AttError, Characteristic, Service
+from solepath.emulate.devices.peripheral import Peripheral
 from solepath.types import Site
 
 

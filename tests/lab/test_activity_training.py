@@ -5,7 +5,8 @@ from __future__ import annotations
 from math import isclose
 
 from solepath.body.activity.chain import STAND, SUPPOSED, UP, WALK, chain_of
-from solepath.lab.train.activities_course import LabelledCourse, chances, changes, spans
+from solepath.lab.train.activities_course import LabelledCourse, chances, changes
+from solepath.lab.train.hugadb import spans
 from solepath.types import Activity
 
 STOOD, WALKED, CLIMBED = Activity.STANDING, Activity.WALKING, Activity.STAIRS_UP

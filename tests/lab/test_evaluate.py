@@ -12,9 +12,8 @@ from numpy.testing import assert_allclose
 
 from solepath.lab.measures.alignment import Alignment, align, at_times, path_length, rms_distance, track_error
 from solepath.lab.measures.contacts import merged, switch_contacts
-from solepath.lab.measures.errors import Errors
 from solepath.lab.measures.legs import between, leg_errors, turned_about
-from solepath.lab.measures.matching import Matching, interval_errors, match
+from solepath.lab.measures.matching import Errors, Matching, interval_errors, match
 from solepath.lab.measures.score import Scored, summarise
 from solepath.lab.measures.strides import StrideScore, marker_rests, position_errors, stride_score, surveyed_score
 

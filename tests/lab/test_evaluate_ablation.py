@@ -10,7 +10,7 @@ from solepath.lab.evaluate.datasets import DATASETS, EMULATED
 from solepath.lab.evaluate.report import Result
 from solepath.lab.measures.matching import Matching
 from solepath.lab.measures.score import Scored
-from solepath.lab.tables.ablation import ablation_table
+from solepath.lab.tables.scores import ablation_table
 from solepath.recipes import DEFAULT
 from solepath.saving.codec import load, save
 from solepath.session import Session

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from solepath import recipes
 from solepath.events import ActivityChanged, LiftRidden
 from solepath.lab.evaluate import learning
 from solepath.lab.evaluate.activity import CLIMBED, compared, rides, spans, stairs_figures, windows
@@ -14,8 +15,7 @@ from solepath.lab.evaluate.learning import Learner, Lesson, lessons, part_for, t
 from solepath.lab.measures.confusion import CLASSES, ActivityScore
 from solepath.lab.measures.score import Scored, summarise
 from solepath.lab.train import footstep_activity
-from solepath.lab.train.folds import FOLDS, fold_of
-from solepath.lab.train.hugadb import LABELS, labels, recordings
+from solepath.lab.train.hugadb import FOLDS, LABELS, fold_of, labels, recordings
 from solepath.show.timeline import Timeline
 from solepath.types import Activity
 
@@ -191,7 +191,7 @@ def test_what_is_scored_on_a_wearer_was_taught_without_that_wearer(monkeypatch):
 
 
 def test_a_recipe_whose_part_learns_nothing_keeps_its_own():
-    assert part_for("shoe-sensing", {"subject": 1}, {}) is None
+    assert part_for(recipes.BY_NAME["shoe-sensing"], {"subject": 1}, {}) is None
 
 
 # --- recorded ---------------------------------------------------------------------------------------------------------
@@ -206,16 +206,16 @@ def test_every_wearer_of_the_recordings_has_a_fold(data_dir):
 
 
 def test_stairs_are_in_two_folders(data_dir):
-    (stairs,) = evaluate(data_dir, ["footstep-tracker"], only=["stairs"])
+    (stairs,) = evaluate(data_dir, [recipes.FOOTSTEP_TRACKER], only=["stairs"])
     assert {scored.recording for scored in stairs.scores} == set(CLIMBED)
     (summary,) = stairs.summaries
     assert (summary.mean["stairs_called"] or 0.0) > 0.5 and (summary.mean["level_called"] or 0.0) < 0.1
 
 
 def test_each_recording_is_learnt_from_once_whatever_the_folds(data_dir):
-    assert len(lessons(data_dir, ["footstep-tracker", "footstep-tracker"])) == 115
-    assert not lessons(data_dir, ["shoe-sensing"])
-    default = lessons(data_dir, ["default"])
+    assert len(lessons(data_dir, [recipes.FOOTSTEP_TRACKER] * 2)) == 115
+    assert not lessons(data_dir, [recipes.SHOE_SENSING])
+    default = lessons(data_dir, [recipes.DEFAULT])
     assert {lesson.subject for lesson in default} - {None} == {wearer for fold in FOLDS for wearer in fold}
 
 
@@ -229,7 +229,7 @@ def test_windows_of_a_recording_carry_the_activity_of_their_middle(data_dir):
 
 @pytest.mark.soak
 def test_the_papers_classifier_in_five_folds(data_dir):
-    (result,) = evaluate(data_dir, ["footstep-tracker"], only=["hugadb"], processes=2)
+    (result,) = evaluate(data_dir, [recipes.FOOTSTEP_TRACKER], only=["hugadb"], processes=2)
     (every,) = [summary for summary in result.summaries if summary.group == "all"]
     assert every.count == 115 and not result.failures
     assert (every.together["accuracy"] or 0.0) > 0.74

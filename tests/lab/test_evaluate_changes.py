@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from solepath.lab.evaluate.changes import BETTER, Better, Verdict, compared, missing, read_scores, verdict
 from solepath.lab.evaluate.datasets import DATASETS, EMULATED
 from solepath.lab.measures.score import Scored, pooled_figures
-from solepath.lab.tables.changes import comparison_tables
+from solepath.lab.tables.scores import comparison_tables
 from solepath.recording import RecordingError
 
 NEITHER = {

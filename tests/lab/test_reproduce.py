@@ -12,9 +12,6 @@ from solepath.cli import main
 from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes import ways
 from solepath.lab.reproduce import footstep_walks, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
-from solepath.lab.reproduce.experiments import EXPERIMENTS
-from solepath.lab.reproduce.picture import Boxes, Drawn, Floor, PictureTrack
-from solepath.lab.reproduce.pool import each
 from solepath.lab.reproduce.published import (
     CORNERS,
     KUPT_DFPC,
@@ -24,8 +21,19 @@ from solepath.lab.reproduce.published import (
     WALKING_MODES,
     corner_row,
 )
-from solepath.lab.reproduce.tables import FigureRow, Reproduction, Statistics, as_json, statistics
-from solepath.lab.tables.reproduced import reproduced
+from solepath.lab.reproduce.tables import (
+    Boxes,
+    Drawn,
+    FigureRow,
+    Floor,
+    PictureTrack,
+    Reproduction,
+    Statistics,
+    as_json,
+    statistics,
+)
+from solepath.lab.reproduce.walks import each
+from solepath.lab.tables.comparison import reproduced
 from solepath.lab.train import emulated
 
 FIVE = ["mean", "std", "q1", "median", "q3"]
@@ -167,10 +175,6 @@ def test_boxes_and_floors_are_drawn_in_the_format_that_the_ending_names(tmp_path
 
 
 # --- the command ------------------------------------------------------------------------------------------------------
-
-
-def test_the_command_knows_every_experiment():
-    assert tuple(EXPERIMENTS) == NAMES
 
 
 LONGEST = "footstep-tracker"

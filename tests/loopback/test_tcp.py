@@ -16,7 +16,7 @@ from bleak.exc import BleakError
 from here import HELPERS
 from strap import BEAT, CONTROL, LEVEL, Strap
 
-from solepath.ble.backend import Backend
+from solepath.ble.air import Backend
 from solepath.emulate.controllers import radio
 from solepath.emulate.controllers.tcp import address_of, reach, serve
 from solepath.emulate.devices.faults import parse_faults
@@ -26,7 +26,7 @@ HERE = HELPERS
 LISTEN = """
 import asyncio, sys
 from bleak import BleakClient, BleakScanner
-from solepath.loopback import radio
+from solepath.emulate.controllers import radio
 from solepath.emulate.controllers.tcp import reach
 from strap import BEAT, CONTROL
 

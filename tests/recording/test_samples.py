@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from solepath.recording import RecordingError, RecordingWarning
-from solepath.recording.samples import load_samples, read_samples
+from solepath.recording import RecordingError, RecordingWarning, read_samples
+from solepath.recording.samples import load_samples
 from solepath.types import Foot, Sample, Site
 
 

@@ -1,7 +1,6 @@
 """Real Bluetooth, through bleak: find, connect, set up, listen."""
 
-from .air import Found, scan
-from .backend import NATIVE, Backend
+from .air import NATIVE, Backend, Found, scan
 from .connection import Connection, ConnectionState
 from .devices import Devices
 from .record import record

@@ -1,21 +1,33 @@
-"""Who advertises: one scan for all that are sought, however many seek, and only while somebody does."""
+"""Who advertises: one scan for all that seek, however many, only while somebody does; and whose Bluetooth it is."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from attrs import define, field, frozen
 from bleak import BleakScanner
+from bleak.backends.client import BaseBleakClient
 from bleak.backends.device import BLEDevice
-from bleak.backends.scanner import AdvertisementData
+from bleak.backends.scanner import AdvertisementData, BaseBleakScanner
 
 from ..link.profile import Profile
-from .backend import NATIVE, Backend
 from .trouble import FAILURES, BluetoothError, sentence
-from .waiting import either
 from .wanted import identify
+
+
+@frozen
+class Backend:
+    """Classes that bleak is given as `backend=` for clients and scanners; None leaves the choice to bleak."""
+
+    client: type[BaseBleakClient] | None = None
+    scanner: type[BaseBleakScanner] | None = None
+
+
+NATIVE = Backend()
+"""The Bluetooth of this machine."""
+
 
 RETRY = 2.0
 """s before a scan that failed is begun again."""
@@ -90,7 +102,9 @@ class Scanner:
         self._heard_at = now()
         while self._listeners and now() - self._heard_at < DEAF:
             self._changed.clear()
-            await either(self._changed, DEAF)
+            with suppress(TimeoutError):
+                async with asyncio.timeout(DEAF):
+                    await self._changed.wait()
 
     def _hear(self, found: Found) -> None:
         self._heard_at = found.t

@@ -15,14 +15,12 @@ from bleak_retry_connector import establish_connection
 from ..types import Site
 from ..wire.receiver import LONGEST_NAME, build_connected
 from ..wire.receiver import ConnectionFrame as Made
-from .air import WEAKEST, Found, Scanner
-from .backend import Backend
-from .calls import calling
+from .air import WEAKEST, Backend, Found, Scanner
+from .inbox import Voice, shortened
 from .listening import Listening
 from .search import FORGET, Search
 from .setup import INFO, Unfit, ask_info, lacking, site_in
-from .trouble import FAILURES, NO_ANSWER, sentence
-from .voice import Voice, shortened
+from .trouble import FAILURES, NO_ANSWER, calling, sentence
 from .wanted import Wanted
 
 ATTEMPTS = 2

@@ -12,12 +12,10 @@ from collections.abc import AsyncIterator, Iterable
 from types import TracebackType
 
 from ..types import Packet, Site
-from .air import Scanner, scanner
-from .backend import NATIVE, Backend
+from .air import NATIVE, Backend, Scanner, scanner
 from .connection import Connection, ConnectionState
-from .inbox import Inbox
+from .inbox import Inbox, Voice
 from .trouble import FAILURES, BluetoothError, sentence
-from .voice import Voice
 from .wanted import Wanted, check
 
 TICK = 0.2

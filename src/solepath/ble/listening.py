@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 
 from attrs import define, field
 from bleak import BleakClient
@@ -13,9 +14,8 @@ from ..link.decoder import Decoder
 from ..link.profile import Profile
 from ..types import Packet, Site
 from ..wire.fields import build_text
+from .inbox import Voice
 from .setup import read, subscribe, write_setup
-from .voice import Voice
-from .waiting import either
 from .watchdog import Remedy, Watchdog
 
 SHORTEST = 0.01
@@ -55,7 +55,9 @@ class Listening:
         now = asyncio.get_running_loop().time
         while not self.gone.is_set():
             due = self._watchdog.due()
-            await either(self.gone, None if due is None else max(SHORTEST, due - now()))
+            with suppress(TimeoutError):
+                async with asyncio.timeout(None if due is None else max(SHORTEST, due - now())):
+                    await self.gone.wait()
             frozen = None if self.gone.is_set() else self._watchdog.look(now())
             if frozen is None:
                 continue

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from contextlib import suppress
 
 from attrs import define, field
 
 from .air import Found, Scanner
-from .waiting import either
 from .wanted import Wanted, says_its_site
 
 SETTLE = 1.0
@@ -56,7 +56,9 @@ class Search:
                 if not self._heard and now >= late:
                     self._complain_once(self._nobody())
                 self._news.clear()
-                await either(self._news, SETTLE / 2)
+                with suppress(TimeoutError):
+                    async with asyncio.timeout(SETTLE / 2):
+                        await self._news.wait()
 
     def _hear(self, found: Found) -> None:
         if self.address:

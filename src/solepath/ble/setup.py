@@ -12,9 +12,8 @@ from ..link.profile import Access, Channel, Profile
 from ..types import SITE_OF_FOOT, Packet, Site
 from ..wire.error import WireError
 from ..wire.insole_info import parse_info
-from .calls import calling
-from .trouble import sentence
-from .voice import Voice
+from .inbox import Voice
+from .trouble import calling, sentence
 from .wanted import says_its_site
 
 ANSWER = 5.0

@@ -1,8 +1,12 @@
-"""What went wrong with Bluetooth, in a sentence that says what the person in front of it can do."""
+"""What goes wrong with Bluetooth: caught at every call into bleak, told in a sentence that says what can be done."""
 
 from __future__ import annotations
 
+import asyncio
+import logging
 import sys
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 
 from bleak.exc import (
     BleakBluetoothNotAvailableError,
@@ -20,6 +24,9 @@ from bleak_retry_connector import (
     BleakNotFoundError,
     BleakOutOfConnectionSlotsError,
 )
+
+LOG = logging.getLogger("solepath.ble")
+LOG.addHandler(logging.NullHandler())  # who wants to see it says so; a terminal is not ours to write to
 
 
 class BluetoothError(Exception):
@@ -41,6 +48,24 @@ if sys.platform == "linux":
 else:
     FAILURES = (BleakError, OSError, EOFError, TimeoutError, Surprise)
 """What bleak and the systems below it raise when Bluetooth does not do what it should."""
+
+
+@asynccontextmanager
+async def calling(seconds: float) -> AsyncIterator[None]:
+    """Around one call into bleak, which may last so long (TimeoutError after that). Nothing but FAILURES comes out.
+
+    What should never come out of bleak does: its BlueZ client, for one, asserts that its bus is still there while it
+    waits for an answer. That ends this connection, never another one; the traceback is logged.
+    """
+    try:
+        async with asyncio.timeout(seconds):
+            yield
+    except FAILURES:
+        raise
+    except Exception as error:
+        LOG.error("an unexpected exception out of bleak: the connection is begun anew", exc_info=True)
+        raise Surprise(error) from error
+
 
 _REASON = BleakBluetoothNotAvailableReason
 _NOT_AVAILABLE = {

@@ -1,21 +1,8 @@
 """What is known of wearer, shoes and insoles: a record, and the file that it is read from."""
 
-from .calibration import (
-    FORMAT,
-    LARGEST,
-    VERSION,
-    Calibration,
-    CalibrationError,
-    InsoleCalibration,
-    Limbs,
-    Newtons,
-    ShoeGeometry,
-    bounded_text,
-    merged,
-    read_calibration,
-    unusable,
-    write_calibration,
-)
+from .file import FORMAT, LARGEST, VERSION, bounded_text, read_calibration, write_calibration
+from .limits import unusable
+from .records import Calibration, CalibrationError, InsoleCalibration, Limbs, Newtons, ShoeGeometry, merged
 
 __all__ = [
     "Calibration",

@@ -6,12 +6,12 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .common.calibrated import check_pressure
-from .common.failure import Failure, check_writable, count, degrees_of, known_recipe, note, positive, share
+from .common.failure import Failure, count, degrees_of, known_recipe, positive, share
+from .common.files import check_writable
+from .common.recorded import add_foot, check_pressure, foot_of, source_of
 
 if TYPE_CHECKING:
     from ..calibration import Calibration
-    from ..recording.decoded import Recorded
 
 MERGED = "What FILE holds already of other kinds, or of the other foot, stays."
 
@@ -33,7 +33,9 @@ def run(options: argparse.Namespace) -> int:
     from ..calibration import Calibration, CalibrationError, merged, read_calibration, unusable, write_calibration
     from ..recording import RecordingError, printable
 
-    _check_writable(options.out)
+    if options.out.exists() and not options.out.is_file() and not options.out.is_dir():  # of a folder the system speaks
+        raise Failure(f"{options.out}: is no regular file")
+    check_writable(options.out)
     try:
         known = read_calibration(options.out) if options.out.exists() else Calibration()
         learnt, lines = options.learn(options, known)
@@ -48,33 +50,13 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _check_writable(path: Path) -> None:
-    """OSError now, not after a long recording was read, and Failure for what is no file. What is in the file stays."""
-    if path.exists() and not path.is_file() and not path.is_dir():  # of a folder the system speaks
-        raise Failure(f"{path}: is no regular file")
-    check_writable(path)
-
-
 Learnt = tuple["Calibration", list[str]]
 """What was learnt, and the lines that say so."""
 
 
 def _recording(command: argparse.ArgumentParser) -> None:
     command.add_argument("file", metavar="RECORDING", type=Path, help="packets (.jsonl) or samples (.npz, .csv)")
-    command.add_argument(
-        "--foot",
-        choices=["left", "right"],
-        help="whose the samples of a recording of one foot are (default: right); of other recordings, the foot to use",
-    )
-
-
-def _recorded(path: Path, foot: str | None = None) -> Recorded:
-    """What a recording holds. RecordingError when it cannot be read to its end."""
-    from ..recording.decoded import recorded
-    from ..recording.source import open_source
-    from ..types import Foot
-
-    return recorded(open_source(path, Foot(foot) if foot else None, report=note))
+    add_foot(command)
 
 
 # --- noise ------------------------------------------------------------------------------------------------------------
@@ -101,11 +83,12 @@ def _add_noise(kinds: Any) -> argparse.ArgumentParser:
 
 def _noise(options: argparse.Namespace, known: Calibration) -> Learnt:
     from ..papers.kupt_dfpc.noise import pressure_noise
+    from ..recording.decoded import recorded
     from ..show.tables.table import number, table
 
     if options.share == 0.0:
         raise Failure("--share 0: of no samples at all nothing is learnt")
-    learnt = pressure_noise(_recorded(options.file, options.foot).samples, options.share, known)
+    learnt = pressure_noise(recorded(source_of(options.file, foot_of(options))).samples, options.share, known)
     rows = [
         [foot.value, str(len(one.noise)), number(sum(one.noise) / len(one.noise)), number(max(one.noise))]
         for foot, one in learnt.insoles.items()
@@ -180,13 +163,11 @@ def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
     from ..calibration import Calibration
     from ..papers.pressure_contour.square import read_marks, square_drift
     from ..recipes import NAMES, by_name
-    from ..recording.source import open_source
-    from ..types import Foot
 
     recipe = by_name(known_recipe(options.recipe, list(NAMES)))
-    foot = Foot(options.foot) if options.foot else None
+    foot = foot_of(options)
     marks = read_marks(options.marks) if options.marks else None
-    source = open_source(options.file, foot, report=note)
+    source = source_of(options.file, foot)
     check_pressure(recipe, source)
     found = square_drift(source, foot=foot, marks=marks, steps_per_lap=options.steps, recipe=recipe, calibration=known)
     x, y = found.slope
@@ -223,12 +204,9 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> Learnt:
     from math import degrees
 
     from ..papers.footstep_tracker.toe_out import learnt, toe_out
-    from ..recording.source import open_source
     from ..show.tables.table import number, table
-    from ..types import Foot
 
-    foot = Foot(options.foot) if options.foot else None
-    found = toe_out(open_source(options.file, foot, report=note), options.distance)
+    found = toe_out(source_of(options.file, foot_of(options)), options.distance)
     angles = ["none" if one.angle is None else number(degrees(one.angle)) for one in found]
     rows = [
         [one.foot.value, str(one.steps), number(one.along, 2), angle] for one, angle in zip(found, angles, strict=True)
@@ -264,7 +242,8 @@ def _newton(options: argparse.Namespace, known: Calibration) -> Learnt:
     from ..papers.walking_modes.newton import fit_gauge
     from ..types import Foot
 
-    feet = [Foot(options.foot)] if options.foot else list(Foot)
+    foot = foot_of(options)
+    feet = list(Foot) if foot is None else [foot]
     fit = fit_gauge(options.file)
     a, b, c, d = fit.newtons.coefficients
     insole = InsoleCalibration(newtons=fit.newtons)
@@ -299,11 +278,14 @@ def _add_modes(kinds: Any) -> argparse.ArgumentParser:
 
 def _modes(options: argparse.Namespace, known: Calibration) -> Learnt:
     from ..papers.walking_modes.calibrate import fit_modes
+    from ..recording.decoded import recorded
     from ..show.tables.table import number, table
 
     if len(options.files) % 2:
         raise Failure("calibrate modes takes two files for each walk: the recording, and the csv file of its marks")
-    walks = [(_recorded(walk), marks) for walk, marks in zip(options.files[::2], options.files[1::2], strict=True)]
+    walks = [
+        (recorded(source_of(walk)), marks) for walk, marks in zip(options.files[::2], options.files[1::2], strict=True)
+    ]
     learnt = fit_modes(walks, known, options.heading)
     rows = [
         [foot.value, mode.value, number(100.0 * forward, 2), number(100.0 * left, 2)]

@@ -7,8 +7,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .common.failure import Failure, note, positive, seconds, seed, share
-from .common.view import View, add_speed, add_view, aiohttp_is_there, attended, pace_of, view_of
+from .common.failure import Failure, is_there, note, positive, seconds, seed, share
+from .common.loop import attended
+from .common.view import View, add_speed, add_view, pace_of, view_of
 
 if TYPE_CHECKING:
     from ..lab.emulated.demo import Demo
@@ -50,7 +51,8 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from ..lab.emulated.demo import ROUTE, make_demo, make_indoors, radio, straight
+    from ..emulate.demo import ROUTE, radio, straight
+    from ..lab.emulated.demo import make_demo, make_indoors
     from ..lab.tables.comparison import comparison_table, place_table
     from ..show.tables.gait import gait_lines
     from ..show.tables.summary import latency
@@ -92,7 +94,7 @@ def _view(options: argparse.Namespace) -> View | None:
     view = view_of(options)
     if view is not None or options.terminal or not sys.stdout.isatty():
         return view
-    if aiohttp_is_there():
+    if is_there("aiohttp"):
         return View(browser=not options.no_browser)
     note("the page in the browser needs aiohttp (pip install 'solepath[view]')")
     return None
@@ -125,9 +127,7 @@ def _record(demo: Demo, path: Path) -> None:
 
 
 def _rich_is_there() -> bool:
-    from importlib.util import find_spec
-
-    if find_spec("rich") is not None:
+    if is_there("rich"):
         return True
     note("the live view needs rich (pip install rich); plain text without it")
     return False

@@ -9,12 +9,12 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .common.calibrated import add_calibration, calibration_of
 from .common.failure import Failure, known_recipe, note
+from .common.files import write_json
+from .common.recorded import add_calibration, calibration_of
 
 if TYPE_CHECKING:
     from ..lab.evaluate.report import Result
-    from ..recipes import Recipe
 
 ENVIRONMENT = "SOLEPATH_DATA"
 
@@ -66,18 +66,14 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    import json
-
     from .. import recipes
     from ..lab.evaluate import ablation
     from ..lab.evaluate.changes import read_scores
     from ..lab.evaluate.datasets import EMULATED
     from ..lab.evaluate.jobs import evaluate, evaluate_emulated, find
     from ..lab.evaluate.report import as_json
-    from ..lab.tables.ablation import ablation_table
-    from ..lab.tables.changes import comparison_tables
     from ..lab.tables.markdown import accuracy_table
-    from ..lab.tables.scores import score_table
+    from ..lab.tables.scores import ablation_table, comparison_tables, score_table
     from ..recording import RecordingError
     from ..show.tables.progress import progress_bar
 
@@ -90,8 +86,8 @@ def run(options: argparse.Namespace) -> int:
         raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
     if options.walks < 1 or options.seed < 0:
         raise Failure("--walks must be 1 or more, and --seed not negative")
-    known: list[str | Recipe] = list(recipes.NAMES)
-    chosen: list[str | Recipe] = [known_recipe(name, list(recipes.NAMES)) for name in options.recipe]
+    known = [recipes.by_name(name) for name in recipes.NAMES]
+    chosen = [recipes.by_name(known_recipe(name, list(recipes.NAMES))) for name in options.recipe]
     if options.ablation:
         if chosen:
             raise Failure("--ablation chooses the recipes itself, so it goes without --recipe")
@@ -132,7 +128,5 @@ def run(options: argparse.Namespace) -> int:
     if before is not None:
         print(comparison_tables(before, as_json(results)))
     if options.json:
-        with options.json.open("w", encoding="utf-8") as file:
-            json.dump(as_json(results), file, indent=1, allow_nan=False)
-            file.write("\n")
+        write_json(options.json, as_json(results))
     return 0

@@ -12,7 +12,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .common.failure import Failure, check_writable, count, known_recipe, positive, seed
+from .common.failure import Failure, count, is_there, known_recipe, positive, seed
+from .common.files import check_writable, write_json
 
 if TYPE_CHECKING:
     from ..fleet.demo.stage import DemoStage
@@ -113,7 +114,7 @@ def conclude(stage: DemoStage, differences: list[str], out: Path | None, json: P
 
     print(f"\n{table_of(stage)}")
     if json is not None:
-        _write(json, {**figures(stage), "differences": differences})
+        write_json(json, {**figures(stage), "differences": differences})
     if out is not None:
         _leave(stage, out)
     return verdict(differences, [outcome.differences for outcome in stage.outcomes])
@@ -134,8 +135,6 @@ def verdict(alone: list[str], killed: list[list[str]]) -> int:
 
 def _check(options: argparse.Namespace) -> None:
     """Failure for what could only go wrong after a while."""
-    from importlib.util import find_spec
-
     from ..recipes import NAMES
 
     known_recipe(options.recipe, list(NAMES))
@@ -145,7 +144,7 @@ def _check(options: argparse.Namespace) -> None:
         raise Failure(f"--seconds {options.seconds:g}: a walk takes at least 1")
     if options.processes > options.wearers:
         raise Failure(f"--processes {options.processes}: more than there are wearers, {options.wearers}")
-    if any(find_spec(name) is None for name in ("bytewax", "pyarrow")):
+    if not (is_there("bytewax") and is_there("pyarrow")):
         where = "" if sys.version_info < (3, 13) else " on Python 3.11 or 3.12, the last that bytewax has a release for"
         raise Failure(f"the fleet needs bytewax and pyarrow: pip install 'solepath[bytewax]'{where}")
     if options.out is not None and options.out.exists() and (not options.out.is_dir() or any(options.out.iterdir())):
@@ -174,14 +173,6 @@ def _directory(options: argparse.Namespace) -> Iterator[Path]:
             if made:
                 with suppress(OSError):  # there is something in it
                     directory.parent.rmdir()
-
-
-def _write(path: Path, figures: dict[str, Any]) -> None:
-    import json
-
-    with path.open("w", encoding="utf-8") as file:
-        json.dump(figures, file, indent=1, allow_nan=False)
-        file.write("\n")
 
 
 def _leave(stage: DemoStage, out: Path) -> None:

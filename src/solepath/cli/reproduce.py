@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import argparse
 import os
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from .common.failure import Failure, check_writable, count, seed
+from .common.failure import Failure, count, need, seed
+from .common.files import check_writable, write_json
 
 NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
-"""As reproduce.EXPERIMENTS has them; said here so that --help loads nothing heavy."""
+"""Each a module of lab.reproduce, of which only the one that is asked for is loaded."""
 
 
 def add_to(commands: Any) -> None:
@@ -42,8 +44,6 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    import json
-
     if options.name not in NAMES:
         raise Failure(f"there is no experiment {options.name!r}; there are: {', '.join(NAMES)}")
     figure = _figure(options)
@@ -51,9 +51,8 @@ def run(options: argparse.Namespace) -> int:
         if path is not None:
             check_writable(path)
 
-    from ..lab.reproduce.experiments import EXPERIMENTS
     from ..lab.reproduce.tables import as_json
-    from ..lab.tables.reproduced import reproduced
+    from ..lab.tables.comparison import reproduced
     from ..recording import printable
     from ..show.tables.progress import progress_bar
 
@@ -62,13 +61,11 @@ def run(options: argparse.Namespace) -> int:
         def percent(done: int, total: int) -> None:
             show(100 * done // total)
 
-        experiment = EXPERIMENTS[options.name]
-        done = experiment(options.walks, options.seed, processes=options.processes, progress=percent)
+        module = import_module(f"solepath.lab.reproduce.{options.name.replace('-', '_')}")
+        done = module.reproduce(options.walks, options.seed, processes=options.processes, progress=percent)
     print(reproduced(done))
     if options.json is not None:
-        with options.json.open("w", encoding="utf-8") as file:
-            json.dump(as_json(done), file, indent=1, allow_nan=False)
-            file.write("\n")
+        write_json(options.json, as_json(done))
     if figure is not None:
         from ..lab.tables.figures import draw
 
@@ -79,15 +76,12 @@ def run(options: argparse.Namespace) -> int:
 
 def _figure(options: argparse.Namespace) -> Path | None:
     """Where the figure goes. Failure when it could not be drawn there."""
-    from importlib.util import find_spec
-
     from ..recording import printable
 
     path: Path | None = options.figure
     if path is None:
         return None
-    if find_spec("matplotlib") is None:
-        raise Failure("figures need matplotlib: pip install 'solepath[figures]'")
+    need("figures need", "figures", "matplotlib")
     if path == Path():
         path = Path(f"{options.name}.png")
     from ..lab.tables.figures import formats

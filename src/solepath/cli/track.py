@@ -8,15 +8,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..recording import printable
-from .common.calibrated import add_calibration, calibration_of, check_pressure
 from .common.failure import Failure, known_recipe, note
 from .common.floorplan import add_floorplan, floorplan_of
-from .common.view import View, add_speed, add_view, attended, need_page, newtons_of, pace_of, play, run_rest, view_of
+from .common.loop import attended
+from .common.recorded import add_calibration, add_foot, calibration_of, check_pressure, foot_of, source_of
+from .common.view import View, add_speed, add_view, need_page, newtons_of, pace_of, play, run_rest, view_of
 
 if TYPE_CHECKING:
     from ..calibration import Calibration
     from ..floorplan.index import IndexedPlan
-    from ..recording.source import Source
+    from ..recording import Source
     from ..session import Session
     from ..types import Packet, Sample
     from .common.results import Results
@@ -37,11 +38,7 @@ def add_to(commands: Any) -> None:
     command.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
     add_calibration(command)
     add_floorplan(command)
-    command.add_argument(
-        "--foot",
-        choices=["left", "right"],
-        help="whose the samples of a recording of one foot are (default: right); of other recordings, the foot to use",
-    )
+    add_foot(command)
     command.add_argument(
         "--out",
         metavar="DIR",
@@ -60,9 +57,7 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     from .. import recipes
     from ..recording import RecordingError
-    from ..recording.source import open_source
     from ..session import Session
-    from ..types import Foot
     from .common.loop import stopped_alike
     from .common.results import Results
 
@@ -72,7 +67,7 @@ def run(options: argparse.Namespace) -> int:
     view = view_of(options)
     pace = 1.0 if view is None else pace_of(options, 1.0)
     try:
-        source = open_source(options.file, Foot(options.foot) if options.foot else None, report=note)
+        source = source_of(options.file, foot_of(options))
     except RecordingError as error:
         raise Failure(str(error)) from None
     check_pressure(recipe, source)

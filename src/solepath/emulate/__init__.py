@@ -1,25 +1,35 @@
 """The emulator: a wearer on a scripted route, devices and radio, and the truth. Needs numpy."""
 
+from .devices.bench import Bench
 from .radio import Radio
 from .routes.route import Route
+from .routes.ways import case_study
 from .sensors.dot import Dot
 from .sensors.insole_device import Insole
+from .sensors.insoles import layout
 from .sensors.sensortags import CC2541, CC2650
 from .walk import EmulatedWalk, SampledWalk, emulate, sampled
 from .wearers.gait import Wearer
+from .wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
 from .wearers.walker import Walker
 
 __all__ = [
+    "Bench",
     "CC2541",
     "CC2650",
     "Dot",
     "EmulatedWalk",
+    "IN_SOLE",
     "Insole",
+    "Mounting",
+    "ON_INSTEP",
     "Radio",
     "Route",
     "SampledWalk",
     "Walker",
     "Wearer",
+    "case_study",
     "emulate",
+    "layout",
     "sampled",
 ]

@@ -8,6 +8,7 @@ callbacks. Reordering does not happen on one Bluetooth link; it is here for what
 from __future__ import annotations
 
 from math import ceil
+from operator import attrgetter
 
 import numpy as np
 from attrs import field, frozen
@@ -63,7 +64,7 @@ class Radio:
                 if self.in_order:
                     arrival = newest = max(newest, arrival)
                 found.append(Packet(float(arrival), site, item.channel, data))
-        return found if self.in_order else sorted(found, key=_arrival)
+        return found if self.in_order else sorted(found, key=attrgetter("t"))
 
     def _event(self, t: float, phase: float) -> float:
         """The connection event at which what is ready at `t` is sent."""
@@ -79,7 +80,3 @@ def _flip(data: bytes, rng: np.random.Generator) -> bytes:
     for bit in rng.integers(0, 8 * len(data), size=int(rng.integers(1, 4))):
         damaged[int(bit) // 8] ^= 1 << (int(bit) % 8)
     return bytes(damaged)
-
-
-def _arrival(packet: Packet) -> float:
-    return packet.t

@@ -12,6 +12,7 @@ same seed walks the same way whatever is worn and however it is received.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from operator import attrgetter
 
 import numpy as np
 from attrs import frozen
@@ -61,7 +62,7 @@ def emulate(
             mountings[site.foot] = device.mounting
         sent = device.emit(walker, site, device_numbers(seed, site))
         packets += radio.carry(sent, site, np.random.default_rng([seed, 3, sites.index(site)]))
-    packets.sort(key=_arrival)
+    packets.sort(key=attrgetter("t"))
     return EmulatedWalk(tuple(packets), walker.truth(mountings), walker)
 
 
@@ -84,14 +85,6 @@ def sampled(
     found = [
         one for site, insole in insoles.items() for one in insole.samples(walker, site, device_numbers(seed, site))
     ]
-    found.sort(key=_moment)
+    found.sort(key=attrgetter("t"))
     mountings = {foot_of(site): insole.mounting for site, insole in insoles.items()}
     return SampledWalk(tuple(found), walker.truth(mountings), walker)
-
-
-def _moment(sample: Sample) -> float:
-    return sample.t
-
-
-def _arrival(packet: Packet) -> float:
-    return packet.t

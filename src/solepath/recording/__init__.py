@@ -1,21 +1,8 @@
 """Recordings of every format: packets, samples, btsnoop logs, MCAP."""
 
-from .packets import (
-    FORMAT,
-    LONGEST_LINE,
-    VERSION,
-    PacketWriter,
-    RecordingError,
-    RecordingWarning,
-    Report,
-    began,
-    open_file,
-    printable,
-    read_header,
-    read_packets,
-    warn,
-    why,
-)
+from .packets import FORMAT, LONGEST_LINE, VERSION, PacketWriter, began, read_header, read_packets
+from .source import Source, open_source, read_samples
+from .trouble import RecordingError, RecordingWarning, Report, open_file, printable, warn, why
 
 __all__ = [
     "FORMAT",
@@ -24,12 +11,15 @@ __all__ = [
     "RecordingError",
     "RecordingWarning",
     "Report",
+    "Source",
     "VERSION",
     "began",
     "open_file",
+    "open_source",
     "printable",
     "read_header",
     "read_packets",
+    "read_samples",
     "warn",
     "why",
 ]

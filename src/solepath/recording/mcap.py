@@ -35,7 +35,8 @@ from ..events.record import json_ready
 from ..link.driver import Driver
 from ..session import Session
 from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Vec3
-from .packets import FORMAT, VERSION, RecordingError, began, why
+from .packets import FORMAT, VERSION, began
+from .trouble import RecordingError, why
 
 CHUNK = 8192
 """Bytes before compression: a file that is torn loses about a second of two insoles, larger chunks lose more."""

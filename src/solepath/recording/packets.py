@@ -1,14 +1,12 @@
 """Recordings of packets: JSON Lines as protocol/recording.md says, written line by line and read back.
 
 Reading delivers everything that comes before a damage, then says in one sentence what is wrong and where.
-Samples as .npz or .csv are the subject of samples.py.
 """
 
 from __future__ import annotations
 
 import io
 import json
-import warnings
 from collections.abc import Callable, Iterator, Mapping
 from datetime import UTC, datetime
 from math import isfinite
@@ -17,17 +15,7 @@ from types import TracebackType
 from typing import Any, BinaryIO
 
 from ..types import Packet, Site
-
-__all__ = [
-    "FORMAT",
-    "VERSION",
-    "PacketWriter",
-    "RecordingError",
-    "RecordingWarning",
-    "began",
-    "read_header",
-    "read_packets",
-]
+from .trouble import RecordingError, Report, open_file, printable, warn, why
 
 FORMAT = "solepath-packets"
 VERSION = 1
@@ -35,57 +23,11 @@ LONGEST_LINE = 65_536
 """protocol/recording.md: "No line is longer than 65,536 bytes"."""
 
 
-class RecordingError(Exception):
-    """A recording cannot be used, or not beyond a place: one sentence naming the file, the place and what is wrong."""
-
-    def __init__(self, path: Path | str, what: str, where: str = "") -> None:
-        self.path, self.where, self.what = Path(path), where, what
-        super().__init__(": ".join([printable(str(path))] + [part for part in (where, what) if part]))
-
-
-class RecordingWarning(UserWarning):
-    """A recording has a flaw that costs nothing but what is missing (a torn last line)."""
-
-
-Report = Callable[[str], None]
-"""Takes one sentence about a flaw that does not stop the reading."""
-
-
-def warn(sentence: str) -> None:
-    """The report of those who give none: a RecordingWarning."""
-    warnings.warn(sentence, RecordingWarning, stacklevel=3)
-
-
-def printable(text: str, longest: int = 200) -> str:
-    """`text` on one line and without control codes, whatever a file or its name holds."""
-    clean = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
-    return clean if len(clean) <= longest else clean[: longest - 3] + "..."
-
-
-def why(error: OSError) -> str:
-    """What the system says of a failure, in its own words."""
-    return (error.strerror or str(error)).lower()
-
-
-def open_file(path: Path) -> BinaryIO:
-    """The file opened for reading bytes; RecordingError when there is none, it is a directory or may not be read."""
-    try:
-        if path.is_dir():
-            raise RecordingError(path, "is a directory, not a recording")
-        return path.open("rb")
-    except OSError as error:
-        raise RecordingError(path, why(error)) from error
-
-
 def read_header(path: Path | str) -> dict[str, Any]:
     """The first line of a recording. RecordingError when it is not the header of one."""
     path = Path(path)
     with open_file(path) as file:
-        number = 0
-        while line := file.readline(LONGEST_LINE + 1):
-            number += 1
-            if not line.strip():
-                continue
+        for number, _, line in _lines(file):
             try:
                 fields = _object(line)
                 _check_header(fields)
@@ -116,21 +58,16 @@ def read_packets(
 ) -> Iterator[Packet]:
     """The packets of a recording in the order in which they arrived, read as they are asked for.
 
-    `report` gets one sentence about a torn last line. `progress` gets the number of bytes read so far, after every
-    line. RecordingError, after the packets before the damage, for anything else that protocol/recording.md refuses.
+    `report` gets one sentence about a torn last line. `progress` gets the number of bytes read so far, line by line.
+    RecordingError, after the packets before the damage, for anything else that protocol/recording.md refuses.
     """
     path = Path(path)
     with open_file(path) as file:
-        read = number = 0
         header_seen = False
-        while line := file.readline(LONGEST_LINE + 1):
-            number += 1
+        for number, read, line in _lines(file):
             where = f"line {number}"
-            read += len(line)
             if progress is not None:
                 progress(read)
-            if not line.strip():
-                continue
             try:
                 fields = _object(line)
                 if not header_seen:
@@ -150,6 +87,15 @@ def read_packets(
             yield packet
         if not header_seen:
             raise RecordingError(path, "is empty")
+
+
+def _lines(file: BinaryIO) -> Iterator[tuple[int, int, bytes]]:
+    """The lines that are not blank, each with its number and how many bytes were read with it."""
+    read = number = 0
+    while line := file.readline(LONGEST_LINE + 1):
+        number, read = number + 1, read + len(line)
+        if line.strip():
+            yield number, read, line
 
 
 class _LineFlaw(Exception):

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from attrs import define
 
 from ..types import Foot, Packet, Sample
-from .packets import RecordingError, Report, open_file, printable, read_packets, warn
+from .packets import read_packets
+from .trouble import RecordingError, Report, open_file, printable, warn
 
 if TYPE_CHECKING:
     from .samples import SampleRecording
@@ -72,3 +73,14 @@ def open_source(path: Path | str, foot: Foot | None = None, *, report: Report = 
         return Source(path, foot, report, total=len(samples), samples=samples)
     open_file(path).close()
     return Source(path, foot, report, total=path.stat().st_size)
+
+
+def read_samples(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> Iterator[Sample]:
+    """The samples in an .npz or .csv file one after the other, merged over the feet by time.
+
+    `foot`: whose a file of one foot is (the right one's when None); of a file that names its feet, the only foot to
+    read. RecordingError where a row cannot be used, after everything before it, or when nothing can.
+    """
+    from .samples import load_samples
+
+    return iter(load_samples(path, foot, report=report))

@@ -7,13 +7,13 @@ from functools import cache
 from math import hypot, pi
 
 import pytest
+import spoiled
 from attrs import evolve
 from walks import of
 
 from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import Track
 from solepath.calibration import Calibration, InsoleCalibration
-from solepath.emulate import faults
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
@@ -56,7 +56,7 @@ def _time(sample: Sample) -> float:
 
 
 def without_numbers(samples: Sequence[Sample], since: float) -> list[Sample]:
-    return faults.missing(samples, LEFT, range(96), since)
+    return spoiled.missing(samples, LEFT, range(96), since)
 
 
 def told(
@@ -81,12 +81,12 @@ def clean(samples: Callable[[], tuple[Sample, ...]]) -> tuple[float, float]:
 
 
 BROKEN: dict[str, Callable[[], Sequence[Sample]]] = {
-    "no pressure from the middle on": lambda: faults.cut_off(feet(), LEFT, 0, 10.0),
-    "no pressure since it was in the air": lambda: faults.cut_off(feet(), LEFT, 0, 10.45),
-    "never unloads": lambda: faults.never_unloads(feet(), LEFT, 30.0),
-    "never unloads from the middle on": lambda: faults.never_unloads(feet(), LEFT, 30.0, 10.0),
+    "no pressure from the middle on": lambda: spoiled.cut_off(feet(), LEFT, 0, 10.0),
+    "no pressure since it was in the air": lambda: spoiled.cut_off(feet(), LEFT, 0, 10.45),
+    "never unloads": lambda: spoiled.never_unloads(feet(), LEFT, 30.0),
+    "never unloads from the middle on": lambda: spoiled.never_unloads(feet(), LEFT, 30.0, 10.0),
     "no numbers": lambda: without_numbers(feet(), 10.0),
-    "both never unload": lambda: faults.never_unloads(faults.never_unloads(feet(), LEFT, 30.0), RIGHT, 30.0),
+    "both never unload": lambda: spoiled.never_unloads(spoiled.never_unloads(feet(), LEFT, 30.0), RIGHT, 30.0),
 }
 
 
@@ -104,7 +104,7 @@ def test_an_insole_without_usable_pressure_does_not_lead_astray(how: str) -> Non
 def test_nor_does_it_with_seven_sites(since: float | None) -> None:
     """`since`: without pressure, s; None for an insole that never unloads."""
     sites = seven()
-    worn = faults.never_unloads(sites, LEFT, 30.0) if since is None else faults.cut_off(sites, LEFT, 0, since)
+    worn = spoiled.never_unloads(sites, LEFT, 30.0) if since is None else spoiled.cut_off(sites, LEFT, 0, since)
     (x, y), _ = told("walking-modes", worn)
     clean_x, clean_y = clean(seven)
     assert hypot(x - clean_x, y - clean_y) < 1.3
@@ -129,8 +129,8 @@ def _known_at(sample: Sample) -> float:
 
 
 SUITS: dict[str, tuple[Callable[[], Sequence[Sample]], str]] = {
-    "the pelvis falls silent": (lambda: faults.silent(seven(), Site.PELVIS, 10.0), "pelvis"),
-    "a shank falls silent": (lambda: faults.silent(seven(), Site.LEFT_SHANK, 10.0), "left shank"),
+    "the pelvis falls silent": (lambda: spoiled.silent(seven(), Site.PELVIS, 10.0), "pelvis"),
+    "a shank falls silent": (lambda: spoiled.silent(seven(), Site.LEFT_SHANK, 10.0), "left shank"),
     "the sensors above the ankles are late": (lambda: lagging(seven()), "old"),
     "the wearer never stood still": (lambda: [s for s in seven() if s.t > 2.6], "stand still"),
 }
@@ -165,14 +165,14 @@ def test_one_foot_alone_is_where_its_own_track_is(recipe: str, site: Site) -> No
 def test_a_foot_that_falls_silent_neither_freezes_nor_halves_the_wearer(
     recipe: str, silence: tuple[float, float]
 ) -> None:
-    (x, y), events = told(recipe, faults.silent(feet(), LEFT, *silence))
+    (x, y), events = told(recipe, spoiled.silent(feet(), LEFT, *silence))
     assert hypot(x - FAR, y) < 1.7
     assert len([what for what in sentences(events) if "not heard" in what]) == 1
 
 
 def test_with_the_chain_too() -> None:
     for silence in ((8.0, 100.0), (8.4, 13.3)):
-        (x, y), _ = told("walking-modes", faults.silent(seven(), LEFT, *silence))
+        (x, y), _ = told("walking-modes", spoiled.silent(seven(), LEFT, *silence))
         assert hypot(x - FAR, y) < 2.0
 
 
@@ -189,7 +189,7 @@ def round_a_bend() -> tuple[Walker, tuple[Sample, ...], tuple[Sample, ...]]:
 @pytest.mark.parametrize(("site", "end"), [(LEFT, 13.3), (RIGHT, 15.3), (RIGHT, 100.0)])
 def test_a_foot_that_comes_back_after_a_bend_goes_on_beside_the_other(site: Site, end: float) -> None:
     walked, two, _ = round_a_bend()
-    (x, y), events = told("walking-modes", faults.silent(two, site, 8.4, end))
+    (x, y), events = told("walking-modes", spoiled.silent(two, site, 8.4, end))
     assert hypot(x - walked.route.end.x, y - walked.route.end.y) < 1.0
     downs = [down.t for down in of(TouchedDown, events) if SITE_OF_FOOT[down.foot] is site]
     strides = [s.heel_strike for foot in Foot for s in walked.plan.strides[foot] if SITE_OF_FOOT[foot] is site]

@@ -30,7 +30,7 @@ async def air(via: str | None) -> AsyncIterator[Backend]:
     from bleak.exc import BleakError
 
     try:
-        from ...emulate.controllers.tcp import reach
+        from ...emulate.controllers import reach
     except ModuleNotFoundError as error:
         raise Failure(f"--via needs {error.name}: pip install 'solepath[loopback]'") from None
     async with AsyncExitStack() as stack:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from typing import TYPE_CHECKING
 
-from ..common.failure import Failure, note, positive
+from ..common.failure import Failure, need, note, positive
+from ..common.loop import attended
 
 if TYPE_CHECKING:
     from ...ble import Found, Wanted
@@ -103,18 +103,14 @@ def chosen(found: list[Found], kind: str | None) -> list[Wanted]:
 
 def need_bleak() -> None:
     """Failure in words where the `ble` extra is not installed."""
-    from importlib.util import find_spec
-
-    for package in ("bleak", "bleak_retry_connector"):
-        if find_spec(package) is None:
-            raise Failure(f"Bluetooth needs {package}: pip install 'solepath[ble]'")
+    need("Bluetooth needs", "ble", "bleak", "bleak_retry_connector")
 
 
 def how_long(options: argparse.Namespace) -> float | None:
     """--duration, or what goes without it."""
     if options.duration is not None:
         return float(options.duration)
-    if sys.stdin.isatty() or sys.stdout.isatty():
+    if attended():
         return None
     print(f"no terminal to end this from: it ends after {UNWATCHED:g} s (--duration says otherwise)", flush=True)
     return UNWATCHED

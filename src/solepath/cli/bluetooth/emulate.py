@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..common.failure import Failure, positive, seed
+from ..common.failure import need, positive, seed
 from .choosing import UNATTENDED
 
 HERE = "127.0.0.1:9735"
@@ -49,11 +49,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from importlib.util import find_spec
-
-    for package in ("bleak", "bumble"):
-        if find_spec(package) is None:
-            raise Failure(f"emulated Bluetooth needs {package}: pip install 'solepath[loopback]'")
+    need("emulated Bluetooth needs", "loopback", "bleak", "bumble")
     from ..common.loop import run_to_end
     from .emulate_run import prepared, serve_devices
 

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-import os
 import sys
 from contextlib import AsyncExitStack
 
-from ...emulate.controllers.tcp import serve
+from ...emulate.controllers import serve
+from ...emulate.demo import straight
 from ...emulate.devices.bench import Bench
 from ...emulate.devices.faults import parse_faults
 from ...emulate.devices.peripheral import Peripheral
 from ...emulate.sensors import insole_device, sensortags
 from ...emulate.sensors.device import Device
-from ...lab.emulated.demo import straight
 from ...link.devices import cc2541, cc2650, insole
 from ...recording import printable
 from ...types import Site
-from ..common.failure import Failure
+from ..common.failure import Failure, host_and_port, in_words
+from ..common.loop import attended
 from .choosing import UNATTENDED
 
 LONGEST = 5000.0
@@ -39,7 +39,7 @@ def prepared(options: argparse.Namespace) -> Bench:
         raise Failure(f"--distance {options.distance:g}: {LONGEST:g} m is as far as emulated wearers walk")
     if not 23 <= options.mtu <= 517:
         raise Failure(f"--mtu {options.mtu}: an MTU is from 23 to 517")
-    _host_and_port(options)
+    host_and_port("--listen", options.listen)
     kinds: dict[str, Device] = {
         insole.PROFILE.name: insole_device.Insole(),
         cc2650.PROFILE.name: sensortags.CC2650(),
@@ -65,27 +65,20 @@ def prepared(options: argparse.Namespace) -> Bench:
     return bench
 
 
-def _host_and_port(options: argparse.Namespace) -> tuple[str, int]:
-    host, colon, port = options.listen.rpartition(":")
-    if not colon or not host or not port.isdecimal() or int(port) > 65535:
-        raise Failure(f"--listen {options.listen}: that is not HOST:PORT")
-    return host.strip("[]"), int(port)
-
-
 async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio.Event) -> int:
     """Until it is told to stop; the exit status."""
     bench.began = asyncio.get_running_loop().time() + 1e6  # until somebody is connected the wearer stands
     async with AsyncExitStack() as stack:
         try:
-            at, number = await stack.enter_async_context(serve(bench.peripherals, *_host_and_port(options)))
+            where = host_and_port("--listen", options.listen)
+            at, number = await stack.enter_async_context(serve(bench.peripherals, *where))
         except OSError as error:
-            why = os.strerror(error.errno).lower() if error.errno and error.errno > 0 else error.strerror or str(error)
-            raise Failure(f"--listen {options.listen}: {why}") from None
+            raise Failure(f"--listen {options.listen}: {in_words(error)}") from None
         print(f"serving at tcp:{at}:{number}", flush=True)
         for peripheral in bench.peripherals:
             print(f"  {peripheral.address}  {peripheral.site.words}  {printable(peripheral.name)}", flush=True)
         seconds = options.duration
-        if seconds is None and not (sys.stdin.isatty() or sys.stdout.isatty()):
+        if seconds is None and not attended():
             seconds = UNATTENDED
         tasks = [asyncio.create_task(work) for work in (_walk_when_connected(bench), _tell(bench))]
         try:

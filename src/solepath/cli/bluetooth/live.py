@@ -7,9 +7,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..common.calibrated import add_calibration, calibration_of
 from ..common.failure import known_recipe
 from ..common.floorplan import add_floorplan, floorplan_of
+from ..common.recorded import add_calibration, calibration_of
 from ..common.view import add_view, need_page, view_of
 from .choosing import add_devices, need_bleak
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-from contextlib import AsyncExitStack
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import AsyncExitStack, contextmanager
 from pathlib import Path
 
 from attrs import define
@@ -22,14 +24,15 @@ from ...show.observer import Observer
 from ...show.output import EVENTS, GAIT_CYCLES, PLACES, STRIDES, TRACK, TrackFiles
 from ...show.page.scene.scene import Scene
 from ...show.tables.placed import place_lines
+from ...show.tables.status import status
 from ...show.tables.summary import summary
 from ...types import Packet
-from ..common.failure import Failure, note
+from ..common.failure import Failure, is_there, note
+from ..common.files import check_writable
 from ..common.loop import unless_told
 from ..common.view import View, newtons_of, page_of
 from .air import air, until
 from .choosing import LISTENED, chosen, how_long, wanted
-from .showing import shown
 
 
 async def listen(
@@ -43,7 +46,7 @@ async def listen(
 ) -> int:
     """Until it is told to stop; the exit status."""
     devices = wanted(options)
-    check_writable(options.record, options.out, plan is not None)
+    check_all_writable(options.record, options.out, plan is not None)
     seconds = how_long(options)
     session = Session(
         recipe, calibration=calibration, poses=True, pressures=view is not None, floorplan=plan, start=start
@@ -154,18 +157,14 @@ class LiveFiles:
                 self.failure = self.failure or _words(error)
 
 
-def check_writable(record: Path | None, out: Path | None, places: bool = False) -> None:
+def check_all_writable(record: Path | None, out: Path | None, places: bool = False) -> None:
     """Failure now when these will not be opened later. What is in them stays."""
     try:
         if out is not None:
             out.mkdir(parents=True, exist_ok=True)
         names = (EVENTS, TRACK, STRIDES, GAIT_CYCLES, *([PLACES] if places else []))
         for path in [*([record] if record else []), *([out / name for name in names] if out else [])]:
-            there = path.exists()
-            if not there or path.is_file() or path.is_dir():  # a pipe would take it for the end
-                path.open("ab").close()
-            if not there:
-                path.unlink()
+            check_writable(path)
     except OSError as error:
         raise Failure(_words(error)) from None
 
@@ -174,3 +173,31 @@ def _words(error: RecordingError | OSError) -> str:
     if isinstance(error, RecordingError):
         return str(error)
     return f"{error.filename}: {why(error)}" if error.filename else why(error)
+
+
+REPORT_EVERY = 5.0
+"""s between two lines where there is no terminal."""
+
+
+@contextmanager
+def shown(observer: Observer, title: str) -> Iterator[Callable[[], None]]:
+    """How the session goes: a picture in a terminal that can draw one, else lines now and then."""
+    if sys.stdout.isatty() and is_there("rich"):
+        from rich.console import Console
+
+        from ...show.tables.terminal import screen
+
+        with screen(Console()) as drawn:
+            yield lambda: drawn.show(observer, title)
+        return
+    began: float | None = None
+    due = REPORT_EVERY
+
+    def report() -> None:
+        nonlocal began, due
+        began = observer.now if began is None else began
+        if observer.now - began >= due:
+            due += REPORT_EVERY
+            print("\n".join(f"{observer.now - began:6.1f} s  {line}" for line in status(observer)), flush=True)
+
+    yield report

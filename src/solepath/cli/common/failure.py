@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
+from importlib.util import find_spec
 from math import isfinite, nan, radians
-from pathlib import Path
 
 from ...recording import printable
 
@@ -24,13 +25,31 @@ def note(sentence: str) -> None:
     print(f"solepath: {printable(sentence, LONGEST)}", file=sys.stderr)
 
 
-def check_writable(path: Path) -> None:
-    """OSError now, not after a long recording was read. What is in the file stays."""
-    there = path.exists()
-    if not there or not path.is_fifo():  # a pipe would take it for the end
-        path.open("ab").close()
-    if not there:
-        path.unlink()
+def is_there(package: str) -> bool:
+    """Whether a package of an extra is installed; it is not loaded."""
+    return find_spec(package) is not None
+
+
+def need(what: str, extra: str, *packages: str) -> None:
+    """Failure that says how to get them where one of these packages is not installed."""
+    for package in packages:
+        if not is_there(package):
+            raise Failure(f"{what} {package}: pip install 'solepath[{extra}]'")
+
+
+def host_and_port(option: str, text: str, hint: str = "") -> tuple[str, int]:
+    """Of HOST:PORT; an IPv6 host may stand in brackets. Failure for what is none."""
+    host, colon, port = text.rpartition(":")
+    if not colon or not host or not (port.isascii() and port.isdecimal()) or int(port) > 65535:
+        raise Failure(f"{option} {printable(text, 80)}: that is not HOST:PORT{hint}")
+    return host.removeprefix("[").removesuffix("]"), int(port)
+
+
+def in_words(error: OSError) -> str:
+    """What the system says of an address; where there is no number, as errors of name servers have none, in their own
+    words."""
+    known = error.errno is not None and error.errno > 0
+    return (os.strerror(error.errno or 0) if known else error.strerror or str(error)).lower()
 
 
 def positive(text: str) -> float:

@@ -19,8 +19,7 @@ from ...show.tables.placed import place_lines
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import summary
 from ...types import Packet, Sample
-from .failure import check_writable
-from .replacing import Replacing
+from .files import Replacing, check_writable
 
 
 @define

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from attrs import frozen
 
 from ...recording import printable
-from .failure import Failure, note, positive
+from .failure import Failure, host_and_port, in_words, need, note, positive
 
 if TYPE_CHECKING:
     from ...calibration import Calibration
@@ -55,17 +55,6 @@ def add_speed(command: argparse.ArgumentParser, default: str) -> None:
     command.add_argument("--speed", metavar="X", type=positive, help=f"times real time (default: {default})")
 
 
-def aiohttp_is_there() -> bool:
-    from importlib.util import find_spec
-
-    return find_spec("aiohttp") is not None
-
-
-def attended() -> bool:
-    """Whether there is a terminal to end a command from."""
-    return sys.stdin.isatty() or sys.stdout.isatty()
-
-
 def need_page(options: argparse.Namespace, page: bool) -> None:
     """Failure for an option of the page's where there is none."""
     for name in ("speed", "no_browser"):
@@ -81,12 +70,8 @@ def view_of(options: argparse.Namespace) -> View | None:
     if options.view == "":
         view = View(browser=browser)
     else:
-        host, colon, port = options.view.rpartition(":")
-        if not colon or not host or not (port.isascii() and port.isdecimal()) or int(port) > 65535:
-            raise Failure(f"--view {printable(options.view, 80)}: that is not HOST:PORT, as in {HERE}")
-        view = View(host.removeprefix("[").removesuffix("]"), int(port), browser)
-    if not aiohttp_is_there():
-        raise Failure("--view needs aiohttp: pip install 'solepath[view]'")
+        view = View(*host_and_port("--view", options.view, f", as in {HERE}"), browser)
+    need("--view needs", "view", "aiohttp")
     _check_free(view)
     return view
 
@@ -211,11 +196,6 @@ def _check_free(view: View) -> None:
 
 
 def _taken(view: View, error: OSError | UnicodeError) -> Failure:
-    """Why nothing can be served there; where there is no number, as errors of name servers have none, in their own
-    words."""
-    at = f"--view {printable(view.host, 80)}:{view.port or 0}"
-    if isinstance(error, UnicodeError):
-        return Failure(f"{at}: there is no such host")
-    known = error.errno is not None and error.errno > 0
-    why = os.strerror(error.errno or 0) if known else error.strerror or str(error)
-    return Failure(f"{at}: {why.lower()}")
+    """Why nothing can be served there."""
+    why = "there is no such host" if isinstance(error, UnicodeError) else in_words(error)
+    return Failure(f"--view {printable(view.host, 80)}:{view.port or 0}: {why}")

@@ -1,0 +1,6 @@
+"""Emulated devices over true Bluetooth protocols, in this process or over TCP. Needs the extra `loopback`."""
+
+from .server import virtual_air
+from .tcp import reach, serve
+
+__all__ = ["reach", "serve", "virtual_air"]

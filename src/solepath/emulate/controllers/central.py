@@ -23,7 +23,7 @@ from bumble import att, core, hci, smp
 from bumble.core import AdvertisingData
 from bumble.device import Advertisement, Connection, Peer
 
-from ...ble.backend import Backend
+from ...ble.air import Backend
 from .radio import VirtualRadio, end_link
 
 _T = TypeVar("_T")
@@ -62,11 +62,6 @@ def _uuid(uuid: core.UUID) -> str:
     return normalize_uuid_str(uuid.to_hex_str("-"))
 
 
-def _uuids(listed: object) -> list[str]:
-    """The UUIDs of one list of an advertisement."""
-    return [_uuid(uuid) for uuid in listed if isinstance(uuid, core.UUID)] if isinstance(listed, list) else []
-
-
 class RadioScanner(BaseBleakScanner):
     """Hears what the devices on the air advertise."""
 
@@ -83,15 +78,16 @@ class RadioScanner(BaseBleakScanner):
 
     async def start(self) -> None:
         self.seen_devices = {}
-        await self.radio.listen(self)
+        await self.radio.listen(self.heard)
 
     async def stop(self) -> None:
-        await self.radio.ignore(self)
+        await self.radio.ignore(self.heard)
 
     def heard(self, advertisement: Advertisement) -> None:
         """Called by the radio for each advertisement."""
         said = advertisement.data
-        services = [uuid for kind in _SERVICE_LISTS for uuids in said.get_all(kind) for uuid in _uuids(uuids)]
+        lists = [listed for kind in _SERVICE_LISTS for listed in said.get_all(kind) if isinstance(listed, list)]
+        services = [_uuid(uuid) for listed in lists for uuid in listed if isinstance(uuid, core.UUID)]
         name = said.get(AdvertisingData.COMPLETE_LOCAL_NAME) or said.get(AdvertisingData.SHORTENED_LOCAL_NAME)
         data = AdvertisementData(
             local_name=name,
@@ -257,14 +253,10 @@ class RadioClient(BaseBleakClient):
         except (core.BaseBumbleError, TimeoutError) as error:
             raise BleakError(str(error)) from error
 
-    async def read_gatt_char(
-        self, characteristic: BleakGATTCharacteristic, *, use_cached: bool = False, **kwargs: Any
-    ) -> bytearray:
+    async def read_gatt_char(self, characteristic: BleakGATTCharacteristic, **kwargs: Any) -> bytearray:
         return bytearray(await self._request(characteristic.obj.read_value))
 
-    async def read_gatt_descriptor(
-        self, descriptor: BleakGATTDescriptor, *, use_cached: bool = False, **kwargs: Any
-    ) -> bytearray:
+    async def read_gatt_descriptor(self, descriptor: BleakGATTDescriptor, **kwargs: Any) -> bytearray:
         return bytearray(await self._request(descriptor.obj.read_value))
 
     async def write_gatt_char(self, characteristic: BleakGATTCharacteristic, data: SizedBuffer, response: bool) -> None:

@@ -19,10 +19,9 @@ from bumble.gatt import (
 from bumble.gatt_server import Server
 from bumble.profiles.gap import GenericAccessService
 
-from ..devices import peripheral as emulated
-from ..devices.advertisement import ADVERTISEMENT
+from ..devices import attributes as emulated
+from ..devices.peripheral import Peripheral
 
-_SIG = "-0000-1000-8000-00805f9b34fb"
 _STANDARD = ("0000180a", "0000180f")
 """Services that the Bluetooth SIG describes: their characteristics need no description."""
 
@@ -63,7 +62,7 @@ class AttributeServer(Server):
 
 def short_or_long(uuid: str) -> core.UUID:
     """16 bits where the UUID is one of the Bluetooth SIG's."""
-    if uuid.startswith("0000") and uuid.endswith(_SIG):
+    if emulated.is_short(uuid):
         return core.UUID.from_16_bits(int(uuid[4:8], 16))
     return core.UUID(uuid)
 
@@ -81,10 +80,10 @@ def advertisement(name: str, services: Sequence[str]) -> bytes:
     said.append(data_types.CompleteLocalName(name))
     flags = AdvertisingData.Flags.LE_GENERAL_DISCOVERABLE_MODE | AdvertisingData.Flags.BR_EDR_NOT_SUPPORTED
     full = bytes(AdvertisingData([data_types.Flags(flags), *said]))
-    return full if len(full) <= ADVERTISEMENT else bytes(AdvertisingData(said))
+    return full if len(full) <= emulated.ADVERTISEMENT else bytes(AdvertisingData(said))
 
 
-def furnish(device: Device, said: emulated.Peripheral, answers: Answers) -> dict[str, Characteristic[bytes]]:
+def furnish(device: Device, said: Peripheral, answers: Answers) -> dict[str, Characteristic[bytes]]:
     """Gives the bumble device the attributes of `said`; returns them by channel."""
     served: dict[str, Characteristic[bytes]] = {}
     device.gatt_server = AttributeServer(device)

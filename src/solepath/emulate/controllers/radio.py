@@ -9,16 +9,15 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Awaitable, Callable, Coroutine
 from contextlib import suppress
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeVar
 
 from bleak.exc import BleakError
 from bumble import core, hci
 from bumble.device import Advertisement, Connection, Device, DeviceConfiguration
 from bumble.host import Host
 from bumble.keys import MemoryKeyStore
+from bumble.pairing import PairingConfig, PairingDelegate
 from bumble.transport.common import Transport
-
-from .pairing import just_works
 
 _T = TypeVar("_T")
 
@@ -29,12 +28,8 @@ PATIENCE = 5.0
 RETURN = 1.0
 """s between attempts to reach a lost controller again while somebody scans."""
 
-
-class ScanListener(Protocol):
-    """Whoever wants to hear advertisements."""
-
-    def heard(self, advertisement: Advertisement) -> None:
-        """Called for each one."""
+ScanListener = Callable[[Advertisement], None]
+"""Called for each advertisement that is heard."""
 
 
 class VirtualRadio:
@@ -154,7 +149,7 @@ class VirtualRadio:
 
     def _heard(self, advertisement: Advertisement) -> None:
         for listener in list(self._listeners):
-            listener.heard(advertisement)
+            listener(advertisement)
 
     # connecting
 
@@ -264,3 +259,29 @@ def _cancelled() -> bool:
 def _never() -> bool:
     """A central begins pairings, and answers none."""
     return False
+
+
+_KEYS = PairingDelegate.KeyDistribution.DISTRIBUTE_ENCRYPTION_KEY
+"""No identities are exchanged: the addresses are static."""
+
+
+class Consent(PairingDelegate):
+    """`agrees` is asked whether a pairing that the other end begins is welcome."""
+
+    def __init__(self, agrees: Callable[[], bool]) -> None:
+        super().__init__(local_initiator_key_distribution=_KEYS, local_responder_key_distribution=_KEYS)
+        self._agrees = agrees
+
+    async def accept(self) -> bool:
+        return self._agrees()
+
+
+def just_works(device: Device, agrees: Callable[[], bool]) -> None:
+    """From now on the device pairs by LE Secure Connections, Just Works, and the keys are kept (bonding), if `agrees`
+    says so when the other end begins."""
+    consent = Consent(agrees)
+
+    def config(link: Connection) -> PairingConfig:
+        return PairingConfig(sc=True, mitm=False, bonding=True, delegate=consent)
+
+    device.pairing_config_factory = config

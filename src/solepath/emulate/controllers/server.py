@@ -18,13 +18,13 @@ from bumble.gatt import Characteristic
 from bumble.host import Host
 from bumble.transport.common import AsyncPipeSink, Transport
 
-from ...ble.backend import Backend
-from ..devices.peripheral import AttError, Peripheral
+from ...ble.air import Backend
+from ..devices.attributes import AttError
+from ..devices.peripheral import Peripheral
 from .central import backend_of
 from .controller import VirtualAir, VirtualController
 from .gatt import advertisement, furnish
-from .pairing import just_works
-from .radio import VirtualRadio, end_link
+from .radio import VirtualRadio, end_link, just_works
 
 _T = TypeVar("_T")
 

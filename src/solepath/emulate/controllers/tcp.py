@@ -18,7 +18,7 @@ from bumble import core, hci
 from bumble.transport import open_transport
 from bumble.transport.common import PacketParser, Transport
 
-from ...ble.backend import Backend
+from ...ble.air import Backend
 from ..devices.peripheral import Peripheral
 from .central import backend_of
 from .controller import VirtualAir, VirtualController

@@ -1,4 +1,4 @@
-"""A wearer and the devices on his feet, ready to be served by either tier."""
+"""A wearer and the devices on his feet, ready to be served."""
 
 from __future__ import annotations
 
@@ -16,9 +16,7 @@ from .cc2541 import CC2541Peripheral
 from .cc2650 import CC2650Peripheral
 from .faults import Fault
 from .insole import InsolePeripheral
-from .peripheral import Peripheral
-
-_SIDE = {Foot.LEFT: "L", Foot.RIGHT: "R"}
+from .peripheral import Peripheral, Worn
 
 
 class Bench:
@@ -44,10 +42,9 @@ class Bench:
             devices = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
         self.walker = Walker(route, wearer, seed)
         self.devices = {site: devices[site] for site in Site if site in devices}
-        self._began = began
-        faults = tuple(faults)
+        self._began, script = began, tuple(faults)
         self.peripherals: tuple[Peripheral, ...] = tuple(
-            _worn(device, self.walker, site, f"F0:5E:00:00:00:{number:02X}", seed, mtu, began, faults)
+            _peripheral(device, Worn(self.walker, site, f"F0:5E:00:00:00:{number:02X}", seed, mtu, began, script))
             for number, (site, device) in enumerate(self.devices.items(), 1)
         )
 
@@ -77,32 +74,12 @@ class Bench:
         return self.walker.truth({foot_of(site): device.mounting for site, device in self.devices.items()})
 
 
-def _worn(
-    device: Device,
-    walker: Walker,
-    site: Site,
-    address: str,
-    seed: int,
-    mtu: int,
-    began: float,
-    faults: tuple[Fault, ...],
-) -> Peripheral:
-    side = _SIDE[foot_of(site)]
+def _peripheral(device: Device, worn: Worn) -> Peripheral:
     match device:
         case Insole():
-            return InsolePeripheral(
-                device,
-                walker,
-                site=site,
-                address=address,
-                name=f"solepath {side}",
-                seed=seed,
-                mtu=mtu,
-                began=began,
-                faults=faults,
-            )
+            return InsolePeripheral(device, worn)
         case CC2650():
-            return CC2650Peripheral(device, walker, site=site, address=address, seed=seed, began=began, faults=faults)
+            return CC2650Peripheral(device, worn)
         case CC2541():
-            return CC2541Peripheral(device, walker, site=site, address=address, seed=seed, began=began, faults=faults)
+            return CC2541Peripheral(device, worn)
     raise ValueError(f"no peripheral is known for {type(device).__name__}")

@@ -5,12 +5,10 @@ Like the CC2650 it does as it is told, and each sensor keeps its own errors what
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import partial
 
 from ...link.devices.cc2541 import PROFILE
-from ...types import Site
-from ..sensors.device import device_numbers, foot_of, started
+from ..sensors.device import device_numbers, started
 from ..sensors.parts import MAG3110, T5400
 from ..sensors.sensortags import (
     CC2541,
@@ -22,35 +20,21 @@ from ..sensors.sensortags import (
     code_count,
     raw_air,
 )
-from ..sensors.tag_signals import LATE_AIR, LATE_MAG, Series, WornTag
-from ..wearers.walker import Walker
-from .faults import Fault
-from .peripheral import READ_NOT_PERMITTED, AttError
-from .standard import information
-from .tag import HUMIDITY, INFRARED, STOCK, Make, Presses, Sensor, Tag, constant, masked, room, shortest, switch
+from ..sensors.tag_signals import LATE_AIR, LATE_MAG, Series
+from .attributes import READ_NOT_PERMITTED, AttError
+from .peripheral import Worn
+from .tag import HUMIDITY, INFRARED, STOCK, Make, Presses, Sensor, Tag, masked, room, shortest, switch
 
 # What the sensors say that measure nothing of the wearer: 24 degrees, half the air's moisture.
 _ROOM = {"cc2541/infrared": bytes.fromhex("0000000c"), "cc2541/humidity": bytes.fromhex("3867b072")}
 
 
 class CC2541Peripheral(Tag):
-    """A CC2541 on a foot of `walker`. Of `device`, `rate` is the fastest that its firmware takes if that is more than
-    the stock 10 Hz; range and rates in force are what is written to it."""
+    """A CC2541 on a foot."""
 
-    def __init__(
-        self,
-        device: CC2541,
-        walker: Walker,
-        *,
-        site: Site,
-        address: str,
-        name: str = "SensorTag",
-        seed: int = 1,
-        began: float = 0.0,
-        faults: Iterable[Fault] = (),
-    ) -> None:
+    def __init__(self, device: CC2541, worn: Worn) -> None:
         self.device = device
-        numbers = device_numbers(seed, site)
+        numbers = device_numbers(worn.seed, worn.site)
         clock = started(numbers, 1.0 / device.rate, device.ppm)
         self._late = {
             "cc2541/accelerometer": 0.0,
@@ -59,33 +43,21 @@ class CC2541Peripheral(Tag):
             "cc2541/barometer": LATE_AIR,
         }
         self._shortest = shortest(device.rate)
-        super().__init__(
-            PROFILE,
-            (
-                Sensor("cc2541/accelerometer", 100, self._shortest, bytes(3)),
-                Sensor("cc2541/gyroscope", 100, self._shortest, bytes(6)),
-                Sensor("cc2541/magnetometer", 200, STOCK, bytes(6)),
-                Sensor("cc2541/barometer", 100, STOCK, bytes(4)),
-                *room(_ROOM),
-            ),
-            {"cc2541/infrared": INFRARED, "cc2541/humidity": HUMIDITY},
-            information(device.firmware, manufacturer="Texas Instruments", model="SensorTag"),
-            clock,
-            site=site,
-            address=address,
-            name=name,
-            began=began,
-            faults=faults,
+        sensors = (
+            Sensor("cc2541/accelerometer", 100, self._shortest, bytes(3)),
+            Sensor("cc2541/gyroscope", 100, self._shortest, bytes(6)),
+            Sensor("cc2541/magnetometer", 200, STOCK, bytes(6)),
+            Sensor("cc2541/barometer", 100, STOCK, bytes(4)),
+            *room(_ROOM),
         )
-        self._numbers = partial(device_numbers, seed, site)
-        self._worn = WornTag(walker, foot_of(site), device.mounting, clock)
-        self._series: dict[tuple[str, float], Series] = {}
+        others = {"cc2541/infrared": INFRARED, "cc2541/humidity": HUMIDITY}
+        super().__init__(device, worn, clock, PROFILE, sensors, others, name="SensorTag", model="SensorTag")
 
     def prepare(self) -> None:
         for sensor in ("cc2541/accelerometer", "cc2541/gyroscope"):
-            self._measured(sensor, 0.01 * self._shortest)
+            self.series(sensor, 0.01 * self._shortest)
         for sensor in ("cc2541/magnetometer", "cc2541/barometer"):
-            self._measured(sensor, 1.0)
+            self.series(sensor, 1.0)
 
     def begin(self) -> None:
         self.flow("cc2541/keys", Presses(self.device.presses, *CC2541_KEYS), self.walk_time)
@@ -112,11 +84,11 @@ class CC2541Peripheral(Tag):
         if not code or (sensor == "cc2541/barometer" and code == 2):
             return None
         if sensor in _ROOM:
-            return 0.0, partial(constant, _ROOM[sensor])
+            return 0.0, lambda number: _ROOM[sensor]
         return self._late[sensor], partial(self._say, sensor, code, period)
 
     def _say(self, sensor: str, code: int, period: float, number: int) -> bytes:
-        series = self._measured(sensor, period)
+        (series,) = self.series(sensor, period)
         match sensor:
             case "cc2541/accelerometer":
                 counts = series.count(number, self.device.part.acc, code_count(code))
@@ -129,19 +101,13 @@ class CC2541Peripheral(Tag):
                 return cc2541_bytes("magnetometer", mag=series.count(number, MAG3110, MAG3110_COUNT))
         return cc2541_bytes("barometer", **raw_air(float(series.value(number)[0, 0])))
 
-    def _measured(self, sensor: str, period: float) -> Series:
-        found = self._series.get((sensor, period))
-        if found is None:
-            found = self._series[sensor, period] = self._measure(sensor, period)
-        return found
-
-    def _measure(self, sensor: str, period: float) -> Series:
+    def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
         worn, numbers = self._worn, self._numbers(list(self._late).index(sensor))
         if sensor == "cc2541/barometer":
-            return worn.air(period, T5400, numbers)
+            return (worn.air(period, T5400, numbers),)
         when = worn.when(period, self._late[sensor])
         motion = worn.motion(when)
         if sensor == "cc2541/magnetometer":
-            return worn.series(when, period, worn.mag(motion, when, MAG3110, numbers))
+            return (worn.series(when, period, worn.mag(motion, when, MAG3110, numbers)),)
         feel = worn.acc if sensor == "cc2541/accelerometer" else worn.gyro
-        return worn.series(when, period, feel(motion, when, self.device.part, numbers))
+        return (worn.series(when, period, feel(motion, when, self.device.part, numbers)),)

@@ -7,16 +7,14 @@ profile give data as the tag would give them. Each sensor keeps its own errors w
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterable
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ...link.devices.cc2650 import DRIVER, PROFILE
-from ...types import Site
 from ...types.vector import GRAVITY
-from ..sensors.device import device_numbers, foot_of, started
+from ..sensors.device import device_numbers, started
 from ..sensors.parts import AK8963, BMP280
 from ..sensors.sensortags import (
     AK8963_COUNT,
@@ -28,11 +26,10 @@ from ..sensors.sensortags import (
     movement_bytes,
     range_count,
 )
-from ..sensors.tag_signals import LATE_AIR, Series, WornTag
-from ..wearers.walker import Walker
-from .faults import Fault
-from .standard import Battery, information
-from .tag import HUMIDITY, INFRARED, LIGHT, STOCK, Make, Presses, Sensor, Tag, constant, masked, room, shortest, switch
+from ..sensors.tag_signals import LATE_AIR, Series
+from .attributes import Battery
+from .peripheral import Worn
+from .tag import HUMIDITY, INFRARED, LIGHT, STOCK, Make, Presses, Sensor, Tag, masked, room, shortest, switch
 
 WAKES = 0.040 * GRAVITY
 """m/s^2 from one sample to the next that wake a tag which lies still."""
@@ -51,50 +48,26 @@ _ROOM = {
 
 
 class CC2650Peripheral(Tag):
-    """A CC2650 on a foot of `walker`. Of `device`, `rate` is the fastest that its firmware takes if that is more than
-    the stock 10 Hz; range and rate in force are what is written to it."""
+    """A CC2650 on a foot."""
 
-    def __init__(
-        self,
-        device: CC2650,
-        walker: Walker,
-        *,
-        site: Site,
-        address: str,
-        name: str = "CC2650 SensorTag",
-        seed: int = 1,
-        began: float = 0.0,
-        faults: Iterable[Fault] = (),
-    ) -> None:
+    def __init__(self, device: CC2650, worn: Worn) -> None:
         self.device = device
-        clock = started(device_numbers(seed, site), 1.0 / device.rate, device.ppm)
+        clock = started(device_numbers(worn.seed, worn.site), 1.0 / device.rate, device.ppm)
         self._shortest = shortest(device.rate)
-        super().__init__(
-            PROFILE,
-            (
-                Sensor("cc2650/movement", 100, self._shortest, bytes(18), size=2),
-                Sensor("cc2650/barometer", 100, STOCK, bytes(6)),
-                *room(_ROOM),
-            ),
-            {"cc2650/infrared": INFRARED, "cc2650/humidity": HUMIDITY, "cc2650/light": LIGHT},
-            information(device.firmware, manufacturer="Texas Instruments", model="CC2650 SensorTag"),
-            clock,
-            site=site,
-            address=address,
-            name=name,
-            began=began,
-            faults=faults,
+        sensors = (
+            Sensor("cc2650/movement", 100, self._shortest, bytes(18), size=2),
+            Sensor("cc2650/barometer", 100, STOCK, bytes(6)),
+            *room(_ROOM),
         )
-        self._numbers = partial(device_numbers, seed, site)
-        self._worn = WornTag(walker, foot_of(site), device.mounting, clock)
-        self._movements: dict[float, tuple[Series, Series, Series]] = {}
-        self._airs: dict[float, Series] = {}
+        others = {"cc2650/infrared": INFRARED, "cc2650/humidity": HUMIDITY, "cc2650/light": LIGHT}
+        name = "CC2650 SensorTag"
+        super().__init__(device, worn, clock, PROFILE, sensors, others, name=name, model=name)
         self._moved: dict[float, list[int]] = {}
         self._battery = Battery(BATTERY)
 
     def prepare(self) -> None:
-        self._movement(0.01 * self._shortest)
-        self._air(1.0)
+        self.series("cc2650/movement", 0.01 * self._shortest)
+        self.series("cc2650/barometer", 1.0)
 
     def begin(self) -> None:
         self.flow("cc2650/keys", Presses(self.device.presses, *CC2650_KEYS), self.walk_time)
@@ -112,12 +85,12 @@ class CC2650Peripheral(Tag):
             return None
         if sensor == "cc2650/barometer":
             return LATE_AIR, partial(self._say_air, period)
-        return 0.0, partial(constant, _ROOM[sensor])
+        return 0.0, lambda number: _ROOM[sensor]
 
     def _say_movement(self, config: Any, period: float, number: int) -> bytes | None:
-        if config.wake_on_motion and not self._awake(period, number):
+        acc, gyro, mag = self.series("cc2650/movement", period)
+        if config.wake_on_motion and not self._awake(acc, period, number):
             return None
-        acc, gyro, mag = self._movement(period)
         return movement_bytes(
             masked(gyro.count(number, self.device.part.gyro, GYRO_COUNT), config.gyro_axes),
             masked(acc.count(number, self.device.part.acc, range_count(config.range)), config.acc_axes),
@@ -125,33 +98,27 @@ class CC2650Peripheral(Tag):
         )
 
     def _say_air(self, period: float, number: int) -> bytes:
-        return cc2650_air(float(self._air(period).value(number)[0, 0]))
+        (air,) = self.series("cc2650/barometer", period)
+        return cc2650_air(float(air.value(number)[0, 0]))
 
-    def _movement(self, period: float) -> tuple[Series, Series, Series]:
-        """Accelerometer, gyroscope and magnetometer over the whole walk."""
-        found = self._movements.get(period)
-        if found is None:
-            worn, part = self._worn, self.device.part
-            when = worn.when(period)
-            motion = worn.motion(when)
-            found = self._movements[period] = (
-                worn.series(when, period, worn.acc(motion, when, part, self._numbers(0))),
-                worn.series(when, period, worn.gyro(motion, when, part, self._numbers(1))),
-                worn.series(when, period, worn.mag(motion, when, AK8963, self._numbers(2))),
-            )
-        return found
+    def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
+        """Of movement: accelerometer, gyroscope and magnetometer."""
+        worn, part = self._worn, self.device.part
+        if sensor == "cc2650/barometer":
+            return (worn.air(period, BMP280, self._numbers(3)),)
+        when = worn.when(period)
+        motion = worn.motion(when)
+        return (
+            worn.series(when, period, worn.acc(motion, when, part, self._numbers(0))),
+            worn.series(when, period, worn.gyro(motion, when, part, self._numbers(1))),
+            worn.series(when, period, worn.mag(motion, when, AK8963, self._numbers(2))),
+        )
 
-    def _air(self, period: float) -> Series:
-        found = self._airs.get(period)
-        if found is None:
-            found = self._airs[period] = self._worn.air(period, BMP280, self._numbers(3))
-        return found
-
-    def _awake(self, period: float, number: int) -> bool:
+    def _awake(self, acc: Series, period: float, number: int) -> bool:
         """Whether the tag has been moved in the last `AWAKE` s."""
         moved = self._moved.get(period)
         if moved is None:
-            change = np.abs(np.diff(self._movement(period)[0].values, axis=0)).max(axis=1)
+            change = np.abs(np.diff(acc.values, axis=0)).max(axis=1)
             moved = self._moved[period] = [int(k) + 1 for k in np.flatnonzero(change > WAKES)]
         before = bisect_right(moved, number)
         return before > 0 and (number - moved[before - 1]) * period <= AWAKE

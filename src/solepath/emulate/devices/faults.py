@@ -28,6 +28,7 @@ import shlex
 from collections.abc import Iterable
 from enum import Enum
 from math import inf, isfinite
+from operator import attrgetter
 
 from attrs import frozen
 
@@ -164,7 +165,7 @@ class Misfortune:
 
     def __init__(self, faults: Iterable[Fault], site: Site) -> None:
         mine = [fault for fault in faults if fault.site in (None, site)]
-        self._coming = sorted(mine, key=_when)
+        self._coming = sorted(mine, key=attrgetter("at"))
         self._random = random.Random(f"faults {site.value}")
         self._left = dict.fromkeys(_COUNTED - {What.REFUSE}, 0)
         self._refusing: dict[str, int] = {}
@@ -266,7 +267,3 @@ class Misfortune:
         for bit in self._random.sample(range(8 * len(value)), min(8 * len(value), self._random.randint(1, 3))):
             damaged[bit // 8] ^= 1 << (bit % 8)
         return bytes(damaged)
-
-
-def _when(fault: Fault) -> float:
-    return fault.at

@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from math import ceil
 
 from attrs import Factory, define, evolve
 
 from ...link.devices.insole import PROFILE as INSOLE
-from ...types import Site
+from ...types import Foot
 from ...wire.error import WireError
 from ...wire.fragment import FRAME_IDS, MAX_FRAGMENTS, split
 from ...wire.insole import InsoleFrame, build_frame
 from ...wire.insole_control import Resend, SetInterval, StartSampling, StopSampling, parse_control
 from ...wire.insole_info import build_info
-from ..sensors.device import device_numbers
-from ..sensors.insole_device import BATTERY, TICK_RATE, Insole
-from ..sensors.insole_signal import InsoleSignal
-from ..wearers.walker import Walker
-from .faults import Fault
-from .peripheral import AttError, Peripheral
-from .standard import NOTIFY, READ, WRITE, Battery, information, services
+from ..sensors.device import device_numbers, foot_of
+from ..sensors.insole_device import BATTERY, TICK_RATE, Insole, InsoleSignal
+from .attributes import NOTIFY, READ, WRITE, AttError, Battery, information, services
+from .peripheral import Peripheral, Worn
 
 UNKNOWN_OPCODE = 0x80
 WRONG_VALUE = 0x81
@@ -104,38 +101,26 @@ class _Frames:
 
 
 class InsolePeripheral(Peripheral):
-    """An insole on a foot of `walker`.
+    """An insole as it is worn, "solepath L" or "solepath R".
 
     Its frames are byte for byte those that `device.emit` gives for the same walker, site, seed and interval, as long as
     SET INTERVAL comes while it is stopped. Set while it runs, sequence and ticks go on from where they are. What a
     whole walk is worth is worked out once for each interval, when it is first needed or by `prepare`.
     """
 
-    def __init__(
-        self,
-        device: Insole,
-        walker: Walker,
-        *,
-        site: Site,
-        address: str,
-        name: str,
-        seed: int = 1,
-        mtu: int = 247,
-        began: float = 0.0,
-        faults: Iterable[Fault] = (),
-    ) -> None:
+    def __init__(self, device: Insole, worn: Worn) -> None:
         super().__init__(
-            site=site,
-            address=address,
-            name=name,
+            site=worn.site,
+            address=worn.address,
+            name=f"solepath {'L' if foot_of(worn.site) is Foot.LEFT else 'R'}",
             services=_SERVICES,
             advertised=INSOLE.services,
-            mtu=mtu,
-            began=began,
-            faults=faults,
+            mtu=worn.mtu,
+            began=worn.began,
+            faults=worn.faults,
         )
         self.device = device
-        self._walker, self._seed = walker, seed
+        self._worn = worn
         self._interval = device.interval
         self._signals: dict[int, InsoleSignal] = {}
         self._frames: _Frames | None = None
@@ -143,7 +128,6 @@ class InsolePeripheral(Peripheral):
         self._said = information(device.firmware, manufacturer="solepath", model="emulated insole")
 
     def prepare(self) -> None:
-        """Work out now what the insole sends after START, instead of when it is first asked."""
         self.signal()
 
     def signal(self) -> InsoleSignal:
@@ -153,7 +137,7 @@ class InsolePeripheral(Peripheral):
             device = self.device
             if device.interval != self._interval:
                 device = evolve(device, rate=TICK_RATE / self._interval)
-            found = device.measure(self._walker, self.site, device_numbers(self._seed, self.site))
+            found = device.measure(self._worn.walker, self.site, device_numbers(self._worn.seed, self.site))
             while len(self._signals) >= _SIGNALS:
                 self._signals.pop(next(iter(self._signals)))
             self._signals[self._interval] = found

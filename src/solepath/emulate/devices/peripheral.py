@@ -20,56 +20,41 @@ from collections.abc import Callable, Iterable
 from attrs import frozen
 
 from ...types import Site
-from .advertisement import check_fits
+from ..wearers.walker import Walker
+from .attributes import (
+    NOT_PAIRED,
+    READ_NOT_PERMITTED,
+    REFUSED,
+    REQUEST_NOT_SUPPORTED,
+    SMALLEST_MTU,
+    WRITE_NOT_PERMITTED,
+    AttError,
+    Outgoing,
+    Service,
+    check_fits,
+)
 from .faults import PAIRING, Fault, Misfortune, What
 from .flows import Flows, ValueSource
 
-READ_NOT_PERMITTED = 0x02
-WRITE_NOT_PERMITTED = 0x03
-NOT_PAIRED = 0x05
-"""Insufficient authentication (Bluetooth Core, vol 3 part C, 10.3.1)."""
-REQUEST_NOT_SUPPORTED = 0x06
-WRONG_LENGTH = 0x0D
-REFUSED = 0x80
-"""The first of the codes that an application may give a meaning (Bluetooth Core, vol 3 part F, 3.4.1.1)."""
-
-SMALLEST_MTU = 23
 _AT_ONCE = 2e-6
 """s: a timer may fire so much before its time by the resolution of a loop's clock."""
 
 
-class AttError(Exception):
-    """A request is refused with this ATT error code."""
-
-    def __init__(self, code: int) -> None:
-        super().__init__(f"ATT error {code:#04x}")
-        self.code = code
-
-
 @frozen
-class Characteristic:
-    """`uuid`: in full, lower case. `channel`: the name by which it is read and written here.
-    `properties`: of "read", "write", "write-without-response" and "notify"."""
+class Worn:
+    """What a device on a wearer has beside what it measures: who walks, where it is worn, and its address.
 
-    uuid: str
-    channel: str
-    properties: frozenset[str]
+    `seed`: of its errors. `mtu`: the largest that it agrees to, where its firmware leaves that open. `began`: the
+    loop's time at which the walk begins.
+    """
 
-
-@frozen
-class Service:
-    """A primary service, its uuid in full, lower case."""
-
-    uuid: str
-    characteristics: tuple[Characteristic, ...]
-
-
-@frozen
-class Outgoing:
-    """A notification to be sent now."""
-
-    channel: str
-    value: bytes
+    walker: Walker
+    site: Site
+    address: str
+    seed: int = 1
+    mtu: int = 247
+    began: float = 0.0
+    faults: tuple[Fault, ...] = ()
 
 
 class Peripheral:

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from math import ceil, inf
 
 from attrs import define, frozen
 
 from ...link.profile import Profile, ti
-from ...types import Site
-from ..sensors.device import DeviceClock
-from ..sensors.sensortags import PRESS
-from ..sensors.tag_signals import HANDLING
-from .faults import Fault
-from .peripheral import REFUSED, WRONG_LENGTH, AttError, Characteristic, Peripheral
-from .standard import NOTIFY, READ, WRITE, services
+from ..sensors.device import DeviceClock, device_numbers, foot_of
+from ..sensors.sensortags import CC2541, CC2650, PRESS
+from ..sensors.tag_signals import HANDLING, Series, WornTag
+from .attributes import NOTIFY, READ, REFUSED, WRITE, WRONG_LENGTH, AttError, Characteristic, information, services
+from .peripheral import Peripheral, Worn
 
 MTU = 23
 """Stock firmware agrees to no larger one."""
@@ -88,43 +87,53 @@ class Presses:
 
 
 class Tag(Peripheral):
-    """A SensorTag. `clock` is its own; `others` are sensors that the profile does not know, with their service."""
+    """A SensorTag of a kind that is sold as `model`, as it is worn. `clock` is its own; `others` are sensors that the
+    profile does not know, with their service. Of the device, `rate` is the fastest that its firmware takes if that is
+    more than the stock 10 Hz; range and rates in force are what is written to it."""
 
     def __init__(
         self,
+        device: CC2541 | CC2650,
+        worn: Worn,
+        clock: DeviceClock,
         profile: Profile,
         sensors: Iterable[Sensor],
         others: Mapping[str, int],
-        said: Mapping[str, bytes],
-        clock: DeviceClock,
         *,
-        site: Site,
-        address: str,
         name: str,
-        began: float,
-        faults: Iterable[Fault],
+        model: str,
     ) -> None:
         self._sensors = {sensor.name: sensor for sensor in sensors}
         more = [one for sensor, service in others.items() for one in _table(sensor, service)]
+        allowed = {channel.name: self._allowed(channel.name) for channel in profile.channels}
         super().__init__(
-            site=site,
-            address=address,
+            site=worn.site,
+            address=worn.address,
             name=name,
-            services=services(
-                profile,
-                {channel.name: self._allowed(channel.name) for channel in profile.channels},
-                more,
-                tuple(channel.partition("/")[2] for channel in said if channel != "device/firmware"),
-            ),
+            services=services(profile, allowed, more, ("manufacturer", "model")),
             advertised=profile.services,
             mtu=MTU,
-            began=began,
-            faults=faults,
+            began=worn.began,
+            faults=worn.faults,
         )
-        self._said = said
+        self._said = information(device.firmware, manufacturer="Texas Instruments", model=model)
         self.clock = clock
+        self._numbers = partial(device_numbers, worn.seed, worn.site)
+        self._worn = WornTag(worn.walker, foot_of(worn.site), device.mounting, clock)
+        self._series: dict[tuple[str, float], tuple[Series, ...]] = {}
         self._states: dict[str, _State] = {}
         self.stop()
+
+    def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
+        """What a sensor that measures every `period` s measures over the whole walk."""
+        raise NotImplementedError
+
+    def series(self, sensor: str, period: float) -> tuple[Series, ...]:
+        """The same, worked out when it is first asked for."""
+        found = self._series.get((sensor, period))
+        if found is None:
+            found = self._series[sensor, period] = self.measure(sensor, period)
+        return found
 
     def make(self, sensor: str, config: bytes, period: float) -> Make | None:
         """What a sensor says that is configured like this; None when that is off. AttError for a configuration that the
@@ -203,11 +212,6 @@ def switch(config: bytes, most: int) -> int:
 def room(values: Mapping[str, bytes]) -> list[Sensor]:
     """Sensors that measure nothing of the wearer and always say the same."""
     return [Sensor(n, 100, SLUGGISH if n.endswith("infrared") else STOCK, bytes(len(v))) for n, v in values.items()]
-
-
-def constant(value: bytes, number: int) -> bytes:
-    """What such a sensor says."""
-    return value
 
 
 def masked(row: tuple[int, int, int], axes: tuple[bool, ...]) -> tuple[int, int, int]:

@@ -8,8 +8,8 @@ from attrs import define
 
 from ...floorplan.plan import Point, Start
 from .building import APPROACH, GOING, GROUND, LANE, RISE, STEPS, STOREY, UPPER
+from .path import ahead
 from .route import TIGHT_TURN, Route
-from .stairs import ahead
 
 STILL = 2.0
 """s of standing at the beginning and at the end."""

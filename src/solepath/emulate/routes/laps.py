@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterable, Sequence
-from math import atan2, cos, hypot, pi, sin, tan
+from math import atan2, hypot, pi, tan
+from operator import attrgetter
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ from attrs import evolve, frozen
 from ...types import Foot, Vec3, WalkingMode
 from ..wearers.gait import PlannedStride
 from ..wearers.walker import Walker
+from .course import wrapped
 from .planner import plan
 from .route import Route
 
@@ -167,7 +169,7 @@ def through(route: Route, points: Sequence[Point], speed: float, corner: float) 
     for k, there in enumerate(points):
         way = hypot(there[0] - here[0], there[1] - here[1])
         toward = atan2(there[1] - here[1], there[0] - here[0])
-        turn = _wrapped(toward - heading)
+        turn = wrapped(toward - heading)
         if k == 0 or corner == 0.0:
             cut = 0.0
             if abs(turn) > 1e-9:
@@ -177,7 +179,7 @@ def through(route: Route, points: Sequence[Point], speed: float, corner: float) 
         after = 0.0
         if k + 1 < len(points) and corner > 0.0:
             beyond = points[k + 1]
-            next_turn = _wrapped(atan2(beyond[1] - there[1], beyond[0] - there[0]) - toward)
+            next_turn = wrapped(atan2(beyond[1] - there[1], beyond[0] - there[0]) - toward)
             after = corner * tan(0.5 * abs(next_turn))
         if way - cut - after <= 0.0:
             raise ValueError(f"no room for bends of {corner:g} m between {here} and {there}")
@@ -224,7 +226,7 @@ def marks(walker: Walker, per_lap: int | None = None) -> tuple[FloorMark, ...]:
                 lap, number = (0, k) if per_lap is None else divmod(k, per_lap)
                 at = aimed.end
                 found.append(FloorMark(foot, k + 1, stride.foot_flat, at.x, at.y, mode_of(stride), lap, number))
-    return tuple(sorted(found, key=_moment))
+    return tuple(sorted(found, key=attrgetter("t")))
 
 
 def corners(walker: Walker) -> tuple[LapCorner, ...]:
@@ -263,12 +265,4 @@ def write_marks(path: Path | str, found: Iterable[FloorMark]) -> None:
 def _easy(behind: Point, here: Point, there: Point) -> bool:
     """Whether one can walk on to `there`: it is 6 m or more away, and not back."""
     way, toward = (there[0] - here[0], there[1] - here[1]), atan2(here[1] - behind[1], here[0] - behind[0])
-    return hypot(*way) >= 6.0 and abs(_wrapped(atan2(way[1], way[0]) - toward)) < 2.1
-
-
-def _wrapped(angle: float) -> float:
-    return atan2(sin(angle), cos(angle))
-
-
-def _moment(mark: FloorMark) -> float:
-    return mark.t
+    return hypot(*way) >= 6.0 and abs(wrapped(atan2(way[1], way[0]) - toward)) < 2.1

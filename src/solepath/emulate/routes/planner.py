@@ -23,9 +23,8 @@ from ..wearers.gait import (
     step_time,
 )
 from .lift import CarRide, ride
-from .path import Lifted, Piece, Pivot, Pose, WalkPath
+from .path import Flight, Lifted, Piece, Pivot, Pose, WalkPath
 from .route import Leg, Route, Stand, legs
-from .stairs import Flight
 from .styles import Manner, running_cadence, style_of
 
 LEVEL = 1e-6

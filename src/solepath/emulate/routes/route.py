@@ -18,8 +18,7 @@ from math import inf, isfinite
 from attrs import evolve, frozen
 
 from .lift import Lift
-from .path import Lifted, Piece, Pivot, Pose, WalkPath
-from .stairs import Flight, ahead
+from .path import Flight, Lifted, Piece, Pivot, Pose, WalkPath, ahead
 from .styles import SPEED_DOWN, SPEED_UP
 
 TIGHT_TURN = 0.8

@@ -37,8 +37,8 @@ from .building import (
     in_well,
 )
 from .course import OTHER, Course, course_from
+from .path import ahead
 from .route import Route
-from .stairs import ahead
 
 ASTRAY = 0.3
 """m: how far off the middle of the corridors a wanderer walks, at the most."""

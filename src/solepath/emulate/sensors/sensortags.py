@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from math import radians
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -79,7 +80,7 @@ class CC2650:
         for k, (pascal,) in enumerate(air.values.tolist()):
             sent.append(Notification(air.taken(k) + HANDLING, "cc2650/barometer", cc2650_air(pascal)))
         sent += _keys("cc2650/keys", self.presses, *CC2650_KEYS)
-        return sorted(sent, key=_when)
+        return sorted(sent, key=attrgetter("t"))
 
     def _setup(self) -> list[Notification]:
         config = {**_EVERYTHING, "range": self.range}
@@ -133,7 +134,7 @@ class CC2541:
         sent += _each(mag, "magnetometer", [{"mag": row} for row in mag.counts(MAG3110, MAG3110_COUNT)])
         sent += _each(air, "barometer", [raw_air(pascal) for (pascal,) in air.values.tolist()])
         sent += _keys("cc2541/keys", self.presses, *CC2541_KEYS)
-        return sorted(sent, key=_when)
+        return sorted(sent, key=attrgetter("t"))
 
     def _setup(self) -> list[Notification]:
         period = build_whole(PERIOD, {"period": 1.0 / self.rate})
@@ -201,7 +202,3 @@ def range_count(gravities: int) -> float:
 def code_count(code: int) -> float:
     """m/s^2 per count of the CC2541's accelerometer when 1, 2 or 3 was written to AA12."""
     return float(GRAVITY * 2**code / 128)
-
-
-def _when(notification: Notification) -> float:
-    return notification.t

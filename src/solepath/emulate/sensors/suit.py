@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from operator import attrgetter
 
 import numpy as np
 
@@ -83,11 +84,10 @@ def limb_samples(
         if site.foot is not None and layouts is not None and site in layouts:
             cells = _pressed(walker, layouts[site], when.taken, cell_part, rng).tolist()
         rows = zip(when.taken.tolist(), acc.tolist(), gyro.tolist(), turn.tolist(), strict=True)
-        for k, (t, a, g, (w, x, y, z)) in enumerate(rows):
+        for k, (t, (ax, ay, az), (gx, gy, gz), (w, x, y, z)) in enumerate(rows):
             pressure = None if cells is None else tuple(cells[k])
-            found.append((t, order, Sample(t, site, _vec(a), _vec(g), pressure, (w, x, y, z))))
-    found.sort(key=_moment)
-    return [one for _, _, one in found]
+            found.append(Sample(t, site, (ax, ay, az), (gx, gy, gz), pressure, (w, x, y, z)))
+    return sorted(found, key=attrgetter("t"))
 
 
 def suit(
@@ -138,12 +138,3 @@ def _place(site: Site, limbs: Limbs) -> Vec3:
         return ON_INSTEP.position
     thigh = site in (Site.LEFT_THIGH, Site.RIGHT_THIGH)
     return (0.06, 0.0, -0.5 * (limbs.thigh if thigh else limbs.shank))
-
-
-def _moment(one: tuple[float, int, Sample]) -> tuple[float, int]:
-    return one[:2]
-
-
-def _vec(values: list[float]) -> Vec3:
-    x, y, z = values
-    return (x, y, z)

@@ -33,7 +33,7 @@ from .gait import WalkPlan
 from .load import Loads
 from .motion import BLOCK, FootMotion, Kinematics, joined
 from .shoe import Mounting, Shoe
-from .turning import matrices, multiplied, quaternions, unit
+from .turning import matrices, multiplied, quaternions, turned, unit
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES
 
 STEP = 0.01
@@ -102,7 +102,7 @@ class Body:
     def pelvis(self, t: Array) -> tuple[Array, Array]:
         """Point between the hip joints (N, 3), m, and attitude (N, 3, 3)."""
         found = self._joined(self.track, t)
-        return found[:, :3], _turned(found[:, 3], found[:, 4])
+        return found[:, :3], turned(found[:, 3], found[:, 4])
 
     def slip(self, foot: Foot, t: Array) -> Array:
         """How far the foot has slid in its shoe, ahead and to the left, m, (N, 2)."""
@@ -211,7 +211,7 @@ def body(
     yaw, roll = yaw + swing[:, 0], swing[:, 1]
 
     reach = _stretch(plan, t) * (limbs.thigh + limbs.shank)
-    half = 0.5 * limbs.hip_width * _turned(yaw, roll)[:, :, 1]
+    half = 0.5 * limbs.hip_width * turned(yaw, roll)[:, :, 1]
     highest = np.full(len(t), np.inf)
     for foot in Foot:
         away = ankles[foot][:, :2] - centre - SIDES[foot] * half[:, :2]
@@ -296,10 +296,3 @@ def _frame(up: Array, left: Array) -> Array:
     """Attitudes with z along `up`, y along `left`, which is across it."""
     z = unit(up)
     return np.stack((np.cross(left, z), left, z), axis=2)
-
-
-def _turned(yaw: Array, roll: Array) -> Array:
-    """Rz(yaw) Rx(roll), (N, 3, 3)."""
-    sy, cy, sr, cr = np.sin(yaw), np.cos(yaw), np.sin(roll), np.cos(roll)
-    rows = [[cy, -sy * cr, sy * sr], [sy, cy * cr, -cy * sr], [np.zeros_like(yaw), sr, cr]]
-    return np.stack([np.stack(row, axis=1) for row in rows], axis=1)

@@ -17,7 +17,7 @@ Attitude is Rz(yaw) Ry(-pitch) Rx(roll), foot to world; pitch is positive toe up
 from __future__ import annotations
 
 import numpy as np
-from attrs import frozen
+from attrs import fields, frozen
 from numpy.typing import NDArray
 
 from ...types import Phase
@@ -25,6 +25,7 @@ from ...types.vector import GRAVITY
 from ..routes.lift import CarRide
 from .curves import Array
 from .shoe import Mounting
+from .turning import matrices
 
 Rows = NDArray[np.intp]
 
@@ -124,7 +125,7 @@ class FootMotion:
         # Specific force is acceleration less gravity, seen in the sensor's axes.
         lifted = acceleration + np.array([0.0, 0.0, GRAVITY])
         force = np.einsum("nij,ni->nj", turn, lifted)
-        mount = _matrix(np.array(mounting.attitude))
+        mount = matrices(np.array([mounting.attitude]))[0]
         return Kinematics(
             t=t,
             position=position,
@@ -151,11 +152,7 @@ def joined(blocks: list[Kinematics]) -> Kinematics:
     """One after the other."""
     if len(blocks) == 1:
         return blocks[0]
-    return Kinematics(*(np.concatenate(columns) for columns in zip(*map(_columns, blocks), strict=True)))
-
-
-def _columns(found: Kinematics) -> tuple[Array, ...]:
-    return (found.t, found.position, found.velocity, found.acceleration, found.attitude, found.rate, found.force)
+    return Kinematics(*(np.concatenate([getattr(b, one.name) for b in blocks]) for one in fields(Kinematics)))
 
 
 # --- turning, on stacks -----------------------------------------------------------------------------------------------
@@ -202,17 +199,6 @@ def _quaternion(yaw: Array, b: Array, roll: Array) -> Array:
             sy * cb * cr - cy * sb * sr,
         ],
         axis=1,
-    )
-
-
-def _matrix(q: Array) -> Array:
-    w, x, y, z = q
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
     )
 
 

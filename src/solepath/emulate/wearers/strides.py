@@ -17,7 +17,7 @@ from attrs import evolve
 
 from ...types import Foot, Phase
 from ..routes.lift import CarRide
-from ..routes.stairs import Flight
+from ..routes.path import Flight
 from ..routes.styles import Manner, style_of
 from .curves import BUMP, EVEN_OUT, Array, constant, evaluate, join, part
 from .gait import FootStand, PlannedStride, WalkPlan

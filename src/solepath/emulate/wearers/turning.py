@@ -48,3 +48,10 @@ def quaternions(turn: Array) -> Array:
     flips = np.where(np.sum(q[1:] * q[:-1], axis=1) < 0.0, -1.0, 1.0)
     q[1:] *= np.cumprod(flips)[:, None]
     return np.asarray(q)
+
+
+def turned(yaw: Array, roll: Array) -> Array:
+    """Rz(yaw) Rx(roll), (N, 3, 3)."""
+    sy, cy, sr, cr = np.sin(yaw), np.cos(yaw), np.sin(roll), np.cos(roll)
+    rows = [[cy, -sy * cr, sy * sr], [sy, cy * cr, -cy * sr], [np.zeros_like(yaw), sr, cr]]
+    return np.stack([np.stack(row, axis=1) for row in rows], axis=1)

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...types import SITE_OF_FOOT, Foot, Layout, Sample, Vec3
+from ...types import SITE_OF_FOOT, Foot, Layout, Sample
 from ..routes.planner import plan
 from ..routes.route import Route
 from ..sensors.parts import Imu
@@ -18,7 +18,7 @@ from .load import loads
 from .motion import Kinematics
 from .shoe import IN_SOLE, Mounting
 from .strides import foot_motions
-from .truth import Truth, foot_truth, truth
+from .truth import Truth, activities, flights, foot_truth, rides
 
 
 class Walker:
@@ -47,7 +47,8 @@ class Walker:
         """The truth for sensors mounted like this; in the sole where nothing is said."""
         places = {foot: (mountings or {}).get(foot, IN_SOLE) for foot in Foot}
         feet = {foot: foot_truth(foot, self.plan, self.motions[foot], places[foot]) for foot in Foot}
-        return truth(self.plan, self.route.length, feet)
+        plan = self.plan
+        return Truth(plan.duration, self.route.length, feet, activities(plan), flights(plan), rides(plan), plan)
 
     def kinematics(self, foot: Foot, t: Array, mounting: Mounting = IN_SOLE) -> Kinematics:
         """Exact motion of a foot's sensor at any instants."""
@@ -82,9 +83,11 @@ class Walker:
         cells = None if layout is None else self.cell_loads(layout, t).tolist()
         site = SITE_OF_FOOT[foot]
         found = []
-        for k, (when, force, turn) in enumerate(zip(t.tolist(), acc.tolist(), gyro.tolist(), strict=True)):
+        for k, (when, (ax, ay, az), (gx, gy, gz)) in enumerate(
+            zip(t.tolist(), acc.tolist(), gyro.tolist(), strict=True)
+        ):
             pressure = None if cells is None else tuple(cells[k])
-            found.append(Sample(t=when, site=site, acc=_vec(force), gyro=_vec(turn), pressure=pressure))
+            found.append(Sample(when, site, (ax, ay, az), (gx, gy, gz), pressure))
         return found
 
     def _imperfect(
@@ -100,8 +103,3 @@ class Walker:
             sample(low_pass(acc, when.rate, min(part.acc.bandwidth, 0.5 * rate)), when),
             sample(low_pass(gyro, when.rate, min(part.gyro.bandwidth, 0.5 * rate)), when),
         )
-
-
-def _vec(values: list[float]) -> Vec3:
-    x, y, z = values
-    return (x, y, z)

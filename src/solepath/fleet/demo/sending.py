@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
+from operator import itemgetter
 from random import Random
 from typing import Any
 
@@ -143,11 +144,7 @@ def _disturbed(sent: Iterable[tuple[int, What]], rng: Random) -> list[tuple[int,
         placed.append((at + late, number, what))
         if rng.random() < TWICE:
             placed.append((at + late + rng.uniform(0, AGAIN), number, what))
-    return [(number, what) for _, number, what in sorted(placed, key=_place)]
-
-
-def _place(placed: tuple[float, int, What]) -> float:
-    return placed[0]
+    return [(number, what) for _, number, what in sorted(placed, key=itemgetter(0))]
 
 
 def _bundles(items: Iterable[Item], every: float) -> tuple[tuple[Item, ...], ...]:

@@ -10,10 +10,9 @@ from ...events.fleet import FleetEvent, NumbersMissing, Refusal, SentRejected, S
 from ...saving.codec import SnapshotError
 from ...session import Session
 from ...types import Packet
-from .order import Missing, Order, RejectedItem
+from .order import Missing, Order, RejectedItem, is_sound, sound
 from .sent import LONGEST_DETAIL, MOST, End, NumberedEvent, Sent, Tick, Unreadable
 from .sessions import Sessions
-from .sound import is_sound, sound
 from .state import Identity, OtherState, StateError, read_identity, read_rest, write_state
 
 _Kind = TypeVar("_Kind", NumbersMissing, SentRejected, StateRefused, WearerFailed)

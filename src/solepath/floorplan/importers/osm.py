@@ -15,8 +15,7 @@ from ..plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Wall
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
 from .earth import Tangent, south_west, to_mm
 from .osm_doors import BESIDE, door_at, door_beside
-from .osm_file import Element, OsmFile, elements
-from .osm_rings import Refs, shapes_of
+from .osm_file import Element, OsmFile, Refs, elements, shapes_of
 from .osm_tags import BORDERS, connects, is_door, is_indoor, label, length, level_id, levels
 
 

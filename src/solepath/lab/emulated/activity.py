@@ -31,12 +31,8 @@ class Emulated:
 def score(recipe: Recipe, seed: int) -> Emulated:
     """What a session of the recipe says of the walk of a seed. Score seeds that nothing was learnt from."""
     walked = emulated.walk(seed)
-    session, gathering = Session(recipe), Gathering()
-    for packet in walked.packets:
-        for event in session.feed(packet):
-            gathering.add(event)
-    for event in session.finish():
-        gathering.add(event)
+    session = Session(recipe)
+    gathering = Gathering.of(session.feed(walked.packets) + session.finish())
     truth = walked.truth
     t = [k * EVERY for k in range(int(truth.duration / EVERY))]
     told = compared(t, [truth.activity(at) for at in t], gathering.timeline)

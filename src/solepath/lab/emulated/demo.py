@@ -1,12 +1,12 @@
-"""The demonstration: an emulated wearer walks a route, and a session hears it over a bad radio."""
+"""The demonstration as it is played: a session hears an emulated walk, and is compared with the truth."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import pi
 
-from attrs import define, evolve, field
+from attrs import define, field
 
+from ...emulate.demo import RADIO, ROUTE, WAY
 from ...emulate.radio import Radio
 from ...emulate.routes.building import BUILDING
 from ...emulate.routes.route import Route
@@ -20,30 +20,6 @@ from ...types import Foot, Packet, Sample
 from ..evaluate.gathered import Gathering
 from .compare import FootComparison, compare
 from .place import PlaceScore, score
-
-RADIO = Radio(loss=0.03, duplicate=0.005, corrupt=0.005, latency=0.015, jitter=0.030)
-"""A busy 2.4 GHz band: 3 in 100 notifications never arrive, the others 15 to 45 ms late."""
-
-ROUTE = (
-    Route()
-    .stand(3.0)
-    .walk(9.0, speed=1.3)
-    .turn(pi / 2, radius=1.5)
-    .walk(4.0)
-    .turn(pi / 2, radius=1.5)
-    .walk(6.0, speed=1.1)
-    .stop(2.0)
-    .turn(-pi / 2)
-    .walk(5.0, speed=1.2)
-    .turn(-pi / 2, radius=1.0)
-    .walk(10.0, speed=1.4)
-    .stop(2.0)
-)
-"""About 40 m: a U, a halt, a turn on the spot, and away again."""
-
-
-WAY = 8
-"""Of the ways through the emulated building: down by one of four lifts, 130 m along corridors, and up the stairs."""
 
 
 @define
@@ -87,16 +63,6 @@ class Demo:
     def place(self) -> PlaceScore | None:
         """The same of the place on the floor plan; None without one."""
         return None if self.way is None else score(self.way, self.walk.walker, self.walk.truth, self._placed)
-
-
-def straight(distance: float) -> Route:
-    """Stand, walk so many m straight on, stand."""
-    return Route().stand(3.0).walk(distance, speed=1.3).stop(2.0)
-
-
-def radio(loss: float | None = None, jitter: float | None = None) -> Radio:
-    """RADIO with another share of lost packets or another jitter in s; None leaves it as it is."""
-    return evolve(RADIO, loss=RADIO.loss if loss is None else loss, jitter=RADIO.jitter if jitter is None else jitter)
 
 
 def make_demo(seed: int, route: Route = ROUTE, radio: Radio = RADIO, *, pressures: bool = False) -> Demo:

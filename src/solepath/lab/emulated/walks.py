@@ -23,8 +23,8 @@ from time import perf_counter
 import numpy as np
 from attrs import frozen
 
+from ...emulate.routes.path import ahead
 from ...emulate.routes.route import Route
-from ...emulate.routes.stairs import ahead
 from ...emulate.sensors.insole_device import Insole
 from ...emulate.walk import SampledWalk, sampled
 from ...emulate.wearers.gait import Wearer
@@ -33,8 +33,7 @@ from ...events import Event
 from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Site, Vec3
 from ..evaluate.gathered import FootRun, Gathering
-from ..evaluate.recorded import Meta
-from ..evaluate.run import RunSettings, recipe_of
+from ..evaluate.run import Meta, RunSettings
 from ..measures.alignment import Floats, align, track_error
 from ..measures.matching import Matching
 from ..measures.score import Figures, Scored
@@ -156,7 +155,7 @@ def _score(path: Path, route: Route, seed: int, how: RunSettings) -> Scored:
 
 
 def _followed(walked: SampledWalk, how: RunSettings) -> _Found:
-    session = Session(recipe_of(how.recipe), calibration=how.calibration)
+    session = Session(how.recipe, calibration=how.calibration)
     said: list[list[Event]] = []
     t: list[float] = []
     positions: list[Vec3] = []
@@ -168,10 +167,7 @@ def _followed(walked: SampledWalk, how: RunSettings) -> _Found:
             positions.append(place.position)
     said.append(session.finish())
     seconds = perf_counter() - began
-    gathering = Gathering()
-    for events in said:
-        for event in events:
-            gathering.add(event)
+    gathering = Gathering.of(event for events in said for event in events)
     feet = {foot: gathering.foot(foot) for foot in Foot}
     return _Found(np.array(t), np.array(positions).reshape(-1, 3), feet, len(walked.samples), seconds)
 

@@ -9,8 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-import attrs
-from attrs import frozen
+from attrs import evolve, frozen
 
 from ...body.fuse.position import MeanOfFeet
 from ...body.height.altitude import Altitude
@@ -19,36 +18,29 @@ from ...foot.navigate.level import LevelGround
 from ...recipes import DEFAULT, Recipe
 from .report import Result
 
-
-def _with(part: Any, **changes: Any) -> Any:
-    """The part, never fed, with other arguments of its constructor."""
-    return attrs.evolve(part, **changes)
-
-
 NEVER = 1e12
 """A limit that nothing exceeds."""
 FIXED = 1e6
 """SHOE's statistic, of 8e4, 2e5, 4e5 and 1e6 the one with which recorded walks come out best."""
 
-_DETECTOR, _CORRECTOR = DEFAULT.detector, DEFAULT.corrector
+_DETECTOR: Any = DEFAULT.detector
+_CORRECTOR: Any = DEFAULT.corrector
 
 WITHOUT: dict[str, Recipe] = {
-    "one threshold for all, no wearer's own cycle": attrs.evolve(
-        DEFAULT, detector=_with(_DETECTOR, floor=FIXED, ceiling=FIXED)
+    "one threshold for all, no wearer's own cycle": evolve(
+        DEFAULT, detector=evolve(_DETECTOR, floor=FIXED, ceiling=FIXED)
     ),
-    "evidence of one noise, whatever the motion": attrs.evolve(
-        DEFAULT, detector=_with(_DETECTOR, arm=0.0, arm2=0.0, off_gravity=0.0, off_gravity2=0.0)
+    "evidence of one noise, whatever the motion": evolve(
+        DEFAULT, detector=evolve(_DETECTOR, arm=0.0, arm2=0.0, off_gravity=0.0, off_gravity2=0.0)
     ),
-    "zero velocity, no rolling foot": attrs.evolve(DEFAULT, detector=_with(_DETECTOR, rolls=False)),
-    "no extra noise of a foot that is braked": attrs.evolve(DEFAULT, detector=_with(_DETECTOR, off_gravity2=0.0)),
-    "no refusal of unlikely evidence": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, refuse=NEVER)),
-    "no recovery of what was refused": attrs.evolve(
-        DEFAULT, corrector=_with(_CORRECTOR, patience=NEVER, lasting=NEVER)
-    ),
-    "no level, slope or stair": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, level=LevelGround(gate=False))),
-    "no tilt aiding": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, tilt_rate=0.0)),
-    "no noise of what lies between samples": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, between=0.0)),
-    "no recovery of a clipped gyroscope": attrs.evolve(DEFAULT, corrector=_with(_CORRECTOR, recover=False)),
+    "zero velocity, no rolling foot": evolve(DEFAULT, detector=evolve(_DETECTOR, rolls=False)),
+    "no extra noise of a foot that is braked": evolve(DEFAULT, detector=evolve(_DETECTOR, off_gravity2=0.0)),
+    "no refusal of unlikely evidence": evolve(DEFAULT, corrector=evolve(_CORRECTOR, refuse=NEVER)),
+    "no recovery of what was refused": evolve(DEFAULT, corrector=evolve(_CORRECTOR, patience=NEVER, lasting=NEVER)),
+    "no level, slope or stair": evolve(DEFAULT, corrector=evolve(_CORRECTOR, level=LevelGround(gate=False))),
+    "no tilt aiding": evolve(DEFAULT, corrector=evolve(_CORRECTOR, tilt_rate=0.0)),
+    "no noise of what lies between samples": evolve(DEFAULT, corrector=evolve(_CORRECTOR, between=0.0)),
+    "no recovery of a clipped gyroscope": evolve(DEFAULT, corrector=evolve(_CORRECTOR, recover=False)),
     "each foot by itself": DEFAULT.exchanged(Track, MeanOfFeet()),
     "no heights of lifts and of the air": DEFAULT.exchanged(Altitude, None),
 }
@@ -57,7 +49,7 @@ WITHOUT: dict[str, Recipe] = {
 
 def recipes() -> list[Recipe]:
     """The default and then every row, each named by what is missing."""
-    return [DEFAULT, *(attrs.evolve(recipe, name=name) for name, recipe in WITHOUT.items())]
+    return [DEFAULT, *(evolve(recipe, name=name) for name, recipe in WITHOUT.items())]
 
 
 @frozen

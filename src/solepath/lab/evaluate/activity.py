@@ -13,18 +13,11 @@ from ...show.timeline import Timeline
 from ...types import Activity
 from ..measures.confusion import ActivityScore
 from ..measures.score import Figures, Scored
-from ..train.folds import FOLDS, fold_of
-from ..train.hugadb import labels
-from .recorded import Meta, scored
-from .run import RunSettings, run
-
-Span = tuple[float, float, Activity]
-"""From, to (s), and what the wearer did between."""
+from ..train.hugadb import FOLDS, Span, fold_of, labels, spans
+from .run import Meta, RunSettings, run, scored
 
 LIFTS = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
 STAIRS = (Activity.STAIRS_UP, Activity.STAIRS_DOWN)
-APART = 0.5
-"""s between two labelled samples that belong to two spans."""
 EVERY = 0.02
 """Spans are sampled so often, s."""
 
@@ -37,17 +30,6 @@ def compared(t: Sequence[float], true: Sequence[Activity | None], timeline: Time
             pair = activity, timeline.at(at)
             counts[pair] = counts.get(pair, 0) + 1
     return ActivityScore(counts)
-
-
-def spans(t: Sequence[float], true: Sequence[Activity | None]) -> list[Span]:
-    """The labelled samples as spans, each up to its last sample."""
-    found: list[Span] = []
-    for k, (at, activity) in enumerate(zip(t, true, strict=True)):
-        if activity is None:
-            continue
-        goes_on = k > 0 and true[k - 1] is activity and at - t[k - 1] < APART
-        found.append((found.pop()[0] if goes_on else at, at, activity))
-    return found
 
 
 def rides(true: Sequence[Span], found: Sequence[LiftRidden]) -> ActivityScore:

@@ -11,12 +11,12 @@ from pathlib import Path
 
 from attrs import frozen
 
+from ...recipes import Recipe
 from ..emulated.walks import score_four_floors, score_half_hour, score_long_way
 from ..measures.confusion import CLASSES
 from ..measures.score import Scored
 from .activity import CLIMBED, score_labelled, score_stairs
-from .recorded import Meta
-from .run import Chosen, RunSettings, recipe_of
+from .run import Meta, RunSettings
 from .timing import score_borders, score_force, score_pressed, score_swings, score_switches, score_treadmill
 from .tracking import score_counted, score_loop, score_optitrack, score_surveyed, score_vicon
 
@@ -39,9 +39,9 @@ class DataSet:
     folds: bool = False
     """Whether what says the activity is taught on other wearers' recordings of this data set (learning.py)."""
 
-    def suits(self, recipe: Chosen) -> bool:
+    def suits(self, recipe: Recipe) -> bool:
         """Whether the recipe has something to say of these data."""
-        return self.pressed or not recipe_of(recipe).needs_pressure
+        return self.pressed or not recipe.needs_pressure
 
 
 def _always(name: str, meta: Meta) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from attrs import define, field, frozen
 
@@ -57,6 +59,14 @@ class Gathering:
     turns: list[TurnMade] = field(factory=list)
     _feet: dict[Foot, _FootGathered] = field(factory=dict)
 
+    @classmethod
+    def of(cls, events: Iterable[Event]) -> Gathering:
+        """All of these."""
+        gathering = cls()
+        for event in events:
+            gathering.add(event)
+        return gathering
+
     def add(self, event: Event) -> None:
         match event:
             case FootMoved(foot=foot, t=t, position=position):
@@ -65,10 +75,8 @@ class Gathering:
                 one.positions.append(position)
             case StrideTaken(foot=foot, final=True):
                 self._of(foot).steps.append(event)
-            case HeelStrike(foot=foot, final=True) | FootFlat(foot=foot, final=True):
-                self._of(foot).times.setdefault(type(event), []).append(event.t)
-            case HeelOff(foot=foot, final=True) | ToeOff(foot=foot, final=True):
-                self._of(foot).times.setdefault(type(event), []).append(event.t)
+            case HeelStrike(final=True) | FootFlat(final=True) | HeelOff(final=True) | ToeOff(final=True):
+                self._of(event.foot).times.setdefault(type(event), []).append(event.t)
             case ActivityChanged():
                 self.timeline.add(event)
             case LiftRidden(final=True):

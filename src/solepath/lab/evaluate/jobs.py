@@ -18,9 +18,8 @@ from ...recording import RecordingError
 from ..measures.score import Scored
 from .datasets import DATASETS, EMULATED, DataSet
 from .learning import Lesson, lessons, part_for, taught
-from .recorded import Meta
 from .report import Result
-from .run import Chosen, RunSettings, recipe_of
+from .run import Meta, RunSettings
 
 
 @frozen
@@ -81,7 +80,7 @@ Plan = list[tuple[DataSet, Recipe, list[tuple[Path, Meta]]]]
 
 def evaluate(
     folder: Path,
-    recipes: Sequence[Chosen],
+    recipes: Sequence[Recipe],
     *,
     only: Sequence[str] = (),
     calibration: Calibration | None = None,
@@ -90,14 +89,14 @@ def evaluate(
 ) -> Iterator[Result]:
     """The result of each recipe on each data set of `folder`, as they are done; `calibration` is used for every
     recording, and `progress` gets (done, all)."""
-    data_sets, chosen = find(folder, only), [recipe_of(one) for one in recipes]
-    plan = [(d, recipe, recordings(folder, d)) for recipe in chosen for d in data_sets if d.suits(recipe)]
-    to_learn = lessons(folder, chosen) if any(data_set.folds for data_set in data_sets) else []
+    data_sets = find(folder, only)
+    plan = [(d, recipe, recordings(folder, d)) for recipe in recipes for d in data_sets if d.suits(recipe)]
+    to_learn = lessons(folder, recipes) if any(data_set.folds for data_set in data_sets) else []
     return _scored(plan, to_learn, calibration, processes, progress)
 
 
 def evaluate_emulated(
-    recipes: Sequence[Chosen],
+    recipes: Sequence[Recipe],
     seeds: Sequence[int],
     *,
     only: Sequence[str] = (),
@@ -106,9 +105,8 @@ def evaluate_emulated(
     progress: Callable[[int, int], None] | None = None,
 ) -> Iterator[Result]:
     """The same on the emulated walks of `seeds`, of all kinds or of those named in `only`."""
-    chosen = [recipe_of(one) for one in recipes]
     walks: list[tuple[Path, Meta]] = [(Path(f"seed {seed}"), {"seed": seed}) for seed in seeds]
-    plan = [(d, recipe, walks) for recipe in chosen for d in EMULATED if not only or d.name in only]
+    plan = [(d, recipe, walks) for recipe in recipes for d in EMULATED if not only or d.name in only]
     return _scored(plan, [], calibration, processes, progress)
 
 

@@ -15,12 +15,11 @@ from attrs import frozen
 from ...body.activity.activities import Activities
 from ...body.part import Doing
 from ...papers.footstep_tracker.activity.two_second_windows import TwoSecondWindows
+from ...recipes import Recipe
 from ...recording import RecordingError
 from ..train import activities, footstep_activity
-from ..train.folds import FOLDS, fold_of
-from ..train.hugadb import recordings
-from .recorded import Meta
-from .run import Chosen, recipe_of
+from ..train.hugadb import FOLDS, fold_of, recordings
+from .run import Meta
 
 Sources = Sequence[tuple[Any, int | None]]
 """Each with who wore it; None for what is no wearer's of hugadb, which may teach whoever is scored."""
@@ -89,7 +88,7 @@ class Lesson:
             return None
 
 
-def lessons(folder: Path, recipes: Sequence[Chosen]) -> list[Lesson]:
+def lessons(folder: Path, recipes: Sequence[Recipe]) -> list[Lesson]:
     """All that the recipes' parts have to learn from in the data directory."""
     kinds = dict.fromkeys(kind for recipe in recipes if (kind := kind_of(recipe)) is not None)
     return [Lesson(kind, source, subject) for kind in kinds for source, subject in LEARNERS[kind].sources(folder)]
@@ -99,9 +98,9 @@ Taught = dict[tuple[type, int], Doing]
 """By kind of part and the number of the fold that it was not taught on."""
 
 
-def kind_of(recipe: Chosen) -> type | None:
+def kind_of(recipe: Recipe) -> type | None:
     """The kind of the recipe's activity part, where it learns."""
-    kind = type(next(part for part in recipe_of(recipe).parts if isinstance(part, Doing)))
+    kind = type(next(part for part in recipe.parts if isinstance(part, Doing)))
     return kind if kind in LEARNERS else None
 
 
@@ -117,7 +116,7 @@ def taught(lessons: Sequence[Lesson], features: Sequence[Any]) -> Taught:
     return found
 
 
-def part_for(recipe: Chosen, meta: Meta, parts: Taught) -> Doing | None:
+def part_for(recipe: Recipe, meta: Meta, parts: Taught) -> Doing | None:
     """The part that was taught without this recording's wearer; None where the recipe's learns nothing."""
     kind = kind_of(recipe)
     return None if kind is None else parts[kind, fold_of(meta["subject"])]

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from pathlib import Path
 from time import perf_counter
+from typing import Any
 
 import attrs
 import numpy as np
 from attrs import frozen
 
-from ... import recipes
 from ...body.part import Doing
 from ...calibration import Calibration, merged
 from ...events import Event, LiftRidden, TurnMade
@@ -22,14 +22,8 @@ from ...session import Session
 from ...show.timeline import Timeline
 from ...types import Foot, Vec3
 from ..measures.alignment import Floats
+from ..measures.score import Scored
 from .gathered import FootRun, Gathering
-
-Chosen = str | Recipe
-"""A recipe, or the name of one of ours."""
-
-
-def recipe_of(chosen: Chosen) -> Recipe:
-    return chosen if isinstance(chosen, Recipe) else recipes.by_name(chosen)
 
 
 @frozen
@@ -39,7 +33,7 @@ class RunSettings:
     `activity`: in the place of the recipe's own part, the same part taught on other recordings.
     """
 
-    recipe: Chosen
+    recipe: Recipe
     calibration: Calibration = Calibration()
     activity: Doing | None = None
 
@@ -81,9 +75,7 @@ def run(
     `poses`: the live position at every sample is asked for. `body`: and that of the wearer.
     """
     known = how.calibration if calibration is None else merged(how.calibration, calibration)
-    recipe = recipe_of(how.recipe)
-    if how.activity is not None:
-        recipe = recipe.exchanged(Doing, how.activity)
+    recipe = how.recipe if how.activity is None else how.recipe.exchanged(Doing, how.activity)
     session = Session(recipe, calibration=known, poses=poses)
     recording = load_samples(path)
     samples = list(recording)
@@ -92,21 +84,28 @@ def run(
     said: list[list[Event]] = []
     places: list[tuple[float, Vec3]] = []
     began = perf_counter()
-    if body:
-        for sample in samples:
-            said.append(session.feed(sample))
-            if (position := session.position) is not None:
-                places.append((position.t, position.position))
-    else:
-        for sample in samples:
-            said.append(session.feed(sample))
+    for sample in samples:
+        said.append(session.feed(sample))
+        if body and (position := session.position) is not None:
+            places.append((position.t, position.position))
     said.append(session.finish())
     seconds = perf_counter() - began
-    gathering = Gathering()
-    for events in said:
-        for event in events:
-            gathering.add(event)
+    gathering = Gathering.of(event for events in said for event in events)
     feet = {table.foot: gathering.foot(table.foot) for table in recording.tables}
     rides, turns = tuple(gathering.rides), tuple(gathering.turns)
     wearer = ScoredTrack(np.array([t for t, _ in places]), np.array([at for _, at in places]).reshape(-1, 3))
     return RecordingRun(feet, gathering.timeline, rides, turns, len(samples), seconds, wearer if places else None)
+
+
+Meta = dict[str, Any]
+"""A recording's entry in dataset.json."""
+Arrays = dict[str, Any]
+
+
+def truth_of(path: Path) -> Arrays:
+    with np.load(path, allow_pickle=False) as archive:
+        return {key: archive[key] for key in archive.files if key == "t" or key.startswith(("t_", "gt_", "pressure"))}
+
+
+def scored(path: Path, went: RecordingRun, **parts: Any) -> Scored:
+    return Scored(path.stem, samples=went.samples, seconds=went.seconds, **parts)

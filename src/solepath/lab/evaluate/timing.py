@@ -11,14 +11,12 @@ import numpy as np
 from ...types import Foot, Turn
 from ..measures.alignment import at_times
 from ..measures.contacts import force_contacts, merged, switch_contacts
-from ..measures.errors import Errors
 from ..measures.legs import leg_errors, turned_about
-from ..measures.matching import TOLERANCE, Matching, interval_errors, match
+from ..measures.matching import TOLERANCE, Errors, Matching, interval_errors, match
 from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore, stride_score
 from .insoles import force_sensors, switches
-from .recorded import Meta, scored, truth_of
-from .run import RecordingRun, RunSettings, run
+from .run import Meta, RecordingRun, RunSettings, run, scored, truth_of
 
 LEG = 10.0
 """m of ipol_10m_uturn and gaitmap_examples."""

@@ -9,14 +9,13 @@ import numpy as np
 
 from ...types import Foot
 from ..measures.alignment import at_times, path_length, track_error
-from ..measures.errors import Errors
 from ..measures.legs import leg_errors
+from ..measures.matching import Errors
 from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore, marker_rests, position_errors, surveyed_score
 from .gathered import FootRun
 from .insoles import in_dataset
-from .recorded import Arrays, Meta, scored, truth_of
-from .run import RunSettings, run
+from .run import Arrays, Meta, RunSettings, run, scored, truth_of
 
 
 def score_vicon(path: Path, meta: Meta, how: RunSettings) -> Scored:

@@ -14,7 +14,7 @@ from math import inf
 import numpy as np
 
 from .alignment import Floats, at_times
-from .errors import Errors
+from .matching import Errors
 
 EVERY = 0.05
 """s: a turn about is looked for among instants so far apart; a foot pivots for longer."""

@@ -1,4 +1,4 @@
-"""Found events against true ones: matched one to one within 250 ms; F1, median offset and its spread."""
+"""Found events against true ones: matched one to one within 250 ms; F1, median offset and its spread; signed errors."""
 
 from __future__ import annotations
 
@@ -8,7 +8,31 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from attrs import frozen
 
-from .errors import Errors
+
+@frozen
+class Errors:
+    """Signed errors, ours less the true: of legs relative to the true length (0.01 is 1 %), of stride times in s."""
+
+    values: tuple[float, ...] = ()
+
+    def __add__(self, other: Errors) -> Errors:
+        return Errors(self.values + other.values)
+
+    @property
+    def mean(self) -> float | None:
+        """Mean magnitude."""
+        return float(np.mean(np.abs(self.values))) if self.values else None
+
+    @property
+    def median(self) -> float | None:
+        """Median magnitude."""
+        return float(np.median(np.abs(self.values))) if self.values else None
+
+    @property
+    def bias(self) -> float | None:
+        """Median with its sign: positive when ours are too long."""
+        return float(np.median(self.values)) if self.values else None
+
 
 TOLERANCE = 0.25
 """s; design: "matched within 250 ms"."""

@@ -10,8 +10,7 @@ import numpy as np
 from attrs import field, frozen
 
 from .confusion import ActivityScore
-from .errors import Errors
-from .matching import Matching
+from .matching import Errors, Matching
 from .strides import StrideScore
 
 Figures = dict[str, float | None]

@@ -15,9 +15,8 @@ from ...types import Activity, Turn
 from ..measures.confusion import ActivityScore
 from . import footstep_walks, published
 from .footstep_walks import CORRIDOR, FootstepWalked, walked
-from .picture import Drawn, Floor, PictureTrack
-from .pool import Progress, each
-from .tables import FigureRow, Reproduction, Statistics
+from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, Statistics
+from .walks import Progress, each
 
 NAME = footstep_walks.NAME
 FIRST = 100_000

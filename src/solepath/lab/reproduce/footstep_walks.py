@@ -17,9 +17,8 @@ from ...emulate.routes.route import Route
 from ...emulate.routes.ways import Way, case_study, corridor, wandering
 from ...emulate.sensors.sensortags import CC2541
 from ...emulate.walk import EmulatedWalk, emulate
-from ...emulate.wearers.gait import Wearer
+from ...emulate.wearers.gait import Wearer, anybody
 from ...emulate.wearers.shoe import IN_SOLE
-from ...emulate.wearers.wearers import wearer
 from ...events import Event, StrideTaken, TurnMade
 from ...papers.footstep_tracker.toe_out import learnt, toe_out
 from ...recipes import Recipe, by_name
@@ -47,7 +46,7 @@ CLASSES = {Turn.LEFT: (0.5 * pi,), Turn.RIGHT: (-0.5 * pi,), Turn.ABOUT: (pi, -p
 
 @frozen
 class Wears:
-    """Who walks, and how long the legs are."""
+    """Who walks, with toes more or less out, and the stature, m."""
 
     who: Wearer
     stature: float
@@ -75,16 +74,9 @@ class FootstepWalked:
     """Along the way of the paper's case study, and along another."""
 
 
-def wears(seed: int) -> Wears:
-    """Somebody between 1.55 m and 1.92 m tall, with toes more or less out."""
-    rng = np.random.default_rng([seed, 17])
-    stature = float(rng.uniform(1.55, 1.92))
-    return Wears(wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature), stature)
-
-
 def walked(seed: int) -> FootstepWalked:
     """All that one wearer walks."""
-    known = wears(seed)
+    known = Wears(*anybody(np.random.default_rng([seed, 17])))
     calibration = _calibrated(known, seed)
     one_foot, by_height, two_feet, step_one, step_two = _corridor(known, calibration, seed)
     windows = emulated_activity.score(by_name(NAME), seed).windows

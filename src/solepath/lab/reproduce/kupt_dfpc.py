@@ -28,10 +28,8 @@ from ...papers.kupt_dfpc.shoe import fit_shoe
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
 from . import published
-from .picture import Boxes, Drawn, Floor, PictureTrack
-from .pool import Progress, each
-from .tables import FigureRow, Reproduction, statistics
-from .walks import cut, heard, laid, rest_after, then, thinned
+from .tables import Boxes, Drawn, FigureRow, Floor, PictureTrack, Reproduction, statistics
+from .walks import Progress, cut, each, heard, laid, rest_after, then, thinned
 
 NAME = "kupt-dfpc"
 WALKS = 20

@@ -14,6 +14,7 @@ stood. The rate of the samples is not in the paper.
 from __future__ import annotations
 
 from math import atan2, cos, sin
+from operator import attrgetter
 
 import numpy as np
 from attrs import evolve, frozen
@@ -29,10 +30,8 @@ from ...recipes import by_name
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
 from . import published
-from .picture import Drawn, Floor, PictureTrack
-from .pool import Progress, each
-from .tables import FigureRow, Reproduction, Statistics
-from .walks import cut, heard, laid, rest_after, then, thinned
+from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, Statistics
+from .walks import Progress, cut, each, heard, laid, rest_after, then, thinned
 
 NAME = "pressure-contour"
 WALKS = 6
@@ -118,7 +117,7 @@ def _paper(name: str, unit: str) -> Statistics:
 
 def _notes(done: list[ContourWalked]) -> tuple[str, ...]:
     lines = []
-    for one in sorted(done, key=_number):
+    for one in sorted(done, key=attrgetter("number")):
         paper = published.LOOPS[one.number]
         ours = ", ".join(f"{name.lower()} {error:.2f} m" for name, error in one.closing.items())
         lines.append(
@@ -130,10 +129,6 @@ def _notes(done: list[ContourWalked]) -> tuple[str, ...]:
         "the means of its six percentages."
     )
     return tuple(lines)
-
-
-def _number(one: ContourWalked) -> int:
-    return one.number
 
 
 def route_of(job: ContourJob) -> tuple[Route, Route]:

@@ -14,10 +14,9 @@ import numpy as np
 from ...papers.shoe_sensing.recipe import SHOE_SENSING
 from ..measures.strides import mean_magnitude
 from . import published
-from .picture import Drawn, Floor, PictureTrack
-from .pool import Progress, each
 from .shoe_walks import STATES, ShoeWalked, Steps, walked
-from .tables import FigureRow, Reproduction, Statistics
+from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, Statistics
+from .walks import Progress, each
 
 NAME = SHOE_SENSING.name
 WALKS = 20

@@ -1,7 +1,7 @@
 """Gong et al. 2023: 40 rectangles of 2.8 m by 4.0 m, four wearers of ten each, with seven attitude sensors and two
 insoles of 99 cells at 50 Hz, by touchdown methods I to IV.
 
-The wearers are those of table 3 (emulate/wearers/wearers.py). They walk from A over B, C and D back to A, turning left
+The wearers are those of table 3 (emulate/wearers/gait.py). They walk from A over B, C and D back to A, turning left
 without a halt. At each corner every foot has a step that comes down nearest to it; a deviation is where a session has
 these two touchdowns, less where the feet truly came down, the mean of both.
 
@@ -23,9 +23,8 @@ from ...emulate.routes.laps import marks as marks_of
 from ...emulate.sensors.insoles import layout
 from ...emulate.sensors.parts import WORN_RESISTIVE
 from ...emulate.sensors.suit import limb_samples
-from ...emulate.wearers.gait import Wearer
+from ...emulate.wearers.gait import SUBJECTS, Wearer
 from ...emulate.wearers.walker import Walker
-from ...emulate.wearers.wearers import SUBJECTS
 from ...events import TouchedDown
 from ...papers.walking_modes.calibrate import MODES, ModeMark, mean_errors, step_errors, touchdowns
 from ...papers.walking_modes.modes import Modes
@@ -35,10 +34,9 @@ from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ...types.vector import GRAVITY
 from . import published
-from .picture import Drawn, Floor, PictureTrack
-from .pool import Progress, each
 from .published import corner_row
-from .tables import FigureRow, Reproduction, statistics
+from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, statistics
+from .walks import Progress, each
 
 NAME = "walking-modes"
 WALKS = 40

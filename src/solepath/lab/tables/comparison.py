@@ -1,4 +1,4 @@
-"""A session against the truth of an emulated walk, as a table."""
+"""Tables of a comparison: a session against the truth of an emulated walk, a reproduction against the paper."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from statistics import median
 from ...show.tables.table import milliseconds, number, percent, table
 from ..emulated.compare import FootComparison
 from ..emulated.place import PlaceScore
+from ..reproduce.tables import STATISTICS, FigureRow, Reproduction, Statistics, statistics
 
 EVENTS = {"heel_strike": "heel-strike", "foot_flat": "foot-flat", "heel_off": "heel-off", "toe_off": "toe-off"}
 
@@ -37,3 +38,16 @@ def place_table(score: PlaceScore) -> str:
         ["from the second turn on, median error m", number(median(score.off)) if score.off else "-"],
     ]
     return table(["place against the truth", "wearer"], rows)
+
+
+def reproduced(done: Reproduction) -> str:
+    """The table of ours with the paper's beside it, and what else is to be said, a sentence a line."""
+    first, *others = STATISTICS
+    header = [done.unit, f"ours: {first}", *others, f"paper: {first}", *others]
+    rows = [[row.name, *_cells(statistics(row.values), row), *_cells(row.paper, row)] for row in done.rows]
+    title = f"{done.name}: ours is emulated ({done.walked}), theirs was walked ({done.paper_title})."
+    return "\n".join([title, "", table(header, rows), *([""] if done.notes else []), *done.notes])
+
+
+def _cells(of: Statistics, row: FigureRow) -> list[str]:
+    return [number(getattr(of, key), row.digits) for key in STATISTICS]

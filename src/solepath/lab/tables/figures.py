@@ -9,8 +9,7 @@ from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ..reproduce.picture import Boxes, Drawn, Floor, PictureTrack
-from ..reproduce.tables import Reproduction, Statistics
+from ..reproduce.tables import Boxes, Drawn, Floor, PictureTrack, Reproduction, Statistics
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
 """Told apart by colour-blind readers too (Okabe and Ito 2008)."""

@@ -1,35 +1,24 @@
-"""Scores on recorded data as text tables."""
+"""Scores as text tables: of recorded data, of the default recipe without each of its parts, beside earlier ones."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from math import degrees
 
 from ...show.tables.table import milliseconds, number, percent, table
 from ...types import Activity
+from ..evaluate.ablation import COLUMNS as MAIN_FIGURES
+from ..evaluate.ablation import Column
+from ..evaluate.changes import DIGITS, Changes, Scores, Verdict, compared, missing
 from ..evaluate.report import Result
 from ..measures.confusion import CLASSES
 from ..measures.score import Figures, Summary
 
-
-def _metres(value: float | None) -> str:
-    return number(value, 3)
-
-
-def _short_metres(value: float | None) -> str:
-    return number(value, 1)
-
-
-def _hundredths(share: float | None) -> str:
-    return percent(share, 2)
-
-
-def _count(value: float | None) -> str:
-    return number(value, 0)
-
-
-def _share(value: float | None) -> str:
-    return number(value, 3)
+_metres = _share = partial(number, digits=3)
+_short_metres = partial(number, digits=1)
+_count = partial(number, digits=0)
+_hundredths = partial(percent, digits=2)
 
 
 def _degrees(value: float | None) -> str:
@@ -142,3 +131,67 @@ def _confusion(summary: Summary) -> str:
 
 def _row(name: str, figures: Figures, keys: Sequence[str]) -> list[str]:
     return [name, *(COLUMNS[key][1](figures.get(key)) for key in keys)]
+
+
+def ablation_table(results: Sequence[Result], markdown: bool = False) -> str:
+    """A line for each recipe, a column for each main figure that was scored."""
+    recipes = list(dict.fromkeys(result.recipe for result in results))
+    scored = {result.data_set.name for result in results}
+    columns = [column for column in MAIN_FIGURES if column.data_set in scored]
+    header = ["", *(f"{column.title} {column.unit}".strip() for column in columns)]
+    rows = [[recipe, *(_main_figure(column, column.of(results, recipe)) for column in columns)] for recipe in recipes]
+    if not markdown:
+        return table(header, rows)
+    lines = [header, ["---", *("---:" for _ in columns)], *rows]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
+
+
+def _main_figure(column: Column, value: float | None) -> str:
+    match column.unit:
+        case "%":
+            return percent(value, 2)
+        case "ms":
+            return milliseconds(value)
+        case _:
+            return number(value, 3)
+
+
+HEADER = ("figure", "was", "is", "")
+GROUPS = ("mean", "median", "together")
+
+
+def changes_table(changes: Changes) -> str:
+    """Every figure of the groups, and of the recordings those that changed; then what is on one side only."""
+    rows: list[Sequence[str]] = []
+    for change in changes.changes:
+        if change.what.split()[0] in GROUPS or change.verdict is not Verdict.SAME:
+            rows.append(
+                (f"{change.figure} ({change.what})", _digits(change.was), _digits(change.now), change.verdict.value)
+            )
+    counts = [
+        f"{sum(change.verdict is which for change in changes.changes)} {which.value}"
+        for which in (Verdict.BETTER, Verdict.WORSE, Verdict.SAME)
+    ]
+    lines = [f"{changes.data_set}, {changes.recipe}, compared: {', '.join(counts)} (SI units)"]
+    if rows:
+        lines.append(table(HEADER, rows))
+    if changes.gone:
+        lines.append(f"scored then and not now: {', '.join(changes.gone)}")
+    if changes.new:
+        lines.append(f"not scored then: {', '.join(changes.new)}")
+    return "\n".join(lines)
+
+
+def comparison_tables(was: Scores, now: Scores) -> str:
+    """A table for each data set that is in both, and what is in one only."""
+    parts = [changes_table(changes) for changes in compared(was, now)]
+    gone, new = missing(was, now), missing(now, was)
+    if gone:
+        parts.append(f"evaluated then and not now: {', '.join(gone)}")
+    if new:
+        parts.append(f"not evaluated then: {', '.join(new)}")
+    return "\n\n".join(parts)
+
+
+def _digits(value: float | None) -> str:
+    return "-" if value is None else f"{value:.{DIGITS}g}"

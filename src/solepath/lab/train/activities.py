@@ -17,6 +17,7 @@ import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from copy import deepcopy
+from operator import attrgetter
 from pathlib import Path
 
 import attrs
@@ -45,10 +46,9 @@ from ...recording.samples import load_samples
 from ...types import SITE_OF_FOOT, Activity, Foot, Sample, Site
 from ...types.vector import TIE
 from . import emulated
-from .activities_course import LabelledCourse, Said, Span, chances, shifts, spans
+from .activities_course import LabelledCourse, Said, chances, shifts
 from .activities_net import CLASSES, networks, usual
-from .folds import FOLDS
-from .hugadb import labels, recordings
+from .hugadb import FOLDS, Span, labels, recordings, spans
 
 Floats = NDArray[np.float64]
 Label = Callable[[float], Activity | None]
@@ -188,8 +188,8 @@ def level_walks(data: Path) -> Iterator[Blocks]:
     """Recorded walks without stairs, every other one."""
     for number, folder in enumerate(LEVEL_WALKS):
         for path in sorted((data / folder).glob("*.npz"))[::2]:
-            samples = sorted(load_samples(path), key=_time)
-            yield blocks_of(samples, _walking, recipes.DEFAULT, 1000 + number, only_steps=True)
+            samples = sorted(load_samples(path), key=attrgetter("t"))
+            yield blocks_of(samples, lambda t: Activity.WALKING, recipes.DEFAULT, 1000 + number, only_steps=True)
 
 
 def emulated_walks(seeds: Iterable[int] = EMULATED) -> Iterator[Blocks]:
@@ -206,7 +206,7 @@ def _worn(walker: Walker, device: tuple[float, Imu, Mounting] | CC2650 | CC2541,
     if isinstance(device, tuple):
         rate, part, mounting = device
         found = [one for foot in Foot for one in walker.samples(foot, rate, part, mounting=mounting)]
-        return sorted(found, key=_time)
+        return sorted(found, key=attrgetter("t"))
     devices: dict[Site, Device] = {site: attrs.evolve(device) for site in SITE_OF_FOOT.values()}
     walk = emulate(walker.route, wearer=walker.wearer, devices=devices, seed=seed)
     found = []
@@ -214,15 +214,7 @@ def _worn(walker: Walker, device: tuple[float, Imu, Mounting] | CC2650 | CC2541,
         decoder = Decoder(site)
         outputs = [one for packet in walk.packets if packet.site is site for one in decoder.feed(packet)]
         found += [one for one in outputs if isinstance(one, Sample)]
-    return sorted(found, key=_time)
-
-
-def _walking(t: float) -> Activity:
-    return Activity.WALKING
-
-
-def _time(sample: Sample) -> float:
-    return sample.t
+    return sorted(found, key=attrgetter("t"))
 
 
 def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
@@ -248,7 +240,7 @@ def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
             force = (float(acc[0][k]), float(acc[1][k]), float(acc[2][k]))
             turn = None if gyro is None else (float(gyro[0][k]), float(gyro[1][k]), float(gyro[2][k]))
             found.append(attrs.evolve(own[0], t=at, acc=force, gyro=turn))
-    return sorted(found, key=_time)
+    return sorted(found, key=attrgetter("t"))
 
 
 # --- all of it --------------------------------------------------------------------------------------------------------

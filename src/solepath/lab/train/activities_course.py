@@ -21,16 +21,13 @@ from ...body.activity.ride import Felt
 from ...body.activity.votes import motions
 from ...types import Activity, Foot
 from .activities_net import CLASSES
+from .hugadb import APART, Span
 
-Span = tuple[float, float, Activity]
-"""From, to (s), and what the wearer did between."""
 Said = tuple[list[float], Felt | None]
 """Features of a foot in a block, and what a lift would be felt in."""
 
 WORTH = 0.5
 """`SUPPOSED` counts so much beside what was seen: chances must hold of others than these wearers too."""
-APART = 0.5
-"""s between two labelled samples that belong to two spans."""
 NEAR = 4.0
 """A change that was seen further, s, from one that was labelled is another."""
 FEWEST = 8
@@ -48,16 +45,6 @@ class LabelledCourse:
     done: tuple[Span, ...]
     by_hand: bool = True
     """People dated it, and not an emulator."""
-
-
-def spans(t: Sequence[float], labels: Sequence[Activity | None]) -> list[Span]:
-    """The labelled samples as spans, each up to its last sample."""
-    found: list[Span] = []
-    for k, (at, activity) in enumerate(zip(t, labels, strict=True)):
-        if activity is not None:
-            goes_on = k > 0 and labels[k - 1] is activity and at - t[k - 1] < APART
-            found.append((found.pop()[0] if goes_on else at, at, activity))
-    return found
 
 
 def changes(done: Sequence[Span]) -> list[tuple[float, Activity, Activity]]:

@@ -16,10 +16,9 @@ from ...emulate.routes.route import Route
 from ...emulate.sensors.parts import MPU6050
 from ...emulate.sensors.sensortags import CC2650
 from ...emulate.walk import EmulatedWalk, emulate
-from ...emulate.wearers.gait import Wearer
+from ...emulate.wearers.gait import Wearer, anybody
 from ...emulate.wearers.shoe import IN_SOLE
 from ...emulate.wearers.walker import Walker
-from ...emulate.wearers.wearers import wearer
 from ...link.decoder import Decoder
 from ...types import SITE_OF_FOOT, Foot, Sample
 
@@ -37,8 +36,7 @@ _Part = Callable[[Route, np.random.Generator], Route]
 def of_seed(seed: int, *, jogging: bool = False) -> tuple[Route, Wearer]:
     """A route of four or five minutes through a house and who walks it. `jogging`: some of it at a run."""
     rng = np.random.default_rng([seed, 5])
-    stature = float(rng.uniform(1.55, 1.92))
-    who = wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature)
+    who, _ = anybody(rng)
     route = Route(speed=float(rng.uniform(0.9, 1.5))).stand(_uniform(rng, 3.0, 8.0))
     levels = [_stairs(True), _stairs(False), _lift(True), _lift(False)]
     parts = [*levels * TIMES, _along, _along, _along, *[_jog] * jogging]

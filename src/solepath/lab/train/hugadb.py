@@ -30,6 +30,12 @@ LABELS: dict[int, Activity] = {
 """Our activity of each label of theirs; 6, 7, 9 and 12 are left out."""
 
 
+Span = tuple[float, float, Activity]
+"""From, to (s), and what the wearer did between."""
+APART = 0.5
+"""s between two labelled samples that belong to two spans."""
+
+
 @frozen
 class Labelled:
     """One recording and who wore it."""
@@ -55,3 +61,30 @@ def labels(path: Path) -> tuple[Sequence[float], list[Activity | None]]:
         times: list[float] = archive["t"].tolist()
         codes: list[int] = archive["activity"].tolist()
     return times, [LABELS.get(code) for code in codes]
+
+
+FOLDS: tuple[frozenset[int], ...] = tuple(frozenset(wearers) for wearers in ((1, 12), (3, 15), (6,), (8,), (10,)))
+"""The wearers (`subject` in dataset.json) of each fold; what is scored on a fold was trained on the other four.
+
+A wearer is never in two folds, because a gait that was learnt is found again easily. Five of its wearers have all but
+46 s of the recordings, so each fold has one of them; the two others (one lift ride down, 30 s of sitting and standing)
+go where they weigh least: wearer 12 to wearer 1, who rides no lift, wearer 15 to wearer 3, who has the fewest minutes
+next to wearer 10. The folds are fixed, so that figures of two days and of two methods compare."""
+
+
+def fold_of(subject: int) -> int:
+    """The number of the fold that the wearer is in, from 0. ValueError when in none."""
+    for number, wearers in enumerate(FOLDS):
+        if subject in wearers:
+            return number
+    raise ValueError(f"wearer {subject} is in none of the {len(FOLDS)} folds")
+
+
+def spans(t: Sequence[float], labels: Sequence[Activity | None]) -> list[Span]:
+    """The labelled samples as spans, each up to its last sample."""
+    found: list[Span] = []
+    for k, (at, activity) in enumerate(zip(t, labels, strict=True)):
+        if activity is not None:
+            goes_on = k > 0 and labels[k - 1] is activity and at - t[k - 1] < APART
+            found.append((found.pop()[0] if goes_on else at, at, activity))
+    return found

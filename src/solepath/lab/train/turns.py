@@ -23,9 +23,8 @@ from ...body.gait.turns import features
 from ...emulate.routes.route import Route
 from ...emulate.sensors.sensortags import CC2541
 from ...emulate.walk import EmulatedWalk, emulate
-from ...emulate.wearers.gait import Wearer
+from ...emulate.wearers.gait import anybody
 from ...emulate.wearers.shoe import IN_SOLE
-from ...emulate.wearers.wearers import wearer
 from ...events import StrideTaken
 from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from ...session import Session
@@ -63,14 +62,9 @@ def walk(seed: int, turn: Turn) -> EmulatedWalk:
     radius = 0.0 if rng.uniform() < 0.3 else float(rng.uniform(0.3, 1.2))
     route = Route().stand(2.5).walk(4.0, float(rng.uniform(0.9, 1.4))).turn(angle, radius).walk(4.0).stop(2.0)
     devices = {site: CC2541(rate=20.0, mounting=IN_SOLE) for site in SITE_OF_FOOT.values()}
-    return emulate(route, wearer=_wearer(seed), devices=devices, seed=seed)
-
-
-def _wearer(seed: int) -> Wearer:
-    """One of `WEARERS` in each hundred of seeds, by turns."""
-    rng = np.random.default_rng([seed // 100, seed % WEARERS, 11])
-    stature = float(rng.uniform(1.55, 1.92))
-    return wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature)
+    # one of WEARERS in each hundred of seeds, by turns
+    who, _ = anybody(np.random.default_rng([seed // 100, seed % WEARERS, 11]))
+    return emulate(route, wearer=who, devices=devices, seed=seed)
 
 
 def measured(walked: EmulatedWalk) -> TurnProcess | None:

@@ -15,7 +15,7 @@ from attrs import define
 
 from ...types import Packet, Site
 from ...wire.receiver import ConnectionFrame, build_connected
-from ..packets import RecordingError, Report, printable, warn
+from ..trouble import RecordingError, Report, printable, warn
 from .att import AttOperation
 from .devices import CHANNELS, Handles, LoggedDevice, name_attributes, no_use, one, place, upper
 from .evidence import ValueEvidence

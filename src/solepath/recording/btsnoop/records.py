@@ -16,7 +16,7 @@ from construct import Const, Int32ub, Struct
 
 from ...wire.error import WireError
 from ...wire.fields import Fields, parse_whole
-from ..packets import RecordingError, Report, open_file, printable
+from ..trouble import RecordingError, Report, open_file, printable
 
 MAGIC = b"btsnoop\0"
 VERSION = 1

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from attrs import define, field, frozen
 
-from ..packets import RecordingError, Report
+from ..trouble import RecordingError, Report
 from .att import FROM_CLIENT, AttOperation, AttValue, Conversation
 from .hci import Begun, Controller, Ended, HciConnection, Pdu
 from .records import read_records

@@ -1,5 +1,5 @@
 """Recorded samples: .npz and .csv files with t, acc, gyro and pressure of one foot or of both."""
 
-from .reader import SampleRecording, load_samples, read_samples
+from .reader import SampleRecording, load_samples
 
-__all__ = ["SampleRecording", "load_samples", "read_samples"]
+__all__ = ["SampleRecording", "load_samples"]

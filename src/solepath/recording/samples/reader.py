@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterator
+from operator import attrgetter, itemgetter
 from pathlib import Path
 
 from attrs import frozen
 
 from ...types import Foot, Sample
-from ..packets import RecordingError, Report, warn
+from ..trouble import RecordingError, Report, warn
 from .npz import read_npz
 from .sheet import read_csv
 from .table import FootTable, checked
@@ -34,27 +35,19 @@ class SampleRecording:
         return sum(map(len, self.tables))
 
     def __iter__(self) -> Iterator[Sample]:
-        samples = heapq.merge(*(table.samples() for table in self.tables), key=_time)
+        samples = heapq.merge(*(table.samples() for table in self.tables), key=attrgetter("t"))
         ends = [(float(table.t[-1]), table.flaw) for table in self.tables if table.flaw is not None]
         if not ends:
             yield from samples
             if self.flaw is not None:
                 raise self.flaw
             return
-        last, flaw = min(ends, key=_end)
+        last, flaw = min(ends, key=itemgetter(0))
         for sample in samples:
             if sample.t > last:
                 break
             yield sample
         raise flaw
-
-
-def _end(end: tuple[float, RecordingError]) -> float:
-    return end[0]
-
-
-def _time(sample: Sample) -> float:
-    return sample.t
 
 
 def load_samples(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> SampleRecording:
@@ -78,8 +71,3 @@ def load_samples(path: Path | str, foot: Foot | None = None, *, report: Report =
     if not wanted and foot is not None:
         raise RecordingError(path, f"holds nothing of the {foot.value} foot")
     return SampleRecording(path, tuple(checked(table) for table in wanted), flaw)
-
-
-def read_samples(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> Iterator[Sample]:
-    """The samples of `load_samples` one after the other, merged over the feet by time."""
-    return iter(load_samples(path, foot, report=report))

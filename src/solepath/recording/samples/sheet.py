@@ -17,7 +17,7 @@ import numpy as np
 from attrs import define, field
 
 from ...types import Foot
-from ..packets import RecordingError, Report, open_file, printable
+from ..trouble import RecordingError, Report, open_file, printable
 from .table import QUANTITIES, FootTable
 
 _COLUMN = re.compile(r"(t|acc|gyro|pressure)(?:_(left|right))?(?:_([xyz]|[0-9]{1,4}))?(?:_(left|right))?")

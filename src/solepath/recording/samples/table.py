@@ -8,6 +8,7 @@ there, so that the rows before are used and the sentence comes after them.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from attrs import define
 from numpy.typing import NDArray
 
 from ...types import SITE_OF_FOOT, Foot, Sample
-from ..packets import RecordingError, printable
+from ..trouble import RecordingError, printable
 
 Floats = NDArray[np.float64]
 
@@ -110,11 +111,7 @@ def _first_bad_row(table: FootTable) -> tuple[int, str, str]:
         row = int(falls[0]) + 1
         before, after = float(table.t[row - 1]), float(table.t[row])
         bad.append((row, f"time runs backwards, from {before!r} s to {after!r} s", "t"))
-    return min(bad, key=_row_of)
-
-
-def _row_of(fault: tuple[int, str, str]) -> int:
-    return fault[0]
+    return min(bad, key=itemgetter(0))
 
 
 def _check_scales(table: FootTable) -> None:

@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 from attrs import frozen
 
-from ...types.vector import GRAVITY
-from ..wearers.curves import Array
-from ..wearers.motion import Kinematics
+from solepath.emulate.wearers.curves import Array
+from solepath.emulate.wearers.motion import Kinematics
+from solepath.types.vector import GRAVITY
 
 
 @frozen

@@ -1,17 +1,35 @@
-"""Files that take the place of an earlier run's only once they are whole."""
+"""Files that a command writes: tried before the work, and in the place of an earlier run's only once they are whole."""
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 from contextlib import suppress
 from errno import EISDIR
 from itertools import count
 from pathlib import Path
+from typing import Any
 
 from attrs import define, field
 
 _numbers = count()
+
+
+def check_writable(path: Path) -> None:
+    """OSError now, not after a long recording was read. What is in the file stays."""
+    there = path.exists()
+    if not there or path.is_file() or path.is_dir():  # a pipe would take it for the end
+        path.open("ab").close()
+    if not there:
+        path.unlink()
+
+
+def write_json(path: Path, value: Any) -> None:
+    """Write it as JSON, to be read by people too. OSError."""
+    with path.open("w", encoding="utf-8") as file:
+        json.dump(value, file, indent=1, allow_nan=False)
+        file.write("\n")
 
 
 @define

@@ -1,0 +1,145 @@
+"""What can be known of a wearer, a shoe or an insole: a program may have put anything into the records."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from attrs import fields
+
+from ..types import Cell, Foot, Layout, WalkingMode
+from .records import Calibration, InsoleCalibration, Limbs, Newtons, ShoeGeometry
+
+_Limit = tuple[str, object, float, float, str]
+"""A key, its value, the least and the most that it can be, and their unit."""
+
+
+def unusable(calibration: Calibration) -> str | None:
+    """Why it cannot be used: the first key whose value is none of a wearer, a shoe or an insole; None when it can. The
+    limits are those of protocol/calibration.md."""
+    misshapen = next(_misshapen(calibration), None)
+    if misshapen is not None:
+        return misshapen
+    for key, value, least, most, unit in _limits(calibration):
+        if isinstance(value, bool) or not isinstance(value, int | float) or not least <= value <= most:
+            return f"{key} is {_shown(value)}; it can be {least:g} to {most:g}{unit}"
+    for foot, insole in calibration.insoles.items():
+        if insole.newtons is not None and insole.newtons.threshold > insole.newtons.most:
+            return f"insoles.{foot.value}.newtons.threshold is more than its most"
+    if calibration.shoe is not None:
+        return _unusable_shoe(calibration.shoe)
+    return None
+
+
+def _misshapen(calibration: Calibration) -> Iterator[str]:
+    """What is of another kind than the records above say: a program may have put anything into them. Numbers are left
+    to _limits."""
+    yield from _table("insoles", calibration.insoles, Foot)
+    for foot, insole in calibration.insoles.items():
+        key = f"insoles.{foot.value}"
+        yield from _kind(key, insole, InsoleCalibration)
+        if insole.layout is not None:
+            yield from _kind(f"{key}.layout", insole.layout, Layout)
+            yield from _kind(f"{key}.layout.cells", insole.layout.cells, tuple)
+            for cell in insole.layout.cells:
+                yield from _kind(f"one of {key}.layout.cells", cell, Cell)
+        if insole.newtons is not None:
+            yield from _kind(f"{key}.newtons", insole.newtons, Newtons)
+            yield from _row(f"{key}.newtons.coefficients", insole.newtons.coefficients, 4)
+        yield from _row(f"{key}.noise", insole.noise)
+    if calibration.shoe is not None:
+        yield from _kind("shoe", calibration.shoe, ShoeGeometry)
+        yield from _row("shoe.forefoot_radius", calibration.shoe.forefoot_radius)
+        yield from _row("shoe.pivot_to_toe", calibration.shoe.pivot_to_toe)
+    yield from _table("drift", calibration.drift, Foot)
+    for foot, slope in calibration.drift.items():
+        yield from _row(f"drift.{foot.value}", slope, 2)
+    if calibration.limbs is not None:
+        yield from _kind("limbs", calibration.limbs, Limbs)
+    if calibration.modes is not None:
+        yield from _table("modes", calibration.modes, Foot)
+        for foot, modes in calibration.modes.items():
+            yield from _table(f"modes.{foot.value}", modes, WalkingMode)
+            for mode, way in modes.items():
+                yield from _row(f"modes.{foot.value}.{mode.value}", way, 2)
+    yield from _table("toe_out", calibration.toe_out, Foot)
+
+
+def _kind(key: str, value: object, kind: type) -> Iterator[str]:
+    if not isinstance(value, kind):
+        yield f"{key} is {_shown(value)}, no {kind.__name__}"
+
+
+def _table(key: str, value: object, keys: type) -> Iterator[str]:
+    yield from _kind(key, value, dict)
+    for one in value if isinstance(value, dict) else ():
+        if not isinstance(one, keys):
+            yield f"{key} has the key {_shown(one)}, no {keys.__name__}"
+
+
+def _row(key: str, value: object, count: int | None = None) -> Iterator[str]:
+    if not isinstance(value, tuple) or count is not None and len(value) != count:
+        yield f"{key} is {_shown(value)}, not a tuple of {'numbers' if count is None else f'{count} numbers'}"
+
+
+def _limits(calibration: Calibration) -> Iterator[_Limit]:
+    for foot, insole in calibration.insoles.items():
+        yield from _limits_of_insole(f"insoles.{foot.value}.", insole)
+    if calibration.shoe is not None:
+        shoe = calibration.shoe
+        yield "shoe.heel_radius", shoe.heel_radius, 0.001, 1.0, " m"
+        yield "shoe.height", shoe.height, 0.0, 1.0, " m"
+        yield "shoe.steepest", shoe.steepest, 0.01, 1.6, " rad"
+        for key, polynomial in (("forefoot_radius", shoe.forefoot_radius), ("pivot_to_toe", shoe.pivot_to_toe)):
+            yield f"the number of coefficients in shoe.{key}", len(polynomial), 1, 16, ""
+            yield from ((f"shoe.{key}", coefficient, -100.0, 100.0, "") for coefficient in polynomial)
+    for foot, slope in calibration.drift.items():
+        yield from ((f"drift.{foot.value}", speed, -1.0, 1.0, " m/s") for speed in slope)
+    for foot, angle in calibration.toe_out.items():
+        yield f"toe_out.{foot.value}", angle, -1.0, 1.0, " rad"
+    if calibration.limbs is not None:
+        for one in fields(Limbs):
+            yield f"limbs.{one.name}", getattr(calibration.limbs, one.name), 0.001, 1.5, " m"
+    if calibration.weight is not None:
+        yield "weight", calibration.weight, 50.0, 5000.0, " N"
+    for foot, modes in (calibration.modes or {}).items():
+        for mode, way in modes.items():
+            yield from ((f"modes.{foot.value}.{mode.value}", length, -0.5, 0.5, " m") for length in way)
+
+
+def _limits_of_insole(key: str, insole: InsoleCalibration) -> Iterator[_Limit]:
+    layout, newtons = insole.layout, insole.newtons
+    if layout is not None:
+        yield f"{key}layout.length", layout.length, 0.01, 1.0, " m"
+        yield f"the number of cells in {key}layout", len(layout.cells), 1, 4096, ""
+        for i, cell in enumerate(layout.cells):
+            yield f"{key}layout.cells[{i}].x", cell.x, -1.0, 1.0, " m"
+            yield f"{key}layout.cells[{i}].y", cell.y, -1.0, 1.0, " m"
+            yield f"{key}layout.cells[{i}].area", cell.area, 0.0, 1.0, " m^2"
+        if layout.scale is not None:
+            yield f"{key}layout.scale", layout.scale, 1e-9, 1e6, " N"
+        yield f"{key}layout.full_scale", layout.full_scale, 1e-6, 1e9, ""
+    if newtons is not None:
+        yield from ((f"{key}newtons.coefficients", one, -1e12, 1e12, "") for one in newtons.coefficients)
+        yield f"{key}newtons.threshold", newtons.threshold, 0.0, 1e5, " N"
+        yield f"{key}newtons.most", newtons.most, 0.001, 1e5, " N"
+    yield from ((f"{key}noise[{i}]", value, 0.0, 1e6, "") for i, value in enumerate(insole.noise))
+
+
+def _unusable_shoe(shoe: ShoeGeometry) -> str | None:
+    """The polynomials say lengths wherever they are good."""
+    for key, polynomial in (("forefoot_radius", shoe.forefoot_radius), ("pivot_to_toe", shoe.pivot_to_toe)):
+        for k in range(5):
+            pitch, length = 0.25 * k * shoe.steepest, 0.0
+            for coefficient in reversed(polynomial):
+                length = length * pitch + coefficient
+            if abs(length) > 1.0:
+                return f"shoe.{key} is {length:g} m at {pitch:.2g} rad; it can be -1 to 1 m"
+    return None
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, int) and not abs(value) < 10**30:
+        return "a huge number"  # Python does not write all of them
+    if value is None or isinstance(value, str | int):
+        return repr(value)[:40]
+    return f"{value:g}" if isinstance(value, float) else f"a {type(value).__name__}"

@@ -1,0 +1,50 @@
+"""What is wrong with a recording, in a sentence; and files of any format opened so that the sentence names them."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import BinaryIO
+
+
+class RecordingError(Exception):
+    """A recording cannot be used, or not beyond a place: one sentence naming the file, the place and what is wrong."""
+
+    def __init__(self, path: Path | str, what: str, where: str = "") -> None:
+        self.path, self.where, self.what = Path(path), where, what
+        super().__init__(": ".join([printable(str(path))] + [part for part in (where, what) if part]))
+
+
+class RecordingWarning(UserWarning):
+    """A recording has a flaw that costs nothing but what is missing (a torn last line)."""
+
+
+Report = Callable[[str], None]
+"""Takes one sentence about a flaw that does not stop the reading."""
+
+
+def warn(sentence: str) -> None:
+    """The report of those who give none: a RecordingWarning."""
+    warnings.warn(sentence, RecordingWarning, stacklevel=3)
+
+
+def printable(text: str, longest: int = 200) -> str:
+    """`text` on one line and without control codes, whatever a file or its name holds."""
+    clean = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
+    return clean if len(clean) <= longest else clean[: longest - 3] + "..."
+
+
+def why(error: OSError) -> str:
+    """What the system says of a failure, in its own words."""
+    return (error.strerror or str(error)).lower()
+
+
+def open_file(path: Path) -> BinaryIO:
+    """The file opened for reading bytes; RecordingError when there is none, it is a directory or may not be read."""
+    try:
+        if path.is_dir():
+            raise RecordingError(path, "is a directory, not a recording")
+        return path.open("rb")
+    except OSError as error:
+        raise RecordingError(path, why(error)) from error
