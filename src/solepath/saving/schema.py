@@ -31,12 +31,8 @@ from typing import Any
 
 import attrs
 
+from .marks import MADE_AGAIN, NOT_SAVED
 from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, RowNode, ScalarNode, TupleNode
-
-NOT_SAVED = {"saving": "not saved"}
-"""Mark of a field that is in no snapshot and in no packed state: it has its default after loading."""
-MADE_AGAIN = {"saving": "made again"}
-"""Mark of a field of state whose parts are made again by their holder."""
 
 SCALARS = (float, int, bool, str, bytes)
 _RECORDS: dict[tuple[type, bool], RecordNode] = {}

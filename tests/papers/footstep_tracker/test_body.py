@@ -17,7 +17,9 @@ from walks import LEFT, RIGHT, ROUGH, of, samples
 from solepath import Session
 from solepath.body.gait.direction import Direction, TurnProcess, agreed
 from solepath.body.gait.turns import WEIGHTS, Turns, classified
-from solepath.calibration import Calibration, CalibrationError, merged, read_calibration, unusable, write_calibration
+from solepath.calibration import Calibration, CalibrationError, merged
+from solepath.calibration.file import read_calibration, write_calibration
+from solepath.calibration.limits import unusable
 from solepath.cli.main import main
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2541
