@@ -120,7 +120,7 @@ def test_saved_anywhere_it_goes_on_the_same_bit_for_bit(method, seed, cut) -> No
         assert whole.follow(OFFICE, one.events, one.here) == again.follow(OFFICE, one.events, one.here)
 
 
-def packed_size(part: Any) -> int:
+def packed_size(part: object) -> int:
     lists: Lists = ([], [], [], [])
     write(record_of(type(part)), part, lists)
     return len(to_bytes(*lists, (0.0, 0.0)))
