@@ -17,7 +17,7 @@ from math import isfinite
 from typing import Any, TypeVar
 
 from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, RowNode, ScalarNode, TupleNode
-from .schema import is_record, node_of, placed, record_of
+from .schema import is_record, placed, record_of
 
 T = TypeVar("T")
 
@@ -53,11 +53,6 @@ def load(cls: type[T], value: Json, classes: Classes = no_class) -> T:
     except (TypeError, ValueError, KeyError, IndexError, AttributeError, OverflowError, RecursionError) as error:
         raise SnapshotError(f"not a snapshot of {cls.__name__}: {error}") from error
     return loaded
-
-
-def load_value(annotation: Any, value: Json) -> Any:
-    """What a field of this type holds. ValueError, TypeError and the like when it does not fit."""
-    return _codec(node_of(annotation))[1](value, no_class)
 
 
 def checksum(value: Json) -> int:
