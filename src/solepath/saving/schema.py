@@ -50,11 +50,6 @@ def record_in(node: OpenNode, cls: type) -> RecordNode:
     return record_of(cls, node.made and (cls in node.known.values() or remembers(cls)))
 
 
-def node_of(annotation: Any) -> Node:
-    """What a field of this type holds."""
-    return _Walk().node(annotation, False)
-
-
 def is_record(cls: Any) -> bool:
     """Whether it is a class whose fields can be read from its annotations."""
     if not isinstance(cls, type) or issubclass(cls, Enum | tuple):
