@@ -11,7 +11,7 @@ Times come from the best that the device has, by the rules of protocol/clock.md:
 
 from __future__ import annotations
 
-from attrs import define, evolve, field
+from attrs import define, field
 
 from ..events import (
     BatteryLevel,
@@ -276,7 +276,8 @@ class StreamLink(DeviceLink):
             self.periodic = periodic(count / rate)
         taken = self.periodic.arrive(arrival, counts_losses=not self.silence_is_legal)
         (last,), apart = taken.times, self.periodic.period / count
-        return evolve(taken, times=[last - (count - 1 - j) * apart for j in range(count)])
+        times = [last - (count - 1 - j) * apart for j in range(count)]
+        return Taken(times, taken.lost, taken.t_missing)
 
     def _in_order(self, t: float) -> float:
         if self.last_t is not None and t <= self.last_t:
