@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from solepath.lab.evaluate.jobs import evaluate
-from solepath.lab.evaluate.report import Result
-
 if TYPE_CHECKING:
     from browsers import Browsing
+
+    from solepath.lab.evaluate.report import Result
 
 
 @pytest.fixture(scope="session")
@@ -31,6 +30,7 @@ def data_dir() -> Path:
 def evaluated(data_dir: Path) -> Callable[[str, str], Result]:
     """What a recipe makes of the recordings of a data set, by the names of both; each is evaluated once
     in a process."""
+    from solepath.lab.evaluate.jobs import evaluate
 
     @cache
     def of(data_set: str, recipe: str) -> Result:

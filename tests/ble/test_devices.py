@@ -15,7 +15,7 @@ from bleak.backends.scanner import BaseBleakScanner
 from bleak.exc import BleakDBusError, BleakError
 from strap import BATTERY, BEAT, CONTROL, HEART_RATE, LEVEL, Strap
 
-from solepath import BatteryLevel, LayoutKnown, PacketRejected, PacketsDropped, Session
+from solepath import BatteryLevel, LayoutKnown, PacketRejected, Session
 from solepath.ble import Backend, BluetoothError, ConnectionState, Devices, Wanted
 from solepath.emulate import Route
 from solepath.emulate.devices.bench import Bench
@@ -141,13 +141,6 @@ def test_what_a_device_does_not_have_to_be_set_is_told_and_passed_over() -> None
     assert len(times(packets, "strap/beat")) > 4 * RATE
 
 
-@pytest.mark.parametrize("pair", [False, True])
-def test_devices_are_paired_with_when_the_app_says_so(pair: bool) -> None:
-    heard = asked(strap())
-    got(heard, ONE, pair=pair)
-    assert heard.paired == [pair]
-
-
 # --- packets ---
 
 
@@ -230,18 +223,6 @@ def test_what_an_app_is_too_slow_for_goes_from_the_oldest_on_and_is_counted() ->
         assert [packet.channel for packet in mine][: len(setup)] == setup
 
 
-def test_a_session_is_told_how_many_packets_an_app_was_too_slow_for_and_goes_on() -> None:
-    packets = taken_late(capacity=300, wait=20.0)
-    events = Session().feed(packets)
-    dropped = {event.site: event.count for event in events if isinstance(event, PacketsDropped)}
-    assert dropped.keys() == {LEFT, RIGHT} and min(dropped.values()) > 1000
-    assert not [event for event in events if isinstance(event, PacketRejected)]
-
-
-def test_what_waits_for_an_app_that_never_takes_anything_is_bounded() -> None:
-    assert len(taken_late(capacity=50, wait=8.0)) < 2 * 50 + len(Site)
-
-
 def test_an_app_that_takes_a_packet_every_now_and_then_gets_them_in_order() -> None:
     device = strap()
     device.log = []
@@ -265,11 +246,6 @@ def test_an_app_that_takes_a_packet_every_now_and_then_gets_them_in_order() -> N
     assert device.log is not None
     assert len(numbers) + dropped == numbers[-1] + 1 - int.from_bytes(device.log[0].value[:4], "little")
     assert dropped > 50 and len(numbers) > 20
-
-
-def test_a_capacity_of_nothing_is_an_error() -> None:
-    with pytest.raises(ValueError, match="capacity"):
-        Devices([ONE], capacity=0)
 
 
 # --- taking and leaving ---
@@ -306,22 +282,6 @@ def test_to_leave_at_any_moment_leaves_nothing_behind(moment: float) -> None:
         assert not others() and not device.is_connected and heard.scanning == 0
 
     in_virtual_time(main)
-
-
-def test_who_is_still_listening_when_the_devices_are_left_hears_them_go_and_comes_to_an_end() -> None:
-    async def main() -> list[Packet]:
-        devices = Devices([ONE, Wanted(LEFT, address(2), STRAP)], backend=MemoryRadio([strap(1), strap(2)]).backend)
-        async with devices:
-
-            async def take() -> list[Packet]:
-                return [packet async for packet in devices]
-
-            listener = asyncio.create_task(take())
-            await asyncio.sleep(3.0)
-        return await listener
-
-    packets = in_virtual_time(main)
-    assert {packet.site for packet in packets if packet.channel == "receiver/disconnected"} == {PELVIS, LEFT}
 
 
 def test_devices_that_were_left_can_be_entered_again_but_not_twice_at_once() -> None:

@@ -11,13 +11,11 @@ from pathlib import Path
 
 import pytest
 import walks
-from snooped import INSOLE, LEFT, RIGHT, TAG, Log, insoles_log
+from snooped import LEFT, RIGHT, TAG, Log, insoles_log
 
 from solepath import Session, Site
 from solepath.cli import main
 from solepath.recording import PacketWriter, read_header, read_packets
-
-FRAME = next(iter(INSOLE))
 
 
 def convert(*arguments: object) -> subprocess.CompletedProcess[str]:

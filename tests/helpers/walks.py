@@ -236,7 +236,7 @@ SAMPLE_NAMES = tuple(
     for name in (
         "samples",
         "samples with pressure",
-        "Shoe",
+        "ShoeDetector",
         "AngularRate",
         "MovingVariance",
         "Graph",

@@ -21,7 +21,7 @@ from solepath.emulate.devices.peripheral import Characteristic, Peripheral, Serv
 from solepath.emulate.devices.standard import standard
 from solepath.emulate.sensors.device import Device, device_numbers
 from solepath.emulate.sensors.insole_device import Insole
-from solepath.emulate.sensors.sensortags import CC2541, CC2650
+from solepath.emulate.sensors.sensortags import CC2650
 from solepath.link import profile
 from solepath.types import Site
 
@@ -39,10 +39,6 @@ def virtually(main: Callable[[], Coroutine[Any, Any, None]]) -> None:
         runner.run(main())
 
 
-def now() -> float:
-    return asyncio.get_running_loop().time()
-
-
 def air(devices: dict[Site, Device], faults: str = "", **more: Any) -> MemoryRadio:
     bench = Bench(ROUTE, devices=devices, seed=3, faults=parse_faults(faults))
     return MemoryRadio(bench.peripherals, **more)
@@ -53,41 +49,6 @@ async def client(reach: MemoryRadio, name: str, gone: Callable[[BleakClient], No
     device = await BleakScanner.find_device_by_name(name, timeout=5.0, backend=reach.backend.scanner)
     assert device is not None
     return BleakClient(device, gone, backend=reach.backend.client)
-
-
-def test_a_scan_finds_what_advertises_with_name_services_and_address() -> None:
-    async def main() -> None:
-        reach = air({LEFT: Insole(), RIGHT: CC2541()})
-        found = await BleakScanner.discover(1.0, return_adv=True, backend=reach.backend.scanner)
-        names = {device.name: (address, said.service_uuids) for address, (device, said) in found.items()}
-        assert names == {
-            "solepath L": ("F0:5E:00:00:00:01", list(profile.INSOLE.services)),
-            "SensorTag": ("F0:5E:00:00:00:02", []),
-        }
-        assert now() == pytest.approx(1.0, abs=0.1)
-        only = await BleakScanner.discover(
-            1.0, service_uuids=list(profile.INSOLE.services), backend=reach.backend.scanner
-        )
-        assert [device.name for device in only] == ["solepath L"]
-
-    virtually(main)
-
-
-def test_two_devices_of_one_name_are_told_apart_by_address() -> None:
-    async def main() -> None:
-        reach = air({LEFT: CC2650(), RIGHT: CC2650()})
-        found = await BleakScanner.discover(1.0, backend=reach.backend.scanner)
-        assert [device.name for device in found] == [NAME, NAME]
-        async with (
-            BleakClient(found[0], backend=reach.backend.client) as one,
-            BleakClient(found[1], backend=reach.backend.client) as other,
-        ):
-            await one.write_gatt_char(PERIOD, b"\x14", response=True)
-            assert await one.read_gatt_char(PERIOD) == b"\x14"
-            assert await other.read_gatt_char(PERIOD) == b"\x64"
-            assert await BleakScanner.discover(1.0, backend=reach.backend.scanner) == []
-
-    virtually(main)
 
 
 def test_a_walk_comes_through_as_the_emulator_emits_it() -> None:
@@ -202,87 +163,6 @@ def test_a_notification_longer_than_the_mtu_is_cut_without_a_word() -> None:
                 await talker.start_notify("2a58", lambda _, data: heard.append(bytes(data)))
                 await asyncio.sleep(1.0)
         assert heard == [bytes(range(n)) for n in (40, 40, 39, 20)]
-
-    virtually(main)
-
-
-def test_an_insole_fragments_for_a_small_mtu() -> None:
-    async def main() -> None:
-        reach = air({LEFT: Insole()}, "0 left_foot mtu 65")
-        heard: list[int] = []
-        async with await client(reach, "solepath L") as insole:
-            assert insole.mtu_size == 65
-            await insole.start_notify(FRAME, lambda _, data: heard.append(len(data)))
-            await insole.write_gatt_char(CONTROL, b"\x01", response=True)
-            await asyncio.sleep(1.0)
-        assert max(heard) == 62
-        assert len(heard) == pytest.approx(300, abs=9)
-
-    virtually(main)
-
-
-def test_a_lost_link_is_told_once_and_the_device_can_be_had_again() -> None:
-    async def main() -> None:
-        reach = air({LEFT: Insole(cells=24)}, "3 left_foot disconnect")
-        lost: list[float] = []
-        heard: list[float] = []
-        insole = await client(reach, "solepath L", lambda _: lost.append(now()))
-        for _ in range(2):
-            await insole.connect()
-            await insole.start_notify(FRAME, lambda *_: heard.append(now()))
-            await insole.write_gatt_char(CONTROL, b"\x01", response=True)
-            await asyncio.sleep(4.0)
-        assert lost == [pytest.approx(3.0)]
-        assert insole.is_connected
-        assert len(heard) == pytest.approx(700, abs=20)
-        await insole.disconnect()
-        assert len(lost) == 2
-        await insole.disconnect()
-        assert len(lost) == 2
-        silent = len(heard)
-        await asyncio.sleep(2.0)
-        assert len(heard) == silent
-        with pytest.raises(BleakError):
-            await insole.read_gatt_char(INFO)
-
-    virtually(main)
-
-
-def test_a_pending_request_ends_when_the_link_does() -> None:
-    async def main() -> None:
-        reach = air({LEFT: CC2650()}, "1 left_foot hang")
-        tag = await client(reach, NAME)
-        await tag.connect()
-        await asyncio.sleep(2.0)
-        asked = now()
-        results = await asyncio.gather(
-            tag.read_gatt_char(PERIOD), tag.write_gatt_char(CONFIG, b"\x7f\x02", response=True), return_exceptions=True
-        )
-        assert [type(result) for result in results] == [BleakError, BleakError]
-        assert now() - asked == pytest.approx(1.0, abs=0.1)
-        assert not tag.is_connected
-
-    virtually(main)
-
-
-def test_what_vanished_cannot_be_connected_until_it_is_back() -> None:
-    async def main() -> None:
-        reach = air({LEFT: CC2650()}, "2 left_foot vanish 30")
-        tag = await client(reach, NAME)
-        await tag.connect()
-        await asyncio.sleep(3.0)
-        assert not tag.is_connected
-        assert await BleakScanner.find_device_by_name(NAME, timeout=5.0, backend=reach.backend.scanner) is None
-        again = BleakClient(tag.address, timeout=10.0, backend=reach.backend.client)
-        with pytest.raises(BleakDeviceNotFoundError):
-            await again.connect()
-        assert now() < 25.0
-        found = await BleakScanner.find_device_by_name(NAME, timeout=60.0, backend=reach.backend.scanner)
-        assert found is not None
-        assert now() == pytest.approx(32.0, abs=0.2)
-        await again.connect()
-        assert again.is_connected
-        assert again.name == NAME
 
     virtually(main)
 
