@@ -1,4 +1,4 @@
-"""The order of what a phone sends: protocol/fleet/stories.json, and whatever late, doubled, lost rows and restarts do."""
+"""The order of what a phone sends: protocol/fleet/stories.json; rows that are late, doubled or lost; new runs."""
 
 from __future__ import annotations
 

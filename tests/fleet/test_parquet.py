@@ -200,7 +200,7 @@ def written(directory: Path, resumes: list[Place | None], number: int = 0) -> li
     return [part.close() for part in parts]
 
 
-def identities(directory: Path) -> list[tuple[str, int]]:
+def listed(directory: Path) -> list[tuple[str, int]]:
     """What a reader finds."""
     rows = parquet.read_table(directory).to_pylist()
     return sorted((row["wearer"], row["number"]) for row in rows)
@@ -209,15 +209,13 @@ def identities(directory: Path) -> list[tuple[str, int]]:
 def test_who_begins_anew_with_fewer_partitions_hides_the_parts_of_those_that_are_no_more(tmp_path: Path) -> None:
     """All wearers are numbered anew: of the old events none may stay beside the new."""
     three = written(tmp_path, [None] * 3)
-    assert identities(tmp_path) == [("w0", 0), ("w1", 0), ("w2", 0)]
+    assert listed(tmp_path) == [("w0", 0), ("w1", 0), ("w2", 0)]
     two = written(tmp_path, [None] * 2)
-    assert identities(tmp_path) == [("w0", 0), ("w1", 0)]
+    assert listed(tmp_path) == [("w0", 0), ("w1", 0)]
     written(tmp_path, list(three), 1)
-    assert identities(tmp_path) == [("w0", 0), ("w0", 1), ("w1", 0), ("w1", 1), ("w2", 0), ("w2", 1)], (
-        "the first is back"
-    )
+    assert listed(tmp_path) == [("w0", 0), ("w0", 1), ("w1", 0), ("w1", 1), ("w2", 0), ("w2", 1)], "the first is back"
     written(tmp_path, list(two), 1)
-    assert identities(tmp_path) == [("w0", 0), ("w0", 1), ("w1", 0), ("w1", 1)], (
+    assert listed(tmp_path) == [("w0", 0), ("w0", 1), ("w1", 0), ("w1", 1)], (
         "and the second, without those of the first"
     )
 
@@ -230,7 +228,7 @@ def test_a_job_on_bytewax_hides_the_parts_of_partitions_that_it_does_not_have(tm
     part = ParquetSink(tmp_path).build_part("files", "0", None)
     part.write_batch([NumberedEvent("w0", 0, STRIKE), NumberedEvent("w1", 0, STRIKE)])
     part.snapshot()
-    assert identities(tmp_path) == [("w0", 0), ("w1", 0)]
+    assert listed(tmp_path) == [("w0", 0), ("w1", 0)]
 
 
 @pytest.mark.parametrize("name", ["part-0-{run}-00000001.parquet", ".part-0-{run}-00000001.parquet.writing"])
@@ -251,7 +249,7 @@ def test_a_directory_with_the_name_of_a_part_is_no_part_and_is_named_where_it_is
     parts = PartFiles(tmp_path, "0", place)
     parts.write([NumberedEvent("w", 1, STRIKE)])
     parts.close()
-    assert identities(tmp_path) == [("w", 0), ("w", 1)]
+    assert listed(tmp_path) == [("w", 0), ("w", 1)]
 
 
 @pytest.mark.parametrize(
@@ -263,5 +261,5 @@ def test_a_wearer_of_any_name_ends_no_job(tmp_path: Path, wearer: str, name: str
     parts = PartFiles(tmp_path)
     parts.write(told)
     parts.close()
-    assert identities(tmp_path) == sorted([(name, 0), ("w", 0)])
+    assert listed(tmp_path) == sorted([(name, 0), ("w", 0)])
     assert told_row(told[0])["wearer"] == name
