@@ -140,5 +140,5 @@ asyncio.run(main())
 
 
 def test_a_programs_logging_is_left_alone() -> None:
-    done = subprocess.run([sys.executable, "-c", PROGRAM], cwd=HELPERS, capture_output=True, text=True)
+    done = subprocess.run([sys.executable, "-c", PROGRAM], cwd=HELPERS / "radio", capture_output=True, text=True)
     assert (done.stdout, done.stderr) == ("4 []\n", "")

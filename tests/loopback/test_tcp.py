@@ -21,12 +21,11 @@ from solepath.emulate.controllers import radio
 from solepath.emulate.controllers.tcp import address_of, reach, serve
 from solepath.emulate.devices.faults import parse_faults
 
-HERE = HELPERS
+HERE = HELPERS / "radio"
 
 LISTEN = """
 import asyncio, sys
 from bleak import BleakClient, BleakScanner
-from solepath.loopback import radio
 from solepath.emulate.controllers.tcp import reach
 from strap import BEAT, CONTROL
 
