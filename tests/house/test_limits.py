@@ -1,0 +1,53 @@
+"""How large things may be: files, folders, names at the top; and each class has a name of its own."""
+
+from __future__ import annotations
+
+import ast
+from collections import Counter
+from pathlib import Path
+
+from here import ROOT, TESTS
+
+SRC = ROOT / "src" / "solepath"
+LINES, FILES, NAMES = 300, 14, 20
+"""Lines of a file, Python files of a folder, names at the top of src/solepath: at the most."""
+
+LONGER: dict[str, int] = {}
+"""Files that are longer today, and how long they are: a number here may only fall, and goes with the file below 300."""
+
+
+def lines(path: Path) -> int:
+    return len(path.read_text(encoding="utf-8").splitlines())
+
+
+def python(folder: Path) -> list[Path]:
+    return [path for path in sorted(folder.rglob("*.py")) if "__pycache__" not in path.parts]
+
+
+def test_no_file_is_longer_than_300_lines_but_for_those_that_shrink() -> None:
+    found = {path.relative_to(ROOT).as_posix(): lines(path) for top in (SRC, TESTS) for path in python(top)}
+    longer = {name: count for name, count in found.items() if count > LINES}
+    grown = {name: count for name, count in longer.items() if count > LONGER.get(name, LINES)}
+    assert grown == {}, "split them by subject"
+    assert {name: LONGER[name] for name in LONGER if longer.get(name) != LONGER[name]} == {}, "take the new number"
+
+
+def test_no_folder_holds_more_than_14_python_files() -> None:
+    folders = Counter(path.parent for top in (SRC, TESTS) for path in python(top) if path.name != "__init__.py")
+    assert {str(folder): count for folder, count in folders.items() if count > FILES} == {}, "this is two rooms"
+
+
+def test_there_are_at_most_20_names_at_the_top() -> None:
+    beside = {"__init__", "__main__", "__pycache__", "py"}
+    names = {path.stem for path in SRC.iterdir() if path.is_dir() or path.suffix == ".py"} - beside
+    assert len(names) <= NAMES, sorted(names)
+
+
+def test_no_class_has_the_name_of_another() -> None:
+    named = Counter(
+        node.name
+        for path in python(SRC)
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ClassDef)
+    )
+    assert [name for name, count in named.items() if count > 1] == []
