@@ -10,12 +10,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from attrs import evolve
 from floorplans import FILES, archive, plans
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.emulate.routes.building import BUILDING
 from solepath.floorplan.checks import warnings
 from solepath.floorplan.importers import reading
 from solepath.floorplan.importers.geojson import text_of, write_floorplan
@@ -52,10 +50,6 @@ def test_the_house_is_what_it_looks_like() -> None:
     assert plan.crosses(0, 7.0, 2.0, 9.0, 2.0)
 
 
-def test_invalid_files_are_counted() -> None:
-    assert INVALID["count"] == len(INVALID["cases"]) == len({one["id"] for one in INVALID["cases"]})
-
-
 @pytest.mark.parametrize("case", INVALID["cases"], ids=[one["id"] for one in INVALID["cases"]])
 def test_a_file_that_does_not_fit_says_what_does_not(case: dict[str, Any], tmp_path: Path) -> None:
     path = tmp_path / "plan"
@@ -79,11 +73,6 @@ def test_a_file_is_written_and_read(tmp_path: Path) -> None:
     write_floorplan(tmp_path / "house.json", HOUSE)
     assert read_floorplan(tmp_path / "house.json") == HOUSE
     assert read_floorplan(str(tmp_path / "house.json")) == HOUSE
-
-
-def test_what_is_written_is_strict_json_with_a_feature_a_line() -> None:
-    told = json.loads(text_of(HOUSE), parse_constant=pytest.fail)
-    assert len(told["features"]) == len(text_of(HOUSE).splitlines()) - 2
 
 
 # --- the profile ------------------------------------------------------------------------------------------------------
@@ -285,11 +274,3 @@ def test_the_house_with_anything_changed_is_a_plan_or_refused(data: st.DataObjec
     reads_or_refuses(archive({**files, name: changed(data.draw, json.loads(files[name]))}))
 
 
-def test_remarks_are_no_part_of_a_file() -> None:
-    assert text_of(evolve(HOUSE, remarks=("x",))) == text_of(HOUSE)
-
-
-def test_the_building_of_the_examples_is_the_emulators() -> None:
-    assert read_floorplan(FILES.parent.parent / "examples" / "building.geojson") == BUILDING
-    assert BUILDING.heights_known
-    assert warnings(BUILDING) == ()

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from xml.sax.saxutils import quoteattr
 
 import pytest
-from floorplans import FILES
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -209,17 +208,6 @@ def test_a_room_that_does_not_close_is_walls_and_a_remark() -> None:
     assert plan.remarks == ("way '7': its outline does not close",)
     assert IndexedPlan(plan).crosses(0, 5.0, 1.5, 5.0, 2.5)
     assert len(plan.levels[0].rooms) == 1
-
-
-def test_what_was_deleted_is_not_there() -> None:
-    text = (FILES / "house.osm").read_text()
-    gone = text.replace('<way id="-1000">', '<way id="-1000" action="delete">')
-    assert plan_of_bytes(gone.encode()).name == ""
-
-
-def test_text_of_other_encodings_is_read() -> None:
-    text = (FILES / "house.osm").read_text().replace("UTF-8", "UTF-16").replace("House", "Häuschen")
-    assert plan_of_bytes(text.encode("utf-16")).name == "Häuschen"
 
 
 tags = st.dictionaries(

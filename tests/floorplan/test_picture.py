@@ -36,12 +36,6 @@ def test_a_picture_is_xml_whatever_levels_lifts_and_recordings_are_called(level:
     assert ElementTree.fromstring(svg).tag == "{http://www.w3.org/2000/svg}svg"
 
 
-def test_names_stay_readable_in_the_picture(tmp_path: Path) -> None:
-    PlanPicture(named("Erdgeschoß", "Aufzug\x00 1")).write(tmp_path / "plan.svg", "walk")
-    told = [one.text for one in ElementTree.parse(tmp_path / "plan.svg").iter() if one.tag.endswith("title")]
-    assert told == ["walk", "Aufzug  1"]
-
-
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
 def test_a_full_disk_is_told_with_the_name_of_the_picture() -> None:
     with pytest.raises(OSError, match="/dev/full"):

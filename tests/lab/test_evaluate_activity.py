@@ -8,14 +8,14 @@ from hypothesis import strategies as st
 
 from solepath.events import ActivityChanged, LiftRidden
 from solepath.lab.evaluate import learning
-from solepath.lab.evaluate.activity import CLIMBED, compared, rides, spans, stairs_figures, windows
+from solepath.lab.evaluate.activity import CLIMBED, compared, rides, stairs_figures, windows
 from solepath.lab.evaluate.jobs import evaluate
 from solepath.lab.evaluate.learning import Learner, Lesson, lessons, part_for, taught
 from solepath.lab.measures.confusion import CLASSES, ActivityScore
 from solepath.lab.measures.score import Scored, summarise
 from solepath.lab.train import footstep_activity
 from solepath.lab.train.folds import FOLDS, fold_of
-from solepath.lab.train.hugadb import LABELS, labels, recordings
+from solepath.lab.train.hugadb import labels, recordings
 from solepath.show.timeline import Timeline
 from solepath.types import Activity
 
@@ -70,11 +70,6 @@ def test_what_was_replaced_does_not_count():
     assert score.accuracy == 1.0
 
 
-def test_nothing_labelled_is_no_score():
-    assert compared([1.0], [None], timeline((0.0, STANDING))).accuracy is None
-    assert ActivityScore().most_frequent is None
-
-
 counts = st.dictionaries(st.tuples(st.sampled_from(CLASSES), st.sampled_from(list(Activity))), st.integers(1, 50))
 
 
@@ -86,13 +81,6 @@ def test_scores_of_two_recordings_count_together(a, b):
     for activity in CLASSES:
         assert both.f1(activity) is None or 0.0 <= both.f1(activity) <= 1.0
     assert both.accuracy is None or 0.0 <= both.accuracy <= 1.0
-
-
-def test_labels_become_spans_and_a_sample_without_a_label_ends_one():
-    t = [k / 4 for k in range(8)]
-    assert spans(t, [STANDING, STANDING, UP, UP, None, UP, UP, UP]) == [
-        (0.0, 0.25, STANDING), (0.5, 0.75, UP), (1.25, 1.75, UP)
-    ]  # fmt: skip
 
 
 # --- lifts ------------------------------------------------------------------------------------------------------------
@@ -108,11 +96,6 @@ def test_a_ride_is_found_by_one_in_its_direction_at_its_time():
 def test_two_rides_told_of_one_are_one_found_and_one_invented():
     score = rides([(5.0, 15.0, UP)], [ridden(5.0, 9.0, True), ridden(10.0, 15.0, True)])
     assert (score.rides_true, score.rides_found, score.rides_invented) == (1, 1, 1)
-
-
-def test_a_short_ride_within_a_long_label_is_that_ride():
-    # labels begin at the door, rides when the car moves
-    assert rides([(0.0, 30.0, DOWN)], [ridden(12.0, 20.0, False)]).rides_found == 1
 
 
 # --- windows ----------------------------------------------------------------------------------------------------------
@@ -135,16 +118,6 @@ def test_shares_of_stairs_and_of_level_ways_by_hand():
         }
     )  # fmt: skip
     assert stairs_figures(score) == {"stairs_called": 0.8, "stairs_direction": 0.6, "level_called": 0.1}
-
-
-def test_a_recording_without_stairs_has_no_share_of_them():
-    assert stairs_figures(ActivityScore({(WALKING, WALKING): 3}))["stairs_called"] is None
-
-
-def test_the_spans_of_stairs_are_in_order():
-    for parts in CLIMBED.values():
-        assert all(a < b for a, b, _ in parts)
-        assert all(b <= c for (_, b, _), (c, _, _) in pairwise(parts))
 
 
 # --- over recordings --------------------------------------------------------------------------------------------------
@@ -171,11 +144,6 @@ def test_every_wearer_is_in_one_fold():
     assert all(fold_of(wearer) == number for number, fold in enumerate(FOLDS) for wearer in fold)
     with pytest.raises(ValueError, match="wearer 99"):
         fold_of(99)
-
-
-def test_sitting_is_standing_and_what_lies_between_activities_has_no_label():
-    assert LABELS[5] is LABELS[8] is STANDING
-    assert not LABELS.keys() & {6, 7, 9, 12}
 
 
 def test_what_is_scored_on_a_wearer_was_taught_without_that_wearer(monkeypatch):
