@@ -7,16 +7,13 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from solepath.cli import main
 from solepath.emulate.radio import Radio
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import emulate
-from solepath.emulate.wearers.walker import Walker
 from solepath.recording import PacketWriter
-from solepath.types import Foot
 
 ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
 
@@ -50,11 +47,6 @@ def packets(folder) -> Path:
         for packet in walk.packets:
             writer.write(packet)
     return folder / "walk.jsonl"
-
-
-def columns_of(walker: Walker, foot: Foot) -> dict[str, np.ndarray]:
-    samples = walker.samples(foot, 100.0)
-    return {key: np.array([getattr(s, key) for s in samples]) for key in ("t", "acc", "gyro")}
 
 
 def rows_in(path: Path) -> list[dict[str, str]]:

@@ -120,14 +120,6 @@ def test_without_a_terminal_the_demo_plays_to_its_end_by_itself_at_a_port_that_i
     assert found is not None and found[1] != "8765" and "\nagainst the truth" in done.stdout
 
 
-def test_a_port_that_was_named_and_is_taken_is_said_before_anything_is_computed(recording: Path):
-    with socket.create_server(("127.0.0.1", 0)) as taken:
-        port = taken.getsockname()[1]
-        for command in (("demo",), ("track", recording), ("live",)):
-            line = refused(*command, "--view", f"127.0.0.1:{port}")
-            assert line == f"solepath: --view 127.0.0.1:{port}: address already in use\n"
-
-
 def test_what_track_writes_does_not_depend_on_the_page_which_is_there_before_anything_is_computed(
     recording: Path, tmp_path: Path
 ):

@@ -185,35 +185,6 @@ def test_files_that_cannot_be_read_say_so(tmp_path: Path, monkeypatch: pytest.Mo
         read_floorplan(FILES / "house.geojson")
 
 
-def test_an_archive_of_many_buildings_has_levels_by_their_ids_where_short_names_are_shared() -> None:
-    files = imdf_files()
-    levels = json.loads(files["level.geojson"])
-    for one in levels["features"]:
-        one["properties"]["short_name"] = {"de": "EG"}
-    found = plan_of_bytes(archive({**files, "level.geojson": levels}))
-    assert [level.id for level in found.levels] == [one["id"] for one in levels["features"]]
-    assert found.levels[0].walls == HOUSE.levels[0].walls
-
-
-def test_two_walkways_are_open_to_each_other_and_to_stairs_without_a_door() -> None:
-    files = imdf_files()
-    units = json.loads(files["unit.geojson"])
-    openings = json.loads(files["opening.geojson"])
-    for one in units["features"]:
-        if one["properties"]["category"] == "room":
-            one["properties"]["category"] = "walkway"
-    middle = (11.57 + 11.5 / 74_500.0, 48.15 + 6.0 / 111_200.0)  # the door of the stairs
-    openings["features"] = [one for one in openings["features"] if abs(one["geometry"]["coordinates"][0][0] - middle[0])
-                            > 1.2e-5 or abs(one["geometry"]["coordinates"][0][1] - middle[1]) > 1e-5]  # fmt: skip
-    assert len(openings["features"]) == 10
-    plan = IndexedPlan(plan_of_bytes(archive({**files, "unit.geojson": units, "opening.geojson": openings})))
-    assert not plan.crosses(0, 2.0, 5.0, 2.0, 1.0)  # from the corridor into what was room A
-    assert not plan.crosses(0, 7.0, 2.0, 9.0, 2.0)  # and on into what was room B
-    assert not plan.crosses(0, 11.5, 5.0, 11.5, 8.0)  # and onto the stairs
-    assert plan.crosses(0, 9.0, 8.0, 11.0, 8.0)  # but not from room C
-    assert plan.crosses(0, 2.0, 1.0, 2.0, -1.0)  # and the house has its outer wall
-
-
 # --- any bytes --------------------------------------------------------------------------------------------------------
 
 json_values = st.recursive(
@@ -272,5 +243,3 @@ def test_the_house_with_anything_changed_is_a_plan_or_refused(data: st.DataObjec
     files = imdf_files()
     name = f"{what}.json" if what == "manifest" else f"{what}.geojson"
     reads_or_refuses(archive({**files, name: changed(data.draw, json.loads(files[name]))}))
-
-

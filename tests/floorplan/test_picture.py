@@ -12,8 +12,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import insoles
 
-from solepath.cli.common.failure import Failure
-from solepath.cli.common.floorplan import start_of
 from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Wall
 from solepath.recording import PacketWriter
 from solepath.show.tables.plan import PlanPicture
@@ -52,11 +50,3 @@ def test_a_picture_that_cannot_be_written_is_told_before_the_walk_is_computed(tm
     done = run("track", recorded, "--floorplan", plan, "--out", tmp_path / "out")
     assert done.returncode == 2 and done.stdout == "" and "plan.svg" in done.stderr.splitlines()[-1]
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["plan.svg"], "nothing was written"
-
-
-@pytest.mark.parametrize("wrong", ["0,1,2,1e308", "0,1_0,2", "0,1e9,2", "0,1,2,361", "0,1,1_0,90"])
-def test_a_start_of_numbers_that_no_plan_has_is_refused_or_is_no_start(wrong: str) -> None:
-    try:
-        assert start_of(wrong).level not in ("0", "1"), "a level of such a name is refused with the plan"
-    except Failure as failure:
-        assert "--start" in str(failure)

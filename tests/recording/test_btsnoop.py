@@ -13,7 +13,6 @@ from snooped import (
     INFO,
     INSOLE,
     LEFT,
-    MONITOR,
     MOVEMENT,
     OTHER,
     RIGHT,
@@ -176,29 +175,6 @@ def test_a_handle_is_given_to_another_device_and_what_was_discovered_stays_with_
         "receiver/connected", "receiver/disconnected", "receiver/connected",
     ]  # fmt: skip
     assert reports == [f"1 value of {OTHER} left out: no discovery says what is 0x0012 (11 bytes)"]
-
-
-def test_after_a_reset_no_connection_is_left(tmp_path):
-    log = begin(Log())
-    log.notify(0x40, FRAME, frames()[0])
-    log.command(0x0C03)
-    log.notify(0x40, 0x77, b"whose is this?")
-    found, reports = read(log, tmp_path)
-    assert found[-1][2] == "receiver/disconnected"
-    assert reports == ["1 value of connection-0x0040 left out: no discovery says what is 0x0077 (14 bytes)"]
-
-
-def test_adapters_have_handles_of_their_own(tmp_path):
-    log = Log(MONITOR)
-    for adapter, address in enumerate((LEFT, RIGHT)):
-        log.adapter = adapter
-        begin(log, 0x40, address)
-    for adapter, site in enumerate((Site.LEFT_FOOT, Site.RIGHT_FOOT)):
-        log.adapter = adapter
-        log.notify(0x40, FRAME, frames(site)[0])
-    found = read(log, tmp_path)[0]
-    assert data_of(found, "insole/frame", LEFT) == [frames()[0]]
-    assert data_of(found, "insole/frame", RIGHT) == [frames(Site.RIGHT_FOOT)[0]]
 
 
 # --- logs that begin when all was said --------------------------------------------------------------------------------

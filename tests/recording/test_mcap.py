@@ -24,7 +24,7 @@ pytest.importorskip("mcap", reason="the extra mcap is not installed")
 from mcap.exceptions import EndOfFile  # noqa: E402
 from mcap.opcode import Opcode  # noqa: E402
 from mcap.reader import make_reader  # noqa: E402
-from mcap.records import Chunk, Message  # noqa: E402
+from mcap.records import Message  # noqa: E402
 from mcap.stream_reader import StreamReader  # noqa: E402
 
 from solepath.recording.mcap import McapWriter  # noqa: E402
@@ -154,23 +154,6 @@ def test_the_events_in_it_are_a_sessions(exported):
         if (name := type(e).__name__) in ("HeelStrike", "FootFlat", "HeelOff", "ToeOff") and e.foot.value == "left"
     )  # fmt: skip
     assert gait["ToeOff"] >= 3
-
-
-def test_a_file_tells_what_it_is_and_its_chunks_are_small(tmp_path):
-    path = written(tmp_path / "walk.mcap", walks.insoles().packets, note="Türe", **BEGAN)
-    with path.open("rb") as file:
-        reader = make_reader(file)
-        (about,) = [record for record in reader.iter_metadata() if record.name == "solepath"]
-        assert about.metadata == {
-            "format": "solepath-packets", "version": "1", "note": "Türe", "began": BEGAN["began"], "began_t": "2.0",
-        }  # fmt: skip
-        summary = reader.get_summary()
-        assert summary is not None and summary.statistics is not None
-        assert summary.statistics.message_count == sum(map(len, messages(path).values()))
-        chunks = [record for record in StreamReader(io.BytesIO(path.read_bytes()), emit_chunks=True).records
-                  if isinstance(record, Chunk)]  # fmt: skip
-    sizes = [chunk.uncompressed_size for chunk in chunks]
-    assert len(sizes) > 20 and all(4_000 <= size <= 16_000 for size in sizes[:-1])
 
 
 def test_of_a_torn_file_all_but_the_last_chunk_is_read(tmp_path):
