@@ -227,7 +227,7 @@ def test_any_loads_of_any_number_of_cells_are_borne(rows: list[tuple[float, list
             assert all(0.0 <= cell.x <= found.length for cell in found.cells)
 
 
-ACC_REST, GYRO_REST = (0.0, 0.0, GRAVITY), (0.0, 0.0, 0.0)
+ACC_REST, GYRO_REST = (0.0, 0.0, 9.81), (0.0, 0.0, 0.0)
 
 
 def test_two_loaded_areas_are_a_flat_foot() -> None:
