@@ -201,6 +201,7 @@ def test_ctrl_c_ends_an_emulator_that_is_still_working_out_its_walk() -> None:
     assert process.returncode in (130, -signal.SIGINT) and (out, err) == ("", "")
 
 
+@pytest.mark.soak
 def test_a_kind_that_is_named_is_that_of_the_device_that_is_not(tmp_path: Path) -> None:
     """Of one CC2541 its advertisement does not say how fast it is."""
     script, file = tmp_path / "faults.txt", tmp_path / "walk.jsonl"
@@ -217,6 +218,7 @@ def test_a_kind_that_is_named_is_that_of_the_device_that_is_not(tmp_path: Path) 
     assert periods == {b"\x05"}
 
 
+@pytest.mark.soak
 def test_an_insole_that_is_not_heard_at_first_is_taken_when_it_comes(tmp_path: Path) -> None:
     script, file = tmp_path / "faults.txt", tmp_path / "walk.jsonl"
     script.write_text("0 right_foot vanish 12\n")

@@ -40,7 +40,7 @@ def all_steps(walker: Walker) -> list[tuple[float, Foot]]:
     return sorted((s.heel_strike, foot) for foot in Foot for s in walker.plan.strides[foot])
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(routes(), st.integers(0, 2**16))
 def test_every_foot_goes_heel_off_toe_off_heel_strike_foot_flat_over_and_over(route: Route, seed: int) -> None:
     walker = Walker(route, seed=seed)
@@ -51,7 +51,7 @@ def test_every_foot_goes_heel_off_toe_off_heel_strike_foot_flat_over_and_over(ro
             before = stride.foot_flat
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(routes(), st.integers(0, 2**16))
 def test_feet_alternate_and_one_is_always_on_the_ground(route: Route, seed: int) -> None:
     walker = Walker(route, seed=seed)
@@ -63,7 +63,7 @@ def test_feet_alternate_and_one_is_always_on_the_ground(route: Route, seed: int)
         assert two.toe_off > one.heel_strike  # double support between them
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(routes(), st.integers(0, 2**16))
 def test_a_walk_ends_with_the_feet_together_at_the_end_of_the_route(route: Route, seed: int) -> None:
     steady = Wearer(width_variation=0.0, angle_variation=0.0)

@@ -139,7 +139,7 @@ SIZES = st.sampled_from([b"", b"\x00", b"\x01", b"\x02", b"\x07", b"\x15", b"\x1
 PDUS = st.builds(lambda *parts: b"".join(parts), OPCODES, SIZES, SIZES, st.binary(max_size=30)) | st.binary(max_size=30)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(
     changes=st.lists(st.tuples(st.integers(0, 10**6), st.integers(1, 255)), max_size=12),
     records=st.lists(
