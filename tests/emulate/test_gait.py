@@ -117,7 +117,7 @@ def test_speed_is_step_length_times_cadence() -> None:
 def test_a_route_knows_its_length_and_its_halts() -> None:
     route = Route().stand(1).walk(10, 1.3).turn(pi, 2.0).turn(pi / 2).walk(3).stop(1)
     assert route.length == pytest.approx(10 + 2 * pi + 3)
-    assert [type(leg).__name__ for leg in legs(route)] == ["Stand", "Path", "Pivot", "Path", "Stand"]
+    assert [type(leg).__name__ for leg in legs(route)] == ["Stand", "WalkPath", "Pivot", "WalkPath", "Stand"]
     assert route.end.heading == pytest.approx(1.5 * pi)
     assert hypot(route.end.x - 10, route.end.y - 1) == pytest.approx(
         0.0, abs=1e-9
