@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 import pytest
 
 from solepath import recipes
-from solepath.lab.evaluate.jobs import evaluate
-from solepath.lab.evaluate.report import Result
 
 if TYPE_CHECKING:
     from browsers import Browsing
+
+    from solepath.lab.evaluate.report import Result
 
 
 @pytest.fixture(scope="session")
@@ -32,10 +32,11 @@ def data_dir() -> Path:
 def evaluated(data_dir: Path) -> Callable[[str, str], Result]:
     """What a recipe makes of the recordings of a data set, by the names of both; each is evaluated once
     in a process."""
+    from solepath.lab.evaluate.jobs import evaluate
 
     @cache
     def of(data_set: str, recipe: str) -> Result:
-        (result,) = evaluate(data_dir, [recipes.BY_NAME[recipe]], only=[data_set], processes=2)
+        (result,) = evaluate(data_dir, [recipes.by_name(recipe)], only=[data_set], processes=2)
         return result
 
     return of

@@ -15,7 +15,7 @@ from time import perf_counter, process_time
 import looptime
 from bleak import BleakClient, BleakScanner
 
-sys.path.insert(0, str(Path(__file__).parent.parent))
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers" / "radio"))
 
 from airs import TIERS, memory  # noqa: E402
 

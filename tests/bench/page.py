@@ -24,7 +24,7 @@ from statistics import median, quantiles
 from time import process_time
 from urllib.parse import urlsplit
 
-sys.path.insert(0, str(Path(__file__).parent.parent))
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers" / "page"))
 
 from attrs import define, field  # noqa: E402
 from browsers import Browser, Browsing, Window, browsing, program, why_not, window  # noqa: E402

@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import asyncio
 from itertools import pairwise
+from typing import Any
 
 import pytest
 from airs import hear, in_virtual_time, memory
-from belts import RATE, STRAP, address, asked
+from belts import ONE, PELVIS, RATE, STRAP, address, asked, failing, now, strap, times
+from benches import LEFT
+from bleak.exc import BleakDBusError, BleakError
+from memory_radio import MemoryRadio
 from strap import Strap
 
+from solepath import Session
 from solepath.ble import Backend, Devices, Wanted
 from solepath.emulate import Route
 from solepath.emulate.devices.attributes import AttError
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import Fault, What, parse_faults
-from solepath.types import Site
+from solepath.types import Packet, Site
 from solepath.wire.fields import parse_text
 
 
@@ -88,3 +93,68 @@ def test_a_link_that_breaks_every_second_is_made_again_each_time(every, share):
     beats = [packet for packet in packets if packet.channel == "strap/beat"]
     assert len(beats) > share * 60.0 * RATE
     assert max(b.t - a.t for a, b in pairwise(beats)) < 1.5
+
+
+# --- scanning that fails ---
+
+
+def test_a_scan_that_fails_later_is_told_where_something_is_sought_and_is_begun_anew() -> None:
+    errors: list[Exception | None] = [None, None, BleakDBusError("org.bluez.Error.NotReady", []), BleakError("odd")]
+    backend = failing(MemoryRadio([strap(1, faults="3 * disconnect"), strap(2)]).backend, errors)
+
+    async def main() -> list[Packet]:
+        async with Devices([ONE, Wanted(LEFT, address(2), STRAP)], backend=backend) as devices:
+            return await hear(devices, 12.0)
+
+    packets = in_virtual_time(main)
+    assert [(packet.site, packet.data.decode()) for packet in packets if packet.channel == "receiver/trouble"] == [
+        (PELVIS, "cannot look for devices: Bluetooth is off: turn it on"),
+        (PELVIS, "cannot look for devices: odd"),
+    ]
+    assert len([p for p in packets if p.channel == "receiver/connected" and p.site is PELVIS]) == 2
+    assert times(packets, "strap/beat")[-1] > 11.0
+
+
+def test_a_scan_that_hears_nothing_any_more_is_begun_anew() -> None:
+    """As after Bluetooth was switched off and on, on systems that do not tell."""
+    device = strap(faults="5 * disconnect")
+    beneath = MemoryRadio([device]).backend
+    scanner: Any = beneath.scanner
+
+    class Scanner(scanner):
+        began = 0.0
+
+        async def start(self) -> None:
+            self.began = now()
+            await super().start()
+
+        def call_detection_callbacks(self, *given: Any) -> None:
+            if now() < 5.0 or self.began > 20.0:
+                super().call_detection_callbacks(*given)
+
+    async def main() -> list[Packet]:
+        async with Devices([ONE], backend=Backend(beneath.client, Scanner)) as devices:
+            return await hear(devices, 90.0)
+
+    packets = in_virtual_time(main)
+    back = times(packets, "receiver/connected")
+    assert len(back) == 2 and back[1] < 75.0
+    assert device.sent["strap/beat"] > 10 * RATE
+
+
+def test_a_signal_that_no_radio_measures_and_a_name_that_is_no_text_are_no_fault() -> None:
+    beneath = MemoryRadio([strap()]).backend
+    scanner: Any = beneath.scanner
+
+    class Scanner(scanner):
+        def call_detection_callbacks(self, device: Any, said: Any) -> None:
+            super().call_detection_callbacks(device, said._replace(rssi=127, local_name="str\ud800p"))
+
+    async def main() -> list[Packet]:
+        async with Devices([ONE], backend=Backend(beneath.client, Scanner)) as devices:
+            return await hear(devices, 3.0)
+
+    packets = in_virtual_time(main)
+    assert times(packets, "strap/beat")
+    [event] = Session().feed([packet for packet in packets if packet.channel == "receiver/connected"])
+    assert (event.name, event.signal) == ("str?p", None)  # type: ignore[attr-defined]

@@ -157,16 +157,6 @@ def test_a_disconnection_in_mid_stride_is_told_the_gap_too_and_its_step_is_degra
 
 
 @both
-def test_a_link_that_is_lost_with_a_request_pending_is_told_and_made_again(tier: str) -> None:
-    found = events(heard(tier, "4 * disconnect; 4 * hang", 12.0))
-    made = of(Connected, found)
-    assert len(made) == 2 and made[1].t == pytest.approx(5.6, abs=0.8)
-    assert of(LinkTrouble, found)
-    [resumed] = of(StreamResumed, found)
-    assert resumed.t < 7.0
-
-
-@both
 def test_a_link_that_is_lost_while_a_frozen_stream_is_set_up_again_is_made_again(tier: str) -> None:
     found = events(heard(tier, "4 * freeze; 4.5 * hang", 12.0))
     order = of((StreamRestarted, Disconnected, Connected, StreamResumed), found)  # type: ignore[arg-type]

@@ -79,20 +79,6 @@ def test_notifications_are_taken_in_the_order_in_which_they_came_and_so_is_the_r
         assert found == [packet for packet in put if packet in found]
 
 
-@given(capacities, lives)
-def test_nothing_is_dropped_while_there_is_room(capacity: int, life: list[tuple[Site, bool] | None]) -> None:
-    inbox, waiting = Inbox(capacity), 0
-    for moment, one in enumerate(life):
-        if one is None:
-            packet = inbox.take()
-            assert packet is None or packet.channel != DROPPED
-            waiting -= packet is not None
-        elif waiting < capacity:
-            inbox.put(Packet(float(moment), one[0], "any", b""), one[1])
-            waiting += 1
-        assert len(inbox) == waiting
-
-
 @given(capacities, st.lists(puts, max_size=100))
 def test_however_much_comes_what_is_held_is_bounded(capacity: int, life: list[tuple[Site, bool]]) -> None:
     inbox = Inbox(capacity)
@@ -112,24 +98,6 @@ def test_what_was_read_or_written_outlives_any_flood_of_notifications() -> None:
     setup = [(LEFT, False)] * 4
     _, _, inbox = lived(4, [*setup, *[(LEFT, True)] * 100])
     assert [packet.channel for packet in emptied(inbox)] == ["setup"] * 4 + [DROPPED] + ["stream"] * 4
-
-
-def test_counts_take_no_room_from_what_was_read() -> None:
-    life = [(LEFT, False), (LEFT, True), (LEFT, True)] * 4 + [(LEFT, True)] * 4
-    _, _, inbox = lived(4, life)
-    assert [packet.channel for packet in emptied(inbox) if packet.channel != DROPPED] == ["setup"] * 4 + ["stream"] * 4
-
-
-def test_to_keep_what_was_read_costs_no_notification_its_place() -> None:
-    _, _, inbox = lived(3, [(LEFT, False), (LEFT, True), (LEFT, True), (LEFT, True)])
-    assert [packet.channel for packet in emptied(inbox)] == ["setup"] + ["stream"] * 3
-
-
-def test_what_was_dropped_before_a_new_connection_is_told_before_it() -> None:
-    _, _, inbox = lived(3, [*[(LEFT, True)] * 4, *[(LEFT, False)] * 2, *[(LEFT, True)] * 5])
-    told = [(packet.channel, packet.t) for packet in emptied(inbox)]
-    assert told[:4] == [(DROPPED, 3.0), ("setup", 4.0), ("setup", 5.0), (DROPPED, 7.0)]
-    assert told[4:] == [("stream", 8.0), ("stream", 9.0), ("stream", 10.0)]
 
 
 @given(capacities, st.lists(puts, max_size=40))

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import pytest
 from airs import TIERS, hear, in_virtual_time
 from bleak import BleakClient, BleakScanner
-from bleak.exc import BleakError, BleakGATTProtocolError, BleakGATTProtocolErrorCode
+from bleak.exc import BleakGATTProtocolError, BleakGATTProtocolErrorCode
 
 from solepath.ble import Backend, Devices, Wanted
 from solepath.emulate import Route
@@ -136,58 +136,5 @@ def test_an_unpaired_link_reads_what_every_device_tells_of_itself_and_nothing_mo
             assert await host.read_gatt_char(INFO)
             await host.pair()
             assert host.is_connected
-
-    in_virtual_time(main)
-
-
-@pytest.mark.parametrize("tier", TIERS)
-def test_a_device_paired_once_is_not_asked_again_until_it_is_unpaired(tier: str) -> None:
-    async def main() -> None:
-        worn = bench("0 * pairing")
-        lost: list[BleakClient] = []
-        async with TIERS[tier](worn) as backend:
-            host = await client(worn, backend, lost.append)
-            async with host:
-                await host.pair()
-            async with host:  # by the keys
-                assert await host.read_gatt_char(INFO)
-                assert len(lost) == 1
-                await host.unpair()
-                await asyncio.sleep(0.1)
-                assert not host.is_connected
-                assert len(lost) == 2
-            async with host:
-                with pytest.raises(BleakGATTProtocolError):
-                    await host.read_gatt_char(INFO)
-            await host.unpair()  # of what is not paired, and not connected
-            paired = BleakClient(host.address, backend=backend.client, pair=True)
-            async with paired:
-                assert await paired.read_gatt_char(INFO)
-
-    in_virtual_time(main)
-
-
-@pytest.mark.parametrize("tier", TIERS)
-def test_pairing_fails_when_refused_and_when_there_is_no_link(tier: str) -> None:
-    async def main() -> None:
-        worn = bench("0 * pairing; 0 * refuse pairing 2")
-        lost: list[BleakClient] = []
-        async with TIERS[tier](worn) as backend:
-            host = await client(worn, backend, lost.append)
-            with pytest.raises(BleakError, match="not connected"):
-                await host.pair()
-            async with host:
-                with pytest.raises(BleakError, match="refused to be paired"):
-                    await host.pair()
-                assert host.is_connected
-            assert lost == [host]
-            paired = BleakClient(host.address, lost.append, backend=backend.client, pair=True)
-            with pytest.raises(BleakError, match="refused to be paired"):
-                await paired.connect()
-            assert not paired.is_connected
-            await asyncio.sleep(0.1)
-            assert lost == [host]
-            async with paired:
-                assert await paired.read_gatt_char(INFO)
 
     in_virtual_time(main)

@@ -135,20 +135,6 @@ TAGS = ("F0:5E:00:00:00:01", "F0:5E:00:00:00:02")
 AMBIGUOUS = f"2 devices answer to device 'CC2650 SensorTag' ({', '.join(TAGS)}): say which by its address"
 
 
-def test_of_two_devices_with_one_name_none_is_taken_and_both_addresses_are_told() -> None:
-    packets = got(feet(Tag()).peripherals, [Wanted(LEFT, "CC2650 SensorTag")], seconds=40.0)
-    assert not connected(packets)
-    assert troubles(packets) == [AMBIGUOUS]
-
-
-def test_two_insoles_with_one_name_are_not_guessed_between_either() -> None:
-    bench = feet(Insole(), faults='0 * name "solepath"')
-    packets = got(bench.peripherals, [Wanted(LEFT, "solepath")], seconds=20.0)
-    assert not connected(packets)
-    [said] = troubles(packets)
-    assert all(peripheral.address in said for peripheral in bench.peripherals)
-
-
 def test_the_one_that_another_foot_named_by_its_address_is_not_confused_with_the_other() -> None:
     packets = got(feet(Tag()).peripherals, [Wanted(LEFT, "CC2650 SensorTag"), Wanted(RIGHT, TAGS[0])])
     assert connected(packets) == {RIGHT: TAGS[0], LEFT: TAGS[1]}
@@ -256,11 +242,6 @@ def test_after_its_patience_an_absent_device_is_complained_of_once() -> None:
     assert said.data.decode().startswith("no device 'solepath L' is heard: switch it on, bring it near")
     assert (said.site, said.device) == (LEFT, "")
     assert said.t == pytest.approx(7.0, abs=0.6)
-
-
-def test_an_unfit_device_that_is_heard_is_not_said_to_be_silent() -> None:
-    packets = got(feet(Insole()).peripherals, [Wanted(LEFT, "solepath R")], seconds=50.0)
-    assert troubles(packets) == ["solepath R is a right foot one: wanted at the left foot"]
 
 
 def test_an_absent_device_never_delays_another() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from typing import Any
 
 import pytest
@@ -155,21 +154,3 @@ def test_a_request_that_is_never_answered_ends_the_attempt() -> None:
     [said] = [packet.data.decode() for packet in packets if packet.channel == "receiver/trouble"]
     assert said == NOT_IN_TIME
     assert [packet for packet in packets if packet.channel == "strap/beat"]
-
-
-def test_a_subscription_that_is_never_answered_ends_the_attempt_too() -> None:
-    beneath = asked(Strap("strap 1", address(1))).backend
-    client: Any = beneath.client
-
-    class Client(client):
-        async def start_notify(self, *given: Any, **more: Any) -> None:
-            await asyncio.Event().wait()
-
-    async def main() -> list[Packet]:
-        wanted = [Wanted(PELVIS, address(1), STRAP)]
-        async with Devices(wanted, backend=Backend(Client, beneath.scanner)) as devices:
-            return await hear(devices, 12.0)
-
-    packets = in_virtual_time(main)
-    assert [p.data for p in packets if p.channel == "receiver/trouble"] == [NOT_IN_TIME.encode()]
-    assert len([packet for packet in packets if packet.channel == "receiver/disconnected"]) == 2

@@ -90,10 +90,6 @@ def test_while_the_wearer_stands_nobody_is_missed() -> None:
     assert said(FootSilent, tuple(s for s in standing if s.site is LEFT or s.t < 2.0)) == []
 
 
-def test_a_foot_that_stays_away_is_told_once() -> None:
-    assert len(said(FootSilent, without(LEFT, 4.0, 1e9))) == 1
-
-
 # --- where the wearer is meanwhile ---
 
 FAR = Route().stand(1.5).walk(40.0, 1.2).stop(1.5)
@@ -139,17 +135,6 @@ def test_a_foot_that_was_away_while_the_wearer_turned_is_turned_too(foot: Site) 
     x, y, _, _ = place(tuple(silent(both(ROUND), foot, 11.0, 20.0)))
     u, v, _, _ = place(both(ROUND))
     assert hypot(x - u, y - v) < 1.6
-
-
-def test_feet_that_take_turns_in_falling_silent_lose_nothing_of_the_way() -> None:
-    one = silent(both(FAR), LEFT, 8.0, 12.0)
-    x, _, _, _ = place(tuple(silent(silent(one, RIGHT, 18.0, 22.0), LEFT, 27.0, 30.0)))
-    assert x == pytest.approx(40.0, abs=0.9)
-
-
-def test_a_foot_that_is_switched_on_while_the_other_walks_is_set_beside_it() -> None:
-    x, _, _, _ = place(tuple(silent(both(FAR), RIGHT, -1.0, 15.0)))
-    assert x == pytest.approx(40.0, abs=1.2)
 
 
 def test_a_foot_without_a_gyroscope_has_no_track_and_does_not_hold_the_wearer_back() -> None:
@@ -228,22 +213,6 @@ def test_twenty_walks_of_many_speeds_are_told_apart_from_their_exchanged_selves(
     assert len(said(FeetSwapped, exchanged(both))) == 1
 
 
-def backwards(walk: tuple[Sample, ...]) -> tuple[Sample, ...]:
-    """The same walk from its end to its beginning: forces and places are as they were, turns are the other way."""
-    end = walk[-1].t
-    return tuple(
-        evolve(s, t=end - s.t, gyro=None if s.gyro is None else (-s.gyro[0], -s.gyro[1], -s.gyro[2]))
-        for s in reversed(walk)
-    )
-
-
-@pytest.mark.parametrize("seed", [1, 2])
-def test_who_walks_backwards_has_no_feet_exchanged(seed: int) -> None:
-    back = backwards(walk(seed))
-    assert len(said(StrideTaken, back)) > 24
-    assert said(FeetSwapped, back) == []
-
-
 def test_devices_that_say_that_they_are_on_the_right_feet_are_believed() -> None:
     session = Session()
     told = session.feed(emulate(WALK, seed=1).packets)
@@ -253,22 +222,6 @@ def test_devices_that_say_that_they_are_on_the_right_feet_are_believed() -> None
     assert not sides.left.turned.rows and not sides.right.turned.rows, "what their feet do need not be remembered"
     sides.left.roll = sides.right.roll = Average(count=24, mean=0.2)
     assert not sides._agree()
-
-
-def test_a_calibration_does_not_say_which_device_is_on_which_foot() -> None:
-    known = Calibration({foot: InsoleCalibration(layout(24, foot)) for foot in Foot})
-    items = exchanged(samples(WALK, rate=50.0))
-    assert len(said(FeetSwapped, items, Session(calibration=known))) == 1
-
-
-def test_one_foot_alone_is_never_taken_for_the_other() -> None:
-    assert said(FeetSwapped, tuple(s for s in exchanged(walk()) if s.site is LEFT)) == []
-
-
-def test_both_devices_on_the_same_foot_are_not_exchanged() -> None:
-    left = [s for s in walk() if s.site is LEFT]
-    twice = tuple(x for s in left for x in (s, evolve(s, site=RIGHT)))
-    assert said(FeetSwapped, twice) == []
 
 
 def test_layouts_of_the_other_foot_on_both_sides_are_told_after_a_step() -> None:

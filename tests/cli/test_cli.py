@@ -1,29 +1,19 @@
 """The commands, run as a person or a script runs them: as processes of their own, with their output piped."""
 
 import csv
-import io
-import json
 import os
 import re
 import subprocess
 import sys
-from contextlib import redirect_stderr, redirect_stdout
-from math import degrees, hypot, radians
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from solepath import Event, FootMoved, PacketsLost, Session, StrideTaken
 from solepath.cli import main
-from solepath.cli.common.failure import note
 from solepath.emulate.radio import Radio
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import emulate
-from solepath.emulate.wearers.walker import Walker
-from solepath.events import LiveEvent
-from solepath.recording import PacketWriter, read_packets
-from solepath.types import Foot, Packet, Site
+from solepath.recording import PacketWriter
 
 ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
 
@@ -40,23 +30,8 @@ def solepath(*arguments: object, **environment: str) -> subprocess.CompletedProc
     )
 
 
-def in_this_process(*arguments: object) -> subprocess.CompletedProcess[str]:
-    """The same without a process of its own, for what fails before it computes anything."""
-    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
-        status = main([str(argument) for argument in arguments])
-    return subprocess.CompletedProcess(arguments, status, out.getvalue(), err.getvalue())
-
-
 def no_control_codes(text: str) -> bool:
     return all(c.isprintable() or c == "\n" for c in text)
-
-
-def one_line(done: subprocess.CompletedProcess[str]) -> str:
-    """The one line on stderr of a command that failed with exit status 2."""
-    assert done.returncode == 2, done.stderr
-    line, end = done.stderr[:-1], done.stderr[-1:]
-    assert end == "\n" and "\n" not in line and line.startswith("solepath: ") and no_control_codes(line)
-    return line
 
 
 @pytest.fixture(scope="module")
@@ -72,25 +47,6 @@ def packets(folder) -> Path:
         for packet in walk.packets:
             writer.write(packet)
     return folder / "walk.jsonl"
-
-
-def columns_of(walker: Walker, foot: Foot) -> dict[str, np.ndarray]:
-    samples = walker.samples(foot, 100.0)
-    return {key: np.array([getattr(s, key) for s in samples]) for key in ("t", "acc", "gyro")}
-
-
-@pytest.fixture(scope="module")
-def one_foot(folder) -> Path:
-    np.savez(folder / "one.npz", **columns_of(Walker(ROUTE, seed=3), Foot.LEFT))
-    return folder / "one.npz"
-
-
-def events_in(directory: Path) -> list[dict]:
-    def refuse(constant: str) -> None:
-        raise AssertionError(f"{constant} is not JSON")
-
-    lines = (directory / "events.jsonl").read_text().splitlines()
-    return [json.loads(line, parse_constant=refuse) for line in lines]
 
 
 def rows_in(path: Path) -> list[dict[str, str]]:
@@ -116,16 +72,6 @@ def test_help_names_every_command_and_loads_nothing_heavy():
 def test_no_command_prints_the_help_and_the_version_is_told():
     assert "COMMAND" in solepath().stdout
     assert solepath("--version").stdout.startswith("solepath 0.")
-
-
-def test_what_devices_call_themselves_is_told_without_control_codes(capsys):
-    note("\x1b[31mred\n: taken for the right foot's")
-    assert capsys.readouterr().err == "solepath: \ufffd[31mred\ufffd: taken for the right foot's\n"
-
-
-def test_an_option_that_does_not_exist_is_refused():
-    done = solepath("track", "walk.jsonl", "--tuning", "x")
-    assert done.returncode == 2 and "unrecognized arguments: --tuning x" in done.stderr
 
 
 # --- demo -------------------------------------------------------------------------------------------------------------
@@ -182,225 +128,6 @@ def test_a_demo_of_nonsense_is_refused(option, value, complaint, capsys):
     assert stop.value.code == 2 and complaint in capsys.readouterr().err
 
 
-# --- track ------------------------------------------------------------------------------------------------------------
-
-
-@pytest.fixture(scope="module")
-def tracked(packets, folder) -> tuple[subprocess.CompletedProcess[str], Path]:
-    out = folder / "made" / "on the way"
-    return solepath("track", packets, "--recipe", "default", "--out", out), out
-
-
-def test_track_sums_up_in_plain_text(tracked, packets):
-    done, out = tracked
-    assert done.returncode == 0 and done.stderr == ""
-    assert no_control_codes(done.stdout)
-    arrivals = [packet.t for packet in read_packets(packets)]
-    assert done.stdout.startswith(f"{packets.name}, recipe default: {arrivals[-1] - arrivals[0]:.1f} s\n")
-    assert "packets lost" in done.stdout and "rejected (" in done.stdout
-    assert f"written to {out}" in done.stdout
-
-
-def test_events_are_strict_json_with_their_times_and_feet(tracked):
-    _, out = tracked
-    events = events_in(out)
-    assert {"HeelStrike", "FootFlat", "HeelOff", "ToeOff", "StrideTaken", "PacketsLost"} <= {e["event"] for e in events}
-    for event in events:
-        assert list(event)[:4] == ["event", "t", "known_at", "final"]
-        assert event["known_at"] >= event["t"] and event["final"] in (True, False)
-        assert event.get("foot", "left") in ("left", "right")
-    assert {"FootMoved", "FootPressed", "WearerMoved"}.isdisjoint(event["event"] for event in events)
-
-
-def test_steps_and_track_are_tables_of_the_same_walk(tracked):
-    _, out = tracked
-    steps, track = rows_in(out / "strides.csv"), rows_in(out / "track.csv")
-    assert list(steps[0]) == [
-        "foot", "t_start_s", "t_end_s", "x_m", "y_m", "z_m", "stride_length_m", "heading_change_deg", "height_change_m",
-        "degraded",
-    ]  # fmt: skip
-    assert list(track[0]) == ["t_s", "foot", "x_m", "y_m", "z_m", "phase"]
-    taken = [event for event in events_in(out) if event["event"] == "StrideTaken"]
-    ends = [(row["foot"], float(row["t_end_s"])) for row in steps]
-    assert ends == [(event["foot"], event["t_end"]) for event in taken]
-    assert {row["phase"] for row in track} == {"LOADING", "STATIONARY", "PUSH_OFF", "SWING"}
-    for foot in ("left", "right"):
-        times = [float(row["t_s"]) for row in track if row["foot"] == foot]
-        assert times == sorted(times) and len(times) > 1000
-        walked = sum(float(row["stride_length_m"]) for row in steps if row["foot"] == foot)
-        assert walked == pytest.approx(8.0, rel=0.1)
-        last = [row for row in track if row["foot"] == foot][-1]
-        assert hypot(float(last["x_m"]), float(last["y_m"])) == pytest.approx(8.0, rel=0.1)
-
-
-@pytest.fixture(scope="module")
-def told(packets) -> list[Event]:
-    """What a session says of the same recording."""
-    session = Session(poses=True)
-    return session.feed(read_packets(packets)) + session.finish()
-
-
-def test_every_column_of_steps_is_what_the_session_said(tracked, told):
-    taken = [event for event in told if isinstance(event, StrideTaken)]
-    assert len(taken) > 8 and max(abs(step.heading_change) for step in taken) > 0.01
-    for row, step in zip(rows_in(tracked[1] / "strides.csv"), taken, strict=True):
-        assert row["foot"] == step.foot.value and row["degraded"] == str(int(step.degraded))
-        assert (float(row["t_start_s"]), float(row["t_end_s"])) == (step.t_start, step.t_end)
-        x, y, z = step.position
-        lengths = {"x_m": x, "y_m": y, "z_m": z, "stride_length_m": step.length, "height_change_m": step.height_change}
-        for column, value in (lengths | {"heading_change_deg": degrees(step.heading_change)}).items():
-            assert float(row[column]) == pytest.approx(value, abs=1e-6), column
-    assert any(step.degraded for step in taken)
-
-
-def test_every_column_of_track_is_what_the_session_said(tracked, told):
-    moved = [event for event in told if isinstance(event, FootMoved)]
-    for row, event in zip(rows_in(tracked[1] / "track.csv"), moved, strict=True):
-        assert (float(row["t_s"]), row["foot"], row["phase"]) == (event.t, event.foot.value, event.phase.value)
-        assert [float(row[f"{axis}_m"]) for axis in "xyz"] == pytest.approx(event.position, abs=1e-6)
-
-
-def test_events_of_the_link_name_the_foot_too(tracked, told):
-    events = events_in(tracked[1])
-    assert [e["event"] for e in events] == [type(e).__name__ for e in told if not isinstance(e, LiveEvent)]
-    of_sites = [event for event in events if event.get("site") is not None]
-    assert {"PacketsLost", "PacketRejected"} <= {event["event"] for event in of_sites}
-    for event in of_sites:
-        assert event["site"] == f"{event['foot']}_foot"
-
-
-def test_events_of_what_is_no_foot_name_none():
-    lost = PacketsLost(t=1.0, known_at=1.0, site=Site.PELVIS, channel="insole/frame", count=2)
-    assert "foot" not in lost.to_dict() and lost.to_dict()["site"] == "pelvis"
-
-
-def test_a_recording_of_one_foot_is_of_the_foot_that_is_named(one_foot, tmp_path):
-    for arguments, foot in (((), "right"), (("--foot", "left"), "left")):
-        done = solepath("track", one_foot, *arguments, "--out", tmp_path)
-        assert done.returncode == 0
-        assert {row["foot"] for row in rows_in(tmp_path / "track.csv")} == {foot}
-        # nothing is missing of these samples; of the packets above something is in every step
-        assert {(row["foot"], row["degraded"]) for row in rows_in(tmp_path / "strides.csv")} == {(foot, "0")}
-
-
-def test_the_times_written_are_the_recordings_own(one_foot, tmp_path):
-    with np.load(one_foot) as archive:
-        later = {key: archive[key] for key in archive.files}
-    later["t"] = later["t"] + 1.7e9 + 1 / 3
-    np.savez(tmp_path / "later.npz", **later)
-    assert solepath("track", tmp_path / "later.npz", "--out", tmp_path).returncode == 0
-    times = [float(row["t_s"]) for row in rows_in(tmp_path / "track.csv")]
-    assert times[0] >= later["t"][0] and times[-1] == later["t"][-1]
-    assert set(times) <= set(later["t"].tolist())
-
-
-def test_of_a_recording_of_both_feet_one_can_be_chosen(packets, tmp_path):
-    assert solepath("track", packets, "--foot", "left", "--out", tmp_path).returncode == 0
-    assert {row["foot"] for row in rows_in(tmp_path / "track.csv")} == {"left"}
-
-
-def test_a_recording_cut_in_the_middle_of_a_line_says_so_and_loses_nothing_before(packets, tracked, tmp_path):
-    cut = tmp_path / "cut.jsonl"
-    cut.write_bytes(packets.read_bytes()[:-40])
-    done = solepath("track", cut, "--out", tmp_path)
-    assert done.returncode == 0
-    lines = packets.read_bytes().count(b"\n")
-    assert done.stderr == f"solepath: {cut}: line {lines}: cut off in the middle; everything before it is used\n"
-    assert len(rows_in(tmp_path / "strides.csv")) == len(rows_in(tracked[1] / "strides.csv"))
-
-
-def test_a_bad_row_ends_the_walk_there_and_what_came_before_is_written(one_foot, tmp_path):
-    with np.load(one_foot) as archive:
-        columns = {key: archive[key] for key in archive.files}
-    columns["acc"][700, 1] = np.nan
-    np.savez(tmp_path / "bad.npz", **columns)
-    done = solepath("track", tmp_path / "bad.npz", "--out", tmp_path)
-    assert one_line(done).endswith("bad.npz: acc, row 700: is nan, not a finite number (t = 7 s)")
-    assert "recipe default: 7.0 s" in done.stdout
-    assert [float(row["t_s"]) for row in rows_in(tmp_path / "track.csv")][-1] == columns["t"][699]
-    assert rows_in(tmp_path / "strides.csv")
-
-
-def test_a_line_that_is_not_json_ends_the_walk_there(packets, tmp_path):
-    lines = packets.read_bytes().splitlines(keepends=True)
-    half = len(lines) // 2
-    (tmp_path / "bad.jsonl").write_bytes(b"".join([*lines[:half], b"\x1b[31moh no\n", *lines[half:]]))
-    done = solepath("track", tmp_path / "bad.jsonl", "--out", tmp_path)
-    assert one_line(done).endswith(f"bad.jsonl: line {half + 1}: is not JSON")
-    assert rows_in(tmp_path / "track.csv")
-
-
-BAD_FILES = {
-    "walk.jsonl": (b"", "is empty"),
-    "walk.npz": (b"", "is empty"),
-    "walk.csv": (b"", "is empty"),
-    "noise.npz": (bytes(range(256)), "is not an .npz archive"),
-    "words.jsonl": (b"once upon a time\n", "line 1: is not JSON"),
-    "other.jsonl": (b'{"t": 1.0}\n', "line 1: is not the header of a recording"),
-    "newer.jsonl": (b'{"format": "solepath-packets", "version": 2}\n', "is of version 2"),
-    "keys.csv": (b"t,x,y,z\n0,0,0,9.8\n", "line 1: names no column acc_x or pressure_0"),
-    "tabs.csv": (b"t\tacc_x\tacc_y\tacc_z\n0\t0\t0\t9.8\n", "its columns are not separated by commas"),
-    "nameless.csv": (b"0,0,0,9.8\n0.01,0,0,9.8\n", "is the line with the names missing?"),
-    "sheet.xlsx": (b"PK\x03\x04\n", "samples have names that end in .npz or .csv"),
-    "scale.csv": (b"t,acc_x,acc_y,acc_z\n0.00,0,0,1.0\n0.01,0,0,1.0\n", "this looks like g"),
-}
-
-
-@pytest.mark.parametrize("name", BAD_FILES)
-def test_a_file_that_cannot_be_used_gets_one_line_and_status_2(tmp_path, name):
-    content, complaint = BAD_FILES[name]
-    (tmp_path / name).write_bytes(content)
-    done = in_this_process("track", tmp_path / name)
-    assert complaint in one_line(done) and name in done.stderr
-    assert done.stdout == ""
-
-
-@pytest.mark.parametrize("name", BAD_FILES)
-def test_a_file_that_cannot_be_used_replaces_nothing_of_an_earlier_run(tmp_path, name):
-    (tmp_path / name).write_bytes(BAD_FILES[name][0])
-    (tmp_path / "strides.csv").write_text("of an earlier run\n")
-    one_line(in_this_process("track", tmp_path / name, "--out", tmp_path))
-    assert {path.name for path in tmp_path.iterdir()} == {name, "strides.csv"}
-    assert (tmp_path / "strides.csv").read_text() == "of an earlier run\n"
-
-
-def test_a_header_alone_is_a_whole_recording_of_nothing(tmp_path):
-    (tmp_path / "nothing.jsonl").write_text('{"format": "solepath-packets", "version": 1}\n')
-    done = in_this_process("track", tmp_path / "nothing.jsonl", "--out", tmp_path)
-    assert done.returncode == 0 and done.stderr.endswith("nothing.jsonl: holds no packets\n")
-    assert "nothing was heard of either foot" in done.stdout
-    assert events_in(tmp_path) == rows_in(tmp_path / "track.csv") == rows_in(tmp_path / "strides.csv") == []
-
-
-def test_packets_of_the_other_foot_only_are_an_error(tmp_path):
-    with PacketWriter(tmp_path / "left.jsonl") as writer:
-        writer.write(Packet(1.0, Site.LEFT_FOOT, "device/battery", b"\x63"))
-    done = in_this_process("track", tmp_path / "left.jsonl", "--foot", "right", "--out", tmp_path / "out")
-    assert one_line(done).endswith("left.jsonl: holds no packets of the right foot")
-    assert not (tmp_path / "out").exists()
-
-
-def test_what_is_not_there_gets_one_line_and_status_2(tmp_path, packets):
-    assert "no such file or directory" in one_line(in_this_process("track", tmp_path / "none.npz"))
-    assert "is a directory" in one_line(in_this_process("track", tmp_path))
-    unknown = in_this_process("track", packets, "--recipe", "secret")
-    assert "there is no recipe 'secret'; there are: default" in one_line(unknown)
-    assert "File exists" in one_line(in_this_process("track", packets, "--out", packets))
-
-
-def test_a_bad_file_is_one_line_from_a_process_of_its_own_too(tmp_path):
-    assert one_line(solepath("track", tmp_path / "none.csv")).endswith("none.csv: no such file or directory")
-
-
-def test_a_reader_that_leaves_early_is_no_error(packets):
-    with subprocess.Popen(
-        [sys.executable, "-m", "solepath", "track", str(packets)], stdout=subprocess.PIPE, stderr=subprocess.PIPE
-    ) as process:
-        assert process.stdout is not None and process.stderr is not None
-        process.stdout.close()
-        assert process.stderr.read() == b""
-
-
 # --- in a terminal ----------------------------------------------------------------------------------------------------
 
 
@@ -423,74 +150,3 @@ def test_in_a_terminal_the_demo_is_drawn_as_it_goes_and_ends_with_the_same_table
     drawn, table = seen.decode().split("against the truth")
     assert drawn.count("200 times real time") > 1 and "\x1b[" in drawn
     assert "steps invented" in table
-
-
-# --- evaluate ---------------------------------------------------------------------------------------------------------
-
-
-@pytest.fixture(scope="module")
-def data(tmp_path_factory) -> Path:
-    """A made data set: a closed loop around a square."""
-    route = Route().stand(2.0)
-    for _ in range(4):
-        route = route.walk(3.0, speed=1.2).turn(radians(90), radius=1.0)
-    folder = tmp_path_factory.mktemp("data")
-    loops = folder / "xio_closed_walks"
-    loops.mkdir()
-    np.savez(loops / "loop.npz", **columns_of(Walker(route.stop(1.0)), Foot.RIGHT))
-    (loops / "broken.npz").write_bytes(b"")
-    about = {name: {"closed_loop": True, "path_m_about": route.length} for name in ("loop", "broken", "absent")}
-    (loops / "dataset.json").write_text(json.dumps({"recordings": about | {"open": {"closed_loop": False}}}))
-    return folder
-
-
-def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path):
-    done = solepath("evaluate", "--json", tmp_path / "scores.json", SOLEPATH_DATA=str(data))
-    assert done.returncode == 0 and done.stderr == ""
-    assert no_control_codes(done.stdout)
-    assert "failed: " in done.stdout and "broken.npz: is empty" in done.stdout
-    told = json.loads((tmp_path / "scores.json").read_text())["default"]["xio_closed_walks"]
-    assert list(told["recordings"]) == ["loop"] and len(told["failures"]) == 1
-    figures = told["recordings"]["loop"]
-    assert figures["path"] == pytest.approx(12.0 + 2 * 3.14159, abs=0.01)
-    # exact samples: the loop closes within the foot's own placement
-    assert figures["end_error_2d"] < 0.5
-    assert told["summary"]["all"]["mean"]["end_error"] == figures["end_error"]
-    assert f"{figures['end_error']:.3f}" in done.stdout
-
-
-def test_evaluate_in_short_is_a_markdown_table(data):
-    done = solepath("evaluate", data, "--markdown", "--recipe", "default")
-    assert done.returncode == 0 and "not scored: " in done.stderr and "broken.npz: is empty" in done.stderr
-    head, rule, first, second, third = done.stdout.splitlines()
-    assert (head, rule) == ("| data | measured | came to |", "|---|---|---|")
-    assert first.startswith("| a closed loop, one shoe: `xio_closed_walks`, 1 recording | from end to start, in space ")
-    assert second.startswith("|  | from end to start, horizontal | 0.") and second.endswith(" m |")
-    assert third.startswith("|  | from end to start, in height | 0.") and third.endswith(" m |")
-
-
-def test_evaluate_says_what_figures_were(data, tmp_path):
-    old = tmp_path / "old.json"
-    command = ("evaluate", data, "--recipe", "default", "--processes", "1")
-    assert in_this_process(*command, "--json", old).returncode == 0
-    scores = json.loads(old.read_text())
-    scores["default"]["xio_closed_walks"]["summary"]["all"]["mean"]["end_error_2d"] *= 2.0
-    old.write_text(json.dumps(scores))
-    told = in_this_process(*command, "--compare", old)
-    assert told.returncode == 0 and "xio_closed_walks, default, compared: 1 better, 0 worse" in told.stdout
-    (line,) = (line for line in told.stdout.splitlines() if line.startswith("end_error_2d (mean)"))
-    was, now, word = line.split()[-3:]
-    assert float(was) == pytest.approx(2.0 * float(now), rel=0.02) and word == "better"
-    old.write_text("{")
-    assert "old.json: is not JSON" in one_line(in_this_process(*command, "--compare", old))
-
-
-def test_evaluate_says_what_it_needs(data, tmp_path, monkeypatch):
-    monkeypatch.delenv("SOLEPATH_DATA", raising=False)
-    needs = "evaluate needs DIR, or the environment variable SOLEPATH_DATA, or --emulated"
-    assert needs in one_line(in_this_process("evaluate"))
-    assert "does not hold any of the data sets" in one_line(in_this_process("evaluate", tmp_path))
-    assert "is not a directory" in one_line(in_this_process("evaluate", tmp_path / "none"))
-    assert "mars is not one of the data sets" in one_line(in_this_process("evaluate", data, "--only", "mars"))
-    assert "does not hold pyshoe_vicon" in one_line(in_this_process("evaluate", data, "--only", "pyshoe_vicon"))
-    assert "there is no recipe 'secret'" in one_line(in_this_process("evaluate", data, "--recipe", "secret"))

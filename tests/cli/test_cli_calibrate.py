@@ -70,17 +70,6 @@ def test_a_recipe_of_pressure_refuses_samples_without_any(bare):
         assert refused("track", bare, "--recipe", name) == expected
 
 
-def test_a_recipe_of_pressure_refuses_packets_without_any(tags, folder):
-    out = folder / "nothing"
-    assert "needs pressure cells" in refused("track", tags, "--recipe", PRESSED[0], "--out", out)
-    assert not out.exists()
-
-
-def test_a_recipe_of_pressure_takes_packets_of_insoles(packets):
-    done = run("track", packets, "--recipe", PRESSED[0])
-    assert done.returncode == 0 and done.stderr == ""
-
-
 def test_track_runs_with_a_calibration(packets, folder):
     write_calibration(folder / "shoe.json", Calibration(shoe=ShoeGeometry(height=0.03)))
     done = run("track", packets, "--calibration", folder / "shoe.json")
@@ -120,10 +109,6 @@ def test_a_file_that_is_no_calibration_is_refused_in_one_line(packets, folder, t
     file = folder / "wrong.json"
     file.write_text(text)
     assert complaint in refused("track", packets, "--calibration", file)
-
-
-def test_a_calibration_that_is_not_there_is_named(packets, folder):
-    assert f"{folder / 'none.json'}: No such file" in refused("track", packets, "--calibration", folder / "none.json")
 
 
 # --- calibrate --------------------------------------------------------------------------------------------------------
@@ -181,17 +166,6 @@ def test_laps_of_a_square_tell_the_drift(tmp_path):
     assert done.returncode == 0 and done.stderr == ""
     assert done.stdout.startswith("right foot: 120 visits of 40 marks, drift ")
     assert set(calibrated(out).drift) == {Foot.RIGHT}
-
-
-def test_a_straight_walk_is_no_laps_of_a_square_however_often_its_steps_are_counted(tmp_path):
-    out = tmp_path / "me.json"
-    long = tmp_path / "long.jsonl"
-    walk = emulate(Route().stand(2.0).walk(24.0, speed=1.3).stop(1.5), devices={Site.RIGHT_FOOT: Insole()}, seed=2)
-    with PacketWriter(long) as writer:
-        for packet in walk.packets:
-            writer.write(packet)
-    assert "the laps do not close" in refused("calibrate", "square", long, "--steps", 4, "--out", out)
-    assert not out.exists()
 
 
 def test_a_walk_over_marks_tells_what_touchdowns_are_off_by(tmp_path):
@@ -263,10 +237,6 @@ def test_what_is_no_regular_file_is_neither_read_nor_written(bare, tmp_path, dev
     (tmp_path / "postures.csv").write_text(POSTURES)
     assert f"{device}: is no regular file" in refused("track", bare, "--calibration", device)
     assert f"{device}: is no regular file" in refused("calibrate", "shoe", tmp_path / "postures.csv", "--out", device)
-
-
-def test_a_table_without_an_end_is_refused(tmp_path):
-    assert "/dev/zero: is larger" in refused("calibrate", "shoe", "/dev/zero", "--out", tmp_path / "me.json")
 
 
 def test_what_cannot_be_is_not_written_over_what_is_known(tmp_path):

@@ -1,8 +1,6 @@
 """`solepath convert`: a phone's log to a recording, either to MCAP; what is wrong is one line."""
 
 import io
-import json
-import os
 import struct
 import subprocess
 import sys
@@ -11,13 +9,11 @@ from pathlib import Path
 
 import pytest
 import walks
-from snooped import INSOLE, LEFT, RIGHT, TAG, Log, insoles_log
+from snooped import LEFT, RIGHT, TAG, Log, insoles_log
 
-from solepath import Session, Site
+from solepath import Site
 from solepath.cli import main
 from solepath.recording import PacketWriter, read_header, read_packets
-
-FRAME = next(iter(INSOLE))
 
 
 def convert(*arguments: object) -> subprocess.CompletedProcess[str]:
@@ -127,22 +123,6 @@ def test_wishes_that_are_of_no_use_are_errors_and_nothing_is_written(log, tmp_pa
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_pipe_is_refused_in_words(tmp_path):
-    pipe = tmp_path / "walk.jsonl"
-    os.mkfifo(pipe)
-    flaw = f"{pipe}: is a pipe or a device; it is read more than once, so it has to be a file"
-    assert complaint(pipe, tmp_path / "walk.mcap") == flaw
-
-
-def test_a_torn_log_is_used_up_to_the_tear_and_says_so(log, tmp_path):
-    torn, out = tmp_path / "torn.log", tmp_path / "walk.jsonl"
-    torn.write_bytes(log.read_bytes()[:-7])
-    done = convert(torn, out)
-    assert done.returncode == 0
-    assert done.stderr.startswith(f"solepath: {torn}: record ") and "cut off in the middle" in done.stderr
-    assert len(list(read_packets(out))) == sum(p.channel == "insole/frame" for p in walks.insoles().packets) + 1
-
-
 @pytest.mark.parametrize("kind", ["btsnoop", "recording"])
 def test_what_came_before_a_damage_is_converted_and_the_damage_told(log, tmp_path, kind):
     out = tmp_path / "out.mcap" if kind == "recording" else tmp_path / "out.jsonl"
@@ -249,18 +229,3 @@ def test_without_mcap_it_says_what_to_install(log, tmp_path):
     done = subprocess.run([sys.executable, "-c", code, "convert", log, out], capture_output=True, text=True)
     assert done.returncode == 2
     assert done.stderr == "solepath: writing MCAP needs the package mcap: pip install 'solepath[mcap]'\n"
-
-
-def test_the_help_has_an_example():
-    done = convert("--help")
-    assert done.returncode == 0 and "example: solepath convert btsnoop_hci.log walk.jsonl" in done.stdout
-
-
-def test_the_recording_that_comes_of_a_log_gives_the_events_of_the_log(log, tmp_path):
-    from solepath.recording.btsnoop import open_btsnoop
-
-    out = tmp_path / "walk.jsonl"
-    assert convert(log, out).returncode == 0
-    told = [repr(event) for event in Session().feed(read_packets(out))]
-    assert told == [repr(event) for event in Session().feed(open_btsnoop(log))] != []
-    assert json.loads(out.read_text().splitlines()[0])["source"] == "btsnoop"

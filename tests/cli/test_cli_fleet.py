@@ -160,14 +160,6 @@ def test_events_that_are_told_twice_or_otherwise_or_are_not_numbered_on_are_diff
     assert differences(expected, read_told(tmp_path / "nowhere"))[-1].endswith("is missing")
 
 
-def test_kills_are_drawn_from_the_seed_and_are_as_many_as_asked_for() -> None:
-    planned = draw(10, 2.0, 20.0, 2, Random(5))
-    assert planned == draw(10, 2.0, 20.0, 2, Random(5)) != draw(10, 2.0, 20.0, 2, Random(6))
-    kills = [kill for run in planned for kill in run]
-    assert len(kills) == 10 and {kill.which for kill in kills} >= {None}
-    assert draw(0, 2.0, 20.0, 2, Random(5)) == []
-
-
 @given(st.integers(1, 40), st.floats(0.1, 10.0), st.floats(0.1, 100.0), st.integers(1, 3), st.randoms())
 def test_most_kills_hit_reading_and_one_in_five_the_start(
     count: int, starting: float, reading: float, processes: int, rng: Random

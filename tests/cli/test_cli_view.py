@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 import os
 import re
@@ -10,8 +9,8 @@ import signal
 import socket
 import subprocess
 import sys
-from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
-from contextlib import ExitStack, asynccontextmanager, contextmanager, suppress
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from time import sleep
 from typing import Any
@@ -20,6 +19,7 @@ import pytest
 from commands import refused, run
 from shown import frame
 from walks import insoles
+from watchers import ANYWHERE, TAKES, Watcher, address, started, watch
 
 from solepath import ActivityChanged, Session
 from solepath.cli.bluetooth.live_run import LiveFiles, LiveSession
@@ -28,11 +28,8 @@ from solepath.emulate.walk import emulate
 from solepath.recording import PacketWriter
 from solepath.show.page.scene.scene import Scene
 
-aiohttp = pytest.importorskip("aiohttp")
+pytest.importorskip("aiohttp")
 
-TAKES = 30.0
-"""s that a program may take to say or do something before the test gives up."""
-ANYWHERE = ("--view", "127.0.0.1:0")
 ALONE = "import sys; sys.modules.update(dict.fromkeys(['bleak', 'bumble', 'rich', 'mcap', 'matplotlib'])); "
 """Nothing but the extra `view`."""
 
@@ -63,66 +60,6 @@ def long_recording(recording: Path) -> Path:
     again = [packet | {"t": packet["t"] + k * length} for k in range(30) for packet in packets]
     file.write_text("".join(f"{json.dumps(line)}\n" for line in [header, *again]))
     return file
-
-
-@contextmanager
-def started(*arguments: object, code: str = "", **options: Any) -> Iterator[subprocess.Popen[str]]:
-    """A command as a program of its own, until the test is through with it."""
-    program = f"{code}from solepath.cli import main; raise SystemExit(main({[str(one) for one in arguments]!r}))"
-    piped = dict.fromkeys(("stdout", "stderr"), subprocess.PIPE) | {"stdin": subprocess.DEVNULL}
-    process = subprocess.Popen([sys.executable, "-c", program], text=True, **(piped | options))
-    try:
-        yield process
-    finally:
-        process.kill()
-        process.communicate()
-
-
-def address(process: subprocess.Popen[str]) -> str:
-    """Of the page, as the command says it."""
-    assert process.stdout is not None
-    for line in process.stdout:
-        if found := re.search(r"the page: (http://\S+#token=\S+)$", line):
-            return found[1]
-    raise AssertionError("no page was served")
-
-
-class Watcher:
-    """What a browser knows of a page, and asks for."""
-
-    def __init__(self, socket: aiohttp.ClientWebSocketResponse) -> None:
-        self.socket = socket
-        self.scene: dict[str, Any] = {}
-        self.frame: dict[str, Any] = {}
-        self.scenes = 0
-
-    async def until(self, holds: Callable[[dict[str, Any]], bool]) -> None:
-        """Until that holds of the frame as it is now."""
-        async with asyncio.timeout(TAKES):
-            while not self.scene or not holds(self.frame):
-                message = json.loads(await self.socket.receive_str())
-                if message["type"] == "scene":
-                    self.scene, self.frame, self.scenes = message, message["frame"], self.scenes + 1
-                else:
-                    self.frame |= message
-
-    async def ask(self, do: str, *value: float) -> None:
-        await self.socket.send_str(json.dumps({"do": do} | ({"value": value[0]} if value else {})))
-
-
-@asynccontextmanager
-async def watching(url: str) -> AsyncIterator[Watcher]:
-    page, _, token = url.partition("/#token=")
-    async with aiohttp.ClientSession() as client, client.ws_connect(f"{page}/ws?token={token}") as socket:
-        yield Watcher(socket)
-
-
-def watch(url: str, what: Callable[[Watcher], Awaitable[None]]) -> None:
-    async def main() -> None:
-        async with watching(url) as watcher:
-            await what(watcher)
-
-    asyncio.run(main())
 
 
 def test_in_a_terminal_the_demo_opens_a_browser_is_steered_there_and_ends_with_the_same_table_at_ctrl_c(tmp_path: Path):
@@ -186,14 +123,6 @@ def test_without_a_terminal_the_demo_plays_to_its_end_by_itself_at_a_port_that_i
     assert (done.returncode, done.stderr) == (0, "")
     found = re.search(r"\nthe page: http://127.0.0.1:(\d+)/", done.stdout)
     assert found is not None and found[1] != "8765" and "\nagainst the truth" in done.stdout
-
-
-def test_a_port_that_was_named_and_is_taken_is_said_before_anything_is_computed(recording: Path):
-    with socket.create_server(("127.0.0.1", 0)) as taken:
-        port = taken.getsockname()[1]
-        for command in (("demo",), ("track", recording), ("live",)):
-            line = refused(*command, "--view", f"127.0.0.1:{port}")
-            assert line == f"solepath: --view 127.0.0.1:{port}: address already in use\n"
 
 
 def test_what_track_writes_does_not_depend_on_the_page_which_is_there_before_anything_is_computed(

@@ -1,22 +1,20 @@
 """The emulator's building is a plan that can be used, and nobody who walks in it goes through a wall."""
 
 from itertools import pairwise
-from math import hypot, pi
+from math import hypot
 
 import numpy as np
 import pytest
 from here import EXAMPLES
 
-from solepath.emulate.routes.building import BUILDING, CABINS, EAST, NORTH, STOREY, WELLS
+from solepath.emulate.routes.building import BUILDING, CABINS, EAST, NORTH, STOREY
 from solepath.emulate.routes.ways import Way, case_study, corridor, wandering
-from solepath.emulate.sensors.parts import MPU6050
 from solepath.emulate.wearers.walker import Walker
 from solepath.floorplan.checks import unusable, warnings
 from solepath.floorplan.importers.reading import read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import ConnectorKind
-from solepath.types import Activity, Foot
-from solepath.types.vector import GRAVITY
+from solepath.types import Foot
 
 LEVEL = {level.id: number for number, level in enumerate(BUILDING.levels)}
 SEEDS = range(101, 113)
@@ -84,14 +82,6 @@ def test_a_wanderer_comes_by_one_connector_and_leaves_by_another(seed: int) -> N
     assert way.start.level != way.level
 
 
-def test_wanderers_go_different_ways_and_the_same_seed_the_same_one() -> None:
-    ways = [wandering(seed) for seed in SEEDS]
-    assert len({(way.came, way.left, way.route.length) for way in ways}) == len(ways)
-    assert {way.level for way in ways} == set(LEVEL)
-    assert {way.came for way in ways} == {one.name for one in (*CABINS, *WELLS)}
-    assert wandering(SEEDS[0]) == ways[0]
-
-
 def test_the_case_study_goes_down_by_the_lift_at_the_bottom_left_and_away_by_another() -> None:
     way = case_study()
     walker, t, places = walked(way, 3)
@@ -103,17 +93,6 @@ def test_the_case_study_goes_down_by_the_lift_at_the_bottom_left_and_away_by_ano
     first, last = np.array(places[0][1:]), np.array(places[-1][1:])
     assert np.hypot(*(first - (ax, ay))) < 0.1 and np.hypot(*(last - (bx, by))) < 0.1
     assert ax < 0.25 * EAST and ay < 0.25 * NORTH
-
-
-def test_the_corridor_is_63_metres_straight_on() -> None:
-    way = corridor()
-    walker, _, places = walked(way, 4)
-    assert way.route.length == pytest.approx(63.0)
-    assert way.start.heading == 0.5 * pi
-    assert places[-1][2] - places[0][2] == pytest.approx(63.0, abs=0.05)
-    assert max(abs(x - places[0][1]) for _, x, _ in places) < 0.2
-    told = [what for _, _, what in walker.truth().activities]
-    assert told == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
 
 
 def test_the_true_place_is_where_the_feet_are_on_the_plan() -> None:
@@ -128,15 +107,3 @@ def test_the_true_place_is_where_the_feet_are_on_the_plan() -> None:
     y = way.start.place[1] + np.sin(heading) * middle[:, 0] + np.cos(heading) * middle[:, 1]
     away = [hypot(a - p[1], b - p[2]) for a, b, p in zip(x.tolist(), y.tolist(), places, strict=True)]
     assert max(away) < 0.25  # the sensors are not at the ankles
-
-
-def test_samples_of_an_mpu_6050_have_the_errors_of_its_sheet_on_stairs_and_in_lifts() -> None:
-    walker = Walker(wandering(105).route, seed=8)
-    exact = walker.samples(Foot.RIGHT, 100.0)
-    worn = walker.samples(Foot.RIGHT, 100.0, MPU6050)
-    assert len(worn) == len(exact) and all(one.air_pressure is None for one in worn)
-    standing = slice(0, 150)
-    noise = np.std([one.gyro for one in worn[standing]], axis=0)
-    assert np.all(noise < np.radians(0.005) * np.sqrt(50.0) * 2.0) and np.all(noise > 0.0)
-    off = np.mean([one.acc for one in worn[standing]], axis=0) - np.mean([one.acc for one in exact[standing]], axis=0)
-    assert np.abs(off).max() < 0.2 * GRAVITY

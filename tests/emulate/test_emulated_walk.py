@@ -7,6 +7,7 @@ from functools import cache
 from math import radians
 from random import Random
 
+import numpy as np
 import pytest
 from attrs import evolve
 from walks import LEFT, RIGHT, of
@@ -20,6 +21,8 @@ from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.lab.emulated.compare import FootComparison, compare
 from solepath.lab.evaluate.gathered import Gathering
+from solepath.link.decoder import Decoder
+from solepath.types import Sample
 from solepath.wire.insole import parse_frame
 
 WALK = Route().stand(3.0).walk(100.0, 1.3).stop(2.0)
@@ -254,3 +257,45 @@ def test_broken_cells_of_a_device_say_the_same_in_every_frame() -> None:
         assert [c for k, c in enumerate(frame.cells) if k not in (2, 9)] == [
             c for k, c in enumerate(as_it_was.cells) if k not in (2, 9)
         ]
+
+
+# --- samples ----------------------------------------------------------------------------------------------------------
+
+DECODED = Route().stand(3.0).walk(15.0, 1.2).stop(3.0)
+
+
+def decoded(walk: EmulatedWalk) -> tuple[list[Sample], list[object]]:
+    decoder = Decoder(site=Site.LEFT_FOOT)
+    out: list[object] = []
+    for packet in walk.packets:
+        out += decoder.feed(packet)
+    out += decoder.finish()
+    return [o for o in out if isinstance(o, Sample)], [o for o in out if not isinstance(o, Sample)]
+
+
+@pytest.mark.parametrize(
+    ("device", "rate"),
+    [
+        (Insole(), 100.0),
+        (Insole(cells=24, rate=30.0, batch=3), 30.0),
+        (Insole(cells=99, mtu=65, quaternion=True), 100.0),
+        (CC2650(), 10.0),
+        (CC2650(rate=50.0), 50.0),
+        (CC2541(), 10.0),
+        (CC2541(rate=20.0), 20.0),
+    ],
+)
+def test_decoded_samples_have_the_true_rate_and_feel_the_true_motion(device: Device, rate: float) -> None:
+    walk = emulate(DECODED, devices={Site.LEFT_FOOT: device}, radio=Radio(latency=0.001, jitter=0.002), seed=4)
+    samples, _ = decoded(walk)
+    t = np.array([s.t for s in samples])
+    assert len(t) == pytest.approx((walk.truth.duration - 0.05) * rate, abs=0.02 * rate * walk.truth.duration + 3)
+    assert np.median(np.diff(t)) == pytest.approx(1.0 / rate, rel=0.01)
+    true = walk.walker.kinematics(Foot.LEFT, t, device.mounting)
+    sway = np.array([s.gyro for s in samples])[:, 1]
+    best = max(np.corrcoef(sway, np.interp(t - lag, t, true.rate[:, 1]))[0, 1] for lag in np.arange(0.0, 0.02, 0.004))
+    assert best > (
+        0.97 if rate >= 30.0 else 0.85
+    )  # a SensorTag saturates in swing, and its accelerometer sets the time
+    rest = np.array([s.acc for s in samples if s.t < 2.0])
+    assert np.linalg.norm(rest, axis=1).mean() == pytest.approx(9.81, rel=0.2)

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath.emulate.routes.route import Pivot, Route, TurnAction, legs
-from solepath.emulate.wearers.gait import FootStand, Wearer, cadence, step_length, step_time
+from solepath.emulate.wearers.gait import Wearer, cadence, step_length, step_time
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
 
@@ -40,7 +40,7 @@ def all_steps(walker: Walker) -> list[tuple[float, Foot]]:
     return sorted((s.heel_strike, foot) for foot in Foot for s in walker.plan.strides[foot])
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(routes(), st.integers(0, 2**16))
 def test_every_foot_goes_heel_off_toe_off_heel_strike_foot_flat_over_and_over(route: Route, seed: int) -> None:
     walker = Walker(route, seed=seed)
@@ -51,7 +51,7 @@ def test_every_foot_goes_heel_off_toe_off_heel_strike_foot_flat_over_and_over(ro
             before = stride.foot_flat
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(routes(), st.integers(0, 2**16))
 def test_feet_alternate_and_one_is_always_on_the_ground(route: Route, seed: int) -> None:
     walker = Walker(route, seed=seed)
@@ -63,7 +63,7 @@ def test_feet_alternate_and_one_is_always_on_the_ground(route: Route, seed: int)
         assert two.toe_off > one.heel_strike  # double support between them
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(routes(), st.integers(0, 2**16))
 def test_a_walk_ends_with_the_feet_together_at_the_end_of_the_route(route: Route, seed: int) -> None:
     steady = Wearer(width_variation=0.0, angle_variation=0.0)
@@ -84,40 +84,12 @@ def test_a_straight_walk_ends_after_its_distance() -> None:
         assert moved == pytest.approx([37.0, 0.0, 0.0], abs=0.06)
 
 
-def test_a_square_ends_where_it_began() -> None:
-    side = Route().stand(1)
-    for _ in range(4):
-        side = side.walk(5.0, 1.2).turn(radians(90))
-    walker = Walker(side.stop(1), Wearer(width_variation=0.0, angle_variation=0.0), seed=5)
-    truth = walker.truth()
-    for foot in Foot:
-        assert truth.pose(foot, walker.duration).position[0] == pytest.approx([0.0, 0.0, 0.0], abs=1e-9)
-        assert sum(step.heading_change for step in truth.steps(foot)) == pytest.approx(2 * pi)
-
-
-def test_steps_of_a_foot_add_up_to_where_it_is() -> None:
-    truth = Walker(Route().stand(1).walk(8.0, 1.3).turn(radians(120), 2.0).walk(4.0).stop(1), seed=9).truth()
-    for foot in Foot:
-        steps = truth.steps(foot)
-        total = [sum(step.displacement[axis] for step in steps) for axis in range(3)]
-        assert truth.pose(foot, steps[-1].t_end).position[0] == pytest.approx(total, abs=1e-9)
-        assert truth.pose(foot, 0.0).position[0] == pytest.approx([0.0, 0.0, 0.0], abs=1e-12)
-        for one, two in pairwise(steps):
-            assert one.t_end == two.t_start and two.number == one.number + 1
-
-
 def test_a_turn_on_the_spot_is_made_in_small_steps_around_the_body() -> None:
     walker = Walker(Route().stand(1).turn(radians(180)).stop(1), seed=2)
     steps = [step for foot in Foot for step in walker.truth().steps(foot)]
     assert len(steps) == 6  # five of 36 degrees, and the other foot beside the last
     assert all(abs(degrees(step.heading_change)) < 90.0 for step in steps)
     assert all(step.length < 0.45 for step in steps)
-
-
-def test_the_outer_foot_walks_further_around_a_bend() -> None:
-    walker = Walker(Route().stand(1).turn(2 * pi, 2.0, speed=1.2).stop(1), seed=2)
-    left, right = (sum(step.length for step in walker.truth().steps(foot)) for foot in Foot)
-    assert right - left == pytest.approx(2 * pi * walker.wearer.step_width, rel=0.25)
 
 
 def test_walks_begin_and_end_with_half_steps() -> None:
@@ -142,21 +114,6 @@ def test_speed_is_step_length_times_cadence() -> None:
     assert (gone[1] - gone[0]) / (two.t_end - one.t_end) == pytest.approx(1.3, rel=0.02)
 
 
-def test_strides_vary_by_a_few_per_cent_and_no_more() -> None:
-    lengths = [step.length for step in Walker(Route().stand(1).walk(100, 1.3).stop(1), seed=7).truth().steps(Foot.LEFT)]
-    inner = lengths[1:-1]
-    mean = sum(inner) / len(inner)
-    spread = (sum((x - mean) ** 2 for x in inner) / len(inner)) ** 0.5
-    assert 0.008 < spread / mean < 0.04
-
-
-def test_toes_point_outwards() -> None:
-    walker = Walker(Route().stand(1).walk(20, 1.3).stop(1), seed=7)
-    for foot, side in ((Foot.LEFT, 1.0), (Foot.RIGHT, -1.0)):
-        yaws = [stride.end.yaw * side for stride in walker.plan.strides[foot]]
-        assert 0.05 < sum(yaws) / len(yaws) < 0.2
-
-
 def test_a_route_knows_its_length_and_its_halts() -> None:
     route = Route().stand(1).walk(10, 1.3).turn(pi, 2.0).turn(pi / 2).walk(3).stop(1)
     assert route.length == pytest.approx(10 + 2 * pi + 3)
@@ -166,13 +123,6 @@ def test_a_route_knows_its_length_and_its_halts() -> None:
         0.0, abs=1e-9
     )  # the pivot turned it down the y axis
     assert isinstance(legs(route)[2], Pivot) and isinstance(route.actions[2], TurnAction)
-
-
-def test_a_route_of_standing_only_has_no_steps() -> None:
-    walker = Walker(Route().stand(4.0))
-    assert walker.duration == pytest.approx(4.0)
-    assert all(not walker.truth().steps(foot) for foot in Foot)
-    assert isinstance(walker.plan.starts[Foot.LEFT], FootStand)
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, float("nan"), float("inf")])

@@ -1,14 +1,21 @@
-"""Body weight on the feet: how much, on which foot, under which part of the sole."""
+"""Body weight on the feet: how much, on which foot, under which part of the sole, and in a bend on its outside."""
+
+from math import copysign
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.insoles import SCALE, layout
+from solepath.emulate.sensors.insole_device import boot
+from solepath.emulate.sensors.insoles import SCALE, heel_array, layout
+from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.curves import Array
+from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.walker import Walker
-from solepath.types import Foot
+from solepath.types import Foot, Layout, Site
 from solepath.types.vector import GRAVITY
+from solepath.wire.insole_info import parse_info
 
 T = np.arange(0.0, 22.0, 0.002)
 
@@ -66,13 +73,6 @@ def test_the_load_tells_heel_strike_and_toe_off_within_a_sample(walker: Walker, 
     assert late[:-1].max() <= 0.0151 and early[1:].max() <= 0.01
 
 
-def test_nothing_presses_in_swing(walker: Walker) -> None:
-    shape = layout(96, Foot.LEFT)
-    for stride in walker.plan.strides[Foot.LEFT]:
-        t = np.linspace(stride.toe_off + 1e-9, stride.heel_strike - 1e-9, 20)
-        assert walker.cell_loads(shape, t).max() == 0.0
-
-
 @pytest.mark.parametrize("count", [24, 35, 96, 99])
 @pytest.mark.parametrize("foot", list(Foot))
 def test_the_cells_share_the_whole_load(walker: Walker, foot: Foot, count: int) -> None:
@@ -102,19 +102,6 @@ def test_the_load_goes_from_heel_to_forefoot_with_the_events(walker: Walker, foo
         assert rear.max() == 0.0 and front.max() > 100.0
 
 
-@pytest.mark.parametrize("foot", list(Foot))
-def test_the_centre_of_pressure_moves_forward_and_ends_under_the_big_toe(walker: Walker, foot: Foot) -> None:
-    shape = layout(99, foot)
-    places = np.array([(cell.x, cell.y) for cell in shape.cells])
-    for strike, _, _, off in spans(walker, foot)[1:-1]:
-        cells = walker.cell_loads(shape, np.linspace(strike + 0.01, off - 0.01, 60))
-        x, y = (cells @ places / cells.sum(axis=1, keepdims=True)).T
-        assert np.diff(x).min() > -0.001
-        assert x[0] < 0.06 and x[-1] > 0.22
-        medial = -1.0 if foot is Foot.LEFT else 1.0
-        assert y[-1] * medial > 0.004
-
-
 @pytest.mark.parametrize("count", [8, 24, 35, 96, 99, 128])
 def test_a_layout_has_its_cells_on_the_sole_and_mirrored_for_the_other_foot(count: int) -> None:
     left, right = layout(count, Foot.LEFT), layout(count, Foot.RIGHT)
@@ -132,3 +119,105 @@ def test_a_layout_of_too_many_or_too_few_cells_is_refused() -> None:
     for count in (0, 7, 129):
         with pytest.raises(ValueError):
             layout(count, Foot.LEFT)
+
+
+# --- bends ------------------------------------------------------------------------------------------------------------
+
+STRAIGHT = Route().stand(1.0).walk(6.0, 1.3).stop(1.0)
+
+
+def bend(radius: float, speed: float = 1.1, wearer: Wearer | None = None) -> Walker:
+    """12 m around a bend, to the left when `radius` is positive."""
+    return Walker(
+        Route().stand(1.0).turn(copysign(12.0 / abs(radius), radius), abs(radius), speed).stop(2.0), wearer, seed=2
+    )
+
+
+def places(walker: Walker, cells: Layout) -> Array:
+    """Mean place of the load across a foot, of every stance in full walk, m to the left."""
+    y = np.array([cell.y for cell in cells.cells])
+    found = []
+    strides = walker.plan.strides[cells.foot]
+    for one, two in zip(strides[2:-2], strides[3:-1], strict=True):
+        loads = walker.cell_loads(cells, np.linspace(one.foot_flat, two.heel_off, 15))
+        found.append(float((loads @ y / loads.sum(axis=1)).mean()))
+    return np.array(found)
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_the_load_moves_to_the_outside_of_a_bend_and_more_in_a_tight_one(foot: Foot) -> None:
+    cells = layout(99, foot)
+    wide, tight = places(bend(4.0), cells), places(bend(2.0), cells)
+    assert tight.max() < wide.min() < wide.max() < -0.005  # in a left turn to the right edge
+    assert tight.mean() == pytest.approx(-0.015, abs=0.003)
+    wide, tight = places(bend(-4.0), cells), places(bend(-2.0), cells)
+    assert tight.min() > wide.max() > wide.min() > 0.005
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_leaning_changes_neither_the_weight_nor_where_it_is_along_the_foot(foot: Foot) -> None:
+    walker, cells = bend(2.0), layout(96, foot)
+    t = np.arange(0.0, walker.duration, 0.01)
+    upright = evolve(walker.loads, leans={foot: np.zeros_like(table) for foot, table in walker.loads.leans.items()})
+    plain = upright.cells(cells, walker.wearer.shoe.width, walker.motions[foot], t)
+    leaning = walker.cell_loads(cells, t)
+    assert leaning.min() >= 0.0
+    assert leaning.sum(axis=1) == pytest.approx(plain.sum(axis=1), abs=1e-9)
+    x = np.array([cell.x for cell in cells.cells])
+    on = plain.sum(axis=1) > 10.0
+    along, before = ((load[on] @ x) / load[on].sum(axis=1) for load in (leaning, plain))
+    assert np.abs(along - before).max() < 0.012
+
+
+def test_loads_of_a_straight_walk_are_bit_for_bit_those_of_one_who_never_leans() -> None:
+    walker = Walker(STRAIGHT, seed=3)
+    t = np.arange(0.0, walker.duration, 0.01)
+    for foot in Foot:
+        cells = layout(96, foot)
+        assert not walker.loads.leans[foot][:, 0].any()
+        upright = evolve(walker.loads, leans={foot: np.zeros_like(walker.loads.leans[foot])})
+        plain = upright.cells(cells, walker.wearer.shoe.width, walker.motions[foot], t)
+        assert np.array_equal(walker.cell_loads(cells, t), plain)
+
+
+def test_a_heel_array_has_its_cells_under_the_heel_and_a_range_of_140_kilopascal() -> None:
+    for foot in Foot:
+        cells = heel_array(foot)
+        x, y = (np.array(axis) for axis in zip(*((cell.x, cell.y) for cell in cells.cells), strict=True))
+        assert len(cells.cells) == 24
+        assert x.max() - x.min() == pytest.approx(0.0823 * 5 / 6) and y.max() - y.min() == pytest.approx(0.0451 * 3 / 4)
+        assert x.min() > 0.0 and x.max() < 0.33 * cells.length and y.mean() == pytest.approx(0.0)
+        assert cells.full_scale / cells.cells[0].area == pytest.approx(140e3)
+        assert sum(cell.area for cell in cells.cells) == pytest.approx(0.0823 * 0.0451)
+
+
+@pytest.mark.parametrize("way", ["straight", "bend"])
+def test_a_heel_array_bears_what_lies_over_it_and_no_more(way: str) -> None:
+    walker = Walker(STRAIGHT, seed=3) if way == "straight" else bend(2.0)
+    foot = Foot.LEFT
+    t = np.arange(0.0, walker.duration, 0.01)
+    array, heel = walker.cell_loads(heel_array(foot), t).sum(axis=1), walker.loads.shares(foot, t)[0]
+    on_heel = heel * walker.loads.total(foot, t)
+    assert (array <= on_heel + 1e-9).all()
+    struck = on_heel > 50.0
+    share = array[struck] / on_heel[struck]
+    assert share.min() > 0.5 and share.max() < 0.97
+    assert array[on_heel == 0.0].max() == 0.0
+
+
+def test_the_contour_of_a_heel_shrinks_as_the_load_goes_forward() -> None:
+    walker = Walker(STRAIGHT, seed=3)
+    cells = heel_array(Foot.LEFT)
+    one, two = walker.plan.strides[Foot.LEFT][1:3]
+    loads = walker.cell_loads(cells, np.linspace(one.foot_flat + 0.02, two.heel_off - 0.02, 10))
+    above = (loads / cells.cells[0].area > 20e3).sum(axis=1)
+    assert above[0] == 24 and above[-1] < 12 and (np.diff(above) <= 0).all()
+
+
+def test_an_insole_with_a_layout_says_it_in_its_info_and_is_worn_on_that_foot_alone() -> None:
+    walk = emulate(STRAIGHT, devices={Site.LEFT_FOOT: boot(Foot.LEFT)}, seed=3)
+    info = parse_info(next(p.data for p in walk.packets if p.channel == "insole/info"))
+    assert info.pressure_scale == pytest.approx(heel_array(Foot.LEFT).scale, rel=1e-6)
+    assert [cell.x for cell in info.cells] == pytest.approx([c.x for c in heel_array(Foot.LEFT).cells], abs=1e-4)
+    with pytest.raises(ValueError, match="left foot"):
+        emulate(STRAIGHT, devices={Site.RIGHT_FOOT: boot(Foot.LEFT)}, seed=3)

@@ -17,8 +17,6 @@ from solepath.emulate.sensors.parts import (
     MPU9250,
     RESISTIVE,
     T5400,
-    WORN_CAPACITIVE,
-    WORN_RESISTIVE,
     AttitudePart,
     BarometerPart,
     Imu,
@@ -39,8 +37,6 @@ from solepath.emulate.sensors.sensors import (
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
 from solepath.types.vector import GRAVITY, from_rotation_vector, multiply
-
-PERFECT = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.0, bandwidth=1e9)
 
 
 def allan_deviation(values: np.ndarray, rate: float, tau: float) -> np.ndarray:
@@ -72,42 +68,12 @@ def test_the_noise_per_sample_fits_the_bandwidth() -> None:
     assert passed.std(axis=0) == pytest.approx(np.full(3, radians(0.1)), rel=0.1)
 
 
-def test_turn_on_bias_and_scale_differ_between_parts_as_the_sheet_says() -> None:
-    when = instants(0.0, 0.01, 3)
-    still, shaken = np.zeros((len(when.fine), 3)), np.full((len(when.fine), 3), 5.0)
-    part = Triad(density=0.0, bias=0.2, wander=0.0, scale=0.01, cross=0.0, bandwidth=1e9)
-    biases, scales = [], []
-    for seed in range(400):
-        at_rest = errors(still, when, part, np.random.default_rng(seed))[0]
-        biases.append(at_rest)
-        scales.append((errors(shaken, when, part, np.random.default_rng(seed))[0] - at_rest) / 5.0 - 1.0)
-    assert np.std(biases) == pytest.approx(0.2, rel=0.08)
-    assert np.std(scales) == pytest.approx(0.01, rel=0.08)
-
-
-def test_crossed_axes_feel_each_other() -> None:
-    when = instants(0.0, 0.01, 3)
-    part = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.02, bandwidth=1e9)
-    along_x = np.zeros((len(when.fine), 3)) + (10.0, 0.0, 0.0)
-    seen = np.array([errors(along_x, when, part, np.random.default_rng(seed))[0] for seed in range(300)])
-    assert seen[:, 0] == pytest.approx(10.0)
-    assert seen[:, 1:].std() == pytest.approx(0.2, rel=0.1)
-
-
 def test_a_bias_wanders_slowly_and_stays_bounded() -> None:
     path = wander(np.arange(0.0, 20000.0, 1.0), 300.0, 4, np.random.default_rng(3))
     assert path[0] == pytest.approx(0.0)
     assert path.std() == pytest.approx(1.0, rel=0.2)
     assert np.diff(path[::30], axis=0).std() == pytest.approx(sqrt(2.0 * 30.0 / 300.0), rel=0.1)
     assert np.abs(np.diff(path, axis=0)).max() < 0.1
-
-
-def test_a_gyroscope_that_feels_acceleration_does() -> None:
-    when = instants(0.0, 0.01, 3)
-    part = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.0, bandwidth=1e9, g_effect=0.01)
-    force = np.full((len(when.fine), 3), 9.81)
-    found = errors(np.zeros_like(force), when, part, np.random.default_rng(1), force)
-    assert np.abs(found) == pytest.approx(0.0981)
 
 
 def test_counts_are_rounded_and_stop_at_full_scale() -> None:
@@ -147,18 +113,6 @@ def test_imperfect_samples_stay_near_the_exact_ones_at_rest(part: Imu) -> None:
     assert np.abs(off).max() > 0.0
 
 
-def test_no_part_is_further_off_than_its_sheet_says_at_the_most() -> None:
-    part = KXTJ9_IMU3000.acc
-    assert part.most == pytest.approx(0.125 * GRAVITY)
-    when = instants(0.0, 0.01, 2)
-    still = evolve(part, scale=0.0, cross=0.0, wander=0.0, density=0.0)
-    biases = np.array(
-        [errors(np.zeros((len(when.fine), 3)), when, still, np.random.default_rng(k))[0] for k in range(400)]
-    )
-    assert np.abs(biases).max() == pytest.approx(part.most)
-    assert biases.std() == pytest.approx(part.bias, rel=0.15)
-
-
 def test_cells_have_gain_preload_noise_and_an_end() -> None:
     t = np.arange(0.0, 20.0, 0.01)
     loads = np.zeros((len(t), 50))
@@ -170,41 +124,6 @@ def test_cells_have_gain_preload_noise_and_an_end() -> None:
     assert found[1100:].std(axis=0).mean() == pytest.approx(RESISTIVE.noise, rel=0.1)
     crushed = read_cells(loads * 10.0, t, RESISTIVE, 0.05, np.random.default_rng(1))
     assert crushed.counts.max() == 4095 and crushed.saturated[1100:].all() and not crushed.saturated[:999].any()
-
-
-def test_a_foot_in_the_air_keeps_touching_cells_that_feel_it() -> None:
-    t = np.arange(0.0, 60.0, 0.01)
-    air = t < 30.0
-    loads = np.where(air, 0.0, 40.0)[:, None] * np.ones(40)
-    lift = np.full(len(t), GRAVITY)
-    found = read_cells(loads, t, WORN_RESISTIVE, 0.05, np.random.default_rng(1), lift=lift).counts * 0.05
-    quiet = evolve(WORN_RESISTIVE, rub=0.0)
-    calm = read_cells(loads, t, quiet, 0.05, np.random.default_rng(1), lift=lift).counts * 0.05
-    assert found[air].std(axis=0).mean() > 1.5 * calm[air].std(axis=0).mean()
-    assert found[~air][5:].std(axis=0).mean() == pytest.approx(WORN_RESISTIVE.noise, rel=0.15)
-    changes = found[air] - found[air].mean(axis=0)
-    after = int(round(WORN_RESISTIVE.rub_memory / 0.01))
-    assert 0.1 < np.mean(changes[:-after] * changes[after:]) / np.mean(changes**2) < 0.45  # a memory of that long
-    assert found.min() >= 0.0
-
-
-def test_a_shoe_that_is_pulled_up_presses_less_on_the_foot() -> None:
-    t = np.arange(0.0, 10.0, 0.01)
-    part = evolve(WORN_CAPACITIVE, rub=0.0, noise=0.0)
-    loads = np.zeros((len(t), 30))
-    means = [
-        read_cells(loads, t, part, 0.001, np.random.default_rng(3), lift=np.full(len(t), g * GRAVITY)).counts.mean()
-        for g in (-1.0, 0.0, 1.0, 2.0, 3.0, 9.0)
-    ]
-    assert np.array(means) / means[2] == pytest.approx([1.6, 1.3, 1.0, 0.7, 0.4, 0.0], abs=0.01)
-
-
-def test_parts_that_do_not_feel_the_foot_in_the_air_read_what_they_did() -> None:
-    t = np.arange(0.0, 2.0, 0.01)
-    loads = np.outer(np.maximum(np.sin(3.0 * t), 0.0), np.arange(12.0))
-    plain = read_cells(loads, t, RESISTIVE, 0.05, np.random.default_rng(1))
-    felt = read_cells(loads, t, RESISTIVE, 0.05, np.random.default_rng(1), lift=30.0 * np.cos(t))
-    assert np.array_equal(plain.counts, felt.counts)
 
 
 @pytest.mark.parametrize("part", [INERTIACUBE3, CRE_CC02, MOVELLA_DOT])
@@ -233,10 +152,3 @@ def test_a_barometer_tells_three_metres_by_36_pascal(part: BarometerPart) -> Non
     low, high = (read_barometer(np.full(60, h), t, part, np.random.default_rng(4)) for h in (0.0, 3.0))
     assert (low - high).mean() == pytest.approx(36.0, abs=0.5)
     assert np.diff(low).std() / sqrt(2) == pytest.approx(part.noise, rel=0.35)
-
-
-def test_a_perfect_part_reports_the_truth() -> None:
-    when = instants(0.0, 0.01, 200)
-    signal = np.stack([np.sin(5 * when.fine), np.cos(3 * when.fine), when.fine], axis=1)
-    found = read_triad(signal, when, PERFECT, 1e-3, np.random.default_rng(1))
-    assert found.counts * 1e-3 == pytest.approx(sample(signal, when), abs=5.1e-4)

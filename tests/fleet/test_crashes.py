@@ -22,7 +22,7 @@ from sites import site
 
 from solepath.fleet import NumberedEvent, sent_line, told_row
 
-JOB = [sys.executable, str(HELPERS / "fleet_job.py")]
+JOB = [sys.executable, str(HELPERS / "fleet" / "fleet_job.py")]
 QUIET = {**os.environ, "RUST_BACKTRACE": "0"}
 
 

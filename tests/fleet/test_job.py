@@ -16,7 +16,6 @@ from walks import LEFT
 
 from solepath import Calibration, CalibrationError, recipes
 from solepath.calibration import ShoeGeometry
-from solepath.emulate.routes.building import BUILDING
 from solepath.fleet import End, Fleet, NumberedEvent, Sent, Tick, Unreadable, WearerFailed
 from solepath.link.driver import Reading
 from solepath.session import Session
@@ -99,12 +98,6 @@ def test_a_job_that_is_wrong_for_every_wearer_is_refused_when_it_is_made() -> No
         Fleet(floorplan="house")  # type: ignore[arg-type]
     with pytest.raises(CalibrationError):
         Session(calibration=Registry()["odd"])
-
-
-def test_a_job_can_be_sent_to_its_workers() -> None:
-    fleet = Fleet(recipes.by_name("kupt-dfpc"), calibrations={WEARER: Calibration()}, floorplan=BUILDING, poses=True)
-    there = pickle.loads(pickle.dumps(fleet))
-    assert there.step(WEARER, None, walked().sent[:250]) == fleet.step(WEARER, None, walked().sent[:250])
 
 
 class Ours(Fleet):

@@ -61,11 +61,6 @@ def test_events_that_a_dying_producer_lost_pass_when_they_come_with_the_replay()
     assert [n for n in told if once.first("anna", n)] == [0, 1, 2, 5, 6, 3, 4, 7]
 
 
-def test_a_reader_that_came_late_hears_what_is_repeated_from_before_it_came() -> None:
-    once = Once()
-    assert [n for n in [50, 51, 48, 49, 50, 51, 52] if once.first("anna", n)] == [50, 51, 48, 49, 52]
-
-
 @given(st.lists(st.integers(0, 10**9), max_size=300), st.integers(1, 4))
 def test_what_is_remembered_is_bounded_and_never_lets_a_number_pass_twice(numbers: list[int], limit: int) -> None:
     once = Once(limit)
@@ -107,11 +102,6 @@ def test_what_is_no_identity_is_the_callers_mistake(wearer: object, number: obje
     with pytest.raises(ValueError, match="from 0"):
         once.first("anna", -1)
     assert once == Once()
-
-
-def test_room_for_no_wearer_is_the_callers_mistake() -> None:
-    with pytest.raises(ValueError, match="at least 1"):
-        Once(limit=0)
 
 
 SAVED = Once.after({"anna": 7}).snapshot()

@@ -1,4 +1,4 @@
-"""The order of what a phone sends: protocol/fleet/stories.json, and whatever late, doubled and lost rows do to it."""
+"""The order of what a phone sends: protocol/fleet/stories.json; rows that are late, doubled or lost; new runs."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ import json
 from typing import Any
 
 import pytest
-from fleets import WEARER, cut, shown, stepped, uses
+from attrs import evolve
+from fleets import WEARER, cut, shown, stepped, uses, walked
 from here import PROTOCOL
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.fleet import End, Fleet, NumbersMissing, Sent, Tick, read_line
-from solepath.fleet.step.order import HELD
-from solepath.fleet.step.sent import LONGEST_DATA, MOST
-from solepath.types import Packet, Site
+from solepath.events import PacketRejected, Rejection, StrideTaken
+from solepath.fleet import End, Fleet, NumberedEvent, NumbersMissing, Sent, SentRejected, Tick, read_line
+from solepath.fleet.step.sent import MOST
 
 STORIES = json.loads((PROTOCOL / "fleet" / "stories.json").read_text())
 FLEET = Fleet()
@@ -46,10 +46,6 @@ def test_rows_become_what_their_story_says(story: dict[str, Any]) -> None:
             used = [one["what"] for one in gives if one["what"] in ("used", "ended")]
             assert fleet.open(WEARER, state).ended is (used[-1] == "ended")
     assert numbers == list(range(len(numbers)))
-
-
-def test_there_are_as_many_stories_as_they_say() -> None:
-    assert STORIES["schema"] == "solepath fleet stories 1" and STORIES["count"] == len(STORIES["stories"])
 
 
 def rows(count: int, ended: bool) -> list[Sent]:
@@ -112,26 +108,90 @@ def test_rows_are_waited_for_as_far_as_the_window_says_and_no_further() -> None:
     assert [number for _, _, number, _ in told[1:]] == list(range(1, window + 2))
 
 
-def test_what_is_held_is_bounded_in_bytes_too() -> None:
-    data, count = bytes(LONGEST_DATA), 40
-    keyed = FLEET.open(WEARER, None)
-    large = [Sent(WEARER, number, Packet(0.0, Site.PELVIS, "story/0-1", data)) for number in range(1, count)]
-    fits = HELD // (LONGEST_DATA + len("story/0-1"))
-    assert keyed.feed(large[:fits]) == []
-    assert HELD // 2 < len(keyed.state()) < HELD + 4096
-    told = keyed.feed(large[fits:])
-    assert isinstance(told[0].event, NumbersMissing) and len(told) == 1 + len(large)
-
-
-def test_a_phone_that_loses_every_other_row_is_heard_all_the_same() -> None:
-    told = uses(NARROW.open(WEARER, None).feed([shown(number) for number in range(0, 200, 2)]))
-    assert [number for what, _, number, _ in told if what == "used"] == list(range(0, 194, 2)), "three are held"
-    assert sum(count for what, _, _, count in told if what == "missing") == 96
-
-
 def test_what_was_given_up_long_ago_is_forgotten_but_nothing_is_used_twice() -> None:
     keyed = Fleet(window=0).open(WEARER, None)
     keyed.feed([shown(number) for number in range(0, 100, 2)])
     late = uses(keyed.feed([shown(number) for number in range(100)]))
     known = [(67, "late"), (69, ("late", 2)), (73, ("late", 4)), (81, ("late", 8)), (97, ("late", 16))]
     assert late == [*[("rejected", 0, *one) for one in known], ("used", 0, 99, None)], "16 spans are remembered"
+
+
+# --- runs that do not grow --------------------------------------------------------------------------------------------
+
+FLEET, NARROW = Fleet(), Fleet(window=3)
+AHEAD, NOW = 4_000_000_000_000, 1_790_000_000_000
+
+
+def run(of: int, count: int, first: int = 0) -> list[Sent]:
+    return [shown(number, of) for number in range(first, first + count)]
+
+
+def used(told: list[NumberedEvent]) -> list[tuple[int | None, int | None]]:
+    return [(of, number) for what, of, number, _ in uses(told) if what == "used"]
+
+
+def test_a_phone_whose_clock_is_put_right_loses_a_window_of_rows_and_no_more() -> None:
+    state, _ = FLEET.step(WEARER, None, run(AHEAD, 20))
+    for again in (run(AHEAD, 20), []):
+        _, told = FLEET.step(WEARER, state, [*again, *run(NOW, 400)])
+        assert used(told) == [(NOW, number) for number in range(256, 400)]
+        assert [one.event.count for one in told if isinstance(one.event, SentRejected)] == [2**k for k in range(9)]
+        assert [one.event.count for one in told if isinstance(one.event, NumbersMissing)] == [256]
+        assert [one.number for one in told] == list(range(20, 20 + len(told)))
+
+
+def test_one_row_of_the_largest_run_there_is_does_not_silence_a_wearer() -> None:
+    _, told = FLEET.step(WEARER, None, [*run(NOW, 20), shown(0, MOST), *run(NOW, 400, 20), *run(NOW + 1, 5)])
+    there = [*range(20), *range(276, 420)]
+    assert sorted(used(told)) == [*[(NOW, number) for number in there], *[(NOW + 1, k) for k in range(5)], (MOST, 0)]
+
+
+ROWS = st.builds(shown, st.integers(0, 9) | st.integers(0, MOST), st.integers(0, 3) | st.integers(0, MOST))
+ENDS = st.builds(lambda number, of: Sent(WEARER, number, End(), of), st.integers(0, 9), st.integers(0, 3))
+
+
+@settings(max_examples=60, deadline=None)
+@given(before=st.lists(ROWS | ENDS, max_size=14), new=st.integers(0, 5) | st.integers(0, MOST))
+def test_whatever_came_before_a_new_run_is_heard_but_for_a_window_of_rows(before: list[Sent], new: int) -> None:
+    before = [one for one in before if one.run != new]
+    _, told = NARROW.step(WEARER, None, [*before, *run(new, 20)])
+    heard = [number for of, number in used(told) if of == new]
+    assert len(heard) >= 17 and heard[-13:] == list(range(7, 20))
+
+
+@settings(max_examples=60, deadline=None)
+@given(late=st.lists(st.integers(0, 3), min_size=20, max_size=20), change=st.integers(1, 15))
+def test_rows_that_the_next_run_overtakes_do_not_lead_back(late: list[int], change: int) -> None:
+    ordered = [*run(0, change), *run(1, 20 - change)]
+    arrived = [ordered[k] for k in sorted(range(20), key=lambda k: (k + late[k], k))]
+    _, told = NARROW.step(WEARER, None, arrived)
+    assert [number for of, number in used(told) if of == 1] == list(range(20 - change))
+    assert not [one for one in told if isinstance(one.event, NumbersMissing) and one.event.run == 1]
+
+
+def test_rows_of_all_that_was_ever_sent_come_again_and_none_is_used_twice() -> None:
+    sent = [one for of in range(60) for one in run(5 * of, 9)]
+    state, told = NARROW.step(WEARER, None, sent)
+    assert len(used(told)) == len(sent)
+    after, told = NARROW.step(WEARER, state, sent)
+    assert used(told) == [] and all([isinstance(one.event, SentRejected) for one in told])
+    assert len(after) < len(state) + 10
+
+
+def test_a_flood_of_rows_that_are_late_is_told_ever_more_seldom() -> None:
+    state, _ = FLEET.step(WEARER, None, [*run(5, 3), shown(0, 9)])
+    flood = [one for k in range(2000) for one in (shown(3 + k, 5), shown(1 + k, 9))]
+    _, told = FLEET.step(WEARER, state, flood)
+    assert [one.event.count for one in told if isinstance(one.event, SentRejected)] == [2**k for k in range(11)]
+    assert len(used(told)) == 2000
+
+
+def test_a_phone_that_was_started_again_with_a_clock_at_nought_is_followed_after_19_packets_of_each_site() -> None:
+    sent = walked().sent
+    half = len(sent) // 2
+    shifted = [evolve(one, what=evolve(one.what, t=one.what.t + 50_000.0)) for one in sent[:half]]
+    state, _ = FLEET.step(WEARER, None, shifted)
+    again = [evolve(one, number=number, run=1) for number, one in enumerate(sent[half:])]
+    told = [one.event for one in FLEET.step(WEARER, state, again)[1]]
+    assert [e.reason for e in told if isinstance(e, PacketRejected)].count(Rejection.TIME_BACKWARDS) == 2 * 19
+    assert sum(isinstance(event, StrideTaken) for event in told) >= 2

@@ -69,12 +69,6 @@ def test_a_part_holds_the_rows_of_its_events_wearer_by_wearer(tmp_path: Path) ->
     ]  # fmt: skip
 
 
-def test_a_part_without_events_is_no_file_and_has_no_number(tmp_path: Path) -> None:
-    parts = PartFiles(tmp_path)
-    assert [parts.close(), parts.close()] == [(parts.run, 0)] * 2
-    assert names(tmp_path) == []
-
-
 def test_a_part_that_grows_too_long_is_closed_by_itself(tmp_path: Path) -> None:
     parts = PartFiles(tmp_path, group=2)
     parts.write(told(2 * GROUPS + 1))
@@ -97,17 +91,6 @@ def test_parts_from_the_resumed_number_on_are_removed_and_no_other_file_is(tmp_p
         (tmp_path / name).write_bytes(b"half")
     assert PartFiles(tmp_path, "0", (runs["0"], 1)).close() == (runs["0"], 1)
     assert names(tmp_path) == sorted([*mine, FIRST, *(f"part-1-0000000{n}.parquet" for n in range(3))])
-
-
-def test_what_is_half_written_is_found_by_no_reader(tmp_path: Path) -> None:
-    parts = PartFiles(tmp_path)
-    parts.write(told(1))
-    parts.close()
-    whole = file(tmp_path)
-    (tmp_path / f".part-0-{parts.run}-00000001.parquet.writing").write_bytes(whole.read_bytes()[:99])
-    (tmp_path / ".part-0-7-00000000.parquet.replaced").write_bytes(b"")
-    assert rows(tmp_path) == [told_row(one) for one in told(1)]
-    assert list(tmp_path.glob("*.parquet")) == [whole]
 
 
 def test_who_remembers_nothing_sets_the_parts_of_a_run_before_aside_and_says_so(
@@ -179,12 +162,6 @@ def test_a_part_that_cannot_be_written_is_named_and_leaves_nothing(tmp_path: Pat
     assert by_identity(rows(tmp_path)) == by_identity([told_row(one) for one in told(20)])
 
 
-def test_a_partition_is_a_word(tmp_path: Path) -> None:
-    for partition in ("", "a/b", "0-1", "..", "a b", "0\n"):
-        with pytest.raises(ValueError, match="partition"):
-            PartFiles(tmp_path, partition)
-
-
 @given(st.lists(st.sampled_from(["write", "write many", "close", "count", "crash"]), max_size=15))
 @settings(max_examples=20, deadline=None)
 def test_however_often_it_crashes_each_event_is_there_once(steps: list[str]) -> None:
@@ -206,3 +183,83 @@ def test_however_often_it_crashes_each_event_is_there_once(steps: list[str]) -> 
         parts.write(all_told[at:])
         parts.close()
         assert by_identity(rows(Path(name))) == by_identity([told_row(one) for one in all_told])
+
+
+# --- beside what else is in the directory -----------------------------------------------------------------------------
+
+STRIKE = HeelStrike(t=0.1, known_at=0.12, foot=Foot.LEFT)
+Place = tuple[int, int]
+
+
+def written(directory: Path, resumes: list[Place | None], number: int = 0) -> list[Place]:
+    """A job of so many partitions: wearers of the same names as ever, one event each."""
+    partitions = [str(n) for n in range(len(resumes))]
+    parts = [PartFiles(directory, name, resumes[int(name)], partitions=partitions) for name in partitions]
+    for part in parts:
+        part.write([NumberedEvent(f"w{part.partition}", number, STRIKE)])
+    return [part.close() for part in parts]
+
+
+def listed(directory: Path) -> list[tuple[str, int]]:
+    """What a reader finds."""
+    rows = parquet.read_table(directory).to_pylist()
+    return sorted((row["wearer"], row["number"]) for row in rows)
+
+
+def test_who_begins_anew_with_fewer_partitions_hides_the_parts_of_those_that_are_no_more(tmp_path: Path) -> None:
+    """All wearers are numbered anew: of the old events none may stay beside the new."""
+    three = written(tmp_path, [None] * 3)
+    assert listed(tmp_path) == [("w0", 0), ("w1", 0), ("w2", 0)]
+    two = written(tmp_path, [None] * 2)
+    assert listed(tmp_path) == [("w0", 0), ("w1", 0)]
+    written(tmp_path, list(three), 1)
+    assert listed(tmp_path) == [("w0", 0), ("w0", 1), ("w1", 0), ("w1", 1), ("w2", 0), ("w2", 1)], "the first is back"
+    written(tmp_path, list(two), 1)
+    assert listed(tmp_path) == [("w0", 0), ("w0", 1), ("w1", 0), ("w1", 1)], (
+        "and the second, without those of the first"
+    )
+
+
+def test_a_job_on_bytewax_hides_the_parts_of_partitions_that_it_does_not_have(tmp_path: Path) -> None:
+    pytest.importorskip("bytewax", reason="bytewax is not installed: it has no wheels for Python 3.13 and later")
+    from solepath.fleet.bytewax import ParquetSink
+
+    written(tmp_path, [None] * 2)
+    part = ParquetSink(tmp_path).build_part("files", "0", None)
+    part.write_batch([NumberedEvent("w0", 0, STRIKE), NumberedEvent("w1", 0, STRIKE)])
+    part.snapshot()
+    assert listed(tmp_path) == [("w0", 0), ("w1", 0)]
+
+
+@pytest.mark.parametrize("name", ["part-0-{run}-00000001.parquet", ".part-0-{run}-00000001.parquet.writing"])
+def test_a_directory_with_the_name_of_a_part_is_no_part_and_is_named_where_it_is_in_the_way(
+    tmp_path: Path, name: str
+) -> None:
+    parts = PartFiles(tmp_path)
+    parts.write([NumberedEvent("w", 0, STRIKE)])
+    place = parts.close()
+    strange = tmp_path / name.format(run=parts.run)
+    strange.mkdir()
+    parts = PartFiles(tmp_path, "0", place)
+    parts.write([NumberedEvent("w", 1, STRIKE)])
+    with pytest.raises(OSError) as refused:
+        parts.close()
+    assert refused.value.filename == str(tmp_path / f"part-0-{parts.run}-00000001.parquet")
+    strange.rmdir()
+    parts = PartFiles(tmp_path, "0", place)
+    parts.write([NumberedEvent("w", 1, STRIKE)])
+    parts.close()
+    assert listed(tmp_path) == [("w", 0), ("w", 1)]
+
+
+@pytest.mark.parametrize(
+    ("wearer", "name"), [("\ud800", "\\ud800"), ("ü \udc80", "ü \\udc80"), ("ü\n\x00", "ü\n\x00"), ("", "")]
+)
+def test_a_wearer_of_any_name_ends_no_job(tmp_path: Path, wearer: str, name: str) -> None:
+    """A key may hold half a character, as JSON lets it; a table holds UTF-8."""
+    told: list[Any] = [NumberedEvent(wearer, 0, STRIKE), NumberedEvent("w", 0, STRIKE)]
+    parts = PartFiles(tmp_path)
+    parts.write(told)
+    parts.close()
+    assert listed(tmp_path) == sorted([(name, 0), ("w", 0)])
+    assert told_row(told[0])["wearer"] == name

@@ -71,10 +71,6 @@ def test_a_line_says_what_the_protocol_says(line: dict[str, Any]) -> None:
         assert (read.wearer, read.run, read.number) == (line["wearer"], line["run"], line["number"])
 
 
-def test_there_are_as_many_lines_as_they_say() -> None:
-    assert LINES["schema"] == "solepath fleet lines 1" and LINES["count"] == len(LINES["lines"])
-
-
 @settings(max_examples=60, deadline=None)
 @given(sent=SENT)
 def test_what_is_sent_is_read_again_from_its_row_and_from_its_line(sent: Sent) -> None:
@@ -117,11 +113,6 @@ def test_tables_may_bring_bytes_and_numbers_of_their_own_kinds() -> None:
     own = {"data": bytearray(b"ab"), "number": numpy.int64(3), "run": numpy.int32(2), "t": numpy.float64(1.0)}
     assert read_sent({**row, **own}) == read_sent(row)
     assert type(read_sent({**row, **own}).number) is int
-
-
-def test_a_time_that_json_cannot_write_is_no_line() -> None:
-    with pytest.raises(ValueError, match="JSON"):
-        sent_line(Sent("w", 0, Tick(nan)))
 
 
 def test_an_event_is_a_row_with_its_identity_its_times_its_foot_and_the_rest_as_json() -> None:

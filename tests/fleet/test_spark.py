@@ -38,7 +38,7 @@ def spark() -> Iterator[Any]:
 
     os.environ["SPARK_LOCAL_IP"] = "127.0.0.1"
     os.environ["PYSPARK_PYTHON"] = sys.executable
-    os.environ["PYTHONPATH"] = os.pathsep.join([str(HELPERS), os.environ.get("PYTHONPATH", "")])
+    os.environ["PYTHONPATH"] = os.pathsep.join([str(HELPERS), str(HELPERS / "fleet"), os.environ.get("PYTHONPATH", "")])
     session = SparkSession.builder.master(MASTER).config(map=CONF | STORE).getOrCreate()
     session.sparkContext.setLogLevel("ERROR")
     yield session

@@ -1,4 +1,4 @@
-"""A job on Spark in processes of its own, past a kill -9 and a full disk: test_fleet_spark.py says how to run it."""
+"""A job on Spark in processes of its own, past a kill -9 and a full disk: test_spark.py says how to run it."""
 
 from __future__ import annotations
 

@@ -17,15 +17,13 @@ from hypothesis import strategies as st
 
 from solepath import SnapshotError, recipes
 from solepath.emulate.routes.building import BUILDING
-from solepath.fleet import End, Fleet, NumberedEvent, Refusal, Sent, SentRejected, StateRefused, Tick, Unreadable
+from solepath.fleet import End, Fleet, Sent, StateRefused, Tick, Unreadable
 from solepath.fleet.step.keyed import first_number
 from solepath.fleet.step.order import RejectedItem
 from solepath.fleet.step.state import (
     READERS,
     VERSION,
     Identity,
-    OtherState,
-    StateError,
     read_identity,
     read_rest,
     write_state,
@@ -84,10 +82,6 @@ def test_a_state_says_what_the_protocol_says(vector: dict[str, Any]) -> None:
     assert FLEET.open(WEARER, state).state() == state
 
 
-def test_there_are_as_many_states_as_they_say() -> None:
-    assert STATES["schema"] == "solepath fleet states 1" and STATES["count"] == len(STATES["states"])
-
-
 def test_every_version_up_to_the_newest_is_read_and_has_an_example() -> None:
     shown = {bytes.fromhex(vector["hex"])[4] for vector in STATES["states"] if vector["result"] == "valid"}
     assert shown == set(READERS) == set(range(1, VERSION + 1))
@@ -113,12 +107,6 @@ def test_a_bit_that_fell_over_anywhere_is_noticed_and_no_identity_is_used_again(
     _, told = FLEET.step(WEARER, bytes(damaged), walked().sent[HALF : HALF + 5])
     assert isinstance(told[0].event, StateRefused)
     assert told[0].number >= before
-
-
-def test_a_state_is_of_one_encoding_and_goes_through_bytes_unchanged() -> None:
-    state, _ = halfway()
-    assert FLEET.open(WEARER, state).state() == state == FLEET.step(WEARER, state, [])[0]
-    assert FLEET.open(WEARER, bytearray(state)).state() == state
 
 
 def test_a_state_that_was_refused_is_told_once_and_not_before_it_is_needed() -> None:
@@ -212,17 +200,6 @@ def test_a_detector_of_ones_own_that_cannot_be_saved_costs_its_wearer_the_sessio
     assert restored.state() == keyed.state()
 
 
-def test_a_damaged_rest_is_named() -> None:
-    rest = OtherState(held={(0, 2): Tick(1.0), (0, 5): End()})
-    state = write_state(Identity(0, 1, 0, 0.0), rest)
-    assert read_rest(state) == rest
-    for end in range(41, len(state)):
-        with pytest.raises(StateError):
-            read_rest(state[:end])
-    with pytest.raises(StateError, match="version 9"):
-        read_rest(state[:4] + b"\x09" + state[5:])
-
-
 def test_a_phone_hands_its_wearer_over() -> None:
     sent, whole = walked().sent, Session()
     first = [event for one in sent[:HALF] for event in whole.feed(one.what)]
@@ -240,9 +217,3 @@ def test_a_snapshot_that_cannot_go_on_is_not_adopted() -> None:
         FLEET.adopt({"solepath": 1})
     with pytest.raises(SnapshotError, match="zupt"):
         FLEET.adopt(Session(recipes.by_name("zupt")).snapshot())
-
-
-def test_told_of_a_refused_row_is_why() -> None:
-    (one,) = FLEET.step(WEARER, None, [Unreadable(WEARER, "no JSON")])[1]
-    refused = SentRejected(t=0.0, known_at=0.0, reason=Refusal.UNREADABLE, detail="no JSON")
-    assert one == NumberedEvent(WEARER, 0, refused)

@@ -117,11 +117,6 @@ def test_nobody_leaves_a_round_room_of_a_thousand_walls() -> None:
         assert not walls.crosses(0.0, 0.0, 9.8 * math.cos(heading), 9.8 * math.sin(heading))
 
 
-def test_a_level_without_walls_stops_nobody() -> None:
-    assert not Walls([]).crosses(0.0, 0.0, 1.0, 1.0)
-    assert not Walls([]).crosses(-1e6, 0.0, 1e6, 1.0)
-
-
 # --- the grid ---------------------------------------------------------------------------------------------------------
 
 
@@ -224,15 +219,6 @@ def test_the_grid_of_rooms_says_what_counting_the_edges_says(
         assert plan.inside(0, x, y) == odd
 
 
-@given(any_float, any_float)
-def test_any_floats_are_inside_or_not(x: float, y: float) -> None:
-    room = ((0.0, 0.0), (9.0, 0.0), (9.0, 5.0))
-    for plan in (IndexedPlan(HOUSE), IndexedPlan(FloorPlan("rooms", (level("0", 0.0, rooms=(room,)),)))):
-        if plan.inside(0, x, y):
-            assert -1.0 <= x <= 11.0
-            assert -1.0 <= y <= 7.0
-
-
 def test_the_nearest_stop_of_a_kind_is_found() -> None:
     plan = IndexedPlan(HOUSE)
     found = plan.nearest(1, 9.0, 4.0)
@@ -249,8 +235,3 @@ def test_levels_go_by_their_ids() -> None:
     assert [plan.number("0"), plan.number("1")] == [0, 1]
     with pytest.raises(FloorPlanError, match="^the plan has no level 'attic', only 0, 1$"):
         plan.number("attic")
-
-
-def test_a_plan_that_cannot_be_used_is_not_indexed() -> None:
-    with pytest.raises(FloorPlanError, match="^the plan has no levels$"):
-        IndexedPlan(FloorPlan("", ()))

@@ -10,12 +10,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from attrs import evolve
 from floorplans import FILES, archive, plans
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.emulate.routes.building import BUILDING
 from solepath.floorplan.checks import warnings
 from solepath.floorplan.importers import reading
 from solepath.floorplan.importers.geojson import text_of, write_floorplan
@@ -52,10 +50,6 @@ def test_the_house_is_what_it_looks_like() -> None:
     assert plan.crosses(0, 7.0, 2.0, 9.0, 2.0)
 
 
-def test_invalid_files_are_counted() -> None:
-    assert INVALID["count"] == len(INVALID["cases"]) == len({one["id"] for one in INVALID["cases"]})
-
-
 @pytest.mark.parametrize("case", INVALID["cases"], ids=[one["id"] for one in INVALID["cases"]])
 def test_a_file_that_does_not_fit_says_what_does_not(case: dict[str, Any], tmp_path: Path) -> None:
     path = tmp_path / "plan"
@@ -79,11 +73,6 @@ def test_a_file_is_written_and_read(tmp_path: Path) -> None:
     write_floorplan(tmp_path / "house.json", HOUSE)
     assert read_floorplan(tmp_path / "house.json") == HOUSE
     assert read_floorplan(str(tmp_path / "house.json")) == HOUSE
-
-
-def test_what_is_written_is_strict_json_with_a_feature_a_line() -> None:
-    told = json.loads(text_of(HOUSE), parse_constant=pytest.fail)
-    assert len(told["features"]) == len(text_of(HOUSE).splitlines()) - 2
 
 
 # --- the profile ------------------------------------------------------------------------------------------------------
@@ -196,35 +185,6 @@ def test_files_that_cannot_be_read_say_so(tmp_path: Path, monkeypatch: pytest.Mo
         read_floorplan(FILES / "house.geojson")
 
 
-def test_an_archive_of_many_buildings_has_levels_by_their_ids_where_short_names_are_shared() -> None:
-    files = imdf_files()
-    levels = json.loads(files["level.geojson"])
-    for one in levels["features"]:
-        one["properties"]["short_name"] = {"de": "EG"}
-    found = plan_of_bytes(archive({**files, "level.geojson": levels}))
-    assert [level.id for level in found.levels] == [one["id"] for one in levels["features"]]
-    assert found.levels[0].walls == HOUSE.levels[0].walls
-
-
-def test_two_walkways_are_open_to_each_other_and_to_stairs_without_a_door() -> None:
-    files = imdf_files()
-    units = json.loads(files["unit.geojson"])
-    openings = json.loads(files["opening.geojson"])
-    for one in units["features"]:
-        if one["properties"]["category"] == "room":
-            one["properties"]["category"] = "walkway"
-    middle = (11.57 + 11.5 / 74_500.0, 48.15 + 6.0 / 111_200.0)  # the door of the stairs
-    openings["features"] = [one for one in openings["features"] if abs(one["geometry"]["coordinates"][0][0] - middle[0])
-                            > 1.2e-5 or abs(one["geometry"]["coordinates"][0][1] - middle[1]) > 1e-5]  # fmt: skip
-    assert len(openings["features"]) == 10
-    plan = IndexedPlan(plan_of_bytes(archive({**files, "unit.geojson": units, "opening.geojson": openings})))
-    assert not plan.crosses(0, 2.0, 5.0, 2.0, 1.0)  # from the corridor into what was room A
-    assert not plan.crosses(0, 7.0, 2.0, 9.0, 2.0)  # and on into what was room B
-    assert not plan.crosses(0, 11.5, 5.0, 11.5, 8.0)  # and onto the stairs
-    assert plan.crosses(0, 9.0, 8.0, 11.0, 8.0)  # but not from room C
-    assert plan.crosses(0, 2.0, 1.0, 2.0, -1.0)  # and the house has its outer wall
-
-
 # --- any bytes --------------------------------------------------------------------------------------------------------
 
 json_values = st.recursive(
@@ -283,13 +243,3 @@ def test_the_house_with_anything_changed_is_a_plan_or_refused(data: st.DataObjec
     files = imdf_files()
     name = f"{what}.json" if what == "manifest" else f"{what}.geojson"
     reads_or_refuses(archive({**files, name: changed(data.draw, json.loads(files[name]))}))
-
-
-def test_remarks_are_no_part_of_a_file() -> None:
-    assert text_of(evolve(HOUSE, remarks=("x",))) == text_of(HOUSE)
-
-
-def test_the_building_of_the_examples_is_the_emulators() -> None:
-    assert read_floorplan(FILES.parent.parent / "examples" / "building.geojson") == BUILDING
-    assert BUILDING.heights_known
-    assert warnings(BUILDING) == ()

@@ -84,12 +84,6 @@ def test_an_opening_of_several_parts_is_as_many_doors() -> None:
         ((4.0, 0.0), (5.0, 0.0), "Revolving door"), ((5.0, 0.0), (5.0, 1.0), "Revolving door")]  # fmt: skip
 
 
-def test_of_the_fixtures_walls_and_obstructions_stand_in_the_way() -> None:
-    for category, solid in (("wall", True), ("obstruction", True), ("desk", False), ("furniture", False)):
-        fixture = feature("fixture", "f", "Polygon", box(5, 5, 6, 6), category=category, level_id="L0")
-        assert IndexedPlan(plan_of([], fixture=[fixture])).crosses(0, 4.5, 5.5, 5.5, 5.5) == solid
-
-
 def test_a_unit_of_several_polygons_and_one_with_a_hole() -> None:
     ring = box(0, 0, 12, 10) + box(4, 4, 8, 6)
     plan = IndexedPlan(plan_of([unit("u", "room", [ring, box(14, 2, 18, 8)], geometry="MultiPolygon")]))
@@ -124,12 +118,6 @@ def test_levels_lie_a_storey_apart_by_their_ordinals_whatever_their_order() -> N
     found = plan_of([], [level("up", 2), level("down", -1), level("ground", 0)])
     assert [(one.id, one.ordinal, one.elevation) for one in found.levels] == [
         ("down", -1, -3.0), ("ground", 0, 0.0), ("up", 2, 6.0)]  # fmt: skip
-
-
-def test_an_outline_that_does_not_close_is_said() -> None:
-    open_ring = [box(2, 2, 8, 6)[0][:-1]]
-    found = plan_of([unit("u", "room", open_ring)])
-    assert found.remarks == ("unit 'u': its outline does not close, it ends 4.00 m from where it begins",)
 
 
 def test_a_unit_far_from_the_others_is_named() -> None:

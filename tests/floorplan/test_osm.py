@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from xml.sax.saxutils import quoteattr
 
 import pytest
-from floorplans import FILES
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -141,19 +140,6 @@ def test_repeat_on_puts_one_room_on_many_levels() -> None:
     assert not plan.heights_known
 
 
-def test_levels_between_two_have_ranks_for_ordinals_and_lie_between_them() -> None:
-    plan = Map().way(box(0, 0, 20, 10), indoor="room", level="-1;-0.5;0;0.5;1").plan()
-    assert [(level.id, level.ordinal, level.elevation) for level in plan.levels] == [
-        ("-1", -2, -3.0), ("-0.5", -1, -1.5), ("0", 0, 0.0), ("0.5", 1, 1.5), ("1", 2, 3.0)]  # fmt: skip
-
-
-def test_names_come_from_the_outlines_of_levels_and_of_the_building() -> None:
-    drawn = house().way(box(0, 0, 20, 10), indoor="level", level="0", level__ref="EG")
-    plan = drawn.way(box(0, 0, 20, 10), building="yes", name="Town hall").plan()
-    assert plan.name == "Town hall"
-    assert plan.levels[0].name == "EG"
-
-
 def test_stairs_and_lifts_stop_at_all_their_levels() -> None:
     drawn = Map().way(box(0, 0, 20, 10), indoor="room", level="0-2")
     drawn.way(box(2, 2, 4, 4), highway="elevator", level="0-2", ref="L1")
@@ -209,17 +195,6 @@ def test_a_room_that_does_not_close_is_walls_and_a_remark() -> None:
     assert plan.remarks == ("way '7': its outline does not close",)
     assert IndexedPlan(plan).crosses(0, 5.0, 1.5, 5.0, 2.5)
     assert len(plan.levels[0].rooms) == 1
-
-
-def test_what_was_deleted_is_not_there() -> None:
-    text = (FILES / "house.osm").read_text()
-    gone = text.replace('<way id="-1000">', '<way id="-1000" action="delete">')
-    assert plan_of_bytes(gone.encode()).name == ""
-
-
-def test_text_of_other_encodings_is_read() -> None:
-    text = (FILES / "house.osm").read_text().replace("UTF-8", "UTF-16").replace("House", "Häuschen")
-    assert plan_of_bytes(text.encode("utf-16")).name == "Häuschen"
 
 
 tags = st.dictionaries(

@@ -12,8 +12,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import insoles
 
-from solepath.cli.common.failure import Failure
-from solepath.cli.common.floorplan import start_of
 from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Wall
 from solepath.recording import PacketWriter
 from solepath.show.tables.plan import PlanPicture
@@ -36,12 +34,6 @@ def test_a_picture_is_xml_whatever_levels_lifts_and_recordings_are_called(level:
     assert ElementTree.fromstring(svg).tag == "{http://www.w3.org/2000/svg}svg"
 
 
-def test_names_stay_readable_in_the_picture(tmp_path: Path) -> None:
-    PlanPicture(named("Erdgeschoß", "Aufzug\x00 1")).write(tmp_path / "plan.svg", "walk")
-    told = [one.text for one in ElementTree.parse(tmp_path / "plan.svg").iter() if one.tag.endswith("title")]
-    assert told == ["walk", "Aufzug  1"]
-
-
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
 def test_a_full_disk_is_told_with_the_name_of_the_picture() -> None:
     with pytest.raises(OSError, match="/dev/full"):
@@ -58,11 +50,3 @@ def test_a_picture_that_cannot_be_written_is_told_before_the_walk_is_computed(tm
     done = run("track", recorded, "--floorplan", plan, "--out", tmp_path / "out")
     assert done.returncode == 2 and done.stdout == "" and "plan.svg" in done.stderr.splitlines()[-1]
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["plan.svg"], "nothing was written"
-
-
-@pytest.mark.parametrize("wrong", ["0,1,2,1e308", "0,1_0,2", "0,1e9,2", "0,1,2,361", "0,1,1_0,90"])
-def test_a_start_of_numbers_that_no_plan_has_is_refused_or_is_no_start(wrong: str) -> None:
-    try:
-        assert start_of(wrong).level not in ("0", "1"), "a level of such a name is refused with the plan"
-    except Failure as failure:
-        assert "--start" in str(failure)

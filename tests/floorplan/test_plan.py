@@ -53,12 +53,6 @@ def test_equal_plans_have_one_fingerprint_and_remarks_are_no_part_of_them(plan: 
     assert again.fingerprint == plan.fingerprint
 
 
-def test_a_wall_moved_by_a_micrometre_changes_the_fingerprint() -> None:
-    first = GROUND.walls[0]
-    moved = evolve(first, end=(first.end[0], first.end[1] + 1e-6))
-    assert with_level(walls=(moved, *GROUND.walls[1:])).fingerprint != HOUSE.fingerprint
-
-
 def test_a_level_is_found_by_its_id_and_an_unknown_one_is_named() -> None:
     assert HOUSE.level("1") is HOUSE.levels[1]
     with pytest.raises(FloorPlanError, match="^the plan has no level '2', only 0, 1$"):
@@ -152,24 +146,6 @@ def test_a_door_drawn_on_the_other_face_of_a_wall_is_no_gap() -> None:
             assert len(level.walls) > len(drawn)
             assert not [line for line in warnings(FloorPlan("", (level,))) if "close" in line]
             assert IndexedPlan(FloorPlan("", (level,))).inside(0, 5.0, 5.0)
-
-
-def test_free_standing_walls_indoors_are_no_open_walls() -> None:
-    level = Level("0", "", 0, 0.0, (*box(0.0, 0.0, 20.0, 10.0), Wall((5.0, 3.0), (15.0, 3.0))))
-    no_stairs = "the plan has no stairs and no lifts: nothing on it shows a level or a place"
-    assert warnings(FloorPlan("", (level,))) == (no_stairs,)
-
-
-def test_connectors_that_lead_nowhere_and_levels_that_nothing_leads_to_are_said() -> None:
-    plan = evolve(
-        HOUSE, heights_known=True, connectors=(Connector(ConnectorKind.LIFT, "L", (ConnectorStop("1", (14.0, 7.0)),)),)
-    )
-    assert warnings(plan) == ("lift 'L': stops at level '1' only", "level '0': neither stairs nor a lift lead there",
-                              "level '1': neither stairs nor a lift lead there")  # fmt: skip
-
-
-def test_a_level_without_walls_is_said() -> None:
-    assert "level '0': has no walls" in warnings(with_level(walls=()))
 
 
 # --- doors ------------------------------------------------------------------------------------------------------------

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from functools import cache
-from math import inf, isfinite, nan
-from typing import Any
+from math import inf, nan
 
 import pytest
 from attrs import evolve
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from walks import LEFT, of, samples
 
 from solepath import Session
@@ -21,8 +17,7 @@ from solepath.emulate.sensors.insoles import FULL_SCALE, layout
 from solepath.events import CellFault, CellsFailed, Event, InsoleNeverUnloads, SampleRejected, StrideTaken
 from solepath.foot.pressure.cell_health import CellHealth
 from solepath.foot.pressure.cells import enclosed, spacing
-from solepath.saving import codec as machine
-from solepath.types import Cell, Foot, Layout, Phase, Sample, Site
+from solepath.types import Cell, Foot, Layout, Phase, Sample
 
 WALK = Route().stand(1.5).walk(30.0, 1.3).stop(1.0)
 COUNTS = (24, 35, 96, 99)
@@ -246,48 +241,3 @@ def test_a_cell_is_enclosed_when_cells_on_all_its_sides_load() -> None:
 
 
 # --- any input ---
-
-VALUES = st.one_of(
-    st.floats(allow_nan=True, allow_infinity=True),
-    st.none(),
-    st.sampled_from([0.0, 1.0, 4095.0, 1.7e308, 10**400, nan, inf, -inf]),
-    st.integers(-5, 5000),
-)
-FED = st.tuples(
-    st.floats(-0.5, 3.0),
-    st.lists(VALUES, max_size=8).map(tuple),
-    st.sampled_from(Phase),
-    st.one_of(st.none(), st.tuples(*[st.floats(-9.0, 9.0)] * 3)),
-)
-
-
-def fed(health: CellHealth, items: list[Any], t: float = 0.0, shape: Layout | None = None) -> list[Any]:
-    told: list[Any] = []
-    for dt, cells, phase, gyro in items:
-        t += dt
-        told.append(health.update(t, t, cells, phase, gyro, shape))
-        left = health.usable(cells)
-        assert len(left) in (0, len(cells))
-        assert all(isfinite(value) for value in left)
-        told.append(left)
-    return told
-
-
-@given(st.lists(FED, max_size=60), st.booleans())
-@settings(deadline=None, max_examples=150)
-def test_any_cells_at_any_time_give_numbers_and_no_exception(items: list[Any], there: bool) -> None:
-    health = CellHealth(Site.RIGHT_FOOT)
-    shape = Layout(1, Foot.RIGHT, tuple(Cell(0.03 * i, 0.01 * (i % 2)) for i in range(5)), 0.25)
-    fed(health, items, shape=shape if there else None)
-    json.dumps(machine.save(health), allow_nan=False)
-
-
-@given(st.lists(FED, max_size=40), st.integers(0, 40))
-@settings(deadline=None, max_examples=60)
-def test_a_saved_health_goes_on_as_if_nothing_had_happened(items: list[Any], cut: int) -> None:
-    straight, one = CellHealth(LEFT), CellHealth(LEFT)
-    whole = fed(straight, items)
-    told = fed(one, items[:cut])
-    restored = machine.load(CellHealth, json.loads(json.dumps(machine.save(one), allow_nan=False)))
-    t = sum([dt for dt, *_ in items[:cut]], 0.0)
-    assert repr(told + fed(restored, items[cut:], t)) == repr(whole)

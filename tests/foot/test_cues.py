@@ -1,20 +1,23 @@
-"""Where cues, tilt and heading come from when there are no cells to ask."""
+"""The inertial cues: when a foot strikes, lies flat and leaves the ground; and the middle of an impact."""
 
 from __future__ import annotations
 
-from math import hypot
+from math import hypot, pi, sin
 from statistics import median
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from solepath import Foot, Sample, Session, Site, ToeOff
 from solepath.emulate import Route, Walker
 from solepath.events import Event, HeelStrike
+from solepath.foot.cues.impact import Impact
 from solepath.foot.cues.inertial import InertialCues
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.phase import PHASES, Cue
 from solepath.foot.stance.stance import Stance
-from solepath.types import Phase
+from solepath.types import Phase, Quat, Vec3
 from solepath.types.vector import GRAVITY, ZERO, from_rotation_vector, rotate
 
 
@@ -127,3 +130,56 @@ def test_heading_grows_less_certain_with_time() -> None:
 
 def test_sites_are_their_own_foot() -> None:
     assert Site.LEFT_FOOT.foot is Foot.LEFT and Site.PELVIS.foot is None
+
+
+# --- the middle of an impact ------------------------------------------------------------------------------------------
+
+LANDED, LASTS = 0.52, 0.03
+"""When the ground's push of `felt` is half over, and how long it takes, s."""
+
+
+def felt(rate: float, mounting: Quat = (1.0, 0.0, 0.0, 0.0)) -> Impact:
+    """A swing of 0.6 s at 2 m/s that ends in a push of 40 m/s^2 upwards, as the sensor in this mounting has it."""
+    impact = Impact()
+    impact.begin(0.0)
+    was: Vec3 | None = None
+    for k in range(int(0.6 * rate)):
+        t = k / rate
+        share = (t - LANDED) / LASTS + 0.5
+        push = 40.0 * sin(pi * share) if 0.0 < share < 1.0 else 0.0
+        acc = rotate(mounting, (3.0 * sin(5.0 * t), 0.0, GRAVITY + push))
+        if was is not None:
+            impact.feel(t, 1.0 / rate, was, acc, 2.0, t > LANDED - LASTS)
+        was = acc
+    return impact
+
+
+@pytest.mark.parametrize("rate", [50.0, 100.0, 200.0, 400.0])
+def test_the_middle_of_an_impact_is_found_at_any_rate(rate: float) -> None:
+    assert felt(rate).middle == pytest.approx(LANDED, abs=0.004 + 0.25 / rate)
+
+
+@given(st.tuples(*[st.floats(-2.0, 2.0)] * 3))
+def test_how_the_sensor_is_mounted_does_not_matter(turn: Vec3) -> None:
+    assert felt(100.0, from_rotation_vector(turn)).middle == pytest.approx(felt(100.0).middle, abs=1e-6)
+
+
+def test_the_jolt_of_leaving_the_ground_is_not_that_of_landing() -> None:
+    impact = Impact()
+    impact.begin(0.0)
+    for k in range(1, 60):
+        pushed, landed = 90.0 if k == 5 else 0.0, 20.0 if k == 50 else 0.0
+        impact.feel(0.01 * k, 0.01, ZERO, (pushed, 0.0, landed), 1.0, False)
+        assert (impact.hardest > 0.0) is (k >= 50)
+    assert impact.jolted == pytest.approx(0.495)
+
+
+@given(st.lists(st.tuples(st.floats(0.0, 1e6), *[st.floats(-1e300, 1e300)] * 3), max_size=20))
+def test_no_force_and_no_time_step_makes_it_forget_how_to_count(told: list[tuple[float, float, float, float]]) -> None:
+    impact, t, was = Impact(), 0.0, (0.0, 0.0, GRAVITY)
+    impact.begin(t)
+    for dt, x, y, z in told:
+        t += dt
+        impact.feel(t, dt, was, (x, y, z), 1.0, False)
+        was = (x, y, z)
+        assert 0.0 <= impact.middle <= t and 0.0 <= impact.shock < 1e300

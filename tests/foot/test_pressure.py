@@ -1,17 +1,26 @@
-"""What the cells of an insole tell: tare, load, areas, centre of pressure."""
+"""Loads of the cells: tare, share of the wearer's own, centre of pressure; and heel and forefoot told apart."""
 
 from __future__ import annotations
 
+from functools import cache
 from itertools import pairwise
+from math import inf
 
 import pytest
-from walks import LEFT, SHORT, insoles, of
+from attrs import evolve
+from hypothesis import given
+from hypothesis import strategies as st
+from walks import LEFT, SHORT, insoles, of, samples
 
 from solepath import Cell, Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Session, StrideTaken, ToeOff
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
+from solepath.foot.pressure.guess import LayoutGuess
 from solepath.foot.pressure.insole import Extremes, InsoleLoads
+from solepath.foot.stance.pressure import MaximumPressure, TwoArea
+from solepath.foot.stance.stance import Load, Stance
+from solepath.types import Phase
 
 SOLE = Layout(7, Foot.LEFT, (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.13, 0.0), Cell(0.20, 0.02)), 0.26)
 """Two cells at the heel (x < 0.33 x 0.26), one under the arch, one at the forefoot (x > 0.55 x 0.26)."""
@@ -160,3 +169,82 @@ def test_the_path_of_the_centre_of_pressure_runs_from_heel_to_toe() -> None:
         assert all(rising)
         assert all(0.0 < x < 0.285 and abs(y) < 0.05 for x, y in path)
     assert all(step.features.contact_load > 200.0 for step in told[2:-2])
+
+
+# --- which cells are the heel's ---------------------------------------------------------------------------------------
+
+
+@cache
+def guessed(cells: int) -> Layout | None:
+    """What is made of the left insole of a short walk that does not say where its cells are."""
+    insole, guess = InsoleLoads(), LayoutGuess(Foot.LEFT)
+    for sample in samples(cells=cells):
+        if sample.site.foot is Foot.LEFT and sample.pressure:
+            load = insole.update(sample.t, sample.pressure)
+            found = None if load is None else guess.update(sample.t, insole.above_tare(load.cells), load.total)
+            if found is not None:
+                return found
+    return None
+
+
+def test_heel_and_forefoot_are_told_apart_after_two_stances() -> None:
+    for cells in (24, 96):
+        true, found = layout(cells, Foot.LEFT), guessed(cells)
+        assert found is not None
+        told = 0
+        for cell, learnt in zip(true.cells, found.cells, strict=True):
+            if learnt.x == 0.5 * found.length:
+                continue  # it never carries load
+            if cell.x < 0.25 * true.length:
+                assert learnt.x < 0.45 * found.length, cell
+            if cell.x > 0.75 * true.length:
+                assert learnt.x > 0.55 * found.length, cell
+            told += 1
+        assert told > 0.7 * cells
+
+
+def test_a_foot_that_stands_says_nothing_of_its_cells() -> None:
+    guess = LayoutGuess(Foot.RIGHT)
+    assert all(guess.update(0.01 * k, (5.0, 7.0, 3.0), 0.9) is None for k in range(1000))
+
+
+@given(
+    st.lists(
+        st.tuples(
+            st.floats(0.001, 0.5),
+            st.lists(st.floats(0.0, 1e6), min_size=1, max_size=4),
+            st.floats(0.0, 1.0),
+        ),
+        max_size=200,
+    )
+)
+def test_any_loads_of_any_number_of_cells_are_borne(rows: list[tuple[float, list[float], float]]) -> None:
+    guess, t = evolve(LayoutGuess(Foot.LEFT), stances=1, shortest=0.0), 0.0
+    for dt, cells, share in rows:
+        t += dt
+        found = guess.update(t, tuple(cells), share)
+        if found is not None:
+            assert all(0.0 <= cell.x <= found.length for cell in found.cells)
+
+
+ACC_REST, GYRO_REST = (0.0, 0.0, 9.81), (0.0, 0.0, 0.0)
+
+
+def test_two_loaded_areas_are_a_flat_foot() -> None:
+    def said(heel: float | None, forefoot: float | None, airborne: bool = False) -> Stance:
+        return TwoArea().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.5, heel, forefoot, 0.5, airborne))
+
+    assert said(0.3, 0.2) == Stance((0.0, 0.0, 0.0), 0.01, 0.2, Phase.STATIONARY)
+    assert said(0.05, 0.9).hint is Phase.STATIONARY
+    assert said(0.049, 0.9).sigma == inf and said(0.9, 0.0).sigma == inf
+    assert said(0.0, 0.0, airborne=True).hint is Phase.SWING
+    assert said(None, None).sigma == inf
+
+
+def test_a_heavily_loaded_cell_is_a_foot_on_the_ground() -> None:
+    def said(highest: float, airborne: bool = False) -> Stance:
+        return MaximumPressure().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.5, None, None, highest, airborne))
+
+    assert said(0.26).sigma == 0.05 and said(0.26).statistic == 0.26
+    assert said(0.25).sigma == inf
+    assert said(0.9, airborne=True) == Stance((0.0, 0.0, 0.0), inf, 0.9, Phase.SWING)

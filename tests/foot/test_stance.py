@@ -1,12 +1,15 @@
-"""Stance detectors: their statistics by hand, their running sums against the formula, and what they make of a walk."""
+"""Stance evidence of every detector, and how high the sensor sits above the sole."""
 
 from __future__ import annotations
 
-from math import inf, pi, sqrt
+from math import cos, inf, pi, sin, sqrt
 from typing import Any
 
 import numpy as np
 import pytest
+from attrs import evolve
+from hypothesis import given
+from hypothesis import strategies as st
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
@@ -14,9 +17,10 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance, ShoeDetector
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
+from solepath.foot.stance.sensor_height import Lever
 from solepath.foot.stance.stance import Load, Stance, soften
-from solepath.types import Foot, Phase
-from solepath.types.vector import GRAVITY
+from solepath.types import Foot, Phase, Vec3
+from solepath.types.vector import GRAVITY, IDENTITY, conjugate, normalise, rotate
 
 SIGMA_ACC, SIGMA_GYRO = 0.01, 0.1 * pi / 180.0
 """Skog et al.: the noise levels that the statistics are scaled by, m/s^2 and rad/s."""
@@ -193,26 +197,6 @@ def test_without_cells_a_pressure_detector_says_nothing(detector: Any) -> None:
     assert said.sigma == inf and said.hint is None
 
 
-def test_two_loaded_areas_are_a_flat_foot() -> None:
-    def said(heel: float | None, forefoot: float | None, airborne: bool = False) -> Stance:
-        return TwoArea().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.5, heel, forefoot, 0.5, airborne))
-
-    assert said(0.3, 0.2) == Stance((0.0, 0.0, 0.0), 0.01, 0.2, Phase.STATIONARY)
-    assert said(0.05, 0.9).hint is Phase.STATIONARY
-    assert said(0.049, 0.9).sigma == inf and said(0.9, 0.0).sigma == inf
-    assert said(0.0, 0.0, airborne=True).hint is Phase.SWING
-    assert said(None, None).sigma == inf
-
-
-def test_a_heavily_loaded_cell_is_a_foot_on_the_ground() -> None:
-    def said(highest: float, airborne: bool = False) -> Stance:
-        return MaximumPressure().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.5, None, None, highest, airborne))
-
-    assert said(0.26).sigma == 0.05 and said(0.26).statistic == 0.26
-    assert said(0.25).sigma == inf
-    assert said(0.9, airborne=True) == Stance((0.0, 0.0, 0.0), inf, 0.9, Phase.SWING)
-
-
 def test_cells_that_say_airborne_overrule_a_quiet_sensor() -> None:
     said = Cycle().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.0, None, None, 0.0, True))
     assert said.sigma == inf and said.hint is Phase.SWING
@@ -226,3 +210,79 @@ def test_noise_of_the_evidence_grows_with_the_turning_of_the_foot() -> None:
     assert still.sigma == pytest.approx(0.01)
     arm = 0.15 * sqrt(0.06**2 + (0.5 * 0.15) ** 2)
     assert turning.sigma == pytest.approx(sqrt(0.01**2 + arm**2), rel=1e-6)
+
+
+# --- the height of the sensor -----------------------------------------------------------------------------------------
+
+DT = 0.005
+ASKEW = normalise((0.3, -0.5, 0.7, 0.4))
+"""Foot to sensor."""
+
+
+def roll(lever: Lever, height: float, tilt: float = 0.0, amount: float = 0.25) -> None:
+    """One stance of 0.3 s: the foot rolls forward faster and faster about a point of the ground, the sensor `height` m
+    above it; the attitude is believed `tilt` rad off."""
+    for k in range(60):
+        t = k * DT
+        pitch, rate, faster = amount * (t / 0.3) ** 3, amount * 3 * t**2 / 0.3**3, amount * 6 * t / 0.3**3
+        attitude = (cos(pitch / 2), 0.0, sin(pitch / 2), 0.0)
+        acc_world: Vec3 = (height * faster, 0.0, GRAVITY)
+        sensor = rotate(ASKEW, rotate(conjugate(attitude), acc_world))
+        gyro = rotate(ASKEW, (0.0, rate, 0.0))
+        off = (cos((pitch + tilt) / 2), 0.0, sin((pitch + tilt) / 2), 0.0)
+        w, x, y, z = off
+        a, b, c, d = conjugate(ASKEW)
+        believed = (
+            w * a - x * b - y * c - z * d, w * b + x * a + y * d - z * c,
+            w * c - x * d + y * a + z * b, w * d + x * c - y * b + z * a,
+        )  # fmt: skip
+        lever.roll(DT, sensor, gyro, believed)
+    lever.lift()
+
+
+@pytest.mark.parametrize("height", [0.0, 0.02, 0.08, 0.12])
+@pytest.mark.parametrize("tilt", [0.0, 0.02])
+def test_a_few_stances_tell_how_high_the_sensor_is(height: float, tilt: float) -> None:
+    lever = Lever()
+    for _ in range(5):
+        roll(lever, height, tilt)
+    assert lever.height == pytest.approx(height, abs=0.006)
+
+
+def test_a_foot_that_only_stands_leaves_the_height_as_it_was() -> None:
+    lever = Lever()
+    for k in range(1000):
+        lever.roll(0.01, (0.01 * (k % 3), 0.0, GRAVITY), (1e-4 * (k % 2), 0.0, 0.0), IDENTITY)
+    lever.lift()
+    assert lever.height == pytest.approx(lever.guess, abs=1e-3)
+
+
+def test_a_sensor_that_is_moved_is_followed() -> None:
+    lever = Lever()
+    for _ in range(30):
+        roll(lever, 0.09)
+    for _ in range(60):
+        roll(lever, 0.02)
+    assert lever.height == pytest.approx(0.02, abs=0.006)
+
+
+def test_a_rolling_foot_moves_forward_and_the_evidence_says_so() -> None:
+    cycle = Cycle()
+    still = cycle.update(0.0, 0.0, (0.0, 0.0, GRAVITY), (0.0, 0.0, 0.0), None)
+    rolling = cycle.update(0.03, 0.03, (0.0, 0.0, GRAVITY), (0.0, 0.1, 0.0), None)
+    assert still.v_ref == (0.0, 0.0, 0.0)
+    assert rolling.v_ref == pytest.approx((0.1 * cycle.lever.height, 0.0, 0.0))
+    without = evolve(Cycle(), rolls=False)
+    assert without.update(0.0, 0.0, (0.0, 0.0, GRAVITY), (0.0, 0.1, 0.0), None).v_ref == (0.0, 0.0, 0.0)
+
+
+numbers = st.floats(-20.0, 20.0)
+
+
+@given(st.lists(st.tuples(st.floats(0.0, 0.25), *[numbers] * 6), min_size=1, max_size=60))
+def test_whatever_is_measured_the_height_stays_that_of_a_sensor_on_a_foot(rows: list[tuple[float, ...]]) -> None:
+    lever = Lever()
+    for dt, ax, ay, az, wx, wy, wz in rows:
+        lever.roll(dt, (ax, ay, az), (wx, wy, wz), IDENTITY)
+    lever.lift()
+    assert lever.lowest <= lever.height <= lever.highest

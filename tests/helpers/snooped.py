@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Iterable
+from functools import cache
 from pathlib import Path
+from typing import Any
 
+import walks
 from attrs import define, field
 
 from solepath import Packet, Site
+from solepath.recording.btsnoop import open_btsnoop
 
 EPOCH = 0x00DCDDB30F2F8000
 BEGAN = 1_790_000_000_250_000
@@ -106,6 +110,8 @@ def insole_uuid(short: int) -> str:
 
 INSOLE = {0x12: insole_uuid(2), 0x15: insole_uuid(3), 0x17: insole_uuid(4), 0x1A: "2a19"}
 """Value handle -> UUID: frame, INFO, control, battery."""
+FRAME, INFO, CONTROL, BATTERY = INSOLE
+MOVEMENT = bytes(range(18))
 
 
 def insoles_log(packets: Iterable[Packet]) -> Log:
@@ -121,3 +127,38 @@ def insoles_log(packets: Iterable[Packet]) -> Log:
         if packet.channel == "insole/frame":
             log.notify(handles[packet.site], frame, packet.data, t=BEGAN + 1_000_000 + round(packet.t * 1e6))
     return log
+
+
+@cache
+def frames(site: Site = Site.LEFT_FOOT) -> tuple[bytes, ...]:
+    return tuple(p.data for p in walks.insoles().packets if p.site is site and p.channel == "insole/frame")
+
+
+@cache
+def info(site: Site = Site.LEFT_FOOT) -> bytes:
+    return next(p.data for p in walks.insoles().packets if p.site is site and p.channel == "insole/info")
+
+
+def read(log: Log, tmp_path: Path, **wishes: Any) -> tuple[list[tuple[str, str, str, bytes]], list[str]]:
+    """(device, site, channel, data) of every packet, and the reports without the file's name."""
+    reports: list[str] = []
+    path = log.save(tmp_path / "phone.log")
+    packets = list(open_btsnoop(path, report=reports.append, **wishes))
+    assert [p.t for p in packets] == sorted(p.t for p in packets)
+    found = [(p.device, p.site.value, p.channel, p.data) for p in packets]
+    return found, [report.removeprefix(f"{path}: ") for report in reports]
+
+
+def data_of(found: list[tuple[str, str, str, bytes]], channel: str, device: str = LEFT) -> list[bytes]:
+    return [data for of, _, name, data in found if (of, name) == (device, channel)]
+
+
+def begin(log: Log, handle: int = 0x40, address: str = LEFT, characteristics: dict[int, str] = INSOLE) -> Log:
+    log.connect(handle, address)
+    log.mtu(handle, 247)
+    log.discover(handle, characteristics)
+    return log
+
+
+def full(short: int) -> str:
+    return f"f000{short:04x}-0451-4000-b000-000000000000"

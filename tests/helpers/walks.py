@@ -227,6 +227,8 @@ _STREAMS = (
     "dot",
     "thingy",
 )
+DEVICES = ("few frames", *_STREAMS)
+"""Of `packets`, known without emulating anything."""
 PACKET_NAMES = (
     *(f"{kind}, {device}" for kind in ("session", "decoder") for device in _STREAMS),
     *(f"session, {recipe}" for recipe in RECIPES),

@@ -16,7 +16,7 @@ from typing import Any
 import figures
 import pytest
 from commands import run
-from here import DOCS, EXAMPLES, PROTOCOL, TESTS
+from here import EXAMPLES, PROTOCOL, TESTS
 from quoted import NUMBER, PAGES, ROOT, below, blocks, nearly_the_same
 from snooped import insoles_log
 
@@ -177,9 +177,8 @@ def commands() -> dict[str, ArgumentParser]:
     return dict(subparsers.choices)
 
 
-@pytest.mark.parametrize("page", PAGES)
-def test_its_commands_can_be_typed(page):
-    lines = [line for block in blocks(PAGES[page], "sh") for line in block.splitlines()]
+def test_commands_of_all_pages_can_be_typed():
+    lines = [line for page in PAGES.values() for block in blocks(page, "sh") for line in block.splitlines()]
     for line in lines:
         for part in line.split(" && "):
             program, *arguments = shlex.split(part, comments=True)
@@ -187,10 +186,9 @@ def test_its_commands_can_be_typed(page):
                 parser().parse_args(arguments)  # exits where they are wrong
 
 
-@pytest.mark.parametrize("page", PAGES)
-def test_its_options_are_those_of_the_command_line(page):
+def test_options_of_all_pages_are_those_of_the_command_line():
     """Of every command that is quoted within a line, also those with words to be filled in."""
-    for quoted in re.findall(r"`solepath ([^`]+)`", PAGES[page]):
+    for quoted in re.findall(r"`solepath ([^`]+)`", "".join(PAGES.values())):
         name, *words = quoted.split()
         assert name in commands(), quoted
         known = "".join(_options(commands()[name]))
@@ -221,22 +219,17 @@ def anchors(text: str) -> set[str]:
     return {re.sub(r"[^\w -]", "", title).lower().replace(" ", "-") for title in titles}
 
 
-@pytest.mark.parametrize("page", MARKDOWN)
-def test_its_links_lead_somewhere(page):
-    text = re.sub(r"`[^`\n]*`", "", MARKDOWN[page])
-    for target in re.findall(r"\]\(([^)\s]+)\)", text) + re.findall(r'<img src="([^"]+)"', text):
-        path, _, anchor = target.partition("#")
-        if path.startswith("https:"):
-            continue
-        whole = ((ROOT / page).parent / path).resolve() if path else ROOT / page
-        assert whole.exists() and whole.is_relative_to(ROOT), target
-        if anchor and whole.suffix == ".md":
-            assert anchor in anchors(whole.read_text()), target
-
-
-def test_pictures_are_small():
-    pictures = [*(DOCS).glob("*.png")]
-    assert len(pictures) == 2 and all(picture.stat().st_size < 200_000 for picture in pictures)
+def test_links_of_all_pages_lead_somewhere():
+    for page, written in MARKDOWN.items():
+        text = re.sub(r"`[^`\n]*`", "", written)
+        for target in re.findall(r"\]\(([^)\s]+)\)", text) + re.findall(r'<img src="([^"]+)"', text):
+            path, _, anchor = target.partition("#")
+            if path.startswith("https:"):
+                continue
+            whole = ((ROOT / page).parent / path).resolve() if path else ROOT / page
+            assert whole.exists() and whole.is_relative_to(ROOT), f"{page}: {target}"
+            if anchor and whole.suffix == ".md":
+                assert anchor in anchors(whole.read_text()), f"{page}: {target}"
 
 
 def test_every_page_can_be_reached_from_the_readme():
@@ -276,18 +269,3 @@ def test_the_demonstration_of_100_m_comes_to_what_is_quoted():
     nearly_the_same(quoted, fresh)
     # rounding that differs from one machine to the next is turned into heading, and 100 m makes metres of it
     assert NUMBER.sub("#", end) == NUMBER.sub("#", fresh_end)
-
-
-def test_what_bluetooth_adds_is_told_on_both_tiers():
-    """The figures are those of some machine; that there are any is tested."""
-    told = "\n".join(below("bluetooth"))
-    assert re.search(r"the adapter's own +\d+\.\d us", told)
-    for tier in ("memory", "bumble"):
-        assert re.search(rf"{tier}: from notification to event +median +\d+\.\d+ ms, p99 +\d+\.\d+ ms", told)
-
-
-def test_what_the_page_costs_is_told():
-    """Likewise."""
-    told = "\n".join(below("page"))
-    for name in ("no page", "a browser", "a watcher that reads nothing"):
-        assert re.search(rf"^{name} +\d+\.\d % +-?\d+\.\d %$", told, re.MULTILINE), name

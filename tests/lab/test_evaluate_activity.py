@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 from solepath import recipes
 from solepath.events import ActivityChanged, LiftRidden
 from solepath.lab.evaluate import learning
-from solepath.lab.evaluate.activity import CLIMBED, compared, rides, spans, stairs_figures, windows
+from solepath.lab.evaluate.activity import CLIMBED, compared, rides, stairs_figures, windows
 from solepath.lab.evaluate.jobs import evaluate
 from solepath.lab.evaluate.learning import Learner, Lesson, lessons, part_for, taught
 from solepath.lab.measures.confusion import CLASSES, ActivityScore
 from solepath.lab.measures.score import Scored, summarise
 from solepath.lab.train import footstep_activity
-from solepath.lab.train.hugadb import FOLDS, LABELS, fold_of, labels, recordings
+from solepath.lab.train.hugadb import FOLDS, fold_of, labels, recordings
 from solepath.show.timeline import Timeline
 from solepath.types import Activity
 
@@ -70,11 +70,6 @@ def test_what_was_replaced_does_not_count():
     assert score.accuracy == 1.0
 
 
-def test_nothing_labelled_is_no_score():
-    assert compared([1.0], [None], timeline((0.0, STANDING))).accuracy is None
-    assert ActivityScore().most_frequent is None
-
-
 counts = st.dictionaries(st.tuples(st.sampled_from(CLASSES), st.sampled_from(list(Activity))), st.integers(1, 50))
 
 
@@ -86,13 +81,6 @@ def test_scores_of_two_recordings_count_together(a, b):
     for activity in CLASSES:
         assert both.f1(activity) is None or 0.0 <= both.f1(activity) <= 1.0
     assert both.accuracy is None or 0.0 <= both.accuracy <= 1.0
-
-
-def test_labels_become_spans_and_a_sample_without_a_label_ends_one():
-    t = [k / 4 for k in range(8)]
-    assert spans(t, [STANDING, STANDING, UP, UP, None, UP, UP, UP]) == [
-        (0.0, 0.25, STANDING), (0.5, 0.75, UP), (1.25, 1.75, UP)
-    ]  # fmt: skip
 
 
 # --- lifts ------------------------------------------------------------------------------------------------------------
@@ -108,11 +96,6 @@ def test_a_ride_is_found_by_one_in_its_direction_at_its_time():
 def test_two_rides_told_of_one_are_one_found_and_one_invented():
     score = rides([(5.0, 15.0, UP)], [ridden(5.0, 9.0, True), ridden(10.0, 15.0, True)])
     assert (score.rides_true, score.rides_found, score.rides_invented) == (1, 1, 1)
-
-
-def test_a_short_ride_within_a_long_label_is_that_ride():
-    # labels begin at the door, rides when the car moves
-    assert rides([(0.0, 30.0, DOWN)], [ridden(12.0, 20.0, False)]).rides_found == 1
 
 
 # --- windows ----------------------------------------------------------------------------------------------------------
@@ -135,16 +118,6 @@ def test_shares_of_stairs_and_of_level_ways_by_hand():
         }
     )  # fmt: skip
     assert stairs_figures(score) == {"stairs_called": 0.8, "stairs_direction": 0.6, "level_called": 0.1}
-
-
-def test_a_recording_without_stairs_has_no_share_of_them():
-    assert stairs_figures(ActivityScore({(WALKING, WALKING): 3}))["stairs_called"] is None
-
-
-def test_the_spans_of_stairs_are_in_order():
-    for parts in CLIMBED.values():
-        assert all(a < b for a, b, _ in parts)
-        assert all(b <= c for (_, b, _), (c, _, _) in pairwise(parts))
 
 
 # --- over recordings --------------------------------------------------------------------------------------------------
@@ -173,11 +146,6 @@ def test_every_wearer_is_in_one_fold():
         fold_of(99)
 
 
-def test_sitting_is_standing_and_what_lies_between_activities_has_no_label():
-    assert LABELS[5] is LABELS[8] is STANDING
-    assert not LABELS.keys() & {6, 7, 9, 12}
-
-
 def test_what_is_scored_on_a_wearer_was_taught_without_that_wearer(monkeypatch):
     class Pupil:
         """Knows the wearers that it was taught on."""
@@ -191,7 +159,7 @@ def test_what_is_scored_on_a_wearer_was_taught_without_that_wearer(monkeypatch):
 
 
 def test_a_recipe_whose_part_learns_nothing_keeps_its_own():
-    assert part_for(recipes.BY_NAME["shoe-sensing"], {"subject": 1}, {}) is None
+    assert part_for(recipes.by_name("shoe-sensing"), {"subject": 1}, {}) is None
 
 
 # --- recorded ---------------------------------------------------------------------------------------------------------
@@ -206,15 +174,15 @@ def test_every_wearer_of_the_recordings_has_a_fold(data_dir):
 
 
 def test_stairs_are_in_two_folders(data_dir):
-    (stairs,) = evaluate(data_dir, [recipes.FOOTSTEP_TRACKER], only=["stairs"])
+    (stairs,) = evaluate(data_dir, [recipes.by_name("footstep-tracker")], only=["stairs"])
     assert {scored.recording for scored in stairs.scores} == set(CLIMBED)
     (summary,) = stairs.summaries
     assert (summary.mean["stairs_called"] or 0.0) > 0.5 and (summary.mean["level_called"] or 0.0) < 0.1
 
 
 def test_each_recording_is_learnt_from_once_whatever_the_folds(data_dir):
-    assert len(lessons(data_dir, [recipes.FOOTSTEP_TRACKER] * 2)) == 115
-    assert not lessons(data_dir, [recipes.SHOE_SENSING])
+    assert len(lessons(data_dir, [recipes.by_name("footstep-tracker")] * 2)) == 115
+    assert not lessons(data_dir, [recipes.by_name("shoe-sensing")])
     default = lessons(data_dir, [recipes.DEFAULT])
     assert {lesson.subject for lesson in default} - {None} == {wearer for fold in FOLDS for wearer in fold}
 
@@ -229,7 +197,7 @@ def test_windows_of_a_recording_carry_the_activity_of_their_middle(data_dir):
 
 @pytest.mark.soak
 def test_the_papers_classifier_in_five_folds(data_dir):
-    (result,) = evaluate(data_dir, [recipes.FOOTSTEP_TRACKER], only=["hugadb"], processes=2)
+    (result,) = evaluate(data_dir, [recipes.by_name("footstep-tracker")], only=["hugadb"], processes=2)
     (every,) = [summary for summary in result.summaries if summary.group == "all"]
     assert every.count == 115 and not result.failures
     assert (every.together["accuracy"] or 0.0) > 0.74

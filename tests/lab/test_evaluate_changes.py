@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.lab.evaluate.changes import BETTER, Better, Verdict, compared, missing, read_scores, verdict
+from solepath.lab.evaluate.changes import BETTER, Verdict, compared, missing, read_scores, verdict
 from solepath.lab.evaluate.datasets import DATASETS, EMULATED
-from solepath.lab.measures.score import Scored, pooled_figures
 from solepath.lab.tables.scores import comparison_tables
 from solepath.recording import RecordingError
 
@@ -82,11 +81,6 @@ def test_recordings_and_data_sets_on_one_side_only_are_said():
     assert "evaluated then and not now: default: walks" in told and "not evaluated then: default: climbs" in told
 
 
-def test_a_recipe_that_is_on_one_side_only_is_said():
-    assert missing(OLD, {}) == ["default"]
-    assert compared({}, OLD) == []
-
-
 @pytest.mark.parametrize(
     "text",
     [
@@ -107,13 +101,3 @@ def test_a_file_that_holds_no_scores_is_refused_in_one_sentence(text, tmp_path):
         read_scores(file)
     with pytest.raises(RecordingError, match="No such file"):
         read_scores(tmp_path / "none.json")
-
-
-def test_scores_that_were_written_are_read_again(tmp_path):
-    (tmp_path / "old.json").write_text(json.dumps(OLD))
-    assert read_scores(tmp_path / "old.json") == OLD
-
-
-def test_figures_of_a_recording_are_those_that_are_pooled():
-    assert Scored("a", {"rms_2d": 1.0}).flat() == {"rms_2d": 1.0} | pooled_figures({}, None, None, {})
-    assert Better.LESS is BETTER["rms_2d"]

@@ -37,14 +37,6 @@ def test_a_heading_that_is_lost_counts_over_all_that_follows():
     assert found["rms_2d"] < 0.3 * chord
 
 
-def test_a_session_that_says_nothing_has_no_figures():
-    assert place_figures(np.empty(0), np.empty((0, 3)), np.empty((0, 3))) == {}
-
-
-def test_a_seed_always_walks_the_same_way_and_another_one_another():
-    assert long_way(101) == long_way(101) != long_way(102)
-
-
 def test_ways_are_as_long_as_they_are_called():
     for seed in (101, 102, 103):
         route = long_way(seed)

@@ -15,7 +15,6 @@ from solepath.lab.reproduce import footstep_walks, kupt_dfpc, pressure_contour, 
 from solepath.lab.reproduce.published import (
     CORNERS,
     KUPT_DFPC,
-    KUPT_L_MEAN_IN_TEXT,
     LOOPS,
     PRESSURE_CONTOUR,
     WALKING_MODES,
@@ -47,10 +46,6 @@ def test_the_five_statistics_of_five_walks_are_those_of_a_pencil():
     assert statistics([21.0, 18.0, 20.0, 19.0, 22.0]) == Statistics(20.0, 2.5**0.5, 19.0, 20.0, 21.0)
 
 
-def test_quartiles_between_two_walks_are_linear():
-    assert statistics([1.0, 2.0, 3.0, 4.0]) == Statistics(2.5, pytest.approx((5 / 3) ** 0.5), 1.75, 2.5, 3.25)
-
-
 def test_one_walk_has_no_deviation_and_none_has_nothing():
     assert statistics([20.5]) == Statistics(20.5, None, 20.5, 20.5, 20.5)
     assert statistics([]) == Statistics()
@@ -72,30 +67,10 @@ def test_table_one_of_the_known_velocities_is_the_papers():
     assert KUPT_DFPC["KUPT+DFPC"] == Statistics(20.08, 0.51, 19.74, 20.06, 20.46)
 
 
-def test_the_paper_of_the_known_velocities_contradicts_itself_and_reckons_with_its_table():
-    # section IV-B: "for KUPT method, the accuracy in terms of mean value is 2.1 % and 2.2 %"; 2.1 % of 20 m is 0.42 m
-    assert KUPT_DFPC["KUPT-L"].mean != KUPT_L_MEAN_IN_TEXT
-    assert (20.0 - KUPT_DFPC["KUPT-L"].mean) / 20.0 == pytest.approx(0.021)
-    assert (20.0 - KUPT_L_MEAN_IN_TEXT) / 20.0 < 0.017
-
-
 def test_the_six_loops_come_to_the_means_and_deviations_that_the_paper_prints():
     assert (len(LOOPS), round(sum(loop.distance for loop in LOOPS) / 6)) == (6, 1215)
     printed = {name: (round(of.mean, 2), round(of.std, 2)) for name, of in PRESSURE_CONTOUR.items()}
     assert printed["Gyroscope m"] == (4.87, 2.75) and printed["Pressure m"] == (4.30, 3.15)
-
-
-def test_each_loop_is_as_many_per_cent_of_its_path_as_the_paper_prints():
-    printed = [
-        ("0.20", "0.30"),
-        ("0.76", "0.94"),
-        ("0.69", "0.53"),
-        ("0.24", "0.10"),
-        ("0.21", "0.08"),
-        ("0.52", "0.52"),
-    ]
-    shares = [(100 * loop.gyroscope / loop.distance, 100 * loop.pressure / loop.distance) for loop in LOOPS]
-    assert [(f"{gyroscope:.2f}", f"{pressure:.2f}") for gyroscope, pressure in shares] == printed
 
 
 def test_table_four_of_the_walking_modes_has_two_axes_of_four_methods_at_four_corners():
@@ -243,13 +218,3 @@ def test_a_figure_without_matplotlib_is_refused_in_one_line(tmp_path):
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == "solepath: figures need matplotlib: pip install 'solepath[figures]'\n"
-
-
-def test_help_loads_nothing_heavy():
-    code = (
-        "import sys\nfrom solepath.cli import main\n"
-        "try: main(['reproduce', '--help'])\nexcept SystemExit: pass\n"
-        "print(sorted({'numpy', 'matplotlib', 'rich'} & set(sys.modules)))"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines()[-1] == "[]" and Path(__file__).stem not in done.stdout

@@ -5,17 +5,14 @@ from __future__ import annotations
 from math import inf
 
 import pytest
-from benches import LEFT, RIGHT, Heard, begin, played, refusal, set_up, worn
+from benches import LEFT, RIGHT, Heard, played, refusal, set_up, worn
 from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.emulate.devices.faults import Fault, What, parse_faults
 from solepath.emulate.devices.peripheral import Peripheral
-from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650
-from solepath.link.devices import cc2650, insole
-from solepath.wire.error import WireError
-from solepath.wire.insole import parse_frame
+from solepath.link.devices import cc2650
 
 MOVEMENT = "cc2650/movement"
 
@@ -102,48 +99,9 @@ def test_faults_of_another_site_do_nothing() -> None:
     assert movements(tag("1 right_foot drop 50; 2 right_foot disconnect"), 5.0) == movements(tag(), 5.0)
 
 
-def test_dropped_notifications_are_missing_and_the_rest_is_as_it_was() -> None:
-    plain = played(tag(), 5.0)
-    dropped = played(tag("2 * drop 3"), 5.0)
-    k = next(i for i, (t, _) in enumerate(plain) if t >= 2.0)
-    assert dropped == plain[:k] + plain[k + 3 :]
-
-
-def test_duplicated_notifications_come_twice() -> None:
-    plain, heard = movements(tag(), 5.0), movements(tag("2 left_foot duplicate 2"), 5.0)
-    assert len(heard) >= len(plain) + 1
-    assert [one for one, following in zip(heard, heard[1:], strict=False) if one == following]
-    assert sorted(set(heard), key=heard.index) == plain
-
-
-def test_truncated_notifications_are_shorter_and_turned_bits_are_seen_by_the_checksum() -> None:
-    short = movements(tag("2 * truncate 4"), 5.0)
-    assert sum(len(outgoing.value) < 18 for _, outgoing in short) in (3, 4)
-    device = set_up(worn(Insole(), faults="1 * flip 5"), insole.PROFILE)
-    bad = []
-    for t, outgoing in played(device, 3.0, "insole/frame"):
-        try:
-            parse_frame(outgoing.value)
-        except WireError:
-            bad.append(t)
-    assert len(bad) == 5
-    assert 1.0 <= bad[0] < bad[-1] < 1.1
-
-
 def test_the_same_script_damages_the_same_bits() -> None:
     script = "1 * flip 9; 1 * truncate 9"
     assert movements(tag(script), 5.0) == movements(tag(script), 5.0)
-
-
-def test_a_lost_link_is_lost_once_and_at_its_time() -> None:
-    device = tag("2 left_foot disconnect")
-    assert not device.hang_up(1.99)
-    assert device.next_due() is not None and device.next_due() <= 2.0  # type: ignore[operator]
-    assert all(t <= 2.0 for t, _ in played(device, 9.0))
-    assert not device.is_connected
-    assert device.visible(2.0)
-    set_up(device, cc2650.PROFILE, now=3.0)
-    assert len(movements(device, 9.0)) == pytest.approx(60, abs=2)
 
 
 def test_nothing_is_sent_after_a_loss_that_is_noticed_late() -> None:
@@ -160,12 +118,6 @@ def test_a_loss_while_there_is_no_link_ends_no_later_one() -> None:
     assert device.is_connected
 
 
-def test_a_device_that_vanishes_is_not_to_be_seen_until_it_is_back() -> None:
-    device = tag("2 left_foot vanish 60")
-    assert all(t <= 2.0 for t, _ in played(device, 9.0))
-    assert [device.visible(t) for t in (2.5, 61.9, 62.1)] == [False, False, True]
-
-
 def test_a_frozen_stream_thaws_by_itself_or_when_it_is_set_up_again() -> None:
     heard = movements(tag("2 left_foot freeze 3"), 9.0)
     assert max(b - a for (a, _), (b, _) in zip(heard, heard[1:], strict=False)) == pytest.approx(3.1, abs=0.11)
@@ -176,53 +128,6 @@ def test_a_frozen_stream_thaws_by_itself_or_when_it_is_set_up_again() -> None:
     assert not movements(device, 10.0)
     device.write("cc2650/movement-config", b"\x7f\x02", 10.0)
     assert len(movements(device, 12.0)) == pytest.approx(20, abs=1)
-
-
-def test_a_frozen_insole_thaws_by_start() -> None:
-    device = set_up(worn(Insole(), faults="2 left_foot freeze"), insole.PROFILE)
-    assert played(device, 5.0)[-1][0] < 2.0
-    device.write("insole/control", b"\x01", 5.0)
-    assert played(device, 6.0)
-
-
-def test_a_smaller_mtu_holds_from_the_next_connection_on() -> None:
-    device = worn(Insole(), faults="1 left_foot mtu 23")
-    assert (device.visible(0.0), device.mtu) == (True, 247)
-    assert (device.visible(1.5), device.mtu) == (True, 23)
-
-
-def test_a_refused_channel_refuses_so_many_requests_and_others_none() -> None:
-    device = begin(worn(CC2650(), faults="0 left_foot refuse cc2650/movement-config 2"))
-    config = b"\x7f\x02"
-    assert refusal(device, "cc2650/movement-period", b"\x0a") == 0
-    assert [refusal(device, "cc2650/movement-config", config) for _ in range(3)] == [0x80, 0x80, 0]
-    assert device.read("cc2650/movement-config", 0.0) == config
-
-
-def test_a_request_that_hangs_is_never_answered_and_then_the_link_is_lost() -> None:
-    device = tag("3 left_foot hang")
-    assert device.read("device/battery", 2.9) is not None
-    played(device, 3.5)
-    assert device.read("device/battery", 3.5) is None
-    assert device.write("cc2650/movement-period", b"\x64", 3.6) is False
-    assert device.value("cc2650/movement-period", 3.6) == b"\x0a"
-    heard = played(device, 9.0)
-    assert heard and all(t <= 4.5 for t, _ in heard)
-    assert not device.is_connected
-    begin(device, now=6.0)
-    assert device.read("device/battery", 6.0) is not None
-
-
-def test_a_device_that_restarts_counts_from_the_beginning_again() -> None:
-    device = set_up(worn(Insole(), faults="3 left_foot restart"), insole.PROFILE)
-    before = [parse_frame(outgoing.value) for _, outgoing in played(device, 9.0, "insole/frame")]
-    assert not device.is_connected
-    set_up(device, insole.PROFILE, now=5.0)
-    after = [parse_frame(outgoing.value) for _, outgoing in played(device, 6.0, "insole/frame")]
-    assert [frame.sequence for frame in after] == list(range(len(after)))
-    assert after[0].ticks == pytest.approx(2.0 * 32768, abs=400)
-    assert before[0].sequence > 1000, "so the two cannot be taken for one count"
-    assert {frame.samples for frame in after}.isdisjoint({frame.samples for frame in before})
 
 
 def test_a_name_may_be_another_one() -> None:
@@ -237,15 +142,6 @@ def test_seconds_count_from_the_walks_beginning() -> None:
     device = worn(CC2650(), faults="2 left_foot disconnect", began=100.0)
     set_up(device, cc2650.PROFILE, now=90.0)
     assert played(device, 200.0)[-1][0] == pytest.approx(102.0, abs=0.11)
-
-
-def test_what_was_handed_over_is_counted_and_kept_on_request() -> None:
-    device = worn(CC2650(), faults="1 * drop 4; 2 * duplicate 1")
-    device.log = []
-    set_up(device, cc2650.PROFILE)
-    heard = played(device, 5.0)
-    assert device.log == [outgoing for _, outgoing in heard]
-    assert sum(device.sent.values()) == len(heard)
 
 
 def test_a_walk_that_begins_anew_has_the_faults_of_its_script_again() -> None:

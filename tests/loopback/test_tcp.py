@@ -21,7 +21,7 @@ from solepath.emulate.controllers import radio
 from solepath.emulate.controllers.tcp import address_of, reach, serve
 from solepath.emulate.devices.faults import parse_faults
 
-HERE = HELPERS
+HERE = HELPERS / "radio"
 
 LISTEN = """
 import asyncio, sys
@@ -189,46 +189,6 @@ def test_a_killed_clients_device_advertises_again_and_the_next_client_connects()
     run(main)
 
 
-def test_two_clients_at_once_have_a_device_each() -> None:
-    async def main() -> None:
-        straps = [Strap("one", "F0:00:00:00:00:01"), Strap("two", "F0:00:00:00:00:02")]
-        async with serve(straps, "127.0.0.1", 0) as (_, port):
-            where = f"tcp:127.0.0.1:{port}"
-            async with reach(where) as here, reach(where) as there:
-                first, second = await find(here, "one"), await find(there, "two")
-                async with (
-                    BleakClient(first, backend=here.client) as one,
-                    BleakClient(second, backend=there.client) as two,
-                ):
-                    assert all(strap.is_connected for strap in straps)
-                    await asyncio.gather(beats(one), beats(two))
-
-    run(main)
-
-
-def test_of_two_clients_that_want_the_same_device_one_gets_it_and_the_other_when_it_is_free() -> None:
-    async def main() -> None:
-        async with serve([Strap("one", "F0:00:00:00:00:01")], "127.0.0.1", 0) as (_, port):
-            where = f"tcp:127.0.0.1:{port}"
-            async with reach(where) as here, reach(where) as there:
-                found = [await find(here), await find(there)]
-                clients = [
-                    BleakClient(device, backend=backend.client, timeout=1.0)
-                    for device, backend in zip(found, (here, there), strict=True)
-                ]
-                ended = await asyncio.gather(*(client.connect() for client in clients), return_exceptions=True)
-                winner, loser = clients if ended[0] is None else reversed(clients)
-                assert winner.is_connected and not loser.is_connected
-                assert sum(isinstance(each, BleakError | TimeoutError) for each in ended) == 1
-                assert await winner.read_gatt_char(LEVEL) == b"\x57"
-                await winner.disconnect()
-                await loser.connect()
-                assert await loser.read_gatt_char(LEVEL) == b"\x57"
-                await loser.disconnect()
-
-    run(main)
-
-
 def test_a_device_that_has_forgotten_its_pairing_is_an_error_until_it_is_unpaired_here_too() -> None:
     def serving(port: int) -> AbstractAsyncContextManager[tuple[str, int]]:
         strap = Strap("one", "F0:00:00:00:00:01", faults=parse_faults("0 * pairing"))
@@ -258,15 +218,6 @@ def test_nobody_at_the_port_is_one_clear_error() -> None:
             port = taken.getsockname()[1]
         with pytest.raises(BleakError, match=f"nothing answers at tcp:127.0.0.1:{port}"):
             async with reach(f"tcp:127.0.0.1:{port}"):
-                pass
-
-    run(main)
-
-
-def test_a_port_that_is_taken_is_an_error_and_leaves_nothing_behind() -> None:
-    async def main() -> None:
-        with socket.create_server(("127.0.0.1", 0)) as taken, pytest.raises(OSError):
-            async with serve([Strap("one", "F0:00:00:00:00:01")], "127.0.0.1", taken.getsockname()[1]):
                 pass
 
     run(main)

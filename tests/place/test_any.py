@@ -237,30 +237,6 @@ def test_stairs_that_the_plan_does_not_have_change_no_level(method: Method) -> N
     assert {event.level for event in events if isinstance(event, Placed)} == {"0"}
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_plan_far_from_its_zero_is_as_good_as_one_near_it(method: Method) -> None:
-    far = moved(office(), 431_000.0, 5_411_000.0)
-    one = Pedestrian(28, "0", (12.0, LOW))
-    part = method()
-    part.set_out(Start("0", (one.place[0] + 431_000.0, one.place[1] + 5_411_000.0), -one.turned))
-    one.walk((RIGHT, LOW), (RIGHT, 14.0))
-    follow(part, one.told, IndexedPlan(far))
-    assert part.place is not None
-    x, y, _ = part.place.position
-    assert abs(x - 431_000.0 - RIGHT) < 1.0 and abs(y - 5_411_000.0 - 14.0) < 1.0
-
-
-def moved(plan: FloorPlan, dx: float, dy: float) -> FloorPlan:
-    levels = tuple(
-        evolve(
-            level,
-            walls=tuple(Wall((w.start[0] + dx, w.start[1] + dy), (w.end[0] + dx, w.end[1] + dy)) for w in level.walls),
-        )
-        for level in plan.levels
-    )
-    return FloorPlan(plan.name, levels)
-
-
 def test_the_position_is_never_bent_to_the_plan() -> None:
     bare = Session(recipes.DEFAULT)
     on_plan = Session(recipes.DEFAULT, floorplan=square(30.0), start=Start("0", (15.0, 15.0), 0.3))

@@ -7,7 +7,6 @@ from math import atan2, cos, degrees, hypot, radians, sin
 import pytest
 from attrs import define, field
 from floors import (
-    CORNERS,
     HIGH,
     LEFT,
     LIFTS,
@@ -254,23 +253,6 @@ def test_a_gap_in_the_track_widens_the_belief_and_the_wearer_is_followed_on(meth
     one.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
     result = followed(part, one.told)
     assert result.dropped == 0 and result.errors[-1] <= 1.0
-
-
-@pytest.mark.parametrize("method", METHODS)
-def test_the_same_walk_leads_to_the_same_places_to_the_last_bit(method: Method) -> None:
-    told = tour(5).told[:60]
-    assert followed(method(), told).events == followed(method(), told).events
-
-
-@pytest.mark.parametrize("method", METHODS)
-def test_a_wearer_who_walks_round_and_round_stays_found(method: Method) -> None:
-    one = Pedestrian(14, "0", CORNERS[0])
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
-    for _ in range(4):
-        one.walk(*CORNERS[1:], CORNERS[0])
-    result = followed(part, one.told)
-    assert result.dropped == 0 and result.mean <= 1.0 and result.lost == []
 
 
 def test_a_lift_ride_that_was_told_before_is_not_told_again_by_the_activity() -> None:

@@ -86,30 +86,6 @@ def test_both_feet_on_a_shared_clock_come_left_then_right_at_each_instant(tmp_pa
     assert {s.site for s in read_samples(path, Foot.LEFT)} == {Site.LEFT_FOOT}
 
 
-def test_feet_with_times_and_rates_of_their_own_are_merged_by_time(tmp_path):
-    path = npz(tmp_path / "two.npz", **named(still(10, 50.0), "left"), **named(still(30, 100.0, 0.005), "right"))
-    samples = list(read_samples(path))
-    assert len(samples) == 40
-    assert [s.t for s in samples] == sorted(s.t for s in samples)
-
-
-def test_a_foot_without_a_gyroscope_and_a_file_of_pressure_alone_are_read(tmp_path):
-    columns = {"t": still()["t"], **named(still(), "left"), **named(still(), "right")}
-    del columns["gyro_left"]
-    samples = list(read_samples(npz(tmp_path / "no_gyro.npz", **columns)))
-    assert samples[0].gyro is None and samples[1].gyro == (0.125, 0.0, -0.0625)
-    soles = {"t": still()["t"], "pressure_left": still()["pressure"], "pressure_right": still()["pressure"]}
-    samples = list(read_samples(npz(tmp_path / "soles.npz", **soles)))
-    assert samples[0] == Sample(0.0, Site.LEFT_FOOT, None, None, (100.0, 200.0))
-
-
-def test_whole_numbers_and_short_floats_become_floats(tmp_path):
-    columns = {k: v.astype(np.float32) for k, v in still().items()} | {"pressure": np.full((20, 2), 7, np.uint16)}
-    columns["t"] = still()["t"]
-    sample = next(read_samples(npz(tmp_path / "one.npz", **columns)))
-    assert sample.pressure == (7.0, 7.0) and type(sample.pressure[0]) is float and type(sample.acc[0]) is float
-
-
 def test_a_sheet_may_put_the_foot_before_the_axis_and_number_the_axes(tmp_path):
     path = tmp_path / "two.csv"
     path.write_text(
@@ -120,15 +96,6 @@ def test_a_sheet_may_put_the_foot_before_the_axis_and_number_the_axes(tmp_path):
     left, right = list(read_samples(path))[:2]
     assert left == Sample(0.0, Site.LEFT_FOOT, (0.0, 0.0, 9.8))
     assert right == Sample(0.0, Site.RIGHT_FOOT, None, None, (1.0, 2.0))
-
-
-def test_blank_cells_of_one_foot_mean_no_sample_of_that_foot(tmp_path):
-    path = tmp_path / "two.csv"
-    names = [f"acc_{axis}_{foot}" for foot in ("left", "right") for axis in "xyz"]
-    path.write_text(",".join(["t", *names]) + "\n0.00,0,0,9.8,0,0,9.8\n0.01,,,,0,0,9.8\n0.02,0,0,9.8,,,\n")
-    assert [(s.t, s.site.foot) for s in read_samples(path)] == [
-        (0.0, Foot.LEFT), (0.0, Foot.RIGHT), (0.01, Foot.RIGHT), (0.02, Foot.LEFT)
-    ]  # fmt: skip
 
 
 @given(
@@ -205,11 +172,6 @@ def test_pickled_arrays_are_not_loaded(tmp_path):
     assert refusal(path)[1].endswith("is not an .npz archive")
 
 
-def test_pickled_truth_is_no_obstacle_for_it_is_never_opened(tmp_path):
-    path = npz(tmp_path / "good.npz", **still(), gt_notes=np.array([{"a": 1}], dtype=object))
-    assert len(list(read_samples(path))) == 20
-
-
 @pytest.mark.parametrize("share", [0.02, 0.3, 0.9, 0.999])
 def test_an_archive_cut_off_is_refused(tmp_path, share):
     path = npz(tmp_path / "bad.npz", **still())
@@ -244,10 +206,6 @@ def test_a_missing_file_and_a_directory_are_named(tmp_path, name):
     assert refusal(tmp_path / name)[1].endswith("no such file or directory")
     (tmp_path / name).mkdir()
     assert refusal(tmp_path / name)[1].endswith("is a directory, not a recording")
-
-
-def test_another_kind_of_file_holds_no_samples(tmp_path):
-    assert "is neither .npz nor .csv" in refusal(tmp_path / "walk.mat")[1]
 
 
 def test_the_foot_that_a_file_does_not_hold_is_missed(tmp_path):
@@ -313,20 +271,6 @@ def test_time_that_runs_backwards_is_named_after_the_rows_before_it(tmp_path):
     samples, sentence = refusal(npz(tmp_path / "bad.npz", **columns))
     assert len(samples) == 7
     assert "t, row 7: time runs backwards, from 0.06 s to 0.02" in sentence
-
-
-def test_equal_times_are_left_to_the_session(tmp_path):
-    columns = still()
-    columns["t"][7] = columns["t"][6]
-    assert len(list(read_samples(npz(tmp_path / "twice.npz", **columns)))) == 20
-
-
-def test_a_bad_row_of_one_foot_ends_both_feet_at_that_time_and_loses_nothing_before(tmp_path):
-    left, right = named(still(), "left"), named(still(), "right")
-    left["acc_left"][7, 0] = np.nan
-    samples, sentence = refusal(npz(tmp_path / "bad.npz", **left, **right))
-    assert [(s.t, s.site.foot) for s in samples[-2:]] == [(0.06, Foot.LEFT), (0.06, Foot.RIGHT)]
-    assert "acc_left, row 7" in sentence
 
 
 @pytest.mark.parametrize(

@@ -2,39 +2,33 @@
 
 from __future__ import annotations
 
-import json
 from functools import cache
-from itertools import pairwise
-from math import acos, cos, degrees, hypot, pi, radians, sin
+from math import acos, cos, degrees, hypot, radians, sin
 from pathlib import Path
 
 import pytest
 from attrs import evolve
-from hypothesis import given, settings
-from hypothesis import strategies as st
-from walks import LEFT, RIGHT, ROUGH, of, samples
+from walks import LEFT, RIGHT, of
 
 from solepath import Session
-from solepath.body.gait.direction import Direction, TurnProcess, agreed
-from solepath.body.gait.turns import WEIGHTS, Turns, classified
-from solepath.calibration import Calibration, CalibrationError, merged
-from solepath.calibration.file import read_calibration, write_calibration
-from solepath.calibration.limits import unusable
+from solepath.body.gait.direction import Direction, TurnProcess
+from solepath.body.gait.turns import WEIGHTS, classified
+from solepath.calibration import Calibration, CalibrationError
+from solepath.calibration.file import read_calibration
 from solepath.cli.main import main
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.emulate.wearers.shoe import IN_SOLE
-from solepath.events import Event, StrideFeatures, StrideTaken, TurnMade
-from solepath.lab.train.turns import ANGLES, emulated, read, trained, walk
+from solepath.events import StrideFeatures, StrideTaken, TurnMade
+from solepath.lab.train.turns import ANGLES, read, trained, walk
 from solepath.papers.footstep_tracker.footsteps import Footsteps
 from solepath.papers.footstep_tracker.projection import Projection
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.papers.footstep_tracker.toe_out import learnt, toe_out
 from solepath.recipes import DEFAULT, Recipe
 from solepath.recording import PacketWriter
-from solepath.recording.samples import load_samples
-from solepath.types import Foot, Packet, Site, Turn
+from solepath.types import Foot, Turn
 
 
 def step(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.0, 0.0)) -> StrideTaken:
@@ -96,13 +90,6 @@ def test_half_a_stride_between_healthy_feet_is_no_difference() -> None:
         body.step(step(Foot.LEFT, k + 0.5, way=(0.75 if k == 0 else 1.5, 0.0)))
         body.step(step(Foot.RIGHT, k + 1.0, way=(1.5, 0.0)))
     assert body.restarts == 0
-
-
-def test_one_foot_alone_takes_the_wearer_all_the_way() -> None:
-    body = Footsteps()
-    for k in range(10):
-        body.step(step(Foot.RIGHT, k + 1.0))
-    assert base(body) == pytest.approx((10.0, 0.0))
 
 
 def test_a_foot_that_falls_silent_does_not_hold_the_wearer_back() -> None:
@@ -180,56 +167,6 @@ def test_a_foot_that_pivots_without_a_step_has_turned_all_the_same() -> None:
     assert (found.t_start, found.t_end) == (3.0, 6.0)
 
 
-def test_a_foot_that_shuffles_where_it_stands_has_not_turned_nor_gone_straight_on() -> None:
-    direction = Direction()
-    told(direction, both([(0, 0), (45, 45)]))
-    for k in range(4):
-        assert direction.pivot(Foot.RIGHT, 2.6 + 0.1 * k, 2.7 + 0.1 * k, radians(3.0)) is None
-    (found,) = told(direction, both([(45, 45), (0, 0), (0, 0)], first=3.5))
-    assert degrees(found.angle) == pytest.approx(90.0)
-
-
-def test_a_foot_that_swings_by_more_than_half_a_turn_means_what_the_other_does() -> None:
-    left, right = agreed(radians(-175.0), radians(160.0))
-    assert left is not None and right is not None
-    assert degrees(left) == pytest.approx(185.0) and degrees(right) == pytest.approx(160.0)
-    assert agreed(1.0, None) == (1.0, None)
-    assert agreed(-1.0, 1.0) == (-1.0, 1.0)
-
-
-@given(
-    st.lists(
-        st.tuples(st.sampled_from(Foot), st.floats(0.1, 90.0), st.floats(0.2, 9.0), st.sampled_from([0, 0, 60, -80])),
-        max_size=30,
-    )
-)
-@settings(deadline=None)
-def test_turns_never_overlap_however_long_a_step_of_one_foot_lasts(steps) -> None:
-    direction, t, found = Direction(), 0.0, []
-    for foot, apart, lasts, turn in steps:
-        t += apart
-        found += [direction.stood(t - 0.05), direction.step(evolve(step(foot, t, radians(turn)), t_start=t - lasts))]
-    turns = [one for one in [*found, direction.finish()] if one is not None]
-    for before, after in pairwise(turns):
-        assert before.t_start <= before.t_end <= after.t_start <= after.t_end
-
-
-def test_who_stood_for_minutes_before_turning_began_to_turn_at_the_end_of_them() -> None:
-    direction = Direction()
-    told(direction, both([(0, 0), (0, 0)]))
-    assert direction.pivot(Foot.LEFT, 3.0, 300.0, radians(80.0)) is None
-    found = direction.finish()
-    assert found is not None and found.t_start > 290.0
-
-
-def test_turns_of_a_clock_that_begins_anew_are_forgotten() -> None:
-    turns = Turns()
-    told(turns.direction, both([(0, 0), (90, 0)]))
-    turns.reset(Site.LEFT_FOOT)
-    turns.reset(Site.PELVIS)
-    assert turns.direction.stood(1e6) is None
-
-
 # --- the classifier ---------------------------------------------------------------------------------------------------
 
 
@@ -257,14 +194,6 @@ def test_the_weights_are_those_that_the_training_turns_give() -> None:
     assert trained(examples) == WEIGHTS
 
 
-def test_the_training_turns_are_what_the_emulator_gives() -> None:
-    kept = [one for one in read() if one.seed == 101]
-    again = emulated([101])
-    assert [one.turn for one in again] == [one.turn for one in kept]
-    for one, other in zip(again, kept, strict=True):
-        assert (one.left, one.right) == pytest.approx((other.left, other.right), abs=0.5)
-
-
 def test_a_wearer_who_turns_is_told_to_have_turned() -> None:
     right = 0
     for seed in range(3, 7):
@@ -286,18 +215,6 @@ def corridor(metres: float, seed: int = 1) -> EmulatedWalk:
     )
 
 
-def test_a_corridor_is_as_long_by_both_feet_as_it_is() -> None:
-    walked = corridor(30.0)
-    session = Session(FOOTSTEP_TRACKER)
-    events = [event for packet in walked.packets for event in session.feed(packet)]
-    for foot in Foot:
-        taken = [one for one in of(StrideTaken, events) if one.foot is foot]
-        assert len(taken) == len(walked.truth.steps(foot))
-    assert session.position is not None
-    x, y, z = session.position.position
-    assert hypot(x - 30.0, y) < 0.05 * 30.0 and z == 0.0
-
-
 def test_without_what_rest_tells_a_gyroscope_that_clips_makes_steps_too_short() -> None:
     walked = corridor(15.0)
 
@@ -308,27 +225,6 @@ def test_without_what_rest_tells_a_gyroscope_that_clips_makes_steps_too_short() 
 
     printed = length(evolve(FOOTSTEP_TRACKER, corrector=Projection(printed=True)))
     assert printed < 0.7 * length(FOOTSTEP_TRACKER)
-
-
-def told_by(items: tuple[Packet, ...], pieces: int | None = None) -> list[Event]:
-    session = Session(FOOTSTEP_TRACKER, poses=True)
-    if pieces is None:
-        return session.feed(items) + session.finish()
-    found: list[Event] = []
-    for k in range(0, len(items), pieces):
-        found += session.feed(items[k : k + pieces])
-        session = Session.restore(json.loads(json.dumps(session.snapshot(), allow_nan=False)))
-    return found + session.finish()
-
-
-def test_a_walk_over_a_bad_radio_is_the_same_however_it_is_cut_and_saved() -> None:
-    route = Route().stand(1.5).walk(3.0, 1.2).turn(radians(120.0), radius=0.5).walk(2.0).stop(1.5)
-    device = CC2541(rate=20.0)
-    items = emulate(route, devices={LEFT: device, RIGHT: evolve(device)}, radio=ROUGH, seed=5).packets
-    whole = told_by(items)
-    assert told_by(items, 97) == whole
-    assert all(one.known_at >= one.t for one in whole)
-    assert of(StrideTaken, whole)
 
 
 @pytest.mark.parametrize("recipe", [DEFAULT, FOOTSTEP_TRACKER])
@@ -343,22 +239,6 @@ def test_who_turns_on_the_spot_has_turned_though_the_feet_hardly_leave_the_groun
     (made,) = of(TurnMade, session.feed(walked.packets) + session.finish())
     assert made.turn is turn
     assert abs(degrees(made.angle) - degrees_) < 30.0
-
-
-@pytest.mark.parametrize("rate", [10.0, 20.0, 100.0, 400.0])
-def test_steps_are_found_at_any_rate(rate: float) -> None:
-    session = Session(FOOTSTEP_TRACKER)
-    events = session.feed(samples(cells=0, rate=rate)) + session.finish()
-    for foot in Foot:
-        assert 3 <= len([one for one in of(StrideTaken, events) if one.foot is foot]) <= 7
-
-
-def test_one_sensor_alone_is_followed(data_dir: Path) -> None:
-    session = Session(FOOTSTEP_TRACKER)
-    events = session.feed(load_samples(data_dir / "gumushane_gcp" / "exp31.npz")) + session.finish()
-    steps = of(StrideTaken, events)
-    assert 31 <= len(steps) <= 37
-    assert session.position is not None and 0.85 * 47.9 < sum(one.length for one in steps) < 1.15 * 47.9
 
 
 # --- the toe-out angle ------------------------------------------------------------------------------------------------
@@ -393,18 +273,6 @@ def test_the_angle_of_a_calibration_is_the_one_that_the_foot_uses() -> None:
     known = Calibration(toe_out={Foot.RIGHT: 0.2})
     left, right = (Projection().calibrated(foot, known) for foot in Foot)
     assert (right.toe_out, right.outwards, left.toe_out, left.outwards) == (0.2, -1.0, 0.0, 1.0)
-
-
-def test_angles_of_both_feet_are_merged_kept_and_checked(tmp_path: Path) -> None:
-    known = merged(Calibration(toe_out={Foot.RIGHT: 0.1}), Calibration(toe_out={Foot.LEFT: 0.2}))
-    assert list(known.toe_out.items()) == [(Foot.LEFT, 0.2), (Foot.RIGHT, 0.1)]
-    write_calibration(tmp_path / "me.json", known)
-    assert read_calibration(tmp_path / "me.json") == known
-    assert unusable(Calibration(toe_out={Foot.LEFT: pi})) == "toe_out.left is 3.14159; it can be -1 to 1 rad"
-    older = json.loads((tmp_path / "me.json").read_text())
-    del older["calibration"]["toe_out"]
-    (tmp_path / "older.json").write_text(json.dumps(older))
-    assert read_calibration(tmp_path / "older.json") == Calibration()
 
 
 def test_calibrate_toe_out_writes_what_a_walk_tells(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

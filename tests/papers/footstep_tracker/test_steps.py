@@ -15,17 +15,15 @@ from solepath.foot.stance.stance import Stance
 from solepath.papers.footstep_tracker.critical_cues import CriticalCues
 from solepath.papers.footstep_tracker.critical_times import CriticalTimes, Row, critical_times
 from solepath.papers.footstep_tracker.projection import Projection
-from solepath.papers.footstep_tracker.segment import FootAxes, StepSegment, turned_to, with_offset
+from solepath.papers.footstep_tracker.segment import StepSegment
 from solepath.papers.footstep_tracker.static_zones import StaticZones
 from solepath.papers.footstep_tracker.step_length import (
     closed_step_length,
-    missed,
     step_length,
-    turned,
     turned_about_vertical,
 )
 from solepath.saving import codec as machine
-from solepath.types import Foot, Phase, Vec3
+from solepath.types import Phase, Vec3
 from solepath.types.vector import GRAVITY, ZERO
 
 G = GRAVITY
@@ -111,13 +109,6 @@ def test_the_toe_out_angle_turns_the_acceleration_from_the_foot_s_direction_to_t
     assert sum(step_length(drawn, times)) == pytest.approx(0.5 * cos(phi))
 
 
-def test_the_integrals_begin_and_end_between_samples() -> None:
-    drawn = [(0.1 * k, 0.0, 2.0, -G, 0.0, 0.0, 3.0) for k in range(11)]
-    times = CriticalTimes(0.0, 0.23, 0.77, 1.0)
-    assert sum(step_length(drawn, times)) == pytest.approx(0.54**2)
-    assert turned(drawn, times) == pytest.approx(3.0 * 0.54)  # (7)
-
-
 def test_what_is_left_of_velocity_and_tilt_at_rest_is_taken_out() -> None:
     # an accelerometer that is off by 0.5 m/s^2 and a gyroscope by 0.1 rad/s, on a foot that goes nowhere
     drawn = [(0.01 * k, 0.0, 0.5, -G, 0.1, 0.0, 0.0) for k in range(101)]
@@ -169,36 +160,6 @@ def test_a_foot_that_turns_faster_than_its_gyroscope_can_tell_has_turned_further
     assert 0.5 * (2.0 - told) < known - told < 1.1 * (2.0 - told)
 
 
-def test_the_area_under_the_cubic_that_leaves_a_range_and_comes_back_is_as_its_slopes_have_it() -> None:
-    # 10 rad/s^2 up to 1 rad/s, 0.3 s at the end, and down again: T^2 (10 + 10) / 12
-    rates = [0.0, 0.5, 1.0, 1.0, 1.0, 1.0, 0.5, 0.0]
-    drawn: list[Row] = [(0.05 * k, 0.0, 0.0, -G, 0.0, 0.0, g) for k, g in enumerate(rates)]
-    assert missed(drawn, 6, 0.99) == pytest.approx(0.15**2 * 20.0 / 12.0)
-    assert missed(drawn, 6, 1.01) == 0.0
-
-
-def test_a_turn_of_a_tilted_foot_is_about_the_vertical() -> None:
-    # the foot is 60 degrees toe down while it turns to the left by 1 rad/s: g_z sees half of that
-    theta = -radians(60.0)
-    drawn: list[Row] = [(0.0, 0.0, 0.0, -G, 0.0, 0.0, 0.0)]
-    for k in range(1, 200):
-        t = 0.005 * k
-        rate = theta / 0.1 if t < 0.1 else -theta / 0.1 if t > 0.895 else 0.0
-        turns = 1.0 if 0.1 <= t <= 0.895 else 0.0
-        drawn.append((t, 0.0, 0.0, -G, rate, turns * sin(theta), turns * cos(theta)))
-    times = CriticalTimes(0.0, 0.0, drawn[-1][0], drawn[-1][0])
-    assert turned(drawn, times) == pytest.approx(0.4, abs=0.01)
-    assert turned_about_vertical(drawn, times) == pytest.approx(0.8, abs=0.02)
-
-
-def test_a_coarse_accelerometer_that_reads_too_much_at_rest_is_off_and_not_stretched() -> None:
-    # it read 11.03 m/s^2 at rest and was multiplied by 0.889 for that: a push of 4 m/s^2 reads 3.56
-    scale = G / 11.03
-    ((_, _, a_y, a_z, *_),) = with_offset([(0.0, 0.0, 4.0 * scale, -G, 0.0, 0.0, 0.0)], scale)
-    assert a_y == pytest.approx(4.0)
-    assert a_z == pytest.approx(-G)
-
-
 # --- static zones -----------------------------------------------------------------------------------------------------
 
 
@@ -215,11 +176,6 @@ def still(n: int, rate: float, acc: Vec3 = (0.0, 0.0, G), gyro: Vec3 = ZERO) -> 
     return [(k / rate, acc, gyro) for k in range(n)]
 
 
-@pytest.mark.parametrize("up", [(0.0, 0.0, G), (0.0, 0.0, -G), (G, 0.0, 0.0), (0.6 * G, -0.8 * G, 0.0)])
-def test_a_foot_at_rest_is_static_however_the_sensor_is_mounted(up: Vec3) -> None:
-    assert feed(StaticZones(), still(8, 20.0, up))[-1].hint is Phase.STATIONARY
-
-
 def test_six_samples_at_20_hz_make_a_static_zone_and_five_do_not_while_the_gyroscope_is_not_quiet() -> None:
     turning = still(6, 20.0, gyro=(0.0, 0.0, 2.0))
     found = feed(StaticZones(), turning)
@@ -233,16 +189,6 @@ def test_a_sample_that_does_not_lie_with_the_others_begins_the_zone_anew() -> No
     found = feed(StaticZones(), samples)
     # the sixth after the odd one, which itself was a zone's first
     assert [k for k, one in enumerate(found) if one.hint is Phase.STATIONARY][0] == 10
-
-
-def test_counts_of_a_coarse_accelerometer_may_flicker_in_a_static_zone() -> None:
-    count = G / 16.0
-    samples = [(t, (count * (k % 7 == 3), 0.0, G), gyro) for k, (t, _, gyro) in enumerate(still(30, 20.0))]
-    assert all(one.hint is Phase.STATIONARY for one in feed(StaticZones(), samples)[8:])
-
-
-def test_free_fall_is_not_rest() -> None:
-    assert all(one.hint is None for one in feed(StaticZones(), still(40, 100.0, ZERO)))
 
 
 def stride(rate: float, *, lasts: float = 0.6, rests: float = 0.4, strides: int = 3) -> list[tuple[float, Vec3, Vec3]]:
@@ -269,22 +215,6 @@ def test_every_stride_is_a_segment_at_any_rate(rate: float) -> None:
     for k, one in enumerate(times):
         assert one.uplift == pytest.approx(0.4 + k, abs=0.06)
         assert one.rest == pytest.approx(1.0 + k, abs=0.08)
-
-
-def test_a_fast_foot_that_lies_still_for_a_tenth_of_a_second_has_static_zones() -> None:
-    found = feed(StaticZones(), stride(100.0, lasts=0.55, rests=0.15, strides=5))
-    assert sum(isinstance(one.detail, StepSegment) and one.detail.times is not None for one in found) == 5
-
-
-def test_a_foot_that_never_rests_fills_no_memory() -> None:
-    zones = StaticZones()
-    for k in range(4000):
-        t = 0.0025 * k
-        zones.update(t, 0.0025, (9.0 * sin(9.1 * t), 7.0 * cos(23.0 * t), 12.0), (4.0 * sin(7.0 * t), 3.0, 0.1), None)
-    assert len(zones.rows) <= zones.most
-    assert len(json.dumps(machine.save(zones))) < 7000
-    again = machine.load(StaticZones, machine.save(zones))
-    assert again == zones
 
 
 @settings(max_examples=40, deadline=None)
@@ -318,26 +248,6 @@ def test_the_foot_s_axes_are_learnt_from_how_the_heel_rises() -> None:
     assert forward == pytest.approx((1.0, 0.0, 0.0), abs=0.1)
 
 
-def test_axes_are_turned_to_the_paper_s_with_minus_9_8_at_rest() -> None:
-    ((t, a_x, a_y, a_z, g_x, g_y, g_z),) = turned_to(
-        [(3.0, 1.0, 2.0, G, 4.0, 5.0, 6.0)], (0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
-    )
-    assert (t, a_x, a_y, a_z, g_x, g_y, g_z) == (3.0, -2.0, 1.0, -G, -5.0, 4.0, 6.0)
-
-
-def test_one_odd_step_does_not_turn_the_axes() -> None:
-    axes = FootAxes()
-    rise = [(0.02 * k, 0.0, 0.0, G, 0.0, 3.0 if k < 20 else -3.0, 0.0) for k in range(50)]
-    odd = [(t, ax, ay, az, gy, gx, gz) for t, ax, ay, az, gx, gy, gz in rise]
-    axes.learn(rise, (0.0, 0.0, 1.0))
-    before = axes.right
-    axes.learn(odd, (0.0, 0.0, 1.0))
-    assert axes.right == before
-    for _ in range(2):
-        axes.learn(odd, (0.0, 0.0, 1.0))
-    assert axes.right != before
-
-
 # --- from segments to steps and cues ----------------------------------------------------------------------------------
 
 
@@ -362,24 +272,6 @@ def test_a_step_moves_the_foot_by_its_length_and_a_turn_by_its_chord() -> None:
     stepped(projection, swung())
     x, y, z = projection.position
     assert y == pytest.approx(1.0 + sqrt(0.5), abs=3e-2) and z == 0.0
-
-
-@pytest.mark.parametrize(("foot", "side"), [(Foot.LEFT, -1.0), (Foot.RIGHT, 1.0)])
-def test_the_way_of_a_foot_that_points_outwards_lies_on_its_inner_side(foot: Foot, side: float) -> None:
-    projection = Projection(toe_out=0.2, outwards=1.0 if foot is Foot.LEFT else -1.0)
-    projection.start((1.0, 0.0, 0.0, 0.0), 0.0)
-    stepped(projection, swung())
-    x, y, _ = projection.position
-    assert x == pytest.approx(cos(0.2) ** 2, abs=1e-2)
-    assert y == pytest.approx(side * sin(0.2) * cos(0.2), abs=1e-2)
-
-
-def test_a_step_with_a_hole_in_its_samples_is_not_integrated() -> None:
-    projection = Projection()
-    projection.start((1.0, 0.0, 0.0, 0.0), 0.0)
-    segment = swung()
-    stepped(projection, StepSegment(segment.rows, segment.times, segment.forward, 0.5))
-    assert abs(projection.position[0]) < 0.01  # the live track went nowhere
 
 
 def test_the_cues_of_a_step_come_all_at_once_with_their_own_times() -> None:

@@ -116,21 +116,6 @@ def test_postures_of_a_shoe_give_its_curves(tmp_path: Path) -> None:
     assert (fitted.postures, fitted.measurements) == (5, 15)
 
 
-def test_what_the_curves_leave_is_told(tmp_path: Path) -> None:
-    exact = fit_shoe(measured(tmp_path / "exact.csv"))
-    rough = fit_shoe(measured(tmp_path / "rough.csv", noise=0.002))
-    assert exact.residual_radius < 3e-4 < 1e-3 < rough.residual_radius < 3e-3
-    assert rough.worst > rough.residual_to_toe
-
-
-def test_height_and_heel_are_taken_from_columns_of_their_own(tmp_path: Path) -> None:
-    rows = "0,0.07,0.09,0.031,0.11\n30,0.083,0.077,0.031,0.11\n60,0.099,0.067,0.031,0.11\n"
-    file = tmp_path / "postures.csv"
-    file.write_text("pitch_deg,L_r_m,L_p2t_m,H_imu_m,heel_L_r_m\n" + rows)
-    shoe = fit_shoe(file).calibration.shoe
-    assert shoe is not None and (shoe.height, shoe.heel_radius) == (0.031, 0.11)
-
-
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
@@ -152,8 +137,3 @@ def test_a_bad_table_of_postures_is_refused_in_one_line(tmp_path: Path, text: st
     with pytest.raises(ValueError, match=complaint) as caught:
         fit_shoe(file)
     assert str(caught.value).startswith(str(file)) and "\n" not in str(caught.value)
-
-
-def test_a_table_that_is_not_there_is_named(tmp_path: Path) -> None:
-    with pytest.raises(CalibrationError, match="none.csv: No such file"):
-        fit_shoe(tmp_path / "none.csv")

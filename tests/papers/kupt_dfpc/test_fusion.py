@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from functools import cache
 from math import isfinite
 from typing import Any
@@ -16,7 +15,7 @@ from walks import insoles, of
 from solepath import Session, recipes
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
-from solepath.events import Event, FootSilent, StrideFeatures, StrideFused, StrideTaken
+from solepath.events import Event, StrideFeatures, StrideFused, StrideTaken
 from solepath.foot.pressure.centre import centre as centre_of
 from solepath.papers.kupt_dfpc.fusion import POINTS, DoubleFoot, correlation, resampled, share
 from solepath.saving import codec as machine
@@ -77,12 +76,6 @@ def test_a_step_that_rolls_the_other_way_is_as_similar_since_9_takes_the_absolut
     assert correlation((1.0, 2.0, 3.0), (6.0, 4.0, 2.0)) == pytest.approx(1.0)
 
 
-def test_a_constant_path_has_no_similarity() -> None:
-    assert correlation((0.1,) * 5, (0.1, 0.2, 0.3, 0.4, 0.5)) is None
-    assert correlation((), ()) is None
-    assert correlation((1.0, 2.0), (1.0, 2.0, 3.0)) is None
-
-
 def test_steps_of_unequal_sample_counts_are_compared_over_their_own_time() -> None:
     slow = step(LEFT, 10.0, lasts=2.0, cop=tuple((0.09 + 0.13 * k / 31, 0.0) for k in range(32)))
     quick = step(RIGHT, 10.0, lasts=0.8, cop=tuple((0.09 + 0.13 * k / 9, 0.0) for k in range(10)))
@@ -98,11 +91,6 @@ def test_the_centre_of_pressure_stays_at_the_foot_centre_while_the_foot_is_in_th
     assert set(found[ground + 1 :]) == {CENTRE}
     assert list(found[:ground]) == sorted(found[:ground])
     assert 0.09 <= found[0] < found[ground - 1] <= 0.22
-
-
-def test_a_step_without_a_path_or_a_toe_off_is_not_compared() -> None:
-    assert resampled(step(LEFT, 1.0, cop=()), CENTRE) == ()
-    assert resampled(step(LEFT, 1.0, lasts=0.0), CENTRE) == ()
 
 
 # --- (10), (11), (12) -------------------------------------------------------------------------------------------------
@@ -158,12 +146,6 @@ def test_the_first_step_has_nothing_to_be_compared_with_and_keeps_its_length() -
     assert (told.distance, told.position) == (1.2, (1.2, 0.0, 0.0))
 
 
-def test_a_step_of_the_other_foot_from_before_this_one_began_is_too_old() -> None:
-    _, told = walked(step(RIGHT, 2.0), step(LEFT, 2.55, 1.0), step(LEFT, 3.65, 1.0, number=2))
-    assert [one.similarity is None for one in told] == [True, False, True]
-    assert told[2].stride_length == 1.0
-
-
 def test_a_wearer_who_stood_begins_again_without_the_other_foot() -> None:
     _, told = walked(step(LEFT, 2.0), step(RIGHT, 2.55, 1.0), step(LEFT, 22.0, 1.2, lasts=20.0, number=2))
     assert told[1].similarity is not None
@@ -171,30 +153,11 @@ def test_a_wearer_who_stood_begins_again_without_the_other_foot() -> None:
     assert told[2].stride_length == 1.2
 
 
-def test_a_half_stride_and_a_whole_one_are_not_similar() -> None:
-    _, told = walked(step(LEFT, 2.0, 0.7), step(RIGHT, 2.55, 1.4), step(LEFT, 3.1, 1.3, number=2))
-    assert [one.similarity for one in told] == pytest.approx([None, 0.0, 1.0])
-    assert [one.stride_length for one in told] == pytest.approx([0.7, 1.4, 1.35])
-
-
 def test_an_abnormal_step_neither_is_calibrated_nor_calibrates() -> None:
     _, told = walked(step(LEFT, 2.0, 1.2), step(RIGHT, 2.55, 2.0, index=None), step(LEFT, 3.1, 1.3, number=2))
     assert [one.stride_length for one in told] == [1.2, 2.0, 1.3]
     assert [one.error_index for one in told] == [0.1, None, 0.1]
     assert told[2].similarity is None
-
-
-def test_steps_without_a_centre_of_pressure_keep_their_lengths() -> None:
-    body = DoubleFoot()
-    body.step(step(LEFT, 2.0, 1.2), None)
-    told = body.step(step(RIGHT, 2.55, 1.4), None)
-    assert (told.stride_length, told.coefficient, told.similarity) == (1.4, 1.0, None)
-
-
-def test_a_foot_whose_steps_arrive_late_is_calibrated_by_the_step_before_its_own() -> None:
-    in_time = walked(step(LEFT, 2.0, 1.1), step(RIGHT, 2.55, 1.4), step(LEFT, 3.1, 1.2, number=2))[1]
-    late = walked(step(LEFT, 2.0, 1.1), step(LEFT, 3.1, 1.2, number=2), step(RIGHT, 2.55, 1.4))[1]
-    assert late[2].stride_length == in_time[1].stride_length
 
 
 # --- (13) -------------------------------------------------------------------------------------------------------------
@@ -230,11 +193,6 @@ def test_a_foot_whose_step_is_abnormal_beside_a_normal_one_is_not_chosen_for_hav
     assert [one.chosen for one in told] == [LEFT, RIGHT]
 
 
-def test_two_abnormal_steps_favour_neither_foot() -> None:
-    body, _ = walked(step(LEFT, 2.0, 0.7, index=None), step(RIGHT, 2.55, 1.4, index=None), step(LEFT, 3.1))
-    assert body.weighted == 0.0 and body.chosen is LEFT
-
-
 def test_the_centre_of_the_foot_is_half_way_between_the_first_and_the_last_cell() -> None:
     """The paper's lie from 34 to 166 mm and it has the centre at 100 mm, wherever the insole ends."""
     insole = Layout(3, LEFT, (Cell(0.034, 0.0), Cell(0.12, 0.0), Cell(0.166, 0.0)), 0.26)
@@ -267,20 +225,6 @@ def test_a_walk_of_equal_steps_ends_where_it_ended_without_calibration() -> None
     assert {one.chosen for one in told} == {LEFT}
 
 
-def test_a_foot_that_stops_stepping_is_left_and_taken_up_where_the_other_is() -> None:
-    body = DoubleFoot()
-    for k in range(4):
-        body.step(step(LEFT, 2.0 + 1.1 * k, 1.0, index=0.1, number=k + 1), CENTRE)
-        body.step(step(RIGHT, 2.55 + 1.1 * k, 1.0, index=0.5, number=k + 1), CENTRE)
-    assert body.chosen is LEFT
-    told = [body.step(step(RIGHT, 6.95 + 1.1 * k, 1.0, index=0.5, number=k + 5), CENTRE) for k in range(5)]
-    assert [one.chosen for one in told] == [LEFT, RIGHT, RIGHT, RIGHT, RIGHT]  # the third in a row
-    assert told[-1].distance == pytest.approx(9.0)
-    again = body.step(step(LEFT, 12.0, 1.0, index=0.1, number=5), CENTRE)
-    assert again.chosen is LEFT
-    assert again.distance == pytest.approx(10.0)
-
-
 # --- a whole walk ---
 
 WALK = Route().stand(1.5).walk(14.0, 1.25).stop(1.5)
@@ -292,13 +236,6 @@ def heard(silent: bool = False) -> tuple[Session, list[Event]]:
     session = Session(recipes.by_name("kupt-dfpc"))
     packets = insoles(WALK).packets
     return session, session.feed([p for p in packets if not (silent and p.site is Site.LEFT_FOOT and p.t > 8.0)])
-
-
-def test_every_step_of_either_foot_is_fused_once_and_in_order() -> None:
-    told = heard()[1]
-    steps = [(one.foot, one.number, one.t, one.length) for one in of(StrideTaken, told)]
-    assert [(one.foot, one.number, one.t, one.own_length) for one in of(StrideFused, told)] == steps
-    assert len(steps) > 15
 
 
 def test_most_steps_of_a_steady_walk_are_similar_and_calibrated() -> None:
@@ -320,17 +257,6 @@ def test_the_wearer_stands_at_the_end_of_the_chosen_path_and_within_its_covarian
     assert xx > 0.0
     assert xx * yy > xy * xy
     assert abs(here.position[0] - 14.0) < 3.0 * xx**0.5
-
-
-def test_with_one_foot_silent_the_other_carries_the_path_on() -> None:
-    session, told = heard(silent=True)
-    last = of(StrideFused, told)[-1]
-    assert (last.foot, last.chosen) == (Foot.RIGHT, Foot.RIGHT)
-    assert last.distance == pytest.approx(14.0, rel=0.05)
-    here = session.position
-    assert here is not None
-    assert here.position == pytest.approx(last.position, abs=0.02)
-    assert [event.foot for event in of(FootSilent, told)] == [Foot.LEFT]
 
 
 # --- any input --------------------------------------------------------------------------------------------------------
@@ -372,39 +298,3 @@ def test_any_sequence_of_steps_gives_numbers_and_shares_between_zero_and_one(
         assert all(isfinite(number) for number in numbers(machine.save(body)))
         size = max(size, len(body.left.latest), len(body.right.latest))
     assert size <= 3
-
-
-@given(st.lists(STEPS, max_size=12), st.integers(0, 12))
-@settings(deadline=None, max_examples=60)
-def test_a_saved_fusion_goes_on_as_if_nothing_had_happened(steps: list[StrideTaken], cut: int) -> None:
-    body, other = DoubleFoot(), DoubleFoot()
-    told = [body.step(one, CENTRE) for one in steps]
-    again = [other.step(one, CENTRE) for one in steps[:cut]]
-    restored = machine.load(DoubleFoot, json.loads(json.dumps(machine.save(other), allow_nan=False)))
-    assert again + [restored.step(one, CENTRE) for one in steps[cut:]] == told
-
-
-@given(st.floats(0.0, 1.0), st.floats(0.0, 10.0), st.floats(0.0, 10.0))
-def test_the_coefficient_is_a_share_and_falls_with_the_foots_own_error(r: float, own: float, other: float) -> None:
-    k = share(r, own, other)
-    assert 0.0 <= k <= 1.0
-    assert share(r, own + 0.1, other) <= k + 1e-12
-
-
-@given(st.lists(st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0)), min_size=2, max_size=40))
-def test_similarity_is_between_zero_and_one_or_unknown(points: list[tuple[float, float]]) -> None:
-    r = correlation(tuple(x for x, _ in points), tuple(y for _, y in points))
-    assert r is None or 0.0 <= r <= 1.0
-
-
-def test_similarity_does_not_change_with_unit_or_zero() -> None:
-    xs, ys = (0.1, 0.25, 0.2, 0.4), (0.3, 0.35, 0.2, 0.5)
-    shifted = tuple(5.0 + 1000.0 * y for y in ys)
-    assert correlation(xs, shifted) == pytest.approx(correlation(xs, ys))
-
-
-def test_steps_of_a_clock_that_began_anew_are_compared_with_nothing() -> None:
-    fused, _ = walked(step(LEFT, 2.0, 1.2))
-    fused.reset(Site.LEFT_FOOT)
-    told = fused.step(step(RIGHT, 2.55, 1.4), CENTRE)
-    assert (told.similarity, told.coefficient, told.stride_length) == (None, 1.0, 1.4)

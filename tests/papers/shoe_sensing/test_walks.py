@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 from functools import cache
 from math import radians
@@ -103,11 +102,6 @@ def test_states_are_those_of_the_steps(route: Route, stairs: Activity) -> None:
     assert any(abs(event.t - begun[0]) < 1.5 for event in told if event.activity is stairs)
 
 
-def test_who_jogs_is_told_to_walk_since_the_paper_takes_both_for_one() -> None:
-    kinds = {event.activity for event in heard(JOG, 1) if isinstance(event, ActivityChanged)}
-    assert kinds == {Activity.STANDING, Activity.WALKING}
-
-
 def test_a_foot_that_only_fidgets_is_in_the_end_unknown() -> None:
     part, foot = AnglePerMetre(), FootTracker(Foot.LEFT, ShortTimeEnergy(), ShoeSensing())
     samples = [one for one in worn(LEVEL, 1)[0] if one.site.foot is Foot.LEFT]
@@ -126,26 +120,6 @@ def test_who_has_stood_for_long_and_sets_out_is_not_unknown() -> None:
     told = session.feed(samples) + session.finish()
     kinds = [event.activity for event in told if isinstance(event, ActivityChanged)]
     assert kinds == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
-
-
-def test_one_foot_is_enough() -> None:
-    session, told = Session(SHOE_SENSING), []
-    for sample in worn(STAIRS, 1)[0]:
-        if sample.site.foot is Foot.RIGHT:
-            told += session.feed(sample)
-    told += session.finish()
-    assert [event.up for event in told if isinstance(event, FlightClimbed)] == [True, True]
-
-
-def test_a_saved_session_goes_on_in_the_middle_of_the_stairs() -> None:
-    samples = worn(STAIRS, 1)[0]
-    half = len(samples) // 2
-    session = Session(SHOE_SENSING)
-    told = session.feed(samples[:half])
-    saved = json.loads(json.dumps(session.snapshot(), allow_nan=False))
-    restored = Session.restore(saved)
-    told += restored.feed(samples[half:]) + restored.finish()
-    assert tuple(told) == heard(STAIRS, 1)
 
 
 def test_a_clock_that_begins_anew_is_told_on_the_new_one() -> None:
@@ -194,26 +168,11 @@ def test_a_foot_whose_clock_restarts_dates_nothing_while_the_other_goes_on(shift
     assert told[-1][0] == pytest.approx(told[len(expected) - 1][0] + worn(LEVEL, 1)[0][-1].t, abs=1.0)
 
 
-@pytest.mark.parametrize("shift", [-1e9, -40.0])
-def test_when_both_clocks_restart_all_is_told_anew_on_the_new_one(shift: float) -> None:
-    before, after = rebound(dict.fromkeys(Foot, shift))
-    once, again = changes(before), changes(after)
-    assert [what for _, what in again] == [what for _, what in once]
-    over = worn(LEVEL, 1)[0][-1].t + 0.01 + shift
-    assert [t - over for t, _ in again] == pytest.approx([t for t, _ in once], abs=0.2)
-
-
 def test_a_restarted_clock_dates_what_is_told_once_the_other_foot_has_fallen_silent() -> None:
     _, after = rebound({Foot.LEFT: -1e9}, silent=Foot.RIGHT)
     told = changes(after)
     assert [what for _, what in told][-2:] == [Activity.WALKING, Activity.STANDING]
     assert all(t < -9e8 for t, _ in told)
-
-
-def test_a_saved_part_whose_feet_have_two_clocks_is_the_same() -> None:
-    part = AnglePerMetre()
-    part.clocks, part.apart = {Foot.RIGHT: 1000.0}, {Foot.LEFT: None}
-    assert load(AnglePerMetre, json.loads(json.dumps(save(part)))) == part
 
 
 @pytest.mark.parametrize("height", [-11.46, 2.31])

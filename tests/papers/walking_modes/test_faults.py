@@ -153,14 +153,6 @@ def test_whoever_loses_the_chain_goes_on_by_the_tracks_and_says_why_once(recipe:
 
 
 @pytest.mark.parametrize("recipe", RECIPES)
-@pytest.mark.parametrize("site", [LEFT, RIGHT])
-def test_one_foot_alone_is_where_its_own_track_is(recipe: str, site: Site) -> None:
-    (x, y), events = told(recipe, [s for s in feet() if s.site is site])
-    assert hypot(x - FAR, y) < 1.3
-    assert len([what for what in sentences(events) if "not heard" in what]) == 1
-
-
-@pytest.mark.parametrize("recipe", RECIPES)
 @pytest.mark.parametrize("silence", [(8.0, 100.0), (8.3, 100.0), (8.0, 13.0), (8.4, 13.3), (8.8, 13.6)])
 def test_a_foot_that_falls_silent_neither_freezes_nor_halves_the_wearer(
     recipe: str, silence: tuple[float, float]
@@ -211,12 +203,6 @@ def test_insoles_of_which_nobody_says_where_the_cells_are_tell_no_walking_modes(
     assert {change.mode for change in of(WalkingModeChanged, events)} <= {WalkingMode.STANDING}
     assert {down.mode for down in of(TouchedDown, events)} == {WalkingMode.STRAIGHT}
     assert len([what for what in sentences(events) if "no walking modes" in what]) == 2
-
-
-def test_nothing_is_final_that_may_still_be_turned() -> None:
-    _, events = told("walking-modes", [evolve(s, quat=None) for s in seven()])
-    finals = [down.final for down in of(TouchedDown, events)]
-    assert finals == sorted(finals) and not finals[0] and finals[-1]
 
 
 def test_one_sample_from_the_far_future_does_not_silence_its_site() -> None:

@@ -18,11 +18,10 @@ from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.turning import matrices
 from solepath.emulate.wearers.walker import Walker
 from solepath.papers.walking_modes.limbs.inclination import Inclination
-from solepath.papers.walking_modes.limbs.limbs import ABOVE, SEGMENTS, LowerLimbs, Transform, foot_end
+from solepath.papers.walking_modes.limbs.limbs import ABOVE, SEGMENTS, LowerLimbs, foot_end
 from solepath.saving import codec as machine
 from solepath.types import Foot, Quat, Site, Vec3
 from solepath.types.vector import (
-    GRAVITY,
     IDENTITY,
     conjugate,
     from_rotation_vector,
@@ -86,11 +85,6 @@ def test_the_end_is_the_last_column_of_the_product_of_homogeneous_matrices(
     assert foot_end(pelvis, thigh, shank, foot, HIP, LIMBS) == pytest.approx(tuple(product[:3, 3]), abs=1e-9)
 
 
-def test_transforms_one_after_the_other_are_the_product_of_their_matrices() -> None:
-    first, second = Transform(from_yaw(pi / 2), (1.0, 0.0, 0.0)), Transform(IDENTITY, (2.0, 0.0, 0.0))
-    assert first.then(second).translation == pytest.approx((1.0, 2.0, 0.0))
-
-
 # --- sensors on the segments ------------------------------------------------------------------------------------------
 
 
@@ -125,14 +119,6 @@ def test_who_does_not_stand_still_is_not_aligned() -> None:
         for site in SEGMENTS:
             chain.told(site, 0.02 * k, pitched(3.0 * k) if site is Site.LEFT_SHANK else IDENTITY)
     assert not chain.aligned
-
-
-def test_between_two_attitudes_the_chain_is_between() -> None:
-    chain = LowerLimbs(LIMBS)
-    stood(chain, MOUNTED)
-    chain.told(Site.LEFT_THIGH, 0.62, multiply(pitched(20), MOUNTED[Site.LEFT_THIGH]))
-    x, _, _ = chain.end(Foot.LEFT, 0.61)
-    assert x == pytest.approx(0.2 - 0.4 * sin(radians(10)), abs=1e-4)
 
 
 def test_the_first_step_tells_where_the_wearer_looked_in_the_world_of_the_sensors() -> None:
@@ -187,18 +173,6 @@ def lean(attitude: Quat, stood: Quat) -> float:
     """rad from the vertical, of what stood upright."""
     _, _, z = rotate(multiply(attitude, conjugate(stood)), (0.0, 0.0, 1.0))
     return float(np.arccos(min(1.0, z)))
-
-
-@given(st.lists(st.tuples(*[st.floats(-40.0, 40.0)] * 6), max_size=60))
-def test_no_motion_turns_an_attitude_into_nonsense(samples: list[tuple[float, ...]]) -> None:
-    sensor = Inclination()
-    for k in range(40):
-        sensor.update(0.02 * k, (0.0, 0.0, GRAVITY), (0.0, 0.0, 0.0))
-    for k, (ax, ay, az, gx, gy, gz) in enumerate(samples):
-        attitude = sensor.update(0.8 + 0.02 * k, (ax, ay, az), (gx, gy, gz))
-        assert attitude is not None
-        assert sum(part * part for part in attitude) == pytest.approx(1.0)
-    assert machine.load(Inclination, machine.save(sensor)) == sensor
 
 
 def again(chain: LowerLimbs, site: Site, world: Quat, begin: float) -> None:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
 from typing import Any
 
 from attrs import define, evolve, field
 from bleak.backends.characteristic import BleakGATTCharacteristic
+from bleak.backends.scanner import BaseBleakScanner
 from memory_radio import MemoryRadio
 from strap import BATTERY, BEAT, CONTROL, HEART_RATE, LEVEL, LOG, PAGE, Strap
 
-from solepath.ble import Backend
+from solepath.ble import Backend, Wanted
 from solepath.emulate.devices.faults import parse_faults
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.link.profile import Access, Channel, Profile, Write
+from solepath.types import Packet, Site
 
 RATE = 10
 """Hz that the profile asks for."""
@@ -102,3 +105,30 @@ class Asked:
 
 def asked(*devices: Peripheral) -> Asked:
     return Asked(MemoryRadio(devices))
+
+
+PELVIS = Site.PELVIS
+ONE = Wanted(PELVIS, address(1), STRAP)
+
+
+def now() -> float:
+    return asyncio.get_running_loop().time()
+
+
+def times(packets: list[Packet], channel: str) -> list[float]:
+    return [packet.t for packet in packets if packet.channel == channel]
+
+
+def failing(beneath: Backend, errors: list[Exception | None]) -> Backend:
+    """A Bluetooth whose scans begin with these, in turn."""
+    scanner: Any = beneath.scanner
+
+    class Scanner(scanner):
+        async def start(self) -> None:
+            error = errors.pop(0) if errors else None
+            if error is not None:
+                raise error
+            await super().start()
+
+    kind: type[BaseBleakScanner] = Scanner
+    return Backend(beneath.client, kind)

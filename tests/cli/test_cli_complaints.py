@@ -1,0 +1,249 @@
+"""scan, live, record and emulate: what is wrong is said in one line, and Ctrl-C ends them."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import socket
+import subprocess
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+from programs import emulator, run, started
+
+from solepath import Connected, Session
+from solepath.recording import read_packets
+from solepath.types import Packet, Site
+
+TAKES = 30.0
+"""s that a program may take to say or do something before the test gives up."""
+
+
+def wait_for(path: Path, what: str) -> None:
+    """Until `what` stands in the file."""
+    end = time.monotonic() + TAKES
+    while not path.exists() or what not in path.read_text(encoding="utf-8"):
+        assert time.monotonic() < end, f"{what} did not come"
+        time.sleep(0.05)
+
+
+def is_socket(file: Path) -> bool:
+    """Of an entry of /proc/PID/fd, which may be closed at any time."""
+    try:
+        return os.readlink(file).startswith("socket:")
+    except FileNotFoundError:
+        return False
+
+
+def wait_for_sockets(process: subprocess.Popen[str]) -> None:
+    """Until a program that says nothing is connected: it has one socket more than the two of its event loop."""
+    files = Path(f"/proc/{process.pid}/fd")
+    if not files.exists():  # not Linux
+        time.sleep(3.0)
+        return
+    end = time.monotonic() + TAKES
+    while sum(is_socket(file) for file in files.iterdir()) < 3:
+        assert time.monotonic() < end, "nothing was connected"
+        time.sleep(0.05)
+    time.sleep(0.3)
+
+
+@pytest.fixture(scope="module")
+def insoles() -> Iterator[str]:
+    with emulator("--distance", 20) as (_, where):
+        yield where
+
+
+def events_of(packets: list[Packet]) -> list[object]:
+    session = Session()
+    return [*session.feed(packets), *session.finish()]
+
+
+# --- what is wrong is said in one line ---
+
+
+def complaint(*arguments: object) -> str:
+    done = run(*arguments, expect=2)
+    assert done.stderr.count("\n") == 1 and done.stderr.startswith("solepath: "), done.stderr
+    return done.stderr.removeprefix("solepath: ").rstrip()
+
+
+@pytest.mark.parametrize("command", ["scan", "live", "record"])
+def test_a_machine_without_bluetooth_is_named_as_such(command: str, tmp_path: Path) -> None:
+    if os.path.exists("/run/dbus/system_bus_socket"):
+        pytest.skip("this machine may have Bluetooth")
+    more = ["--out", tmp_path / "walk.jsonl"] if command == "record" else []
+    assert "no Bluetooth" in complaint(command, *more)
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--via", "there"], "'there' is not tcp:HOST:PORT"),
+        (["--at", "knee=X"], "--at knee=X: that is not SITE=DEVICE"),
+        (["--left", "X", "--profile", "wellington"], "there is no profile 'wellington'"),
+        (["--left", "X", "--recipe", "cake"], "there is no recipe 'cake'"),
+        (["--left", "X", "--right", "X"], "X"),
+        (["--left", "X", "--at", "left_foot=Y"], "two devices cannot be at one site"),
+    ],
+)
+def test_options_that_make_no_sense_are_named(options: list[str], told: str) -> None:
+    assert told in complaint("live", *options)
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--listen", "here"], "that is not HOST:PORT"),
+        (["--mtu", "12"], "an MTU is from 23 to 517"),
+        (["--distance", "20000"], "--distance 20000: 5000 m is as far as"),
+    ],
+)
+def test_what_cannot_be_emulated_is_said(options: list[str], told: str) -> None:
+    assert told in complaint("emulate", *options)
+
+
+def test_a_script_that_makes_no_sense_is_named_with_its_line(tmp_path: Path) -> None:
+    script = tmp_path / "faults.txt"
+    script.write_text("1 left_foot disconnect\n2 left_foot stumble\n")
+    assert f"{script}: line 2: " in complaint("emulate", "--faults", script)
+
+
+def test_a_script_with_a_name_that_no_advertisement_holds_is_named(tmp_path: Path) -> None:
+    script = tmp_path / "faults.txt"
+    script.write_text(f"1 left_foot name {'x' * 40}\n")
+    assert complaint("emulate", "--faults", script).startswith(f"{script}: the name 'xxxx")
+
+
+def test_a_server_that_is_no_controller_is_said() -> None:
+    """It answers whatever it is told with a bare HCI Command Complete."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def answer() -> None:
+            with server.accept()[0] as client, suppress(OSError):
+                while command := client.recv(1024):
+                    client.sendall(b"\x04\x0e\x04\x01" + command[1:3] + b"\x00")
+
+        threading.Thread(target=answer, daemon=True).start()
+        where = f"tcp:127.0.0.1:{server.getsockname()[1]}"
+        assert complaint("scan", "--via", where) == f"--via {where}: no Bluetooth controller answers at {where}"
+
+
+def test_a_port_in_use_is_named(insoles: str) -> None:
+    where = insoles.removeprefix("tcp:")
+    assert complaint("emulate", "--listen", where) == f"--listen {where}: address already in use"
+
+
+def test_a_full_disk_ends_live_with_a_summary_and_a_line_that_names_the_directory(insoles: str, tmp_path: Path) -> None:
+    if not Path("/dev/full").exists():
+        pytest.skip("no /dev/full here")
+    (tmp_path / "track.csv").symlink_to("/dev/full")
+    done = run(
+        "live", "--via", insoles, "--left", "solepath L", "--out", tmp_path, "--duration", 9, "--record",
+        tmp_path / "walk.jsonl", expect=2,
+    )  # fmt: skip
+    assert done.stderr == f"solepath: {tmp_path}: no space left on device\n"
+    assert "recipe default: " in done.stdout and "written to" not in done.stdout
+    assert list(read_packets(tmp_path / "walk.jsonl"))
+
+
+@pytest.mark.parametrize("command", ["live", "record"])
+def test_a_place_that_cannot_be_written_is_refused_before_the_search(command: str, tmp_path: Path) -> None:
+    option = {"live": "--record", "record": "--out"}[command]
+    nowhere = tmp_path / "nowhere" / "walk.jsonl"
+    done = run(command, "--via", "tcp:127.0.0.1:1", option, nowhere, expect=2)
+    assert (done.stdout, done.stderr) == ("", f"solepath: {nowhere}: no such file or directory\n")
+
+
+@pytest.mark.parametrize(("command", "begun"), [("scan", None), ("live", "looking for"), ("record", "looking for")])
+def test_ctrl_c_during_the_search_ends_at_once_and_without_a_summary(
+    insoles: str, command: str, begun: str | None, tmp_path: Path
+) -> None:
+    more = ["--out", tmp_path / "walk.jsonl"] if command == "record" else []
+    more += ["--seconds", 60] if command == "scan" else ["--duration", 60]
+    with started(command, "--via", insoles, *more) as process:
+        if begun is None:
+            wait_for_sockets(process)
+        else:
+            assert process.stdout is not None
+            while begun not in process.stdout.readline():
+                pass
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=TAKES)
+    assert (process.returncode, out, err) == (130, "", "")
+    assert not list(tmp_path.iterdir())
+
+
+def test_ctrl_c_again_and_again_does_not_kill_a_recording_that_is_ended(insoles: str, tmp_path: Path) -> None:
+    file = tmp_path / "walk.jsonl"
+    with started("record", "--via", insoles, "--left", "solepath L", "--out", file, "--duration", 60) as process:
+        wait_for(file, "insole/frame")
+        while process.poll() is None:
+            process.send_signal(signal.SIGINT)
+            time.sleep(0.02)
+        out, err = process.communicate(timeout=TAKES)
+    assert (process.returncode, err) == (0, "")
+    assert f"recorded in {file}" in out and list(read_packets(file))
+
+
+def test_ctrl_c_ends_an_emulator_that_is_still_working_out_its_walk() -> None:
+    with started("emulate", "--listen", "127.0.0.1:0", "--distance", 5000) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "working out a walk of 5000 m ...\n"
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=TAKES)
+    # Python itself ends by the signal when it came while a dataclass of some import was made
+    assert process.returncode in (130, -signal.SIGINT) and (out, err) == ("", "")
+
+
+@pytest.mark.soak
+def test_a_kind_that_is_named_is_that_of_the_device_that_is_not(tmp_path: Path) -> None:
+    """Of one CC2541 its advertisement does not say how fast it is."""
+    script, file = tmp_path / "faults.txt", tmp_path / "walk.jsonl"
+    script.write_text("0 left_foot vanish\n")
+    with emulator("--distance", 5, "--device", "cc2541-20hz", "--faults", script) as (_, where):
+        with started("record", "--via", where, "--right", "F0:5E:00:00:00:02", "--out", file) as first:
+            wait_for(file, "accelerometer")  # the walk has begun
+            time.sleep(2.0)
+            first.kill()
+        time.sleep(0.5)
+        done = run("record", "--via", where, "--profile", "cc2541-20hz", "--out", file, "--duration", 5)
+    assert "taken for the right foot's" in done.stderr
+    periods = {packet.data for packet in read_packets(file) if packet.channel == "cc2541/accelerometer-period"}
+    assert periods == {b"\x05"}
+
+
+@pytest.mark.soak
+def test_an_insole_that_is_not_heard_at_first_is_taken_when_it_comes(tmp_path: Path) -> None:
+    script, file = tmp_path / "faults.txt", tmp_path / "walk.jsonl"
+    script.write_text("0 right_foot vanish 12\n")
+    with emulator("--distance", 5, "--faults", script) as (_, where):
+        with started("record", "--via", where, "--left", "solepath L", "--out", file) as first:
+            wait_for(file, "insole/frame")
+            time.sleep(2.0)
+            first.kill()
+        run("record", "--via", where, "--out", file, "--duration", 10)
+    events = events_of(list(read_packets(file)))
+    assert {event.site for event in events if isinstance(event, Connected)} == {Site.LEFT_FOOT, Site.RIGHT_FOOT}
+
+
+def test_the_emulator_tells_who_is_connected_and_what_goes_wrong(tmp_path: Path) -> None:
+    script = tmp_path / "faults.txt"
+    script.write_text("1 left_foot drop 3; 0 right_foot vanish\n")
+    with (
+        emulator("--distance", 5, "--faults", script) as (process, where),
+        started("live", "--via", where, "--left", "solepath L"),
+    ):
+        assert process.stdout is not None
+        lines = [process.stdout.readline() for _ in range(3)]
+    assert re.search(r" s  left foot connected, [1-9]\d* sent, 1 faults; right foot not connected, 0 sent, ", lines[-1])
+
+
+@pytest.mark.parametrize("command", ["scan", "live", "record", "emulate"])
+def test_help_ends_with_an_example(command: str) -> None:
+    assert f"example: solepath {command}" in " ".join(run(command, "--help").stdout.split())

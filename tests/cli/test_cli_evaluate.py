@@ -1,0 +1,130 @@
+"""`solepath evaluate`: tables, JSON and Markdown of a made data set, and what it needs."""
+
+import io
+import json
+import os
+import subprocess
+import sys
+from contextlib import redirect_stderr, redirect_stdout
+from math import radians
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from solepath.cli import main
+from solepath.emulate.routes.route import Route
+from solepath.emulate.wearers.walker import Walker
+from solepath.types import Foot
+
+
+def solepath(*arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
+    clean = {key: value for key, value in os.environ.items() if key != "SOLEPATH_DATA"}
+    return subprocess.run(
+        [sys.executable, "-m", "solepath", *map(str, arguments)],
+        capture_output=True,
+        stdin=subprocess.DEVNULL,
+        text=True,
+        env=clean | environment,
+        check=False,
+    )
+
+
+def in_this_process(*arguments: object) -> subprocess.CompletedProcess[str]:
+    """The same without a process of its own, for what fails before it computes anything."""
+    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
+        status = main([str(argument) for argument in arguments])
+    return subprocess.CompletedProcess(arguments, status, out.getvalue(), err.getvalue())
+
+
+def no_control_codes(text: str) -> bool:
+    return all(c.isprintable() or c == "\n" for c in text)
+
+
+def one_line(done: subprocess.CompletedProcess[str]) -> str:
+    """The one line on stderr of a command that failed with exit status 2."""
+    assert done.returncode == 2, done.stderr
+    line, end = done.stderr[:-1], done.stderr[-1:]
+    assert end == "\n" and "\n" not in line and line.startswith("solepath: ") and no_control_codes(line)
+    return line
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    return tmp_path_factory.mktemp("recordings")
+
+
+def columns_of(walker: Walker, foot: Foot) -> dict[str, np.ndarray]:
+    samples = walker.samples(foot, 100.0)
+    return {key: np.array([getattr(s, key) for s in samples]) for key in ("t", "acc", "gyro")}
+
+
+# --- evaluate ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory) -> Path:
+    """A made data set: a closed loop around a square."""
+    route = Route().stand(2.0)
+    for _ in range(4):
+        route = route.walk(3.0, speed=1.2).turn(radians(90), radius=1.0)
+    folder = tmp_path_factory.mktemp("data")
+    loops = folder / "xio_closed_walks"
+    loops.mkdir()
+    np.savez(loops / "loop.npz", **columns_of(Walker(route.stop(1.0)), Foot.RIGHT))
+    (loops / "broken.npz").write_bytes(b"")
+    about = {name: {"closed_loop": True, "path_m_about": route.length} for name in ("loop", "broken", "absent")}
+    (loops / "dataset.json").write_text(json.dumps({"recordings": about | {"open": {"closed_loop": False}}}))
+    return folder
+
+
+def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path):
+    done = solepath("evaluate", "--json", tmp_path / "scores.json", SOLEPATH_DATA=str(data))
+    assert done.returncode == 0 and done.stderr == ""
+    assert no_control_codes(done.stdout)
+    assert "failed: " in done.stdout and "broken.npz: is empty" in done.stdout
+    told = json.loads((tmp_path / "scores.json").read_text())["default"]["xio_closed_walks"]
+    assert list(told["recordings"]) == ["loop"] and len(told["failures"]) == 1
+    figures = told["recordings"]["loop"]
+    assert figures["path"] == pytest.approx(12.0 + 2 * 3.14159, abs=0.01)
+    # exact samples: the loop closes within the foot's own placement
+    assert figures["end_error_2d"] < 0.5
+    assert told["summary"]["all"]["mean"]["end_error"] == figures["end_error"]
+    assert f"{figures['end_error']:.3f}" in done.stdout
+
+
+def test_evaluate_in_short_is_a_markdown_table(data):
+    done = solepath("evaluate", data, "--markdown", "--recipe", "default")
+    assert done.returncode == 0 and "not scored: " in done.stderr and "broken.npz: is empty" in done.stderr
+    head, rule, first, second, third = done.stdout.splitlines()
+    assert (head, rule) == ("| data | measured | came to |", "|---|---|---|")
+    assert first.startswith("| a closed loop, one shoe: `xio_closed_walks`, 1 recording | from end to start, in space ")
+    assert second.startswith("|  | from end to start, horizontal | 0.") and second.endswith(" m |")
+    assert third.startswith("|  | from end to start, in height | 0.") and third.endswith(" m |")
+
+
+def test_evaluate_says_what_figures_were(data, tmp_path):
+    old = tmp_path / "old.json"
+    command = ("evaluate", data, "--recipe", "default", "--processes", "1")
+    assert in_this_process(*command, "--json", old).returncode == 0
+    scores = json.loads(old.read_text())
+    scores["default"]["xio_closed_walks"]["summary"]["all"]["mean"]["end_error_2d"] *= 2.0
+    old.write_text(json.dumps(scores))
+    told = in_this_process(*command, "--compare", old)
+    assert told.returncode == 0 and "xio_closed_walks, default, compared: 1 better, 0 worse" in told.stdout
+    (line,) = (line for line in told.stdout.splitlines() if line.startswith("end_error_2d (mean)"))
+    was, now, word = line.split()[-3:]
+    assert float(was) == pytest.approx(2.0 * float(now), rel=0.02) and word == "better"
+    old.write_text("{")
+    assert "old.json: is not JSON" in one_line(in_this_process(*command, "--compare", old))
+
+
+def test_evaluate_says_what_it_needs(data, tmp_path, monkeypatch):
+    monkeypatch.delenv("SOLEPATH_DATA", raising=False)
+    needs = "evaluate needs DIR, or the environment variable SOLEPATH_DATA, or --emulated"
+    assert needs in one_line(in_this_process("evaluate"))
+    assert "does not hold any of the data sets" in one_line(in_this_process("evaluate", tmp_path))
+    assert "is not a directory" in one_line(in_this_process("evaluate", tmp_path / "none"))
+    assert "mars is not one of the data sets" in one_line(in_this_process("evaluate", data, "--only", "mars"))
+    assert "does not hold pyshoe_vicon" in one_line(in_this_process("evaluate", data, "--only", "pyshoe_vicon"))
+    assert "there is no recipe 'secret'" in one_line(in_this_process("evaluate", data, "--recipe", "secret"))

@@ -1,0 +1,291 @@
+"""`solepath track`: what it prints, what it writes, and what it does with files that are none."""
+
+import csv
+import io
+import json
+import os
+import subprocess
+import sys
+from contextlib import redirect_stderr, redirect_stdout
+from math import degrees, hypot
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from solepath import Event, PacketsLost, Session, StrideTaken
+from solepath.cli import main
+from solepath.emulate.radio import Radio
+from solepath.emulate.routes.route import Route
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.walker import Walker
+from solepath.events import LiveEvent
+from solepath.recording import PacketWriter, read_packets
+from solepath.types import Foot, Packet, Site
+
+ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
+
+
+def solepath(*arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
+    clean = {key: value for key, value in os.environ.items() if key != "SOLEPATH_DATA"}
+    return subprocess.run(
+        [sys.executable, "-m", "solepath", *map(str, arguments)],
+        capture_output=True,
+        stdin=subprocess.DEVNULL,
+        text=True,
+        env=clean | environment,
+        check=False,
+    )
+
+
+def in_this_process(*arguments: object) -> subprocess.CompletedProcess[str]:
+    """The same without a process of its own, for what fails before it computes anything."""
+    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
+        status = main([str(argument) for argument in arguments])
+    return subprocess.CompletedProcess(arguments, status, out.getvalue(), err.getvalue())
+
+
+def no_control_codes(text: str) -> bool:
+    return all(c.isprintable() or c == "\n" for c in text)
+
+
+def one_line(done: subprocess.CompletedProcess[str]) -> str:
+    """The one line on stderr of a command that failed with exit status 2."""
+    assert done.returncode == 2, done.stderr
+    line, end = done.stderr[:-1], done.stderr[-1:]
+    assert end == "\n" and "\n" not in line and line.startswith("solepath: ") and no_control_codes(line)
+    return line
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    return tmp_path_factory.mktemp("recordings")
+
+
+@pytest.fixture(scope="module")
+def packets(folder) -> Path:
+    """8 m in two insoles over a radio that loses some."""
+    walk = emulate(ROUTE, radio=Radio(loss=0.02, corrupt=0.01), seed=3)
+    with PacketWriter(folder / "walk.jsonl") as writer:
+        for packet in walk.packets:
+            writer.write(packet)
+    return folder / "walk.jsonl"
+
+
+def columns_of(walker: Walker, foot: Foot) -> dict[str, np.ndarray]:
+    samples = walker.samples(foot, 100.0)
+    return {key: np.array([getattr(s, key) for s in samples]) for key in ("t", "acc", "gyro")}
+
+
+@pytest.fixture(scope="module")
+def one_foot(folder) -> Path:
+    np.savez(folder / "one.npz", **columns_of(Walker(ROUTE, seed=3), Foot.LEFT))
+    return folder / "one.npz"
+
+
+def events_in(directory: Path) -> list[dict]:
+    def refuse(constant: str) -> None:
+        raise AssertionError(f"{constant} is not JSON")
+
+    lines = (directory / "events.jsonl").read_text().splitlines()
+    return [json.loads(line, parse_constant=refuse) for line in lines]
+
+
+def rows_in(path: Path) -> list[dict[str, str]]:
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+# --- track ------------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def tracked(packets, folder) -> tuple[subprocess.CompletedProcess[str], Path]:
+    out = folder / "made" / "on the way"
+    return solepath("track", packets, "--recipe", "default", "--out", out), out
+
+
+def test_track_sums_up_in_plain_text(tracked, packets):
+    done, out = tracked
+    assert done.returncode == 0 and done.stderr == ""
+    assert no_control_codes(done.stdout)
+    arrivals = [packet.t for packet in read_packets(packets)]
+    assert done.stdout.startswith(f"{packets.name}, recipe default: {arrivals[-1] - arrivals[0]:.1f} s\n")
+    assert "packets lost" in done.stdout and "rejected (" in done.stdout
+    assert f"written to {out}" in done.stdout
+
+
+def test_events_are_strict_json_with_their_times_and_feet(tracked):
+    _, out = tracked
+    events = events_in(out)
+    assert {"HeelStrike", "FootFlat", "HeelOff", "ToeOff", "StrideTaken", "PacketsLost"} <= {e["event"] for e in events}
+    for event in events:
+        assert list(event)[:4] == ["event", "t", "known_at", "final"]
+        assert event["known_at"] >= event["t"] and event["final"] in (True, False)
+        assert event.get("foot", "left") in ("left", "right")
+    assert {"FootMoved", "FootPressed", "WearerMoved"}.isdisjoint(event["event"] for event in events)
+
+
+def test_steps_and_track_are_tables_of_the_same_walk(tracked):
+    _, out = tracked
+    steps, track = rows_in(out / "strides.csv"), rows_in(out / "track.csv")
+    assert list(steps[0]) == [
+        "foot", "t_start_s", "t_end_s", "x_m", "y_m", "z_m", "stride_length_m", "heading_change_deg", "height_change_m",
+        "degraded",
+    ]  # fmt: skip
+    assert list(track[0]) == ["t_s", "foot", "x_m", "y_m", "z_m", "phase"]
+    taken = [event for event in events_in(out) if event["event"] == "StrideTaken"]
+    ends = [(row["foot"], float(row["t_end_s"])) for row in steps]
+    assert ends == [(event["foot"], event["t_end"]) for event in taken]
+    assert {row["phase"] for row in track} == {"LOADING", "STATIONARY", "PUSH_OFF", "SWING"}
+    for foot in ("left", "right"):
+        times = [float(row["t_s"]) for row in track if row["foot"] == foot]
+        assert times == sorted(times) and len(times) > 1000
+        walked = sum(float(row["stride_length_m"]) for row in steps if row["foot"] == foot)
+        assert walked == pytest.approx(8.0, rel=0.1)
+        last = [row for row in track if row["foot"] == foot][-1]
+        assert hypot(float(last["x_m"]), float(last["y_m"])) == pytest.approx(8.0, rel=0.1)
+
+
+@pytest.fixture(scope="module")
+def told(packets) -> list[Event]:
+    """What a session says of the same recording."""
+    session = Session(poses=True)
+    return session.feed(read_packets(packets)) + session.finish()
+
+
+def test_every_column_of_steps_is_what_the_session_said(tracked, told):
+    taken = [event for event in told if isinstance(event, StrideTaken)]
+    assert len(taken) > 8 and max(abs(step.heading_change) for step in taken) > 0.01
+    for row, step in zip(rows_in(tracked[1] / "strides.csv"), taken, strict=True):
+        assert row["foot"] == step.foot.value and row["degraded"] == str(int(step.degraded))
+        assert (float(row["t_start_s"]), float(row["t_end_s"])) == (step.t_start, step.t_end)
+        x, y, z = step.position
+        lengths = {"x_m": x, "y_m": y, "z_m": z, "stride_length_m": step.length, "height_change_m": step.height_change}
+        for column, value in (lengths | {"heading_change_deg": degrees(step.heading_change)}).items():
+            assert float(row[column]) == pytest.approx(value, abs=1e-6), column
+    assert any(step.degraded for step in taken)
+
+
+def test_events_of_the_link_name_the_foot_too(tracked, told):
+    events = events_in(tracked[1])
+    assert [e["event"] for e in events] == [type(e).__name__ for e in told if not isinstance(e, LiveEvent)]
+    of_sites = [event for event in events if event.get("site") is not None]
+    assert {"PacketsLost", "PacketRejected"} <= {event["event"] for event in of_sites}
+    for event in of_sites:
+        assert event["site"] == f"{event['foot']}_foot"
+
+
+def test_events_of_what_is_no_foot_name_none():
+    lost = PacketsLost(t=1.0, known_at=1.0, site=Site.PELVIS, channel="insole/frame", count=2)
+    assert "foot" not in lost.to_dict() and lost.to_dict()["site"] == "pelvis"
+
+
+def test_a_recording_of_one_foot_is_of_the_foot_that_is_named(one_foot, tmp_path):
+    for arguments, foot in (((), "right"), (("--foot", "left"), "left")):
+        done = solepath("track", one_foot, *arguments, "--out", tmp_path)
+        assert done.returncode == 0
+        assert {row["foot"] for row in rows_in(tmp_path / "track.csv")} == {foot}
+        # nothing is missing of these samples; of the packets above something is in every step
+        assert {(row["foot"], row["degraded"]) for row in rows_in(tmp_path / "strides.csv")} == {(foot, "0")}
+
+
+def test_the_times_written_are_the_recordings_own(one_foot, tmp_path):
+    with np.load(one_foot) as archive:
+        later = {key: archive[key] for key in archive.files}
+    later["t"] = later["t"] + 1.7e9 + 1 / 3
+    np.savez(tmp_path / "later.npz", **later)
+    assert solepath("track", tmp_path / "later.npz", "--out", tmp_path).returncode == 0
+    times = [float(row["t_s"]) for row in rows_in(tmp_path / "track.csv")]
+    assert times[0] >= later["t"][0] and times[-1] == later["t"][-1]
+    assert set(times) <= set(later["t"].tolist())
+
+
+def test_a_recording_cut_in_the_middle_of_a_line_says_so_and_loses_nothing_before(packets, tracked, tmp_path):
+    cut = tmp_path / "cut.jsonl"
+    cut.write_bytes(packets.read_bytes()[:-40])
+    done = solepath("track", cut, "--out", tmp_path)
+    assert done.returncode == 0
+    lines = packets.read_bytes().count(b"\n")
+    assert done.stderr == f"solepath: {cut}: line {lines}: cut off in the middle; everything before it is used\n"
+    assert len(rows_in(tmp_path / "strides.csv")) == len(rows_in(tracked[1] / "strides.csv"))
+
+
+def test_a_bad_row_ends_the_walk_there_and_what_came_before_is_written(one_foot, tmp_path):
+    with np.load(one_foot) as archive:
+        columns = {key: archive[key] for key in archive.files}
+    columns["acc"][700, 1] = np.nan
+    np.savez(tmp_path / "bad.npz", **columns)
+    done = solepath("track", tmp_path / "bad.npz", "--out", tmp_path)
+    assert one_line(done).endswith("bad.npz: acc, row 700: is nan, not a finite number (t = 7 s)")
+    assert "recipe default: 7.0 s" in done.stdout
+    assert [float(row["t_s"]) for row in rows_in(tmp_path / "track.csv")][-1] == columns["t"][699]
+    assert rows_in(tmp_path / "strides.csv")
+
+
+def test_a_line_that_is_not_json_ends_the_walk_there(packets, tmp_path):
+    lines = packets.read_bytes().splitlines(keepends=True)
+    half = len(lines) // 2
+    (tmp_path / "bad.jsonl").write_bytes(b"".join([*lines[:half], b"\x1b[31moh no\n", *lines[half:]]))
+    done = solepath("track", tmp_path / "bad.jsonl", "--out", tmp_path)
+    assert one_line(done).endswith(f"bad.jsonl: line {half + 1}: is not JSON")
+    assert rows_in(tmp_path / "track.csv")
+
+
+BAD_FILES = {
+    "walk.jsonl": (b"", "is empty"),
+    "walk.npz": (b"", "is empty"),
+    "walk.csv": (b"", "is empty"),
+    "noise.npz": (bytes(range(256)), "is not an .npz archive"),
+    "words.jsonl": (b"once upon a time\n", "line 1: is not JSON"),
+    "other.jsonl": (b'{"t": 1.0}\n', "line 1: is not the header of a recording"),
+    "newer.jsonl": (b'{"format": "solepath-packets", "version": 2}\n', "is of version 2"),
+    "keys.csv": (b"t,x,y,z\n0,0,0,9.8\n", "line 1: names no column acc_x or pressure_0"),
+    "tabs.csv": (b"t\tacc_x\tacc_y\tacc_z\n0\t0\t0\t9.8\n", "its columns are not separated by commas"),
+    "nameless.csv": (b"0,0,0,9.8\n0.01,0,0,9.8\n", "is the line with the names missing?"),
+    "sheet.xlsx": (b"PK\x03\x04\n", "samples have names that end in .npz or .csv"),
+    "scale.csv": (b"t,acc_x,acc_y,acc_z\n0.00,0,0,1.0\n0.01,0,0,1.0\n", "this looks like g"),
+}
+
+
+@pytest.mark.parametrize("name", BAD_FILES)
+def test_a_file_that_cannot_be_used_gets_one_line_and_status_2_and_replaces_nothing(tmp_path, name):
+    (tmp_path / name).write_bytes(BAD_FILES[name][0])
+    (tmp_path / "strides.csv").write_text("of an earlier run\n")
+    done = in_this_process("track", tmp_path / name, "--out", tmp_path)
+    assert BAD_FILES[name][1] in one_line(done) and name in done.stderr and done.stdout == ""
+    assert {path.name for path in tmp_path.iterdir()} == {name, "strides.csv"}
+    assert (tmp_path / "strides.csv").read_text() == "of an earlier run\n"
+
+
+def test_a_header_alone_is_a_whole_recording_of_nothing(tmp_path):
+    (tmp_path / "nothing.jsonl").write_text('{"format": "solepath-packets", "version": 1}\n')
+    done = in_this_process("track", tmp_path / "nothing.jsonl", "--out", tmp_path)
+    assert done.returncode == 0 and done.stderr.endswith("nothing.jsonl: holds no packets\n")
+    assert "nothing was heard of either foot" in done.stdout
+    assert events_in(tmp_path) == rows_in(tmp_path / "track.csv") == rows_in(tmp_path / "strides.csv") == []
+
+
+def test_packets_of_the_other_foot_only_are_an_error(tmp_path):
+    with PacketWriter(tmp_path / "left.jsonl") as writer:
+        writer.write(Packet(1.0, Site.LEFT_FOOT, "device/battery", b"\x63"))
+    done = in_this_process("track", tmp_path / "left.jsonl", "--foot", "right", "--out", tmp_path / "out")
+    assert one_line(done).endswith("left.jsonl: holds no packets of the right foot")
+    assert not (tmp_path / "out").exists()
+
+
+def test_what_is_not_there_gets_one_line_and_status_2(tmp_path, packets):
+    assert "no such file or directory" in one_line(in_this_process("track", tmp_path / "none.npz"))
+    assert "is a directory" in one_line(in_this_process("track", tmp_path))
+    unknown = in_this_process("track", packets, "--recipe", "secret")
+    assert "there is no recipe 'secret'; there are: default" in one_line(unknown)
+    assert "File exists" in one_line(in_this_process("track", packets, "--out", packets))
+
+
+def test_a_reader_that_leaves_early_is_no_error(packets):
+    with subprocess.Popen(
+        [sys.executable, "-m", "solepath", "track", str(packets)], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        assert process.stdout is not None and process.stderr is not None
+        process.stdout.close()
+        assert process.stderr.read() == b""

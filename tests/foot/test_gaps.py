@@ -1,0 +1,254 @@
+"""What fills a gap: the habit of whole strides, a straight line before there is one, never more than can be."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import pairwise
+from math import hypot, radians
+from random import Random
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from walks import of
+
+from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Sample, Session, StrideTaken, ToeOff
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.truth import TrueStep
+from solepath.emulate.wearers.walker import Walker
+from solepath.foot.gaps.gap import NoLeap, leap
+from solepath.foot.gaps.moment import corrected, moments
+from solepath.foot.gaps.template import Habit
+from solepath.foot.navigate.error_state import ErrorStateFilter
+from solepath.foot.tracker import FootTracker
+from solepath.saving import codec as machine
+from solepath.types import Quat, Vec3
+from solepath.types.vector import GRAVITY, IDENTITY, ZERO
+
+PHASES = HeelStrike | FootFlat | HeelOff | ToeOff
+
+
+STRAIGHT = Route().stand(2.0).walk(12.0, 1.3).stop(2.0)
+
+
+@cache
+def walked(route: Route = STRAIGHT, seed: int = 5) -> tuple[tuple[Sample, ...], tuple[TrueStep, ...]]:
+    """The left foot at 100 Hz without cells, and its true steps."""
+    walker = Walker(route, seed=seed)
+    return tuple(walker.samples(Foot.LEFT, 100.0, LSM6DSOX)), walker.truth().steps(Foot.LEFT)
+
+
+def without(samples: tuple[Sample, ...], *gaps: tuple[float, float]) -> list[Sample]:
+    """What is left of them after gaps from one time to another, s."""
+    return [sample for sample in samples if not any(a < sample.t < b for a, b in gaps)]
+
+
+def heard(samples: list[Sample] | tuple[Sample, ...]) -> tuple[list[Event], Session]:
+    session = Session()
+    return session.feed(samples), session
+
+
+# --- before anything is known -----------------------------------------------------------------------------------------
+
+
+def test_before_any_whole_stride_a_moving_foot_leaves_nothing_to_go_by_and_a_still_one_has_stood() -> None:
+    habit, at_rest = Habit(), ErrorStateFilter()
+    at_rest.start(IDENTITY, 0.02)
+    up: Vec3 = (0.0, 0.0, GRAVITY)
+    assert leap(habit, at_rest, 1.0, 1.2, up, ZERO) is NoLeap.STOOD
+    assert leap(habit, at_rest, 1.0, 1.2, up, (0.0, 4.0, 0.0)) is NoLeap.UNKNOWN
+    habit.lift(0.9)
+    assert leap(habit, at_rest, 1.0, 1.2, up, ZERO) is NoLeap.UNKNOWN
+
+
+def test_a_gap_in_the_first_stride_is_bridged_by_a_straight_line() -> None:
+    samples, steps = walked()
+    a = steps[0].t_toe_off + 0.1
+    tracker = FootTracker(Foot.LEFT, Session().recipe.detector, ErrorStateFilter())
+    before = [sample for sample in samples if sample.t <= a]
+    after = next(sample for sample in samples if sample.t >= a + 0.1)
+    for sample in before:
+        tracker.feed(sample)
+    by_line = machine.load(ErrorStateFilter, machine.save(tracker.corrector))
+    dt = after.t - before[-1].t
+    assert by_line.bridge(dt) == dt
+    acc, gyro = after.acc, after.gyro
+    assert acc is not None and gyro is not None
+    x, y, z = acc
+    bx, by, bz = tracker.rest.bias
+    k = tracker.rest.scale
+    by_line.predict(dt, (x * k, y * k, z * k), (gyro[0] - bx, gyro[1] - by, gyro[2] - bz))
+    tracker.feed(after)
+    assert tracker.gait.habit.last is None
+    assert tracker.corrector.position == by_line.position
+    assert tracker.corrector.attitude == by_line.attitude
+
+
+def test_a_stride_is_remembered_as_it_was_wherever_on_earth_it_was() -> None:
+    habit, far = Habit(), 1e7
+    habit.lift(1e9)
+    for k in range(8):
+        t = 0.032 * k
+        velocity, position = (1.0, 0.1 * k, 0.0), (far + t, -far, 0.0)
+        habit.keep(1e9 + t, IDENTITY, velocity, position, (0.0, 3.0, 4.0), (0.0, -5.0, 0.25))
+    rows = moments(habit.now)
+    assert [one.since for one in rows] == pytest.approx([0.032 * k for k in range(8)], abs=1e-6)
+    assert rows[7].velocity == pytest.approx((1.0, 0.7, 0.0))
+    assert rows[7].position == pytest.approx((0.224, 0.0, 0.0), abs=1e-7)
+    assert rows[7].rate == (0.0, -5.0, 0.25) and rows[7].force == 5.0 and rows[7].attitude == IDENTITY
+    assert corrected(habit.now) == pytest.approx(0.35 * 0.224, abs=1e-6)  # it went so far to the left, and is not there
+    habit.keep(1e9 + 1.0, IDENTITY, (1e300, 0.0, 0.0), (far, far, 0.0), (0.0, 3.0, 4.0), ZERO)
+    assert habit.now == [] and habit.lifted is None
+
+
+def test_a_toe_off_or_heel_strike_at_one_of_the_moments_that_are_remembered_is_at_that_moment() -> None:
+    """At 10 samples a second they often are, and rounding must not decide whether a gap has hidden them."""
+    for start in range(100):
+        habit, lifted = Habit(), 0.1 * start
+        habit.lift(lifted)
+        times = [lifted + 0.1 * k for k in range(10)]
+        for t in times:
+            habit.keep(t, IDENTITY, ZERO, ZERO, (0.0, 0.0, GRAVITY), ZERO)
+        habit.flat(lifted + 1.0, times[2], times[7], 0.0, ZERO, 0.1)
+        assert habit.last is not None
+        kept = moments(habit.last.rows)
+        assert (kept[2].since, kept[7].since) == (habit.last.toe_off, habit.last.heel_strike)
+
+
+def test_a_stride_with_a_gap_or_round_a_corner_is_not_the_habit() -> None:
+    pose: tuple[Quat, Vec3, Vec3] = (IDENTITY, ZERO, ZERO)
+    up: Vec3 = (0.0, 0.0, GRAVITY)
+
+    def stride(habit: Habit, t: float, turn: float, duration: float = 0.7, unseen: float = 0.0) -> None:
+        habit.lift(t)
+        for k in range(int(duration / 0.01)):
+            if t + 0.01 * k >= habit.due:
+                habit.keep(t + 0.01 * k, *pose, up, ZERO)
+        if unseen:
+            habit.guess(t, unseen)
+        habit.flat(t + duration, t + 0.2, t + 0.6, turn, (1.3, 0.0, 0.0), 0.01)
+
+    habit = Habit()
+    stride(habit, 1.0, 0.0)
+    kept = habit.last
+    assert kept is not None and kept.lasted < 0.7
+    assert (kept.toe_off, kept.heel_strike) == pytest.approx((0.2, 0.6))
+    stride(habit, 2.0, 0.0, unseen=0.2)
+    assert habit.last is kept
+    stride(habit, 3.0, 0.5)
+    assert habit.last is kept
+    for k in range(habit.old):
+        stride(habit, 4.0 + k, 0.5)
+    assert habit.last is not kept  # who does nothing but turn has turning for a habit
+    stride(habit, 40.0, 0.0, duration=3.0)  # too slow to be kept whole, and memory is bounded
+    assert len(habit.now) <= habit.most
+
+
+# --- what is possible -------------------------------------------------------------------------------------------------
+
+
+def test_a_stride_that_zero_velocity_had_to_put_right_is_not_the_habit() -> None:
+    habit, up = Habit(), (0.0, 0.0, GRAVITY)
+
+    def stride(t: float, speed: float) -> None:
+        habit.lift(t)
+        for k in range(20):
+            habit.keep(t + 0.035 * k, IDENTITY, (speed, 0.0, 0.0), (2.0 * 0.035 * k, 0.0, 0.0), up, ZERO)
+        habit.flat(t + 0.7, t + 0.2, t + 0.6, 0.0, (1.33, 0.0, 0.0), 0.01)
+
+    stride(1.0, -5.0)
+    assert habit.last is None
+    stride(2.0, 2.0)
+    assert habit.last is not None
+
+
+@pytest.mark.parametrize("way", [(3.3, 0.0, 0.0), (1.3, 0.0, 1.18), (1.3, 0.5, -1.18), (-40.0, 9.0, 7.0)])
+@pytest.mark.parametrize("filled", [True, False])
+def test_a_stride_with_a_gap_goes_hardly_further_than_those_before_and_no_higher_than_two_stairs(
+    way: Vec3, filled: bool
+) -> None:
+    habit, up = Habit(), (0.0, 0.0, GRAVITY)
+    for n in range(2):
+        habit.lift(1.2 * n + 0.4)
+        for k in range(20):
+            habit.keep(habit.due, IDENTITY, (2.0, 0.0, 0.0), (2.0 * 0.032 * k, 0.0, 0.0), up, ZERO)
+        t = 1.2 * (n + 1)
+        habit.flat(t, t - 0.5, t - 0.1, 0.0, (1.3, 0.0, 0.0), 0.01)
+    assert habit.last is not None
+    habit.lift(2.8)
+    if filled:
+        habit.guess(2.8, 0.3)
+    else:
+        habit.cross()
+    mended = habit.flat(3.6, 3.1, 3.5, 0.0, way, 0.01)
+    assert mended is not None
+    assert hypot(mended.way[0], mended.way[1]) <= 1.25 * 1.3 * 1.2
+    assert abs(mended.way[2]) <= 0.5
+
+
+@pytest.mark.parametrize("duration", [0.15, 0.3, 0.6, 1.2, 2.0])
+def test_in_a_gap_no_foot_goes_faster_than_feet_go_and_a_long_one_is_not_filled(duration: float) -> None:
+    samples, steps = walked()
+    tracker = FootTracker(Foot.LEFT, Session().recipe.detector, ErrorStateFilter())
+    a = steps[4].t_toe_off + 0.1
+    before = [sample for sample in samples if sample.t <= a]
+    for sample in before:
+        tracker.feed(sample)
+    after = next(sample for sample in samples if sample.t >= a + duration)
+    assert after.acc is not None and after.gyro is not None
+    for speed in (3.0, 60.0):
+        x, y, z = tracker.corrector.position
+        tracker.corrector.velocity = (speed, 0.0, -speed)
+        dt = after.t - before[-1].t
+        found = leap(tracker.gait.habit, tracker.corrector, before[-1].t, after.t, after.acc, after.gyro)
+        assert (duration > 1.5) == (found is NoLeap.UNKNOWN) or speed == 60.0
+        if not isinstance(found, NoLeap):
+            u, v, w = found.position
+            assert hypot(u - x, v - y, w - z) <= 4.0 * dt + 1e-9
+            assert hypot(*found.velocity) < 9.0
+
+
+@pytest.mark.parametrize("rate", [20.0, 100.0])
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_however_many_gaps_there_are_no_stride_is_longer_or_higher_than_a_stride_can_be(rate: float, seed: int) -> None:
+    walker = Walker(Route().stand(2.0).walk(30.0).turn(radians(178), radius=1.0).walk(30.0).stop(1.0))
+    random, holes, t = Random(seed), list[tuple[float, float]](), 8.0
+    while t < 50.0:
+        holes.append((t, t + random.choice([0.1, 0.2, 0.4, 0.7, 1.0])))
+        t += random.uniform(0.3, 4.0)
+    told, _ = heard(without(tuple(walker.samples(Foot.LEFT, rate)), *holes))
+    longest = max(step.length for step in walker.truth().steps(Foot.LEFT))
+    for step in of(StrideTaken, told):
+        if step.degraded:
+            assert step.length < 2.5 * longest
+            assert abs(step.height_change) < 0.85
+
+
+# --- contracts --------------------------------------------------------------------------------------------------------
+
+
+holes = st.lists(st.tuples(st.floats(1.0, 13.0), st.floats(0.02, 1.5)), min_size=1, max_size=8)
+
+
+@given(holes=holes)
+@settings(max_examples=25, deadline=None)
+def test_whatever_the_gaps_phases_follow_each_other_in_time_and_none_is_known_before_it_was(
+    holes: list[tuple[float, float]],
+) -> None:
+    samples, _ = walked()
+    left = without(samples, *((a, a + duration) for a, duration in holes))
+    session = Session()
+    told: list[Event] = []
+    for sample in left:
+        new = session.feed(sample)
+        assert all(event.known_at >= event.t and event.known_at >= sample.t for event in new)
+        told += new
+    phases = of(PHASES, told)
+    assert all(a.t <= b.t for a, b in pairwise(phases))
+    assert all(type(a) is not type(b) for a, b in pairwise(phases))
+    taken = of(StrideTaken, told)
+    assert all(a.t_end <= b.t_start for a, b in pairwise(taken))
+    for step in taken:
+        assert step.t_start <= step.t_toe_off <= step.t_end
+        assert step.t_heel_strike is None or step.t_toe_off <= step.t_heel_strike <= step.t_end

@@ -1,0 +1,81 @@
+"""Commands that serve the page as programs of their own, and who watches it as a browser does."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import re
+import subprocess
+import sys
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
+from contextlib import asynccontextmanager, contextmanager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import aiohttp
+
+TAKES = 30.0
+"""s that a program may take to say or do something before the test gives up."""
+ANYWHERE = ("--view", "127.0.0.1:0")
+
+
+@contextmanager
+def started(*arguments: object, code: str = "", **options: Any) -> Iterator[subprocess.Popen[str]]:
+    """A command as a program of its own, until the test is through with it."""
+    program = f"{code}from solepath.cli import main; raise SystemExit(main({[str(one) for one in arguments]!r}))"
+    piped = dict.fromkeys(("stdout", "stderr"), subprocess.PIPE) | {"stdin": subprocess.DEVNULL}
+    process = subprocess.Popen([sys.executable, "-c", program], text=True, **(piped | options))
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def address(process: subprocess.Popen[str]) -> str:
+    """Of the page, as the command says it."""
+    assert process.stdout is not None
+    for line in process.stdout:
+        if found := re.search(r"the page: (http://\S+#token=\S+)$", line):
+            return found[1]
+    raise AssertionError("no page was served")
+
+
+class Watcher:
+    """What a browser knows of a page, and asks for."""
+
+    def __init__(self, socket: aiohttp.ClientWebSocketResponse) -> None:
+        self.socket = socket
+        self.scene: dict[str, Any] = {}
+        self.frame: dict[str, Any] = {}
+        self.scenes = 0
+
+    async def until(self, holds: Callable[[dict[str, Any]], bool]) -> None:
+        """Until that holds of the frame as it is now."""
+        async with asyncio.timeout(TAKES):
+            while not self.scene or not holds(self.frame):
+                message = json.loads(await self.socket.receive_str())
+                if message["type"] == "scene":
+                    self.scene, self.frame, self.scenes = message, message["frame"], self.scenes + 1
+                else:
+                    self.frame |= message
+
+    async def ask(self, do: str, *value: float) -> None:
+        await self.socket.send_str(json.dumps({"do": do} | ({"value": value[0]} if value else {})))
+
+
+@asynccontextmanager
+async def watching(url: str) -> AsyncIterator[Watcher]:
+    import aiohttp
+
+    page, _, token = url.partition("/#token=")
+    async with aiohttp.ClientSession() as client, client.ws_connect(f"{page}/ws?token={token}") as socket:
+        yield Watcher(socket)
+
+
+def watch(url: str, what: Callable[[Watcher], Awaitable[None]]) -> None:
+    async def main() -> None:
+        async with watching(url) as watcher:
+            await what(watcher)
+
+    asyncio.run(main())

@@ -1,0 +1,86 @@
+"""How large things may be: files, folders, names at the top; and each class has a name of its own."""
+
+from __future__ import annotations
+
+import ast
+from collections import Counter
+from pathlib import Path
+
+from here import ROOT, TESTS
+
+SRC = ROOT / "src" / "solepath"
+LINES, FILES, NAMES = 300, 14, 20
+"""Lines of a file, Python files of a folder, names at the top of src/solepath: at the most."""
+
+LONGER = {
+    "src/solepath/body/activity/features.py": 319,
+    "src/solepath/body/fuse/both_feet.py": 304,
+    "src/solepath/calibration/calibration.py": 326,
+    "src/solepath/cli/calibrate.py": 313,
+    "src/solepath/emulate/controllers/central.py": 307,
+    "src/solepath/emulate/devices/peripheral.py": 312,
+    "src/solepath/emulate/wearers/limbs.py": 305,
+    "src/solepath/foot/navigate/covariance.py": 407,
+    "src/solepath/foot/navigate/error_state.py": 331,
+    "src/solepath/foot/tracker.py": 333,
+    "src/solepath/lab/train/activities.py": 302,
+    "src/solepath/link/stream.py": 307,
+    "src/solepath/papers/footstep_tracker/activity/two_second_windows.py": 309,
+    "src/solepath/papers/walking_modes/modes.py": 317,
+    "src/solepath/recording/packets.py": 316,
+    "src/solepath/session/session.py": 347,
+    "src/solepath/show/page/scene/scene.py": 329,
+    "tests/cli/test_cli_view.py": 304,
+    "tests/link/test_decoder.py": 628,
+    "tests/link/test_stream.py": 443,
+    "tests/page/test_browser.py": 344,
+    "tests/page/test_player.py": 305,
+    "tests/page/test_scene.py": 572,
+    "tests/page/test_server.py": 728,
+    "tests/report/test_report.py": 327,
+    "tests/wire/test_any_bytes.py": 317,
+}
+"""Files that are longer today, with their lines: a number may only fall, and goes when the file is below 300."""
+FULLER = {"src/solepath/ble": 15}
+"""Folders with more files today."""
+SHARED = {"Access", "FootWindow"}
+"""Names that two classes have today."""
+
+
+def lines(path: Path) -> int:
+    return len(path.read_text(encoding="utf-8").splitlines())
+
+
+def python(folder: Path) -> list[Path]:
+    return [path for path in sorted(folder.rglob("*.py")) if "__pycache__" not in path.parts]
+
+
+def test_no_file_is_longer_than_300_lines_but_for_those_that_shrink() -> None:
+    found = {path.relative_to(ROOT).as_posix(): lines(path) for top in (SRC, TESTS) for path in python(top)}
+    grown = {name: count for name, count in found.items() if count > LONGER.get(name, LINES)}
+    assert grown == {}, "split them by subject"
+    assert [name for name in LONGER if found.get(name, 0) <= LINES] == [], "these need no number any more"
+
+
+def test_no_folder_holds_more_than_14_python_files() -> None:
+    files = [path for top in (SRC, TESTS) for path in python(top) if path.name != "__init__.py"]
+    folders = Counter(path.parent.relative_to(ROOT).as_posix() for path in files)
+    assert {name: count for name, count in folders.items() if count > FULLER.get(name, FILES)} == {}, (
+        "this is two rooms"
+    )
+
+
+def test_there_are_at_most_20_names_at_the_top() -> None:
+    beside = {"__init__", "__main__", "__pycache__", "py"}
+    names = {path.stem for path in SRC.iterdir() if path.is_dir() or path.suffix == ".py"} - beside
+    assert len(names) <= NAMES, sorted(names)
+
+
+def test_no_class_has_the_name_of_another() -> None:
+    named = Counter(
+        node.name
+        for path in python(SRC)
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ClassDef)
+    )
+    assert {name for name, count in named.items() if count > 1} <= SHARED

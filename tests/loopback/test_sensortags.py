@@ -1,0 +1,180 @@
+"""Emulated SensorTags obey every write that their protocols know: ranges, axes, periods, batteries, keys."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from benches import ROUTE, begin, played, refusal, set_up, worn
+
+from solepath.emulate.devices.peripheral import Peripheral
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.device import Device
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2541, CC2650
+from solepath.link.devices import cc2541, cc2650
+from solepath.link.profile import Access
+from solepath.wire.fields import parse_whole
+
+# the CC2650
+
+
+def said(channel: str, value: bytes) -> Any:
+    return parse_whole({**cc2650.FORMATS, **cc2541.FORMATS}[channel], value)
+
+
+def movements(tag: Peripheral, until: float) -> list[tuple[float, Any]]:
+    return [(t, said("cc2650/movement", o.value)) for t, o in played(tag, until, "cc2650/movement")]
+
+
+def configured(config: bytes, device: CC2650 | None = None, route: Route = ROUTE) -> Peripheral:
+    tag = begin(worn(device or CC2650(), route=route), "cc2650/movement")
+    tag.write("cc2650/movement-period", b"\x0a", 0.0)
+    tag.write("cc2650/movement-config", config, 0.0)
+    return tag
+
+
+@pytest.mark.parametrize(("bit", "sensor", "axis"), [
+    (0, "gyro", 2), (1, "gyro", 1), (2, "gyro", 0), (3, "acc", 2), (4, "acc", 1), (5, "acc", 0),
+])  # fmt: skip
+def test_an_axis_that_is_off_reads_zero(bit: int, sensor: str, axis: int) -> None:
+    for _, movement in movements(configured((0x027F & ~(1 << bit)).to_bytes(2, "little")), 8.0):
+        assert getattr(movement, sensor)[axis] == 0
+    alone = movements(configured((0x0200 | 1 << bit).to_bytes(2, "little")), 8.0)
+    assert any(getattr(movement, sensor)[axis] for _, movement in alone)
+    assert not any(movement.mag != (0, 0, 0) for _, movement in alone)
+
+
+def test_the_magnetometer_is_switched_as_a_whole() -> None:
+    assert all(m.mag == (0, 0, 0) for _, m in movements(configured(b"\x3f\x02"), 4.0))
+    assert all(0 not in m.mag and m.acc == (0, 0, 0) for _, m in movements(configured(b"\x40\x02"), 4.0))
+
+
+@pytest.mark.parametrize("config", [b"\x00\x00", b"\x00\x02", b"\x00\x7f", b"\x80\x02"])
+def test_without_any_axis_the_tag_is_silent(config: bytes) -> None:
+    tag = configured(config)
+    assert tag.next_due() is None
+    assert tag.read("cc2650/movement", 1.0) == bytes(18)
+    assert tag.read("cc2650/movement-config", 1.0) == config
+
+
+@pytest.mark.parametrize(
+    ("rate", "written", "taken"),
+    [(10.0, 0x0A, 10), (10.0, 0x05, 10), (10.0, 0x00, 10), (10.0, 0x64, 100), (10.0, 0xFF, 255), (50.0, 0x02, 2)],
+)
+def test_a_period_is_kept_and_one_below_the_firmwares_is_raised(rate: float, written: int, taken: int) -> None:
+    tag = configured(b"\x7f\x02", CC2650(rate=rate, ppm=0.0))
+    tag.write("cc2650/movement-period", bytes([written]), 0.0)
+    assert tag.read("cc2650/movement-period", 0.0) == bytes([taken])
+    times = [t for t, _ in movements(tag, 11.0)]
+    for one, following in zip(times, times[1:], strict=False):
+        assert following - one == pytest.approx(0.01 * taken)
+    assert len(times) == pytest.approx(1100 / taken, abs=1.0)
+
+
+def test_with_wake_on_motion_the_tag_is_silent_until_it_moves_and_ten_seconds_after() -> None:
+    tag = configured(b"\xff\x02", route=Route().stand(8.0).walk(8.0, 1.2).stop(30.0))
+    times = [t for t, _ in movements(tag, 60.0)]
+    assert 7.5 < times[0] < 9.5
+    assert 24.0 < times[-1] < 28.5
+    assert all(b - a < 0.11 for a, b in zip(times, times[1:], strict=False))
+
+
+REFUSED: dict[Device, list[tuple[str, bytes, int]]] = {
+    Insole(): [
+        ("insole/control", b"", 0x81),
+        ("insole/control", b"\x00", 0x80),
+        ("insole/control", b"\x01\x00", 0x81),
+        ("insole/control", b"\x03\x00\x00", 0x81),
+        ("insole/control", b"\x04\x01\x00\x05", 0x82),
+    ],
+    CC2650(): [
+        ("cc2650/movement-config", b"\x7f", 0x0D),
+        ("cc2650/movement-period", b"\x0a\x00", 0x0D),
+        ("cc2650/barometer-config", b"\x02", 0x80),
+    ],
+    CC2541(): [
+        ("cc2541/accelerometer-config", b"\x04", 0x80),
+        ("cc2541/gyroscope-config", b"\x08", 0x80),
+        ("cc2541/barometer-config", b"", 0x0D),
+        ("cc2541/gyroscope-period", b"\x0a\x0a", 0x0D),
+        ("cc2541/barometer-calibration", b"\x00", 0x03),
+    ],
+}
+
+
+@pytest.mark.parametrize("device", REFUSED, ids=lambda device: type(device).__name__)
+def test_values_of_wrong_length_or_meaning_are_refused_with_the_codes_of_the_device(device: Device) -> None:
+    tag = begin(worn(device))
+    for channel, value, code in REFUSED[device]:
+        assert refusal(tag, channel, value) == code, (channel, value)
+
+
+def test_the_barometer_says_the_air_pressure_at_its_own_period() -> None:
+    tag = begin(worn(CC2650()), "cc2650/barometer")
+    tag.write("cc2650/barometer-period", b"\x14", 0.0)
+    assert tag.next_due() is None
+    tag.write("cc2650/barometer-config", b"\x01", 0.0)
+    heard = [said("cc2650/barometer", o.value) for _, o in played(tag, 8.0)]
+    assert len(heard) == pytest.approx(40, abs=3)
+    assert all(one.pressure == pytest.approx(101325.0, abs=300.0) for one in heard)
+
+
+def test_keys_are_told_when_they_go_down_and_when_they_come_up() -> None:
+    presses = (4.0, 1.0)
+    for device, keys in ((CC2650(presses=presses), "cc2650/keys"), (CC2541(presses=presses), "cc2541/keys")):
+        heard = played(begin(worn(device), keys), 10.0)
+        expected = [(1.0, True), (1.25, False), (4.0, True), (4.25, False)]
+        assert [(round(t, 3), said(keys, o.value).left) for t, o in heard] == expected
+        assert not played(begin(worn(device), keys, now=5.0), 10.0), "what is over is not told later"
+
+
+@pytest.mark.parametrize(("device", "full"), [(Insole(), 87), (CC2650(), 91)])
+def test_a_battery_empties_and_says_so(device: Device, full: int) -> None:
+    tag = begin(worn(device), "device/battery")
+    assert tag.read("device/battery", 0.0) == bytes([full])
+    heard = played(tag, 1900.0)
+    assert [(round(t), o.value[0]) for t, o in heard] == [(600, full - 1), (1200, full - 2), (1800, full - 3)]
+    assert tag.read("device/battery", 1900.0) == bytes([full - 3])
+
+
+def test_a_disconnected_tag_forgets_what_was_written() -> None:
+    tag = set_up(worn(CC2650()), cc2650.PROFILE)
+    tag.disconnected(3.0)
+    begin(tag, "cc2650/movement", now=4.0)
+    assert tag.read("cc2650/movement-config", 4.0) == b"\x00\x00"
+    assert tag.read("cc2650/movement-period", 4.0) == b"\x64"
+    assert tag.next_due() is None
+
+
+# the CC2541
+
+
+def test_each_sensor_has_a_period_of_its_own() -> None:
+    tag = begin(worn(CC2541()), *(c.name for c in cc2541.PROFILE.channels if c.how is Access.NOTIFY))
+    tag.write("cc2541/accelerometer-period", b"\x05", 0.0)
+    tag.write("cc2541/gyroscope-period", b"\x14", 0.0)
+    for sensor, on in (("accelerometer", 3), ("gyroscope", 7), ("magnetometer", 1), ("barometer", 1)):
+        tag.write(f"cc2541/{sensor}-config", bytes([on]), 0.0)
+    played(tag, 10.0)
+    assert tag.sent["cc2541/accelerometer"] == pytest.approx(100, abs=2), "stock firmware takes 100 ms at the least"
+    assert tag.sent["cc2541/gyroscope"] == pytest.approx(50, abs=1)
+    assert tag.sent["cc2541/magnetometer"] == pytest.approx(5, abs=1)
+    assert tag.sent["cc2541/barometer"] == pytest.approx(10, abs=1)
+
+
+def test_coefficients_can_be_read_after_they_were_fetched_and_not_before() -> None:
+    tag = begin(worn(CC2541()), "cc2541/barometer")
+    assert refusal(tag, "cc2541/barometer-calibration") == 0x02
+    tag.write("cc2541/barometer-config", b"\x02", 0.0)
+    assert not played(tag, 3.0), "fetching does not switch it on"
+    read = said("cc2541/barometer-calibration", tag.read("cc2541/barometer-calibration", 3.0) or b"")
+    calibration = cc2541.BarometerCalibration(*[read[f"c{n}"] for n in range(1, 9)])
+    tag.write("cc2541/barometer-config", b"\x01", 3.0)
+    raw = [said("cc2541/barometer", o.value) for _, o in played(tag, 8.0)]
+    heard = [calibration.pascal(one.temperature, one.pressure) for one in raw]
+    assert len(heard) in (4, 5, 6)
+    assert heard == pytest.approx([101325.0] * len(heard), abs=300.0)
+    tag.disconnected(8.0)
+    tag.connected(9.0, 23)
+    assert refusal(tag, "cc2541/barometer-calibration", now=9.0) == 0x02

@@ -1,0 +1,173 @@
+"""btsnoop logs that are torn, damaged or of anything: what is left of them, and one sentence about the rest."""
+
+from __future__ import annotations
+
+import struct
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from snooped import (
+    BEGAN,
+    FRAME,
+    TAG,
+    Log,
+    begin,
+    data_of,
+    frames,
+    info,
+    read,
+)
+
+from solepath import Packet, Session
+from solepath.recording import RecordingError
+from solepath.recording.btsnoop import is_btsnoop, open_btsnoop
+from solepath.recording.btsnoop.att import Op
+
+# --- what is missing or wrong -----------------------------------------------------------------------------------------
+
+
+def test_pieces_that_were_not_logged_cost_their_packet_and_are_counted(tmp_path):
+    log = begin(Log(piece=50))
+    log.notify(0x40, FRAME, frames()[0])
+    log.notify(0x40, FRAME, frames()[1], keep=slice(0, 2))  # the end is missing
+    log.notify(0x40, FRAME, frames()[2])
+    log.notify(0x40, FRAME, frames()[3], keep=slice(1, None))  # the beginning is
+    log.notify(0x40, FRAME, frames()[4])
+    found, reports = read(log, tmp_path)
+    assert data_of(found, "insole/frame") == [frames()[0], frames()[2], frames()[4]]
+    assert reports == ["packets of which a piece is missing: 1", "pieces of packets whose beginning is missing: 3"]
+
+
+def test_packets_of_other_channels_are_counted_where_they_might_have_been_ours(tmp_path):
+    log = begin(Log())
+    log.notify(0x40, FRAME, frames()[0])
+    log.acl(0x40, b"\x0b\x01", sent=False, channel=6)  # pairing
+    log.acl(0x40, b"\x1b\x12\0", sent=False, channel=0x41)
+    log.acl(0x0B, b"music", sent=True, channel=0x42)  # of a connection that is not LE
+    found, reports = read(log, tmp_path)
+    assert data_of(found, "insole/frame") == [frames()[0]]
+    assert reports == ["packets of channels that are not followed (EATT perhaps): 1"]
+
+
+def test_records_that_the_logger_cut_short_or_dropped_are_counted(tmp_path):
+    log = begin(Log())
+    log.notify(0x40, FRAME, frames()[0])
+    log.record(2, struct.pack("<HHHHBH", 0x2040, 184, 180, 4, 0x1B, FRAME) + b"\xf5", sent=False, original=189)
+    log.drops = 7
+    log.notify(0x40, FRAME, frames()[1])
+    found, reports = read(log, tmp_path)
+    assert data_of(found, "insole/frame") == [*frames()[:2]]
+    assert reports == ["records that the logger cut short: 1", "records that the logger says it dropped: 7"]
+
+
+@given(cut=st.integers(min_value=1, max_value=10_000))
+@settings(max_examples=40, deadline=None)
+def test_a_torn_tail_costs_one_record_and_is_reported(tmp_path_factory, cut):
+    log = begin(Log())
+    for frame in frames()[:20]:
+        log.notify(0x40, FRAME, frame)
+    sizes = [len(record) for record in log.records]
+    cut = cut % sum(sizes[-19:])
+    path = log.save(tmp_path_factory.mktemp("torn") / "phone.log")
+    path.write_bytes(path.read_bytes()[: path.stat().st_size - cut])
+    left, whole = sum(sizes) - cut, 0
+    while whole < len(sizes) and left >= sizes[whole]:
+        left -= sizes[whole]
+        whole += 1
+    reports: list[str] = []
+    packets = [p.data for p in open_btsnoop(path, report=reports.append) if p.channel == "insole/frame"]
+    assert packets == [*frames()[: 20 - (len(sizes) - whole)]]
+    torn = f"{path}: record {whole + 1}: cut off in the middle; everything before it is used"
+    assert reports == ([torn] if left else [])
+
+
+def test_a_damaged_record_is_named_after_everything_before_it(tmp_path):
+    log = begin(Log())
+    log.notify(0x40, FRAME, frames()[0])
+    number = len(log.records) + 1
+    log.records.append(struct.pack(">IIIIq", 5, 0xFFFFFFFF, 1, 0, 0))
+    path = log.save(tmp_path / "phone.log")
+    packets: list[Packet] = []
+    with pytest.raises(RecordingError) as caught:
+        packets.extend(open_btsnoop(path, report=pytest.fail))
+    del packets[:]
+    with pytest.raises(RecordingError):
+        for packet in open_btsnoop(path, report=pytest.fail):
+            packets.append(packet)
+    assert [p.channel for p in packets] == ["receiver/connected", "insole/frame"]
+    assert str(caught.value) == f"{path}: record {number}: is damaged: it claims 4294967295 of 5 bytes"
+
+
+@pytest.mark.parametrize(
+    ("content", "complaint"),
+    [
+        (b"", "is empty"),
+        (b"btsnoop", "does not begin as a btsnoop log"),
+        (b"PK\x03\x04" + bytes(40), "does not begin as a btsnoop log"),
+        (b"btsnoop\0" + struct.pack(">II", 2, 1002), "is btsnoop of version 2; this release reads version 1"),
+        (
+            b"btsnoop\0" + struct.pack(">II", 1, 1003),
+            r"is btsnoop of datalink 1003; this release reads 1001 \(H1\), 1002 \(H4\), 2001 \(MONITOR\)",
+        ),
+        (b"btsnoop\0" + struct.pack(">II", 1, 1002), "holds no packets of a device whose place is known"),
+    ],
+)
+def test_what_is_no_log_of_ours_is_refused(tmp_path, content, complaint):
+    path = tmp_path / "phone.log"
+    path.write_bytes(content)
+    assert is_btsnoop(path) == (content[:8] == b"btsnoop\0")
+    with pytest.raises(RecordingError, match=complaint):
+        open_btsnoop(path)
+
+
+def _eventful() -> Log:
+    log = begin(Log(piece=40))
+    log.asked(0x40, "0a1500", b"\x0b" + info()[:60])
+    log.asked(0x40, "1217000a", "13")
+    for frame in frames()[:5]:
+        log.notify(0x40, FRAME, frame)
+    log.disconnect(0x40)
+    log.connect(0x41, TAG, 0x29)
+    log.acl(0x41, b"\x52\x10\0abc", sent=False)
+    log.acl(0x41, b"\x1b\x10\0abc", sent=True)
+    return log
+
+
+OPCODES = st.sampled_from([op.to_bytes() for op in Op])
+SIZES = st.sampled_from([b"", b"\x00", b"\x01", b"\x02", b"\x07", b"\x15", b"\x15\x00", b"\x00\x28", b"\x03\x28"])
+PDUS = st.builds(lambda *parts: b"".join(parts), OPCODES, SIZES, SIZES, st.binary(max_size=30)) | st.binary(max_size=30)
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    changes=st.lists(st.tuples(st.integers(0, 10**6), st.integers(1, 255)), max_size=12),
+    records=st.lists(
+        st.tuples(st.sampled_from((1, 2, 4)), st.binary(max_size=60), st.booleans(), st.integers(0, 10**6)), max_size=6
+    ),
+    pdus=st.lists(st.tuples(PDUS, st.booleans(), st.integers(0, 10**6)), max_size=20),
+    t=st.sampled_from((0, BEGAN, -(2**62), 2**62)),
+)
+@example(changes=[], records=[], pdus=[], t=2**62)
+def test_whatever_bytes_a_log_holds_only_a_recording_error_comes_of_it(tmp_path_factory, changes, records, pdus, t):
+    log = _eventful()
+    for kind, data, sent, at in records:
+        log.record(kind, data, sent)
+        log.records.insert(at % len(log.records), log.records.pop())
+    for data, sent, at in pdus:
+        log.acl(0x40, data, sent, keep=slice(0, 1))
+        log.records.insert(at % len(log.records), log.records.pop())
+    log.t = t
+    log.notify(0x41, 0x10, b"")
+    content = bytearray(log.bytes())
+    for at, bits in changes:
+        content[16 + at % (len(content) - 16)] ^= bits
+    path = tmp_path_factory.mktemp("hostile") / "phone.log"
+    path.write_bytes(content)
+    try:
+        found = open_btsnoop(path, sites={}, report=str)
+        header = found.header
+        assert header["source"] == "btsnoop"
+        Session().feed(found)
+    except RecordingError as error:
+        assert str(error).isprintable()

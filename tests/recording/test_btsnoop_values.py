@@ -1,0 +1,287 @@
+"""btsnoop logs: values against tshark and bumble, and however they were read, written or discovered."""
+
+from __future__ import annotations
+
+import asyncio
+import shutil
+import struct
+import subprocess
+from pathlib import Path
+
+import pytest
+from snooped import (
+    BATTERY,
+    FRAME,
+    H1,
+    H4,
+    INFO,
+    INSOLE,
+    LEFT,
+    MONITOR,
+    MOVEMENT,
+    OTHER,
+    RIGHT,
+    Log,
+    begin,
+    data_of,
+    frames,
+    full,
+    info,
+    insole_uuid,
+    read,
+)
+
+from solepath import Site
+from solepath.recording.btsnoop import open_btsnoop
+from solepath.recording.btsnoop.att import AttOperation
+from solepath.recording.btsnoop.values import Value, ValueListener
+from solepath.types import Foot
+from solepath.wire.insole_info import build_info, parse_info
+
+# --- reading and writing ----------------------------------------------------------------------------------------------
+
+
+def test_a_long_value_is_read_whole_at_any_mtu(tmp_path):
+    value = info()
+    assert parse_info(value).foot is Foot.LEFT and build_info(parse_info(value)) == value
+    for mtu in (23, 185, len(value) + 1):
+        log = Log()
+        log.connect(0x40, LEFT)
+        log.mtu(0x40, mtu)
+        log.discover(0x40, INSOLE)
+        log.asked(0x40, "0a1500", b"\x0b" + value[: mtu - 1])
+        for offset in range(mtu - 1, len(value) + 1, mtu - 1):
+            log.asked(0x40, struct.pack("<BHH", 0x0C, INFO, offset).hex(), b"\x0d" + value[offset : offset + mtu - 1])
+        log.notify(0x40, FRAME, frames()[0])
+        assert data_of(read(log, tmp_path)[0], "insole/info") == [value], mtu
+
+
+def test_the_rest_of_one_value_is_not_added_to_another(tmp_path):
+    log = Log()
+    log.connect(0x40, LEFT)
+    log.discover(0x40, INSOLE | {0x20: "2a26"})
+    log.asked(0x40, "0a2000", b"\x0b" + b"v" * 22)
+    log.asked(0x40, "0c15001600", b"\x0d" + b"rest")
+    log.asked(0x40, "0a2000", b"\x0b" + b"w" * 22)
+    log.asked(0x40, "0c20002c00", "010c200007")
+    log.notify(0x40, FRAME, frames()[0][:20])
+    found = read(log, tmp_path, sites={LEFT: Site.LEFT_FOOT})[0]
+    assert data_of(found, "device/firmware") == [b"v" * 22, b"w" * 22]
+    assert data_of(found, "insole/info") == []
+
+
+def test_what_was_written_counts_when_the_device_took_it(tmp_path):
+    log = begin(Log(), characteristics={0x31: full(0xAA81), 0x34: full(0xAA82), 0x37: full(0xAA83)})
+    log.asked(0x40, "12340000ff", "0112340080")
+    log.asked(0x40, "1234007f02", "13")
+    log.acl(0x40, bytes.fromhex("523700") + b"\x0a", sent=True)
+    log.acl(0x40, bytes.fromhex("123400" + "7f03"), sent=True)  # the link was lost before an answer
+    log.notify(0x40, 0x31, MOVEMENT)
+    found, reports = read(log, tmp_path, sites={LEFT: Site.LEFT_FOOT})
+    assert data_of(found, "cc2650/movement-config") == [b"\x7f\x02"]
+    assert data_of(found, "cc2650/movement-period") == [b"\x0a"]
+    assert reports == ["writes that were refused: 1"]
+
+
+def test_other_ways_to_discover_to_read_and_to_notify(tmp_path):
+    frame = bytes.fromhex(insole_uuid(2).replace("-", ""))[::-1]
+    log = Log()
+    log.connect(0x40, LEFT)
+    log.mtu(0x40, 247)
+    log.asked(0x40, "041200ffff", b"\x05\x02\x12\x00" + frame)  # find information, UUIDs of 128 bits
+    log.asked(0x40, "041a00ffff", "05011a00192a1b000229")  # and of 16
+    log.asked(0x40, "080100ffff262a", b"\x09\x05\x30\x00" + b"1.2")  # read by the characteristic's UUID
+    log.acl(0x40, b"\x23" + struct.pack("<HH", 0x12, len(frames()[0])) + frames()[0] + b"\x1a\0\x01\0\x63", sent=False)
+    log.acl(0x40, b"\x1d\x1a\0\x62", sent=False)
+    log.acl(0x40, b"\x1e", sent=True)
+    found, reports = read(log, tmp_path)
+    assert [(channel, data) for _, _, channel, data in found[1:]] == [
+        ("device/firmware", b"1.2"),
+        ("insole/frame", frames()[0]),
+        ("device/battery", b"\x63"),
+        ("device/battery", b"\x62"),
+    ]
+    assert reports == []
+
+
+# --- against tshark ---------------------------------------------------------------------------------------------------
+
+needs_tshark = pytest.mark.skipif(shutil.which("tshark") is None, reason="tshark is not installed (apt install tshark)")
+
+
+def heard_by_tshark(path: Path) -> list[tuple[int, int, int, bytes]]:
+    """(us since 1970, connection handle, attribute handle, value) of every notification."""
+    fields = ("frame.time_epoch", "bthci_acl.chandle", "btatt.handle", "btatt.value", "btatt.battery_level")
+    wanted = [word for name in fields for word in ("-e", name)]
+    told = subprocess.run(
+        ["tshark", "-r", path, "-Y", "btatt.opcode == 0x1b", "-T", "fields", *wanted],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    heard = []
+    for line in told.stdout.splitlines():
+        t, connection, attribute, value, battery = line.split("\t")
+        seconds, _, parts = t.partition(".")
+        us = int(seconds) * 1_000_000 + int(parts[:6])
+        data = bytes([int(battery)]) if battery else bytes.fromhex(value)
+        heard.append((us, int(connection, 16), int(attribute, 16), data))
+    return heard
+
+
+def heard_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
+    listener = ValueListener(path, pytest.fail)
+    values = [item for item in listener.listen() if isinstance(item, Value) and item.how is AttOperation.NOTIFIED]
+    assert not listener.flaws
+    return [(value.t, value.link.handle, value.attribute, value.data) for value in values]
+
+
+@needs_tshark
+@pytest.mark.parametrize(("datalink", "piece"), [(H4, 251), (H4, 27), (H1, 251), (MONITOR, 100)])
+def test_every_notification_is_what_tshark_says_it_is(tmp_path, datalink, piece):
+    """Two insoles with an end and a new beginning under the same handle, and ACL packets in pieces of two links."""
+    log = Log(datalink, piece=piece)
+    begin(log, 0x40, LEFT)
+    log.connect(0x41, RIGHT, subevent=0x0A)
+    log.mtu(0x41, 247)
+    log.discover(0x41, INSOLE)
+    for k, (left, right) in enumerate(zip(frames(), frames(Site.RIGHT_FOOT), strict=False)):
+        if k == 200:
+            log.disconnect(0x40)
+            log.connect(0x40, LEFT)
+            log.mtu(0x40, 247)
+        log.notify(0x40, FRAME, left)
+        log.notify(0x41, FRAME, right)
+        if k % 50 == 0:
+            log.notify(0x40, BATTERY, bytes([k % 101]))
+    path = log.save(tmp_path / "phone.log")
+    ours, theirs = heard_by_us(path), heard_by_tshark(path)
+    assert len(ours) > 1200
+    assert ours == theirs
+
+
+def told_by_tshark(path: Path) -> list[tuple[AttOperation, int, bytes]]:
+    """(how, attribute handle, value) of every value that was read, joined by the offsets, and every one that was
+    written and taken. Of each PDU by itself tshark says handle, offset and value; values that it knows have a field of
+    their own."""
+    fields = ("opcode", "handle", "value", "offset", "battery_level", "firmware_revision_string")
+    fields += ("characteristic_configuration_client",)
+    wanted = [word for name in fields for word in ("-e", f"btatt.{name}")]
+    only = "btatt.opcode in {0x0a, 0x0b, 0x0c, 0x0d, 0x12, 0x13, 0x52}"
+    command = ["tshark", "-r", path, "-Y", only, "-T", "fields", *wanted]
+    told: list[tuple[AttOperation, int, bytes]] = []
+    offset, pending = 0, b""
+    for line in subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines():
+        opcode, attribute, plain, at, battery, firmware, client = line.split("\t")
+        data = bytes.fromhex(plain) + firmware.encode()
+        data += bytes([int(battery)]) if battery else struct.pack("<H", int(client, 16)) if client else b""
+        handle = int(attribute, 16)
+        match int(opcode, 16):
+            case 0x0B:
+                told.append((AttOperation.READ, handle, data))
+            case 0x0C:
+                offset = int(at)
+            case 0x0D:
+                how, of, begun = told.pop()
+                assert (how, of, len(begun)) == (AttOperation.READ, handle, offset)
+                told.append((how, of, begun + data))
+            case 0x12:
+                pending = data
+            case 0x13:
+                told.append((AttOperation.WRITTEN, handle, pending))
+            case 0x52:
+                told.append((AttOperation.WRITTEN, handle, data))
+    return told
+
+
+def told_to_us(path: Path) -> list[tuple[AttOperation, int, bytes]]:
+    values = [item for item in ValueListener(path, pytest.fail).listen() if isinstance(item, Value)]
+    return [(value.how, value.attribute, value.data) for value in values if value.how is not AttOperation.NOTIFIED]
+
+
+async def snooped_by_bumble(central_log: Path, device_log: Path) -> list[bytes]:
+    """A host discovers an emulated insole over bumble's virtual controllers, reads, writes and subscribes; what it
+    got. Both hosts keep a log."""
+    from bumble.controller import Controller
+    from bumble.core import UUID
+    from bumble.device import Device, Peer
+    from bumble.gatt import Characteristic, Service
+    from bumble.hci import Address
+    from bumble.host import Host
+    from bumble.link import LocalLink
+    from bumble.snoop import BtSnooper
+    from bumble.transport.common import AsyncPipeSink
+
+    link = LocalLink()
+    ends = []
+    with central_log.open("wb") as ours, device_log.open("wb") as theirs:
+        for name, address, file in (("phone", OTHER, ours), ("insole", LEFT, theirs)):
+            controller = Controller(name, link=link)
+            host = Host(controller, AsyncPipeSink(controller))
+            host.snooper = BtSnooper(file)
+            ends.append(Device(name=name, address=Address(address), host=host))
+        phone, insole = ends
+        properties = Characteristic.Properties
+        frame = Characteristic(insole_uuid(2), properties.NOTIFY, 0, b"")
+        about = Characteristic(insole_uuid(3), properties.READ, Characteristic.READABLE, info())
+        control = Characteristic(insole_uuid(4), properties.WRITE, Characteristic.WRITEABLE, b"")
+        battery = Characteristic(UUID("2a19"), properties.NOTIFY | properties.READ, Characteristic.READABLE, b"\x5a")
+        insole.add_service(Service(insole_uuid(1), [frame, about, control]))
+        insole.add_service(Service(UUID("180f"), [battery]))
+        got: list[bytes] = []
+        for end in ends:
+            await end.power_on()
+        for _ in range(2):
+            await insole.start_advertising()
+            connection = await phone.connect(LEFT)
+            peer = Peer(connection)
+            await peer.request_mtu(247)
+            await peer.discover_services()
+            await peer.discover_characteristics()
+            (there,) = peer.get_characteristics_by_uuid(frame.uuid)
+            (read,) = peer.get_characteristics_by_uuid(about.uuid)
+            (written,) = peer.get_characteristics_by_uuid(control.uuid)
+            assert await read.read_value() == info()
+            await there.subscribe(got.append)
+            await written.write_value(b"\x01", with_response=True)
+            for data in frames()[:150]:
+                await insole.notify_subscribers(frame, data)
+                await asyncio.sleep(0)
+            while len(got) % 150:
+                await asyncio.sleep(0.001)
+            await connection.disconnect()
+        for end in ends:
+            await end.power_off()
+    return got
+
+
+@pytest.fixture(scope="module")
+def bumble_logs(tmp_path_factory) -> tuple[Path, Path, list[bytes]]:
+    pytest.importorskip("bumble")
+    folder = tmp_path_factory.mktemp("bumble")
+    central, device = folder / "phone.log", folder / "insole.log"
+    got = asyncio.run(asyncio.wait_for(snooped_by_bumble(central, device), 30))
+    assert len(got) == 300
+    return central, device, got
+
+
+@needs_tshark
+def test_of_real_traffic_of_a_host_every_value_is_what_tshark_says_it_is(bumble_logs):
+    for path in bumble_logs[:2]:
+        ours = heard_by_us(path)
+        assert len(ours) == 300 and ours == heard_by_tshark(path)
+        told = told_to_us(path)
+        assert (AttOperation.READ, info()) in [(how, data) for how, _, data in told]
+        assert told == told_by_tshark(path)
+
+
+def test_the_log_of_the_host_that_listens_and_of_the_one_that_sends_give_the_same_packets(bumble_logs):
+    central, device, got = bumble_logs
+    told = []
+    for path in (central, device):
+        packets = list(open_btsnoop(path, report=pytest.fail))
+        assert {(p.device, p.site) for p in packets} == {(LEFT, Site.LEFT_FOOT)}
+        told.append([(p.channel, p.data) for p in packets if not p.channel.startswith("receiver/")])
+    assert told[0] == told[1]
+    assert [data for channel, data in told[0] if channel == "insole/frame"] == got
+    assert told[0][:2] == [("insole/info", info()), ("insole/control", b"\x01")], "read over several answers, written"

@@ -1,0 +1,186 @@
+"""A recorder that dies or whose disk is full, and the header that says what o'clock it was."""
+
+import asyncio
+import os
+import signal
+import subprocess
+import sys
+from datetime import UTC, datetime
+
+import pytest
+
+from solepath.recording import PacketWriter, RecordingError, began, read_header, read_packets
+from solepath.types import Packet, Site
+
+PACKETS = [
+    Packet(12.5, Site.LEFT_FOOT, "device/battery", b"\x63"),
+    Packet(12.5, Site.RIGHT_FOOT, "insole/frame", bytes(range(256))),
+    Packet(0.1 + 12.65, Site.PELVIS, "cc2650/keys", b""),
+]
+
+
+# --- a recorder that dies ---------------------------------------------------------------------------------------------
+
+LIVE = """
+import os, sys, time
+from solepath.recording import PacketWriter
+from solepath.types import Packet, Site
+began = time.monotonic()
+with PacketWriter(sys.argv[1]) as writer:
+    for k in range(100_000):
+        time.sleep(max(0.0, began + k / 200 - time.monotonic()))
+        os.write(1, b"?")  # arrived
+        writer.write(Packet(k / 200, Site.LEFT_FOOT, "insole/frame", bytes([k % 256]) * 177))
+        os.write(1, b"!")  # written
+"""
+
+
+def test_a_recorder_killed_in_mid_walk_loses_at_most_the_packet_in_its_hand(tmp_path):
+    """Two insoles at 100 Hz in real time: 5 ms, where 200 would be allowed."""
+    path = tmp_path / "walk.jsonl"
+    recorder = subprocess.Popen([sys.executable, "-c", LIVE, str(path)], stdout=subprocess.PIPE)
+    try:
+        assert recorder.stdout is not None
+        diary = b""
+        while diary.count(b"!") < 300 and (more := recorder.stdout.read1()):
+            diary += more
+        recorder.send_signal(signal.SIGKILL)
+        diary += recorder.stdout.read()
+    finally:
+        recorder.kill()
+        assert recorder.wait() == -signal.SIGKILL
+        recorder.stdout.close()
+    flaws = []
+    packets = list(read_packets(path, report=flaws.append))
+    assert 300 <= diary.count(b"!") <= len(packets) <= diary.count(b"?") and len(flaws) <= 1
+    assert [packet.data[0] for packet in packets] == [k % 256 for k in range(len(packets))], "none is missing within"
+    assert diary.count(b"?") / 200 - packets[-1].t < 0.2
+
+
+# --- a disk that is full ----------------------------------------------------------------------------------------------
+
+FULL = """
+import resource, sys
+from solepath.recording import PacketWriter, RecordingError
+from solepath.types import Packet, Site
+limit = int(sys.argv[2])
+resource.setrlimit(resource.RLIMIT_FSIZE, (limit, resource.RLIM_INFINITY))
+writer = PacketWriter(sys.argv[1])
+try:
+    for k in range(1000):
+        writer.write(Packet(k * 0.01, Site.LEFT_FOOT, "insole/frame", bytes([k % 256]) * 20))
+except RecordingError as error:
+    print(error)
+if len(sys.argv) > 3:
+    resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+    writer.write(Packet(99.0, Site.LEFT_FOOT, "receiver/dropped", bytes(4)))
+writer.close()
+print(writer.count)
+"""
+
+
+@pytest.mark.parametrize("limit", [4096, 4097, 4150, 5000])
+def test_a_file_that_may_not_grow_ends_with_its_last_whole_packet_and_the_error_counts_them(tmp_path, limit):
+    """The kernel takes the part of the line that fits and then refuses, as a disk does that fills up."""
+    path = tmp_path / "walk.jsonl"
+    done = subprocess.run([sys.executable, "-c", FULL, path, str(limit)], capture_output=True, text=True, check=True)
+    sentence, count = done.stdout.splitlines()
+    packets = list(read_packets(path, report=pytest.fail))
+    assert len(packets) == int(count) > 30
+    assert [packet.t for packet in packets] == [k * 0.01 for k in range(len(packets))]
+    assert sentence == f"{path}: file too large; the {count} packets before that are safe"
+    line = len(path.read_bytes().splitlines(keepends=True)[-1])
+    assert limit - line <= path.stat().st_size <= limit
+
+
+def test_once_there_is_room_again_writing_goes_on(tmp_path):
+    path = tmp_path / "walk.jsonl"
+    done = subprocess.run([sys.executable, "-c", FULL, path, "4100", "x"], capture_output=True, text=True, check=True)
+    packets = list(read_packets(path, report=pytest.fail))
+    assert len(packets) == int(done.stdout.splitlines()[-1])
+    assert packets[-1].t == 99.0 and packets[-2].t == (len(packets) - 2) * 0.01
+
+
+def test_a_pipe_whose_reader_left_is_a_clear_error():
+    receiving, sending = os.pipe()
+    with PacketWriter(f"/dev/fd/{sending}") as writer:
+        os.close(sending)
+        writer.write(PACKETS[0])
+        os.close(receiving)
+        for _ in range(2):
+            with pytest.raises(RecordingError, match="the packet before that is safe"):
+                writer.write(PACKETS[1])
+
+
+# --- what o'clock it was ----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("keys", "moment"),
+    [
+        ({}, None),
+        ({"began": "2026-11-21T09:30:00Z"}, (datetime(2026, 11, 21, 9, 30, tzinfo=UTC), None)),
+        ({"began": "2026-11-21T10:30:00+01:00", "began_t": 3}, (datetime(2026, 11, 21, 9, 30, tzinfo=UTC), 3.0)),
+        ({"began": "2026-11-21T09:30:00"}, None),  # of no zone
+        ({"began": "yesterday"}, None),
+        ({"began": 12}, None),
+        ({"began": "2026-11-21T09:30:00Z", "began_t": "3"}, None),
+        ({"began": "2026-11-21T09:30:00Z", "began_t": 10**400}, None),
+        ({"began": "0001-01-01T00:00:00+14:00"}, None),  # before the year 1 in UTC
+    ],
+)
+def test_a_header_may_say_what_oclock_it_was(tmp_path, keys, moment):
+    path = tmp_path / "walk.jsonl"
+    with PacketWriter(path, keys):
+        pass
+    assert began(read_header(path)) == moment
+
+
+def test_the_header_of_one_recording_can_be_that_of_another_whatever_its_keys(tmp_path):
+    keys = {"path": "x", "self": 1, "header": {"a": [None]}, "": "T\ud800r", "began": "never"}
+    with PacketWriter(tmp_path / "one.jsonl", keys):
+        pass
+    said = read_header(tmp_path / "one.jsonl")
+    assert said == {"format": "solepath-packets", "version": 1, **keys}
+    with PacketWriter(tmp_path / "other.jsonl", said):
+        pass
+    assert (tmp_path / "other.jsonl").read_bytes() == (tmp_path / "one.jsonl").read_bytes()
+
+
+def test_what_is_recorded_live_may_have_anothers_header_but_its_own_beginning(tmp_path):
+    pytest.importorskip("bleak", reason="the extra ble is not installed")
+    from solepath.ble import record
+
+    async def sent():
+        for packet in PACKETS:
+            yield packet
+
+    async def recorded(header) -> tuple[float, list[Packet]]:
+        now = asyncio.get_running_loop().time()
+        return now, [packet async for packet in record(sent(), tmp_path / "walk.jsonl", header)]
+
+    old = {"format": "solepath-packets", "version": 1, "began": "2001-01-01T00:00:00Z", "began_t": -1.0, "path": "x"}
+    now, passed_on = asyncio.run(recorded(old))
+    said = read_header(tmp_path / "walk.jsonl")
+    known = began(said)
+    assert passed_on == PACKETS == list(read_packets(tmp_path / "walk.jsonl"))
+    assert said["path"] == "x" and known is not None
+    assert known[0].year > 2001 and now <= known[1] < now + 10
+
+
+@pytest.mark.parametrize(
+    ("header", "complaint"),
+    [
+        ({"format": "solepath-samples"}, 'a header that is not .*: "format" is not "solepath-packets"'),
+        ({"version": 2}, "a header that is of version 2"),
+        ({"version": True}, "a header that is of version true"),
+        ({"note": float("nan")}, "not JSON compliant"),
+        ({"note": "x" * 70_000}, "a line of 70057 bytes is too long for a recording"),
+    ],
+)
+def test_a_header_that_none_can_be_costs_no_file(tmp_path, header, complaint):
+    path = tmp_path / "walk.jsonl"
+    path.write_text("precious")
+    with pytest.raises(ValueError, match=complaint):
+        PacketWriter(path, header)
+    assert path.read_text() == "precious"
