@@ -17,18 +17,7 @@ from toga.colors import rgb
 from toga.constants import CENTER, COLUMN, ROW
 from toga.widgets.canvas import Arc, DrawingAction, Fill, FillText, LineTo, Rect, Stroke
 
-from solepath import (
-    Event,
-    Foot,
-    FootPressed,
-    Layout,
-    LayoutKnown,
-    LinkTrouble,
-    Packet,
-    Session,
-    StreamStale,
-    StrideTaken,
-)
+from solepath import Foot, FootPressed, Layout, LayoutKnown, LinkTrouble, Packet, Session, StreamStale, StrideTaken
 from solepath.link.devices.insole import PROFILE as INSOLE
 
 COLOURS = {Foot.LEFT: "#1f77b4", Foot.RIGHT: "#d95f02"}
@@ -37,7 +26,6 @@ FIGURES = {"steps": "steps", "cadence": "steps a minute", "length": "stride, m",
 
 async def sensors() -> AsyncIterator[Packet]:
     from solepath.ble import Devices, Wanted
-
     async with Devices([Wanted(None, profile=INSOLE), Wanted(None, profile=INSOLE)]) as devices:
         async for packet in devices:
             yield packet
@@ -45,7 +33,6 @@ async def sensors() -> AsyncIterator[Packet]:
 
 async def emulated(speed: float = 1.0) -> AsyncIterator[Packet]:
     from solepath.emulate import Route, emulate
-
     loop = asyncio.get_running_loop()
     began = loop.time()
     for packet in emulate(Route().stand(2).walk(12, speed=1.3).turn(1.6, radius=1.5).walk(8).stop(2), seed=1).packets:
@@ -99,7 +86,7 @@ class GaitApp(toga.App):
         self.draw()
         self.status.text, self.start.text, self.show.enabled, self.listening = why, "Insoles", True, None
 
-    def take(self, events: list[Event]) -> None:
+    def take(self, events: list[object]) -> None:
         for event in events:
             match event:
                 case StrideTaken(foot=foot, position=(x, y, _)):
