@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from . import recipes
 from .body.gait.means import Figure, GaitParameters, StrideFigures
 from .body.part import Position
-from .calibration import Calibration, CalibrationError, read_calibration
+from .calibration import Calibration, CalibrationError
 from .events import (
     ActivityChanged,
     BatteryLevel,
@@ -55,21 +55,24 @@ from .events import (
     WearerMoved,
 )
 from .recipes import Recipe
-from .saving.codec import SnapshotError
 from .session import Session
 from .types import Activity, Cell, Foot, Layout, Packet, Phase, Quat, Sample, Site, Support, Turn, Vec3, WalkingMode
 
 if TYPE_CHECKING:
+    from .calibration.file import read_calibration
     from .events.frame import to_frame
     from .floorplan.importers.reading import read_floorplan
     from .floorplan.index import IndexedPlan
     from .floorplan.plan import FloorPlan, FloorPlanError, Start
+    from .saving.codec import SnapshotError
 
 _LATER = {
     "FloorPlan": "floorplan.plan",
     "FloorPlanError": "floorplan.plan",
     "IndexedPlan": "floorplan.index",
+    "SnapshotError": "saving.codec",
     "Start": "floorplan.plan",
+    "read_calibration": "calibration.file",
     "read_floorplan": "floorplan.importers.reading",
     "to_frame": "events.frame",
 }

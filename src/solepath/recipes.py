@@ -29,7 +29,6 @@ from .foot.navigate.error_state import ErrorStateFilter
 from .foot.pressure.insole import InsoleLoads
 from .foot.stance.cycle import Cycle
 from .foot.stance.stance import Detector
-from .saving.codec import SnapshotError, save
 
 
 def usual(
@@ -115,6 +114,13 @@ _FOOT, _BODY, _KUPT = "foot.", "body.", "papers.kupt_dfpc."
 _CONTOUR, _MODES, _STEPS = "papers.pressure_contour.", "papers.walking_modes.", "papers.footstep_tracker."
 _SHOE = "papers.shoe_sensing."
 
+LINKS: dict[str, str] = {
+    "InsoleLink": "link.devices.insole",
+    "Cc2541Link": "link.devices.cc2541",
+    "StreamLink": "link.stream",
+}
+"""Class of a device's link by name -> the module below solepath that has it."""
+
 PARTS: dict[str, str] = {
     "Cycle": _FOOT + "stance.cycle",
     "ShoeDetector": _FOOT + "stance.classic",
@@ -167,9 +173,11 @@ def by_name(name: str) -> Recipe:
 
 
 def part_class(name: str) -> type[Any]:
-    """The class of the part of this name, one of PARTS. SnapshotError for another."""
-    module = PARTS.get(name)
+    """The class of the part or link of this name, one of PARTS or LINKS. SnapshotError for another."""
+    module = PARTS.get(name) or LINKS.get(name)
     if module is None:
+        from .saving.codec import SnapshotError
+
         raise SnapshotError(f"a snapshot of a part {name!r:.80} that is not known here")
     found: type[Any] = getattr(import_module(f"{__package__}.{module}"), name)
     return found
@@ -184,6 +192,8 @@ def own(recipe: Recipe) -> Recipe:
     known = _own
     if any([recipe is one for one, _ in known]):
         return recipe
+    from .saving.codec import save
+
     try:
         told = repr(save(recipe))
     except (TypeError, ValueError):  # it holds what cannot be saved, and can be compared with nothing

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from commands import refused, run
 
-from solepath.calibration import Calibration, InsoleCalibration, ShoeGeometry, read_calibration, write_calibration
+from solepath.calibration import Calibration, InsoleCalibration, ShoeGeometry
+from solepath.calibration.file import read_calibration, write_calibration
 from solepath.cli import main
 from solepath.emulate.routes.laps import marked, marks, square, write_marks
 from solepath.emulate.routes.route import Route

@@ -28,16 +28,9 @@ from solepath import (
     read_calibration,
     recipes,
 )
-from solepath.calibration import (
-    InsoleCalibration,
-    Limbs,
-    Newtons,
-    ShoeGeometry,
-    merged,
-    unusable,
-    write_calibration,
-)
-from solepath.calibration.limits import _limits
+from solepath.calibration import InsoleCalibration, Limbs, Newtons, ShoeGeometry, merged
+from solepath.calibration.file import write_calibration
+from solepath.calibration.limits import _limits, unusable
 from solepath.emulate.sensors.insoles import layout
 from solepath.events import CellsFailed, Limitation
 from solepath.foot.pressure.insole import in_newtons

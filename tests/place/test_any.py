@@ -34,6 +34,9 @@ from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start, Wall
 from solepath.papers.footstep_tracker.snake import SnakeGame
 from solepath.saving import codec as machine
+from solepath.saving.packed import Lists, write
+from solepath.saving.schema import record_of
+from solepath.saving.streams import to_bytes
 
 METHODS = [Particles, SnakeGame]
 Method = type[Particles] | type[SnakeGame]
@@ -117,6 +120,12 @@ def test_saved_anywhere_it_goes_on_the_same_bit_for_bit(method, seed, cut) -> No
         assert whole.follow(OFFICE, one.events, one.here) == again.follow(OFFICE, one.events, one.here)
 
 
+def packed_size(part: object) -> int:
+    lists: Lists = ([], [], [], [])
+    write(record_of(type(part)), part, lists)
+    return len(to_bytes(*lists, (0.0, 0.0)))
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_the_state_is_small_and_does_not_grow(method: Method) -> None:
     part = method()
@@ -128,7 +137,7 @@ def test_the_state_is_small_and_does_not_grow(method: Method) -> None:
     found = []
     for told in one.told:
         part.follow(OFFICE, told.events, told.here)
-        sizes.append(len(json.dumps(machine.save(part))))
+        sizes.append(packed_size(part))
         if part.place is not None and len(part.place.candidates) == 1:
             found.append(sizes[-1])
     assert max(sizes) < 10_000, "while it is undecided"

@@ -30,7 +30,9 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from ..calibration import Calibration, CalibrationError, merged, read_calibration, unusable, write_calibration
+    from ..calibration import Calibration, CalibrationError, merged
+    from ..calibration.file import read_calibration, write_calibration
+    from ..calibration.limits import unusable
     from ..recording import RecordingError, printable
 
     if options.out.exists() and not options.out.is_file() and not options.out.is_dir():  # of a folder the system speaks

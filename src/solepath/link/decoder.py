@@ -26,27 +26,22 @@ from ..events import (
     BatteryLevel,
     ClockReset,
     Connected,
-    LinkEvent,
     PacketRejected,
     Rejection,
     StreamResumed,
     StreamStale,
 )
-from ..types import Packet, Sample, Site
+from ..types import Packet, Site
 from ..wire.device import parse_battery, parse_firmware
 from ..wire.error import WireError
-from .devices.cc2541 import Cc2541Link
-from .devices.insole import InsoleLink
+from .device_link import DeviceLink, Output
 from .known import KINDS, Kinds
 from .receiver import said
-from .stream import StreamLink
 
 SET_BACK = 20
 """Packets in a row from before the newest arrival, after which the receiver's clock is taken to have been set back."""
 LATEST = 1e11
 """s; an arrival time beyond this (or before minus this) is no time."""
-
-Output = list[Sample | LinkEvent]
 
 
 @define
@@ -61,7 +56,7 @@ class Decoder:
     site: Site
     device: str = ""
     """The address of the device that the site is bound to; "" until one is known."""
-    link: InsoleLink | Cc2541Link | StreamLink | None = None
+    link: DeviceLink | None = None
     """The device, once a packet of it was used."""
     firmware: str = ""
     arrived: float | None = None
@@ -163,7 +158,7 @@ class Decoder:
         if packet.channel != "device/firmware":
             raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
         self.firmware = parse_firmware(packet.data).rstrip("\0")
-        if isinstance(self.link, Cc2541Link):
+        if self.link is not None:
             self.link.learn_firmware(self.firmware)
         return []
 

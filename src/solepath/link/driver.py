@@ -192,7 +192,7 @@ class Driver:
         """What `data` says. WireError when it cannot be read."""
         parsed, reader = self.parse(channel, data), self.readers.get(channel)
         try:
-            return Reading() if reader is None else reader(parsed, MappingProxyType({**known}))
+            return Reading() if reader is None else reader(parsed, MappingProxyType(known))
         except WireError:
             raise
         except UNREADABLE as error:

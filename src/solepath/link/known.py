@@ -1,6 +1,5 @@
-"""The kinds of devices that a session knows, by the prefix of their channels: two with a link of their own, the
-declared ones of devices/, each loaded when a channel of it is first heard, and what an app adds. This is a table of
-functions, so nothing that is saved holds it."""
+"""The kinds of devices that a session knows, by the prefix of their channels: those of devices/, each loaded when a
+channel of it is first heard, and what an app adds. This is a table of functions, so nothing that is saved holds it."""
 
 from __future__ import annotations
 
@@ -11,15 +10,10 @@ from typing import Any
 
 from attrs import field, frozen
 
-from ..events import LinkEvent
-from ..types import Sample, Site
-from .devices import cc2541, insole
+from ..types import Site
+from .device_link import DeviceLink, Output
 from .driver import Basis, Driver
 from .profile import Profile
-from .stream import StreamLink, stream_link
-
-Output = list[Sample | LinkEvent]
-DeviceLink = insole.InsoleLink | cc2541.Cc2541Link | StreamLink
 
 
 @frozen
@@ -35,41 +29,43 @@ class DeviceKind:
 
     def fits(self, link: DeviceLink) -> bool:
         """Whether this link, which was saved, is one that this kind began."""
-        basis = link.basis if isinstance(link, StreamLink) else None
-        return link.name == self.profile.name and basis == self.basis
+        return link.name == self.profile.name and link.stands_on() == self.basis
 
 
 def _declared(driver: Driver, ours: bool) -> DeviceKind:
+    from .stream import StreamLink, stream_link
+
     begin = partial(stream_link, driver, ours)
     return DeviceKind(driver.profile, begin, partial(StreamLink.feed, driver=driver), driver.basis(ours))
 
 
-_OWN_LINK = {
-    "insole": DeviceKind(insole.PROFILE, insole.insole_link, insole.InsoleLink.feed),
-    "cc2541": DeviceKind(cc2541.PROFILE, cc2541.cc2541_link, cc2541.Cc2541Link.feed),
-}
 _MODULES = {
+    "insole": "insole",
+    "cc2541": "cc2541",
     "cc2650": "cc2650",
     "dot": "dot",
     "dot-orientation": "dot_orientation",
     "orphe": "orphe",
     "thingy": "thingy",
 }
-"""Name of a declared device -> its file in devices/."""
-_RESERVED = {*_OWN_LINK, "device", "receiver"}
+"""Name of a device -> its file in devices/."""
+_RESERVED = {"insole", "cc2541", "device", "receiver"}
 
 
 @frozen
 class Kinds:
-    """The table. `loaded`: as far as it was asked for; ours that are declared come into it then."""
+    """The table. `loaded`: as far as it was asked for; ours come into it then."""
 
-    loaded: dict[str, DeviceKind] = field(factory=lambda: {**_OWN_LINK})
+    loaded: dict[str, DeviceKind] = field(factory=dict)
 
     def get(self, name: str) -> DeviceKind | None:
         """The kind of this name; None where there is none."""
         if name in _MODULES and name not in self.loaded:
             module = import_module(f"{__package__}.devices.{_MODULES[name]}")
-            self.loaded[name] = _declared(module.DRIVER, ours=True)
+            own: DeviceKind | None = None
+            if hasattr(module, "LINK"):  # it has a link of its own
+                own = DeviceKind(module.PROFILE, *module.LINK)
+            self.loaded[name] = own or _declared(module.DRIVER, ours=True)
         return self.loaded.get(name)
 
 

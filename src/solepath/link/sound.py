@@ -98,7 +98,8 @@ def _check_numbers(name: str, values: object, count: int | None) -> None:
     if count is not None and len(numbers) != count:
         raise malformed(f"{name} has {len(numbers)} numbers, not {count}")
     for number in numbers:
-        _check_number(name, number)
+        if type(number) is not float or not -LARGEST <= number <= LARGEST:
+            _check_number(name, number)
 
 
 def _check_number(name: str, number: object) -> None:

@@ -11,20 +11,20 @@ Times come from the best that the device has, by the rules of protocol/clock.md:
 
 from __future__ import annotations
 
-from attrs import define, evolve, field
+from attrs import define, field
 
 from ..events import (
     BatteryLevel,
     KeysChanged,
     LayoutKnown,
     Limitation,
-    LinkEvent,
     Rejection,
 )
 from ..types import Sample, Site, Vec3
 from ..types.vector import GRAVITY, unit
 from ..wire.error import WireError
 from ..wire.fields import malformed
+from .device_link import DeviceLink, Output
 from .driver import COARSEST, Basis, Driver, Reading, TimeAxis
 from .periodic import Periodic, periodic
 from .rest import RestCheck
@@ -49,11 +49,9 @@ STEADY = 6
 OTHER = 0.2
 """By how much that distance must differ, and how much the six may differ among themselves, relatively."""
 
-Output = list[Sample | LinkEvent]
-
 
 @define
-class StreamLink:
+class StreamLink(DeviceLink):
     """Feeds on the channels of one declared device at one site; `name` is that of its driver.
 
     `feed` raises WireError for what cannot be used, and then nothing has changed. Latency none.
@@ -97,6 +95,10 @@ class StreamLink:
         out = self._samples(driver, channel, reading, arrival) if reading.samples else []
         self._learn(driver, reading)
         return self._events(reading, arrival) + out + self._beside(reading, arrival)
+
+    def stands_on(self) -> Basis:
+        """What its driver declared when it began."""
+        return self.basis
 
     def forget_clock(self) -> None:
         """The receiver's clock was set back: fit anew, and let times begin anew too."""
@@ -274,7 +276,8 @@ class StreamLink:
             self.periodic = periodic(count / rate)
         taken = self.periodic.arrive(arrival, counts_losses=not self.silence_is_legal)
         (last,), apart = taken.times, self.periodic.period / count
-        return evolve(taken, times=[last - (count - 1 - j) * apart for j in range(count)])
+        times = [last - (count - 1 - j) * apart for j in range(count)]
+        return Taken(times, taken.lost, taken.t_missing)
 
     def _in_order(self, t: float) -> float:
         if self.last_t is not None and t <= self.last_t:

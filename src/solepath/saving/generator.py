@@ -21,8 +21,6 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from itertools import chain
-from operator import attrgetter
 from typing import Any
 
 from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, RowNode, ScalarNode, TupleNode
@@ -35,7 +33,7 @@ class CodeGenerator:
 
     def __init__(self, called: dict[str, Callable[..., Any]], kinds: Callable[[OpenNode], Any]) -> None:
         self.space: dict[str, Any] = {
-            "new": object.__new__, "put": object.__setattr__, "deque": deque, "chain": chain, **called
+            "new": object.__new__, "put": object.__setattr__, "deque": deque, **called
         }  # fmt: skip
         self.kinds = kinds
         self.source: list[str] = []
@@ -74,20 +72,17 @@ class CodeGenerator:
         self.lines.append(f"{held} = {what}")
         return held
 
-    def flush(self) -> None:
-        """What is pending is written now, before what a block or a call writes."""
+    def flush(self, streams: str = "FNM") -> None:
+        """What is pending is written now, before what comes after it in its stream."""
         for stream, parts in self.pending.items():
-            if parts:
+            if parts and stream in streams:
                 joined = ", ".join(parts)
                 self.lines.append(f"{stream}.append({joined})" if len(parts) == 1 else f"{stream} += ({joined})")
                 parts.clear()
 
     def put(self, stream: str, line: str) -> None:
         """A line that writes to one stream."""
-        parts = self.pending.get(stream, [])
-        if parts:
-            self.lines.append(f"{stream} += ({', '.join(parts)},)")
-            parts.clear()
+        self.flush(stream)
         self.lines.append(line)
 
     def block(self, opening: str, *written: tuple[Node, str]) -> None:
@@ -103,8 +98,8 @@ class CodeGenerator:
     def write(self, node: Node, what: str) -> None:
         """Lines that write a value."""
         match node:
-            case ScalarNode(kind) if kind in _STREAM:
-                self.pending[_STREAM[kind]].append(what)
+            case ScalarNode(kind) if _stream(node):
+                self.pending[_stream(node)].append(what)
             case ScalarNode(kind):
                 held = self.held(what + ".encode()" if kind is str else what)
                 self.pending["N"].append(f"len({held})")
@@ -139,13 +134,11 @@ class CodeGenerator:
         if kind is deque:
             self.write(MaybeNode(ScalarNode(int)), f"{held}.maxlen")
         self.pending["N"].append(f"len({held})")
-        if isinstance(of, ScalarNode) and of.kind in _STREAM:
-            self.put(_STREAM[of.kind], f"{_STREAM[of.kind]} += {held}")
-        elif isinstance(of, TupleNode) and all(map(_is_float, of.items)):
-            self.put("F", f"F += flat({held}, {len(of.items)})")
-        elif isinstance(of, RecordNode) and len(of.fields) > 1 and all(map(_is_float, of.fields.values())):
-            numbers = self.named_value("numbers", attrgetter(*of.fields))
-            self.put("F", f"F += chain.from_iterable(map({numbers}, {held}))")
+        if _stream(of):
+            self.put(_stream(of), f"{_stream(of)} += {held}")
+        elif isinstance(of, TupleNode) and {*map(_stream, of.items)} in ({"F"}, {"N"}):
+            stream, item = _stream(of.items[0]), self.name()
+            self.put(stream, f"for {item} in all_of({held}, {len(of.items)}): {stream} += {item}")
         else:
             item = self.name()
             self.block(f"for {item} in {held}:", (of, item))
@@ -183,7 +176,12 @@ class CodeGenerator:
             case RowNode(kind, of):
                 most = "(n() if m() else None)" if kind is deque else ""
                 each = f"each(n(), {t})" if _is_made(of) else "some(n())"
-                row = "take(F, n())" if _is_float(of) else f"[{self.expression(of, 'i')} for i in {each}]"
+                if _stream(of) == "F":
+                    row = "take(F, n())"
+                elif isinstance(of, TupleNode) and {*map(_stream, of.items)} == {"F"}:
+                    row = f"rows(F, n(), {len(of.items)})"
+                else:
+                    row = f"[{self.expression(of, 'i')} for i in {each}]"
                 if kind is deque:
                     return f"deque(maxlen={most}, iterable={row})"
                 return f"tuple({row})" if kind is tuple else row
@@ -194,11 +192,9 @@ class CodeGenerator:
                 return f"{self.reader(node)}({t if node.made else 'None'}, f, n, m, b, F, C)"
 
 
-_STREAM = {float: "F", int: "N", bool: "M"}
-
-
-def _is_float(node: Node) -> bool:
-    return isinstance(node, ScalarNode) and node.kind is float
+def _stream(node: Node) -> str:
+    """Of a number; "" of anything else."""
+    return {float: "F", int: "N", bool: "M"}.get(node.kind, "") if isinstance(node, ScalarNode) else ""
 
 
 def _is_made(node: Node) -> bool:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache
-from itertools import chain, islice
+from itertools import islice
 from typing import Any
 
 from attrs import frozen
@@ -65,7 +65,15 @@ class _Form:
 def _form(record: RecordNode) -> _Form:
     """The functions of a record."""
     called: dict[str, Callable[..., Any]]
-    called = {"flat": _flat, "take": _take, "some": _some, "word": _word, "there": _there, "each": _each}
+    called = {
+        "all_of": _all_of,
+        "take": _take,
+        "rows": _rows,
+        "some": _some,
+        "word": _word,
+        "there": _there,
+        "each": _each,
+    }
     return _Form(*CodeGenerator(called, _Kinds).made(record))
 
 
@@ -114,12 +122,11 @@ def told_of(record: RecordNode) -> str:
     return f"{record.cls.__name__} {check_of(described(record)):08x}"
 
 
-def _flat(rows: Any, width: int) -> list[Any]:
-    """The numbers of rows of so many."""
-    numbers = list(chain.from_iterable(rows))
-    if len(numbers) != width * len(rows):
+def _all_of(rows: Any, width: int) -> Any:
+    """The rows, of so many numbers each."""
+    if {*map(len, rows)} - {width}:
         raise ValueError(f"a row holds not {width} numbers")
-    return numbers
+    return rows
 
 
 def _there(is_there: bool, t: Any) -> bool:
@@ -133,6 +140,11 @@ def _take(floats: Iterator[float], count: int) -> list[float]:
     if len(taken) != count:
         raise SnapshotError("it was cut short")
     return taken
+
+
+def _rows(floats: Iterator[float], count: int, width: int) -> list[tuple[float, ...]]:
+    """So many tuples of so many."""
+    return list(zip(*[iter(_take(floats, width * count))] * width, strict=True))
 
 
 def _some(count: int) -> range:

@@ -31,12 +31,8 @@ from typing import Any
 
 import attrs
 
+from .marks import MADE_AGAIN, NOT_SAVED
 from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, RowNode, ScalarNode, TupleNode
-
-NOT_SAVED = {"saving": "not saved"}
-"""Mark of a field that is in no snapshot and in no packed state: it has its default after loading."""
-MADE_AGAIN = {"saving": "made again"}
-"""Mark of a field of state whose parts are made again by their holder."""
 
 SCALARS = (float, int, bool, str, bytes)
 _RECORDS: dict[tuple[type, bool], RecordNode] = {}
@@ -52,11 +48,6 @@ def record_of(cls: type, made: bool = False) -> RecordNode:
 def record_in(node: OpenNode, cls: type) -> RecordNode:
     """The schema of a record of that class in an open node."""
     return record_of(cls, node.made and (cls in node.known.values() or remembers(cls)))
-
-
-def node_of(annotation: Any) -> Node:
-    """What a field of this type holds."""
-    return _Walk().node(annotation, False)
 
 
 def is_record(cls: Any) -> bool:

@@ -19,7 +19,7 @@ from attrs import evolve
 
 from ..body.gait.means import GaitParameters
 from ..body.part import Position
-from ..calibration import Calibration, CalibrationError, unusable
+from ..calibration import Calibration, CalibrationError
 from ..events import Event, PacketRejected, Placed, SampleRejected
 from ..foot.phase import SUPPORT
 from ..foot.tracker import FootTracker
@@ -27,15 +27,14 @@ from ..link.decoder import Decoder
 from ..link.driver import Driver
 from ..link.known import Kinds, kinds
 from ..recipes import DEFAULT, Recipe, own
-from ..saving.codec import Json
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
-from .snapshot import must_fit, restored, taken
 from .state import SessionState
 from .wearer import WearerParts, in_order
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
     from ..floorplan.plan import FloorPlan, Start
+    from ..saving.codec import Json
 
 A_NUMBER = (float, int)
 
@@ -79,12 +78,7 @@ class Session:
         if not isinstance(recipe, Recipe):
             raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}")
         self._kinds: Kinds = kinds(profiles)
-        known = Calibration() if calibration is None else calibration
-        if not isinstance(known, Calibration):
-            raise TypeError(f"calibration must be a Calibration, not {type(known).__name__}")
-        why_not = unusable(known)
-        if why_not is not None:
-            raise CalibrationError(f"calibration: {why_not}")
+        known = Calibration() if calibration is None else _sound(calibration)
         self._plan = _indexed(floorplan)
         wearer = WearerParts(own(recipe), deepcopy(known), poses, pressures, self._plan is not None)
         if start is not None:
@@ -274,6 +268,8 @@ class Session:
 
     def snapshot(self) -> dict[str, Json]:
         """Everything the session remembers, as plain data for JSON or any other encoder. Costs some milliseconds."""
+        from .snapshot import taken
+
         return taken(self._state)
 
     @classmethod
@@ -292,6 +288,8 @@ class Session:
         place of a device of ours then and not now, or of a detector that is not among the parts. Whether its functions
         are the same cannot be seen: that is for the app to keep. TypeError and ValueError for profiles and parts that
         are none, or two of one name."""
+        from .snapshot import restored
+
         return cls._of(restored(saved, parts), profiles, floorplan)
 
     def pack(self) -> bytes:
@@ -324,6 +322,8 @@ class Session:
     @classmethod
     def _of(cls, state: SessionState, profiles: Iterable[Driver], floorplan: FloorPlan | IndexedPlan | None) -> Session:
         """What goes on from a state. SnapshotError where that needs a floor plan or a driver that is not there."""
+        from .snapshot import must_fit
+
         session = cls.__new__(cls)
         session._kinds = kinds(profiles)
         session._plan = _indexed(floorplan)
@@ -331,6 +331,17 @@ class Session:
         must_fit(state, session._kinds, session._plan)
         state.wearer.walks_on(session._plan)
         return session
+
+
+def _sound(calibration: Calibration) -> Calibration:
+    from ..calibration.limits import unusable
+
+    if not isinstance(calibration, Calibration):
+        raise TypeError(f"calibration must be a Calibration, not {type(calibration).__name__}")
+    why_not = unusable(calibration)
+    if why_not is not None:
+        raise CalibrationError(f"calibration: {why_not}")
+    return calibration
 
 
 def _indexed(floorplan: FloorPlan | IndexedPlan | None) -> IndexedPlan | None:

@@ -28,7 +28,7 @@ from ..foot.rejection import rejected, with_sound_attitude, wrong_time
 from ..foot.tracker import FootTracker
 from ..foot.view import FootView
 from ..recipes import Recipe, part_class
-from ..saving.schema import MADE_AGAIN
+from ..saving.marks import MADE_AGAIN
 from ..types import Foot, Sample, Site
 
 if TYPE_CHECKING:

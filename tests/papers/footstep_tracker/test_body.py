@@ -13,7 +13,8 @@ from walks import LEFT, RIGHT, of
 from solepath import Session
 from solepath.body.gait.direction import Direction, TurnProcess
 from solepath.body.gait.turns import WEIGHTS, classified
-from solepath.calibration import Calibration, CalibrationError, read_calibration
+from solepath.calibration import Calibration, CalibrationError
+from solepath.calibration.file import read_calibration
 from solepath.cli.main import main
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2541

@@ -28,7 +28,7 @@ from ...events import (
 )
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
-from ...saving.schema import NOT_SAVED
+from ...saving.marks import NOT_SAVED
 from ..part import Notice, Said
 from .arrivals import fan, nowhere
 from .crowd import AGREED, Row, believed, effective, rounded

@@ -82,7 +82,8 @@ def add_calibration(command: argparse.ArgumentParser) -> None:
 
 def calibration_of(options: argparse.Namespace) -> Calibration | None:
     """What --calibration names; None without it. Failure when that is no calibration."""
-    from ...calibration import CalibrationError, read_calibration
+    from ...calibration import CalibrationError
+    from ...calibration.file import read_calibration
     from ...recording import printable
 
     if options.calibration is None:

@@ -24,11 +24,12 @@ from construct import (
     Struct,
 )
 
-from ...events import KeysChanged, Limitation, LinkEvent
+from ...events import KeysChanged, Limitation
 from ...types import Sample, Site, Vec3
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, parse_whole
 from ...wire.sensortag import ON_OFF, PERIOD
+from ..device_link import DeviceLink, Output
 from ..periodic import Periodic, periodic
 from ..profile import FIRMWARE, Access, Channel, Profile, Write, standard, ti
 from ..rest import RestCheck
@@ -157,11 +158,8 @@ class BarometerCalibration:
         return (sensitivity * pressure + offset) / 2**14
 
 
-Output = list[Sample | LinkEvent]
-
-
 @define
-class Cc2541Link:
+class Cc2541Link(DeviceLink):
     """Feeds on the channels cc2541/... of one site.
 
     `feed` raises WireError for what cannot be used, and then nothing has changed. Latency: see assembler.py.
@@ -293,3 +291,7 @@ def cc2541_link(site: Site, firmware: str) -> Cc2541Link:
     link = Cc2541Link(site, Assembler(site))
     link.learn_firmware(firmware)
     return link
+
+
+LINK = cc2541_link, Cc2541Link.feed
+"""How a link of its own begins, and how it is fed."""

@@ -14,7 +14,6 @@ from attrs import define, field
 from ...events import (
     LayoutKnown,
     Limitation,
-    LinkEvent,
     PacketRejected,
     Rejection,
 )
@@ -25,6 +24,7 @@ from ...wire.fragment import is_fragment, parse_fragment
 from ...wire.insole import InsoleFrame, parse_frame
 from ...wire.insole_control import parse_control
 from ...wire.insole_info import InsoleInfo, parse_info
+from ..device_link import DeviceLink, Output
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write
 from ..rest import RestCheck
 from ..run import Counted, PacketRun, signed
@@ -65,11 +65,9 @@ PROFILE = Profile(
     stale_after=1.0,
 )
 
-Output = list[Sample | LinkEvent]
-
 
 @define
-class InsoleLink:
+class InsoleLink(DeviceLink):
     """Feeds on the channels insole/frame, insole/info and insole/control of one foot.
 
     `feed` raises WireError for what cannot be used, and then nothing has changed but the fragments under way.
@@ -236,3 +234,7 @@ def _check_scales(info: InsoleInfo) -> None:
 def insole_link(site: Site, firmware: str) -> InsoleLink:
     """A fresh insole at `site`."""
     return InsoleLink(site)
+
+
+LINK = insole_link, InsoleLink.feed
+"""How a link of its own begins, and how it is fed."""

@@ -24,7 +24,8 @@ from pathlib import Path
 import numpy as np
 from attrs import frozen
 
-from ...calibration import Calibration, CalibrationError, bounded_text
+from ...calibration import Calibration, CalibrationError
+from ...calibration.file import bounded_text
 from ...events import StrideTaken
 from ...papers.pressure_contour.recipe import PRESSURE_CONTOUR
 from ...recipes import Recipe

@@ -10,7 +10,8 @@ from pathlib import Path
 
 from attrs import frozen
 
-from ...calibration import CalibrationError, bounded_text
+from ...calibration import CalibrationError
+from ...calibration.file import bounded_text
 
 
 @frozen

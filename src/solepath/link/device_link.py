@@ -1,0 +1,43 @@
+"""What a decoder asks of the link of one device, whichever it is."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+from ..events import LinkEvent
+from ..types import Sample
+
+Output = list[Sample | LinkEvent]
+
+
+class DeviceLink(Protocol):
+    """One device at one site: values of its channels in, samples on one clock out. A plain record."""
+
+    @property
+    def name(self) -> str:
+        """Of the device, as in its channels."""
+
+    @property
+    def silence_is_legal(self) -> bool:
+        """Whether the device may send nothing for long."""
+
+    @property
+    def doubt(self) -> float | None:
+        """The times of samples up to this one, s, cannot be compared with another device's; None where all can."""
+
+    def flush(self, known_at: float) -> Output:
+        """What still waits for more, which will not come."""
+
+    def forget_clock(self) -> None:
+        """The receiver's clock was set back: what was fitted to it is of no use."""
+
+    def reconnected(self) -> None:
+        """The device was connected anew."""
+
+    def learn_firmware(self, firmware: str) -> None:
+        """The device said which firmware it has; most links have no use for that."""
+        return
+
+    def stands_on(self) -> Any:
+        """What a declared device's saved link must find again in its driver (`Driver.basis`); None of others."""
+        return None
