@@ -15,7 +15,7 @@ from walks import samples
 from solepath import Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
 from solepath.body.height.altitude import LEFT, MOVE, RIGHT, SCALE, STANDARD, UNKNOWN, Altitude
 from solepath.body.height.received import Heard, Told
-from solepath.body.part import Height, Instead
+from solepath.body.part import HeightShift, Instead
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import SampledWalk, sampled
@@ -120,7 +120,7 @@ def test_air_says_what_stairs_came_to_where_the_steps_are_wrong() -> None:
 
     def breathed(t: float, pascal: float, *events: Event) -> None:
         for said in fed(altitude, tracker, evolve(sample, t=t, known_at=t, air_pressure=pascal), events):
-            if isinstance(said, Height):
+            if isinstance(said, HeightShift):
                 heights.append(said.above)
 
     step = next(event for event in Session().feed(samples(cells=0)) if isinstance(event, StrideTaken))
@@ -154,14 +154,14 @@ def test_without_air_what_no_lift_rides_has_no_height(height: float | None, last
     for k in range(strides):
         altitude.receive(evolve(step, t_start=101.0 + k, t_end=102.0 + k, t=102.0 + k))
     told = ride(height, lasted)
-    assert altitude.receive(told) == [Instead(told, evolve(told, height=None)), Height(0.0, 0.0)]
+    assert altitude.receive(told) == [Instead(told, evolve(told, height=None)), HeightShift(0.0, 0.0)]
 
 
 def test_a_lift_that_stands_feet_in_it_is_believed_without_air() -> None:
     altitude = Altitude()
     instead, height = altitude.receive(ride(6.0, 8.0))
     assert instead == Instead(ride(6.0, 8.0), ride(6.0, 8.0))
-    assert isinstance(height, Height) and height.above == 6.0
+    assert isinstance(height, HeightShift) and height.above == 6.0
 
 
 TOLD = st.tuples(
@@ -210,5 +210,5 @@ def test_any_air_is_survived() -> None:
         t = 1e3 * k if k % 2 else -1e9 * k
         rides = (ride(1e308, 1e-9), ride(None, 0.0))
         said += fed(altitude, tracker, evolve(sample, t=t, known_at=t, air_pressure=pascal), rides)
-    heights = [one for one in said if isinstance(one, Height)]
+    heights = [one for one in said if isinstance(one, HeightShift)]
     assert heights and all([abs(v) < 1e7 for one in heights for v in (one.above, one.variance)])

@@ -13,6 +13,7 @@ from typing import Any
 
 import pytest
 from attrs import asdict, evolve
+from encoded import other
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from walks import NAMES, PACKET_NAMES, gone, machines, of, told
@@ -25,15 +26,6 @@ from solepath.session.state import VERSION
 SESSIONS = [name for name in NAMES if name.startswith("session")]
 QUICK = settings(max_examples=2, deadline=None, phases=[Phase.generate])
 """A walk an example: few of them, and no shrinking."""
-
-
-def other(value: Any) -> Any:
-    """As JavaScript would write it: 1.0 is 1, -0.0 is 0, keys in order."""
-    if isinstance(value, float) and value.is_integer():
-        return int(value)
-    if isinstance(value, dict):
-        return {key: other(value[key]) for key in sorted(value)}
-    return [other(item) for item in value] if isinstance(value, list) else value
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from binascii import crc32
 from functools import cache
 from typing import Any
 
@@ -10,6 +9,7 @@ import pytest
 from attrs import define
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from signed import signed
 from walks import machines
 
 from solepath import Foot, Session, SnapshotError
@@ -32,13 +32,6 @@ def packed() -> bytes:
 
 
 # --- damaged and foreign ----------------------------------------------------------------------------------------------
-
-
-def signed(data: bytes) -> bytes:
-    """With the checksum that it ought to have, so that what is behind it is looked at."""
-    magic, form, version, made_with, _ = HEADER.unpack_from(data)
-    start = HEADER.pack(magic, form, version, made_with, 0)
-    return HEADER.pack(magic, form, version, made_with, crc32(data[HEADER.size :], crc32(start))) + data[HEADER.size :]
 
 
 def refused_or_sound(data: bytes) -> None:

@@ -2,7 +2,7 @@
 
 A recipe has its parts as a tuple. What a foot or a link says reaches them in that order, and what a part says reaches
 those after it, also at the end of a session. Nothing is written back into a foot: a correction is a value that a part
-returns (`Shift`, `Height`, `Instead`), and the wearer applies it.
+returns (`Shift`, `HeightShift`, `Instead`), and the wearer applies it.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class Shift:
 
 
 @frozen
-class Height:
+class HeightShift:
     """The wearer is `above` m higher than the feet's tracks say, known with this variance, m^2; until the next one."""
 
     above: float
@@ -70,7 +70,7 @@ class Position:
     covariance: Covariance3
 
 
-Said = Event | Shift | Height | Instead
+Said = Event | Shift | HeightShift | Instead
 Notice = Event | ClockUnsettled | LayoutTold
 
 

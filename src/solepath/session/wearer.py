@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from attrs import define, field
 
-from ..body.part import ClockUnsettled, Height, Instead, LayoutTold, Part, Position, Said, Shift, Track
+from ..body.part import ClockUnsettled, HeightShift, Instead, LayoutTold, Part, Position, Said, Shift, Track
 from ..calibration import Calibration
 from ..events import (
     ActivityChanged,
@@ -180,7 +180,7 @@ class WearerParts:
         for one in said:
             if isinstance(one, Shift):
                 self.feet[one.foot].shift(one.yaw, one.by)
-            elif isinstance(one, Height):
+            elif isinstance(one, HeightShift):
                 self.height = (one.above, one.variance)
             elif isinstance(one, Instead):
                 events[:] = [one.by if event is one.event else event for event in events]

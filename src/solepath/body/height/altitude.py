@@ -28,7 +28,7 @@ from attrs import define, evolve, field
 from ...events import LiftRidden, StrideTaken
 from ...foot.view import FootView
 from ...types import Foot, Site
-from ..part import Height, Instead, Notice, Part, Said
+from ..part import HeightShift, Instead, Notice, Part, Said
 from .received import Heard, Told
 
 SCALE = 8578.0
@@ -180,8 +180,8 @@ class Altitude(Part):
             return [Instead(event, ridden), self._height()]
         return ()
 
-    def _height(self) -> Height:
-        return Height(self.now.values[0], self.doubt)
+    def _height(self) -> HeightShift:
+        return HeightShift(self.now.values[0], self.doubt)
 
     def reset(self, site: Site) -> None:
         """The clock of a foot restarts, or it wears another barometer: its offset is not known any more."""
