@@ -294,8 +294,7 @@ def test_decoded_samples_have_the_true_rate_and_feel_the_true_motion(device: Dev
     true = walk.walker.kinematics(Foot.LEFT, t, device.mounting)
     sway = np.array([s.gyro for s in samples])[:, 1]
     best = max(np.corrcoef(sway, np.interp(t - lag, t, true.rate[:, 1]))[0, 1] for lag in np.arange(0.0, 0.02, 0.004))
-    assert best > (
-        0.97 if rate >= 30.0 else 0.85
-    )  # a SensorTag saturates in swing, and its accelerometer sets the time
+    # a SensorTag saturates in swing, and its accelerometer sets the time
+    assert best > (0.97 if rate >= 30.0 else 0.85)
     rest = np.array([s.acc for s in samples if s.t < 2.0])
     assert np.linalg.norm(rest, axis=1).mean() == pytest.approx(9.81, rel=0.2)

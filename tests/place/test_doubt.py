@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from math import hypot, radians
+from math import cos, hypot, radians, sin
 
 import pytest
 from attrs import evolve
 from floors import HIGH, LEFT, LIFTS, LOW, OFFICE, RIGHT, STAIRS, Pedestrian, Told, beside, doing, office
 
 from solepath import Activity, Event, LiftRidden, Placed, TurnMade
+from solepath.body.place.crowd import rounded
 from solepath.body.place.particles import Particles
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Start
@@ -165,3 +166,11 @@ def test_a_ride_over_a_storey_of_another_height_than_guessed_ends_on_the_next_le
     one.walk(beside(one.place), (24.0, LOW))
     follow(part, one.told, unknown_heights())
     assert near(part, "1", one.place) > 0.9
+
+
+def test_readings_are_kept_to_three_digits_and_no_less_when_they_are_kept_again() -> None:
+    rows = [(10.0 + k, 2.0 * k, cos(0.1 * k), sin(0.1 * k), 1.0 / (1 + k), k % 3, k % 2, 0) for k in range(40)]
+    again = rounded(rows)
+    for before, after in zip(rows, again, strict=True):
+        assert after[:5] == pytest.approx(before[:5], rel=1e-3, abs=1e-3) and after[5:] == before[5:]
+    assert rounded(again) == again and rounded([]) == []
