@@ -17,8 +17,7 @@ from ...emulate.sensors.device import Device
 from ...link.profile import CC2541, CC2541_20HZ, CC2650, INSOLE
 from ...recording import printable
 from ...types import Site
-from ..common.failure import Failure, host_and_port, in_words
-from ..common.loop import attended
+from ..common.failure import Failure, attended, host_and_port, in_words
 from .choosing import UNATTENDED
 
 LONGEST = 5000.0
