@@ -7,8 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .common.failure import Failure, is_there, note, positive, seconds, seed, share
-from .common.loop import attended
+from .common.failure import Failure, attended, is_there, note, positive, seconds, seed, share
 from .common.view import View, add_speed, add_view, pace_of, view_of
 
 if TYPE_CHECKING:

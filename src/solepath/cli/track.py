@@ -8,9 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..recording import printable
-from .common.failure import Failure, known_recipe, note
+from .common.failure import Failure, attended, known_recipe, note
 from .common.floorplan import add_floorplan, floorplan_of
-from .common.loop import attended
 from .common.recorded import add_calibration, add_foot, calibration_of, check_pressure, foot_of, source_of
 from .common.view import View, add_speed, add_view, need_page, newtons_of, pace_of, play, run_rest, view_of
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from ..common.failure import Failure, need, note, positive
-from ..common.loop import attended
+from ..common.failure import Failure, attended, need, note, positive
 
 if TYPE_CHECKING:
     from ...ble import Found, Wanted

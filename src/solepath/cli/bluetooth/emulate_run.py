@@ -17,8 +17,7 @@ from ...emulate.sensors.device import Device
 from ...link.devices import cc2541, cc2650, insole
 from ...recording import printable
 from ...types import Site
-from ..common.failure import Failure, host_and_port, in_words
-from ..common.loop import attended
+from ..common.failure import Failure, attended, host_and_port, in_words
 from .choosing import UNATTENDED
 
 LONGEST = 5000.0

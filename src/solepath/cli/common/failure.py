@@ -25,6 +25,11 @@ def note(sentence: str) -> None:
     print(f"solepath: {printable(sentence, LONGEST)}", file=sys.stderr)
 
 
+def attended() -> bool:
+    """Whether there is a terminal to end a command from."""
+    return sys.stdin.isatty() or sys.stdout.isatty()
+
+
 def is_there(package: str) -> bool:
     """Whether a package of an extra is installed; it is not loaded."""
     return find_spec(package) is not None

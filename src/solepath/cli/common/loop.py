@@ -6,7 +6,6 @@ import asyncio
 import atexit
 import os
 import signal
-import sys
 import threading
 from collections.abc import AsyncIterator, Callable, Coroutine, Iterator
 from contextlib import asynccontextmanager, contextmanager
@@ -16,11 +15,6 @@ STOP = [signal.SIGINT, signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIG
 """What tells a command to stop: Ctrl-C, being ended, and a terminal that was closed."""
 INTERRUPTED = 130
 """The exit status of what was told to stop before it had begun."""
-
-
-def attended() -> bool:
-    """Whether there is a terminal to end a command from."""
-    return sys.stdin.isatty() or sys.stdout.isatty()
 
 
 class Interrupted(Exception):
