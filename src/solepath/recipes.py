@@ -195,7 +195,8 @@ def own(recipe: Recipe) -> Recipe:
     from .saving.codec import save
 
     try:
-        told = repr(save(recipe))
+        beside = [vars(part) for part in (recipe.detector, recipe.corrector, recipe.cues) if hasattr(part, "__dict__")]
+        told = repr((save(recipe), beside))
     except (TypeError, ValueError):  # it holds what cannot be saved, and can be compared with nothing
         return deepcopy(recipe)
     for one, others in known:

@@ -45,7 +45,7 @@ def test_a_file_is_there_as_it_was_until_it_is_kept(kept: bool, tmp_path: Path) 
 def test_another_programs_file_is_not_thrown_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two machines that share a directory may give two programs the same number."""
     files = Replacing()
-    monkeypatch.setattr(files, "_numbers", count(7))
+    monkeypatch.setattr("solepath.cli.common.files._numbers", count(7))
     another = tmp_path / f".solepath-{os.getpid()}-7.part"
     another.write_text("half of a track")
     with pytest.raises(OSError, match=r"track\.csv"):

@@ -121,7 +121,7 @@ def _decoder(name: str, items: tuple[Packet, ...]) -> Machine:
         return Decoder(LEFT)
 
     def load(saved: Any) -> Decoder:
-        return machine.load(Decoder, saved)
+        return machine.load(Decoder, saved, recipes.part_class)
 
     return Machine(f"decoder, {name}", tuple(item for item in items if item.site is LEFT), begin, load)
 

@@ -29,6 +29,7 @@ from solepath.link.catalogue import PROFILES
 from solepath.link.decoder import SET_BACK, Decoder
 from solepath.link.devices import cc2541, cc2650
 from solepath.link.devices.cc2541 import counts_per_g
+from solepath.recipes import part_class
 from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Packet, Sample, Site
 from solepath.types.vector import GRAVITY
@@ -243,7 +244,7 @@ def test_any_sequence_of_packets_keeps_order_and_survives_being_saved_at_any_cut
     for number, (pause, (channel, data)) in enumerate(moves):
         t += pause
         if number == cut:
-            restored = machine.load(Decoder, json.loads(json.dumps(machine.save(straight), allow_nan=False)))
+            restored = machine.load(Decoder, json.loads(json.dumps(machine.save(straight), allow_nan=False)), part_class)
         outputs = straight.feed(packet(t, channel, data)) + straight.advance(t + 0.5)
         if number >= cut:
             assert restored.feed(packet(t, channel, data)) + restored.advance(t + 0.5) == outputs

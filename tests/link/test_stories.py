@@ -20,6 +20,7 @@ from solepath.events import (
     StreamStale,
 )
 from solepath.link.decoder import Decoder
+from solepath.recipes import part_class
 from solepath.saving import codec as machine
 from solepath.types import Packet, Sample, Site
 
@@ -87,7 +88,7 @@ def test_a_receiver_saved_and_restored_before_every_packet_goes_on_the_same(path
     site = Site(story["site"])
     straight, restored = Decoder(site=site), Decoder(site=site)
     for line in story["packets"]:
-        restored = machine.load(Decoder, json.loads(json.dumps(machine.save(restored), allow_nan=False)))
+        restored = machine.load(Decoder, json.loads(json.dumps(machine.save(restored), allow_nan=False)), part_class)
         assert listen(restored, site, line) == listen(straight, site, line)
     assert restored == straight
     assert restored.finish() == straight.finish()

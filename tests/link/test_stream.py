@@ -32,6 +32,7 @@ from solepath.link.devices import orphe
 from solepath.link.driver import Driver, Reading, TimeAxis
 from solepath.link.known import KINDS, kinds
 from solepath.link.profile import Write
+from solepath.recipes import part_class
 from solepath.saving import codec as machine
 
 # --- times ------------------------------------------------------------------------------------------------------------
@@ -312,7 +313,7 @@ def test_any_bytes_at_any_time_give_events_and_a_state_that_can_be_saved(name: s
                     assert one.t > newest
                     newest = one.t
         saved = json.dumps(machine.save(device.decoder), allow_nan=False)
-        device = Toy(device.driver, machine.load(Decoder, json.loads(saved)))
+        device = Toy(device.driver, machine.load(Decoder, json.loads(saved), part_class))
 
 
 # --- drivers ----------------------------------------------------------------------------------------------------------
