@@ -21,7 +21,7 @@ LONGER = {
     "src/solepath/session/session.py": 377,
     "tests/cli/test_cli_view.py": 322,
     "tests/helpers/radio/memory_radio.py": 363,
-    "tests/link/test_decoder.py": 643,
+    "tests/link/test_decoder.py": 645,
     "tests/link/test_stream.py": 452,
     "tests/page/test_browser.py": 344,
     "tests/page/test_player.py": 305,

@@ -244,7 +244,8 @@ def test_any_sequence_of_packets_keeps_order_and_survives_being_saved_at_any_cut
     for number, (pause, (channel, data)) in enumerate(moves):
         t += pause
         if number == cut:
-            restored = machine.load(Decoder, json.loads(json.dumps(machine.save(straight), allow_nan=False)), part_class)
+            saved = json.loads(json.dumps(machine.save(straight), allow_nan=False))
+            restored = machine.load(Decoder, saved, part_class)
         outputs = straight.feed(packet(t, channel, data)) + straight.advance(t + 0.5)
         if number >= cut:
             assert restored.feed(packet(t, channel, data)) + restored.advance(t + 0.5) == outputs

@@ -180,7 +180,8 @@ def test_a_session_with_a_detector_of_the_apps_own_is_read_with_its_schema_besid
     session.feed(samples(cells=0)[:50])
     record = record_of(Mine, made=True)
     assert told_of(record) == f"Mine {check_of(described(record)):08x}"
-    tree = Tree(printed()["session"], {told_of(record): described(record)}, session.pack()[16:])
+    told = printed()
+    tree = Tree(told["session"], told["parts"] | {told_of(record): described(record)}, session.pack()[16:])
     _, state = tree.roots()
     assert not tree.left()
     assert state["wearer"]["feet"]["left"]["detector"]["kind"] == "Mine"

@@ -24,7 +24,7 @@ from ..saving.packed import Lists, Streams, read, write
 from ..saving.schema import check_of, described, record_of
 from ..saving.streams import Units, from_bytes, to_bytes
 from ..types import Foot, shared
-from .snapshot import by_name
+from .snapshot import by_name, check_names
 from .state import VERSION, SessionState
 from .wearer import WearerParts
 
@@ -68,6 +68,7 @@ def pack(state: SessionState) -> bytes:
     """The state as bytes. TypeError when a part of the app's own has a field of a kind that cannot be saved,
     SnapshotError when it holds a value that cannot."""
     wearer = state.wearer
+    check_names(wearer.recipe)
     head = Head(wearer.recipe.name, wearer.calibration, wearer.poses, wearer.pressures, state.plan)
     lists: Lists = ([], [], [], [])
     try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from ..recipes import PARTS, part_class
+from ..recipes import LINKS, PARTS, part_class
 from ..saving.packed import told_of
 from ..saving.schema import described, record_of, remembers
 from .packed import schema
@@ -13,10 +13,11 @@ from .state import VERSION
 
 
 def as_data() -> dict[str, Any]:
-    """The version, the schema of a session, and those of the parts of recipes, by what is packed of an open record."""
+    """The version, the schema of a session, and those of links and parts, by what is packed of an open record."""
     parts = {}
-    for cls in map(part_class, PARTS):
-        record = record_of(cls, made=remembers(cls))
+    for name in (*LINKS, *PARTS):
+        cls = part_class(name)
+        record = record_of(cls, made=name in PARTS and remembers(cls))
         parts[told_of(record)] = described(record)
     return {"version": VERSION, "session": schema(), "parts": parts}
 
