@@ -22,7 +22,7 @@ LONGER = {
     "tests/cli/test_cli_view.py": 322,
     "tests/helpers/radio/memory_radio.py": 363,
     "tests/link/test_decoder.py": 645,
-    "tests/link/test_stream.py": 452,
+    "tests/link/test_stream.py": 453,
     "tests/page/test_browser.py": 344,
     "tests/page/test_player.py": 305,
     "tests/page/test_scene.py": 575,
