@@ -11,7 +11,7 @@ from argparse import ArgumentParser
 from contextlib import redirect_stdout
 from functools import partial
 from importlib import import_module
-from typing import Any
+from typing import Any, get_type_hints
 
 import figures
 import pytest
@@ -151,6 +151,13 @@ def test_what_comes_out_of_a_wearer_of_a_fleet_is_counted():
         len(json.dumps(told_row(NumberedEvent("w-00017", number, event)))) for number, event in enumerate(events)
     )
     assert f" {len(events) / last:.0f} events/s, {rows / last / 1000:.0f} kB/s as rows" in PAGES["docs/fleet.md"]
+
+
+def test_annotations_tell_the_state_of_hot_code_from_its_settings(played):
+    _, names = played("docs/hot-code.md")
+    kinds = get_type_hints(names["Rest"], names)
+    assert list(kinds) == list(vars(names["Rest"](names["RestSettings"]())))
+    assert kinds.pop("settings") is names["RestSettings"] and kinds
 
 
 def test_the_loop_over_bluetooth_is_a_program(played):
