@@ -1,52 +1,16 @@
 """`solepath evaluate`: tables, JSON and Markdown of a made data set, and what it needs."""
 
-import io
 import json
-import os
-import subprocess
-import sys
-from contextlib import redirect_stderr, redirect_stdout
 from math import radians
 from pathlib import Path
 
 import numpy as np
 import pytest
+from commands import in_this_process, no_control_codes, one_line, solepath
 
-from solepath.cli import main
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
-
-
-def solepath(*arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
-    clean = {key: value for key, value in os.environ.items() if key != "SOLEPATH_DATA"}
-    return subprocess.run(
-        [sys.executable, "-m", "solepath", *map(str, arguments)],
-        capture_output=True,
-        stdin=subprocess.DEVNULL,
-        text=True,
-        env=clean | environment,
-        check=False,
-    )
-
-
-def in_this_process(*arguments: object) -> subprocess.CompletedProcess[str]:
-    """The same without a process of its own, for what fails before it computes anything."""
-    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
-        status = main([str(argument) for argument in arguments])
-    return subprocess.CompletedProcess(arguments, status, out.getvalue(), err.getvalue())
-
-
-def no_control_codes(text: str) -> bool:
-    return all(c.isprintable() or c == "\n" for c in text)
-
-
-def one_line(done: subprocess.CompletedProcess[str]) -> str:
-    """The one line on stderr of a command that failed with exit status 2."""
-    assert done.returncode == 2, done.stderr
-    line, end = done.stderr[:-1], done.stderr[-1:]
-    assert end == "\n" and "\n" not in line and line.startswith("solepath: ") and no_control_codes(line)
-    return line
 
 
 @pytest.fixture(scope="module")

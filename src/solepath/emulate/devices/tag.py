@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from math import ceil, inf
@@ -86,7 +87,7 @@ class Presses:
         return (self.up if number % 2 else self.down,)
 
 
-class Tag(Peripheral):
+class Tag(Peripheral, ABC):
     """A SensorTag of a kind that is sold as `model`, as it is worn. `clock` is its own; `others` are sensors that the
     profile does not know, with their service. Of the device, `rate` is the fastest that its firmware takes if that is
     more than the stock 10 Hz; range and rates in force are what is written to it."""
@@ -124,9 +125,9 @@ class Tag(Peripheral):
         self._states: dict[str, _State] = {}
         self.stop()
 
+    @abstractmethod
     def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
         """What a sensor that measures every `period` s measures over the whole walk."""
-        raise NotImplementedError
 
     def series(self, sensor: str, period: float) -> tuple[Series, ...]:
         """The same, worked out when it is first asked for."""
