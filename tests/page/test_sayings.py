@@ -38,7 +38,7 @@ def test_the_page_does_not_say_that_somebody_walks_of_whom_nothing_is_heard(brow
             await view.until("document.getElementById('activity').textContent === 'Walking'")
             assert all([float(await text(name)) > 0.0 for name in FIGURES])
             rows = await view.tab.locator("#gait-rows tr").all_inner_texts()
-            assert rows[0].split()[:3] == ["strides", *[str(n) for n in strides(scene.measured.frame())]]
+            assert rows[0].split()[:3] == ["strides", *[str(n) for n in strides(scene.whole()[0]["frame"]["gait"])]]
             angle = next(row for row in rows if row.startswith("toe-off"))
             assert angle.rstrip().endswith("°"), "degrees, not a share of an angle"
             assert "settle with 30 and more" in await text("gait-note")
