@@ -9,10 +9,9 @@ recipe is asked for. A name, in a state or from a command line, is looked up in 
 from __future__ import annotations
 
 from copy import deepcopy
+from functools import cached_property
 from importlib import import_module
 from typing import Any
-
-from attrs import evolve, field, frozen
 
 from .body.activity.activities import Activities
 from .body.fuse.both_feet import BothFeet
@@ -29,6 +28,7 @@ from .foot.navigate.error_state import ErrorStateFilter
 from .foot.pressure.insole import InsoleLoads
 from .foot.stance.cycle import Cycle
 from .foot.stance.stance import Detector
+from .types.attrs import evolve, field, frozen
 
 
 def usual(
@@ -123,7 +123,7 @@ LINKS: dict[str, str] = {
 
 PARTS: dict[str, str] = {
     "Cycle": _FOOT + "stance.cycle",
-    "ShoeDetector": _FOOT + "stance.classic",
+    "ShoeDetector": _FOOT + "stance.shoe",
     "AngularRate": _FOOT + "stance.classic",
     "MovingVariance": _FOOT + "stance.classic",
     "Graph": _FOOT + "stance.classic",
@@ -190,23 +190,40 @@ def own(recipe: Recipe) -> Recipe:
     if not isinstance(recipe, Recipe):
         raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}")
     known = _own
-    if any([recipe is one for one, _ in known]):
+    if any([recipe is one.recipe for one in known]):
         return recipe
-    from .saving.codec import save
+    if known:
+        known = tuple([one for one in known if one.text is not None])
+        text = _Copy(recipe).text
+        if text is None:
+            return deepcopy(recipe)
+        for one in known:
+            if one.text == text:
+                return one.recipe
+    copy = _Copy(deepcopy(recipe))
+    _own = (copy, *known[: _OWN - 1])
+    return copy.recipe
 
-    try:
-        beside = [vars(part) for part in (recipe.detector, recipe.corrector, recipe.cues) if hasattr(part, "__dict__")]
-        told = repr((save(recipe), beside))
-    except (TypeError, ValueError):  # it holds what cannot be saved, and can be compared with nothing
-        return deepcopy(recipe)
-    for one, others in known:
-        if told == others:
-            return one
-    copy = deepcopy(recipe)
-    _own = ((copy, told), *_own[: _OWN - 1])
-    return copy
+
+class _Copy:
+    """A recipe, and what it holds as text, which is made when it is first compared: saving what a session is made of
+    takes longer than making it. None where it holds what cannot be saved, and is like no other."""
+
+    def __init__(self, recipe: Recipe) -> None:
+        self.recipe = recipe
+
+    @cached_property
+    def text(self) -> str | None:
+        from .saving.codec import save
+
+        parts = (self.recipe.detector, self.recipe.corrector, self.recipe.cues)
+        beside = [vars(part) for part in parts if hasattr(part, "__dict__")]
+        try:
+            return repr((save(self.recipe), beside))
+        except (TypeError, ValueError):
+            return None
 
 
 _OWN = 16
-_own: tuple[tuple[Recipe, str], ...] = ()
-"""The newest, and what they hold as text. It is another one after a change: threads go on in the one that they have."""
+_own: tuple[_Copy, ...] = ()
+"""The newest. It is another one after a change: threads go on in the one that they have."""

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from solepath.foot.attitude import Rest, SampleSpan
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.navigate.strapdown import Strapdown
-from solepath.foot.stance.classic import ShoeDetector
 from solepath.foot.stance.cycle import Cycle
+from solepath.foot.stance.shoe import ShoeDetector
 from solepath.types import Quat, Vec3
 from solepath.types.vector import normalise
 

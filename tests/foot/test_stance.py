@@ -14,10 +14,11 @@ from hypothesis import strategies as st
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
-from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance, ShoeDetector
+from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
 from solepath.foot.stance.sensor_height import Lever
+from solepath.foot.stance.shoe import ShoeDetector
 from solepath.foot.stance.stance import Load, Stance, soften
 from solepath.types import Foot, Phase, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, conjugate, normalise, rotate

@@ -26,9 +26,10 @@ from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Start
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.navigate.error_state import ErrorStateFilter
-from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance, ShoeDetector
+from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
+from solepath.foot.stance.shoe import ShoeDetector
 from solepath.link.decoder import Decoder
 from solepath.recipes import DEFAULT, Recipe
 from solepath.saving import codec as machine

@@ -25,7 +25,7 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.emulate.walk import emulate
-from solepath.foot.stance.classic import ShoeDetector
+from solepath.foot.stance.shoe import ShoeDetector
 from solepath.foot.stance.stance import Detector, Load, Stance
 from solepath.papers.kupt_dfpc.fusion import DoubleFoot
 from solepath.types import Quat, Vec3, WalkingMode

@@ -19,7 +19,7 @@ from packed_reader import Tree, streams
 from walks import machines, samples
 
 from solepath import Foot, Phase, Session, recipes
-from solepath.foot.stance.classic import ShoeDetector
+from solepath.foot.stance.shoe import ShoeDetector
 from solepath.saving.codec import save
 from solepath.saving.packed import Lists, Streams, read, told_of, write
 from solepath.saving.schema import MADE_AGAIN, NOT_SAVED, check_of, described, record_of

@@ -11,13 +11,12 @@ from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import ClassVar, Protocol, Self
 
-from attrs import frozen
-
 from ..calibration import Calibration
 from ..events import Event
 from ..foot.view import FootPose, FootView
 from ..foot.world import Covariance3
 from ..types import Activity, Foot, Layout, Sample, Site, Vec3
+from ..types.attrs import frozen
 
 
 @frozen

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from attrs import fields
-
 from ..types import Cell, Foot, Layout, WalkingMode
+from ..types.attrs import fields
 from .records import Calibration, InsoleCalibration, Limbs, Newtons, ShoeGeometry
 
 _Limit = tuple[str, object, float, float, str]

@@ -7,9 +7,8 @@ from __future__ import annotations
 
 from typing import TypeVar
 
-from attrs import evolve, field, fields, frozen
-
 from ..types import Foot, Layout, WalkingMode
+from ..types.attrs import evolve, field, fields, frozen
 
 
 class CalibrationError(ValueError):

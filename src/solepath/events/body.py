@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from attrs import frozen
-
 from ..types import Foot, Vec3, WalkingMode
+from ..types.attrs import frozen
 from .happening import Happening
 
 

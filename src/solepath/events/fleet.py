@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from enum import Enum
 
-from attrs import frozen
-
+from ..types.attrs import frozen
 from .happening import Happening
 
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from enum import Enum
 
-from attrs import frozen
-
 from ..types import Layout, Site
+from ..types.attrs import frozen
 from .happening import Happening
 
 

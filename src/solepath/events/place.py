@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from attrs import frozen
-
 from ..types import Vec3
+from ..types.attrs import frozen
 from .happening import Happening
 
 

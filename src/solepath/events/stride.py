@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from attrs import frozen
-
 from ..types import Foot
+from ..types.attrs import frozen
 from .happening import Happening
 
 

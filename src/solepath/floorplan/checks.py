@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from math import hypot
 
-from attrs import evolve
-
+from ..types.attrs import evolve
 from .crossing import MOST_CELLS, Walls
 from .enclosure import MOST_PLACES, Enclosure
 from .grid import CELLS, PLACES, share

@@ -6,8 +6,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Sequence
 from math import hypot
 
-from attrs import evolve
-
+from ..types.attrs import evolve
 from .plan import Level, Point, Wall
 
 BESIDE = 0.3

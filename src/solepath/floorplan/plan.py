@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from enum import Enum
 
-from attrs import evolve, field, frozen
-
 from ..saving.codec import checksum, save
+from ..types.attrs import evolve, field, frozen
 
 Point = tuple[float, float]
 """(x, y) in m, plan frame."""

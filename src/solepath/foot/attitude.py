@@ -8,10 +8,9 @@ from __future__ import annotations
 
 from math import inf, isfinite
 
-from attrs import define, field
-
 from ..events import ScaleSuspect
 from ..types import Quat, Site, Vec3
+from ..types.attrs import define, field
 from ..types.vector import GRAVITY, TIE, ZERO, levelling
 
 COARSEST = 0.7

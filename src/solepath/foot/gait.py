@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ..events import Event
 from ..types import Foot, Phase, Vec3
-from ..types.vector import ZERO, from_yaw, multiply, sub
+from ..types.attrs import define, field
+from ..types.vector import ZERO, from_yaw, heading_turned, multiply, sub
 from .cues.cues import Cues, Seen
 from .gaps.gap import Leap
 from .gaps.template import Habit
 from .navigate.corrector import Corrector
 from .phase import BEGINS, PHASES, Cue
 from .stride import StepBuilder, StretchChain
-from .turn import heading_turned
 from .world import Covariance3, World
 
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ..events import Event, Limitation
 from ..types import SITE_OF_FOOT, Foot, Layout
+from ..types.attrs import define, field
 
 WITHOUT = 1.0
 """For this long samples may lack something before the foot is said to have none, s."""

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from math import inf, isfinite
 
-from attrs import evolve
-
 from ..events import Rejection, SampleRejected
 from ..types import Sample, Vec3
+from ..types.attrs import evolve
 from ..types.vector import normalise
 
 ABSURD_ACC = 500.0

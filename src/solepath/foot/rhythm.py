@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from attrs import define, field
+from ..types.attrs import define, field
 
 FOLLOW = 0.02
 """Share of the newest wait in the usual one; chosen by hand."""

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from math import hypot
 
-from attrs import define, field
-
 from ..events import StrideFeatures, StrideTaken
 from ..types import Foot, Quat, Vec3
-from ..types.vector import IDENTITY, ZERO, single, sub
-from .turn import heading_turned
+from ..types.attrs import define, field
+from ..types.vector import IDENTITY, ZERO, heading_turned, single, sub
 from .world import World
 
 COP_POINTS = 32

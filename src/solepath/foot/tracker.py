@@ -9,10 +9,9 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import Any, Final
 
-from attrs import define, evolve, field
-
 from ..events import Event, FootMoved, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
+from ..types.attrs import define, evolve, field
 from ..types.vector import ZERO
 from .attitude import Levelling, Rest, suspected
 from .cues.cues import Cues, Seen

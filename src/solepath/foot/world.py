@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from math import atan2, cos, hypot, sin
 
-from attrs import define, field
-
 from ..types import Quat, Vec3
+from ..types.attrs import define, field
 from ..types.vector import from_yaw, multiply
 
 FIRST_WAY = 0.15

@@ -22,7 +22,7 @@ until the two have drifted past one another.
 
 from __future__ import annotations
 
-from attrs import define, field
+from ..types.attrs import define, field
 
 FIRST_WINDOW = 0.25
 """Device seconds of which only the earliest arrival is kept, while the fit is young."""

@@ -20,8 +20,6 @@ from __future__ import annotations
 from copy import deepcopy
 from math import isfinite
 
-from attrs import define, fields
-
 from ..events import (
     BatteryLevel,
     ClockReset,
@@ -32,11 +30,11 @@ from ..events import (
     StreamStale,
 )
 from ..types import Packet, Site
+from ..types.attrs import define, fields
 from ..wire.device import parse_battery, parse_firmware
 from ..wire.error import WireError
 from .device_link import DeviceLink, Output
 from .known import KINDS, Kinds
-from .receiver import said
 
 SET_BACK = 20
 """Packets in a row from before the newest arrival, after which the receiver's clock is taken to have been set back."""
@@ -145,6 +143,8 @@ class Decoder:
         return out
 
     def _receiver(self, packet: Packet) -> Output:
+        from .receiver import said
+
         out = said(packet)
         if self.link is not None and any([isinstance(event, Connected) for event in out]):
             self.link.reconnected()

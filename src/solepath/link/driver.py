@@ -19,9 +19,8 @@ from struct import error as StructError
 from types import MappingProxyType
 from typing import Any
 
-from attrs import field, frozen
-
 from ..types import Foot, Layout, Quat, Vec3
+from ..types.attrs import field, frozen
 from ..wire.error import WireError
 from ..wire.fields import Definition, build_whole, malformed, parse_whole
 from .profile import Profile, Write

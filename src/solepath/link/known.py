@@ -6,14 +6,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from functools import partial
 from importlib import import_module
-from typing import Any
-
-from attrs import field, frozen
+from typing import TYPE_CHECKING, Any
 
 from ..types import Site
+from ..types.attrs import field, frozen
 from .device_link import DeviceLink, Output
-from .driver import Basis, Driver
-from .profile import Profile
+
+if TYPE_CHECKING:  # loaded with a device that has them
+    from .driver import Basis, Driver
+    from .profile import Profile
 
 
 @frozen
@@ -75,6 +76,8 @@ def kinds(drivers: Iterable[Driver] = ()) -> Kinds:
     table = Kinds()
     added: set[str] = set()
     for driver in drivers:
+        from .driver import Driver
+
         if not isinstance(driver, Driver):
             raise TypeError(f"a device is added by its Driver, not by a {type(driver).__name__}")
         if driver.name in _RESERVED or driver.name in added:

@@ -20,8 +20,7 @@ from __future__ import annotations
 
 from math import floor
 
-from attrs import define
-
+from ..types.attrs import define
 from .clock import Clock
 from .run import Taken
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 from enum import Enum
 from math import inf
 
-from attrs import field, frozen
+from ..types.attrs import field, frozen
 
 
 class Access(Enum):

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from math import sqrt
 
-from attrs import define
-
 from ..events import ScaleSuspect
 from ..types import Sample, Vec3
+from ..types.attrs import define
 from ..types.vector import GRAVITY
 
 WINDOW = 1.5

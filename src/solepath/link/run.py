@@ -3,10 +3,9 @@ repeated, late, or begun anew; and when its samples were taken."""
 
 from __future__ import annotations
 
-from attrs import define, frozen
-
 from ..events import ClockReset, PacketsLost, Rejection
 from ..types import Site
+from ..types.attrs import define, frozen
 from ..wire.error import WireError
 from .clock import Clock
 

@@ -11,8 +11,6 @@ Times come from the best that the device has, by the rules of protocol/clock.md:
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ..events import (
     BatteryLevel,
     KeysChanged,
@@ -21,6 +19,7 @@ from ..events import (
     Rejection,
 )
 from ..types import Sample, Site, Vec3
+from ..types.attrs import define, field
 from ..types.vector import GRAVITY, unit
 from ..wire.error import WireError
 from ..wire.fields import malformed

@@ -31,7 +31,7 @@ from typing import Any
 from mcap.writer import CompressionType, Writer
 
 from ..events import Event, FootFlat, FootMoved, HeelOff, HeelStrike, LiveEvent, StrideTaken, ToeOff
-from ..events.record import json_ready
+from ..events.happening import json_ready
 from ..link.driver import Driver
 from ..session import Session
 from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Vec3

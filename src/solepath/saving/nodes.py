@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 from typing import Any
 
-from attrs import frozen
+from ..types.attrs import frozen
 
 
 @frozen(eq=False)

@@ -10,8 +10,7 @@ from functools import lru_cache
 from itertools import islice
 from typing import Any
 
-from attrs import frozen
-
+from ..types.attrs import frozen
 from .codec import Classes, SnapshotError, check_open, class_in
 from .generator import CodeGenerator
 from .nodes import OpenNode, RecordNode

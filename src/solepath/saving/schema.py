@@ -31,7 +31,7 @@ from typing import Any
 
 import attrs
 
-from .marks import MADE_AGAIN, NOT_SAVED
+from ..types.attrs import MADE_AGAIN, NOT_SAVED
 from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, RowNode, ScalarNode, TupleNode
 
 SCALARS = (float, int, bool, str, bytes)

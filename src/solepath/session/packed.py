@@ -15,8 +15,6 @@ from functools import lru_cache
 from struct import Struct
 from typing import Any
 
-from attrs import define
-
 from ..calibration import Calibration
 from ..recipes import Recipe, own
 from ..saving.codec import Classes, SnapshotError
@@ -24,6 +22,7 @@ from ..saving.packed import Lists, Streams, read, write
 from ..saving.schema import check_of, described, record_of
 from ..saving.streams import Units, from_bytes, to_bytes
 from ..types import Foot, shared
+from ..types.attrs import define
 from .snapshot import by_name, check_names
 from .state import VERSION, SessionState
 from .wearer import WearerParts

@@ -15,8 +15,6 @@ from copy import deepcopy
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Any
 
-from attrs import evolve
-
 from ..body.gait.means import GaitParameters
 from ..body.part import Position
 from ..calibration import Calibration, CalibrationError
@@ -24,16 +22,17 @@ from ..events import Event, PacketRejected, Placed, SampleRejected
 from ..foot.phase import SUPPORT
 from ..foot.tracker import FootTracker
 from ..link.decoder import Decoder
-from ..link.driver import Driver
 from ..link.known import Kinds, kinds
 from ..recipes import DEFAULT, Recipe, own
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
+from ..types.attrs import evolve
 from .state import SessionState
 from .wearer import WearerParts, in_order
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
     from ..floorplan.plan import FloorPlan, Start
+    from ..link.driver import Driver
     from ..saving.codec import Json
 
 A_NUMBER = (float, int)

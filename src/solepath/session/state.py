@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ..link.decoder import Decoder
 from ..types import Site
+from ..types.attrs import define, field
 from .wearer import WearerParts
 
 VERSION = 3

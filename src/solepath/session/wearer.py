@@ -6,8 +6,6 @@ from collections.abc import Iterable, Sequence
 from copy import deepcopy
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from attrs import define, field
-
 from ..body.part import ClockUnsettled, HeightShift, Instead, LayoutTold, Part, Position, Said, Shift, Track
 from ..calibration import Calibration
 from ..events import (
@@ -28,8 +26,8 @@ from ..foot.rejection import rejected, with_sound_attitude, wrong_time
 from ..foot.tracker import FootTracker
 from ..foot.view import FootView
 from ..recipes import Recipe, part_class
-from ..saving.marks import MADE_AGAIN
 from ..types import Foot, Sample, Site
+from ..types.attrs import MADE_AGAIN, define, field
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan

@@ -10,7 +10,7 @@ from functools import cached_property, lru_cache
 from struct import pack
 from typing import Any, SupportsIndex
 
-from attrs import field, frozen
+from .attrs import field, frozen
 
 Vec3 = tuple[float, float, float]
 """(x, y, z) in the frame that the docstring names."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, sin, sqrt
+from math import atan2, cos, pi, sin, sqrt
 
 from .records import Quat, Vec3
 
@@ -106,3 +106,10 @@ def levelling(acc: Vec3) -> Quat:
         return (0.0, 1.0, 0.0, 0.0)
     # half-way quaternion of z-up and the measured up: (1 + cos, sensor_up x world_up)
     return normalise((1.0 + z, y, -x, 0.0))
+
+
+def heading_turned(before: Quat, after: Quat) -> float:
+    """The twist about the vertical of the turn from one attitude to another, in (-pi, pi], rad."""
+    q, _, _, k = multiply(after, conjugate(before))
+    turn = 2.0 * atan2(k, q)
+    return turn - 2.0 * pi if turn > pi else turn + 2.0 * pi if turn <= -pi else turn

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from attrs import frozen
 from construct import BitsInteger, BitStruct, Flag, GreedyBytes, Struct
 
 from ..events import Rejection
+from ..types.attrs import frozen
 from .error import WireError
 from .fields import LONGEST_VALUE, build_whole, malformed, parse_whole
 

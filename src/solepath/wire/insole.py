@@ -6,10 +6,10 @@ from struct import Struct
 from struct import error as StructError
 from typing import TYPE_CHECKING, Any
 
-from attrs import frozen
 from construct import FormatFieldError
 
 from ..types import Foot
+from ..types.attrs import frozen
 from .cells import pack12, packed_size, unpack12
 from .envelope import CRC_SIZE, FRAME, MAGIC, check_end, check_start, seal
 from .fields import Definition, Fields, build_whole, malformed

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from attrs import astuple, frozen
-
 from ..events import Rejection
+from ..types.attrs import astuple, frozen
 from .error import WireError
 from .fields import Fields, build_whole, malformed, parse_whole
 

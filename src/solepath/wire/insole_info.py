@@ -6,10 +6,10 @@ from itertools import groupby
 from math import isfinite
 from typing import Any
 
-from attrs import frozen
 from construct import Array, Bytes, Struct, Terminated
 
 from ..types import Cell, Foot
+from ..types.attrs import frozen
 from .cells import Packed12, packed_size
 from .envelope import CRC_SIZE, INFO, MAGIC, check_end, check_start, seal
 from .fields import Fields, build_whole, malformed, parse_whole

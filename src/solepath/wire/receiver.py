@@ -5,10 +5,10 @@ receiver/restarted (a channel's name) and receiver/trouble (a sentence) are text
 
 from __future__ import annotations
 
-from attrs import frozen
 from construct import Int8sl, Int32ul, Struct, Terminated
 
 from ..events import Rejection
+from ..types.attrs import frozen
 from .error import WireError
 from .fields import build_whole, malformed, parse_whole
 

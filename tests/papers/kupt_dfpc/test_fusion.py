@@ -16,7 +16,7 @@ from solepath import Session, recipes
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.events import Event, StrideFeatures, StrideFused, StrideTaken
-from solepath.foot.pressure.centre import centre as centre_of
+from solepath.foot.pressure.cells import centre as centre_of
 from solepath.papers.kupt_dfpc.fusion import POINTS, DoubleFoot, correlation, resampled, share
 from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Layout, Sample, Site

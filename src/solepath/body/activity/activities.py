@@ -17,11 +17,10 @@ from collections.abc import Sequence
 from math import floor
 from typing import ClassVar, Final
 
-from attrs import define, field
-
 from ...events import ActivityChanged, Event, LiftRidden, StrideFeatures, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Site
+from ...types.attrs import define, field
 from ...types.vector import TIE, ZERO
 from ..part import Doing, Said
 from .air import NOTHING, PressureHeight

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections import deque
 from math import exp, log
 
-from attrs import define, field
-
 from ...types import Foot
+from ...types.attrs import define, field
 from .chain import (
     DOWN,
     DOWN_THERE,

@@ -11,9 +11,8 @@ from __future__ import annotations
 from functools import lru_cache
 from math import log
 
-from attrs import frozen
-
 from ...types import Activity
+from ...types.attrs import frozen
 
 STAND, WALK, RUN, UP, DOWN, UNKNOWN = range(6)
 RISE, RISING, RISEN, NEARLY_UP, UP_THERE = range(6, 11)

@@ -11,10 +11,9 @@ from collections.abc import Sequence
 from math import log, sqrt
 from typing import Protocol
 
-from attrs import define, field
-
 from ...events import Event, FootFlat, HeelStrike, StrideTaken
 from ...types import Vec3
+from ...types.attrs import define, field
 from ...types.vector import ZERO
 from .block import ActivityBlock, BlockStride
 

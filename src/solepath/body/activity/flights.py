@@ -21,10 +21,9 @@ do, and is one of the flight when a stair stride follows it.
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ...events import FlightClimbed, StrideTaken
 from ...types import Foot
+from ...types.attrs import define, field
 from .steepness import LEAST_RISE, of_stairs
 
 

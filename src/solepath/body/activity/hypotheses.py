@@ -11,9 +11,8 @@ from collections.abc import Sequence
 from itertools import pairwise
 from math import exp, inf, log
 
-from attrs import define, field
-
 from ...types import Activity
+from ...types.attrs import define, field
 from ...types.vector import TIE
 from .chain import ACTIVITIES, BEGIN, CRUISES, HALTS, LIFTS, PULSES, RIDES, STAND, Chain
 from .features import BLOCK

@@ -17,14 +17,13 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from functools import cache
-from importlib.resources import files
 from math import dist, exp, hypot, log, tanh
 from operator import truediv
+from pkgutil import get_data
 from typing import Any
 
-from attrs import field, frozen
-
 from ...types import Activity
+from ...types.attrs import field, frozen
 from .chain import Chain, Chances, Shifts, chain_of
 from .features import COUNT, GYRO
 
@@ -112,7 +111,7 @@ class MotionModel:
 @cache
 def shipped() -> MotionModel:
     """The model that comes with this release."""
-    return from_json(json.loads(files(__package__).joinpath("activities.json").read_text(encoding="utf-8")))
+    return from_json(json.loads(get_data(__package__, "activities.json") or b""))
 
 
 def from_json(told: dict[str, Any]) -> MotionModel:

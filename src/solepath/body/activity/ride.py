@@ -12,8 +12,7 @@ from __future__ import annotations
 from math import exp, log, pi, sqrt
 from operator import is_
 
-from attrs import define
-
+from ...types.attrs import define
 from ...types.vector import GRAVITY
 
 USUAL = 0.6

@@ -21,7 +21,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import exp, sqrt
 
-from attrs import define, field
+from ...types.attrs import define, field
 
 X, Y, HEADING, RATE = range(4)
 STATES = 4

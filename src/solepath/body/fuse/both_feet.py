@@ -19,11 +19,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from math import atan2, cos, hypot, sin
 
-from attrs import define, field
-
 from ...events import StrideTaken
 from ...foot.view import FootPose, FootView
 from ...types import Foot, Site, Vec3
+from ...types.attrs import define, field
 from ...types.vector import ZERO, sub
 from ..part import Position, Said, Shift
 from .agreement import HEADING, RATE, STATES, WIDTH, Agreement, Term, X, Y

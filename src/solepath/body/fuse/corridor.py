@@ -16,9 +16,8 @@ from __future__ import annotations
 
 from math import atan2, exp, hypot, pi
 
-from attrs import define, field
-
 from ...types import Vec3
+from ...types.attrs import define, field
 
 MOST = 60
 """Strides of one block: more are no walk."""

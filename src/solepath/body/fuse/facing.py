@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from math import cos, sin
 
-from attrs import define, field
-
 from ...types import Vec3
+from ...types.attrs import define, field
 from .corridor import wrapped
 from .position import PlacedTrack
 

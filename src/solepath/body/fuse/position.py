@@ -13,10 +13,9 @@ from collections.abc import Mapping, Sequence
 from math import atan2, cos, hypot, sin
 from typing import ClassVar, Final
 
-from attrs import define, field
-
 from ...foot.view import FootPose, FootView
 from ...types import Foot, Site, Vec3
+from ...types.attrs import define, field
 from ...types.vector import ZERO, sub
 from ..part import Position, Said, Track
 

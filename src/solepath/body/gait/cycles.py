@@ -8,11 +8,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar
 
-from attrs import define, field
-
 from ...events import FootFlat, HeelOff, HeelStrike, SampleGap, StrideTaken, ToeOff
 from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
+from ...types.attrs import define, field
 from ..part import ClockUnsettled, Notice, Part, Said
 from .footfalls import Footfalls
 from .means import GaitMeans, GaitParameters

@@ -12,10 +12,9 @@ from __future__ import annotations
 
 from math import pi
 
-from attrs import define, field, frozen
-
 from ...events import StrideTaken
 from ...types import Foot
+from ...types.attrs import define, field, frozen
 from .turning_steps import TurningSteps
 
 STANDS = 2.0

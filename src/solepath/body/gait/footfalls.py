@@ -6,9 +6,8 @@ stride: the wearer stood, or held the foot up.
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ...events import StrideTaken
+from ...types.attrs import define, field
 
 STANDS = 2.0
 """Longer is no stance of a stride, and no swing, s."""

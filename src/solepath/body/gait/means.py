@@ -13,10 +13,9 @@ from __future__ import annotations
 
 from math import sqrt
 
-from attrs import define, field, fields, frozen
-
 from ...events import GaitCycleMeasured
 from ...types import Foot, Word
+from ...types.attrs import define, field, fields, frozen
 
 MEMORY = 120
 """Strides of a foot."""

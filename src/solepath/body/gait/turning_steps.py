@@ -8,7 +8,7 @@ foot is off the ground), and noise. The habit is the low-passed turn; a step tha
 
 from __future__ import annotations
 
-from attrs import define, field
+from ...types.attrs import define, field
 
 
 @define

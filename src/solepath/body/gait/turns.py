@@ -14,12 +14,11 @@ from collections.abc import Sequence
 from math import pi
 from typing import ClassVar
 
-from attrs import define, field
-
 from ...events import FootFlat, StrideTaken, TurnMade
-from ...foot.turn import heading_turned
 from ...foot.view import FootView
 from ...types import Foot, Quat, Site, Turn
+from ...types.attrs import define, field
+from ...types.vector import heading_turned
 from ..part import Part, Said
 from .direction import Direction, TurnProcess
 

@@ -23,11 +23,10 @@ from collections.abc import Sequence
 from math import log
 from typing import ClassVar
 
-from attrs import define, evolve, field
-
 from ...events import LiftRidden, StrideTaken
 from ...foot.view import FootView
 from ...types import Foot, Site
+from ...types.attrs import define, evolve, field
 from ..part import HeightShift, Instead, Notice, Part, Said
 from .received import Heard, Told
 

@@ -6,8 +6,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterable
 
-from attrs import define, field
-
+from ...types.attrs import define, field
 from ...types.vector import single
 
 Told = tuple[float, int, float, float]

@@ -9,10 +9,9 @@ from __future__ import annotations
 from math import atan2, hypot, sqrt
 from struct import Struct
 
-from attrs import evolve
-
 from ...events import Candidate
 from ...floorplan.plan import FloorPlan
+from ...types.attrs import evolve
 
 Row = tuple[float, float, float, float, float, int, int, int]
 """x, y: m, plan frame, less the `FloorPlan.origin`. a, b: a move (dx, dy) of the track is (a dx - b dy, b dx + a dy)

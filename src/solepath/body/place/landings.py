@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from math import exp, hypot
 
-from attrs import frozen
-
 from ...floorplan.plan import ConnectorKind, FloorPlan, Point
+from ...types.attrs import frozen
 
 REACH = 5.0
 """Somebody who goes onto stairs or into a lift is within this of it as the track has it, m."""

@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from math import hypot
 
-from attrs import define, field
-
 from ...events import WearerMoved
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import ConnectorKind, FloorPlan, Point
 from ...types import Vec3
+from ...types.attrs import define, field
 from ...types.vector import ZERO
 from .arrivals import anew, changing, out
 from .crowd import Row, resampled, rounded

@@ -10,10 +10,9 @@ from __future__ import annotations
 
 from math import hypot
 
-from attrs import define, field
-
 from ...events import StrideTaken
 from ...types import Foot, Vec3
+from ...types.attrs import define, field
 
 GAIN = 0.06
 """Of one comparison."""

@@ -7,10 +7,9 @@ Chance is a table of numbers and a count, so it is the same everywhere.
 
 from __future__ import annotations
 
-from attrs import define
-
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
+from ...types.attrs import define
 from .crowd import Row, resampled
 from .noise import NOISE, ROWS, following
 from .placing import Placing

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from math import hypot
 
-from attrs import define
-
 from ...floorplan.plan import ConnectorKind
 from ...types import Vec3
+from ...types.attrs import define
 
 RISE = 0.165
 """Of one step of a stair, m, where neither track nor plan tells a height."""

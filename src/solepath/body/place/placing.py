@@ -13,8 +13,6 @@ from collections.abc import Sequence
 from math import hypot, isfinite, pi
 from typing import ClassVar
 
-from attrs import define, field
-
 from ...events import (
     ActivityChanged,
     Event,
@@ -28,7 +26,7 @@ from ...events import (
 )
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
-from ...saving.marks import NOT_SAVED
+from ...types.attrs import NOT_SAVED, define, field
 from ..part import Notice, Said
 from .arrivals import fan, nowhere
 from .crowd import AGREED, Row, believed, effective, rounded

@@ -5,10 +5,9 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from math import cos, hypot, pi, sin
 
-from attrs import define, field
-
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
+from ...types.attrs import define, field
 from ..part import Part
 from .crowd import Row, resampled, rounded
 from .noise import NOISE, ROWS, following

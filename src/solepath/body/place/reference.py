@@ -14,11 +14,10 @@ from __future__ import annotations
 from collections import deque
 from math import hypot, isfinite
 
-from attrs import define, field, frozen
-
 from ...events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, WearerMoved
 from ...floorplan.plan import ConnectorKind, FloorPlan
 from ...types import Activity, Foot, Vec3
+from ...types.attrs import define, field, frozen
 from .landings import HIGH, LOW
 from .passage import Passage
 

@@ -25,11 +25,10 @@ from __future__ import annotations
 from bisect import bisect_right
 from math import hypot, sqrt
 
-from attrs import define, field
-
 from ...events import StrideTaken, ToeOff
 from ...foot.view import FootView
 from ...types import Foot, Layout, Vec3
+from ...types.attrs import define, field
 from ...types.vector import conjugate, rotate
 from .turned import RateIntegral
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from itertools import accumulate
 
-from attrs import define, field
-
 from ...types import Vec3
+from ...types.attrs import define, field
 from ...types.vector import ZERO
 
 Instant = tuple[int, int, int, int]

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar, Final
 
-from attrs import define, field
-
 from ...events import FeetSwapped, FootHeard, FootSilent
 from ...foot.view import FootView
 from ...types import Foot
+from ...types.attrs import define, field
 from ..part import LayoutTold, Notice, Part, Said
 from .sides import Sides
 
@@ -87,4 +86,3 @@ class Wear(Part):
             self.sides.forget()
             found.append(FeetSwapped(t=t, known_at=view.known_at))
         return found
-

@@ -10,8 +10,7 @@ from enum import Enum
 from itertools import groupby
 from math import atan2, hypot
 
-from attrs import define, field
-
+from ...types.attrs import define, field
 from ..checks import MOST_LEVELS, MOST_WALLS
 from ..doors import BESIDE, Line, Openings, cut
 from ..outlines import Ring, edges, holds, middle, tidy

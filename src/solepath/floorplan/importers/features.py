@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from math import isfinite
 from typing import Any, NoReturn
 
-from attrs import frozen
-
+from ...types.attrs import frozen
 from ..plan import FloorPlanError
 
 MOST_CORNERS = 1_000_000

@@ -10,8 +10,7 @@ from math import isfinite
 from typing import NoReturn
 from xml.parsers import expat
 
-from attrs import define, field
-
+from ...types.attrs import define, field
 from ..plan import FloorPlanError
 
 MOST_ELEMENTS = 500_000

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from attrs import define, evolve, field
-
 from ...types import Layout, Phase, Vec3
+from ...types.attrs import define, evolve, field
 from ..phase import Cue
 from ..stance.stance import Load, Stance
 from .cues import Cues, Seen

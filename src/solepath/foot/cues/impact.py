@@ -12,9 +12,8 @@ well before it bears weight.
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ...types import Vec3
+from ...types.attrs import define, field
 
 MOST = 1e12
 """A jolt weighs no more than this, m^2/s^5."""

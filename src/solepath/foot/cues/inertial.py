@@ -16,9 +16,8 @@ from __future__ import annotations
 from math import sqrt
 from typing import Final
 
-from attrs import define, evolve, field
-
 from ...types import Phase, Vec3
+from ...types.attrs import define, evolve, field
 from ...types.vector import TIE, ZERO
 from ..phase import Cue
 from .cues import Seen

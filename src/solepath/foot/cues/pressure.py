@@ -7,9 +7,8 @@ from __future__ import annotations
 
 from typing import Final
 
-from attrs import define, field
-
 from ...types import Phase
+from ...types.attrs import define, field
 from ..phase import Cue
 from ..stance.stance import Load
 from .cues import Seen

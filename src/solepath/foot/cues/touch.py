@@ -13,11 +13,10 @@ step and after a long stand: half of the wearer's weight is then the least. So w
 
 from __future__ import annotations
 
-from attrs import define, evolve, field
-
 from ...types import Layout
+from ...types.attrs import define, evolve, field
 from ...types.vector import TIE
-from ..pressure.centre import centre
+from ..pressure.cells import centre
 from ..pressure.insole import Extremes
 from ..stance.stance import Load
 

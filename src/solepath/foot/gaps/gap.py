@@ -11,9 +11,8 @@ from math import hypot
 from typing import NamedTuple
 
 from ...types import Quat, Vec3
-from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, sub
+from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, heading_turned, multiply, normalise, rotate, sub
 from ..navigate.corrector import LONGEST_BRIDGE, Corrector
-from ..turn import heading_turned
 from .moment import StrideMoment, TemplateStride, at, length, limited, moments, turned
 from .template import Habit
 

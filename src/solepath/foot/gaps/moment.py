@@ -5,9 +5,8 @@ from __future__ import annotations
 from math import cos, hypot, sin
 from struct import Struct
 
-from attrs import define, frozen
-
 from ...types import Quat, Vec3
+from ...types.attrs import define, frozen
 from ...types.vector import normalise, sub
 
 MomentRow = tuple[

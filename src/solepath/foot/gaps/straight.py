@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from math import exp, pi
 
-from attrs import define, field
+from ...types.attrs import define, field
 
 STRAIGHT = 0.8
 """Share of strides that go on as those before; the others go anywhere."""

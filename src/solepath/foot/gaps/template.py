@@ -10,9 +10,8 @@ from __future__ import annotations
 from math import hypot
 from typing import NamedTuple
 
-from attrs import define, field
-
 from ...types import Quat, Vec3
+from ...types.attrs import define, field
 from ...types.vector import ZERO, single, sub
 from .moment import MomentRow, TemplateStride, corrected, limited, moment_row, turned
 from .straight import StraightOn, share

@@ -18,9 +18,8 @@ from __future__ import annotations
 from math import sqrt
 from typing import NamedTuple
 
-from attrs import define, field
-
 from ...types import Vec3
+from ...types.attrs import define, field
 
 SAME = 0.025
 """Readings at the end of a range differ by less than this share of it: calibrations mix the axes, and a bias is off."""

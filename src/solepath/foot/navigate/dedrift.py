@@ -11,9 +11,8 @@ from __future__ import annotations
 
 from math import exp, sqrt
 
-from attrs import define, field
-
 from ...types import Phase, Quat, Vec3
+from ...types.attrs import define, field
 from ...types.vector import GRAVITY, ZERO, sub, tipped
 from ..stance.stance import Stance
 from .corrector import LONGEST_BRIDGE

@@ -14,9 +14,8 @@ from __future__ import annotations
 from math import cos, inf, sin, sqrt
 from typing import Final
 
-from attrs import define, field
-
 from ...types import Phase, Quat, Vec3
+from ...types.attrs import define, field
 from ...types.vector import GRAVITY, TIE
 from ..stance.stance import Stance
 from .clipping import Missed

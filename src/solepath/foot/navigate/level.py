@@ -24,9 +24,8 @@ from __future__ import annotations
 
 from math import exp, hypot, log, pi, sqrt
 
-from attrs import define, field
-
 from ...types import Quat, Vec3
+from ...types.attrs import define, field
 from ...types.vector import ZERO, conjugate, rotate
 
 UP = (0.0, 0.0, 1.0)

@@ -14,9 +14,8 @@ from __future__ import annotations
 from math import asin, sqrt
 from typing import NamedTuple
 
-from attrs import define, field
-
 from ...types import Quat, Vec3
+from ...types.attrs import define, field
 from ...types.vector import GRAVITY, IDENTITY, conjugate, from_rotation_vector, multiply, rotate
 from .clipping import Missed
 from .covariance import Covariance

@@ -6,9 +6,8 @@ Between two uses of the covariance only the noise is added up, so a sample costs
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ...types import Quat, Vec3
+from ...types.attrs import define, field
 from ...types.vector import GRAVITY, ZERO, normalise
 from .corrector import LONGEST_BRIDGE
 from .covariance import (

@@ -5,9 +5,8 @@ clipping.py says what was missed, missed.py what follows from it; this keeps the
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ...types import Quat, Vec3
+from ...types.attrs import define, field
 from ...types.vector import ZERO, from_rotation_vector, multiply, normalise, rotate
 from .clipping import LEAST_FORCE, STEEPEST_FORCE, TRIFLE_SPEED, Clipping, Missed
 from .covariance import Covariance

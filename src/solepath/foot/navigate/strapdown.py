@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from math import cos, sin, sqrt
 
-from attrs import define, field
-
 from ...types import Quat, Vec3
+from ...types.attrs import define, field
 from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, multiply, normalise, rotate
 from .corrector import Corrector
 

@@ -15,10 +15,9 @@ cells is taken for another insole after `patience`.
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads
 from ...types import Layout, Phase, Site, Vec3
+from ...types.attrs import define, field
 from ..rejection import ABSURD_TOTAL
 from .cell_window import USED_TO_ALONE, CellWindow, unloads
 from .cells import CellSpan

@@ -12,10 +12,9 @@ beginning looks the same there: it is not reported, and does no harm.
 
 from __future__ import annotations
 
-from attrs import frozen
-
 from ...events import CellFault
 from ...types import Layout
+from ...types.attrs import frozen
 from .cells import CellSpan, enclosed, spacing
 
 LIVELY = 0.15

@@ -5,9 +5,8 @@ from __future__ import annotations
 from functools import lru_cache
 from math import atan2, hypot, pi
 
-from attrs import define, field
-
 from ...types import Layout
+from ...types.attrs import define, field
 
 AROUND = 1.7
 """Neighbours are within this many times the usual distance between cells."""
@@ -69,3 +68,13 @@ def enclosed(layout: Layout, between: float, i: int, loading: list[bool]) -> tup
     gaps = [b - a for a, b in zip(angles, angles[1:], strict=False)]
     widest = max([*gaps, angles[0] + 2.0 * pi - angles[-1]])
     return widest < OPEN, True
+
+
+def centre(layout: Layout) -> float | None:
+    """x of the centre of the foot, half-way between the first and the last cell, foot frame, m; None without cells.
+
+    "Smart insole-based indoor localization system for Internet of Things applications", IEEE Internet of Things Journal
+    6, 2019: of cells from 34 to 166 mm the centre is at 100 mm, and there the centre of pressure is taken to be while
+    the foot is in the air."""
+    xs = [cell.x for cell in layout.cells]
+    return 0.5 * (min(xs) + max(xs)) if xs else None

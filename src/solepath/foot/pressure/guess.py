@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from operator import add
 
-from attrs import define, field
-
 from ...types import Cell, Foot, Layout
+from ...types.attrs import define, field
 
 LENGTH = 0.26
 """Of an insole that says nothing, m: a size 42."""

@@ -11,10 +11,9 @@ from __future__ import annotations
 from functools import lru_cache
 from operator import itemgetter, mul
 
-from attrs import define, evolve, field
-
 from ...calibration import Calibration, Newtons
 from ...types import Foot, Layout
+from ...types.attrs import define, evolve, field
 from ...types.vector import TIE
 from ..stance.stance import Load
 

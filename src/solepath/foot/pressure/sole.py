@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from operator import mul
 
-from attrs import define, evolve, field
-
 from ...events import Event, FootPressed, LayoutKnown
 from ...types import SITE_OF_FOOT, Foot, Layout, Phase, Sample
+from ...types.attrs import define, evolve, field
 from ..limits import Limits
 from ..stance.stance import Load
 from .cell_health import CellHealth

@@ -1,6 +1,6 @@
 """Detectors with fixed thresholds, from inertial signals alone.
 
-SHOE, ARE and MV are those of Skog, Handel, Nilsson, Rantakokko, "Zero-velocity detection: an algorithm evaluation"
+ARE and MV are those of Skog, Handel, Nilsson, Rantakokko, "Zero-velocity detection: an algorithm evaluation"
 (IEEE Trans. Biomed. Eng. 57, 2010); the memory-based graph-theoretic detector (MBGTD) is the one that Wagstaff,
 Peretroukhin, Kelly, "Robust data-driven zero-velocity detection for foot-mounted inertial navigation" (2019) compare
 with. All of them are causal and look back over `window` seconds (where the rate is lower than that, over as few samples
@@ -16,68 +16,11 @@ from __future__ import annotations
 from collections import deque
 from math import inf, sqrt
 
-from attrs import define, field
-
 from ...types import Quat, Vec3
-from ...types.vector import GRAVITY, IDENTITY, ZERO
+from ...types.attrs import define, field
+from ...types.vector import IDENTITY, ZERO
+from .shoe import SIGMA_ACC, SIGMA_GYRO
 from .stance import Detector, Load, Stance, soften
-
-SIGMA_ACC = 0.01
-"""Noise of the accelerometer that scales the statistics, m/s^2."""
-SIGMA_GYRO = 0.1 * 3.141592653589793 / 180.0
-"""Noise of the gyroscope that scales the statistics, rad/s."""
-
-
-@define
-class ShoeDetector(Detector):
-    """SHOE: stance hypothesis optimal estimation. T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2)."""
-
-    window: float = 0.025
-    """How far back it looks, s."""
-    sigma: float = 0.01
-    """Noise of the zero velocity of a foot at rest, m/s."""
-    base: float = 1e4
-    """The statistic up to which the foot is at rest for certain."""
-    gate: float = 3.5e5
-    """The statistic from which on it is not."""
-    # state
-    entries: deque[tuple[float, float, float, float, float, float]] = field(factory=deque, init=False)
-    sums: tuple[float, float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0, 0.0), init=False)
-
-    def update(
-        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
-    ) -> Stance:
-        from_acc, from_gyro = self.parts(t, acc, gyro)
-        statistic = from_acc / SIGMA_ACC**2 + from_gyro / SIGMA_GYRO**2
-        return soften(statistic, self.sigma, self.base, self.gate)
-
-    def parts(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[float, float]:
-        """The two means of the statistic before scaling: specific force off gravity, (m/s^2)^2, and rate, (rad/s)^2."""
-        ax, ay, az = acc
-        wx, wy, wz = gyro
-        a2 = ax * ax + ay * ay + az * az
-        w2 = wx * wx + wy * wy + wz * wz
-        sx, sy, sz, s2, sw = self.sums
-        sx += ax
-        sy += ay
-        sz += az
-        s2 += a2
-        sw += w2
-        entries = self.entries
-        entries.append((t, ax, ay, az, a2, w2))
-        oldest = t - self.window + 1e-9
-        while entries[0][0] < oldest and len(entries) > 1:
-            _, ax, ay, az, a2, w2 = entries.popleft()
-            sx -= ax
-            sy -= ay
-            sz -= az
-            s2 -= a2
-            sw -= w2
-        self.sums = (sx, sy, sz, s2, sw)
-        n = len(entries)
-        # sum |a - g u|^2 with u the direction of the mean: sum a^2 - 2 g |sum a| + n g^2
-        off = s2 - 2.0 * GRAVITY * sqrt(sx * sx + sy * sy + sz * sz) + n * GRAVITY * GRAVITY
-        return (off / n if off > 0.0 else 0.0), (sw / n if sw > 0.0 else 0.0)
 
 
 @define

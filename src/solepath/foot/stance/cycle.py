@@ -17,12 +17,11 @@ from __future__ import annotations
 from math import exp, inf, log, sqrt
 from typing import Final
 
-from attrs import define, field
-
 from ...types import Phase, Quat, Vec3
+from ...types.attrs import define, field
 from ...types.vector import GRAVITY, IDENTITY, TIE, ZERO
-from .classic import SIGMA_ACC, SIGMA_GYRO, ShoeDetector
 from .sensor_height import EMPTY, Lever
+from .shoe import SIGMA_ACC, SIGMA_GYRO, ShoeDetector
 from .stance import Detector, Load, Stance
 
 ACC_SQUARE = SIGMA_ACC**2
@@ -44,7 +43,7 @@ NO_LOW = 1e12
 class Cycle(Detector):
     """SHOE's statistic against a threshold learnt from the last cycle, with noise from the motion. Latency: 25 ms.
 
-    Statistics have no unit: SHOE divides each mean square by that of the sensor's noise (classic.py).
+    Statistics have no unit: SHOE divides each mean square by that of the sensor's noise (shoe.py).
     """
 
     share: float = 0.45

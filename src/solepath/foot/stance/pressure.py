@@ -1,4 +1,4 @@
-"""Stance evidence from pressure cells; the same signature as the inertial detectors in classic.py.
+"""Stance evidence from pressure cells; the same signature as the inertial detectors in shoe.py and classic.py.
 
 Without cells, or while the wearer's full load is not known yet, both have nothing to say (sigma is infinite).
 """
@@ -7,9 +7,8 @@ from __future__ import annotations
 
 from math import inf
 
-from attrs import define
-
 from ...types import Phase, Quat, Vec3
+from ...types.attrs import define
 from ...types.vector import IDENTITY, ZERO
 from .stance import Detector, Load, Stance
 

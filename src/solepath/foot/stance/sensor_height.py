@@ -15,9 +15,8 @@ is fitted by least squares to each stance, and its h pooled over the stances, ol
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ...types import Quat, Vec3
+from ...types.attrs import define, field
 from ...types.vector import TIE
 
 EMPTY = (0.0,) * 18

@@ -10,10 +10,9 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import NamedTuple, Protocol, Self
 
-from attrs import frozen
-
 from ...calibration import Calibration
 from ...types import Foot, Layout, Phase, Quat, Vec3
+from ...types.attrs import frozen
 from ...types.vector import IDENTITY, ZERO
 
 

@@ -17,9 +17,8 @@ from __future__ import annotations
 
 from math import radians
 
-from attrs import define, field
-
 from ...types import Sample, Site, Vec3
+from ...types.attrs import define, field
 
 BRACKET = 2.5
 """Periods that interpolation may span, and after which a channel counts as silent."""

@@ -9,7 +9,6 @@ from __future__ import annotations
 from math import radians
 from typing import ClassVar
 
-from attrs import define, field, frozen
 from construct import (
     Array,
     BitsInteger,
@@ -26,6 +25,7 @@ from construct import (
 
 from ...events import KeysChanged, Limitation
 from ...types import Sample, Site, Vec3
+from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, parse_whole
 from ...wire.sensortag import ON_OFF, PERIOD

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from attrs import evolve
 from construct import ExprValidator, Int32ul, Struct, Terminated
 
+from ...types.attrs import evolve
 from ...wire.fields import Fields
 from ..driver import Driver, Known, Measured, Reading
 from ..profile import Access, Channel, Write

@@ -9,8 +9,6 @@ from hashlib import blake2b
 from math import radians
 from typing import ClassVar
 
-from attrs import define, field
-
 from ...events import (
     LayoutKnown,
     Limitation,
@@ -18,6 +16,7 @@ from ...events import (
     Rejection,
 )
 from ...types import Layout, Sample, Site, shared
+from ...types.attrs import define, field
 from ...types.vector import GRAVITY, unit
 from ...wire.error import WireError
 from ...wire.fragment import is_fragment, parse_fragment

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from attrs import define
-
 from ...events import Rejection
+from ...types.attrs import define
 from ...wire.error import WireError
 from ...wire.fields import LONGEST_VALUE
 from ...wire.fragment import Fragment

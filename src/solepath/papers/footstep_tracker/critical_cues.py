@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from attrs import define, field
-
 from ...foot.cues.cues import Cues, Seen
 from ...foot.cues.pressure import PressureCues
 from ...foot.phase import TO_COME, Cue
 from ...foot.stance.stance import Load, Stance
 from ...types import Phase, Vec3
+from ...types.attrs import define, field
 from .segment import StepSegment
 
 

@@ -24,7 +24,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from attrs import frozen
+from ...types.attrs import frozen
 
 Row = tuple[float, float, float, float, float, float, float]
 """t (s), a_x, a_y, a_z (m/s^2), g_x, g_y, g_z (rad/s): axes as above."""

@@ -17,12 +17,11 @@ from collections.abc import Mapping, Sequence
 from math import cos, hypot, pi, sin
 from typing import ClassVar
 
-from attrs import define, field
-
 from ...body.part import Notice, Position, Said, Track
 from ...events import StrideTaken
 from ...foot.view import FootPose, FootView
 from ...types import Foot, Vec3
+from ...types.attrs import define, field
 from ...types.vector import ZERO
 
 FURTHEST_APART = 1.0

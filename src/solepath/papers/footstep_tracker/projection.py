@@ -13,16 +13,14 @@ from __future__ import annotations
 
 from math import atan2, cos, hypot, inf, sin
 
-from attrs import define, evolve, field
-
 from ...body.gait.turning_steps import TurningSteps
 from ...calibration import Calibration
 from ...foot.navigate.corrector import LONGEST_BRIDGE
 from ...foot.navigate.strapdown import Strapdown
 from ...foot.stance.stance import Stance
-from ...foot.turn import heading_turned
 from ...types import Foot, Phase, Quat, Vec3
-from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, multiply, rotate, tipped
+from ...types.attrs import define, evolve, field
+from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, heading_turned, multiply, rotate, tipped
 from .critical_times import CriticalTimes
 from .segment import StepSegment
 from .step_length import closed_step_length, step_length, turned, turned_about_vertical

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import sqrt
 
-from attrs import define, field, frozen
-
 from ...types import Vec3
+from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY, ZERO
 from .critical_times import CriticalTimes, Row
 

@@ -13,14 +13,13 @@ from __future__ import annotations
 
 from math import atan2
 
-from attrs import define
-
 from ...body.place.crowd import Row, resampled
 from ...body.place.noise import following
 from ...body.place.placing import Placing
 from ...body.place.sway import swayed
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
+from ...types.attrs import define
 
 CELL = 0.25
 """Traces on the same level within this, m, ..."""

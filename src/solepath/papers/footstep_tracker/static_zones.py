@@ -22,10 +22,9 @@ from __future__ import annotations
 
 from math import inf
 
-from attrs import define, field
-
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Phase, Quat, Vec3
+from ...types.attrs import define, field
 from ...types.vector import GRAVITY, IDENTITY, ZERO
 from .critical_times import Row, critical_times
 from .segment import FootAxes, StepSegment, turned_to, with_offset

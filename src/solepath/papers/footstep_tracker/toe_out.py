@@ -12,13 +12,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from math import acos, isfinite
 
-from attrs import frozen
-
 from ...calibration import Calibration, CalibrationError
 from ...events import StrideTaken
 from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from ...session import Session
 from ...types import Foot, Packet, Sample
+from ...types.attrs import frozen
 
 FEWEST = 5
 """Steps of a foot that tell anything."""

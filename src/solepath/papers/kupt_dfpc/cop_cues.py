@@ -20,15 +20,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from attrs import define, field
-
 from ...foot.cues.cues import Cues, Seen
 from ...foot.cues.inertial import InertialCues
 from ...foot.cues.touch import Touch
 from ...foot.phase import Cue
-from ...foot.pressure.centre import centre
+from ...foot.pressure.cells import centre
 from ...foot.stance.stance import Load, Stance
 from ...types import Layout, Phase, Vec3
+from ...types.attrs import define, field
 from ...types.vector import TIE
 from .stages import STAGES, CellCue, StepStage
 

@@ -33,13 +33,12 @@ from collections.abc import Mapping, Sequence
 from math import isfinite, sqrt
 from typing import ClassVar
 
-from attrs import define, field
-
 from ...body.part import Position, Said, Track
 from ...events import StrideFused, StrideTaken
-from ...foot.pressure.centre import centre
+from ...foot.pressure.cells import centre
 from ...foot.view import FootPose, FootView
 from ...types import Foot, Site, Vec3
+from ...types.attrs import define, field
 from ...types.vector import ZERO, sub
 
 POINTS = 64

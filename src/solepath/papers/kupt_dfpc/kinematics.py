@@ -23,10 +23,9 @@ from __future__ import annotations
 
 from math import asin, cos, hypot, sin, sqrt
 
-from attrs import define, evolve, field
-
 from ...calibration import ShoeGeometry
 from ...types import Quat, Vec3
+from ...types.attrs import define, evolve, field
 from ...types.vector import ZERO
 
 LENGTH = 0.285

@@ -9,13 +9,12 @@ from __future__ import annotations
 
 from math import inf
 
-from attrs import define, evolve, field
-
 from ...calibration import Calibration, ShoeGeometry
 from ...foot.cues.touch import Touch
-from ...foot.stance.classic import ShoeDetector
+from ...foot.stance.shoe import ShoeDetector
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Foot, Layout, Phase, Quat, Vec3
+from ...types.attrs import define, evolve, field
 from ...types.vector import IDENTITY, ZERO
 from .kinematics import Sagittal, shoe_for, velocity
 

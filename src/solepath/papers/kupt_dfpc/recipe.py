@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from attrs import evolve
-
 from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.pressure.insole import InsoleLoads
 from ...recipes import Recipe, usual
+from ...types.attrs import evolve
 from .cop_cues import CopCues
 from .fusion import DoubleFoot
 from .known_velocity import KnownVelocity

@@ -21,11 +21,11 @@ from math import isfinite, radians
 from pathlib import Path
 
 import numpy as np
-from attrs import frozen
 from numpy.typing import NDArray
 
 from ...calibration import Calibration, CalibrationError, ShoeGeometry
 from ...calibration.file import bounded_text
+from ...types.attrs import frozen
 
 COLUMNS = ("pitch_deg", "L_r_m", "L_p2t_m")
 SINGLE = ("H_imu_m", "heel_L_r_m")

@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from math import hypot
 
-from attrs import define, field, frozen
-
 from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.phase import Cue
 from ...foot.stance.stance import Stance
 from ...types import Phase, Quat, Vec3
+from ...types.attrs import define, field, frozen
 from ...types.vector import TIE, ZERO
 
 SHORT_GAP = 0.08

@@ -16,9 +16,8 @@ measurement of a_b: it would double the error that it removes. The sign is (6)'s
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ...types import Vec3
+from ...types.attrs import define, field
 from ...types.vector import ZERO
 
 

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from math import atan2, inf
 
-from attrs import define, evolve, field
-
 from ...calibration import Calibration
 from ...foot.navigate.corrector import LONGEST_BRIDGE
 from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.stance.stance import Stance
 from ...types import Foot, Quat, Vec3
+from ...types.attrs import define, evolve, field
 from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, sub
 from .acc_bias import AccelerometerBias
 

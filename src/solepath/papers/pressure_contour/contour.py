@@ -31,9 +31,8 @@ from itertools import combinations
 from math import cos, hypot, inf, pi, sin
 from operator import mul, sub
 
-from attrs import define, field
-
 from ...types import Cell, Layout
+from ...types.attrs import define, field
 from ...types.vector import TIE
 
 HEEL = 0.33

@@ -7,10 +7,9 @@ from __future__ import annotations
 from collections import deque
 from math import hypot, inf, sqrt
 
-from attrs import define, field
-
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Layout, Phase, Quat, Vec3
+from ...types.attrs import define, field
 from ...types.vector import IDENTITY, TIE, ZERO
 from .contour import Contours
 

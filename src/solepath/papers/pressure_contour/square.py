@@ -22,7 +22,6 @@ from math import atan2, hypot, inf, isfinite
 from pathlib import Path
 
 import numpy as np
-from attrs import frozen
 
 from ...calibration import Calibration, CalibrationError
 from ...calibration.file import bounded_text
@@ -31,6 +30,7 @@ from ...papers.pressure_contour.recipe import PRESSURE_CONTOUR
 from ...recipes import Recipe
 from ...session import Session
 from ...types import Foot, Packet, Sample, Vec3
+from ...types.attrs import frozen
 from ...types.vector import from_yaw, rotate
 from .bias_zupt import BiasZupt
 

@@ -7,12 +7,11 @@ from __future__ import annotations
 from collections import deque
 from math import hypot, sqrt
 
-from attrs import define, field
-
 from ...body.activity.steepness import steepness
 from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.stance.stance import Stance
 from ...types import Phase, Quat, Vec3
+from ...types.attrs import define, field
 from ...types.vector import GRAVITY, TIE, ZERO, rotate, tipped
 from .posture import gravity_error, posture, turned
 

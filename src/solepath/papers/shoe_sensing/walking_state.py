@@ -7,14 +7,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar
 
-from attrs import define, field
-
 from ...body.activity.flights import Flights
 from ...body.activity.steepness import of_stairs, steepness
 from ...body.part import Doing, Said
 from ...events import ActivityChanged, Event, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Phase, Site
+from ...types.attrs import define, field
 from ...types.vector import TIE
 
 _OF_STEP = {0: Activity.WALKING, 1: Activity.STAIRS_UP, -1: Activity.STAIRS_DOWN}

@@ -13,8 +13,6 @@ from collections.abc import Iterable
 from math import atan2, cos, hypot, sin
 from pathlib import Path
 
-from attrs import evolve, frozen
-
 from ...calibration import Calibration, CalibrationError
 from ...events import TouchedDown
 from ...foot.navigate.error_state import ErrorStateFilter
@@ -23,6 +21,7 @@ from ...recipes import Recipe, usual
 from ...recording.decoded import Recorded
 from ...session import Session
 from ...types import Foot, WalkingMode
+from ...types.attrs import evolve, frozen
 from .modes import Modes
 from .rows import read_rows
 

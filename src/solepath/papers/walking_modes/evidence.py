@@ -6,7 +6,7 @@ never unloads, has that sign no more, while the foot's inertial sensor still tel
 
 from __future__ import annotations
 
-from attrs import define, field
+from ...types.attrs import define, field
 
 SILENT = 0.5
 """A foot that has not shown the sign for so long has it no more, s."""

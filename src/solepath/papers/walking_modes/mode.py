@@ -23,9 +23,8 @@ What the paper leaves open, and what is taken here:
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ...types import Foot, Layout, WalkingMode
+from ...types.attrs import define, field
 
 POINTS: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
     "F1": ((0.66, 0.30), (0.71, -0.30)),

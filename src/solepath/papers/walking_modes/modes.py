@@ -28,8 +28,6 @@ from copy import deepcopy
 from math import atan2, hypot
 from typing import ClassVar
 
-from attrs import define, evolve, field
-
 from ...body.part import Position, Said, Track
 from ...calibration import Calibration, Limbs
 from ...events import Event, Limitation, TouchedDown, WalkingModeChanged
@@ -37,6 +35,7 @@ from ...foot.rejection import rejected
 from ...foot.view import FootPose, FootView
 from ...foot.world import Covariance3
 from ...types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
+from ...types.attrs import define, evolve, field
 from ...types.vector import TIE, ZERO, sub
 from .compensation import Compensation, chosen, epsilon_p, with_own
 from .evidence import UNSEEN

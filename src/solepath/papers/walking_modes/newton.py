@@ -11,10 +11,10 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
-from attrs import frozen
 
 from ...calibration import Calibration, CalibrationError, InsoleCalibration, Newtons
 from ...types import Foot
+from ...types.attrs import frozen
 from .rows import read_rows
 
 THRESHOLD, MOST = 5.0, 200.0

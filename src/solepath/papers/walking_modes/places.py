@@ -11,12 +11,11 @@ from __future__ import annotations
 
 from math import atan2, cos, hypot, pi, sin
 
-from attrs import define, field
-
 from ...body.fuse.position import MeanOfFeet, PlacedTrack
 from ...calibration import Limbs
 from ...foot.view import FootView
 from ...types import Foot, Vec3
+from ...types.attrs import define, field
 from ...types.vector import ZERO, sub
 from .limbs.limbs import LowerLimbs
 from .mode import LEAST_STEP

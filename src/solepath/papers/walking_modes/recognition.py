@@ -10,9 +10,8 @@ After Gong et al. 2023 (Sensors 23, 5417), section 3.3. What the paper leaves op
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ...types import Foot, Layout, WalkingMode
+from ...types.attrs import define, field
 from .mode import LEAST_STEP, LINGERS, STANDING_WEIGHT, TH, Contact, at_pace, decide
 from .touchdown import OTHER, FootState, PressureTouchdown
 

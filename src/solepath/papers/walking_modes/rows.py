@@ -8,10 +8,9 @@ from io import StringIO
 from math import isfinite
 from pathlib import Path
 
-from attrs import frozen
-
 from ...calibration import CalibrationError
 from ...calibration.file import bounded_text
+from ...types.attrs import frozen
 
 
 @frozen

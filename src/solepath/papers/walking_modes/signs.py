@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from math import hypot
 
-from attrs import define, field
-
 from ...events import Event, FootFlat, Limitation, StrideTaken
 from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Phase
+from ...types.attrs import define, field
 from ...types.vector import GRAVITY, rotate
 from .evidence import SignEvidence
 from .touchdown import AnyTouchdown, Flags, FootState, Height, NetAcceleration, PressureTouchdown

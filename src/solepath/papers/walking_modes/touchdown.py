@@ -13,9 +13,8 @@ else nothing changes. So in walking each foot carries from its own touchdown to 
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ...types import Foot, Vec3
+from ...types.attrs import define, field
 from ...types.vector import TIE, ZERO, sub
 
 OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}

@@ -36,12 +36,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar
 
-from attrs import define, field
-
 from ....body.part import Doing, Said
 from ....events import ActivityChanged, Event, LiftRidden
 from ....foot.view import FootView
 from ....types import Activity, Foot, Site
+from ....types.attrs import define, field
 from .hmm import forward, spread, weighed
 from .window_model import WindowModel, shipped
 from .windows import BLOCKS, HOP, WINDOW, FootWindow, FootWindows

@@ -12,8 +12,7 @@ from importlib.resources import files
 from math import log
 from typing import Any
 
-from attrs import frozen
-
+from ....types.attrs import frozen
 from .hmm import Matrix
 from .windows import FootWindow
 

@@ -15,9 +15,8 @@ from __future__ import annotations
 from collections import deque
 from math import radians, sqrt
 
-from attrs import define, field, frozen
-
 from ....types import Vec3
+from ....types.attrs import define, field, frozen
 from ....types.vector import GRAVITY, TIE
 
 HOP = 0.5

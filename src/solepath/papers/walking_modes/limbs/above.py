@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from attrs import define, field
-
 from ....events import Rejection
 from ....foot.rejection import Refusal, refusal
 from ....types import Sample, Site
+from ....types.attrs import define, field
 from .inclination import Inclination
 from .limbs import LowerLimbs
 

@@ -10,10 +10,9 @@ from __future__ import annotations
 
 from math import atan2, hypot, sqrt
 
-from attrs import define, field
-
 from ....foot.attitude import Levelling, Rest
 from ....types import Quat, Vec3
+from ....types.attrs import define, field
 from ....types.vector import GRAVITY, ZERO, from_rotation_vector, multiply, normalise, rotate, sub
 
 LONGEST = 0.25

@@ -15,10 +15,9 @@ from collections.abc import Iterable
 from math import atan2, cos, hypot, sin, sqrt
 from typing import NamedTuple
 
-from attrs import define, field
-
 from ....calibration import Limbs
 from ....types import Foot, Quat, Site, Vec3
+from ....types.attrs import define, field
 from ....types.vector import IDENTITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate
 from .segment import LimbSegment
 

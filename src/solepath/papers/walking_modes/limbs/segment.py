@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from math import cos
 
-from attrs import define, field
-
 from ....types import Quat
+from ....types.attrs import define, field
 from ....types.vector import IDENTITY, conjugate, from_yaw, multiply, normalise
 
 QUIET = 0.04

@@ -1,0 +1,70 @@
+"""SHOE, of Skog, Handel, Nilsson, Rantakokko, "Zero-velocity detection: an algorithm evaluation" (IEEE Trans. Biomed.
+Eng. 57, 2010), with fixed thresholds, which were chosen by hand on the recordings of docs/accuracy.md, not swept. It is
+causal and looks back over `window` seconds; its evidence has no other latency."""
+
+from __future__ import annotations
+
+from collections import deque
+from math import sqrt
+
+from ...types import Quat, Vec3
+from ...types.attrs import define, field
+from ...types.vector import GRAVITY, IDENTITY
+from .stance import Detector, Load, Stance, soften
+
+SIGMA_ACC = 0.01
+"""Noise of the accelerometer that scales the statistics, m/s^2."""
+SIGMA_GYRO = 0.1 * 3.141592653589793 / 180.0
+"""Noise of the gyroscope that scales the statistics, rad/s."""
+
+
+@define
+class ShoeDetector(Detector):
+    """SHOE: stance hypothesis optimal estimation. T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2)."""
+
+    window: float = 0.025
+    """How far back it looks, s."""
+    sigma: float = 0.01
+    """Noise of the zero velocity of a foot at rest, m/s."""
+    base: float = 1e4
+    """The statistic up to which the foot is at rest for certain."""
+    gate: float = 3.5e5
+    """The statistic from which on it is not."""
+    # state
+    entries: deque[tuple[float, float, float, float, float, float]] = field(factory=deque, init=False)
+    sums: tuple[float, float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0, 0.0), init=False)
+
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
+        from_acc, from_gyro = self.parts(t, acc, gyro)
+        statistic = from_acc / SIGMA_ACC**2 + from_gyro / SIGMA_GYRO**2
+        return soften(statistic, self.sigma, self.base, self.gate)
+
+    def parts(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[float, float]:
+        """The two means of the statistic before scaling: specific force off gravity, (m/s^2)^2, and rate, (rad/s)^2."""
+        ax, ay, az = acc
+        wx, wy, wz = gyro
+        a2 = ax * ax + ay * ay + az * az
+        w2 = wx * wx + wy * wy + wz * wz
+        sx, sy, sz, s2, sw = self.sums
+        sx += ax
+        sy += ay
+        sz += az
+        s2 += a2
+        sw += w2
+        entries = self.entries
+        entries.append((t, ax, ay, az, a2, w2))
+        oldest = t - self.window + 1e-9
+        while entries[0][0] < oldest and len(entries) > 1:
+            _, ax, ay, az, a2, w2 = entries.popleft()
+            sx -= ax
+            sy -= ay
+            sz -= az
+            s2 -= a2
+            sw -= w2
+        self.sums = (sx, sy, sz, s2, sw)
+        n = len(entries)
+        # sum |a - g u|^2 with u the direction of the mean: sum a^2 - 2 g |sum a| + n g^2
+        off = s2 - 2.0 * GRAVITY * sqrt(sx * sx + sy * sy + sz * sz) + n * GRAVITY * GRAVITY
+        return (off / n if off > 0.0 else 0.0), (sw / n if sw > 0.0 else 0.0)
