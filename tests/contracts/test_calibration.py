@@ -111,7 +111,7 @@ def test_a_raw_value_becomes_newtons_by_the_cubic_within_5_to_200() -> None:
 def test_a_layout_of_the_calibration_serves_samples_that_do_not_say_where_their_cells_are() -> None:
     session = Session(calibration=WHOLE)
     session.feed(Sample(0.0, Site.LEFT_FOOT, (0.0, 0.0, 9.81), (0.0, 0.0, 0.0), (20.0, 30.0)))
-    worn = session.feet[Foot.LEFT].insole.layout
+    worn = session.feet[Foot.LEFT].sole.insole.layout
     assert worn is not None and worn.length == 0.26
 
 
@@ -247,7 +247,7 @@ def test_a_first_sample_that_is_cut_short_is_not_of_another_insole() -> None:
     session = Session(recipes.by_name("zupt"), calibration=known)
     told = session.feed([evolve(first, pressure=(0.0,) * 90), *others])
     assert of(CellsFailed, told) == [] and of(Limitation, told) == []
-    assert all(foot.insole.layout == layout(96, foot.foot) for foot in session.feet.values())
+    assert all(foot.sole.insole.layout == layout(96, foot.foot) for foot in session.feet.values())
 
 
 def test_cells_that_come_apart_from_the_inertial_samples_are_compared_too() -> None:

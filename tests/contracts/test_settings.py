@@ -73,8 +73,8 @@ def test_a_calibration_that_does_not_fit_the_insoles_is_left_out_not_changed() -
     assert {type(event).__name__ for event in told} - {type(event).__name__ for event in usual} == {"Limitation"}
     assert session.position == plain.position
     for foot, tracker in session.feet.items():
-        assert tracker.insole.tells_newtons
-        assert tracker.insole.tare == plain.feet[foot].insole.tare
+        assert tracker.sole.insole.tells_newtons
+        assert tracker.sole.insole.tare == plain.feet[foot].sole.insole.tare
 
 
 def test_sessions_of_one_recipe_hold_one_copy_of_it_and_of_a_recipe_that_was_changed_another() -> None:
@@ -102,6 +102,6 @@ def test_wearers_of_one_kind_of_insole_hold_its_layout_once() -> None:
     for session in (one, other):
         session.feed(packets()["whole frames"][:40])
     for foot in Foot:
-        where = one.feet[foot].insole.layout
-        assert where is not None and where is other.feet[foot].insole.layout
+        where = one.feet[foot].sole.insole.layout
+        assert where is not None and where is other.feet[foot].sole.insole.layout
         assert len(where.xs) == len(where.ys) == len(layout(96, foot).cells)

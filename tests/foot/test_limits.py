@@ -185,7 +185,7 @@ def test_a_guessed_layout_is_forgotten_with_its_insole() -> None:
     session = Session(recipes.by_name("zupt"))
     told = [evolve(s, pressure=s.pressure and s.pressure[:20]) if s.t > 5.0 else s for s in samples()]
     session.feed(told)
-    guessed: Layout | None = session.feet[Foot.LEFT].insole.layout
+    guessed: Layout | None = session.feet[Foot.LEFT].sole.insole.layout
     assert guessed is None or len(guessed.cells) == 20
 
 

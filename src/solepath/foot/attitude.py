@@ -170,6 +170,11 @@ class Rest:
         self.span = SampleSpan()
         self.span_start = None
 
+    def calibrated(self, acc: Vec3, gyro: Vec3) -> tuple[Vec3, Vec3]:
+        """What the sensor said without its scale and bias, m/s^2 and rad/s."""
+        k, (bx, by, bz) = self.scale, self.bias
+        return (acc[0] * k, acc[1] * k, acc[2] * k), (gyro[0] - bx, gyro[1] - by, gyro[2] - bz)
+
     def update(self, t: float, acc: Vec3, gyro: Vec3) -> bool:
         """One raw sample; True when a span of rest was learnt from."""
         if self.span_start is None:

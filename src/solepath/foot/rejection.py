@@ -45,11 +45,15 @@ def refusal(sample: Sample, newest: float | None) -> Refusal | None:
         if not (LEAST_GYRO < x < ABSURD_GYRO and LEAST_GYRO < y < ABSURD_GYRO and LEAST_GYRO < z < ABSURD_GYRO):
             return _wrong_vector("gyro", gyro, ABSURD_GYRO)
     if sample.pressure:
-        total = _total(sample.pressure)
+        try:
+            total: float = sum(sample.pressure)
+        except (OverflowError, TypeError):
+            total = inf
         if not LEAST_TOTAL < total < ABSURD_TOTAL:
-            return Rejection.ABSURD, "pressure of hundreds of digits" if abs(total) == inf else (
-                f"pressure of {_shown(total)} in all"
-            )
+            total = _total_of_numbers(sample.pressure)
+            if not LEAST_TOTAL < total < ABSURD_TOTAL:
+                much = "hundreds of digits" if abs(total) == inf else f"{_shown(total)} in all"
+                return Rejection.ABSURD, f"pressure of {much}"
     return None
 
 
@@ -66,17 +70,9 @@ def _wrong_vector(name: str, vector: Vec3, limit: float) -> Refusal:
     return Rejection.ABSURD, f"{name} of {_shown(worst)}"
 
 
-def _total(cells: tuple[float, ...]) -> float:
+def _total_of_numbers(cells: tuple[float, ...]) -> float:
     """Of those cells that are numbers; the others are a matter of cell_health.py."""
     try:
-        total = sum(cells)
-    except OverflowError:
-        return inf
-    except TypeError:
-        total = inf
-    try:
-        if isfinite(total):
-            return total
         return sum([value for value in cells if value is not None and isfinite(value)])
     except OverflowError:  # an int may be too large for a float
         return inf

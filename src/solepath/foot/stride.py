@@ -7,7 +7,7 @@ from math import hypot
 from ..events import StrideFeatures, StrideTaken
 from ..types import Foot, Quat, Vec3
 from ..types.attrs import define, field
-from ..types.vector import IDENTITY, ZERO, heading_turned, single, sub
+from ..types.vector import IDENTITY, SPLIT, ZERO, heading_turned, single, sub
 from .world import World
 
 COP_POINTS = 32
@@ -126,7 +126,8 @@ class StepBuilder:
             self.fastest = speed
         pitch = self.pitch = self.pitch + sagittal * dt
         self.moved_at = t
-        self.pitches[self.slot] = single(pitch)
+        high = SPLIT * pitch  # rounded as by `single`
+        self.pitches[self.slot] = high - (high - pitch)
         self.slot = (self.slot + 1) % RECENT
         if pitch < self.pitch_low:
             self.pitch_low = pitch

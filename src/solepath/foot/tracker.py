@@ -79,11 +79,6 @@ class FootTracker:
     # --- what it knows ---
 
     @property
-    def insole(self) -> InsoleLoads:
-        """What makes a load of its cells."""
-        return self.sole.insole
-
-    @property
     def phase(self) -> Phase:
         """What the foot is doing."""
         return self.gait.phase
@@ -159,10 +154,6 @@ class FootTracker:
         self.sole.wear(layout, self.limits)
         self._wear_parts(layout)
 
-    def suppose(self, layout: Layout) -> None:
-        """A calibration says where the cells are: it is believed if samples have as many."""
-        self.sole.suppose(layout)
-
     def _wear_parts(self, layout: Layout) -> None:
         self.sole.worn = False
         self.detector.wear(layout)
@@ -180,8 +171,8 @@ class FootTracker:
         settings: Any = self.detector
         self.detector = evolve(settings)
         self.cues.anew()
-        if self.insole.layout is not None:
-            self._wear_parts(self.insole.layout)
+        if self.sole.insole.layout is not None:
+            self._wear_parts(self.sole.insole.layout)
         self.levelling = evolve(self.levelling)
         self.sole.interrupt()
         self.rest.interrupt()
@@ -217,10 +208,15 @@ class FootTracker:
             what = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
             self.limits.lacks(what, t, known_at, events)
             return events
+        if not whole:
+            self.pressed_at = t
+            if self.moved_at is not None and t - self.moved_at < WITHOUT:
+                self.load = load  # cells and inertial sensor come apart; the next inertial sample takes the load along
+                return events
+        dt = 0.0 if last is None else t - last
+        if last is not None and (self.rhythm.update(dt) or dt > LONGEST_BRIDGE):
+            dt = self._gap(last, t, known_at, sample, events)
         if acc is not None and gyro is not None:
-            dt = 0.0 if last is None else t - last
-            if last is not None and (self.rhythm.update(dt) or dt > LONGEST_BRIDGE):
-                dt = self._gap(last, t, known_at, sample, events)
             self.moved_at = t
             self.limits.since = None
             if load is None:
@@ -229,50 +225,35 @@ class FootTracker:
                 self.corrector.told(sample.quat)
             self._inertial(t, dt, known_at, acc, gyro, sample.saturated, load, events)
             return events
-        self.pressed_at = t
-        if self.moved_at is not None and t - self.moved_at < WITHOUT:
-            self.load = load  # cells and inertial sensor come apart; the next inertial sample takes the load along
-        else:
-            dt = 0.0 if last is None else t - last
-            if last is not None and (self.rhythm.update(dt) or dt > LONGEST_BRIDGE):
-                dt = self._gap(last, t, known_at, sample, events)
-            self._pressure_alone(t, dt, known_at, sample, load, events)
+        lacking = "accelerometer" if acc is None else "gyroscope"
+        what = f"no {lacking} on the {self.foot.value} foot: no steps and no track from it"
+        self.limits.lacks(what, t, known_at, events)
+        if load is not None:
+            for seen in self.cues.alone(t, dt, load, self.phase):
+                self._see(seen, known_at, events)
         return events
 
     def _gap(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
         """Name a gap between two samples; returns the time to integrate over, s."""
         events.append(SampleGap(t=last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=t - last))
         self.gait.step.spoil(t)
-        return self._over_gap(last, t, known_at, sample, events) if self.levelled else t - last
-
-    def _over_gap(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
+        if not self.levelled:
+            return t - last
         if t - last <= SHORTEST or sample.acc is None or sample.gyro is None:
             return self.corrector.bridge(t - last)
-        seen = self._calibrated(sample.acc, sample.gyro)
+        seen = self.rest.calibrated(sample.acc, sample.gyro)
         return cross(self.gait, self.corrector, self.cues, last, t, known_at, seen, self.rhythm.usual or 0.0, events)
 
-    def _calibrated(self, acc: Vec3, gyro: Vec3) -> tuple[Vec3, Vec3]:
-        rest = self.rest
-        k = rest.scale
-        x, y, z = acc
-        gx, gy, gz = gyro
-        bx, by, bz = rest.bias
-        return (x * k, y * k, z * k), (gx - bx, gy - by, gz - bz)
-
     def _inertial(
-        self,
-        t: float,
-        dt: float,
-        known_at: float,
-        acc: Vec3,
-        gyro: Vec3,
-        saturated: bool,
-        load: Load | None,
-        events: list[Event],
-    ) -> None:
+        self, t: float, dt: float, known_at: float, acc: Vec3, gyro: Vec3, saturated: bool,
+        load: Load | None, events: list[Event],
+    ) -> None:  # fmt: skip
         rest, corrector, gait = self.rest, self.corrector, self.gait
         if rest.update(t, acc, gyro):
-            self._check_scale(t, known_at, events)
+            suspect = None if self.scale_said else suspected(t, known_at, SITE_OF_FOOT[self.foot], rest.magnitude)
+            if suspect is not None:
+                self.scale_said = True
+                events.append(suspect)
             self.detector.scaled(rest.scale)
         k, (bx, by, bz) = rest.scale, rest.bias
         x, y, z = acc
@@ -311,29 +292,9 @@ class FootTracker:
             self._say_where(t, known_at, events)
 
     def _say_where(self, t: float, known_at: float, events: list[Event]) -> None:
-        here, velocity = self.position, self.velocity
-        events.append(
-            FootMoved(t=t, known_at=known_at, foot=self.foot, position=here, velocity=velocity, phase=self.phase)
-        )
-
-    def _pressure_alone(
-        self, t: float, dt: float, known_at: float, sample: Sample, load: Load | None, events: list[Event]
-    ) -> None:
-        lacking = "accelerometer" if sample.acc is None else "gyroscope"
-        what = f"no {lacking} on the {self.foot.value} foot: no steps and no track from it"
-        self.limits.lacks(what, t, known_at, events)
-        if load is None:
-            return
-        for seen in self.cues.alone(t, dt, load, self.phase):
-            self._see(seen, known_at, events)
+        p, v = self.position, self.velocity
+        events.append(FootMoved(t=t, known_at=known_at, foot=self.foot, position=p, velocity=v, phase=self.phase))
 
     def _see(self, seen: Seen, known_at: float, events: list[Event]) -> None:
         corrector = self.corrector if self.levelled else None
         events += self.gait.see(seen, known_at, corrector, self.rhythm.usual or 0.0)
-
-    def _check_scale(self, t: float, known_at: float, events: list[Event]) -> None:
-        if not self.scale_said:
-            suspect = suspected(t, known_at, SITE_OF_FOOT[self.foot], self.rest.magnitude)
-            if suspect is not None:
-                self.scale_said = True
-                events.append(suspect)

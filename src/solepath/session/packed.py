@@ -83,7 +83,7 @@ def pack(state: SessionState) -> bytes:
 def _units(wearer: WearerParts) -> Units:
     """What a count weighs: its cells' loads are multiples of that."""
     feet = [wearer.feet.get(foot) for foot in Foot]
-    layouts = [None if foot is None else foot.insole.layout for foot in feet]
+    layouts = [None if foot is None else foot.sole.insole.layout for foot in feet]
     left, right = [0.0 if layout is None or layout.scale is None else layout.scale for layout in layouts]
     return left, right
 
@@ -135,9 +135,9 @@ def _filled(streams: Streams, recipe: Recipe, classes: Classes) -> SessionState:
     state: SessionState = read(STATE, streams, classes, _begun(recipe, head))
     streams.end()
     for foot in state.wearer.feet.values():
-        layout = foot.insole.layout
+        layout = foot.sole.insole.layout
         if layout is not None:
-            foot.insole.layout = shared(layout)
+            foot.sole.insole.layout = shared(layout)
     return state
 
 

@@ -253,7 +253,7 @@ class WearerParts:
             )
             layout = known.insole(foot).layout
             if layout is not None:
-                tracker.suppose(layout)
+                tracker.sole.suppose(layout)
         return tracker
 
     def _keep(self, tracker: FootTracker) -> None:

@@ -17,14 +17,15 @@ IDENTITY: Quat = (1.0, 0.0, 0.0, 0.0)
 ZERO: Vec3 = (0.0, 0.0, 0.0)
 
 
-_SPLIT = 2.0**29 + 1.0
+SPLIT = 2.0**29 + 1.0
+"""Takes the lower 29 bits off a float of 53 (`single`)."""
 
 
 def single(x: float) -> float:
     """`x` rounded to the 24 bits of a float32, which a packed state writes in half the bytes: for what is remembered,
     not for what goes on (a covariance, a place). 60 ns. Where it is below 1e-38 nothing is gained; it is to be below
     1e290 (T. J. Dekker, "A floating-point technique for extending the available precision", 1971)."""
-    high = _SPLIT * x
+    high = SPLIT * x
     return high - (high - x)
 
 
@@ -75,6 +76,26 @@ def rotate(q: Quat, v: Vec3) -> Vec3:
     )
 
 
+def rotate_back(q: Quat, v: Vec3) -> Vec3:
+    """q* v q: world coordinates into sensor coordinates when q is sensor to world."""
+    w, x, y, z = q
+    vx, vy, vz = v
+    tx = 2.0 * (z * vy - y * vz)
+    ty = 2.0 * (x * vz - z * vx)
+    tz = 2.0 * (y * vx - x * vy)
+    return (
+        vx + w * tx - y * tz + z * ty,
+        vy + w * ty - z * tx + x * tz,
+        vz + w * tz - x * ty + y * tx,
+    )
+
+
+def turned(v: Vec3, yaw: float) -> Vec3:
+    """Turned about the vertical by `yaw` rad."""
+    c, s = cos(yaw), sin(yaw)
+    return (c * v[0] - s * v[1], s * v[0] + c * v[1], v[2])
+
+
 def from_rotation_vector(r: Vec3) -> Quat:
     """The turn by |r| rad about r."""
     x, y, z = r
@@ -110,6 +131,7 @@ def levelling(acc: Vec3) -> Quat:
 
 def heading_turned(before: Quat, after: Quat) -> float:
     """The twist about the vertical of the turn from one attitude to another, in (-pi, pi], rad."""
-    q, _, _, k = multiply(after, conjugate(before))
-    turn = 2.0 * atan2(k, q)
+    aw, ax, ay, az = after
+    w, x, y, z = before
+    turn = 2.0 * atan2(-aw * z - ax * y + ay * x + az * w, aw * w + ax * x + ay * y + az * z)
     return turn - 2.0 * pi if turn > pi else turn + 2.0 * pi if turn <= -pi else turn

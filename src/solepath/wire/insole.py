@@ -90,6 +90,8 @@ _HEADER_SIZE = 14
 _IMU_COUNTS, _QUAT_COUNTS = Struct("<6h"), Struct("<4h")
 _SAMPLES = _Samples()
 """What lies between the header and the CRC."""
+_PACKED = tuple(map(packed_size, range(256)))
+"""Bytes of so many cells."""
 
 
 def parse_frame(data: bytes) -> InsoleFrame:
@@ -97,7 +99,7 @@ def parse_frame(data: bytes) -> InsoleFrame:
     data = bytes(data)
     check_start(data, FRAME, _HEADER_SIZE)
     _, _, flags, layout, sequence, ticks, interval, count, cells = _HEADER.parse(data)
-    packed = packed_size(cells)
+    packed = _PACKED[cells]
     size = packed + (_IMU_COUNTS.size if flags & _IMU else 0) + (_QUAT_COUNTS.size if flags & _QUAT else 0)
     check_end(data, _HEADER_SIZE + count * size + CRC_SIZE)
     problem = _problem(flags, interval, count, cells)

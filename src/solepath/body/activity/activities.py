@@ -24,8 +24,9 @@ from ...types.attrs import define, field
 from ...types.vector import TIE, ZERO
 from ..part import Doing, Said
 from .air import NOTHING, PressureHeight
-from .features import BLOCK, REACH, FootWindow
+from .features import BLOCK, REACH
 from .flights import Flights
+from .foot_blocks import FootBlocks
 from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses
 from .motion import MotionModel, shipped
 from .votes import felt, motions
@@ -62,8 +63,8 @@ class Activities(Doing):
     """When block 0 began, s."""
     next: int = field(default=0, init=False)
     """The block that is judged next."""
-    left: FootWindow = field(factory=FootWindow, init=False)
-    right: FootWindow = field(factory=FootWindow, init=False)
+    left: FootBlocks = field(factory=FootBlocks, init=False)
+    right: FootBlocks = field(factory=FootBlocks, init=False)
     air: PressureHeight = field(factory=PressureHeight, init=False)
     courses: Hypotheses = field(factory=Hypotheses, init=False)
     told: list[ActivitySegment] = field(factory=list, init=False)

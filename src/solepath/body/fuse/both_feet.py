@@ -6,9 +6,8 @@ middle of the stride, to the side by the walking width, which is learnt. In a be
 m long lies L turn / 8 inside the way. Feet that are further apart than legs spread are pulled together in any case.
 
 In the first metres this places the two tracks beside one another, whatever way the first steps led (facing.py), and
-changes neither. From then on what is found is handed back to the feet, each at its own foot-flat
-(`Shift`): both hold the heading that they agree on, live and in their later steps. A step that was
-taken stays as it was told.
+changes neither. From then on what is found is handed back to the feet, each at its own foot-flat (`Shift`): both hold
+the heading that they agree on, live and in their later strides. A stride that was taken stays as it was reported.
 
 With the feet held together their mean does not shrink as they drift apart, and neither is better than the other: each
 has been given its share by how unsure it was. A foot that falls silent and comes back is treated as by `MeanOfFeet`.
@@ -46,8 +45,7 @@ class BothFeet(MeanOfFeet):
 
     Latency: none; what a step says of the other foot is known with it, and the other's track follows at its own next
     foot-flat, its place in `position` at once. `straight_corridors` believes that who seems to walk straight does
-    (corridor.py). `feedback`: hand corrections back to the feet. A foot whose corrector cannot be shifted keeps
-    its track.
+    (corridor.py). `feedback`: hand corrections back to the feet. A foot that cannot be shifted keeps its track.
     """
 
     straight_corridors: bool = field(default=False, kw_only=True)
@@ -171,12 +169,13 @@ class BothFeet(MeanOfFeet):
         )
         wild = max(0.0, taken.length - self.longest)
         self.agreement.advance(index, stood, swung, (x, y), (dx, dy), variance, taken.degraded or wild > 0.0)
-        self.agreement.doubt(index, wild)
+        if wild > 0.0:
+            self.agreement.doubt(index, wild)
         self.way = min(self.settles, self.way + 0.5 * taken.length)
         x, y, _ = taken.displacement
         straight = hypot(x, y) > self.shortest and abs(taken.heading_change) < self.corner and not taken.degraded
         self.strides[index] = FacingStride(taken.t_end, own, atan2(y, x) if straight else None)
-        if not self._lined_up(index, taken):
+        if self.way >= self.settles or not self._lined_up(index, taken):
             self._compare(index, taken, dx, dy, stood, swung)
             if self.straight_corridors:
                 x, y, z = this.place(own)
@@ -186,7 +185,7 @@ class BothFeet(MeanOfFeet):
     def _lined_up(self, index: int, taken: StrideTaken) -> bool:
         """Whether the tracks of both feet had to be laid beside one another anew, within the first metres."""
         this, beside = self.strides[index], self.strides[1 - index]
-        if self.way >= self.settles or this is None or beside is None or not taken.t_start < beside.t_end < taken.t_end:
+        if this is None or beside is None or not taken.t_start < beside.t_end < taken.t_end:
             return False
         own, other, side = (self.left, self.right, 1.0) if index == 0 else (self.right, self.left, -1.0)
         angle = self.askew.between(this, own.turn, beside, other.turn, side)
@@ -281,11 +280,9 @@ class BothFeet(MeanOfFeet):
         """The foot is to take what was found since the tracks were placed."""
         this = self.left if index == 0 else self.right
         stride = self.strides[index]
-        if stride is None:
-            return ()
-        if self.way < self.settles:
+        if stride is not None and self.way < self.settles:
             self.bases[index] = (this.turn, this.offset)
-        elif self.feedback and takes_shifts:
+        elif stride is not None and self.feedback and takes_shifts:
             place, yaw = this.place(stride.end), this.turn
             this.turn, this.offset = self.bases[index]
             own = this.undone(place)
@@ -300,5 +297,4 @@ class BothFeet(MeanOfFeet):
         self.agreement.begin()
         self.strides = [None, None]
         self.corridor.end()
-        for placed, (turn, offset) in zip((self.left, self.right), self.bases, strict=True):
-            placed.turn, placed.offset = turn, offset
+        (self.left.turn, self.left.offset), (self.right.turn, self.right.offset) = self.bases

@@ -16,7 +16,7 @@ from typing import ClassVar, Final
 from ...foot.view import FootPose, FootView
 from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field
-from ...types.vector import ZERO, sub
+from ...types.vector import ZERO, sub, turned
 from ..part import Position, Said, Track
 
 LEFT: Final = Foot.LEFT
@@ -70,15 +70,20 @@ class PlacedTrack:
 
     def correct(self, at: Vec3, yaw: float, dx: float, dy: float) -> None:
         """Turn its track by `yaw` rad about the place `at` on it, m, and move it by (dx, dy) m, among both feet."""
-        x, y, _ = self.place(at)
-        self.turn += yaw
-        nx, ny, _ = self.place(at)
+        x, y, _ = at
         ox, oy, oz = self.offset
-        self.offset = (ox + x + dx - nx, oy + y + dy - ny, oz)
+        c, s = cos(self.turn), sin(self.turn)
+        before_x, before_y = c * x - s * y + ox, s * x + c * y + oy
+        self.turn += yaw
+        c, s = cos(self.turn), sin(self.turn)
+        self.offset = (ox + before_x + dx - (c * x - s * y + ox), oy + before_y + dy - (s * x + c * y + oy), oz)
 
     def undone(self, place: Vec3) -> Vec3:
         """Where its own track has a place among both feet, m."""
-        return _turned(sub(place, self.offset), -self.turn)
+        x, y, z = place
+        dx, dy, dz = self.offset
+        c, s = cos(-self.turn), sin(-self.turn)
+        return (c * (x - dx) - s * (y - dy), s * (x - dx) + c * (y - dy), z - dz)
 
 
 @define
@@ -121,7 +126,7 @@ class MeanOfFeet(Track):
         if view.covariance is not None:  # there was a stride
             xx, _, _, yy, _, zz = view.covariance
             this.variance = (0.5 * (xx + yy), zz)
-            if other.t is not None and not other.absent:
+            if other.t is not None and other.alone < ABSENT:
                 self._stepped(is_left, this)
         return ()
 
@@ -192,7 +197,7 @@ class MeanOfFeet(Track):
         x, y, z = other.offset
         other.offset = (x + lx, y + ly, z + lz)
         self.left.beside = self.right.beside = None
-        this.offset = sub(other.place(other.here), _turned(this.here, this.turn))
+        this.offset = sub(other.place(other.here), turned(this.here, this.turn))
         self._doubt(this, other)
         this.waits, other.waits = True, False
         self.steps = []
@@ -214,7 +219,7 @@ class MeanOfFeet(Track):
         if min(hypot(own_x, own_y), hypot(x, y)) < LEAST_WAY:
             return
         waiting.turn = atan2(own_x * y - own_y * x, own_x * x + own_y * y)
-        stood = _mean([_turned(own, waiting.turn) for own, _ in (*lefts, *rights)])
+        stood = _mean([turned(own, waiting.turn) for own, _ in (*lefts, *rights)])
         waiting.offset = sub(_mean([beside for _, beside in (*lefts, *rights)]), stood)
         self._doubt(waiting, other)
         waiting.waits = False
@@ -228,12 +233,6 @@ class MeanOfFeet(Track):
         own_across, own_up = this.variance or (0.0, 0.0)
         more, higher = other.spread
         this.spread = (max(0.0, across + more - own_across), max(0.0, up + higher - own_up))
-
-
-def _turned(v: Vec3, yaw: float) -> Vec3:
-    c, s = cos(yaw), sin(yaw)
-    x, y, z = v
-    return (c * x - s * y, s * x + c * y, z)
 
 
 def _way(begin: Vec3, end: Vec3, other_begin: Vec3, other_end: Vec3) -> Vec3:

@@ -15,7 +15,7 @@ from ...types.attrs import define, field
 from ..part import ClockUnsettled, Notice, Part, Said
 from .footfalls import Footfalls
 from .means import GaitMeans, GaitParameters
-from .measuring import OTHER, measured
+from .measuring import measured
 
 PATIENCE = 0.5
 """For so long the other foot's samples are waited for, s."""
@@ -91,8 +91,8 @@ class GaitCycles(Part):
         for falls in (self.left, self.right):
             falls.settle()
         self.waits = False
-        counts = [(foot, len(self._falls(foot).waiting)) for foot in Foot]
-        return [event for foot, count in counts for event in self._measured(foot, now, count)]
+        counts = (len(self.left.waiting), len(self.right.waiting))
+        return [*self._measured(Foot.LEFT, now, counts[0]), *self._measured(Foot.RIGHT, now, counts[1])]
 
     def receive(self, event: Notice) -> Sequence[Said]:
         """Whether the times of a site's samples can be compared with the other foot's."""
@@ -108,17 +108,10 @@ class GaitCycles(Part):
         cannot be compared with it any more."""
         if site.foot is not None:
             self.means.interrupt(site.foot)
-            count = self._falls(site.foot).count
             if site.foot is Foot.LEFT:
-                self.left, self.left_followed.t = Footfalls(count=count), None
+                self.left, self.left_followed.t = Footfalls(count=self.left.count), None
             else:
-                self.right, self.right_followed.t = Footfalls(count=count), None
-
-    def _falls(self, foot: Foot) -> Footfalls:
-        return self.left if foot is Foot.LEFT else self.right
-
-    def _followed(self, foot: Foot) -> Followed:
-        return self.left_followed if foot is Foot.LEFT else self.right_followed
+                self.right, self.right_followed.t = Footfalls(count=self.right.count), None
 
     def _release(self, known_at: float) -> Sequence[Said]:
         """The strides whose time both feet are past, or that waited long enough."""
@@ -126,11 +119,10 @@ class GaitCycles(Part):
             self.waits = False
             return ()
         said: list[Said] = []
-        for foot in Foot:
-            own, other = self._followed(foot).t, self._followed(OTHER[foot]).t
-            waiting = self._falls(foot).waiting
+        left, right = self.left_followed.t, self.right_followed.t
+        for foot, falls, own, other in ((Foot.LEFT, self.left, left, right), (Foot.RIGHT, self.right, right, left)):
             ready = 0
-            for cycle in waiting:
+            for cycle in falls.waiting:
                 past = other is None or other >= cycle.end
                 tired = own is None or own - cycle.end >= PATIENCE
                 if not past and not tired:
@@ -143,14 +135,16 @@ class GaitCycles(Part):
 
     def _measured(self, foot: Foot, known_at: float, count: int) -> list[Said]:
         """The first `count` of the cycles that wait."""
-        falls, other = self._falls(foot), self._falls(OTHER[foot])
+        is_left = foot is Foot.LEFT
+        falls, other = (self.left, self.right) if is_left else (self.right, self.left)
         cycles, falls.waiting = falls.waiting[:count], falls.waiting[count:]
-        tracked, unsettled = self._followed(foot).tracked, (self.left_unsettled, self.right_unsettled)
+        tracked = self.left_followed.tracked if is_left else self.right_followed.tracked
+        unsettled = (self.left_unsettled, self.right_unsettled)
         said: list[Said] = []
         for cycle in cycles:
             falls.count += 1
             compared = not any([until is not None and until > cycle.start for until in unsettled])
-            before = self.means.newest(foot)
+            before = self.means.left if is_left else self.means.right
             stride = measured(foot, falls.count, cycle, before, other, tracked, compared, known_at)
             self.means.hear(stride)
             said.append(stride)

@@ -11,6 +11,7 @@ variation (Hausdorff 2005, J. NeuroEng. Rehabil. 2). It takes at least 30 steps 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import sqrt
 
 from ...events import GaitCycleMeasured
@@ -31,20 +32,22 @@ class RunningMean:
     variance: float = 0.0
     """About the mean, by the weights of the values."""
 
-    def add(self, value: float, memory: int) -> None:
-        """One more; older ones fade once there were `memory`."""
-        self.count = min(self.count + 1, memory)
-        weight = 1.0 / self.count
-        off = value - self.mean
-        self.mean += weight * off
-        self.variance = (1.0 - weight) * (self.variance + weight * off * off)
-
     @property
     def figure(self) -> Figure:
         """As it is now."""
         # the variance of a sample of n is n / (n - 1) times that about its own mean
         sd = sqrt(self.variance * self.count / (self.count - 1)) if self.count > 1 else None
         return Figure(self.mean, sd, self.count)
+
+
+def add(figures: Iterable[tuple[RunningMean, float]], memory: int) -> None:
+    """One more value for each; older ones fade once there were `memory`."""
+    for figure, value in figures:
+        figure.count = min(figure.count + 1, memory)
+        weight = 1.0 / figure.count
+        off = value - figure.mean
+        figure.mean += weight * off
+        figure.variance = (1.0 - weight) * (figure.variance + weight * off * off)
 
 
 @frozen
@@ -168,14 +171,16 @@ class StrideSums:
         return self.left if foot is Foot.LEFT else self.right
 
     def add(self, stride: GaitCycleMeasured, memory: int) -> None:
-        """One more stride."""
-        sums = self.of(stride.foot)
+        """One more stride; older ones fade once there were `memory`."""
+        sums = self.left if stride.foot is Foot.LEFT else self.right
+        figures: list[tuple[RunningMean, float]] = []
         for parameter in MEASURED:
             value = getattr(stride, parameter.value)
             if value is not None:
-                sums.setdefault(parameter, RunningMean()).add(value, memory)
+                figures.append((sums.setdefault(parameter, RunningMean()), value))
         if stride.phase is not None:
-            sums.setdefault(Parameter.OFF_PHASE, RunningMean()).add(abs(stride.phase - 0.5), memory)
+            figures.append((sums.setdefault(Parameter.OFF_PHASE, RunningMean()), abs(stride.phase - 0.5)))
+        add(figures, memory)
 
     @property
     def coordination(self) -> float | None:
@@ -214,20 +219,15 @@ class GaitMeans:
     running: bool | None = field(default=None, init=False)
     """What the newest stride that counts was; None before any."""
 
-    def newest(self, foot: Foot) -> GaitCycleMeasured | None:
-        """The foot's newest stride."""
-        return self.left if foot is Foot.LEFT else self.right
-
     def hear(self, stride: GaitCycleMeasured) -> None:
         """One more stride, of either foot in the order of its time."""
-        before = self.newest(stride.foot)
         if stride.foot is Foot.LEFT:
-            self.left = stride
+            before, self.left = self.left, stride
         else:
-            self.right = stride
+            before, self.right = self.right, stride
         if before is not None and before.steady and before.t == stride.t_start:
-            self.running = before.running
-            (self.run if before.running else self.walked).add(before, self.memory)
+            self.running = running = before.running
+            (self.run if running else self.walked).add(before, self.memory)
 
     def interrupt(self, foot: Foot) -> None:
         """Nothing that comes follows what came."""

@@ -27,7 +27,6 @@ CLIMBS = 0.15
 """A ramp for wheelchairs climbs 1 in 12, stairs 1 in 2."""
 ABSURD = 1e4
 """No figure of a stride is as large, m, rad: it is none."""
-OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 
 
 def measured(
@@ -50,7 +49,19 @@ def measured(
     if struck is not None:
         earlier = [t for t in other.toe_offs if start - 0.5 * time < t < struck]
         cleared = earlier[-1] if earlier else None
-    length = None if step is None else _sound(step.length)
+    # a height that was corrected at the foot-flat may be above all that the swing was seen to reach
+    length, clearance, off_angle, strike_angle, turning, rise = (
+        (None,) * 6
+        if step is None
+        else _sound(
+            step.length,
+            max(0.0, step.features.clearance),
+            step.features.toe_off_angle,
+            step.features.heel_strike_angle,
+            step.heading_change,
+            step.height_change,
+        )
+    )
     contact = struck if compared else None
     cleared = cleared if compared else None
     return GaitCycleMeasured(
@@ -73,12 +84,11 @@ def measured(
         speed=None if length is None else length / time,
         step_length=None,
         step_width=None,
-        # a height that was corrected at the foot-flat may be above all that the swing was seen to reach
-        clearance=None if step is None else _sound(max(0.0, step.features.clearance)),
-        toe_off_angle=None if step is None else _sound(step.features.toe_off_angle),
-        heel_strike_angle=None if step is None else _sound(step.features.heel_strike_angle),
-        turning_angle=None if step is None else _sound(step.heading_change),
-        rise=None if step is None else _sound(step.height_change),
+        clearance=clearance,
+        toe_off_angle=off_angle,
+        heel_strike_angle=strike_angle,
+        turning_angle=turning,
+        rise=rise,
         degraded=cycle.degraded,
         steady=is_steady(cycle, time, before, tracked),
     )
@@ -102,5 +112,6 @@ def _alike(one: float, other: float) -> bool:
     return one < ALIKE * other and other < ALIKE * one
 
 
-def _sound(value: float | None) -> float | None:
-    return None if value is None or not abs(value) < ABSURD else value
+def _sound(*values: float | None) -> list[float | None]:
+    """None for those that are none or too large."""
+    return [value if value is not None and abs(value) < ABSURD else None for value in values]

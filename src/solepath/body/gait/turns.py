@@ -75,9 +75,11 @@ class Turns(Part):
         found: list[TurnProcess] = []
         known_at = view.t
         for event in view.events:
-            if not isinstance(event, StrideTaken | FootFlat):
-                continue
-            turned = self._footfall(view, event)
+            turned = None
+            if isinstance(event, StrideTaken):
+                turned = self.direction.step(event)
+            elif isinstance(event, FootFlat) and view.levelled:
+                turned = self._flat(view, event)
             if turned is not None:
                 known_at = event.known_at
                 found.append(turned)
@@ -88,12 +90,8 @@ class Turns(Part):
                 found.append(turned)
         return [made(turned, known_at) for turned in found if abs(turned.angle) > 0.5 * SLIGHT]
 
-    def _footfall(self, view: FootView, event: StrideTaken | FootFlat) -> TurnProcess | None:
-        """A step is one by itself; a foot that is flat without one may have pivoted."""
-        if isinstance(event, StrideTaken):
-            return self.direction.step(event)
-        if not view.levelled:
-            return None
+    def _flat(self, view: FootView, event: FootFlat) -> TurnProcess | None:
+        """A foot that is flat without a stride may have pivoted."""
         lay, now = self.lain.get(event.foot), view.stood
         self.lain[event.foot] = Lain(event.t, now)
         stepped = view.covariance is not None and any(

@@ -29,7 +29,7 @@ from ...events import StrideTaken, ToeOff
 from ...foot.view import FootView
 from ...types import Foot, Layout, Vec3
 from ...types.attrs import define, field
-from ...types.vector import conjugate, rotate
+from ...types.vector import rotate_back
 from .turned import RateIntegral
 
 UP: Vec3 = (0.0, 0.0, 1.0)
@@ -128,7 +128,7 @@ class Sides:
         for event in view.events:
             if isinstance(event, StrideTaken):
                 judged = True
-                _land(side, event, rotate(conjugate(view.attitude), UP))
+                _land(side, event, rotate_back(view.attitude, UP))
                 side.turned.keep_newest()
             elif isinstance(event, ToeOff) and side.sideways:
                 judged = True

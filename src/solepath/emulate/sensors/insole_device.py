@@ -9,7 +9,7 @@ from attrs import frozen
 
 from ...link.devices.insole import PROFILE as INSOLE
 from ...types import Foot, Layout, Sample, Site
-from ...types.vector import GRAVITY, conjugate, from_rotation_vector, multiply, rotate
+from ...types.vector import GRAVITY, from_rotation_vector, multiply, rotate_back
 from ...wire.device import build_battery, build_firmware
 from ...wire.fragment import FRAME_IDS, split
 from ...wire.insole import InsoleFrame, InsoleSample, build_frame
@@ -150,7 +150,7 @@ class Insole:
 
         motion = walker.kinematics(foot, when.fine, self.mounting)
         acc, gyro = read_imu(motion, when, self.part, ACC_COUNT, GYRO_COUNT, rng, bandwidth=0.5 * self.rate)
-        lift = sample(motion.force, when) @ np.array(rotate(conjugate(self.mounting.attitude), (0.0, 0.0, 1.0)))
+        lift = sample(motion.force, when) @ np.array(rotate_back(self.mounting.attitude, (0.0, 0.0, 1.0)))
         loads = read_cells(
             walker.cell_loads(shape, when.taken), when.taken, self.cell_part, shape.scale or SCALE, rng, lift=lift
         )

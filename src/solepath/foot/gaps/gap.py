@@ -11,9 +11,20 @@ from math import hypot
 from typing import NamedTuple
 
 from ...types import Quat, Vec3
-from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, heading_turned, multiply, normalise, rotate, sub
+from ...types.vector import (
+    GRAVITY,
+    ZERO,
+    from_yaw,
+    heading_turned,
+    multiply,
+    normalise,
+    rotate,
+    rotate_back,
+    sub,
+    turned,
+)
 from ..navigate.corrector import LONGEST_BRIDGE, Corrector
-from .moment import StrideMoment, TemplateStride, at, length, limited, moments, turned
+from .moment import StrideMoment, TemplateStride, at, length, limited, moments
 from .template import Habit
 
 SHORTEST = 0.06
@@ -120,12 +131,12 @@ def _like(last: list[StrideMoment], corrector: Corrector, since: float) -> tuple
     if rate is None:
         return since, 0.0
     best, found = 1e12, since
-    up, fast = rotate(conjugate(corrector.attitude), UP), length(corrector.velocity)
+    up, fast = rotate_back(corrector.attitude, UP), length(corrector.velocity)
     for moment in last:
         if abs(moment.since - since) < REACH:
             x, y, z = sub(rate, moment.rate)
             far = (x * x + y * y + z * z) / RATE_SIGMA**2 + ((moment.since - since) / USUAL) ** 2
-            x, y, z = sub(up, rotate(conjugate(moment.attitude), UP))
+            x, y, z = sub(up, rotate_back(moment.attitude, UP))
             far += (x * x + y * y + z * z) / TILT_SIGMA**2
             far += ((fast - length(moment.velocity)) / SPEED_SIGMA) ** 2
             if far < best:

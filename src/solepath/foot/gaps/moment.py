@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, hypot, sin
+from math import hypot
 from struct import Struct
 
 from ...types import Quat, Vec3
@@ -14,7 +14,7 @@ MomentRow = tuple[
 ]  # fmt: skip
 """A moment as it is kept: all numbers of `StrideMoment` in their order, rounded to float32, which changes by less than
 1e-6 of itself what is good for some per cent."""
-_SINGLES = Struct("<15f")
+SINGLES = Struct("<15f")
 
 
 @frozen
@@ -48,12 +48,6 @@ class TemplateStride:
     def lasted(self) -> float:
         """The last moment, s after the heel's rise."""
         return self.rows[-1][0]
-
-
-def moment_row(since: float, attitude: Quat, velocity: Vec3, position: Vec3, rate: Vec3, force: float) -> MomentRow:
-    """A moment as it is kept. OverflowError beyond 3e38, where float32 ends: this is no stride."""
-    row: MomentRow = _SINGLES.unpack(_SINGLES.pack(since, *attitude, *velocity, *position, *rate, force))
-    return row
 
 
 def moments(rows: list[MomentRow]) -> list[StrideMoment]:
@@ -93,7 +87,7 @@ def corrected(rows: list[MomentRow]) -> float:
         k = 0.5 * (t - before)
         x, y, z = x - k * (ax + bx), y - k * (ay + by), z - k * (az + bz)
         before, ax, ay, az = t, bx, by, bz
-    return length((x, y, z))
+    return hypot(x, y, z)
 
 
 def length(v: Vec3) -> float:
@@ -104,12 +98,6 @@ def limited(v: Vec3, most: float) -> Vec3:
     """In the same direction, no longer than `most`."""
     far = length(v)
     return v if far <= most else (v[0] * most / far, v[1] * most / far, v[2] * most / far)
-
-
-def turned(v: Vec3, yaw: float) -> Vec3:
-    """Turned about the vertical by `yaw` rad."""
-    c, s = cos(yaw), sin(yaw)
-    return (c * v[0] - s * v[1], s * v[0] + c * v[1], v[2])
 
 
 def _between(a: Vec3, b: Vec3, k: float) -> Vec3:

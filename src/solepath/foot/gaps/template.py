@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import ZERO, single, sub
-from .moment import MomentRow, TemplateStride, corrected, limited, moment_row, turned
+from ...types.vector import ZERO, single, sub, turned
+from .moment import SINGLES, MomentRow, TemplateStride, corrected, limited
 from .straight import StraightOn, share
 
 
@@ -115,8 +115,11 @@ class Habit:
             self.lifted = None
             return
         try:
-            way = sub(position, self.origin)
-            now.append(moment_row(t - self.lifted, attitude, velocity, way, gyro, hypot(*acc)))
+            x, y, z = position
+            ox, oy, oz = self.origin
+            values = (t - self.lifted, *attitude, *velocity, x - ox, y - oy, z - oz, *gyro, hypot(*acc))
+            row: MomentRow = SINGLES.unpack(SINGLES.pack(*values))  # OverflowError beyond 3e38: this is no stride
+            now.append(row)
         except OverflowError:
             self.now = []
             self.lifted = None

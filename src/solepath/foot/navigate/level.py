@@ -26,7 +26,7 @@ from math import exp, hypot, log, pi, sqrt
 
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import ZERO, conjugate, rotate
+from ...types.vector import ZERO, rotate_back
 
 UP = (0.0, 0.0, 1.0)
 FARTHEST = 1e3
@@ -115,7 +115,7 @@ class LevelGround:
         level *= _density(height, spread)
         slope *= _density(height, spread + slopes)
         stair /= self.tall
-        up = rotate(conjugate(attitude), UP)
+        up = rotate_back(attitude, UP)
         walked = ground > self.least and abs(turn) < self.corner
         pitch = 0.0
         if walked and self.stood > 0.5:
@@ -148,7 +148,7 @@ class LevelGround:
 
     def _pitch(self, x: float, y: float, attitude: Quat, up: Vec3) -> float:
         """Toe up against the mean, in the direction (x, y) of the step: the change of up along it, rad."""
-        fx, fy, fz = rotate(conjugate(attitude), (x, y, 0.0))
+        fx, fy, fz = rotate_back(attitude, (x, y, 0.0))
         ux, uy, uz = up
         rx, ry, rz = self.upright
         return (ux - rx) * fx + (uy - ry) * fy + (uz - rz) * fz

@@ -128,7 +128,7 @@ class Carried(Strapdown):
 
     def anchor(self) -> tuple[float, ...]:
         self._carry()
-        stretch = self._stretch(self.uncertainty)
+        stretch = self.covariance()
         self.stretch = 0.0
         covariance = list(self.uncertainty)
         # position and yaw are exact again by definition, so nothing is correlated with them: pp, pv, pt and all of yaw
@@ -138,9 +138,7 @@ class Carried(Strapdown):
         return stretch
 
     def covariance(self) -> tuple[float, ...]:
-        return self._stretch(self._carried() if self.since > 0.0 else self.uncertainty)
-
-    def _stretch(self, covariance: Covariance) -> tuple[float, ...]:
+        covariance = self._carried() if self.since > 0.0 else self.uncertainty
         return (*covariance[:6], self.heading_drift * self.heading_drift * self.stretch)
 
     def _carried(self) -> Covariance:

@@ -95,7 +95,11 @@ class CellHealth:
         if len(cells) != self.count and not self._counted(t, known_at, len(cells), layout, events):
             return events
         self.odd = None
-        if self.numberless or not _numbers(cells):
+        try:
+            numbers = -ABSURD_TOTAL < sum(cells) < ABSURD_TOTAL
+        except (TypeError, OverflowError):
+            numbers = False
+        if self.numberless or not numbers:
             self._watch_numbers(t, known_at, cells, events)
             cells = self.usable(cells)
             if not cells:
@@ -105,7 +109,8 @@ class CellHealth:
             if self.began is None or not 0.0 <= t - self.began < LONGEST:
                 self.began, self.swung, self.span = t, 0, CellSpan()
             self.span.add(cells, self.out)
-        if self._swings(t, phase, gyro):
+        x, y, z = (FAST, FAST, FAST) if gyro is None else gyro
+        if x * x + y * y + z * z >= FAST * FAST and self._swings(t, phase, gyro is None):
             self.swung += 1
             if self.swung >= self.swings and self.began is not None and t - self.began >= SHORTEST:
                 self._judge(t, known_at, self.began, layout, events)
@@ -171,14 +176,11 @@ class CellHealth:
 
     # --- windows ---
 
-    def _swings(self, t: float, phase: Phase, gyro: Vec3 | None) -> bool:
-        """A swing has begun: the foot turns fast, or, without a gyroscope, is in the air."""
-        if gyro is None:
+    def _swings(self, t: float, phase: Phase, unseen: bool) -> bool:
+        """A swing has begun: the foot turns fast, or, where that is `unseen`, is in the air."""
+        if unseen:
             before, self.airborne = self.airborne, phase is Phase.SWING
             return self.airborne and not before
-        x, y, z = gyro
-        if x * x + y * y + z * z < FAST * FAST:
-            return False
         if self.swing is not None and 0.0 <= t - self.swing < ONE_SWING:
             return False
         self.swing = t
@@ -247,11 +249,3 @@ class CellHealth:
 
 def _number(value: float | None) -> bool:
     return value is not None and -ABSURD_TOTAL < value < ABSURD_TOTAL
-
-
-def _numbers(cells: tuple[float, ...]) -> bool:
-    """All of them are numbers."""
-    try:
-        return -ABSURD_TOTAL < sum(cells) < ABSURD_TOTAL
-    except (TypeError, OverflowError):
-        return False

@@ -62,7 +62,9 @@ class Sole:
             return None
         told = None if self.guessed else self.insole.layout
         events += self.health.update(t, known_at, pressure, phase, sample.gyro, told)
-        cells = self.health.usable(pressure)
+        health = self.health
+        odd = health.out or health.numberless or len(pressure) != health.count
+        cells = health.usable(pressure) if odd else pressure
         if not cells:
             return None
         self.pressed = True

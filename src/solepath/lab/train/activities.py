@@ -27,7 +27,8 @@ from numpy.typing import NDArray
 
 from ... import recipes
 from ...body.activity import motion
-from ...body.activity.features import BLOCK, COUNT, REACH, STEP, FootWindow
+from ...body.activity.features import BLOCK, COUNT, REACH, STEP
+from ...body.activity.foot_blocks import FootBlocks
 from ...body.activity.motion import MotionModel, to_json
 from ...body.activity.ride import Felt
 from ...body.activity.votes import felt
@@ -131,7 +132,7 @@ def _features(
 ) -> Iterator[tuple[int, list[float], Felt | None]]:
     parts = deepcopy(recipe)
     tracker = FootTracker(foot, parts.detector, parts.corrector, cues=parts.cues)
-    window = FootWindow()
+    window = FootBlocks()
     for sample in samples:
         events = tracker.feed(sample)
         index = int((sample.t - begin + TIE) / BLOCK)
@@ -147,7 +148,7 @@ def _features(
             window.heard(events, tracker.corrector.position[2])
 
 
-def _judged(window: FootWindow, index: int, begin: float) -> Iterator[tuple[int, list[float], Felt | None]]:
+def _judged(window: FootBlocks, index: int, begin: float) -> Iterator[tuple[int, list[float], Felt | None]]:
     features = window.features(index, begin + (index + 0.5) * BLOCK)
     if features is not None:
         yield index, features, felt(window.block(index), window.grain)

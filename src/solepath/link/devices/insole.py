@@ -6,7 +6,9 @@ It has a link of its own, no Driver: frames come in fragments, and each must be 
 from __future__ import annotations
 
 from hashlib import blake2b
+from itertools import repeat
 from math import radians
+from operator import mul
 from typing import ClassVar
 
 from ...events import (
@@ -18,6 +20,7 @@ from ...events import (
 from ...types import Layout, Sample, Site, shared
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, unit
+from ...wire.envelope import MAGIC
 from ...wire.error import WireError
 from ...wire.fragment import is_fragment, parse_fragment
 from ...wire.insole import InsoleFrame, parse_frame
@@ -26,7 +29,7 @@ from ...wire.insole_info import InsoleInfo, parse_info
 from ..device_link import DeviceLink, Output
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write
 from ..rest import RestCheck
-from ..run import Counted, PacketRun, signed
+from ..run import Counted, PacketRun
 from .reassembly import Reassembly
 
 COUNTS = 32768
@@ -39,6 +42,8 @@ TICK_RATE = 32768
 """Ticks per second until INFO says otherwise."""
 SEQUENCES, ALL_TICKS = 1 << 16, 1 << 32
 """Where the counters of a frame wrap."""
+WHOLE = bytes([MAGIC])
+"""What a frame that was not cut begins with."""
 FULL_PRESSURE = 4095.0
 
 
@@ -99,7 +104,7 @@ class InsoleLink(DeviceLink):
 
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
         if channel == "insole/frame":
-            if is_fragment(data):
+            if data[:1] != WHOLE and is_fragment(data):
                 return self._fragment(data, arrival)
             out = self._frame(parse_frame(data), arrival)
             if self.fragments.newest is None:
@@ -178,7 +183,7 @@ class InsoleLink(DeviceLink):
                 f"layout {frame.layout} of {cells} cells, not layout {self.layout} of {self.cells}",
             )
         run = self.run
-        e = signed(frame.ticks - run.ticks, ALL_TICKS)
+        e = (frame.ticks - run.ticks + ALL_TICKS // 2) % ALL_TICKS - ALL_TICKS // 2  # nearest to zero
         d, m = run.packets(frame.sequence, SEQUENCES, e / run.covers)
         counted = Counted(frame.sequence, frame.ticks, frame.interval, len(frame.samples), d, m, e, frame.retransmitted)
         taken = run.take(counted, float(self.rate), arrival)
@@ -201,7 +206,7 @@ class InsoleLink(DeviceLink):
                 if g > 0.0:
                     gyro = (gx * g, gy * g, gz * g)
             if raw.cells:
-                pressure = tuple([c * n for c in raw.cells]) if n > 0.0 else tuple(map(float, raw.cells))
+                pressure = tuple(map(mul, raw.cells, repeat(n))) if n > 0.0 else tuple(map(float, raw.cells))
             if raw.quat is not None:
                 quat = unit(raw.quat)
             known_at = arrival if arrival > t else t

@@ -14,7 +14,7 @@ from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.stance.stance import Stance
 from ...types import Foot, Quat, Vec3
 from ...types.attrs import define, evolve, field
-from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, sub
+from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, rotate_back, sub
 from .acc_bias import AccelerometerBias
 
 STANDS = 1.0
@@ -84,7 +84,7 @@ class BiasZupt(LinearDedrift):
             LinearDedrift.predict(self, dt, actual, ZERO, saturated)
             self.rate = gyro
         # (4): a_m in the sensor frame is the specific force without the gravity that the attitude sees there
-        self.measured = sub(acc, rotate(conjugate(self.attitude), (0.0, 0.0, GRAVITY)))
+        self.measured = sub(acc, rotate_back(self.attitude, (0.0, 0.0, GRAVITY)))
         if self.drift is not None and self.stood < STANDS:
             self._take_off_drift(dt)
         self.step = dt
