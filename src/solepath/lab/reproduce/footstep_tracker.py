@@ -13,10 +13,10 @@ from math import degrees
 from ...emulate.routes.building import BUILDING
 from ...types import Activity, Turn
 from ..measures.confusion import ActivityScore
+from ..processes import Progress, each
 from . import footstep_walks, published
 from .footstep_walks import CORRIDOR, FootstepWalked, walked
 from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, Statistics
-from .walks import Progress, each
 
 NAME = footstep_walks.NAME
 FIRST = 100_000

@@ -27,9 +27,10 @@ from ...papers.kupt_dfpc.noise import pressure_noise
 from ...papers.kupt_dfpc.shoe import fit_shoe
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
+from ..processes import Progress, each
 from . import published
 from .tables import Boxes, Drawn, FigureRow, Floor, PictureTrack, Reproduction, statistics
-from .walks import Progress, cut, each, heard, laid, rest_after, then, thinned
+from .walks import cut, heard, laid, rest_after, then, thinned
 
 NAME = "kupt-dfpc"
 WALKS = 20

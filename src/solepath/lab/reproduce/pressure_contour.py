@@ -29,9 +29,10 @@ from ...papers.pressure_contour.square import fit_square
 from ...recipes import by_name
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
+from ..processes import Progress, each
 from . import published
 from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, Statistics
-from .walks import Progress, cut, each, heard, laid, rest_after, then, thinned
+from .walks import cut, heard, laid, rest_after, then, thinned
 
 NAME = "pressure-contour"
 WALKS = 6

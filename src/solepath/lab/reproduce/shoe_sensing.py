@@ -13,10 +13,10 @@ import numpy as np
 
 from ...papers.shoe_sensing.recipe import SHOE_SENSING
 from ..measures.strides import mean_magnitude
+from ..processes import Progress, each
 from . import published
 from .shoe_walks import STATES, ShoeWalked, Steps, walked
 from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, Statistics
-from .walks import Progress, each
 
 NAME = SHOE_SENSING.name
 WALKS = 20

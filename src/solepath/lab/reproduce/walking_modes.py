@@ -12,7 +12,7 @@ anew.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from attrs import evolve, frozen
@@ -33,10 +33,10 @@ from ...recording.decoded import Recorded
 from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ...types.vector import GRAVITY
+from ..processes import Progress, each
 from . import published
 from .published import corner_row
 from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, statistics
-from .walks import Progress, each
 
 NAME = "walking-modes"
 WALKS = 40
@@ -84,20 +84,10 @@ def reproduce(
     """So many rectangles, by the four wearers in turn."""
     count = WALKS if walks is None else walks
     wearers = list(range(min(count, len(SUBJECTS))))
-    total = count + len(wearers)
-
-    def calibrating(done: int, of: int) -> None:
-        if progress is not None:
-            progress(done, total)
-
-    def walking(done: int, of: int) -> None:
-        if progress is not None:
-            progress(len(wearers) + done, total)
-
     learning = [Learning(subject, 1000 * seed + 500 + 10 * subject, STEPS, REPEATS) for subject in wearers]
-    known = list(each(learn, learning, processes=processes, progress=calibrating))
+    known = list(each(learn, learning, processes=processes, progress=progress, after=count))
     jobs = [ModesJob(k % len(known), 1000 * seed + k, known[k % len(known)]) for k in range(count)]
-    done = list(each(walk, jobs, processes=processes, progress=walking))
+    done = list(each(walk, jobs, processes=processes, progress=progress, before=len(wearers)))
     rows = tuple(
         FigureRow(
             corner_row(point, method, axis),
@@ -227,17 +217,11 @@ def _place(walker: Walker, foot: Foot, t: float, down: Sequence[TouchedDown]) ->
     """Where the foot came down at `t` s, or stood then when no touchdown was seen."""
     near = [one for one in down if abs(one.t - t) < NEAR]
     if near:
-        one = min(near, key=_far_from(t))
-        return one.position[0], one.position[1]
+        x, y, _ = min(near, key=lambda one: abs(one.t - t)).position
+        return x, y
     before = [one for one in down if one.t < t]
     if before:
-        return before[-1].position[0], before[-1].position[1]
+        x, y, _ = before[-1].position
+        return x, y
     start = walker.plan.starts[foot]
     return start.x, start.y
-
-
-def _far_from(t: float) -> Callable[[TouchedDown], float]:
-    def far(one: TouchedDown) -> float:
-        return abs(one.t - t)
-
-    return far

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from typing import TypeVar
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from attrs import evolve, frozen
@@ -75,28 +73,3 @@ def thinned(points: Iterable[Sequence[float]], most: int = 4000) -> tuple[tuple[
     all_of = [(float(p[0]), float(p[1])) for p in points]
     every = -(-len(all_of) // most) or 1
     return tuple(all_of[::-1][::every][::-1])
-
-
-Job = TypeVar("Job")
-Done = TypeVar("Done")
-
-Progress = Callable[[int, int], None]
-"""Told (done, all)."""
-
-
-def each(
-    work: Callable[[Job], Done], jobs: Sequence[Job], *, processes: int = 1, progress: Progress | None = None
-) -> Iterator[Done]:
-    """What `work`, a function of a module, makes of every job, in their order."""
-    if processes > 1 and len(jobs) > 1:
-        with ProcessPoolExecutor(min(processes, len(jobs))) as pool:
-            yield from _counted(pool.map(work, jobs), len(jobs), progress)
-    else:
-        yield from _counted(map(work, jobs), len(jobs), progress)
-
-
-def _counted(outcomes: Iterator[Done], total: int, progress: Progress | None) -> Iterator[Done]:
-    for done, outcome in enumerate(outcomes, 1):
-        if progress is not None:
-            progress(done, total)
-        yield outcome
