@@ -20,12 +20,10 @@ from ...emulate.wearers.walker import Walker
 from ...events import Event, FlightClimbed, StrideTaken
 from ...papers.shoe_sensing.gated_tilt import ShoeSensing
 from ...papers.shoe_sensing.recipe import SHOE_MAGNITUDE, SHOE_SENSING
-from ...recipes import Recipe
-from ...session import Session
 from ...types import Foot, Sample
 from ..measures.alignment import Floats, align
 from ..measures.matching import pairs
-from .walks import ALIGNED_OVER, laid, thinned
+from .walks import ALIGNED_OVER, heard, laid, thinned
 
 FOOT = Foot.RIGHT
 """Whose shoe ("attached to one of the user's shoes"); which of them is assumed."""
@@ -81,6 +79,11 @@ class Steps:
         """Errors of length of the others, m."""
         both = zip(self.lengths, self.late, strict=True)
         return tuple(error for (error, _), late in both if abs(late) <= SAME)
+
+    @property
+    def judged_right(self) -> float:
+        """Steps whose state is right, per cent."""
+        return 100.0 * sum(self.right) / max(1, len(self.right))
 
     @property
     def extracted(self) -> float:
@@ -154,11 +157,6 @@ def worn(route: Route, seed: int) -> tuple[list[Sample], Truth]:
     """What the sensor says, and what was so."""
     walker = Walker(route, seed=seed)
     return walker.samples(FOOT, 100.0, MPU6050, mounting=ON_INSTEP), walker.truth({FOOT: ON_INSTEP})
-
-
-def heard(recipe: Recipe, samples: Sequence[Sample]) -> list[Event]:
-    session = Session(recipe)
-    return session.feed(samples) + session.finish()
 
 
 def judged(events: Sequence[Event], truth: Truth, state: str) -> Steps:

@@ -28,24 +28,30 @@ from ...emulate.wearers.walker import Walker
 from ...events import TouchedDown
 from ...papers.walking_modes.calibrate import MODES, ModeMark, mean_errors, step_errors, touchdowns
 from ...papers.walking_modes.modes import Modes
-from ...recipes import by_name
+from ...papers.walking_modes.recipe import (
+    TOUCHDOWN_ACCELERATION,
+    TOUCHDOWN_HEIGHT,
+    TOUCHDOWN_PRESSURE,
+    WALKING_MODES,
+)
+from ...recipes import Recipe
 from ...recording.decoded import Recorded
-from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ...types.vector import GRAVITY
 from ..processes import Progress, each
 from . import published
 from .published import corner_row
-from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, statistics
+from .tables import Drawn, Floor, PictureTrack, Reproduction, row_of, statistics
+from .walks import heard
 
-NAME = "walking-modes"
+NAME = WALKING_MODES.name
 WALKS = 40
 RATE = 50.0
 """Hz, section 3.1."""
 CELLS = 99
 STEPS, REPEATS = 50, 3
 """Of each marked walk, section 3.3: "50 steps at a time and repeated this three times along each path"."""
-METHODS = {"I": "touchdown-height", "II": "touchdown-acceleration", "III": "touchdown-pressure", "IV": NAME}
+METHODS = {"I": TOUCHDOWN_HEIGHT, "II": TOUCHDOWN_ACCELERATION, "III": TOUCHDOWN_PRESSURE, "IV": WALKING_MODES}
 PLACES = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D": (0.0, ACROSS)}
 """m; the walk begins and ends at A."""
 NEAR = 0.4
@@ -89,12 +95,7 @@ def reproduce(
     jobs = [ModesJob(k % len(known), 1000 * seed + k, known[k % len(known)]) for k in range(count)]
     done = list(each(walk, jobs, processes=processes, progress=progress, before=len(wearers)))
     rows = tuple(
-        FigureRow(
-            corner_row(point, method, axis),
-            tuple(one.off[method][point][k] for one in done),
-            published.WALKING_MODES[corner_row(point, method, axis)],
-            digits=4,
-        )
+        row_of(published.WALKING_MODES, corner_row(point, method, axis), [one.off[method][point][k] for one in done], 4)
         for point in PLACES
         for method in METHODS
         for k, axis in enumerate("xy")
@@ -152,9 +153,8 @@ def _notes(done: Sequence[ModesWalked]) -> tuple[str, ...]:
 
 def known_of(wearer: Wearer) -> Calibration:
     """What a tape measure, scales and the maker of the insoles say."""
-    insoles = {
-        foot: InsoleCalibration(layout=layout(CELLS, foot, wearer.shoe.length, wearer.shoe.width)) for foot in Foot
-    }
+    shoe = wearer.shoe
+    insoles = {foot: InsoleCalibration(layout=layout(CELLS, foot, shoe.length, shoe.width)) for foot in Foot}
     return Calibration(insoles=insoles, limbs=wearer.limbs, weight=GRAVITY * wearer.mass)
 
 
@@ -194,12 +194,10 @@ def walk(job: ModesJob) -> ModesWalked:
     return ModesWalked(off)
 
 
-def _touchdowns(recipe: str, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
+def _touchdowns(recipe: Recipe, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
     """What a session says that knows how the first side of the rectangle lies."""
-    chosen = by_name(recipe)
-    modes = next(part for part in chosen.parts if isinstance(part, Modes))
-    session = Session(chosen.exchanged(Modes, evolve(modes, heading=0.0)), calibration=calibration)
-    said = session.feed(samples) + session.finish()
+    modes = next(part for part in recipe.parts if isinstance(part, Modes))
+    said = heard(recipe.exchanged(Modes, evolve(modes, heading=0.0)), samples, calibration)
     return {foot: [e for e in said if isinstance(e, TouchedDown) and e.final and e.foot is foot] for foot in Foot}
 
 

@@ -12,10 +12,11 @@ from ...emulate.routes.route import Route, Stand
 from ...emulate.walk import EmulatedWalk
 from ...emulate.wearers.walker import Walker
 from ...events import Event
-from ...recipes import by_name
+from ...floorplan.plan import FloorPlan
+from ...recipes import Recipe
 from ...recording.decoded import recorded
 from ...session import Session
-from ...types import Sample
+from ...types import Packet, Sample
 from ..measures.alignment import Floats, align
 
 ALIGNED_OVER = 2.0
@@ -49,15 +50,19 @@ def cut(walk: EmulatedWalk, t: float) -> WalkParts:
     """The samples of a walk's packets, measured before and after `t` s."""
     heard = recorded(walk.packets)
     insoles = {foot: InsoleCalibration(layout=layout) for foot, layout in heard.layouts.items()}
-    before = tuple([sample for sample in heard.samples if sample.t < t])
-    after = tuple([sample for sample in heard.samples if sample.t >= t])
+    before, after = (tuple([one for one in heard.samples if (one.t < t) is first]) for first in (True, False))
     return WalkParts(before, after, Calibration(insoles=insoles))
 
 
-def heard(recipe: str, samples: Sequence[Sample], calibration: Calibration) -> list[Event]:
-    """All that a session of the named recipe says."""
-    session = Session(by_name(recipe), calibration=calibration)
-    return session.feed(samples) + session.finish()
+def heard(
+    recipe: Recipe,
+    items: Iterable[Packet | Sample],
+    calibration: Calibration | None = None,
+    floorplan: FloorPlan | None = None,
+) -> list[Event]:
+    """All that a session of the recipe says."""
+    session = Session(recipe, calibration=calibration, floorplan=floorplan)
+    return session.feed(items) + session.finish()
 
 
 def laid(track: Floats, truth: Floats, over: float = ALIGNED_OVER) -> Floats:
