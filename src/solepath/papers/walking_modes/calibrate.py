@@ -16,6 +16,7 @@ from pathlib import Path
 from attrs import evolve, frozen
 
 from ...calibration import Calibration, CalibrationError
+from ...calibration.measured import read_rows
 from ...events import TouchedDown
 from ...foot.navigate.error_state import ErrorStateFilter
 from ...foot.stance.cycle import Cycle
@@ -24,7 +25,6 @@ from ...recording.decoded import Recorded
 from ...session import Session
 from ...types import Foot, WalkingMode
 from .modes import Modes
-from .rows import read_rows
 
 NEAR = 0.3
 """A mark that names a time is that of the touchdown within so many s of it."""
