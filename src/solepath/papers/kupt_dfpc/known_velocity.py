@@ -87,7 +87,6 @@ class KnownVelocity(Detector):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
-        """As in `Detector`."""
         inertial = self.inertial.update(t, dt, acc, gyro, None)
         still = inertial.hint is Phase.STATIONARY
         self.moving += dt

@@ -30,6 +30,7 @@ from typing import ClassVar
 
 from attrs import define, evolve, field
 
+from ...body.gait.measuring import OTHER
 from ...body.part import Position, Said, Track
 from ...calibration import Calibration, Limbs
 from ...events import Event, Limitation, TouchedDown, WalkingModeChanged
@@ -46,7 +47,7 @@ from .mode import LEAST_STEP, TH
 from .places import FootPlaces
 from .recognition import Recognition
 from .signs import Signs
-from .touchdown import OTHER, AnyTouchdown, Carrier, Height, PressureTouchdown, suspended
+from .touchdown import AnyTouchdown, Carrier, Height, PressureTouchdown, suspended
 
 AWAY = 0.03
 """A foot that comes down nearer to where it stood was not away, m: the flags of standing feet flicker."""

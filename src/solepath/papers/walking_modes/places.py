@@ -14,13 +14,14 @@ from math import atan2, cos, hypot, pi, sin
 from attrs import define, field
 
 from ...body.fuse.position import MeanOfFeet, PlacedTrack
+from ...body.gait.measuring import OTHER
 from ...calibration import Limbs
 from ...foot.view import FootView
 from ...types import Foot, Vec3
 from ...types.vector import ZERO, sub
 from .limbs.limbs import LowerLimbs
 from .mode import LEAST_STEP
-from .touchdown import OTHER, suspended, v_change
+from .touchdown import suspended, v_change
 
 FIRST_WAY = 1.5
 """So far the middle between the feet must go to tell the first heading for good, m."""

@@ -12,9 +12,10 @@ from __future__ import annotations
 
 from attrs import define, field
 
+from ...body.gait.measuring import OTHER
 from ...types import Foot, Layout, WalkingMode
 from .mode import LEAST_STEP, LINGERS, STANDING_WEIGHT, TH, Contact, at_pace, decide
-from .touchdown import OTHER, FootState, PressureTouchdown
+from .touchdown import FootState, PressureTouchdown
 
 LONG_ENOUGH = 2000
 """Samples that the mean of what both feet bear is taken over, from then on as a decaying one."""

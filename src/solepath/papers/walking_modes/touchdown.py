@@ -15,10 +15,9 @@ from __future__ import annotations
 
 from attrs import define, field
 
+from ...body.gait.measuring import OTHER
 from ...types import Foot, Vec3
 from ...types.vector import TIE, ZERO, sub
-
-OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 
 
 def v_change(left: Vec3, right: Vec3, carrying: Foot) -> Vec3:

@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 from attrs import define, field
 
+from ....body.gait.measuring import OTHER
 from ....calibration import Limbs
 from ....types import Foot, Quat, Site, Vec3
 from ....types.vector import IDENTITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate
@@ -221,7 +222,7 @@ class LowerLimbs:
         if self.facing is not None or not self.aligned:
             return
         x = y = 0.0
-        for leg, sign in ((foot, 1.0), (Foot.LEFT if foot is Foot.RIGHT else Foot.RIGHT, -1.0)):
+        for leg, sign in ((foot, 1.0), (OTHER[foot], -1.0)):
             for site, length in zip(LEGS[leg], (self.limbs.thigh, self.limbs.shank), strict=False):
                 dx, dy, _ = rotate(self.segments[site].attitude(0.0, 0.0, t), (0.0, 0.0, -length))
                 x += sign * dx
