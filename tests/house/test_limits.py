@@ -16,8 +16,6 @@ LONGER = {
     "src/solepath/body/activity/features.py": 322,
     "src/solepath/body/fuse/both_feet.py": 305,
     "src/solepath/foot/tracker.py": 340,
-    "src/solepath/papers/footstep_tracker/activity/two_second_windows.py": 310,
-    "src/solepath/papers/walking_modes/modes.py": 314,
     "src/solepath/session/session.py": 377,
     "tests/cli/test_cli_view.py": 322,
     "tests/helpers/radio/memory_radio.py": 363,
