@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 from pathlib import Path
 
@@ -22,7 +22,7 @@ from .run import Meta, RunSettings
 
 @frozen
 class EvaluationJob:
-    data_set: DataSet
+    score: Callable[[Path, Meta, RunSettings], Scored]
     how: RunSettings
     path: Path
     meta: Meta
@@ -30,7 +30,7 @@ class EvaluationJob:
     def run(self) -> Scored | str:
         """The scores, or the sentence that says why there are none."""
         try:
-            return self.data_set.score(self.path, self.meta, self.how)
+            return self.score(self.path, self.meta, self.how)
         except RecordingError as error:
             return str(error)
 
@@ -53,7 +53,7 @@ def find(folder: Path, only: Sequence[str] = ()) -> list[DataSet]:
 
 def _abouts(folder: Path, data_set: DataSet) -> list[Path]:
     """The dataset.json of each of its folders that is there."""
-    abouts = [folder / name / "dataset.json" for name in data_set.folders]
+    abouts = [folder / name / "dataset.json" for name in data_set.folders or (data_set.name,)]
     return [about for about in abouts if about.is_file()]
 
 
@@ -116,7 +116,9 @@ def _scored(
     learnt = each(Lesson.features, to_learn, processes=processes, progress=progress, after=count)
     parts = taught(to_learn, list(learnt))
     everything = [
-        EvaluationJob(d, RunSettings(recipe, known, part_for(recipe, meta, parts) if d.folds else None), path, meta)
+        EvaluationJob(
+            d.score, RunSettings(recipe, known, part_for(recipe, meta, parts) if d.folds else None), path, meta
+        )
         for d, recipe, part in plan
         for path, meta in part
     ]
