@@ -7,12 +7,13 @@ and nothing else. Of what is emulated the path is a name only, and the entry say
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from attrs import frozen
 
 from ...recipes import Recipe
-from ..emulated.walks import score_four_floors, score_half_hour, score_long_way
+from ..emulated.walks import four_floors, half_hour, long_way, score_way
 from ..measures.confusion import CLASSES
 from ..measures.score import Scored
 from .activity import CLIMBED, score_labelled, score_stairs
@@ -124,11 +125,11 @@ WALKED = (
     "rms_2d", "position_end", "end_relative", "position_max", "largest_relative", "height_end", "height_max", "path",
 )  # fmt: skip
 EMULATED = tuple(
-    DataSet(name, title, score, WALKED + STRIDES, pressed=True)
-    for name, title, score in (
-        ("emulated_long_way", "500 m with turns, emulated insoles on both feet", score_long_way),
-        ("emulated_half_hour", "30 minutes with turns, emulated insoles on both feet", score_half_hour),
-        ("emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", score_four_floors),
+    DataSet(name, title, partial(score_way, way), WALKED + STRIDES, pressed=True)
+    for name, title, way in (
+        ("emulated_long_way", "500 m with turns, emulated insoles on both feet", long_way),
+        ("emulated_half_hour", "30 minutes with turns, emulated insoles on both feet", half_hour),
+        ("emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", four_floors),
     )
 )
 """What needs no data: a recording is a seed."""
