@@ -10,8 +10,8 @@ from attrs import frozen
 from ...emulate.wearers.truth import FootTruth, Truth
 from ...types import Foot
 from ..evaluate.gathered import FootRun
-from ..measures.matching import Matching, match, pairs
-from ..measures.strides import mean_magnitude, position_errors
+from ..measures.matching import Errors, Matching, match, pairs
+from ..measures.strides import position_errors
 
 STEP_TOLERANCE = 0.4
 """s between the ends of a true and a found step: less than half the shortest stride."""
@@ -29,17 +29,12 @@ class FootComparison:
     """True steps that were found."""
     steps_invented: int
     """Found steps that never were."""
-    length_errors: tuple[float, ...]
+    length_errors: Errors
     """Relative error of each stride length (0.01 is 1 %), ours less the true one."""
     events: dict[str, Matching]
     """heel_strike, foot_flat, heel_off, toe_off."""
     end_error: float | None
     """Horizontal distance in m of the last position from the true one, after aligning the first two metres."""
-
-    @property
-    def length_error(self) -> float | None:
-        """Mean absolute relative error of the stride lengths."""
-        return mean_magnitude(self.length_errors)
 
 
 def compare(truth: Truth, feet: Mapping[Foot, FootRun]) -> list[FootComparison]:
@@ -54,7 +49,7 @@ def _compare(truth: FootTruth, run: FootRun) -> FootComparison:
         steps_true=len(truth.steps),
         steps_found=len(matched),
         steps_invented=len(run.steps) - len(matched),
-        length_errors=tuple(errors),
+        length_errors=Errors(tuple(errors)),
         events={
             "heel_strike": match(truth.heel_strikes, run.heel_strikes, windows=ALWAYS),
             "foot_flat": match(truth.foot_flats, run.foot_flats, windows=ALWAYS),

@@ -59,9 +59,9 @@ def pooled_figures(
             "strides_true": strides.n_true,
             "strides_found": strides.n_found,
             "strides_invented": strides.n_invented,
-            "stride_error": strides.mean_error,
-            "stride_error_median": strides.median_error,
-            "stride_error_track": strides.mean_track_error,
+            "stride_error": strides.errors.mean,
+            "stride_error_median": strides.errors.median,
+            "stride_error_track": strides.track_errors.mean,
         }
     if activity is not None:
         flat |= activity.figures

@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from ...papers.shoe_sensing.recipe import SHOE_SENSING
-from ..measures.strides import mean_magnitude
+from ..measures.matching import Errors
 from ..processes import Progress, each
 from . import published
 from .shoe_walks import STATES, ShoeWalked, walked
@@ -90,7 +90,7 @@ def _lengths(done: Sequence[ShoeWalked]) -> list[FigureRow]:
 
 def _relative(errors: Sequence[tuple[float, float]]) -> float:
     """Mean error without its sign over the mean of what is true, as the paper has it."""
-    off, true = (mean_magnitude(values) for values in zip(*errors, strict=True))
+    off, true = (Errors(values).mean for values in zip(*errors, strict=True))
     return off / true if off is not None and true else 0.0
 
 

@@ -59,7 +59,7 @@ def fit_shoe(path: Path | str) -> Fitted:
     and the line where there is one, when it cannot be used."""
     rows, single = _read(path)
     pitch = np.radians(rows[:, 0])
-    postures = _count(rows[:, 0])
+    postures = 1 + int(np.count_nonzero(np.diff(np.sort(rows[:, 0])) > SAME))
     if postures < 3:
         raise CalibrationError(f"{path}: {postures} postures; three different ones at least make a curve")
     if (steepest := float(pitch.max())) < radians(30.0):
@@ -89,12 +89,6 @@ def _fit(pitch: Column, length: Column, degree: int) -> tuple[tuple[float, ...],
     coefficients = np.polynomial.polynomial.polyfit(pitch, length, degree)
     left = length - np.polynomial.polynomial.polyval(pitch, coefficients)
     return tuple(coefficients.tolist()), np.asarray(left, dtype=np.float64)
-
-
-def _count(degrees: Column) -> int:
-    """How many postures, when those near to each other are one."""
-    ordered = np.sort(degrees)
-    return 1 + int(np.count_nonzero(np.diff(ordered) > SAME))
 
 
 def _read(path: Path | str) -> tuple[Column, dict[str, float]]:

@@ -25,12 +25,12 @@ from attrs import evolve, frozen
 from ...calibration import Calibration, CalibrationError
 from ...calibration.measured import read_rows
 from ...events import StrideTaken
-from ...papers.pressure_contour.recipe import PRESSURE_CONTOUR
 from ...recipes import Recipe
 from ...session import Session
 from ...types import Foot, Packet, Sample, Vec3
 from ...types.vector import from_yaw, rotate
 from .bias_zupt import BiasZupt
+from .recipe import PRESSURE_CONTOUR
 
 STEPS_PER_LAP = 40
 """The paper's marks."""
