@@ -30,7 +30,7 @@ from ...emulate.wearers.truth import Truth
 from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Site
 from ..evaluate.run import Meta, RunSettings, followed
-from ..measures.alignment import Floats, align, track_error
+from ..measures.alignment import Floats, aligned_at_start, distances, track_error
 from ..measures.matching import Matching
 from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore
@@ -140,11 +140,9 @@ def place_figures(t: Floats, positions: Floats, truth: Floats) -> Figures:
     """Of `positions` (n,3) at `t` (n,) against `truth` (n,3): as the module says."""
     if len(t) < 2:
         return {}
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(truth[:, :2], axis=0), axis=1))])
-    first = max(2, int(np.searchsorted(along, ALIGNED)) + 1)
-    off = np.linalg.norm(align(positions[:first], truth[:first]).apply(positions)[:, :2] - truth[:, :2], axis=1)
+    off = np.linalg.norm(aligned_at_start(positions, truth, ALIGNED)[:, :2] - truth[:, :2], axis=1)
     higher = np.abs((positions[:, 2] - positions[0, 2]) - (truth[:, 2] - truth[0, 2]))
-    path = float(along[-1])
+    path = float(distances(truth)[-1])
     return {
         "rms_2d": track_error(positions, truth).rms_2d,
         "position_end": float(off[-1]),

@@ -16,11 +16,10 @@ from attrs import frozen
 
 from ...body.part import Doing
 from ...calibration import Calibration, merged
-from ...events import Event, LiftRidden, TurnMade
+from ...events import Event
 from ...recipes import Recipe
 from ...recording.samples import load_samples
 from ...session import Session
-from ...show.timeline import Timeline
 from ...types import Foot, Sample, Vec3
 from ..measures.alignment import Floats
 from ..measures.score import Scored
@@ -50,10 +49,7 @@ class ScoredTrack:
 @frozen(eq=False)
 class RecordingRun:
     feet: dict[Foot, FootRun]
-    timeline: Timeline
-    """What the wearer did."""
-    rides: tuple[LiftRidden, ...]
-    turns: tuple[TurnMade, ...]
+    said: Gathering
     samples: int
     seconds: float
     """Wall time that the session took."""
@@ -84,8 +80,7 @@ def run(
         samples = [attrs.evolve(sample, pressure=None) for sample in samples]
     gathering, wearer, seconds = followed(session, samples, 0.0 if body else None)
     feet = {table.foot: gathering.foot(table.foot) for table in recording.tables}
-    rides, turns = tuple(gathering.rides), tuple(gathering.turns)
-    return RecordingRun(feet, gathering.timeline, rides, turns, len(samples), seconds, wearer)
+    return RecordingRun(feet, gathering, len(samples), seconds, wearer)
 
 
 def followed(

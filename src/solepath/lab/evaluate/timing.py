@@ -84,8 +84,8 @@ def _about_turn(span: list[float], went: RecordingRun) -> Figures:
     of it. Its angle is that of the largest turn that does, by how much it differs from half a turn (from 0 where none
     was told). Invented: about turns elsewhere."""
     began, ended = span
-    there = [turn for turn in went.turns if turn.t >= began and turn.t_start <= ended]
-    about = sum(turn.turn is Turn.ABOUT for turn in went.turns)
+    there = [turn for turn in went.said.turns if turn.t >= began and turn.t_start <= ended]
+    about = sum(turn.turn is Turn.ABOUT for turn in went.said.turns)
     found = any(turn.turn is Turn.ABOUT for turn in there)
     angle = max([abs(turn.angle) for turn in there], default=0.0)
     return {

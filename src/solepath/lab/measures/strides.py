@@ -16,7 +16,7 @@ import numpy as np
 from attrs import frozen
 from numpy.typing import NDArray
 
-from .alignment import Floats, align, at_times
+from .alignment import Floats, aligned_at_start, at_times
 from .matching import Errors
 
 SLACK = 0.15
@@ -117,8 +117,5 @@ def position_errors(times: NDArray[Any], places: NDArray[Any], track_t: Floats, 
     """Horizontal distance (n+1,) in m from each surveyed place to the live track at its time, after the turn and shift
     that fit the surveyed places of the first two metres best (up to the first that is two metres along the path)."""
     truth = np.asarray(places, np.float64)[:, :2]
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(truth, axis=0), axis=1))])
-    first = max(2, int(np.searchsorted(along, ALIGNED_OVER)) + 1)
-    live = at_times(track_t, track[:, :2], times)
-    moved = align(live[:first], truth[:first]).apply(live)
+    moved = aligned_at_start(at_times(track_t, track[:, :2], times), truth, ALIGNED_OVER)
     return np.asarray(np.linalg.norm(moved - truth, axis=1), dtype=np.float64)

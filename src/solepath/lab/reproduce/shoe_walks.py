@@ -21,9 +21,10 @@ from ...events import Event, FlightClimbed, StrideTaken
 from ...papers.shoe_sensing.gated_tilt import ShoeSensing
 from ...papers.shoe_sensing.recipe import SHOE_MAGNITUDE, SHOE_SENSING
 from ...types import Foot, Sample
-from ..measures.alignment import Floats, align
+from ..measures.alignment import Floats, align, distances
 from ..measures.matching import pairs
-from .walks import ALIGNED_OVER, heard, laid, thinned
+from ..measures.strides import ALIGNED_OVER
+from .walks import heard, laid, thinned
 
 FOOT = Foot.RIGHT
 """Whose shoe ("attached to one of the user's shoes"); which of them is assumed."""
@@ -219,7 +220,7 @@ def toured(seed: int) -> Tour:
     true = truth.pose(FOOT, np.array([0.0, *(step.t_end for step in steps)])).position
     true = true - true[0]
     flat = laid(ours[:, :2], true[:, :2])
-    gone = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(true[:, :2], axis=0), axis=1))])
+    gone = distances(true)
     return Tour(
         off=hypot(*(flat[-1] - true[-1, :2])),
         way=float(gone[-1]),

@@ -18,9 +18,7 @@ from ...recording.decoded import recorded
 from ...session import Session
 from ...types import Packet, Sample
 from ..measures.alignment import Floats, align
-
-ALIGNED_OVER = 2.0
-"""m at the beginning over which a track's heading is laid on the truth's, as everywhere in evaluate."""
+from ..measures.strides import ALIGNED_OVER
 
 
 def then(first: Route, second: Route) -> Route:
