@@ -110,13 +110,6 @@ def score_borders(path: Path, meta: Meta, how: RunSettings) -> Scored:
         strikes = [at for at, _ in merged([(at, at) for border in borders for at in border])]
         heel_strike += match(strikes, ran.heel_strikes, windows=seen)
         strides += interval_errors(strikes, ran.heel_strikes, longest=LONGEST)
-    legs, figures = _legs_to_and_fro(went)
-    return scored(
-        path, went, figures=figures, events={"heel_strike": heel_strike}, errors=legs | {"stride_time": strides}
-    )
-
-
-def _legs_to_and_fro(went: RecordingRun) -> tuple[dict[str, Errors], Figures]:
     tracks = [track for track in (*went.feet.values(), went.body) if track is not None and len(track.t)]
     legs = [leg_errors(turned_about(one.t, one.positions, LEGS), [LEG] * LEGS, one.t, one.positions) for one in tracks]
     each, body = (legs, Errors()) if went.body is None else (legs[:-1], legs[-1])
@@ -124,7 +117,8 @@ def _legs_to_and_fro(went: RecordingRun) -> tuple[dict[str, Errors], Figures]:
     figures: Figures = {"leg_spread": fmean(spreads) if spreads else None}
     if went.body is not None:
         figures |= _ends(went, float(went.body.t[0]), float(went.body.t[-1]))
-    return {"leg": sum(each, Errors()), "body_leg": body}, figures
+    errors = {"leg": sum(each, Errors()), "body_leg": body, "stride_time": strides}
+    return scored(path, went, figures=figures, events={"heel_strike": heel_strike}, errors=errors)
 
 
 def score_treadmill(path: Path, meta: Meta, how: RunSettings) -> Scored:

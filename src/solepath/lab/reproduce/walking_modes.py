@@ -134,7 +134,8 @@ def _notes(done: Sequence[ModesWalked]) -> tuple[str, ...]:
         for method in METHODS:
             lengths = [float(np.hypot(*one.off[method][point])) for one in done]
             ours.append(f"{method} {100.0 * (statistics(lengths).mean or 0.0):.1f}")
-            theirs.append(f"{method} {100.0 * float(np.hypot(*published.CORNERS[point][method].mean)):.1f}")
+            mean, _, _ = published.CORNERS[point][method]
+            theirs.append(f"{method} {100.0 * float(np.hypot(*mean)):.1f}")
         told.append(
             f"{point}: ours is off by {', '.join(ours)} cm on average; the paper's means are off by "
             f"{', '.join(theirs)} cm."

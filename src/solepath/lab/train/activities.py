@@ -138,19 +138,16 @@ def _features(
         if window.index is None or index > window.index:
             if window.index is not None:
                 window.close()
-                yield from _judged(window, window.index - REACH, begin)
+                judged = window.index - REACH
+                found = window.features(judged, begin + (judged + 0.5) * BLOCK)
+                if found is not None:
+                    yield judged, found, felt(window.block(judged), window.grain)
             rest = tracker.rest
             window.begin(index, rest.bias, rest.grain if rest.count else 0.0)
         if sample.acc is not None:
             window.add(sample.acc, sample.gyro, tracker.corrector if tracker.levelled else None)
         if events:
             window.heard(events, tracker.corrector.position[2])
-
-
-def _judged(window: FootWindow, index: int, begin: float) -> Iterator[tuple[int, list[float], Felt | None]]:
-    features = window.features(index, begin + (index + 0.5) * BLOCK)
-    if features is not None:
-        yield index, features, felt(window.block(index), window.grain)
 
 
 def _pure(label: Label, begin: float) -> Activity | None:

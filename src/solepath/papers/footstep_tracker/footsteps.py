@@ -74,14 +74,12 @@ class Footsteps(Track):
         self.ways = {foot: FootWay() for foot in Foot}
 
     def feed(self, view: FootView) -> Sequence[Said]:
-        """Nothing follows, but it is seen which feet are there."""
         way = self.ways[view.foot]
         if not way.heard and view.sample.acc is not None and view.sample.gyro is not None:
             way.heard = True
         return ()
 
     def receive(self, event: Notice) -> Sequence[Said]:
-        """Nothing follows; strides are taken as they come."""
         if isinstance(event, StrideTaken):
             self.step(event)
         return ()
@@ -122,7 +120,6 @@ class Footsteps(Track):
         return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
-        """None before any sample."""
         known = list(feet.values())
         if not known:
             return None

@@ -86,7 +86,6 @@ class CopCues(Cues):
         return 0.0 if self.inertial.axis is None else self.inertial.sagittal
 
     def wear(self, layout: Layout) -> None:
-        """The device said where its cells are."""
         self.middle = centre(layout)
         self.touch.wear(layout)
 

@@ -117,7 +117,6 @@ class DoubleFoot(Track):
         self.paths = {foot: CalibratedPath() for foot in Foot}
 
     def feed(self, view: FootView) -> Sequence[Said]:
-        """The strides of a foot, fused."""
         strides = [event for event in view.events if isinstance(event, StrideTaken)] if view.events else []
         middle = None if view.layout is None or not strides else centre(view.layout)
         return [self.step(stride, middle) for stride in strides]
@@ -208,7 +207,6 @@ class DoubleFoot(Track):
         return self.chosen
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
-        """None before any sample."""
         if not feet:
             return None
         newest = max([pose.t for pose in feet.values()])

@@ -71,11 +71,9 @@ class KnownVelocity(Detector):
     held_at: float = field(default=0.0, init=False)
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> KnownVelocity:
-        """The same for the wearer's own shoe."""
         return self if calibration.shoe is None else evolve(self, shoe=calibration.shoe)
 
     def wear(self, layout: Layout) -> None:
-        """The device said where its cells are."""
         self.touch.wear(layout)
         self.default = shoe_for(layout.length)
 

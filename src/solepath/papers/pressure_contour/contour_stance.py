@@ -188,7 +188,6 @@ class ContourVelocity(Detector):
     """and the statistic."""
 
     def wear(self, layout: Layout) -> None:
-        """The device said where its cells are."""
         why = self.contours.wear(layout)
         self.lacking = None if why is None else f"{why}; the gyroscope says when the foot stands"
         self.count = len(layout.cells)

@@ -130,7 +130,6 @@ class Modes(Track):
         return self._awaited(t, t if sample.known_at is None else max(t, sample.known_at))
 
     def reset(self, site: Site) -> None:
-        """The clock of a site restarts."""
         self.places.chain.interrupt(site)
         self.places.tracks.reset(site)
         self.above.interrupt(site)

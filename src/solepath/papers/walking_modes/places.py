@@ -124,11 +124,11 @@ class FootPlaces:
     def seen(self, foot: Foot, t: float) -> tuple[Vec3, bool]:
         """Where `foot` is, seen from the other, by (1) to (3): the ground below it; and whether the chain tells it. A
         foot that by its track went on since it came down is no place to see another from: then by the own track."""
-        left, right, chained = self._ends(t)
-        carrying = self.sides[OTHER[foot]]
+        chained, carrying = self.chain.current(t), self.sides[OTHER[foot]]
         if not chained and carrying.gone > LEAST_STEP:
             x, y, _ = self.sides[foot].own
             return (x, y, self.sides[foot].track[2]), False
+        left, right = (self.chain.end(one, t) if chained else side.own for one, side in self.sides.items())
         x, y, _ = suspended(carrying.place, v_change(left, right, OTHER[foot]))
         if chained:
             reach = self._reach(foot, t)
@@ -157,13 +157,6 @@ class FootPlaces:
             side.reach = self._reach(foot, t)
         side.offset = sub(side.place, side.track)
         self._head(chained)
-
-    def _ends(self, t: float) -> tuple[Vec3, Vec3, bool]:
-        """P_L and P_R in one frame, m, and whether they are the chain's."""
-        if self.chain.current(t):
-            return self.chain.end(Foot.LEFT, t), self.chain.end(Foot.RIGHT, t), True
-        left, right = self.sides[Foot.LEFT], self.sides[Foot.RIGHT]
-        return suspended(left.track, left.offset), suspended(right.track, right.offset), False
 
     def _reach(self, foot: Foot, t: float) -> tuple[float, float]:
         x, y = self.chain.forward(foot, t)

@@ -134,7 +134,6 @@ class TwoSecondWindows(Doing):
             self.feet, self.standing = {}, {}
 
     def feed(self, view: FootView) -> Sequence[Said]:
-        """A sample of a foot."""
         acc, t = view.sample.acc, view.t
         if acc is None:
             return ()
@@ -167,7 +166,9 @@ class TwoSecondWindows(Doing):
     def _decide(self, index: int, seen: dict[Foot, FootWindow], known_at: float) -> list[Event]:
         events: list[Event] = []
         if self.decided is not None and index - self.decided > LOST:
-            events += self._lost(self._newest(self.decided) + HOP, known_at)
+            events = [] if self.ride is None else self._no_ride(self.ride, known_at)
+            self.belief = None
+            events += self._change(self._newest(self.decided) + HOP, Activity.UNKNOWN, known_at)
         self.decided = index
         model = shipped() if self.model is None else self.model
         if sum([w.variance for w in seen.values()]) > model.moving * len(seen):
@@ -256,12 +257,6 @@ class TwoSecondWindows(Doing):
     def _no_ride(self, ride: LiftPulses, known_at: float) -> list[Event]:
         self.ride = None
         return self._change(ride.began, Activity.STANDING, known_at, revises=ride.began)
-
-    def _lost(self, t: float, known_at: float) -> list[Event]:
-        """Too long without a window, from `t` s on."""
-        events = [] if self.ride is None else self._no_ride(self.ride, known_at)
-        self.belief = None
-        return events + self._change(t, Activity.UNKNOWN, known_at)
 
     def _change(
         self, t: float, activity: Activity, known_at: float, *, final: bool = True, revises: float | None = None
