@@ -8,6 +8,7 @@ import numpy as np
 from attrs import frozen
 
 from ...emulate.wearers.truth import FootTruth, Truth
+from ...events import FootFlat, HeelOff, HeelStrike, ToeOff
 from ...types import Foot
 from ..evaluate.gathered import FootRun
 from ..measures.matching import Errors, Matching, match, pairs
@@ -51,10 +52,10 @@ def _compare(truth: FootTruth, run: FootRun) -> FootComparison:
         steps_invented=len(run.steps) - len(matched),
         length_errors=Errors(tuple(errors)),
         events={
-            "heel_strike": match(truth.heel_strikes, run.heel_strikes, windows=ALWAYS),
-            "foot_flat": match(truth.foot_flats, run.foot_flats, windows=ALWAYS),
-            "heel_off": match(truth.heel_offs, run.heel_offs, windows=ALWAYS),
-            "toe_off": match(truth.toe_offs, run.toe_offs, windows=ALWAYS),
+            "heel_strike": match(truth.heel_strikes, run.times[HeelStrike], windows=ALWAYS),
+            "foot_flat": match(truth.foot_flats, run.times[FootFlat], windows=ALWAYS),
+            "heel_off": match(truth.heel_offs, run.times[HeelOff], windows=ALWAYS),
+            "toe_off": match(truth.toe_offs, run.times[ToeOff], windows=ALWAYS),
         },
         end_error=_end_error(truth, run),
     )

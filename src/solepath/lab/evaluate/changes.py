@@ -63,15 +63,13 @@ def verdict(figure: str, was: float | None, now: float | None) -> Verdict:
     """On one figure; None is one that could not be measured."""
     if was is None or now is None:
         return Verdict.SAME if was is now else Verdict.CHANGED
-    if f"{was:.{DIGITS}g}" == f"{now:.{DIGITS}g}":
-        return Verdict.SAME
     way = BETTER.get(figure)
-    if way is None:
-        return Verdict.CHANGED
     if way is Better.NEARER_ZERO:
         was, now = abs(was), abs(now)
-        if f"{was:.{DIGITS}g}" == f"{now:.{DIGITS}g}":
-            return Verdict.SAME
+    if f"{was:.{DIGITS}g}" == f"{now:.{DIGITS}g}":
+        return Verdict.SAME
+    if way is None:
+        return Verdict.CHANGED
     return Verdict.BETTER if (now > was) is (way is Better.MORE) else Verdict.WORSE
 
 

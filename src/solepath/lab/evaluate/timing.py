@@ -9,6 +9,7 @@ from statistics import fmean, pstdev
 
 import numpy as np
 
+from ...events import HeelStrike, ToeOff
 from ...types import Foot, Turn
 from ..measures.alignment import at_times
 from ..measures.contacts import force_contacts, merged, switch_contacts
@@ -51,13 +52,13 @@ Contacts = Mapping[Foot, list[float]]
 
 
 def _contacts(went: RecordingRun, strikes: Contacts, offs: Contacts) -> dict[str, Matching]:
-    struck = [match(true, went.feet[foot].heel_strikes) for foot, true in strikes.items()]
-    left = [match(true, went.feet[foot].toe_offs) for foot, true in offs.items()]
+    struck = [match(true, went.feet[foot].times[HeelStrike]) for foot, true in strikes.items()]
+    left = [match(true, went.feet[foot].times[ToeOff]) for foot, true in offs.items()]
     return {"heel_strike": sum(struck, Matching()), "toe_off": sum(left, Matching())}
 
 
 def _stride_times(went: RecordingRun, strikes: Contacts) -> Errors:
-    found = [(true, went.feet[foot].heel_strikes) for foot, true in strikes.items()]
+    found = [(true, went.feet[foot].times[HeelStrike]) for foot, true in strikes.items()]
     return sum([interval_errors(true, ours, longest=LONGEST) for true, ours in found], Errors())
 
 
@@ -108,8 +109,8 @@ def score_borders(path: Path, meta: Meta, how: RunSettings) -> Scored:
         seen = merged(borders)
         # a border that two strides share is one heel-strike
         strikes = [at for at, _ in merged([(at, at) for border in borders for at in border])]
-        heel_strike += match(strikes, ran.heel_strikes, windows=seen)
-        strides += interval_errors(strikes, ran.heel_strikes, longest=LONGEST)
+        heel_strike += match(strikes, ran.times[HeelStrike], windows=seen)
+        strides += interval_errors(strikes, ran.times[HeelStrike], longest=LONGEST)
     tracks = [track for track in (*went.feet.values(), went.body) if track is not None and len(track.t)]
     legs = [leg_errors(turned_about(one.t, one.positions, LEGS), [LEG] * LEGS, one.t, one.positions) for one in tracks]
     each, body = (legs, Errors()) if went.body is None else (legs[:-1], legs[-1])
