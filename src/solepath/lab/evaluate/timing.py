@@ -37,13 +37,15 @@ def score_swings(path: Path, meta: Meta, how: RunSettings) -> Scored:
     swings = {foot: truth[f"gt_{foot.value}"] for foot in went.feet}
     strikes = {foot: of[:, 1].tolist() for foot, of in swings.items()}
     began, ended = truth["gt_trial"].tolist()
-    times = [began, float(truth["gt_uturn"].mean()), ended]
+    times, body = [began, float(truth["gt_uturn"].mean()), ended], went.body
+    legs = [leg_errors(times, [LEG, LEG], ran.t, ran.positions) for ran in went.feet.values()]
+    of_body = Errors() if body is None else leg_errors(times, [LEG, LEG], body.t, body.positions)
     return scored(
         path,
         went,
         figures=_about_turn(truth["gt_uturn"].tolist(), went) | _ends(went, began, ended),
         events=_contacts(went, strikes, {foot: of[:, 0].tolist() for foot, of in swings.items()}),
-        errors=_legs(went, times) | {"stride_time": _stride_times(went, strikes)},
+        errors={"leg": sum(legs, Errors()), "body_leg": of_body, "stride_time": _stride_times(went, strikes)},
     )
 
 
@@ -60,15 +62,6 @@ def _contacts(went: RecordingRun, strikes: Contacts, offs: Contacts) -> dict[str
 def _stride_times(went: RecordingRun, strikes: Contacts) -> Errors:
     found = [(true, went.feet[foot].times[HeelStrike]) for foot, true in strikes.items()]
     return sum([interval_errors(true, ours, longest=LONGEST) for true, ours in found], Errors())
-
-
-def _legs(went: RecordingRun, times: list[float]) -> dict[str, Errors]:
-    """Of the legs of LEG m between `times`, s."""
-    true, body = [LEG] * (len(times) - 1), went.body
-    return {
-        "leg": sum([leg_errors(times, true, ran.t, ran.positions) for ran in went.feet.values()], Errors()),
-        "body_leg": Errors() if body is None else leg_errors(times, true, body.t, body.positions),
-    }
 
 
 def _ends(went: RecordingRun, began: float, ended: float) -> Figures:

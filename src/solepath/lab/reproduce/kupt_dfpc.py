@@ -96,7 +96,8 @@ def reproduce(
 
 
 def _notes(rows: tuple[FigureRow, ...], short: list[KuptWalked], long: list[KuptWalked]) -> tuple[str, ...]:
-    off = ", ".join(f"{row.name} {_off(row):.2f}" for row in rows)
+    squares = {row.name: np.mean([(value - DISTANCE) ** 2 for value in row.values]) for row in rows}
+    off = ", ".join(f"{name} {float(np.sqrt(square)):.2f}" for name, square in squares.items())
     paths = statistics([one.true[foot] for one in short for foot in Foot])
     told = [f"Root mean square of the error of {len(short)} walks, m: {off}."]
     told.append(f"The feet really went {paths.mean:.2f} m on average.")
@@ -120,10 +121,6 @@ def _went(one: KuptWalked, name: str) -> float:
     """How far the foot went whose distance this is; that of both feet is the mean of theirs, m."""
     feet = [foot for foot, letter in FEET.items() if name.endswith(f"-{letter}")] or list(Foot)
     return float(np.mean([one.true[foot] for foot in feet]))
-
-
-def _off(row: FigureRow) -> float:
-    return float(np.sqrt(np.mean([(value - DISTANCE) ** 2 for value in row.values])))
 
 
 def walk(job: KuptJob) -> KuptWalked:

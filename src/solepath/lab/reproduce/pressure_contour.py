@@ -140,7 +140,9 @@ def walk(job: ContourJob) -> ContourWalked:
     walked = emulate(whole, devices={SITE_OF_FOOT[FOOT]: boot(FOOT, RATE)}, seed=job.seed)
     halt = rest_after(walked.walker, before)
     parts = cut(walked, halt)
-    closing, tracks = {}, [_true_path(walked, halt)]
+    ends = [step.t_end for step in walked.truth.steps(FOOT) if step.t_end > halt]
+    path = thinned(_places(walked, np.array([halt, *ends])))
+    closing, tracks = {}, [PictureTrack("true path", path, Drawn.TRUTH)]
     for name, recipe in RECIPES.items():
         drift = square_drift(parts.before, foot=FOOT, recipe=recipe, calibration=parts.layouts).kept
         events = heard(recipe, parts.after, merged(parts.layouts, Calibration(drift={FOOT: drift})))
@@ -157,8 +159,3 @@ def _places(walked: EmulatedWalk, t: Floats) -> Floats:
     places: Floats = walked.truth.pose(FOOT, t).position[:, :2]
     places -= places[0].copy()
     return places
-
-
-def _true_path(walked: EmulatedWalk, halt: float) -> PictureTrack:
-    ends = [step.t_end for step in walked.truth.steps(FOOT) if step.t_end > halt]
-    return PictureTrack("true path", thinned(_places(walked, np.array([halt, *ends]))), Drawn.TRUTH)
