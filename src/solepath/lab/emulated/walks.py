@@ -9,8 +9,8 @@ the origin of a track are its own choice: one turn about the vertical and one sh
 ALIGNED m of the way, lay it over the truth. Then `position_end` is the horizontal distance at the end and
 `position_max` the largest on the way, in m, and `end_relative` and `largest_relative` the same as shares of the length
 of the way. So what the heading is off by after ALIGNED m counts over all that follows; `rms_2d` is what the best turn
-and shift over the whole way leave, as of a VICON track. Heights are compared as they
-are, from the first: `height_end` at the end, `height_max` the largest on the way.
+and shift over the whole way leave, as of a VICON track. Heights are compared as they are, from the first: `height_end`
+at the end, `height_max` the largest on the way.
 """
 
 from __future__ import annotations

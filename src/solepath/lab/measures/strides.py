@@ -17,6 +17,7 @@ from attrs import frozen
 from numpy.typing import NDArray
 
 from .alignment import Floats, aligned_at_start, at_times
+from .legs import between
 from .matching import Errors
 
 SLACK = 0.15
@@ -86,10 +87,8 @@ def surveyed_score(
 ) -> StrideScore:
     """Surveyed `places` (n+1,2) at `times` (n+1,) against `steps` as above and the live `track` (m,3) at `track_t`."""
     lengths = np.linalg.norm(np.diff(np.asarray(places, np.float64)[:, :2], axis=0), axis=1)
-    live = at_times(track_t, track[:, :2], times)
-    live_lengths = np.linalg.norm(np.diff(live, axis=0), axis=1)
     known = lengths > 0.0
-    off = live_lengths[known] / lengths[known] - 1.0
+    off = between(times, track_t, track)[known] / lengths[known] - 1.0
     return attrs.evolve(stride_score(times, lengths, steps), track_errors=Errors(tuple(off.tolist())))
 
 

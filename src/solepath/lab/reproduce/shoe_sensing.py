@@ -131,9 +131,8 @@ DEFINED = (
     "that end within 0.3 s of a true one; state right is the share of the steps found whose own angle is of the state "
     "walked; table 2 is a wearer's mean error over the mean length, divided by 22.5, of the height upstairs and of the "
     "length otherwise; before is without and after is with the elimination of height errors on level steps.",
-    "Table 1 is of steps before their heights are corrected. What theta' is made of is in "
-    "body/activity/steepness.py; the "
-    "paper's words for it do not fit its figures.",
+    "Table 1 is of steps before their heights are corrected. What theta' is made of is in body/activity/steepness.py; "
+    "the paper's words for it do not fit its figures.",
 )
 PAPER = (
     "The paper: lengths right to 90.8 % walking, 91.9 % jogging, 90.8 % upstairs and 80.0 % downstairs, at worst "

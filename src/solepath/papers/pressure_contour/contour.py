@@ -65,8 +65,8 @@ class Contours:
     noise: with `AXES` pairs of rays sigma_v = sqrt(2 / AXES) sigma_r / interval an axis and a level, and a radius is as
     uncertain as the pressure over its slope. A cell of 12-bit resistive insoles has 0.12 N rms
     (emulate/sensors/parts.py), 0.8 kPa on 1.6 cm^2, half a kPa once three are weighted; a heel that carries 200 N has
-    slopes of 2 kPa/mm: 0.25 mm, and
-    0.14 mm over all rays. To stay below the paper's 4 mm/s that takes 36 ms; 50 ms are taken.
+    slopes of 2 kPa/mm: 0.25 mm, and 0.14 mm over all rays. To stay below the paper's 4 mm/s that takes 36 ms; 50 ms
+    are taken.
     """
 
     shares: tuple[float, ...] = (1.4, 1.2, 1.0, 0.8, 0.6, 0.4)
@@ -225,9 +225,7 @@ _RAYS = [(c, s, c * c, c * s, s * s) for c, s in zip(_COS, _SIN, strict=True)]
 def _by_pairs(now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
     """How far the centre of one level's contour has moved, m, by its rays that have an opposite."""
     opposites = zip(now[:AXES], now[AXES:], before[:AXES], before[AXES:], strict=True)
-    return _fitted(
-        [0.5 * (r - p - q + o) if min(r, q, p, o) >= 0.0 else None for r, q, p, o in opposites],
-    )
+    return _fitted([0.5 * (r - p - q + o) if min(r, q, p, o) >= 0.0 else None for r, q, p, o in opposites])
 
 
 def _by_rays(now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
