@@ -196,8 +196,10 @@ def test_spans_that_touch_are_joined():
 
 def test_figures_are_averaged_and_events_and_strides_are_pooled():
     scores = [
-        Scored("a", {"rms": 1.0}, {"heel_strike": Matching(2, 2, (0.0, 0.0))}, StrideScore(2, 2, 0, (0.1, -0.1))),
-        Scored("b", {"rms": 2.0}, {"heel_strike": Matching(1, 1, (0.25,))}, StrideScore(2, 1, 0, (0.4,))),
+        Scored(
+            "a", {"rms": 1.0}, {"heel_strike": Matching(2, 2, (0.0, 0.0))}, StrideScore(2, 2, 0, Errors((0.1, -0.1)))
+        ),
+        Scored("b", {"rms": 2.0}, {"heel_strike": Matching(1, 1, (0.25,))}, StrideScore(2, 1, 0, Errors((0.4,)))),
         Scored("c", {"rms": 6.0}, groups=("all", "odd")),
     ]
     summary = summarise(scores, "all")
