@@ -190,14 +190,14 @@ def test_what_cannot_be_learnt_from_is_refused_in_one_line_and_nothing_is_writte
         (("noise", bare), "no pressure cells in this recording"),
         (("noise", tmp_path / "none.jsonl"), "none.jsonl: no such file"),
         (("noise", packets, "--share", "0"), "--share 0"),
-        (("shoe", odd), "odd.csv: line 1: wants one column L_p2t_m"),
+        (("shoe", odd), "odd.csv, line 1: wants one column L_p2t_m"),
         (("square", packets), "steps are less than 3 laps of 40 marks"),
         (("square", bare), "needs pressure cells"),
         (("square", packets, "--recipe", "default"), "recipe default takes no drift off"),
         (("square", packets, "--recipe", "circle"), "there is no recipe 'circle'"),
-        (("newton", odd), "odd.csv, line 1: no column counts"),
+        (("newton", odd), "odd.csv, line 1: wants one column counts"),
         (("modes", packets), "takes two files for each walk"),
-        (("modes", packets, odd), "odd.csv, line 1: no column foot"),
+        (("modes", packets, odd), "odd.csv, line 1: wants one column foot"),
     ]:
         assert complaint in refused("calibrate", *arguments, "--out", out), arguments
         assert not out.exists()

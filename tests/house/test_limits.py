@@ -13,8 +13,6 @@ LINES, FILES, NAMES = 300, 14, 20
 """Lines of a file, Python files of a folder, names at the top of src/solepath: at the most."""
 
 LONGER = {
-    "src/solepath/papers/footstep_tracker/activity/two_second_windows.py": 310,
-    "src/solepath/papers/walking_modes/modes.py": 314,
     "tests/cli/test_cli_view.py": 322,
     "tests/helpers/radio/memory_radio.py": 363,
     "tests/link/test_decoder.py": 645,

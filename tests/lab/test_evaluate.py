@@ -129,22 +129,22 @@ def test_each_step_belongs_to_the_stride_in_which_it_ends():
     steps = [(0.9, 1.0), (1.1, 1.0), (1.8, 0.25), (2.1, 1.125), (3.7, 1.5), (4.2, 1.0)]
     score = stride_score(TIMES, np.array([1.0, 1.0, 2.0]), steps)
     assert (score.n_true, score.n_found, score.n_invented) == (3, 2, 1)
-    assert score.step_errors == (0.125, -0.25)
-    assert score.mean_error == 0.1875 and score.median_error == 0.1875
+    assert score.errors.values == (0.125, -0.25)
+    assert score.errors.mean == 0.1875 and score.errors.median == 0.1875
 
 
 def test_a_stride_of_unknown_length_is_found_without_an_error():
     score = stride_score(TIMES, np.array([1.0, np.nan, 2.0]), [(1.5, 1.0), (2.5, 1.0), (3.5, 2.0)])
-    assert score.n_found == 3 and score.step_errors == (0.0, 0.0)
+    assert score.n_found == 3 and score.errors.values == (0.0, 0.0)
 
 
 def test_the_live_track_is_measured_between_the_surveys_instants():
     t = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
     track = np.array([[9.0, 9, 0], [0, 0, 0], [1.25, 0, 0], [2.25, 0, 0], [2.25, 1.0, 0]])
     score = surveyed_score(TIMES, PLACES, t, track, [])
-    assert score.track_errors == (0.25, 0.0, -0.5)
-    assert score.mean_track_error == 0.25
-    assert score.mean_error is None and score.n_found == 0
+    assert score.track_errors.values == (0.25, 0.0, -0.5)
+    assert score.track_errors.mean == 0.25
+    assert score.errors.mean is None and score.n_found == 0
 
 
 def test_a_survey_is_aligned_on_its_first_two_metres_only():
@@ -196,8 +196,10 @@ def test_spans_that_touch_are_joined():
 
 def test_figures_are_averaged_and_events_and_strides_are_pooled():
     scores = [
-        Scored("a", {"rms": 1.0}, {"heel_strike": Matching(2, 2, (0.0, 0.0))}, StrideScore(2, 2, 0, (0.1, -0.1))),
-        Scored("b", {"rms": 2.0}, {"heel_strike": Matching(1, 1, (0.25,))}, StrideScore(2, 1, 0, (0.4,))),
+        Scored(
+            "a", {"rms": 1.0}, {"heel_strike": Matching(2, 2, (0.0, 0.0))}, StrideScore(2, 2, 0, Errors((0.1, -0.1)))
+        ),
+        Scored("b", {"rms": 2.0}, {"heel_strike": Matching(1, 1, (0.25,))}, StrideScore(2, 1, 0, Errors((0.4,)))),
         Scored("c", {"rms": 6.0}, groups=("all", "odd")),
     ]
     summary = summarise(scores, "all")

@@ -11,6 +11,7 @@ from commands import refused, run
 from solepath.cli import main
 from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes import ways
+from solepath.lab.processes import each
 from solepath.lab.reproduce import footstep_walks, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
 from solepath.lab.reproduce.published import (
     CORNERS,
@@ -31,7 +32,6 @@ from solepath.lab.reproduce.tables import (
     as_json,
     statistics,
 )
-from solepath.lab.reproduce.walks import each
 from solepath.lab.tables.comparison import reproduced
 from solepath.lab.train import emulated
 

@@ -1,6 +1,7 @@
 """What all rooms share: feet, sites, phases and activities; packets, samples and layouts of cells; vectors."""
 
 from .records import (
+    OTHER,
     SITE_OF_FOOT,
     Activity,
     Cell,
@@ -21,6 +22,7 @@ from .records import (
 )
 
 __all__ = [
+    "OTHER",
     "Activity",
     "Cell",
     "Foot",

@@ -36,6 +36,10 @@ class Foot(Word):
     RIGHT = "right"
 
 
+OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
+"""The foot beside it."""
+
+
 class OnBody(Word):
     """A place on the body."""
 

@@ -54,12 +54,13 @@ def step(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.
 def heard() -> Footsteps:
     """Of a wearer with sensors on both feet."""
     body = Footsteps()
-    body.left.heard = body.right.heard = True
+    for way in body.ways.values():
+        way.heard = True
     return body
 
 
 def base(body: Footsteps) -> tuple[float, float]:
-    (lx, ly), (rx, ry), (x, y) = body.left.here, body.right.here, body.base
+    (lx, ly), (rx, ry), (x, y) = (*(way.here for way in body.ways.values()), body.base)
     return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
 
 
@@ -81,7 +82,7 @@ def test_feet_that_are_more_than_a_metre_apart_begin_anew_at_their_mean() -> Non
         body.step(step(Foot.RIGHT, k + 1.0, way=(1.0, 0.0)))
     assert body.restarts > 0
     assert base(body) == pytest.approx((0.5 * 6 * 2.4, 0.0))
-    assert hypot(body.left.here[0] - body.right.here[0], 0.0) < 2.0
+    assert hypot(body.ways[Foot.LEFT].here[0] - body.ways[Foot.RIGHT].here[0], 0.0) < 2.0
 
 
 def test_half_a_stride_between_healthy_feet_is_no_difference() -> None:

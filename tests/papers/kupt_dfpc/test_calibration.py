@@ -119,13 +119,13 @@ def test_postures_of_a_shoe_give_its_curves(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("", "is empty"),
+        ("", "line 1: wants one column pitch_deg"),
         (HEADER, "holds no postures"),
         ("pitch_deg,L_r_m\n1,2\n", "line 1: wants one column L_p2t_m"),
         (HEADER + "0,0.07,0.09\n15,long,0.08\n", "line 3: L_r_m is 'long', not a number"),
-        (HEADER + "0,0.07\n", "line 2: 2 values for 3 columns"),
+        (HEADER + "0,0.07\n", "line 2: 2 values, and the header has 3"),
         (HEADER + "0,7.0,9.0\n", "line 2: L_r_m is 7.0, which is not between 0 and 0.5 m"),
-        (HEADER + "0,nan,0.09\n", "line 2: L_r_m is nan"),
+        (HEADER + "0,nan,0.09\n", "line 2: L_r_m is 'nan', not a finite number"),
         (HEADER + "95,0.07,0.09\n", "line 2: pitch_deg is 95, which is not between -5 and 80 degrees"),
         (HEADER + "0,0.07,0.09\n0.5,0.07,0.09\n60,0.1,0.06\n", "2 postures; three different ones"),
         (HEADER + "0,0.07,0.09\n10,0.07,0.09\n20,0.1,0.06\n", "the steepest posture is 20 degrees"),

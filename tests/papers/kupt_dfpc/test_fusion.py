@@ -182,7 +182,7 @@ def test_a_foot_whose_step_is_abnormal_beside_a_normal_one_is_not_chosen_for_hav
     body, told = walked(*steps)
     assert told[-1].chosen is RIGHT
     body.step(step(LEFT, 3.1, 1.2, index=0.3, number=2), CENTRE)
-    before = body.right.distance
+    before = body.paths[Foot.RIGHT].distance
     last = body.step(step(RIGHT, 3.65, 20.1, index=None, number=2), CENTRE)
     # it counts as 1 m/s worse than the other, by the mean of both lengths
     assert body.weighted == pytest.approx(0.2 * 1.2 - 1.0 * 0.5 * (20.1 + 1.2), abs=0.02)
@@ -201,7 +201,7 @@ def test_the_centre_of_the_foot_is_half_way_between_the_first_and_the_last_cell(
     session.feed(flat)
     body = DoubleFoot()
     fed(body, session.feet[LEFT], flat, [step(LEFT, 2.0)])
-    assert body.left.latest[-1].rhythm[-1] == pytest.approx(0.1)
+    assert body.paths[Foot.LEFT].latest[-1].rhythm[-1] == pytest.approx(0.1)
     assert centre_of(insole) == pytest.approx(0.1)
     assert centre_of(Layout(0, LEFT, (), 0.26)) is None
 
@@ -214,7 +214,7 @@ def test_the_chosen_path_is_the_calibrated_one_in_the_foots_own_direction() -> N
     assert told[1].chosen is RIGHT
     assert told[1].position == pytest.approx((0.0, 1.35, 0.0))
     assert told[1].distance == pytest.approx(1.35)
-    assert body.left.end == pytest.approx((0.72, 0.96, 0.0))
+    assert body.paths[Foot.LEFT].end == pytest.approx((0.72, 0.96, 0.0))
 
 
 def test_a_walk_of_equal_steps_ends_where_it_ended_without_calibration() -> None:
@@ -296,5 +296,5 @@ def test_any_sequence_of_steps_gives_numbers_and_shares_between_zero_and_one(
         assert all(isfinite(x) for x in (told.stride_length, told.distance, *told.position))
         assert told.stride_length >= 0.0
         assert all(isfinite(number) for number in numbers(machine.save(body)))
-        size = max(size, len(body.left.latest), len(body.right.latest))
+        size = max(size, len(body.paths[Foot.LEFT].latest), len(body.paths[Foot.RIGHT].latest))
     assert size <= 3

@@ -18,7 +18,7 @@ from solepath.emulate.sensors.parts import AttitudePart
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.papers.pressure_contour.bias_zupt import BiasZupt
 from solepath.papers.pressure_contour.recipe import GYROSCOPE
-from solepath.papers.pressure_contour.square import CornerMark, check, fit_square, fitted, read_marks, square_drift
+from solepath.papers.pressure_contour.square import CornerMark, check, fitted, read_marks, square_drift
 from solepath.recipes import DEFAULT, Recipe
 from solepath.recording.decoded import recorded
 from solepath.types import Foot, Packet, Sample, Site, Vec3
@@ -81,8 +81,6 @@ def test_a_drift_that_all_laps_agree_on_is_kept_and_then_taken_off() -> None:
 def test_what_the_laps_do_not_agree_on_is_not_taken_off_unless_it_is_asked_for() -> None:
     found = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
     assert not found.agreed and found.kept == (0.0, 0.0)
-    assert fit_square(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE).drift == {LEFT: (0.0, 0.0)}
-    assert fit_square(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE, whole=True).drift == {LEFT: found.slope}
 
 
 def test_laps_agree_when_a_wandering_foot_would_do_so_once_in_a_hundred_times() -> None:
@@ -113,11 +111,6 @@ def test_marks_by_time_say_the_same_as_counted_steps() -> None:
     marks = [CornerMark(str(k % PER_LAP), step.t + 0.1) for k, step in enumerate(steps)]
     counted = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
     assert square_drift(samples(), marks=marks, recipe=GYROSCOPE) == counted
-
-
-def test_a_calibration_has_the_drift_and_nothing_else() -> None:
-    found = fit_square(samples(), steps_per_lap=PER_LAP, recipe=drifting(0.03, -0.02))
-    assert found == Calibration(drift=found.drift) and found.drift is not None
 
 
 def test_a_drift_known_before_is_not_taken_off_while_calibrating() -> None:
@@ -199,12 +192,12 @@ def test_marks_are_read_from_a_table(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("mark,t\nA1,soon\n", "line 2: a visit is a name in column mark and seconds in column t"),
-        ("mark,t\nA1,1.0\n,2.0\n", "line 3: a visit"),
-        ("mark,t\nA1,nan\n", "line 2: a visit"),
-        ("a,b\n1,2\n", "line 2: a visit"),
+        ("mark,t\nA1,soon\n", "line 2: t is 'soon', not a number"),
+        ("mark,t\nA1,1.0\n,2.0\n", "line 3: nothing in column mark"),
+        ("mark,t\nA1,nan\n", "line 2: t is 'nan', not a finite number"),
+        ("a,b\n1,2\n", "line 1: wants one column mark and one column t"),
         ("mark,t\n", "no visits of marks"),
-        ("", "no visits of marks"),
+        ("", "line 1: wants one column mark"),
     ],
 )
 def test_a_table_of_something_else_is_named(tmp_path: Path, text: str, said: str) -> None:
@@ -218,5 +211,5 @@ def test_no_file_and_no_text_are_named(tmp_path: Path) -> None:
     with pytest.raises(CalibrationError, match="No such file"):
         read_marks(tmp_path / "none.csv")
     (tmp_path / "bytes.csv").write_bytes(b"\xff\xfe\x00mark")
-    with pytest.raises(CalibrationError, match="is not a table"):
+    with pytest.raises(CalibrationError, match="is not a csv file"):
         read_marks(tmp_path / "bytes.csv")

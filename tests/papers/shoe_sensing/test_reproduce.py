@@ -10,7 +10,8 @@ from solepath.events import StrideFeatures, StrideTaken
 from solepath.lab.reproduce import shoe_sensing, shoe_walks
 from solepath.lab.reproduce.published import NORMALISED
 from solepath.lab.reproduce.published import SHOE_SENSING as PAPER
-from solepath.lab.reproduce.shoe_walks import FOOT, STATES, heard, judged, matched, route_of, tour_route, worn
+from solepath.lab.reproduce.shoe_walks import FOOT, STATES, judged, matched, route_of, tour_route, worn
+from solepath.lab.reproduce.walks import heard
 from solepath.papers.shoe_sensing.recipe import SHOE_SENSING
 
 

@@ -17,15 +17,12 @@ EVERY = 0.05
 
 @frozen
 class Emulated:
-    """Of one walk or several: they add up."""
+    """Of one walk."""
 
     windows: ActivityScore
     """Windows of two seconds that lie within one activity."""
     time: ActivityScore
     """All the time, changes included, and the rides."""
-
-    def __add__(self, other: Emulated) -> Emulated:
-        return Emulated(self.windows + other.windows, self.time + other.time)
 
 
 def score(recipe: Recipe, seed: int) -> Emulated:

@@ -8,10 +8,11 @@ import numpy as np
 from attrs import frozen
 
 from ...emulate.wearers.truth import FootTruth, Truth
+from ...events import FootFlat, HeelOff, HeelStrike, ToeOff
 from ...types import Foot
 from ..evaluate.gathered import FootRun
-from ..measures.matching import Matching, match, pairs
-from ..measures.strides import mean_magnitude, position_errors
+from ..measures.matching import Errors, Matching, match, pairs
+from ..measures.strides import position_errors
 
 STEP_TOLERANCE = 0.4
 """s between the ends of a true and a found step: less than half the shortest stride."""
@@ -29,17 +30,12 @@ class FootComparison:
     """True steps that were found."""
     steps_invented: int
     """Found steps that never were."""
-    length_errors: tuple[float, ...]
+    length_errors: Errors
     """Relative error of each stride length (0.01 is 1 %), ours less the true one."""
     events: dict[str, Matching]
     """heel_strike, foot_flat, heel_off, toe_off."""
     end_error: float | None
     """Horizontal distance in m of the last position from the true one, after aligning the first two metres."""
-
-    @property
-    def length_error(self) -> float | None:
-        """Mean absolute relative error of the stride lengths."""
-        return mean_magnitude(self.length_errors)
 
 
 def compare(truth: Truth, feet: Mapping[Foot, FootRun]) -> list[FootComparison]:
@@ -54,12 +50,12 @@ def _compare(truth: FootTruth, run: FootRun) -> FootComparison:
         steps_true=len(truth.steps),
         steps_found=len(matched),
         steps_invented=len(run.steps) - len(matched),
-        length_errors=tuple(errors),
+        length_errors=Errors(tuple(errors)),
         events={
-            "heel_strike": match(truth.heel_strikes, run.heel_strikes, windows=ALWAYS),
-            "foot_flat": match(truth.foot_flats, run.foot_flats, windows=ALWAYS),
-            "heel_off": match(truth.heel_offs, run.heel_offs, windows=ALWAYS),
-            "toe_off": match(truth.toe_offs, run.toe_offs, windows=ALWAYS),
+            "heel_strike": match(truth.heel_strikes, run.times[HeelStrike], windows=ALWAYS),
+            "foot_flat": match(truth.foot_flats, run.times[FootFlat], windows=ALWAYS),
+            "heel_off": match(truth.heel_offs, run.times[HeelOff], windows=ALWAYS),
+            "toe_off": match(truth.toe_offs, run.times[ToeOff], windows=ALWAYS),
         },
         end_error=_end_error(truth, run),
     )

@@ -9,8 +9,8 @@ the origin of a track are its own choice: one turn about the vertical and one sh
 ALIGNED m of the way, lay it over the truth. Then `position_end` is the horizontal distance at the end and
 `position_max` the largest on the way, in m, and `end_relative` and `largest_relative` the same as shares of the length
 of the way. So what the heading is off by after ALIGNED m counts over all that follows; `rms_2d` is what the best turn
-and shift over the whole way leave, as of a VICON track. Heights are compared as they
-are, from the first: `height_end` at the end, `height_max` the largest on the way.
+and shift over the whole way leave, as of a VICON track. Heights are compared as they are, from the first: `height_end`
+at the end, `height_max` the largest on the way.
 """
 
 from __future__ import annotations
@@ -18,23 +18,19 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import pi
 from pathlib import Path
-from time import perf_counter
 
 import numpy as np
-from attrs import frozen
 
 from ...emulate.routes.path import ahead
 from ...emulate.routes.route import Route
 from ...emulate.sensors.insole_device import Insole
-from ...emulate.walk import SampledWalk, sampled
+from ...emulate.walk import sampled
 from ...emulate.wearers.gait import Wearer
 from ...emulate.wearers.truth import Truth
-from ...events import Event
 from ...session import Session
-from ...types import SITE_OF_FOOT, Foot, Site, Vec3
-from ..evaluate.gathered import FootRun, Gathering
-from ..evaluate.run import Meta, RunSettings
-from ..measures.alignment import Floats, align, track_error
+from ...types import SITE_OF_FOOT, Foot, Site
+from ..evaluate.run import Meta, RunSettings, followed
+from ..measures.alignment import Floats, aligned_at_start, distances, track_error
 from ..measures.matching import Matching
 from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore
@@ -108,68 +104,30 @@ def _wandered(seed: int, enough: Callable[[float, float], bool]) -> Route:
 # --- scores -----------------------------------------------------------------------------------------------------------
 
 
-def score_long_way(path: Path, meta: Meta, how: RunSettings) -> Scored:
-    return _score(path, long_way(meta["seed"]), meta["seed"], how)
-
-
-def score_half_hour(path: Path, meta: Meta, how: RunSettings) -> Scored:
-    return _score(path, half_hour(meta["seed"]), meta["seed"], how)
-
-
-def score_four_floors(path: Path, meta: Meta, how: RunSettings) -> Scored:
-    return _score(path, four_floors(meta["seed"]), meta["seed"], how)
-
-
-@frozen
-class _Found:
-    """What a session said of a walk: positions (n,3) at times (n,), and the rest."""
-
-    t: Floats
-    positions: Floats
-    feet: dict[Foot, FootRun]
-    samples: int
-    seconds: float
-
-
 def worn(seed: int) -> dict[Site, Insole]:
     """The insoles of a seed's wearer."""
     return {SITE_OF_FOOT[foot]: Insole(cells=96 if seed % 2 else 24) for foot in Foot}
 
 
-def _score(path: Path, route: Route, seed: int, how: RunSettings) -> Scored:
-    walked = sampled(route, wearer=Wearer(), insoles=worn(seed), seed=seed)
-    found, truth = _followed(walked, how), walked.truth
+def score_way(way: Callable[[int], Route], path: Path, meta: Meta, how: RunSettings) -> Scored:
+    """The way of the entry's seed, one of those above."""
+    seed: int = meta["seed"]
+    walked = sampled(way(seed), wearer=Wearer(), insoles=worn(seed), seed=seed)
+    session, truth = Session(how.recipe, calibration=how.calibration), walked.truth
+    gathering, track, seconds = followed(session, walked.samples, EVERY)
     heel_strike, toe_off, strides = Matching(), Matching(), StrideScore()
-    for foot in compare(truth, found.feet):
+    for foot in compare(truth, {foot: gathering.foot(foot) for foot in Foot}):
         heel_strike += foot.events["heel_strike"]
         toe_off += foot.events["toe_off"]
         strides += StrideScore(foot.steps_true, foot.steps_found, foot.steps_invented, foot.length_errors)
     return Scored(
         path.stem,
-        figures=place_figures(found.t, found.positions, middle(truth, found.t)),
+        figures={} if track is None else place_figures(track.t, track.positions, middle(truth, track.t)),
         events={"heel_strike": heel_strike, "toe_off": toe_off},
         strides=strides,
-        samples=found.samples,
-        seconds=found.seconds,
+        samples=len(walked.samples),
+        seconds=seconds,
     )
-
-
-def _followed(walked: SampledWalk, how: RunSettings) -> _Found:
-    session = Session(how.recipe, calibration=how.calibration)
-    said: list[list[Event]] = []
-    t: list[float] = []
-    positions: list[Vec3] = []
-    began = perf_counter()
-    for sample in walked.samples:
-        said.append(session.feed(sample))
-        if sample.t >= len(t) * EVERY and (place := session.position) is not None:
-            t.append(place.t)
-            positions.append(place.position)
-    said.append(session.finish())
-    seconds = perf_counter() - began
-    gathering = Gathering.of(event for events in said for event in events)
-    feet = {foot: gathering.foot(foot) for foot in Foot}
-    return _Found(np.array(t), np.array(positions).reshape(-1, 3), feet, len(walked.samples), seconds)
 
 
 def middle(truth: Truth, t: Floats) -> Floats:
@@ -182,11 +140,9 @@ def place_figures(t: Floats, positions: Floats, truth: Floats) -> Figures:
     """Of `positions` (n,3) at `t` (n,) against `truth` (n,3): as the module says."""
     if len(t) < 2:
         return {}
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(truth[:, :2], axis=0), axis=1))])
-    first = max(2, int(np.searchsorted(along, ALIGNED)) + 1)
-    off = np.linalg.norm(align(positions[:first], truth[:first]).apply(positions)[:, :2] - truth[:, :2], axis=1)
+    off = np.linalg.norm(aligned_at_start(positions, truth, ALIGNED)[:, :2] - truth[:, :2], axis=1)
     higher = np.abs((positions[:, 2] - positions[0, 2]) - (truth[:, 2] - truth[0, 2]))
-    path = float(along[-1])
+    path = float(distances(truth)[-1])
     return {
         "rms_2d": track_error(positions, truth).rms_2d,
         "position_end": float(off[-1]),

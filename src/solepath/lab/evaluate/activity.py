@@ -5,6 +5,7 @@ A session has told its last word about a time when it is over; so what counts is
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -24,12 +25,8 @@ EVERY = 0.02
 
 def compared(t: Sequence[float], true: Sequence[Activity | None], timeline: Timeline) -> ActivityScore:
     """Every labelled sample against what was told of its time; those without a label are left out."""
-    counts: dict[tuple[Activity, Activity], int] = {}
-    for at, activity in zip(t, true, strict=True):
-        if activity is not None:
-            pair = activity, timeline.at(at)
-            counts[pair] = counts.get(pair, 0) + 1
-    return ActivityScore(counts)
+    labelled = [(at, activity) for at, activity in zip(t, true, strict=True) if activity is not None]
+    return ActivityScore(Counter([(activity, timeline.at(at)) for at, activity in labelled]))
 
 
 def rides(true: Sequence[Span], found: Sequence[LiftRidden]) -> ActivityScore:
@@ -66,7 +63,7 @@ def score_labelled(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """The label that the experimenter pressed at each sample."""
     went = run(path, how, poses=False)
     t, true = labels(path)
-    score = compared(t, true, went.timeline) + rides(spans(t, true), went.rides)
+    score = compared(t, true, went.said.timeline) + rides(spans(t, true), went.said.rides)
     number = fold_of(int(meta["subject"]))
     wearers = ", ".join(map(str, sorted(FOLDS[number])))
     return scored(path, went, activity=score, groups=("all", f"of wearers {wearers}"))
@@ -97,7 +94,7 @@ def score_stairs(path: Path, meta: Meta, how: RunSettings) -> Scored:
         times = [begin + k * EVERY for k in range(int((end - begin) / EVERY))]
         t += times
         true += [activity] * len(times)
-    score = compared(t, true, went.timeline)
+    score = compared(t, true, went.said.timeline)
     return scored(path, went, figures=stairs_figures(score))
 
 

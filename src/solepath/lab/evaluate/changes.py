@@ -32,11 +32,11 @@ class Better(Enum):
 
 _LESS = (
     "armse_2d", "rms_2d", "rms_3d", "rms_z", "relative", "position_mean", "position_end", "position_max",
-    "end_error", "end_error_2d",
-    "end_height", "end_relative", "largest_relative", "height_end", "height_max", "strides_invented", "stride_error",
-    "stride_error_median", "stride_error_track", "heel_strike_mad", "heel_strike_off", "toe_off_mad", "toe_off_off",
-    "stride_time_error", "stride_time_error_median", "leg_error", "leg_error_median", "body_leg_error",
-    "body_leg_error_median", "leg_spread", "uturn_angle", "uturn_invented", "rides_invented", "level_called",
+    "end_error", "end_error_2d", "end_height", "end_relative", "largest_relative", "height_end", "height_max",
+    "strides_invented", "stride_error", "stride_error_median", "stride_error_track", "heel_strike_mad",
+    "heel_strike_off", "toe_off_mad", "toe_off_off", "stride_time_error", "stride_time_error_median", "leg_error",
+    "leg_error_median", "body_leg_error", "body_leg_error_median", "leg_spread", "uturn_angle", "uturn_invented",
+    "rides_invented", "level_called",
 )  # fmt: skip
 _NEARER_ZERO = ("heel_strike_bias", "toe_off_bias", "stride_time_bias", "leg_bias", "body_leg_bias")
 _MORE = (
@@ -63,15 +63,13 @@ def verdict(figure: str, was: float | None, now: float | None) -> Verdict:
     """On one figure; None is one that could not be measured."""
     if was is None or now is None:
         return Verdict.SAME if was is now else Verdict.CHANGED
-    if f"{was:.{DIGITS}g}" == f"{now:.{DIGITS}g}":
-        return Verdict.SAME
     way = BETTER.get(figure)
-    if way is None:
-        return Verdict.CHANGED
     if way is Better.NEARER_ZERO:
         was, now = abs(was), abs(now)
-        if f"{was:.{DIGITS}g}" == f"{now:.{DIGITS}g}":
-            return Verdict.SAME
+    if f"{was:.{DIGITS}g}" == f"{now:.{DIGITS}g}":
+        return Verdict.SAME
+    if way is None:
+        return Verdict.CHANGED
     return Verdict.BETTER if (now > was) is (way is Better.MORE) else Verdict.WORSE
 
 

@@ -7,12 +7,13 @@ and nothing else. Of what is emulated the path is a name only, and the entry say
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from attrs import frozen
 
 from ...recipes import Recipe
-from ..emulated.walks import score_four_floors, score_half_hour, score_long_way
+from ..emulated.walks import four_floors, half_hour, long_way, score_way
 from ..measures.confusion import CLASSES
 from ..measures.score import Scored
 from .activity import CLIMBED, score_labelled, score_stairs
@@ -23,15 +24,15 @@ from .tracking import score_counted, score_loop, score_optitrack, score_surveyed
 
 @frozen
 class DataSet:
-    """`folders`: their names below the data directory; none of what is emulated. `has_truth`: of a recording's name and
-    entry. `figures`: what its table shows, in order."""
+    """`figures`: what its table shows, in order. `folders`: their names below the data directory, where it is not the
+    set's own name. `has_truth`: of a recording's name and entry."""
 
     name: str
-    folders: tuple[str, ...]
     title: str
-    has_truth: Callable[[str, Meta], bool]
     score: Callable[[Path, Meta, RunSettings], Scored]
     figures: tuple[str, ...]
+    folders: tuple[str, ...] = ()
+    has_truth: Callable[[str, Meta], bool] = lambda name, meta: True
     each: bool = True
     """Whether the table has a line for every recording."""
     pressed: bool = False
@@ -44,35 +45,8 @@ class DataSet:
         return self.pressed or not recipe.needs_pressure
 
 
-def _always(name: str, meta: Meta) -> bool:
-    return True
-
-
-# --- all of them ----------------------------------------------------------------------------------------------------
-
-
-def _surveyed_strides(name: str, meta: Meta) -> bool:
+def _surveyed(name: str, meta: Meta) -> bool:
     return bool(meta.get("every_stride_surveyed"))
-
-
-def _counted_strides(name: str, meta: Meta) -> bool:
-    return "n_true_strides" in meta and not _surveyed_strides(name, meta)
-
-
-def _closed_loop(name: str, meta: Meta) -> bool:
-    return bool(meta.get("closed_loop"))
-
-
-def _tracked(name: str, meta: Meta) -> bool:
-    return bool(meta.get("optitrack"))
-
-
-def _borders_known(name: str, meta: Meta) -> bool:
-    return "gt_borders_left" in meta["keys"]
-
-
-def _climbed(name: str, meta: Meta) -> bool:
-    return name in CLIMBED
 
 
 TRACK = ("armse_2d", "rms_2d", "rms_3d", "rms_z", "path", "relative")
@@ -88,95 +62,62 @@ BODY_LEGS = ("body_leg_error_median", "body_leg_error", "body_leg_bias")
 STRIDE_TIME = ("stride_time_error_median", "stride_time_error", "stride_time_bias")
 
 DATASETS = (
-    DataSet("pyshoe_vicon", ("pyshoe_vicon",), "VICON tracks, one shoe", _always, score_vicon, TRACK + STRIDES[:4]),
+    DataSet("pyshoe_vicon", "VICON tracks, one shoe", score_vicon, TRACK + STRIDES[:4]),
     DataSet(
-        "gumushane_surveyed",
-        ("gumushane_gcp",),
-        "every footprint surveyed, one shoe",
-        _surveyed_strides,
-        score_surveyed,
-        (
-            "position_mean", "position_max", "authors", "authors_beaten", "rms_z", "path", "relative", *STRIDES,
-            "stride_error_track",
-        ),
+        "gumushane_surveyed", "every footprint surveyed, one shoe", score_surveyed,
+        ("position_mean", "position_max", "authors", "authors_beaten", "rms_z", "path", "relative", *STRIDES,
+         "stride_error_track"),
+        folders=("gumushane_gcp",), has_truth=_surveyed,
     ),
     DataSet(
-        "gumushane_counted", ("gumushane_gcp",), "strides counted, some corners surveyed, one shoe", _counted_strides,
-        score_counted, (*STRIDES[:3], *LEGS, "end_error_2d", "end_height"),
+        "gumushane_counted", "strides counted, some corners surveyed, one shoe", score_counted,
+        (*STRIDES[:3], *LEGS, "end_error_2d", "end_height"),
+        folders=("gumushane_gcp",),
+        has_truth=lambda name, meta: "n_true_strides" in meta and not _surveyed(name, meta),
     ),
     DataSet(
-        "xio_closed_walks",
-        ("xio_closed_walks",),
-        "a closed loop, one shoe",
-        _closed_loop,
-        score_loop,
+        "xio_closed_walks", "a closed loop, one shoe", score_loop,
         ("end_error", "end_error_2d", "end_height", "path", "relative"),
+        has_truth=lambda name, meta: bool(meta.get("closed_loop")),
     ),
     DataSet(
-        "smart_insole_35", ("smart_insole_35",), "OptiTrack tracks, one insole", _tracked, score_optitrack,
-        TRACK + STRIDES, pressed=True,
+        "smart_insole_35", "OptiTrack tracks, one insole", score_optitrack, TRACK + STRIDES,
+        has_truth=lambda name, meta: bool(meta.get("optitrack")), pressed=True,
     ),
     DataSet(
-        "ipol_10m_uturn",
-        ("ipol_10m_uturn",),
-        "10 m and back, both feet, radio losses",
-        _always,
-        score_swings,
-        HEEL_STRIKE + TOE_OFF + STRIDE_TIME + LEGS + BODY_LEGS
-        + ("end_error_2d", "end_height", "uturn_found", "uturn_angle", "uturn_invented"),
+        "ipol_10m_uturn", "10 m and back, both feet, radio losses", score_swings,
+        (*HEEL_STRIKE, *TOE_OFF, *STRIDE_TIME, *LEGS, *BODY_LEGS, "end_error_2d", "end_height", "uturn_found",
+         "uturn_angle", "uturn_invented"),
         each=False,
     ),
     DataSet(
-        "tripod_treadmill", ("tripod_treadmill",), "a treadmill, both feet", _always, score_treadmill,
-        HEEL_STRIKE + TOE_OFF + STRIDE_TIME + STRIDES,
+        "tripod_treadmill", "a treadmill, both feet", score_treadmill, HEEL_STRIKE + TOE_OFF + STRIDE_TIME + STRIDES,
     ),
     DataSet(
-        "gaitmap_examples", ("gaitmap_examples",), "4 x 10 m, both feet", _borders_known, score_borders,
+        "gaitmap_examples", "4 x 10 m, both feet", score_borders,
         (*HEEL_STRIKE, *STRIDE_TIME, *LEGS, *BODY_LEGS, "leg_spread", "end_error_2d", "end_height"),
+        has_truth=lambda name, meta: "gt_borders_left" in meta["keys"],
     ),
     DataSet(
-        "marpino_heel_toe",
-        ("marpino_heel_toe",),
-        "heel and toe switches, both feet, inertial samples only",
-        _always,
-        score_switches,
+        "marpino_heel_toe", "heel and toe switches, both feet, inertial samples only", score_switches,
         HEEL_STRIKE + TOE_OFF + LEGS,
     ),
     DataSet(
-        "marpino_pressed",
-        ("marpino_heel_toe",),
-        "heel and toe switches as an insole of two cells, both feet",
-        _always,
-        score_pressed,
-        HEEL_STRIKE + TOE_OFF + LEGS,
+        "marpino_pressed", "heel and toe switches as an insole of two cells, both feet", score_pressed,
+        HEEL_STRIKE + TOE_OFF + LEGS, folders=("marpino_heel_toe",), pressed=True,
+    ),
+    DataSet(
+        "gaitpdb_vgrf", "eight force sensors below each foot and nothing else", score_force, HEEL_STRIKE + TOE_OFF,
         pressed=True,
     ),
     DataSet(
-        "gaitpdb_vgrf",
-        ("gaitpdb_vgrf",),
-        "eight force sensors below each foot and nothing else",
-        _always,
-        score_force,
-        HEEL_STRIKE + TOE_OFF,
-        pressed=True,
+        "hugadb", "activities, both feet, five folds by wearer", score_labelled, ACTIVITIES + RIDES,
+        each=False, folds=True,
     ),
     DataSet(
-        "hugadb",
-        ("hugadb",),
-        "activities, both feet, five folds by wearer",
-        _always,
-        score_labelled,
-        ACTIVITIES + RIDES,
-        each=False,
-        folds=True,
-    ),
-    DataSet(
-        "stairs",
-        ("gaitmap_examples", "xio_closed_walks"),
-        "stairs and level ways, and what of them is called stairs",
-        _climbed,
-        score_stairs,
+        "stairs", "stairs and level ways, and what of them is called stairs", score_stairs,
         ("stairs_called", "stairs_direction", "level_called"),
+        folders=("gaitmap_examples", "xio_closed_walks"), has_truth=lambda name, meta: name in CLIMBED,
     ),
 )  # fmt: skip
 
@@ -184,11 +125,11 @@ WALKED = (
     "rms_2d", "position_end", "end_relative", "position_max", "largest_relative", "height_end", "height_max", "path",
 )  # fmt: skip
 EMULATED = tuple(
-    DataSet(name, (), title, _always, score, WALKED + STRIDES, pressed=True)
-    for name, title, score in (
-        ("emulated_long_way", "500 m with turns, emulated insoles on both feet", score_long_way),
-        ("emulated_half_hour", "30 minutes with turns, emulated insoles on both feet", score_half_hour),
-        ("emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", score_four_floors),
+    DataSet(name, title, partial(score_way, way), WALKED + STRIDES, pressed=True)
+    for name, title, way in (
+        ("emulated_long_way", "500 m with turns, emulated insoles on both feet", long_way),
+        ("emulated_half_hour", "30 minutes with turns, emulated insoles on both feet", half_hour),
+        ("emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", four_floors),
     )
 )
 """What needs no data: a recording is a seed."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from attrs import define, field, frozen
@@ -23,18 +23,19 @@ from ...show.timeline import Timeline
 from ...types import Foot, Vec3
 from ..measures.alignment import Floats
 
+PHASES: tuple[type[Event], ...] = (HeelStrike, FootFlat, HeelOff, ToeOff)
+
 
 @frozen(eq=False)
 class FootRun:
-    """What a session said about one foot: the live track `positions` (n,3) in m at `t` (n,), steps and event times."""
+    """What a session said about one foot: the live track `positions` (n,3) in m at `t` (n,), its steps, and when what
+    happened."""
 
     t: Floats
     positions: Floats
     steps: tuple[StrideTaken, ...] = ()
-    heel_strikes: tuple[float, ...] = ()
-    foot_flats: tuple[float, ...] = ()
-    heel_offs: tuple[float, ...] = ()
-    toe_offs: tuple[float, ...] = ()
+    times: Mapping[type[Event], Sequence[float]] = field(factory=dict)
+    """Of HeelStrike, FootFlat, HeelOff and ToeOff, s."""
 
     @property
     def step_lengths(self) -> list[tuple[float, float]]:
@@ -47,7 +48,7 @@ class _FootGathered:
     t: list[float] = field(factory=list)
     positions: list[Vec3] = field(factory=list)
     steps: list[StrideTaken] = field(factory=list)
-    times: dict[type, list[float]] = field(factory=dict)
+    times: dict[type[Event], list[float]] = field(factory=lambda: {kind: [] for kind in PHASES})
 
 
 @define
@@ -76,7 +77,7 @@ class Gathering:
             case StrideTaken(foot=foot, final=True):
                 self._of(foot).steps.append(event)
             case HeelStrike(final=True) | FootFlat(final=True) | HeelOff(final=True) | ToeOff(final=True):
-                self._of(event.foot).times.setdefault(type(event), []).append(event.t)
+                self._of(event.foot).times[type(event)].append(event.t)
             case ActivityChanged():
                 self.timeline.add(event)
             case LiftRidden(final=True):
@@ -95,8 +96,5 @@ class Gathering:
             t=np.array(one.t, dtype=np.float64),
             positions=np.array(one.positions, dtype=np.float64).reshape(len(one.t), 3),
             steps=tuple(one.steps),
-            heel_strikes=tuple(one.times.get(HeelStrike, ())),
-            foot_flats=tuple(one.times.get(FootFlat, ())),
-            heel_offs=tuple(one.times.get(HeelOff, ())),
-            toe_offs=tuple(one.times.get(ToeOff, ())),
+            times=one.times,
         )

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from contextlib import ExitStack
 from itertools import islice
 from pathlib import Path
-from typing import Any
 
 from attrs import frozen
 
@@ -16,6 +13,7 @@ from ...calibration import Calibration
 from ...recipes import Recipe
 from ...recording import RecordingError
 from ..measures.score import Scored
+from ..processes import Progress, each
 from .datasets import DATASETS, EMULATED, DataSet
 from .learning import Lesson, lessons, part_for, taught
 from .report import Result
@@ -24,7 +22,7 @@ from .run import Meta, RunSettings
 
 @frozen
 class EvaluationJob:
-    data_set: DataSet
+    score: Callable[[Path, Meta, RunSettings], Scored]
     how: RunSettings
     path: Path
     meta: Meta
@@ -32,7 +30,7 @@ class EvaluationJob:
     def run(self) -> Scored | str:
         """The scores, or the sentence that says why there are none."""
         try:
-            return self.data_set.score(self.path, self.meta, self.how)
+            return self.score(self.path, self.meta, self.how)
         except RecordingError as error:
             return str(error)
 
@@ -55,7 +53,7 @@ def find(folder: Path, only: Sequence[str] = ()) -> list[DataSet]:
 
 def _abouts(folder: Path, data_set: DataSet) -> list[Path]:
     """The dataset.json of each of its folders that is there."""
-    abouts = [folder / name / "dataset.json" for name in data_set.folders]
+    abouts = [folder / name / "dataset.json" for name in data_set.folders or (data_set.name,)]
     return [about for about in abouts if about.is_file()]
 
 
@@ -85,7 +83,7 @@ def evaluate(
     only: Sequence[str] = (),
     calibration: Calibration | None = None,
     processes: int = 1,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Iterator[Result]:
     """The result of each recipe on each data set of `folder`, as they are done; `calibration` is used for every
     recording, and `progress` gets (done, all)."""
@@ -102,7 +100,7 @@ def evaluate_emulated(
     only: Sequence[str] = (),
     calibration: Calibration | None = None,
     processes: int = 1,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Iterator[Result]:
     """The same on the emulated walks of `seeds`, of all kinds or of those named in `only`."""
     walks: list[tuple[Path, Meta]] = [(Path(f"seed {seed}"), {"seed": seed}) for seed in seeds]
@@ -111,42 +109,21 @@ def evaluate_emulated(
 
 
 def _scored(
-    plan: Plan,
-    to_learn: list[Lesson],
-    calibration: Calibration | None,
-    processes: int,
-    progress: Callable[[int, int], None] | None,
+    plan: Plan, to_learn: list[Lesson], calibration: Calibration | None, processes: int, progress: Progress | None
 ) -> Iterator[Result]:
     known = Calibration() if calibration is None else calibration
-    count = len(to_learn) + sum(len(part) for _, _, part in plan)
-    done = 0
-
-    def step() -> None:
-        nonlocal done
-        done += 1
-        if progress is not None:
-            progress(done, count)
-
-    with ExitStack() as stack:
-        pool = stack.enter_context(ProcessPoolExecutor(processes)) if processes > 1 else None
-        learnt: list[Any] = []
-        for features in (map if pool is None else pool.map)(Lesson.features, to_learn):
-            learnt.append(features)
-            step()
-        parts = taught(to_learn, learnt)
-        everything = [
-            EvaluationJob(d, RunSettings(recipe, known, part_for(recipe, meta, parts) if d.folds else None), path, meta)
-            for d, recipe, part in plan
-            for path, meta in part
-        ]
-        outcomes = map(EvaluationJob.run, everything) if pool is None else pool.map(EvaluationJob.run, everything)
-        for data_set, recipe, part in plan:
-            scores: list[Scored] = []
-            failures: list[str] = []
-            for outcome in islice(outcomes, len(part)):
-                step()
-                if isinstance(outcome, Scored):
-                    scores.append(outcome)
-                else:
-                    failures.append(outcome)
-            yield Result(data_set, recipe.name, tuple(scores), tuple(failures))
+    count = sum(len(part) for _, _, part in plan)
+    learnt = each(Lesson.features, to_learn, processes=processes, progress=progress, after=count)
+    parts = taught(to_learn, list(learnt))
+    everything = [
+        EvaluationJob(
+            d.score, RunSettings(recipe, known, part_for(recipe, meta, parts) if d.folds else None), path, meta
+        )
+        for d, recipe, part in plan
+        for path, meta in part
+    ]
+    outcomes = each(EvaluationJob.run, everything, processes=processes, progress=progress, before=len(to_learn))
+    for data_set, recipe, part in plan:
+        done = list(islice(outcomes, len(part)))
+        scores = tuple([one for one in done if isinstance(one, Scored)])
+        yield Result(data_set, recipe.name, scores, tuple([one for one in done if isinstance(one, str)]))

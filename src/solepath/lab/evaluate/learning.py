@@ -36,14 +36,6 @@ class Learner:
     teach: Callable[[Sequence[Any]], Doing]
 
 
-def _recordings(folder: Path) -> Sources:
-    return [(one.path, one.subject) for one in recordings(folder / "hugadb")]
-
-
-def _two_second_windows(taught: Sequence[footstep_activity.Taught]) -> TwoSecondWindows:
-    return TwoSecondWindows(footstep_activity.train(taught, "the other folds"))
-
-
 WEARERS = frozenset().union(*FOLDS)
 
 
@@ -62,13 +54,17 @@ def _blocks(source: tuple[str, Path, int]) -> list[activities.Blocks]:
     return list(activities.level_walks(folder) if what == "level" else activities.emulated_walks([number]))
 
 
-def _activities(taught: Sequence[list[activities.Blocks]]) -> Activities:
-    return Activities(activities.learnt([part for parts in taught for part in parts], "the other folds"))
-
-
 LEARNERS: dict[type, Learner] = {
-    Activities: Learner(_everyone, _blocks, _activities),
-    TwoSecondWindows: Learner(_recordings, footstep_activity.of_recording, _two_second_windows),
+    Activities: Learner(
+        _everyone,
+        _blocks,
+        lambda taught: Activities(activities.learnt([one for blocks in taught for one in blocks], "the other folds")),
+    ),
+    TwoSecondWindows: Learner(
+        lambda folder: [(one.path, one.subject) for one in recordings(folder / "hugadb")],
+        footstep_activity.of_recording,
+        lambda taught: TwoSecondWindows(footstep_activity.train(taught, "the other folds")),
+    ),
 }
 
 

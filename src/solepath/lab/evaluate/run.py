@@ -5,6 +5,7 @@ Only what samples reads (t, acc, gyro, pressure) reaches the session; the truth 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -15,12 +16,11 @@ from attrs import frozen
 
 from ...body.part import Doing
 from ...calibration import Calibration, merged
-from ...events import Event, LiftRidden, TurnMade
+from ...events import Event
 from ...recipes import Recipe
 from ...recording.samples import load_samples
 from ...session import Session
-from ...show.timeline import Timeline
-from ...types import Foot, Vec3
+from ...types import Foot, Sample, Vec3
 from ..measures.alignment import Floats
 from ..measures.score import Scored
 from .gathered import FootRun, Gathering
@@ -49,10 +49,7 @@ class ScoredTrack:
 @frozen(eq=False)
 class RecordingRun:
     feet: dict[Foot, FootRun]
-    timeline: Timeline
-    """What the wearer did."""
-    rides: tuple[LiftRidden, ...]
-    turns: tuple[TurnMade, ...]
+    said: Gathering
     samples: int
     seconds: float
     """Wall time that the session took."""
@@ -81,20 +78,28 @@ def run(
     samples = list(recording)
     if without_pressure:
         samples = [attrs.evolve(sample, pressure=None) for sample in samples]
+    gathering, wearer, seconds = followed(session, samples, 0.0 if body else None)
+    feet = {table.foot: gathering.foot(table.foot) for table in recording.tables}
+    return RecordingRun(feet, gathering, len(samples), seconds, wearer)
+
+
+def followed(
+    session: Session, samples: Iterable[Sample], every: float | None
+) -> tuple[Gathering, ScoredTrack | None, float]:
+    """What the session said of the samples; where it had the wearer, asked `every` s (0: after every sample, None:
+    never); and the wall time that it took, s."""
     said: list[list[Event]] = []
     places: list[tuple[float, Vec3]] = []
     began = perf_counter()
     for sample in samples:
         said.append(session.feed(sample))
-        if body and (position := session.position) is not None:
+        due = every is not None and (every == 0.0 or sample.t >= len(places) * every)
+        if due and (position := session.position) is not None:
             places.append((position.t, position.position))
     said.append(session.finish())
     seconds = perf_counter() - began
-    gathering = Gathering.of(event for events in said for event in events)
-    feet = {table.foot: gathering.foot(table.foot) for table in recording.tables}
-    rides, turns = tuple(gathering.rides), tuple(gathering.turns)
-    wearer = ScoredTrack(np.array([t for t, _ in places]), np.array([at for _, at in places]).reshape(-1, 3))
-    return RecordingRun(feet, gathering.timeline, rides, turns, len(samples), seconds, wearer if places else None)
+    track = ScoredTrack(np.array([t for t, _ in places]), np.array([at for _, at in places]).reshape(-1, 3))
+    return Gathering.of(event for events in said for event in events), track if places else None, seconds
 
 
 Meta = dict[str, Any]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import hypot, pi
 from pathlib import Path
 from statistics import fmean, pstdev
 
 import numpy as np
 
+from ...events import HeelStrike, ToeOff
 from ...types import Foot, Turn
 from ..measures.alignment import at_times
 from ..measures.contacts import force_contacts, merged, switch_contacts
@@ -32,30 +34,34 @@ def score_swings(path: Path, meta: Meta, how: RunSettings) -> Scored:
     (leg) and by the session's position (body_leg). Both together are a closed loop, but that the wearer stands the
     other way round, with each foot beside where it began."""
     truth, went = truth_of(path), run(path, how, body=True)
-    heel_strike, toe_off, strides = Matching(), Matching(), Errors()
-    for foot, ran in went.feet.items():
-        swings = truth[f"gt_{foot.value}"]
-        toe_off += match(swings[:, 0].tolist(), ran.toe_offs)
-        heel_strike += match(swings[:, 1].tolist(), ran.heel_strikes)
-        strides += interval_errors(swings[:, 1].tolist(), ran.heel_strikes, longest=LONGEST)
+    swings = {foot: truth[f"gt_{foot.value}"] for foot in went.feet}
+    strikes = {foot: of[:, 1].tolist() for foot, of in swings.items()}
     began, ended = truth["gt_trial"].tolist()
-    times = [began, float(truth["gt_uturn"].mean()), ended]
+    times, body = [began, float(truth["gt_uturn"].mean()), ended], went.body
+    legs = [leg_errors(times, [LEG, LEG], ran.t, ran.positions) for ran in went.feet.values()]
+    of_body = Errors() if body is None else leg_errors(times, [LEG, LEG], body.t, body.positions)
     return scored(
         path,
         went,
         figures=_about_turn(truth["gt_uturn"].tolist(), went) | _ends(went, began, ended),
-        events={"heel_strike": heel_strike, "toe_off": toe_off},
-        errors=_legs(went, times) | {"stride_time": strides},
+        events=_contacts(went, strikes, {foot: of[:, 0].tolist() for foot, of in swings.items()}),
+        errors={"leg": sum(legs, Errors()), "body_leg": of_body, "stride_time": _stride_times(went, strikes)},
     )
 
 
-def _legs(went: RecordingRun, times: list[float]) -> dict[str, Errors]:
-    """Of the legs of LEG m between `times`, s."""
-    true, body = [LEG] * (len(times) - 1), went.body
-    return {
-        "leg": sum([leg_errors(times, true, ran.t, ran.positions) for ran in went.feet.values()], Errors()),
-        "body_leg": Errors() if body is None else leg_errors(times, true, body.t, body.positions),
-    }
+Contacts = Mapping[Foot, list[float]]
+"""The true heel-strikes, or toe-offs, of each foot of which they are known, s."""
+
+
+def _contacts(went: RecordingRun, strikes: Contacts, offs: Contacts) -> dict[str, Matching]:
+    struck = [match(true, went.feet[foot].times[HeelStrike]) for foot, true in strikes.items()]
+    left = [match(true, went.feet[foot].times[ToeOff]) for foot, true in offs.items()]
+    return {"heel_strike": sum(struck, Matching()), "toe_off": sum(left, Matching())}
+
+
+def _stride_times(went: RecordingRun, strikes: Contacts) -> Errors:
+    found = [(true, went.feet[foot].times[HeelStrike]) for foot, true in strikes.items()]
+    return sum([interval_errors(true, ours, longest=LONGEST) for true, ours in found], Errors())
 
 
 def _ends(went: RecordingRun, began: float, ended: float) -> Figures:
@@ -72,8 +78,8 @@ def _about_turn(span: list[float], went: RecordingRun) -> Figures:
     of it. Its angle is that of the largest turn that does, by how much it differs from half a turn (from 0 where none
     was told). Invented: about turns elsewhere."""
     began, ended = span
-    there = [turn for turn in went.turns if turn.t >= began and turn.t_start <= ended]
-    about = sum(turn.turn is Turn.ABOUT for turn in went.turns)
+    there = [turn for turn in went.said.turns if turn.t >= began and turn.t_start <= ended]
+    about = sum(turn.turn is Turn.ABOUT for turn in went.said.turns)
     found = any(turn.turn is Turn.ABOUT for turn in there)
     angle = max([abs(turn.angle) for turn in there], default=0.0)
     return {
@@ -96,46 +102,32 @@ def score_borders(path: Path, meta: Meta, how: RunSettings) -> Scored:
         seen = merged(borders)
         # a border that two strides share is one heel-strike
         strikes = [at for at, _ in merged([(at, at) for border in borders for at in border])]
-        heel_strike += match(strikes, ran.heel_strikes, windows=seen)
-        strides += interval_errors(strikes, ran.heel_strikes, longest=LONGEST)
-    legs, figures = _legs_to_and_fro(went)
-    return scored(
-        path, went, figures=figures, events={"heel_strike": heel_strike}, errors=legs | {"stride_time": strides}
-    )
-
-
-def _legs_to_and_fro(went: RecordingRun) -> tuple[dict[str, Errors], Figures]:
-    each = {
-        foot: leg_errors(turned_about(ran.t, ran.positions, LEGS), [LEG] * LEGS, ran.t, ran.positions)
-        for foot, ran in went.feet.items()
-        if len(ran.t)
-    }
-    body = Errors()
-    if went.body is not None:
-        track = went.body
-        body = leg_errors(turned_about(track.t, track.positions, LEGS), [LEG] * LEGS, track.t, track.positions)
-    spreads = [pstdev(errors.values) / (1.0 + fmean(errors.values)) for errors in each.values()]
+        heel_strike += match(strikes, ran.times[HeelStrike], windows=seen)
+        strides += interval_errors(strikes, ran.times[HeelStrike], longest=LONGEST)
+    tracks = [track for track in (*went.feet.values(), went.body) if track is not None and len(track.t)]
+    legs = [leg_errors(turned_about(one.t, one.positions, LEGS), [LEG] * LEGS, one.t, one.positions) for one in tracks]
+    each, body = (legs, Errors()) if went.body is None else (legs[:-1], legs[-1])
+    spreads = [pstdev(errors.values) / (1.0 + fmean(errors.values)) for errors in each]
     figures: Figures = {"leg_spread": fmean(spreads) if spreads else None}
     if went.body is not None:
         figures |= _ends(went, float(went.body.t[0]), float(went.body.t[-1]))
-    return {"leg": sum(each.values(), Errors()), "body_leg": body}, figures
+    errors = {"leg": sum(each, Errors()), "body_leg": body, "stride_time": strides}
+    return scored(path, went, figures=figures, events={"heel_strike": heel_strike}, errors=errors)
 
 
 def score_treadmill(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """Contact times of a light barrier. The belt is an inertial frame of its own, in which the standing foot rests, so
     stride lengths compare as they are; positions in the room do not."""
     truth, went = truth_of(path), run(path, how)
-    heel_strike, toe_off, strides, times = Matching(), Matching(), StrideScore(), Errors()
+    strides, strikes, offs = StrideScore(), dict[Foot, list[float]](), dict[Foot, list[float]]()
     for foot, ran in went.feet.items():
         rows = truth["gt_foot"] == (0 if foot is Foot.LEFT else 1)
-        strikes = truth["gt_hs_t"][rows]
-        heel_strike += match(strikes.tolist(), ran.heel_strikes)
-        times += interval_errors(strikes.tolist(), ran.heel_strikes, longest=LONGEST)
-        toe_off += match((strikes + truth["gt_contact_s"][rows]).tolist(), ran.toe_offs)
+        struck = truth["gt_hs_t"][rows]
+        strikes[foot], offs[foot] = struck.tolist(), (struck + truth["gt_contact_s"][rows]).tolist()
         # the stride that a heel-strike ends, ours ending at the foot-flat after it: well before the next heel-strike
-        strides += stride_score(strikes, truth["gt_stride_len"][rows][:-1], ran.step_lengths, slack=-TOLERANCE)
-    events = {"heel_strike": heel_strike, "toe_off": toe_off}
-    return scored(path, went, events=events, strides=strides, errors={"stride_time": times})
+        strides += stride_score(struck, truth["gt_stride_len"][rows][:-1], ran.step_lengths, slack=-TOLERANCE)
+    times = {"stride_time": _stride_times(went, strikes)}
+    return scored(path, went, events=_contacts(went, strikes, offs), strides=strides, errors=times)
 
 
 def score_switches(path: Path, meta: Meta, how: RunSettings) -> Scored:
@@ -152,27 +144,25 @@ def _against_switches(path: Path, meta: Meta, went: RecordingRun) -> Scored:
     """Where it was a straight walk of a known length, each foot's way from its first to its last position is a leg: the
     wearer stood at both ends, but nobody wrote down how near to the lines."""
     truth = truth_of(path)
-    heel_strike, toe_off, legs = Matching(), Matching(), Errors()
+    strikes, offs, legs = dict[Foot, list[float]](), dict[Foot, list[float]](), Errors()
     for foot, ran in went.feet.items():
         t, counts = truth[f"t_{foot.value}"], truth[f"pressure_{foot.value}"]
-        heel, toe = switch_contacts(t, counts[:, 1]), switch_contacts(t, counts[:, 0])
-        if heel:
-            heel_strike += match([begin for begin, _ in heel], ran.heel_strikes)
-        if toe:
-            toe_off += match([end for _, end in toe], ran.toe_offs)
+        if heel := switch_contacts(t, counts[:, 1]):
+            strikes[foot] = [begin for begin, _ in heel]
+        if toe := switch_contacts(t, counts[:, 0]):
+            offs[foot] = [end for _, end in toe]
         if "straight_path_m" in meta and len(ran.t):
             ends = [float(ran.t[0]), float(ran.t[-1])]
             legs += leg_errors(ends, [float(meta["straight_path_m"])], ran.t, ran.positions)
     errors = {"leg": legs} if legs.values else {}
-    return scored(path, went, events={"heel_strike": heel_strike, "toe_off": toe_off}, errors=errors)
+    return scored(path, went, events=_contacts(went, strikes, offs), errors=errors)
 
 
 def score_force(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """The force below each foot is the truth of contact, and its eight sensors are all that the session gets."""
     truth, went = truth_of(path), run(path, how, calibration=force_sensors())
-    heel_strike, toe_off = Matching(), Matching()
-    for foot, ran in went.feet.items():
-        contacts = force_contacts(truth["t"], truth[f"pressure_{foot.value}"].sum(axis=1))
-        heel_strike += match([begin for begin, _ in contacts], ran.heel_strikes)
-        toe_off += match([end for _, end in contacts], ran.toe_offs)
-    return scored(path, went, events={"heel_strike": heel_strike, "toe_off": toe_off})
+    forces = {foot: truth[f"pressure_{foot.value}"].sum(axis=1) for foot in went.feet}
+    spans = {foot: force_contacts(truth["t"], force) for foot, force in forces.items()}
+    strikes = {foot: [begin for begin, _ in of] for foot, of in spans.items()}
+    offs = {foot: [end for _, end in of] for foot, of in spans.items()}
+    return scored(path, went, events=_contacts(went, strikes, offs))

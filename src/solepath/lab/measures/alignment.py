@@ -57,6 +57,19 @@ def path_length(points: NDArray[Any]) -> float:
     return float(np.sum(np.linalg.norm(np.diff(np.asarray(points, np.float64), axis=0), axis=1)))
 
 
+def distances(points: NDArray[Any]) -> Floats:
+    """How far along the horizontal line through `points` (n,2 or more) each of them is, m."""
+    steps = np.linalg.norm(np.diff(np.asarray(points, np.float64)[:, :2], axis=0), axis=1)
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def aligned_at_start(track: NDArray[Any], truth: NDArray[Any], over: float) -> Floats:
+    """`track` turned and shifted so that it fits `truth` best over the first `over` m (up to the first point that is so
+    far along the truth)."""
+    first = max(2, int(np.searchsorted(distances(truth), over)) + 1)
+    return align(track[:first], truth[:first]).apply(track)
+
+
 @frozen
 class TrackError:
     """How far a track is from the truth over a trial, after the best turn and shift; m."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 
 from attrs import field, frozen
@@ -23,11 +24,8 @@ class ActivityScore:
     rides_invented: int = 0
 
     def __add__(self, other: ActivityScore) -> ActivityScore:
-        samples = dict(self.samples)
-        for pair, count in other.samples.items():
-            samples[pair] = samples.get(pair, 0) + count
         return ActivityScore(
-            samples,
+            Counter(self.samples) + Counter(other.samples),
             self.rides_true + other.rides_true,
             self.rides_found + other.rides_found,
             self.rides_invented + other.rides_invented,

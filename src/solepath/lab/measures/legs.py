@@ -20,7 +20,7 @@ EVERY = 0.05
 """s: a turn about is looked for among instants so far apart; a foot pivots for longer."""
 
 
-def between(times: Sequence[float], t: Floats, positions: Floats) -> Floats:
+def between(times: Sequence[float] | Floats, t: Floats, positions: Floats) -> Floats:
     """Horizontal distance (n,) in m between the live positions at each of `times` (n+1,) and the next."""
     places = at_times(t, positions[:, :2], np.asarray(times, np.float64))
     return np.asarray(np.linalg.norm(np.diff(places, axis=0), axis=1), dtype=np.float64)

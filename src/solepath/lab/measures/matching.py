@@ -72,13 +72,9 @@ class Matching:
 
 
 def match(
-    true: Iterable[float],
-    found: Iterable[float],
-    *,
-    windows: Sequence[tuple[float, float]] | None = None,
-    tolerance: float = TOLERANCE,
+    true: Iterable[float], found: Iterable[float], *, windows: Sequence[tuple[float, float]] | None = None
 ) -> Matching:
-    """Pairs of true and found times, the closest first, each used once, none further apart than `tolerance` s.
+    """Pairs of true and found times, the closest first, each used once, none further apart than TOLERANCE.
 
     `windows`: the spans of time that are labelled, s; a found event that lies outside all of them, each widened by the
     tolerance, is neither right nor wrong and is left out. None: from the first to the last true event.
@@ -86,8 +82,8 @@ def match(
     truth = sorted(true)
     if windows is None:
         windows = [(truth[0], truth[-1])] if truth else []
-    inside = sorted(t for t in found if any(a - tolerance <= t <= b + tolerance for a, b in windows))
-    matched = pairs(truth, inside, tolerance)
+    inside = sorted(t for t in found if any(a - TOLERANCE <= t <= b + TOLERANCE for a, b in windows))
+    matched = pairs(truth, inside, TOLERANCE)
     return Matching(len(truth), len(inside), tuple(inside[j] - truth[i] for i, j in matched))
 
 
@@ -109,19 +105,11 @@ def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> li
     return sorted(chosen)
 
 
-def interval_errors(
-    true: Iterable[float], found: Iterable[float], *, longest: float, tolerance: float = TOLERANCE
-) -> Errors:
+def interval_errors(true: Iterable[float], found: Iterable[float], *, longest: float) -> Errors:
     """By how much the time from a found event to the next differs from that between the true ones that they were
     matched with, s. Only of true ones that follow each other within `longest` s, both of which were matched."""
     truth, ours = sorted(true), sorted(found)
-    by_true = dict(pairs(truth, ours, tolerance))
-    return Errors(
-        tuple(
-            [
-                (ours[by_true[k + 1]] - ours[by_true[k]]) - (truth[k + 1] - truth[k])
-                for k in range(len(truth) - 1)
-                if k in by_true and k + 1 in by_true and truth[k + 1] - truth[k] <= longest
-            ]
-        )
-    )
+    by_true = dict(pairs(truth, ours, TOLERANCE))
+    both = [k for k in range(len(truth) - 1) if k in by_true and k + 1 in by_true]
+    lasted = [(ours[by_true[k + 1]] - ours[by_true[k]], truth[k + 1] - truth[k]) for k in both]
+    return Errors(tuple([took - should for took, should in lasted if should <= longest]))

@@ -35,44 +35,35 @@ class Scored:
 
     def flat(self) -> Figures:
         """Every figure of this recording by its name in tables and JSON."""
-        return self.figures | pooled_figures(self.events, self.strides, self.activity, self.errors)
-
-
-def pooled_figures(
-    events: dict[str, Matching],
-    strides: StrideScore | None,
-    activity: ActivityScore | None,
-    errors: dict[str, Errors],
-) -> Figures:
-    flat: Figures = {}
-    for kind, matching in events.items():
-        flat |= {
-            f"{kind}_true": matching.n_true,
-            f"{kind}_found": matching.n_found,
-            f"{kind}_f1": matching.f1,
-            f"{kind}_bias": matching.bias,
-            f"{kind}_mad": matching.mad,
-            f"{kind}_off": matching.off,
-        }
-    if strides is not None:
-        flat |= {
-            "strides_true": strides.n_true,
-            "strides_found": strides.n_found,
-            "strides_invented": strides.n_invented,
-            "stride_error": strides.mean_error,
-            "stride_error_median": strides.median_error,
-            "stride_error_track": strides.mean_track_error,
-        }
-    if activity is not None:
-        flat |= activity.figures
-    for kind, pooled in errors.items():
-        flat |= {
-            f"{kind}_count": len(pooled.values),
-            f"{kind}_error": pooled.mean,
-            f"{kind}_error_median": pooled.median,
-            f"{kind}_bias": pooled.bias,
-        }
-    return flat
+        flat = dict(self.figures)
+        for kind, matching in self.events.items():
+            flat |= {
+                f"{kind}_true": matching.n_true,
+                f"{kind}_found": matching.n_found,
+                f"{kind}_f1": matching.f1,
+                f"{kind}_bias": matching.bias,
+                f"{kind}_mad": matching.mad,
+                f"{kind}_off": matching.off,
+            }
+        if self.strides is not None:
+            flat |= {
+                "strides_true": self.strides.n_true,
+                "strides_found": self.strides.n_found,
+                "strides_invented": self.strides.n_invented,
+                "stride_error": self.strides.errors.mean,
+                "stride_error_median": self.strides.errors.median,
+                "stride_error_track": self.strides.track_errors.mean,
+            }
+        if self.activity is not None:
+            flat |= self.activity.figures
+        for kind, pooled in self.errors.items():
+            flat |= {
+                f"{kind}_count": len(pooled.values),
+                f"{kind}_error": pooled.mean,
+                f"{kind}_error_median": pooled.median,
+                f"{kind}_bias": pooled.bias,
+            }
+        return flat
 
 
 @frozen
@@ -105,6 +96,6 @@ def summarise(scores: Sequence[Scored], group: str) -> Summary:
         count=len(members),
         mean={key: float(np.mean(v)) for key, v in values.items() if v},
         median={key: float(np.median(v)) for key, v in values.items() if v},
-        together=pooled_figures(events, reduce(add, strides) if strides else None, activity, errors),
+        together=Scored(group, {}, events, reduce(add, strides) if strides else None, activity, errors).flat(),
         confusion=None if activity is None else activity.table,
     )

@@ -16,7 +16,9 @@ import numpy as np
 from attrs import frozen
 from numpy.typing import NDArray
 
-from .alignment import Floats, align, at_times
+from .alignment import Floats, aligned_at_start, at_times
+from .legs import between
+from .matching import Errors
 
 SLACK = 0.15
 """s by which a step may end after its stride's time: less than half of any swing, so never in the next stride."""
@@ -40,37 +42,19 @@ class StrideScore:
     n_found: int = 0
     n_invented: int = 0
     """Steps of ours beyond the first in one surveyed stride."""
-    step_errors: tuple[float, ...] = ()
-    """(our stride_length - surveyed) / surveyed of each stride found."""
-    track_errors: tuple[float, ...] = ()
-    """The same for the live track between the survey's times, of every stride."""
+    errors: Errors = Errors()
+    """Of our stride's length, of each stride found."""
+    track_errors: Errors = Errors()
+    """Of the distance between the live positions at the survey's times, of every stride."""
 
     def __add__(self, other: StrideScore) -> StrideScore:
         return StrideScore(
             self.n_true + other.n_true,
             self.n_found + other.n_found,
             self.n_invented + other.n_invented,
-            self.step_errors + other.step_errors,
+            self.errors + other.errors,
             self.track_errors + other.track_errors,
         )
-
-    @property
-    def mean_error(self) -> float | None:
-        """Mean absolute relative error of our steps' stride lengths."""
-        return mean_magnitude(self.step_errors)
-
-    @property
-    def median_error(self) -> float | None:
-        return float(np.median(np.abs(self.step_errors))) if self.step_errors else None
-
-    @property
-    def mean_track_error(self) -> float | None:
-        """Mean absolute relative error of the distances between the live positions at the survey's times."""
-        return mean_magnitude(self.track_errors)
-
-
-def mean_magnitude(errors: Sequence[float]) -> float | None:
-    return float(np.mean(np.abs(errors))) if len(errors) else None
 
 
 def stride_score(
@@ -89,12 +73,9 @@ def stride_score(
         stride = int(np.searchsorted(times, t_end - slack, side="left")) - 1
         if 0 <= stride < len(ends):
             ends[stride].append(stride_length)
-    return StrideScore(
-        n_true=len(ends),
-        n_found=sum(1 for found in ends if found),
-        n_invented=sum(len(found) - 1 for found in ends if found),
-        step_errors=tuple(max(f) / true - 1.0 for f, true in zip(ends, true_lengths, strict=True) if f and true > 0),
-    )
+    errors = [max(f) / true - 1.0 for f, true in zip(ends, true_lengths, strict=True) if f and true > 0]
+    found = [one for one in ends if one]
+    return StrideScore(len(ends), len(found), sum(map(len, found)) - len(found), Errors(tuple(errors)))
 
 
 def surveyed_score(
@@ -106,11 +87,9 @@ def surveyed_score(
 ) -> StrideScore:
     """Surveyed `places` (n+1,2) at `times` (n+1,) against `steps` as above and the live `track` (m,3) at `track_t`."""
     lengths = np.linalg.norm(np.diff(np.asarray(places, np.float64)[:, :2], axis=0), axis=1)
-    live = at_times(track_t, track[:, :2], times)
-    live_lengths = np.linalg.norm(np.diff(live, axis=0), axis=1)
     known = lengths > 0.0
-    track_errors = live_lengths[known] / lengths[known] - 1.0
-    return attrs.evolve(stride_score(times, lengths, steps), track_errors=tuple(track_errors.tolist()))
+    off = between(times, track_t, track)[known] / lengths[known] - 1.0
+    return attrs.evolve(stride_score(times, lengths, steps), track_errors=Errors(tuple(off.tolist())))
 
 
 def marker_rests(t: NDArray[Any], places: NDArray[Any]) -> tuple[Floats, Floats]:
@@ -137,8 +116,5 @@ def position_errors(times: NDArray[Any], places: NDArray[Any], track_t: Floats, 
     """Horizontal distance (n+1,) in m from each surveyed place to the live track at its time, after the turn and shift
     that fit the surveyed places of the first two metres best (up to the first that is two metres along the path)."""
     truth = np.asarray(places, np.float64)[:, :2]
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(truth, axis=0), axis=1))])
-    first = max(2, int(np.searchsorted(along, ALIGNED_OVER)) + 1)
-    live = at_times(track_t, track[:, :2], times)
-    moved = align(live[:first], truth[:first]).apply(live)
+    moved = aligned_at_start(at_times(track_t, track[:, :2], times), truth, ALIGNED_OVER)
     return np.asarray(np.linalg.norm(moved - truth, axis=1), dtype=np.float64)

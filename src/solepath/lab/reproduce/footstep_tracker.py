@@ -8,17 +8,19 @@ of the paper are drawn, not printed: rows without a figure of the paper's have n
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 from math import degrees
 
 from ...emulate.routes.building import BUILDING
+from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from ...types import Activity, Turn
 from ..measures.confusion import ActivityScore
+from ..processes import Progress, each
 from . import footstep_walks, published
 from .footstep_walks import CORRIDOR, FootstepWalked, walked
-from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, Statistics
-from .walks import Progress, each
+from .tables import Drawn, Floor, PictureTrack, Reproduction, row_of
 
-NAME = footstep_walks.NAME
+NAME = FOOTSTEP_TRACKER.name
 FIRST = 100_000
 """Wearers from here on: nothing was learnt from any of them (lab/train/emulated.py)."""
 WEARERS = 8
@@ -32,6 +34,7 @@ def reproduce(
     count = WEARERS if walks is None else walks
     seeds = [FIRST + 1000 * seed + k for k in range(count)]
     done = list(each(walked, seeds, processes=processes, progress=progress))
+    places = [place for one in done for place in one.places]
     rows = [
         _row("corridor, one foot %", [100.0 * one.one_foot / CORRIDOR for one in done]),
         _row("corridor, by height %", [100.0 * one.by_height / CORRIDOR for one in done]),
@@ -41,12 +44,8 @@ def reproduce(
         _row("activities %", [100.0 * (one.windows.accuracy or 0.0) for one in done]),
         _row("turn angle deg", [off for one in done for off in one.turned.values()], digits=1),
         _row("turn classes %", [_share(one.classes.values()) for one in done]),
-        _row("place m", [_mean(place.off) for one in done for place in one.places if place.off]),
-        _row(
-            "steps until decided",
-            [float(place.decided) for one in done for place in one.places if place.decided is not None],
-            digits=0,
-        ),
+        _row("place m", [sum(place.off) / len(place.off) for place in places if place.off]),
+        _row("steps until decided", [float(place.decided) for place in places if place.decided is not None], digits=0),
     ]
     return Reproduction(
         name=NAME,
@@ -59,18 +58,13 @@ def reproduce(
     )
 
 
-def _row(name: str, values: list[float], digits: int = 2) -> FigureRow:
-    return FigureRow(name, tuple(values), published.FOOTSTEP_TRACKER.get(name, Statistics()), digits)
+_row = partial(row_of, published.FOOTSTEP_TRACKER)
 
 
 def _share(counts: Iterable[tuple[int, int]]) -> float:
     """Per cent right of (right, all) pairs."""
     pairs = list(counts)
     return 100.0 * sum([right for right, _ in pairs]) / max(1, sum([of for _, of in pairs]))
-
-
-def _mean(values: tuple[float, ...]) -> float:
-    return sum(values) / len(values)
 
 
 def _floor(one: FootstepWalked) -> Floor:
@@ -98,7 +92,7 @@ def _notes(done: list[FootstepWalked]) -> tuple[str, ...]:
         "Mean error of the turn angle, degrees: " + ", ".join(f"{a}: {sum(v) / len(v):.1f}" for a, v in by_angle) + "."
     )
     places = [place for one in done for place in one.places]
-    missing, alone = (sum([how > 0 for how in of]) for of in ([p.dropped for p in places], [p.wrong for p in places]))
+    missing, alone = sum([one.dropped > 0 for one in places]), sum([one.wrong > 0 for one in places])
     never = sum([place.decided is None for place in places])
     lines.append(
         f"Of {len(places)} walks on the plan, half along the way of the figure, the others along ways of their own: "

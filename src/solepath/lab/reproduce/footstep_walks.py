@@ -5,7 +5,6 @@ Two CC2541 in the insoles at 20 Hz (section IV, "System Deployment"), another pa
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import degrees, hypot, pi, radians, remainder
 
 import numpy as np
@@ -19,17 +18,17 @@ from ...emulate.sensors.sensortags import CC2541
 from ...emulate.walk import EmulatedWalk, emulate
 from ...emulate.wearers.gait import Wearer, anybody
 from ...emulate.wearers.shoe import IN_SOLE
-from ...events import Event, StrideTaken, TurnMade
+from ...events import StrideTaken, TurnMade
+from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from ...papers.footstep_tracker.toe_out import learnt, toe_out
-from ...recipes import Recipe, by_name
 from ...session import Session
-from ...types import Foot, Site, Turn
+from ...types import SITE_OF_FOOT, Foot, Turn
 from ..emulated import activity as emulated_activity
 from ..emulated import place as emulated_place
 from ..emulated.place import PlaceScore
 from ..measures.confusion import ActivityScore
+from .walks import heard
 
-NAME = "footstep-tracker"
 RATE = 20.0
 """Hz."""
 KNOWN_WAY = 20.0
@@ -78,32 +77,24 @@ def walked(seed: int) -> FootstepWalked:
     """All that one wearer walks."""
     known = Wears(*anybody(np.random.default_rng([seed, 17])))
     calibration = _calibrated(known, seed)
-    one_foot, by_height, two_feet, step_one, step_two = _corridor(known, calibration, seed)
-    windows = emulated_activity.score(by_name(NAME), seed).windows
+    windows = emulated_activity.score(FOOTSTEP_TRACKER, seed).windows
     turned, classes = _turns(known, calibration, seed)
     places = tuple(_placed(known, calibration, way, seed) for way in (case_study(), wandering(seed)))
-    return FootstepWalked(one_foot, by_height, two_feet, step_one, step_two, windows, turned, classes, places)
+    return FootstepWalked(*_corridor(known, calibration, seed), windows, turned, classes, places)
 
 
-def _tags(feet: Sequence[Foot] = tuple(Foot)) -> dict[Site, CC2541]:
-    sites = {Foot.LEFT: Site.LEFT_FOOT, Foot.RIGHT: Site.RIGHT_FOOT}
-    return {sites[foot]: CC2541(rate=RATE, mounting=IN_SOLE) for foot in feet}
+def _worn(known: Wears, route: Route, seed: int) -> EmulatedWalk:
+    tags = {site: CC2541(rate=RATE, mounting=IN_SOLE) for site in SITE_OF_FOOT.values()}
+    return emulate(route, wearer=known.who, devices=tags, seed=seed)
 
 
 def _calibrated(known: Wears, seed: int) -> Calibration:
     """The toe-out of both feet, from a walk of known length (fig. 10); none where that gives no angle."""
-    walk = emulate(
-        Route().stand(3.0).walk(KNOWN_WAY, 1.2).stop(2.0), wearer=known.who, devices=_tags(), seed=seed + 500
-    )
+    walk = _worn(known, Route().stand(3.0).walk(KNOWN_WAY, 1.2).stop(2.0), seed + 500)
     try:
         return learnt(toe_out(walk.packets, KNOWN_WAY))
     except CalibrationError:
         return Calibration()
-
-
-def _heard(walk: EmulatedWalk, recipe: Recipe, calibration: Calibration, way: Way | None = None) -> list[Event]:
-    session = Session(recipe, calibration=calibration, floorplan=None if way is None else BUILDING)
-    return session.feed(walk.packets) + session.finish()
 
 
 # --- corridor, fig. 13 (b) and (c) ------------------------------------------------------------------------------------
@@ -112,14 +103,13 @@ def _heard(walk: EmulatedWalk, recipe: Recipe, calibration: Calibration, way: Wa
 def _corridor(
     known: Wears, calibration: Calibration, seed: int
 ) -> tuple[float, float, float, tuple[float, ...], tuple[float, ...]]:
-    walk = emulate(corridor().route, wearer=known.who, devices=_tags(), seed=seed)
-    session = Session(by_name(NAME), calibration=calibration)
+    walk = _worn(known, corridor().route, seed)
+    session = Session(FOOTSTEP_TRACKER, calibration=calibration)
     events = session.feed(walk.packets) + session.finish()
     here = session.position
     two_feet = 0.0 if here is None else hypot(here.position[0], here.position[1])
     steps = [event for event in events if isinstance(event, StrideTaken)]
-    right = [step for step in steps if step.foot is Foot.RIGHT]
-    one_foot = sum([step.length for step in right])
+    one_foot = sum([step.length for step in steps if step.foot is Foot.RIGHT])
     by_height = len(steps) * BY_HEIGHT * known.stature
     off_one, off_two = [], []
     before: dict[Foot, float] = {}
@@ -181,13 +171,14 @@ def _turn(known: Wears, calibration: Calibration, angle: float, rng: np.random.G
     """Walk, turn, walk."""
     radius = float(rng.uniform(0.0, 1.2))
     route = Route(speed=float(rng.uniform(0.9, 1.3))).stand(2.5).walk(6.0).turn(angle, radius if radius > 0.4 else 0.0)
-    walk = emulate(route.walk(6.0).stop(3.0), wearer=known.who, devices=_tags(), seed=seed)
-    return [event for event in _heard(walk, by_name(NAME), calibration) if isinstance(event, TurnMade)]
+    walk = _worn(known, route.walk(6.0).stop(3.0), seed)
+    return [event for event in heard(FOOTSTEP_TRACKER, walk.packets, calibration) if isinstance(event, TurnMade)]
 
 
 # --- place, fig. 13 (f) to (h) ----------------------------------------------------------------------------------------
 
 
 def _placed(known: Wears, calibration: Calibration, way: Way, seed: int) -> PlaceScore:
-    walk = emulate(way.route, wearer=known.who, devices=_tags(), seed=seed)
-    return emulated_place.score(way, walk.walker, walk.truth, _heard(walk, by_name(NAME), calibration, way))
+    walk = _worn(known, way.route, seed)
+    events = heard(FOOTSTEP_TRACKER, walk.packets, calibration, BUILDING)
+    return emulated_place.score(way, walk.walker, walk.truth, events)

@@ -24,14 +24,16 @@ from ...emulate.walk import emulate
 from ...emulate.wearers.truth import Truth
 from ...events import Event, StrideFused, StrideTaken
 from ...papers.kupt_dfpc.noise import pressure_noise
+from ...papers.kupt_dfpc.recipe import KUPT, KUPT_DFPC, ZUPT
 from ...papers.kupt_dfpc.shoe import fit_shoe
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
+from ..processes import Progress, each
 from . import published
-from .tables import Boxes, Drawn, FigureRow, Floor, PictureTrack, Reproduction, statistics
-from .walks import Progress, cut, each, heard, laid, rest_after, then, thinned
+from .tables import Boxes, Drawn, FigureRow, Floor, PictureTrack, Reproduction, row_of, statistics
+from .walks import cut, heard, laid, rest_after, then, thinned
 
-NAME = "kupt-dfpc"
+NAME = KUPT_DFPC.name
 WALKS = 20
 RATE = 30.0
 """Hz, section III-A."""
@@ -77,10 +79,8 @@ def reproduce(
     jobs += [KuptJob(1000 * seed + k) for k in range(1, count + 1)]
     done = list(each(walk, jobs, processes=processes, progress=progress))
     long, short = done[:corridors], done[corridors:]
-    rows = tuple(
-        FigureRow(name, tuple(one.distances[name] for one in short), published.KUPT_DFPC[name])
-        for name in published.KUPT_DFPC
-    )
+    paper = published.KUPT_DFPC
+    rows = tuple([row_of(paper, name, [one.distances[name] for one in short]) for name in paper])
     return Reproduction(
         name=NAME,
         paper_title=published.KUPT_DFPC_TITLE,
@@ -88,7 +88,7 @@ def reproduce(
         unit="m",
         rows=rows,
         panels=(
-            Boxes(f"distance of {count} walks of {DISTANCE:g} m (fig. 12)", tuple(published.KUPT_DFPC), "m", DISTANCE),
+            Boxes(f"distance of {count} walks of {DISTANCE:g} m (fig. 12)", tuple(paper), "m", DISTANCE),
             Floor(f"{CORRIDOR:g} m of corridors (fig. 13)", long[0].tracks, marks=(("start", 0.0, 0.0),)),
         ),
         notes=_notes(rows, short, long),
@@ -96,12 +96,11 @@ def reproduce(
 
 
 def _notes(rows: tuple[FigureRow, ...], short: list[KuptWalked], long: list[KuptWalked]) -> tuple[str, ...]:
-    off = ", ".join(f"{row.name} {_off(row):.2f}" for row in rows)
+    squares = {row.name: np.mean([(value - DISTANCE) ** 2 for value in row.values]) for row in rows}
+    off = ", ".join(f"{name} {float(np.sqrt(square)):.2f}" for name, square in squares.items())
     paths = statistics([one.true[foot] for one in short for foot in Foot])
-    told = [
-        f"Root mean square of the error of {len(short)} walks, m: {off}.",
-        f"The feet really went {paths.mean:.2f} m on average.",
-    ]
+    told = [f"Root mean square of the error of {len(short)} walks, m: {off}."]
+    told.append(f"The feet really went {paths.mean:.2f} m on average.")
     for name, drift in published.CORRIDOR_DRIFT.items():
         off_by = [one.distances[name] - _went(one, name) for one in long]
         share = 100.0 * float(np.mean(np.abs(off_by))) / CORRIDOR
@@ -124,10 +123,6 @@ def _went(one: KuptWalked, name: str) -> float:
     return float(np.mean([one.true[foot] for foot in feet]))
 
 
-def _off(row: FigureRow) -> float:
-    return float(np.sqrt(np.mean([(value - DISTANCE) ** 2 for value in row.values])))
-
-
 def walk(job: KuptJob) -> KuptWalked:
     """One walk: emulate it, calibrate on its first part, hear the second with each recipe."""
     route = corridor(CORRIDOR, SPEED) if job.corridor else straight(DISTANCE, SPEED)
@@ -139,7 +134,7 @@ def walk(job: KuptJob) -> KuptWalked:
     halt = rest_after(walked.walker, NOISE_WALK)
     parts = cut(walked, halt)
     known = merged(merged(parts.layouts, measured_shoe(job.seed)), pressure_noise(parts.before))
-    said = {recipe: heard(recipe, parts.after, known) for recipe in ("zupt", "kupt", NAME)}
+    said = {recipe.name: heard(recipe, parts.after, known) for recipe in (ZUPT, KUPT, KUPT_DFPC)}
     distances = {
         f"{recipe.upper()}-{letter}": sum(s.length for s in _steps(said[recipe], foot))
         for recipe in ("zupt", "kupt")
@@ -170,10 +165,7 @@ def _tracks(
     truth: Truth, halt: float, zupt: list[Event], fused: list[StrideFused]
 ) -> tuple[tuple[PictureTrack, ...], dict[str, float]]:
     """Where steps ended, laid on the floor by their first two metres, and how far each end is from its start, m."""
-    ends = {
-        f"ZUPT-{letter}": [(step.t_end, foot, step.position) for step in _steps(zupt, foot)]
-        for foot, letter in FEET.items()
-    }
+    ends = {f"ZUPT-{FEET[foot]}": [(step.t_end, foot, step.position) for step in _steps(zupt, foot)] for foot in Foot}
     # the place after each stride is the end of the chosen foot's path; between its own strides that stands still
     ends["KUPT+DFPC"] = [(one.t, one.foot, one.position) for one in fused if one.foot is one.chosen]
     path = _true_path(truth, halt)
@@ -184,22 +176,22 @@ def _tracks(
             continue
         track = np.array([(0.0, 0.0), *((x, y) for _, _, (x, y, _) in places)])
         true = np.array(
-            [_true_place(truth, places[0][1], halt), *(_true_place(truth, foot, t) for t, foot, _ in places)]
+            [_true_places(truth, foot, t)[0] for t, foot in [(halt, places[0][1]), *(p[:2] for p in places)]]
         )
         tracks.append(PictureTrack(name, thinned(laid(track, true) - start), Drawn.DOTS))
         closing[name] = float(np.linalg.norm(track[-1] - track[0]))
     return tuple(tracks), closing
 
 
-def _true_place(truth: Truth, foot: Foot, t: float) -> Floats:
-    """(x, y) on the floor, m."""
-    place: Floats = truth.pose(foot, t).position[0, :2] + truth.feet[foot].origin[:2]
-    return place
+def _true_places(truth: Truth, foot: Foot, t: float | Floats) -> Floats:
+    """(x, y) on the floor at each instant, (n, 2), m."""
+    places: Floats = truth.pose(foot, t).position[:, :2] + truth.feet[foot].origin[:2]
+    return places
 
 
 def _true_path(truth: Truth, halt: float) -> Floats:
     """Midway between the feet, (n, 2), m."""
     t = np.arange(halt, truth.duration, 0.2)
-    left, right = (truth.pose(foot, t).position[:, :2] + truth.feet[foot].origin[:2] for foot in Foot)
+    left, right = (_true_places(truth, foot, t) for foot in Foot)
     middle: Floats = 0.5 * (left + right)
     return middle

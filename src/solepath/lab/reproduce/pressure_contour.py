@@ -19,21 +19,22 @@ from operator import attrgetter
 import numpy as np
 from attrs import evolve, frozen
 
-from ...calibration import merged
+from ...calibration import Calibration, merged
 from ...emulate.routes.laps import field_walk, square
 from ...emulate.routes.route import Route, Stand
 from ...emulate.sensors.insole_device import boot
 from ...emulate.walk import EmulatedWalk, emulate
 from ...events import StrideTaken
-from ...papers.pressure_contour.square import fit_square
-from ...recipes import by_name
+from ...papers.pressure_contour.recipe import GYROSCOPE, PRESSURE_CONTOUR
+from ...papers.pressure_contour.square import square_drift
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
+from ..processes import Progress, each
 from . import published
-from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, Statistics
-from .walks import Progress, cut, each, heard, laid, rest_after, then, thinned
+from .tables import Drawn, Floor, PictureTrack, Reproduction, row_of
+from .walks import cut, heard, laid, rest_after, then, thinned
 
-NAME = "pressure-contour"
+NAME = PRESSURE_CONTOUR.name
 WALKS = 6
 RATE = 50.0
 """Hz (assumed)."""
@@ -47,9 +48,9 @@ PACE = 0.8
 """m/s: 235 m in 5 min (section V-D); faster where the half hour asks for more."""
 FOOT = Foot.RIGHT
 """Whose boot it is (assumed)."""
-RECIPES = {"Gyroscope": "gyroscope", "Pressure": NAME}
-IN_FIGURES = (3, 4)
-"""Of LOOPS: the square of fig. 14 and the random walk of fig. 16; these are walked first."""
+RECIPES = {"Gyroscope": GYROSCOPE, "Pressure": PRESSURE_CONTOUR}
+IN_FIGURES = {3: "square (fig. 14)", 4: "random walk (fig. 16)"}
+"""Of LOOPS those that the paper draws; these are walked first."""
 ORDER = (*IN_FIGURES, 0, 1, 2, 5)
 
 
@@ -85,21 +86,10 @@ def reproduce(
     count = WALKS if walks is None else walks
     jobs = [ContourJob(1000 * seed + k, ORDER[k % len(ORDER)], LASTING, LAPS) for k in range(count)]
     done = list(each(walk, jobs, processes=processes, progress=progress))
-    rows = [FigureRow(f"{name} m", tuple(one.closing[name] for one in done), _paper(name, "m")) for name in RECIPES]
-    rows += [
-        FigureRow(
-            f"{name} %", tuple(100.0 * one.closing[name] / one.distance for one in done), _paper(name, "%"), digits=3
-        )
-        for name in RECIPES
-    ]
-    panels = [
-        Floor(
-            f"{'square' if number == IN_FIGURES[0] else 'random walk'} (fig. {figure})", one.tracks, (("start", 0, 0),)
-        )
-        for number, figure in zip(IN_FIGURES, (14, 16), strict=True)
-        for one in done[: len(IN_FIGURES)]
-        if one.number == number
-    ]
+    paper = published.PRESSURE_CONTOUR
+    rows = [row_of(paper, f"{name} m", [one.closing[name] for one in done]) for name in RECIPES]
+    rows += [row_of(paper, f"{name} %", [100.0 * w.closing[name] / w.distance for w in done], 3) for name in RECIPES]
+    panels = [Floor(IN_FIGURES[one.number], one.tracks, (("start", 0, 0),)) for one in done[: len(IN_FIGURES)]]
     return Reproduction(
         name=NAME,
         paper_title=published.PRESSURE_CONTOUR_TITLE,
@@ -109,10 +99,6 @@ def reproduce(
         panels=tuple(panels),
         notes=_notes(done),
     )
-
-
-def _paper(name: str, unit: str) -> Statistics:
-    return published.PRESSURE_CONTOUR[f"{name} {unit}"]
 
 
 def _notes(done: list[ContourWalked]) -> tuple[str, ...]:
@@ -154,11 +140,12 @@ def walk(job: ContourJob) -> ContourWalked:
     walked = emulate(whole, devices={SITE_OF_FOOT[FOOT]: boot(FOOT, RATE)}, seed=job.seed)
     halt = rest_after(walked.walker, before)
     parts = cut(walked, halt)
-    closing, tracks = {}, [_true_path(walked, halt)]
+    ends = [step.t_end for step in walked.truth.steps(FOOT) if step.t_end > halt]
+    path = thinned(_places(walked, np.array([halt, *ends])))
+    closing, tracks = {}, [PictureTrack("true path", path, Drawn.TRUTH)]
     for name, recipe in RECIPES.items():
-        known = parts.layouts
-        drift = fit_square(parts.before, foot=FOOT, recipe=by_name(recipe), calibration=known)
-        events = heard(recipe, parts.after, merged(known, drift))
+        drift = square_drift(parts.before, foot=FOOT, recipe=recipe, calibration=parts.layouts).kept
+        events = heard(recipe, parts.after, merged(parts.layouts, Calibration(drift={FOOT: drift})))
         steps = [one for one in events if isinstance(one, StrideTaken) and one.final]
         track = np.array([(0.0, 0.0), *((x, y) for x, y, _ in (one.position for one in steps))])
         true = _places(walked, np.array([halt, *(one.t_end for one in steps)]))
@@ -172,8 +159,3 @@ def _places(walked: EmulatedWalk, t: Floats) -> Floats:
     places: Floats = walked.truth.pose(FOOT, t).position[:, :2]
     places -= places[0].copy()
     return places
-
-
-def _true_path(walked: EmulatedWalk, halt: float) -> PictureTrack:
-    ends = [step.t_end for step in walked.truth.steps(FOOT) if step.t_end > halt]
-    return PictureTrack("true path", thinned(_places(walked, np.array([halt, *ends]))), Drawn.TRUTH)

@@ -7,16 +7,17 @@ for five minutes (shoe_walks.py). Rows are of single steps, all wearers together
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
 from ...papers.shoe_sensing.recipe import SHOE_SENSING
-from ..measures.strides import mean_magnitude
+from ..measures.matching import Errors
+from ..processes import Progress, each
 from . import published
-from .shoe_walks import STATES, ShoeWalked, Steps, walked
-from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, Statistics
-from .walks import Progress, each
+from .shoe_walks import STATES, ShoeWalked, walked
+from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, row_of
 
 NAME = SHOE_SENSING.name
 WALKS = 20
@@ -41,40 +42,33 @@ def reproduce(
     )
 
 
-def _row(name: str, values: Iterable[float], digits: int = 3) -> FigureRow:
-    return FigureRow(name, tuple(values), published.SHOE_SENSING.get(name, Statistics()), digits)
+_row = partial(row_of, published.SHOE_SENSING, digits=3)
 
 
 def _extraction(done: Sequence[ShoeWalked]) -> list[FigureRow]:
     """Figs. 21 and 22, by wearer."""
     rows = []
     for state in STATES:
-        rows.append(_row(f"{state}, steps by energy %", [one.energy[state].extracted for one in done], 1))
-        rows.append(_row(f"{state}, steps by magnitude %", [one.magnitude[state].extracted for one in done], 1))
-    rows += [_row(f"{state}, state right %", [_share(one.energy[state].right) for one in done], 1) for state in STATES]
+        rows.append(_row(f"{state}, steps by energy %", [one.energy[state].extracted for one in done], digits=1))
+        rows.append(_row(f"{state}, steps by magnitude %", [one.magnitude[state].extracted for one in done], digits=1))
+    rows += [
+        _row(f"{state}, state right %", [one.energy[state].judged_right for one in done], digits=1) for state in STATES
+    ]
     return rows
-
-
-def _share(right: Sequence[bool]) -> float:
-    return 100.0 * sum(right) / max(1, len(right))
 
 
 def _table_1(done: Sequence[ShoeWalked]) -> list[FigureRow]:
     """Of steps whose heights were left as they are, as the paper's must have been."""
     plane = [a for one in done for state in STATES[:2] for a in one.before[state].angles]
-    rows = [_row("plane deg/m", plane)]
-    for state in ON_STAIRS:
-        rows.append(_row(f"{state} deg/m", [a for one in done for a in one.before[state].angles]))
-    return rows
+    stairs = [_row(f"{state} deg/m", [a for one in done for a in one.before[state].angles]) for state in ON_STAIRS]
+    return [_row("plane deg/m", plane), *stairs]
 
 
 def _heights(done: Sequence[ShoeWalked]) -> list[FigureRow]:
     rows = []
     for state in STATES[:2]:
-        for name, of in (
-            ("before", [one.before[state] for one in done]),
-            ("after", [one.energy[state] for one in done]),
-        ):
+        steps = {"before": [one.before[state] for one in done], "after": [one.energy[state] for one in done]}
+        for name, of in steps.items():
             rows.append(_row(f"{state}, height {name} m", [abs(error) for one in of for error, _ in one.heights]))
             rows.append(_row(f"{state}, height of 100 steps {name} m", [abs(one.height) for one in of]))
     return rows
@@ -89,47 +83,41 @@ def _lengths(done: Sequence[ShoeWalked]) -> list[FigureRow]:
             rows.append(_row(f"{state}, height m", [abs(error) for one in steps for error, _ in one.heights]))
     for state in STATES:
         steps = [one.energy[state] for one in done]
-        rows.append(_row(f"{state}, table 2 %", [_normalised(one, state) for one in steps if one.found]))
+        errors = [one.heights if state == "upstairs" else one.lengths for one in steps if one.found]
+        rows.append(_row(f"{state}, table 2 %", [100.0 * _relative(of) / published.NORMALISED for of in errors]))
     return rows
-
-
-def _normalised(steps: Steps, state: str) -> float:
-    """Of one wearer, per cent."""
-    errors = steps.heights if state == "upstairs" else steps.lengths
-    return 100.0 * _relative(errors) / published.NORMALISED
 
 
 def _relative(errors: Sequence[tuple[float, float]]) -> float:
     """Mean error without its sign over the mean of what is true, as the paper has it."""
-    off, true = (mean_magnitude(values) for values in zip(*errors, strict=True))
+    off, true = (Errors(values).mean for values in zip(*errors, strict=True))
     return off / true if off is not None and true else 0.0
 
 
-def _courses(done: Sequence[ShoeWalked]) -> list[FigureRow]:
+def _ways(done: Sequence[ShoeWalked]) -> list[FigureRow]:
     return [
-        _row(f"{state}, course deg", [abs(off) for one in done for off in one.energy[state].courses], 2)
-        for state in STATES[:2]
+        *[
+            _row(f"{state}, course deg", [abs(off) for one in done for off in one.energy[state].courses], digits=2)
+            for state in STATES[:2]
+        ],
+        _row("five minutes, end off m", [one.tour.off for one in done], digits=2),
+        _row("five minutes, height off m", [abs(one.tour.height) for one in done], digits=2),
     ]
 
 
-def _tours(done: Sequence[ShoeWalked]) -> list[FigureRow]:
-    return [
-        _row("five minutes, end off m", [one.tour.off for one in done], 2),
-        _row("five minutes, height off m", [abs(one.tour.height) for one in done], 2),
-    ]
-
-
-PARTS = (_extraction, _table_1, _heights, _lengths, _courses, _tours)
+PARTS = (_extraction, _table_1, _heights, _lengths, _ways)
 
 
 def _panels(done: Sequence[ShoeWalked]) -> tuple[Floor, ...]:
     """Fig. 35 from above and from the side, of the first wearer."""
-    found = []
-    for one in done[:1]:
-        views = (("five minutes (fig. 35), from above", one.tour.above), ("height over the way", one.tour.aside))
-        for title, (ours, true) in views:
-            found.append(Floor(title, (PictureTrack("true path", true, Drawn.TRUTH), PictureTrack(NAME, ours))))
-    return tuple(found)
+    tour = done[0].tour
+    views = (("five minutes (fig. 35), from above", tour.above), ("height over the way", tour.aside))
+    return tuple(
+        [
+            Floor(title, (PictureTrack("true path", true, Drawn.TRUTH), PictureTrack(NAME, ours)))
+            for title, (ours, true) in views
+        ]
+    )
 
 
 def _notes(done: Sequence[ShoeWalked]) -> tuple[str, ...]:
@@ -143,9 +131,8 @@ DEFINED = (
     "that end within 0.3 s of a true one; state right is the share of the steps found whose own angle is of the state "
     "walked; table 2 is a wearer's mean error over the mean length, divided by 22.5, of the height upstairs and of the "
     "length otherwise; before is without and after is with the elimination of height errors on level steps.",
-    "Table 1 is of steps before their heights are corrected. What theta' is made of is in "
-    "body/activity/steepness.py; the "
-    "paper's words for it do not fit its figures.",
+    "Table 1 is of steps before their heights are corrected. What theta' is made of is in body/activity/steepness.py; "
+    "the paper's words for it do not fit its figures.",
 )
 PAPER = (
     "The paper: lengths right to 90.8 % walking, 91.9 % jogging, 90.8 % upstairs and 80.0 % downstairs, at worst "

@@ -20,12 +20,11 @@ from ...emulate.wearers.walker import Walker
 from ...events import Event, FlightClimbed, StrideTaken
 from ...papers.shoe_sensing.gated_tilt import ShoeSensing
 from ...papers.shoe_sensing.recipe import SHOE_MAGNITUDE, SHOE_SENSING
-from ...recipes import Recipe
-from ...session import Session
 from ...types import Foot, Sample
-from ..measures.alignment import Floats, align
+from ..measures.alignment import Floats, align, distances
 from ..measures.matching import pairs
-from .walks import ALIGNED_OVER, laid, thinned
+from ..measures.strides import ALIGNED_OVER
+from .walks import heard, laid, thinned
 
 FOOT = Foot.RIGHT
 """Whose shoe ("attached to one of the user's shoes"); which of them is assumed."""
@@ -81,6 +80,11 @@ class Steps:
         """Errors of length of the others, m."""
         both = zip(self.lengths, self.late, strict=True)
         return tuple(error for (error, _), late in both if abs(late) <= SAME)
+
+    @property
+    def judged_right(self) -> float:
+        """Steps whose state is right, per cent."""
+        return 100.0 * sum(self.right) / max(1, len(self.right))
 
     @property
     def extracted(self) -> float:
@@ -156,11 +160,6 @@ def worn(route: Route, seed: int) -> tuple[list[Sample], Truth]:
     return walker.samples(FOOT, 100.0, MPU6050, mounting=ON_INSTEP), walker.truth({FOOT: ON_INSTEP})
 
 
-def heard(recipe: Recipe, samples: Sequence[Sample]) -> list[Event]:
-    session = Session(recipe)
-    return session.feed(samples) + session.finish()
-
-
 def judged(events: Sequence[Event], truth: Truth, state: str) -> Steps:
     """Steps found against the true ones. On the stairs, those that climb two risers count, and nothing else."""
     steps = [event for event in events if isinstance(event, StrideTaken)]
@@ -221,7 +220,7 @@ def toured(seed: int) -> Tour:
     true = truth.pose(FOOT, np.array([0.0, *(step.t_end for step in steps)])).position
     true = true - true[0]
     flat = laid(ours[:, :2], true[:, :2])
-    gone = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(true[:, :2], axis=0), axis=1))])
+    gone = distances(true)
     return Tour(
         off=hypot(*(flat[-1] - true[-1, :2])),
         way=float(gone[-1]),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from enum import Enum
 from typing import Any
 
@@ -87,6 +87,11 @@ class FigureRow:
     paper: Statistics
     digits: int = 2
     """After the point, as the paper prints it."""
+
+
+def row_of(paper: Table, name: str, values: Iterable[float], digits: int = 2) -> FigureRow:
+    """The row of `values` beside what the paper's table says under the same name, if anything."""
+    return FigureRow(name, tuple(values), paper.get(name, Statistics()), digits)
 
 
 @frozen

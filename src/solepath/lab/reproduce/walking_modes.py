@@ -12,7 +12,7 @@ anew.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from attrs import evolve, frozen
@@ -28,24 +28,30 @@ from ...emulate.wearers.walker import Walker
 from ...events import TouchedDown
 from ...papers.walking_modes.calibrate import MODES, ModeMark, mean_errors, step_errors, touchdowns
 from ...papers.walking_modes.modes import Modes
-from ...recipes import by_name
+from ...papers.walking_modes.recipe import (
+    TOUCHDOWN_ACCELERATION,
+    TOUCHDOWN_HEIGHT,
+    TOUCHDOWN_PRESSURE,
+    WALKING_MODES,
+)
+from ...recipes import Recipe
 from ...recording.decoded import Recorded
-from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ...types.vector import GRAVITY
+from ..processes import Progress, each
 from . import published
 from .published import corner_row
-from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, statistics
-from .walks import Progress, each
+from .tables import Drawn, Floor, PictureTrack, Reproduction, row_of, statistics
+from .walks import heard
 
-NAME = "walking-modes"
+NAME = WALKING_MODES.name
 WALKS = 40
 RATE = 50.0
 """Hz, section 3.1."""
 CELLS = 99
 STEPS, REPEATS = 50, 3
 """Of each marked walk, section 3.3: "50 steps at a time and repeated this three times along each path"."""
-METHODS = {"I": "touchdown-height", "II": "touchdown-acceleration", "III": "touchdown-pressure", "IV": NAME}
+METHODS = {"I": TOUCHDOWN_HEIGHT, "II": TOUCHDOWN_ACCELERATION, "III": TOUCHDOWN_PRESSURE, "IV": WALKING_MODES}
 PLACES = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D": (0.0, ACROSS)}
 """m; the walk begins and ends at A."""
 NEAR = 0.4
@@ -84,27 +90,12 @@ def reproduce(
     """So many rectangles, by the four wearers in turn."""
     count = WALKS if walks is None else walks
     wearers = list(range(min(count, len(SUBJECTS))))
-    total = count + len(wearers)
-
-    def calibrating(done: int, of: int) -> None:
-        if progress is not None:
-            progress(done, total)
-
-    def walking(done: int, of: int) -> None:
-        if progress is not None:
-            progress(len(wearers) + done, total)
-
     learning = [Learning(subject, 1000 * seed + 500 + 10 * subject, STEPS, REPEATS) for subject in wearers]
-    known = list(each(learn, learning, processes=processes, progress=calibrating))
+    known = list(each(learn, learning, processes=processes, progress=progress, after=count))
     jobs = [ModesJob(k % len(known), 1000 * seed + k, known[k % len(known)]) for k in range(count)]
-    done = list(each(walk, jobs, processes=processes, progress=walking))
+    done = list(each(walk, jobs, processes=processes, progress=progress, before=len(wearers)))
     rows = tuple(
-        FigureRow(
-            corner_row(point, method, axis),
-            tuple(one.off[method][point][k] for one in done),
-            published.WALKING_MODES[corner_row(point, method, axis)],
-            digits=4,
-        )
+        row_of(published.WALKING_MODES, corner_row(point, method, axis), [one.off[method][point][k] for one in done], 4)
         for point in PLACES
         for method in METHODS
         for k, axis in enumerate("xy")
@@ -143,7 +134,8 @@ def _notes(done: Sequence[ModesWalked]) -> tuple[str, ...]:
         for method in METHODS:
             lengths = [float(np.hypot(*one.off[method][point])) for one in done]
             ours.append(f"{method} {100.0 * (statistics(lengths).mean or 0.0):.1f}")
-            theirs.append(f"{method} {100.0 * float(np.hypot(*published.CORNERS[point][method].mean)):.1f}")
+            mean, _, _ = published.CORNERS[point][method]
+            theirs.append(f"{method} {100.0 * float(np.hypot(*mean)):.1f}")
         told.append(
             f"{point}: ours is off by {', '.join(ours)} cm on average; the paper's means are off by "
             f"{', '.join(theirs)} cm."
@@ -162,9 +154,8 @@ def _notes(done: Sequence[ModesWalked]) -> tuple[str, ...]:
 
 def known_of(wearer: Wearer) -> Calibration:
     """What a tape measure, scales and the maker of the insoles say."""
-    insoles = {
-        foot: InsoleCalibration(layout=layout(CELLS, foot, wearer.shoe.length, wearer.shoe.width)) for foot in Foot
-    }
+    shoe = wearer.shoe
+    insoles = {foot: InsoleCalibration(layout=layout(CELLS, foot, shoe.length, shoe.width)) for foot in Foot}
     return Calibration(insoles=insoles, limbs=wearer.limbs, weight=GRAVITY * wearer.mass)
 
 
@@ -204,12 +195,10 @@ def walk(job: ModesJob) -> ModesWalked:
     return ModesWalked(off)
 
 
-def _touchdowns(recipe: str, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
+def _touchdowns(recipe: Recipe, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
     """What a session says that knows how the first side of the rectangle lies."""
-    chosen = by_name(recipe)
-    modes = next(part for part in chosen.parts if isinstance(part, Modes))
-    session = Session(chosen.exchanged(Modes, evolve(modes, heading=0.0)), calibration=calibration)
-    said = session.feed(samples) + session.finish()
+    modes = next(part for part in recipe.parts if isinstance(part, Modes))
+    said = heard(recipe.exchanged(Modes, evolve(modes, heading=0.0)), samples, calibration)
     return {foot: [e for e in said if isinstance(e, TouchedDown) and e.final and e.foot is foot] for foot in Foot}
 
 
@@ -227,17 +216,11 @@ def _place(walker: Walker, foot: Foot, t: float, down: Sequence[TouchedDown]) ->
     """Where the foot came down at `t` s, or stood then when no touchdown was seen."""
     near = [one for one in down if abs(one.t - t) < NEAR]
     if near:
-        one = min(near, key=_far_from(t))
-        return one.position[0], one.position[1]
+        x, y, _ = min(near, key=lambda one: abs(one.t - t)).position
+        return x, y
     before = [one for one in down if one.t < t]
     if before:
-        return before[-1].position[0], before[-1].position[1]
+        x, y, _ = before[-1].position
+        return x, y
     start = walker.plan.starts[foot]
     return start.x, start.y
-
-
-def _far_from(t: float) -> Callable[[TouchedDown], float]:
-    def far(one: TouchedDown) -> float:
-        return abs(one.t - t)
-
-    return far

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from typing import TypeVar
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from attrs import evolve, frozen
@@ -14,14 +12,13 @@ from ...emulate.routes.route import Route, Stand
 from ...emulate.walk import EmulatedWalk
 from ...emulate.wearers.walker import Walker
 from ...events import Event
-from ...recipes import by_name
+from ...floorplan.plan import FloorPlan
+from ...recipes import Recipe
 from ...recording.decoded import recorded
 from ...session import Session
-from ...types import Sample
+from ...types import Packet, Sample
 from ..measures.alignment import Floats, align
-
-ALIGNED_OVER = 2.0
-"""m at the beginning over which a track's heading is laid on the truth's, as everywhere in evaluate."""
+from ..measures.strides import ALIGNED_OVER
 
 
 def then(first: Route, second: Route) -> Route:
@@ -51,15 +48,19 @@ def cut(walk: EmulatedWalk, t: float) -> WalkParts:
     """The samples of a walk's packets, measured before and after `t` s."""
     heard = recorded(walk.packets)
     insoles = {foot: InsoleCalibration(layout=layout) for foot, layout in heard.layouts.items()}
-    before = tuple([sample for sample in heard.samples if sample.t < t])
-    after = tuple([sample for sample in heard.samples if sample.t >= t])
+    before, after = (tuple([one for one in heard.samples if (one.t < t) is first]) for first in (True, False))
     return WalkParts(before, after, Calibration(insoles=insoles))
 
 
-def heard(recipe: str, samples: Sequence[Sample], calibration: Calibration) -> list[Event]:
-    """All that a session of the named recipe says."""
-    session = Session(by_name(recipe), calibration=calibration)
-    return session.feed(samples) + session.finish()
+def heard(
+    recipe: Recipe,
+    items: Iterable[Packet | Sample],
+    calibration: Calibration | None = None,
+    floorplan: FloorPlan | None = None,
+) -> list[Event]:
+    """All that a session of the recipe says."""
+    session = Session(recipe, calibration=calibration, floorplan=floorplan)
+    return session.feed(items) + session.finish()
 
 
 def laid(track: Floats, truth: Floats, over: float = ALIGNED_OVER) -> Floats:
@@ -75,28 +76,3 @@ def thinned(points: Iterable[Sequence[float]], most: int = 4000) -> tuple[tuple[
     all_of = [(float(p[0]), float(p[1])) for p in points]
     every = -(-len(all_of) // most) or 1
     return tuple(all_of[::-1][::every][::-1])
-
-
-Job = TypeVar("Job")
-Done = TypeVar("Done")
-
-Progress = Callable[[int, int], None]
-"""Told (done, all)."""
-
-
-def each(
-    work: Callable[[Job], Done], jobs: Sequence[Job], *, processes: int = 1, progress: Progress | None = None
-) -> Iterator[Done]:
-    """What `work`, a function of a module, makes of every job, in their order."""
-    if processes > 1 and len(jobs) > 1:
-        with ProcessPoolExecutor(min(processes, len(jobs))) as pool:
-            yield from _counted(pool.map(work, jobs), len(jobs), progress)
-    else:
-        yield from _counted(map(work, jobs), len(jobs), progress)
-
-
-def _counted(outcomes: Iterator[Done], total: int, progress: Progress | None) -> Iterator[Done]:
-    for done, outcome in enumerate(outcomes, 1):
-        if progress is not None:
-            progress(done, total)
-        yield outcome

@@ -18,7 +18,7 @@ def comparison_table(comparisons: Sequence[FootComparison]) -> str:
         ["steps walked", *(str(c.steps_true) for c in comparisons)],
         ["steps found", *(str(c.steps_found) for c in comparisons)],
         ["steps invented", *(str(c.steps_invented) for c in comparisons)],
-        ["stride length, mean error %", *(percent(c.length_error) for c in comparisons)],
+        ["stride length, mean error %", *(percent(c.length_errors.mean) for c in comparisons)],
         ["end position, error m", *(number(c.end_error) for c in comparisons)],
     ]
     for kind, name in EVENTS.items():

@@ -21,6 +21,7 @@ PLACES = {
     "end_height": "from end to start, in height",
 }
 """Figures that are averaged over recordings, m."""
+BETTER = {"authors_beaten": "trials in which the authors' own system is further off"}
 STAIRS = {
     "stairs_called": "time on stairs that was called stairs",
     "stairs_direction": "the same in the right direction",
@@ -44,7 +45,7 @@ def accuracy_table(results: Sequence[Result]) -> str:
             data = f"{result.data_set.title}: `{result.data_set.name}`, {count}"
             bipedal = [other for other in result.summaries if other.group == "bipedal"]
             figures = [
-                *_places(summary), *_better(summary), *(row for other in bipedal for row in _bipedal(other)),
+                *_places(summary), *_shares(summary, BETTER), *(row for other in bipedal for row in _bipedal(other)),
                 *_strides(summary.together), *_legs(summary.together), *_events(summary.together), *_did(summary),
             ]  # fmt: skip
             for what, figure in figures:
@@ -71,10 +72,8 @@ def _places(summary: Summary) -> list[tuple[str, str]]:
     return told
 
 
-def _better(summary: Summary) -> list[tuple[str, str]]:
-    share = summary.mean.get("authors_beaten")
-    what = "trials in which the authors' own system is further off"
-    return [] if share is None else [(what, f"{percent(share)} %")]
+def _shares(summary: Summary, named: dict[str, str]) -> list[tuple[str, str]]:
+    return [(what, f"{percent(summary.mean[key])} %") for key, what in named.items() if key in summary.mean]
 
 
 def _bipedal(summary: Summary) -> list[tuple[str, str]]:
@@ -126,5 +125,4 @@ def _did(summary: Summary) -> list[tuple[str, str]]:
     if rides := pooled.get("rides_true"):
         found, invented = (number(pooled[f"rides_{what}"], 0) for what in ("found", "invented"))
         told.append(("lift rides, with their direction", f"{found} of {number(rides, 0)} found, {invented} invented"))
-    told += [(what, f"{percent(summary.mean[key])} %") for key, what in STAIRS.items() if key in summary.mean]
-    return told
+    return told + _shares(summary, STAIRS)

@@ -45,7 +45,7 @@ from ...link.decoder import Decoder
 from ...recipes import Recipe
 from ...recording.samples import load_samples
 from ...types import SITE_OF_FOOT, Activity, Foot, Sample, Site
-from ...types.vector import TIE
+from ...types.vector import TIE, ZERO
 from . import emulated
 from .activities_course import LabelledCourse, Said, chances, shifts
 from .activities_net import CLASSES, networks, usual
@@ -139,19 +139,16 @@ def _features(
         if window.index is None or index > window.index:
             if window.index is not None:
                 window.close()
-                yield from _judged(window, window.index - REACH, begin)
+                judged = window.index - REACH
+                found = window.features(judged, begin + (judged + 0.5) * BLOCK)
+                if found is not None:
+                    yield judged, found, felt(window.block(judged), window.grain)
             rest = tracker.rest
             window.begin(index, rest.bias, rest.grain if rest.count else 0.0)
         if sample.acc is not None:
             window.add(sample.acc, sample.gyro, tracker.corrector if tracker.levelled else None)
         if events:
             window.heard(events, tracker.corrector.position[2])
-
-
-def _judged(window: FootBlocks, index: int, begin: float) -> Iterator[tuple[int, list[float], Felt | None]]:
-    features = window.features(index, begin + (index + 0.5) * BLOCK)
-    if features is not None:
-        yield index, features, felt(window.block(index), window.grain)
 
 
 def _pure(label: Label, begin: float) -> Activity | None:
@@ -230,17 +227,12 @@ def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
         width = max(1, round(0.5 / rate / float(np.median(np.diff(t)))))
         when = np.arange(t[0], t[-1], 1.0 / rate)
 
-        def channel(values: Iterable[float], t: Floats = t, when: Floats = when, width: int = width) -> Floats:
-            smooth = np.convolve(list(values), np.ones(width) / width, "same")
-            return np.asarray(np.interp(when, t, smooth))
-
-        acc = [channel([one.acc[i] for one in own if one.acc is not None]) for i in range(3)]
         turns = all([one.gyro is not None for one in own])
-        gyro = [channel([one.gyro[i] for one in own if one.gyro is not None]) for i in range(3)] if turns else None
-        for k, at in enumerate(when.tolist()):
-            force = (float(acc[0][k]), float(acc[1][k]), float(acc[2][k]))
-            turn = None if gyro is None else (float(gyro[0][k]), float(gyro[1][k]), float(gyro[2][k]))
-            found.append(attrs.evolve(own[0], t=at, acc=force, gyro=turn))
+        held = np.array([(*(one.acc or ZERO), *((one.gyro or ZERO) if turns else ())) for one in own])
+        smooth = [np.convolve(channel, np.ones(width) / width, "same") for channel in held.T]
+        rows = np.column_stack([np.interp(when, t, channel) for channel in smooth]).tolist()
+        for at, (x, y, z, *turn) in zip(when.tolist(), rows, strict=True):
+            found.append(attrs.evolve(own[0], t=at, acc=(x, y, z), gyro=(turn[0], turn[1], turn[2]) if turns else None))
     return sorted(found, key=attrgetter("t"))
 
 

@@ -19,8 +19,7 @@ from ...emulate.walk import EmulatedWalk, emulate
 from ...emulate.wearers.gait import Wearer, anybody
 from ...emulate.wearers.shoe import IN_SOLE
 from ...emulate.wearers.walker import Walker
-from ...link.decoder import Decoder
-from ...types import SITE_OF_FOOT, Foot, Sample
+from ...types import SITE_OF_FOOT, Foot
 
 RATE = 20.0
 """Hz (section IV: "we sample the accelerometer and gyroscope with 20 Hz")."""
@@ -58,14 +57,6 @@ def walk(seed: int, *, jogging: bool = False) -> EmulatedWalk:
     route, who = of_seed(seed, jogging=jogging)
     tag = CC2650(rate=RATE, part=MPU6050, mounting=IN_SOLE)
     return emulate(route, wearer=who, devices={SITE_OF_FOOT[foot]: evolve(tag) for foot in Foot}, seed=seed)
-
-
-def samples(walked: EmulatedWalk) -> list[Sample]:
-    """What a receiver makes of its packets, in the order of arrival."""
-    decoders = {site: Decoder(site) for site in SITE_OF_FOOT.values()}
-    return [
-        item for packet in walked.packets for item in decoders[packet.site].feed(packet) if isinstance(item, Sample)
-    ]
 
 
 def _uniform(rng: np.random.Generator, low: float, high: float) -> float:

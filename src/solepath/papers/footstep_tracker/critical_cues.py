@@ -39,10 +39,8 @@ class CriticalCues(Cues):
         return [Seen(cue, when[cue]) for cue in TO_COME[phase]]
 
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[Seen]:
-        """As in `Cues`."""
         seen = self.pressure.update(t, dt, load, phase) or self.pressure.areas(t, load, phase)
         return () if seen is None else (seen,)
 
     def anew(self) -> None:
-        """As in `Cues`."""
         self.pressure = PressureCues()

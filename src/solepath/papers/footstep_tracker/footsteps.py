@@ -20,7 +20,7 @@ from typing import ClassVar
 from ...body.part import Notice, Position, Said, Track
 from ...events import StrideTaken
 from ...foot.view import FootPose, FootView
-from ...types import Foot, Vec3
+from ...types import OTHER, Foot, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO
 
@@ -62,29 +62,29 @@ class Footsteps(Track):
     feeds: ClassVar[bool] = True
 
     # state
-    left: FootWay = field(factory=FootWay, init=False)
-    right: FootWay = field(factory=FootWay, init=False)
+    ways: dict[Foot, FootWay] = field(init=False)
     base: Flat = field(default=(0.0, 0.0), init=False)
     """Where the wearer was at the last restart."""
     restarts: int = field(default=0, init=False)
     """How often the feet were a metre apart."""
 
+    def __attrs_post_init__(self) -> None:
+        self.ways = {foot: FootWay() for foot in Foot}
+
     def feed(self, view: FootView) -> Sequence[Said]:
-        """Nothing follows, but it is seen which feet are there."""
-        way = self._way(view.foot)
+        way = self.ways[view.foot]
         if not way.heard and view.sample.acc is not None and view.sample.gyro is not None:
             way.heard = True
         return ()
 
     def receive(self, event: Notice) -> Sequence[Said]:
-        """Nothing follows; strides are taken as they come."""
         if isinstance(event, StrideTaken):
             self.step(event)
         return ()
 
     def step(self, taken: StrideTaken) -> None:
         """One step of either foot."""
-        this, other = (self.left, self.right) if taken.foot is Foot.LEFT else (self.right, self.left)
+        this, other = self.ways[taken.foot], self.ways[OTHER[taken.foot]]
         this.heard = True
         turn = taken.heading_change
         heading = 0.5 * (this.turned + other.turned)
@@ -103,45 +103,36 @@ class Footsteps(Track):
             other.here = (other.here[0] + this.ahead[0], other.here[1] + this.ahead[1])
             other.turned += this.ahead_turned
             this.ahead, this.ahead_turned = (0.0, 0.0), 0.0
-        (lx, ly), (rx, ry) = self.left.here, self.right.here
+        (lx, ly), (rx, ry) = (way.here for way in self.ways.values())
         this.beside = (lx - rx, ly - ry)
         (ax, ay), (bx, by) = this.beside, other.beside
         if 0.5 * hypot(ax + bx, ay + by) > FURTHEST_APART:
-            self._restart()
-
-    def _restart(self) -> None:
-        self.base = self._mean()
-        for way in (self.left, self.right):
-            way.here = way.beside = (0.0, 0.0)
-        self.restarts += 1
+            self.base = self._mean()
+            for way in self.ways.values():
+                way.here = way.beside = (0.0, 0.0)
+            self.restarts += 1
 
     def _mean(self) -> Flat:
-        (lx, ly), (rx, ry), (x, y) = self.left.here, self.right.here, self.base
+        (lx, ly), (rx, ry) = (way.here for way in self.ways.values())
+        x, y = self.base
         return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
 
-    def _way(self, foot: Foot) -> FootWay:
-        return self.left if foot is Foot.LEFT else self.right
-
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
-        """None before any sample."""
         known = list(feet.values())
         if not known:
             return None
         x, y = self._mean()
-        heading = 0.5 * (self.left.turned + self.right.turned)
-        present = [f for f in known if self._way(f.foot).heard and self._other(f.foot).ahead_steps < AWAY] or known
+        heading = 0.5 * sum([way.turned for way in self.ways.values()])
+        present = [f for f in known if self.ways[f.foot].heard and self.ways[OTHER[f.foot]].ahead_steps < AWAY] or known
         k = 1.0 / len(present)
         for foot in present:
-            way, (px, py, _) = self._way(foot.foot), foot.position
+            way, (px, py, _) = self.ways[foot.foot], foot.position
             dx, dy = _turned((px - way.stood[0], py - way.stood[1]), heading - way.own)
             x, y = x + k * dx, y + k * dy
         covariances = [foot.covariance for foot in present]
         xx, xy, xz, yy, yz, zz = (sum([c[i] for c in covariances]) * k * k for i in range(6))
         t = max([foot.t for foot in known])
         return Position(t, (x, y, 0.0), (xx, xy, xz, yy, yz, zz))
-
-    def _other(self, foot: Foot) -> FootWay:
-        return self.right if foot is Foot.LEFT else self.left
 
 
 def _turned(v: Flat, yaw: float) -> Flat:

@@ -187,10 +187,10 @@ class StaticZones(Detector):
         if t - self.begun + gap < self.spacing:
             return False
         k = 1.0 / self.count
-        s, ax, ay, az, gx, gy, gz = self.sums
         self.count = 0
-        at = self.begun + k * s
-        self.rows.append((at, _kept(k * ax), _kept(k * ay), _kept(k * az), _kept(k * gx), _kept(k * gy), _kept(k * gz)))
+        # to a tenth of a thousandth: a row of a snapshot is then half as long
+        ax, ay, az, gx, gy, gz = (round(k * value, 4) for value in self.sums[1:])
+        self.rows.append((self.begun + k * self.sums[0], ax, ay, az, gx, gy, gz))
         return True
 
     def _judge(self, row: Row) -> None:
@@ -266,19 +266,6 @@ class StaticZones(Detector):
         return StepSegment(rows, critical_times(rows), forward, self.longest_gap)
 
 
-def _kept(value: float) -> float:
-    """To a tenth of a thousandth: a row of a snapshot is then half as long."""
-    return round(value, 4)
-
-
 def _mean(a: Row, b: Row) -> Row:
-    (t, ax, ay, az, gx, gy, gz), (s, x, y, z, u, v, w) = a, b
-    return (
-        0.5 * (t + s),
-        0.5 * (ax + x),
-        0.5 * (ay + y),
-        0.5 * (az + z),
-        0.5 * (gx + u),
-        0.5 * (gy + v),
-        0.5 * (gz + w),
-    )
+    t, ax, ay, az, gx, gy, gz = (0.5 * (one + other) for one, other in zip(a, b, strict=True))
+    return (t, ax, ay, az, gx, gy, gz)

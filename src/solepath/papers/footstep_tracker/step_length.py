@@ -43,15 +43,13 @@ MOST_MISSED = 1.0
 """No gyroscope's end hides more of a step's turn to either side, rad."""
 
 
-def step_length(rows: Sequence[Row], times: CriticalTimes, toe_out: float = 0.0) -> tuple[float, float, float]:
+def step_length(rows: Sequence[Row], times: CriticalTimes, toe_out: float = 0.0) -> Vec3:
     """S_x, S_y, S_z of (6) in m, as printed; S of (5) is their sum. `toe_out`: phi of (1), rad."""
-    theta = _integral(span(rows, times.uplift, times.liftoff), 4)
+    theta = _turned(span(rows, times.uplift, times.liftoff), 4)
     return _lengths(span(rows, times.liftoff, times.landing), theta, toe_out)[0]
 
 
-def closed_step_length(
-    rows: Sequence[Row], times: CriticalTimes, toe_out: float = 0.0, end: float = inf
-) -> tuple[float, float, float]:
+def closed_step_length(rows: Sequence[Row], times: CriticalTimes, toe_out: float = 0.0, end: float = inf) -> Vec3:
     """The same from uplift to rest, where theta and the velocity are zero again. `end`: g_x beyond this, rad/s, may be
     more than the gyroscope can tell."""
     lasted = times.rest - times.uplift
@@ -66,10 +64,10 @@ def closed(rows: Sequence[Row], times: CriticalTimes, end: float = inf) -> list[
     """The rows from uplift to rest (later than that), with such g_x that theta is zero at rest; where some of g_x was
     beyond `end` to either side, the velocity of a_f, too."""
     step = span(rows, times.uplift, times.rest)
-    left = _integral(step, 4)
+    left = _turned(step, 4)
     rises = [1.0 if row[4] > end else 0.0 for row in step]
     sinks = [1.0 if row[4] < -end else 0.0 for row in step]
-    up, down = _sum(step, rises), _sum(step, sinks)
+    (_, up), (_, down) = _integrals(step, rises), _integrals(step, sinks)
     if not (up > 0.0 and down > 0.0):
         drift = left / (times.rest - times.uplift)
         return [(t, ax, ay, az, gx - drift, gy, gz) for t, ax, ay, az, gx, gy, gz in step]
@@ -100,7 +98,7 @@ def closed(rows: Sequence[Row], times: CriticalTimes, end: float = inf) -> list[
 
 def turned(rows: Sequence[Row], times: CriticalTimes) -> float:
     """alpha of (7), as printed: positive to the left, rad."""
-    return _integral(span(rows, times.liftoff, times.landing), 6)
+    return _turned(span(rows, times.liftoff, times.landing), 6)
 
 
 def turned_about_vertical(rows: Sequence[Row], times: CriticalTimes, end: float = inf) -> float:
@@ -109,35 +107,28 @@ def turned_about_vertical(rows: Sequence[Row], times: CriticalTimes, end: float 
     if not times.rest > times.uplift:
         return 0.0
     step = closed(rows, times, end)
-    theta, angle = 0.0, 0.0
-    t, gx, was = step[0][0], step[0][4], step[0][6]
-    for row in step[1:]:
-        dt = row[0] - t
-        theta += 0.5 * (gx + row[4]) * dt
-        now = row[6] * cos(theta) + row[5] * sin(theta)
-        angle += 0.5 * (was + now) * dt
-        t, gx, was = row[0], row[4], now
-    angle += _integral(span(rows, times.rest, max(times.rest, rows[-1][0])), 6)
-    return angle + missed(rows, 6, end)
+    rates = [row[6] * cos(theta) + row[5] * sin(theta) for row, theta in zip(step, _tilts(step, 0.0), strict=True)]
+    angle = _integrals(step, rates)[1] + _turned(span(rows, times.rest, max(times.rest, rows[-1][0])), 6)
+    return angle + missed(rows, end)
 
 
-def missed(rows: Sequence[Row], column: int, end: float) -> float:
-    """The angle that a gyroscope did not see beyond `end`, rad/s: under the cubic over each span that it was there,
+def missed(rows: Sequence[Row], end: float) -> float:
+    """The turn that a gyroscope did not see beyond `end`, rad/s: under the cubic over each span that g_z was there,
     rad."""
     total = 0.0
     i, n = 2, len(rows)
     while i < n - 2:
-        sign = 1.0 if rows[i][column] > 0.0 else -1.0
-        if sign * rows[i][column] < end:
+        sign = 1.0 if rows[i][6] > 0.0 else -1.0
+        if sign * rows[i][6] < end:
             i += 1
             continue
         first = i
-        while i < n - 2 and sign * rows[i][column] >= end:
+        while i < n - 2 and sign * rows[i][6] >= end:
             i += 1
         # rows first - 1 and i are the last before it and the first after it
-        most = max([sign * row[column] for row in rows[first:i]])
-        before = [(row[0], sign * row[column]) for row in (rows[first - 2], rows[first - 1], rows[first])]
-        after = [(-row[0], sign * row[column]) for row in (rows[i + 1], rows[i], rows[i - 1])]
+        most = max([sign * row[6] for row in rows[first:i]])
+        before = [(row[0], sign * row[6]) for row in (rows[first - 2], rows[first - 1], rows[first])]
+        after = [(-row[0], sign * row[6]) for row in (rows[i + 1], rows[i], rows[i - 1])]
         (begin, rise), (back, fall) = _edge(before, most), _edge(after, most)
         lasted = max(0.0, -back - begin)
         total += sign * min(lasted * lasted * (rise + fall) / 12.0, MOST_MISSED)
@@ -155,22 +146,19 @@ def _edge(rows: Sequence[tuple[float, float]], most: float) -> tuple[float, floa
 def _lengths(step: Sequence[Row], theta: float, toe_out: float) -> tuple[Vec3, Vec3]:
     """The parts of (6), m, and of the velocity at the end, m/s. `theta` at the beginning, rad."""
     along, across = cos(toe_out), sin(toe_out)
-    v_x = v_y = v_z = s_x = s_y = s_z = 0.0
-    t, ax, ay, az, gx, _, _ = step[0]
-    x, y, z = ax * across, ay * cos(theta) * along, az * sin(theta) * along
-    for row in step[1:]:
-        dt = row[0] - t
-        theta += 0.5 * (gx + row[4]) * dt  # (3)
-        t, ax, ay, az, gx, _, _ = row
-        was_x, was_y, was_z = x, y, z
-        x, y, z = ax * across, ay * cos(theta) * along, az * sin(theta) * along  # (2), (4)
-        s_x += (v_x + (2.0 * was_x + x) * dt / 6.0) * dt
-        s_y += (v_y + (2.0 * was_y + y) * dt / 6.0) * dt
-        s_z += (v_z + (2.0 * was_z + z) * dt / 6.0) * dt
-        v_x += 0.5 * (was_x + x) * dt
-        v_y += 0.5 * (was_y + y) * dt
-        v_z += 0.5 * (was_z + z) * dt
+    tilts = _tilts(step, theta)
+    s_x, v_x = _integrals(step, [row[1] * across for row in step])  # (2), (4)
+    s_y, v_y = _integrals(step, [row[2] * cos(tilt) * along for row, tilt in zip(step, tilts, strict=True)])
+    s_z, v_z = _integrals(step, [row[3] * sin(tilt) * along for row, tilt in zip(step, tilts, strict=True)])
     return (s_x, s_y, s_z), (v_x, v_y, v_z)
+
+
+def _tilts(step: Sequence[Row], theta: float) -> list[float]:
+    """(3) at every row, rad, `theta` at the first."""
+    tilts = [theta]
+    for before, row in zip(step, step[1:], strict=False):
+        tilts.append(tilts[-1] + 0.5 * (before[4] + row[4]) * (row[0] - before[0]))
+    return tilts
 
 
 def span(rows: Sequence[Row], begin: float, end: float) -> list[Row]:
@@ -191,16 +179,16 @@ def _at(rows: Sequence[Row], t: float) -> Row:
     return (t, *rows[-1][1:])
 
 
-def _integral(rows: Sequence[Row], column: int) -> float:
-    total = 0.0
-    for before, row in zip(rows, rows[1:], strict=False):
-        total += 0.5 * (before[column] + row[column]) * (row[0] - before[0])
-    return total
+def _turned(rows: Sequence[Row], column: int) -> float:
+    """The integral of a rate of the rows, rad."""
+    return _integrals(rows, [row[column] for row in rows])[1]
 
 
-def _sum(rows: Sequence[Row], weights: Sequence[float]) -> float:
-    """The integral of a weight of each row, s."""
-    total = 0.0
-    for i in range(1, len(rows)):
-        total += 0.5 * (weights[i - 1] + weights[i]) * (rows[i][0] - rows[i - 1][0])
-    return total
+def _integrals(rows: Sequence[Row], values: Sequence[float]) -> tuple[float, float]:
+    """The double integral of a value at each row, and the integral, both from zero."""
+    twice = once = 0.0
+    for k in range(1, len(rows)):
+        dt, was, now = rows[k][0] - rows[k - 1][0], values[k - 1], values[k]
+        twice += (once + (2.0 * was + now) * dt / 6.0) * dt
+        once += 0.5 * (was + now) * dt
+    return twice, once

@@ -14,10 +14,10 @@ from math import acos, isfinite
 
 from ...calibration import Calibration, CalibrationError
 from ...events import StrideTaken
-from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from ...session import Session
 from ...types import Foot, Packet, Sample
 from ...types.attrs import frozen
+from .recipe import FOOTSTEP_TRACKER
 
 FEWEST = 5
 """Steps of a foot that tell anything."""
@@ -46,20 +46,18 @@ def toe_out(items: Iterable[Packet | Sample], distance: float) -> list[ToeOut]:
         for event in session.feed(item):
             if isinstance(event, StrideTaken):
                 lengths.setdefault(event.foot, []).append(event.length)
-    found = [_of(foot, lengths[foot], distance) for foot in Foot if len(lengths.get(foot, ())) >= FEWEST]
+    found: list[ToeOut] = []
+    for foot in [foot for foot in Foot if len(lengths.get(foot, ())) >= FEWEST]:
+        along = sum(lengths[foot])
+        angle = acos(distance / along) if along >= distance else None
+        if angle is not None and angle > WIDEST:
+            what = f"the steps of the {foot.value} foot come to {along:.1f} m of {distance:g} m"
+            raise CalibrationError(f"{what}: is that the length of the walk?")
+        found.append(ToeOut(foot, len(lengths[foot]), along, angle))
     if not found:
         most = max([len(one) for one in lengths.values()], default=0)
         raise CalibrationError(f"{most} steps of a foot in this recording; {FEWEST} are wanted")
     return found
-
-
-def _of(foot: Foot, lengths: list[float], distance: float) -> ToeOut:
-    along = sum(lengths)
-    angle = acos(distance / along) if along >= distance else None
-    if angle is not None and angle > WIDEST:
-        what = f"the steps of the {foot.value} foot come to {along:.1f} m of {distance:g} m"
-        raise CalibrationError(f"{what}: is that the length of the walk?")
-    return ToeOut(foot, len(lengths), along, angle)
 
 
 def learnt(found: Iterable[ToeOut]) -> Calibration:

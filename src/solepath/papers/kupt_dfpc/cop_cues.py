@@ -82,11 +82,9 @@ class CopCues(Cues):
 
     @property
     def sagittal(self) -> float:
-        """As in `Cues`."""
         return 0.0 if self.inertial.axis is None else self.inertial.sagittal
 
     def wear(self, layout: Layout) -> None:
-        """The device said where its cells are."""
         self.middle = centre(layout)
         self.touch.wear(layout)
 
@@ -94,7 +92,6 @@ class CopCues(Cues):
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
     ) -> Sequence[Seen]:  # fmt: skip
-        """As in `Cues`."""
         self.mark = None
         seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)
         if load is None and self.pressed_at is not None and t - self.pressed_at < self.stale:
@@ -217,18 +214,15 @@ class CopCues(Cues):
         self.pressed_at = self.cop = self.loaded_at = None
 
     def cleared(self, t: float) -> Seen:
-        """As in `Cues`."""
         return self.inertial.cleared(t)
 
     def interrupt(self) -> None:
-        """As in `Cues`."""
         self.inertial.interrupt()
         self.fast_since = None
         if self.pressed_at is not None:
             self._forget(self.pressed_at)
 
     def anew(self) -> None:
-        """As in `Cues`."""
         self.inertial = self.inertial.anew()
         self.touch = self.touch.anew()
         self._enter(StepStage.LEAVING, 0.0)

@@ -37,7 +37,7 @@ from ...body.part import Position, Said, Track
 from ...events import StrideFused, StrideTaken
 from ...foot.pressure.cells import centre
 from ...foot.view import FootPose, FootView
-from ...types import Foot, Site, Vec3
+from ...types import OTHER, Foot, Site, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO, sub
 
@@ -51,8 +51,6 @@ LEAST_WAY = 1e-6
 """A shorter step has no direction, m."""
 LEAST_SPREAD = 1e-12
 """A path of the centre of pressure that varies less is constant but for rounding, m^2."""
-
-OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 
 
 @define
@@ -108,14 +106,15 @@ class DoubleFoot(Track):
     abnormal: float = 1.0
     """m/s: about as much as the error indices of normal steps on recorded insoles."""
     # state
-    left: CalibratedPath = field(factory=CalibratedPath, init=False)
-    right: CalibratedPath = field(factory=CalibratedPath, init=False)
+    paths: dict[Foot, CalibratedPath] = field(init=False)
     weighted: float = field(default=0.0, init=False)
     """The sum of (13), m^2/s: positive when the left foot errs more."""
     chosen: Foot | None = field(default=None, init=False)
 
+    def __attrs_post_init__(self) -> None:
+        self.paths = {foot: CalibratedPath() for foot in Foot}
+
     def feed(self, view: FootView) -> Sequence[Said]:
-        """The strides of a foot, fused."""
         strides = [event for event in view.events if isinstance(event, StrideTaken)] if view.events else []
         middle = None if view.layout is None or not strides else centre(view.layout)
         return [self.step(stride, middle) for stride in strides]
@@ -123,13 +122,13 @@ class DoubleFoot(Track):
     def reset(self, site: Site) -> None:
         """The foot's steps so far have times of another clock: nothing is compared with them."""
         if site.foot is not None:
-            self._path(site.foot).latest = []
+            self.paths[site.foot].latest = []
 
     def step(self, taken: StrideTaken, centre: float | None) -> StrideFused:
         """One step. `centre`: x of the insole's centre in the foot frame, m, where the centre of pressure is taken to
         be while the foot is in the air (section III.C.2); None when there is no insole."""
         foot = taken.foot
-        path, others = self._path(foot), self._path(OTHER[foot])
+        path, others = self.paths[foot], self.paths[OTHER[foot]]
         index = _sound(taken.features.error_index)
         rhythm = () if centre is None or index is None else resampled(taken, centre)
         similarity, coefficient, length = None, 1.0, taken.length
@@ -150,9 +149,8 @@ class DoubleFoot(Track):
         stepped = FusedStride(taken.t_end, taken.length, length, index, rhythm, paired)
         path.latest = [*path.latest[1 - KEPT :], stepped]
         self._extend(path, others, taken, length)
-        self._choose(foot)
-        chosen = foot if self.chosen is None else self.chosen
-        wearer = self._path(chosen)
+        chosen = self._choose(foot)
+        wearer = self.paths[chosen]
         return StrideFused(
             t=taken.t,
             known_at=taken.known_at,
@@ -198,29 +196,21 @@ class DoubleFoot(Track):
         path.stood, path.missed = taken.position, 0
         others.missed = min(others.missed + 1, self.away)
 
-    def _choose(self, stepped: Foot) -> None:
+    def _choose(self, stepped: Foot) -> Foot:
         """Which path is the wearer's now, by the sign of (13)."""
-        if self.chosen is None:
-            self.chosen = stepped
-        elif self.weighted > 0.0:
-            self.chosen = Foot.RIGHT
-        elif self.weighted < 0.0:
-            self.chosen = Foot.LEFT
-        if self._path(self.chosen).missed >= self.away:
-            self.chosen = stepped
-
-    def _path(self, foot: Foot) -> CalibratedPath:
-        return self.left if foot is Foot.LEFT else self.right
+        chosen = self.chosen or stepped
+        if self.chosen is not None and self.weighted != 0.0:
+            chosen = Foot.RIGHT if self.weighted > 0.0 else Foot.LEFT
+        self.chosen = stepped if self.paths[chosen].missed >= self.away else chosen
+        return self.chosen
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
-        """None before any sample."""
-        times = {foot: pose.t for foot, pose in feet.items()}
-        if not times:
+        if not feet:
             return None
-        newest = max(times.values())
-        present = [foot for foot, t in times.items() if newest - t < ABSENT]
+        newest = max([pose.t for pose in feet.values()])
+        present = [foot for foot, pose in feet.items() if newest - pose.t < ABSENT]
         chosen = self.chosen if self.chosen in present else present[0]
-        path, foot = self._path(chosen), feet[chosen]
+        path, foot = self.paths[chosen], feet[chosen]
         dx, dy, dz = sub(foot.position, path.stood)
         x, y, z = path.end
         xx, xy, xz, yy, yz, zz = foot.covariance

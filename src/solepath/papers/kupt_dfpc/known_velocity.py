@@ -70,11 +70,9 @@ class KnownVelocity(Detector):
     held_at: float = field(default=0.0, init=False)
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> KnownVelocity:
-        """The same for the wearer's own shoe."""
         return self if calibration.shoe is None else evolve(self, shoe=calibration.shoe)
 
     def wear(self, layout: Layout) -> None:
-        """The device said where its cells are."""
         self.touch.wear(layout)
         self.default = shoe_for(layout.length)
 
@@ -86,7 +84,6 @@ class KnownVelocity(Detector):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
-        """As in `Detector`."""
         inertial = self.inertial.update(t, dt, acc, gyro, None)
         still = inertial.hint is Phase.STATIONARY
         self.moving += dt
@@ -150,26 +147,26 @@ class KnownVelocity(Detector):
         return Stance(ZERO, inf, inertial.statistic, None)
 
     def _push_off(self, dt: float, attitude: Quat, statistic: float, on_forefoot: bool) -> Stance:
-        sagittal, before = self.sagittal, self.place
+        sagittal = self.sagittal
         if not on_forefoot:
             # the weight went back to the heel: the shoe does not roll over its forefoot
             self.place = None
             return Stance(ZERO, inf, statistic, None)
-        self.phase = Phase.PUSH_OFF
         sagittal.lifts(attitude)
-        self.place = None if sagittal.toe is None else sagittal.forefoot_place(self.worn)
-        if before is None or self.place is None or dt <= 0.0:
-            return Stance(ZERO, inf, statistic, Phase.PUSH_OFF)
-        return Stance(velocity(before, self.place, dt), self.rolling_sigma, statistic, Phase.PUSH_OFF)
+        place = None if sagittal.toe is None else sagittal.forefoot_place(self.worn)
+        return self._rolling(Phase.PUSH_OFF, place, dt, statistic)
 
     def _loading(self, dt: float, statistic: float, on_heel: bool) -> Stance:
-        sagittal, before = self.sagittal, self.place
-        self.phase = Phase.LOADING
+        sagittal = self.sagittal
         rolls = on_heel and sagittal.toe is not None and sagittal.pitch > -self.toe_down
-        self.place = sagittal.heel_place(self.worn) if rolls else None
-        if before is None or self.place is None or dt <= 0.0:
-            return Stance(ZERO, inf, statistic, Phase.LOADING)
-        return Stance(velocity(before, self.place, dt), self.rolling_sigma, statistic, Phase.LOADING)
+        return self._rolling(Phase.LOADING, sagittal.heel_place(self.worn) if rolls else None, dt, statistic)
+
+    def _rolling(self, phase: Phase, place: Vec3 | None, dt: float, statistic: float) -> Stance:
+        """The velocity that takes the sensor to `place` from where it was in the last sample, if both are known."""
+        before, self.place, self.phase = self.place, place, phase
+        if before is None or place is None or dt <= 0.0:
+            return Stance(ZERO, inf, statistic, phase)
+        return Stance(velocity(before, place, dt), self.rolling_sigma, statistic, phase)
 
 
 def _ends(inertial: Stance) -> Stance:

@@ -16,15 +16,14 @@ line and go into the geometry.
 
 from __future__ import annotations
 
-import csv
-from math import isfinite, radians
+from math import radians
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...calibration import Calibration, CalibrationError, ShoeGeometry
-from ...calibration.file import bounded_text
+from ...calibration.measured import read_rows
 from ...types.attrs import frozen
 
 COLUMNS = ("pitch_deg", "L_r_m", "L_p2t_m")
@@ -58,9 +57,9 @@ class Fitted:
 def fit_shoe(path: Path | str) -> Fitted:
     """The geometry of the shoe whose postures are in the file. CalibrationError with one sentence that names the file,
     and the line where there is one, when it cannot be used."""
-    rows, single = _read(Path(path))
+    rows, single = _read(path)
     pitch = np.radians(rows[:, 0])
-    postures = _count(rows[:, 0])
+    postures = 1 + int(np.count_nonzero(np.diff(np.sort(rows[:, 0])) > SAME))
     if postures < 3:
         raise CalibrationError(f"{path}: {postures} postures; three different ones at least make a curve")
     if (steepest := float(pitch.max())) < radians(30.0):
@@ -92,57 +91,16 @@ def _fit(pitch: Column, length: Column, degree: int) -> tuple[tuple[float, ...],
     return tuple(coefficients.tolist()), np.asarray(left, dtype=np.float64)
 
 
-def _count(degrees: Column) -> int:
-    """How many postures, when those near to each other are one."""
-    ordered = np.sort(degrees)
-    return 1 + int(np.count_nonzero(np.diff(ordered) > SAME))
-
-
-def _read(path: Path) -> tuple[Column, dict[str, float]]:
-    try:
-        lines = bounded_text(path, "utf-8-sig").splitlines()
-    except OSError as error:
-        raise CalibrationError(f"{path}: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise CalibrationError(f"{path}: is not text") from None
-    if not lines:
-        raise CalibrationError(f"{path}: is empty")
-    header = _cells(lines[0])
-    for name in COLUMNS:
-        if header.count(name) != 1:
-            raise CalibrationError(f"{path}: line 1: wants one column {name} (of {', '.join(COLUMNS)})")
+def _read(path: Path | str) -> tuple[Column, dict[str, float]]:
     rows: list[list[float]] = []
     single: dict[str, float] = {}
-    for number, line in enumerate(lines[1:], start=2):
-        if not line.strip():
-            continue
-        where = f"{path}: line {number}"
-        cells = _cells(line)
-        if len(cells) != len(header):
-            raise CalibrationError(f"{where}: {len(cells)} values for {len(header)} columns")
-        named = dict(zip(header, cells, strict=True))
-        rows.append([_number(named[name], name, where) for name in COLUMNS])
-        for name in SINGLE:
-            if name in named:
-                value = _number(named[name], name, where)
-                if single.setdefault(name, value) != value:
-                    raise CalibrationError(f"{where}: {name} is {value:g} here and {single[name]:g} before")
+    for row in read_rows(path, COLUMNS):
+        pitch = row.number(COLUMNS[0], -5.0, STEEPEST, "degrees")
+        rows.append([pitch, *(row.number(name, 0.0, LONGEST, "m") for name in COLUMNS[1:])])
+        for name in [name for name in SINGLE if name in row.cells]:
+            value = row.number(name, 0.0, LONGEST, "m")
+            if single.setdefault(name, value) != value:
+                raise CalibrationError(f"{row.where}: {name} is {value:g} here and {single[name]:g} before")
     if not rows:
         raise CalibrationError(f"{path}: holds no postures")
     return np.array(rows, dtype=np.float64), single
-
-
-def _cells(line: str) -> list[str]:
-    return [cell.strip() for cell in next(csv.reader([line]), [])]
-
-
-def _number(text: str, name: str, where: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        raise CalibrationError(f"{where}: {name} is {text!r}, not a number") from None
-    low, high = (-5.0, STEEPEST) if name == "pitch_deg" else (0.0, LONGEST)
-    if not isfinite(value) or not low <= value <= high:
-        unit = "degrees" if name == "pitch_deg" else "m"
-        raise CalibrationError(f"{where}: {name} is {text}, which is not between {low:g} and {high:g} {unit}")
-    return value

@@ -32,42 +32,21 @@ class CellCue(Enum):
 
 
 _STANDING, _LEAVING, _FLYING, _LANDING = StepStage
-_LIFT, _CLEAR, _CONTACT, _FLAT = (Cue.LIFT,), (Cue.CLEAR,), (Cue.CONTACT,), (Cue.FLAT,)
-
-STAGES: dict[StepStage, dict[CellCue, tuple[StepStage, tuple[Cue, ...]]]] = {
-    _STANDING: {
-        CellCue.STANDS: (_STANDING, ()),
-        CellCue.MOVES: (_LEAVING, _LIFT),
-        CellCue.LEAVES: (_FLYING, _LIFT + _CLEAR),
-        CellCue.BRUSHES: (_STANDING, ()),
-        CellCue.LANDS: (_STANDING, ()),
-        CellCue.LINGERS: (_STANDING, ()),
-    },
-    _LEAVING: {
-        CellCue.STANDS: (_STANDING, _FLAT),
-        CellCue.MOVES: (_LEAVING, ()),
-        CellCue.LEAVES: (_FLYING, _CLEAR),
-        CellCue.BRUSHES: (_LEAVING, ()),
-        CellCue.LANDS: (_LEAVING, ()),
-        CellCue.LINGERS: (_LEAVING, ()),
-    },
-    _FLYING: {
-        CellCue.STANDS: (_STANDING, _FLAT),
-        CellCue.MOVES: (_FLYING, ()),
-        CellCue.LEAVES: (_FLYING, ()),
-        CellCue.BRUSHES: (_LEAVING, ()),  # it was not in the air yet: the best candidate for toe-off may still come
-        CellCue.LANDS: (_LANDING, ()),
-        CellCue.LINGERS: (_FLYING, ()),
-    },
-    _LANDING: {
-        CellCue.STANDS: (_STANDING, _CONTACT + _FLAT),
-        CellCue.MOVES: (_LANDING, ()),
-        CellCue.LEAVES: (_FLYING, _CONTACT + _CLEAR),  # it flies again and was never flat: toe walking, running
-        CellCue.BRUSHES: (_LANDING, ()),
-        CellCue.LANDS: (_LANDING, ()),
-        CellCue.LINGERS: (_LANDING, _CONTACT),
-    },
+_CHANGES: dict[tuple[StepStage, CellCue], tuple[StepStage, tuple[Cue, ...]]] = {
+    (_STANDING, CellCue.MOVES): (_LEAVING, (Cue.LIFT,)),
+    (_STANDING, CellCue.LEAVES): (_FLYING, (Cue.LIFT, Cue.CLEAR)),
+    (_LEAVING, CellCue.STANDS): (_STANDING, (Cue.FLAT,)),
+    (_LEAVING, CellCue.LEAVES): (_FLYING, (Cue.CLEAR,)),
+    (_FLYING, CellCue.STANDS): (_STANDING, (Cue.FLAT,)),
+    (_FLYING, CellCue.BRUSHES): (_LEAVING, ()),  # it was not in the air yet: the best candidate may still come
+    (_FLYING, CellCue.LANDS): (_LANDING, ()),
+    (_LANDING, CellCue.STANDS): (_STANDING, (Cue.CONTACT, Cue.FLAT)),
+    (_LANDING, CellCue.LEAVES): (_FLYING, (Cue.CONTACT, Cue.CLEAR)),  # it was never flat: toe walking, running
+    (_LANDING, CellCue.LINGERS): (_LANDING, (Cue.CONTACT,)),
 }
+"""What changes the stage, or is reported; any other cue of the cells does neither."""
+
+STAGES = {stage: {cue: _CHANGES.get((stage, cue), (stage, ())) for cue in CellCue} for stage in StepStage}
 """Stage and cue -> the next stage, and what is reported: one contact a landing."""
 
 

@@ -58,7 +58,6 @@ class BiasZupt(LinearDedrift):
     """The attitude of the last sample is our own."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> BiasZupt:
-        """The same with the drift that is known."""
         return evolve(self, drift=calibration.drift[foot]) if foot in calibration.drift else self
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
@@ -86,7 +85,11 @@ class BiasZupt(LinearDedrift):
         # (4): a_m in the sensor frame is the specific force without the gravity that the attitude sees there
         self.measured = sub(acc, rotate_back(self.attitude, (0.0, 0.0, GRAVITY)))
         if self.drift is not None and self.stood < STANDS:
-            self._take_off_drift(dt)
+            dx, dy = self.drift
+            if self.turned is not None:
+                dx, dy, _ = rotate(from_yaw(self.turned), (dx, dy, 0.0))
+            x, y, z = self.position
+            self.position = (x - dx * dt, y - dy * dt, z)
         self.step = dt
 
     def correct(self, t: float, stance: Stance) -> bool:
@@ -125,15 +128,6 @@ class BiasZupt(LinearDedrift):
             w, _, _, z = multiply(self.attitude, conjugate(given))
             self.turned = 2.0 * atan2(z, w)
         return normalise(multiply(from_yaw(self.turned), given))
-
-    def _take_off_drift(self, dt: float) -> None:
-        if self.drift is None:
-            return
-        dx, dy = self.drift
-        if self.turned is not None:
-            dx, dy, _ = rotate(from_yaw(self.turned), (dx, dy, 0.0))
-        x, y, z = self.position
-        self.position = (x - dx * dt, y - dy * dt, z)
 
     def _level(self) -> None:
         """An attitude of our own is pulled by the force without the bias: with it, bias and tilt could drift against

@@ -64,8 +64,8 @@ class Contours:
     noise: with `AXES` pairs of rays sigma_v = sqrt(2 / AXES) sigma_r / interval an axis and a level, and a radius is as
     uncertain as the pressure over its slope. A cell of 12-bit resistive insoles has 0.12 N rms
     (emulate/sensors/parts.py), 0.8 kPa on 1.6 cm^2, half a kPa once three are weighted; a heel that carries 200 N has
-    slopes of 2 kPa/mm: 0.25 mm, and
-    0.14 mm over all rays. To stay below the paper's 4 mm/s that takes 36 ms; 50 ms are taken.
+    slopes of 2 kPa/mm: 0.25 mm, and 0.14 mm over all rays. To stay below the paper's 4 mm/s that takes 36 ms; 50 ms
+    are taken.
     """
 
     shares: tuple[float, ...] = (1.4, 1.2, 1.0, 0.8, 0.6, 0.4)
@@ -215,48 +215,34 @@ class Contours:
             self.rays.append((len(self.points) - begun, step))
 
 
-def _direction(angle: float) -> tuple[float, float, float, float, float]:
-    """A direction, and what it adds to the normal equations."""
-    c, s = cos(angle), sin(angle)
-    return c, s, c * c, c * s, s * s
-
-
-_RAYS = tuple(_direction(pi * k / AXES) for k in range(2 * AXES))
-_AXES = _RAYS[:AXES]
-_COS = [ray[0] for ray in _RAYS]
-_SIN = [ray[1] for ray in _RAYS]
+_COS = [cos(pi * k / AXES) for k in range(2 * AXES)]
+_SIN = [sin(pi * k / AXES) for k in range(2 * AXES)]
+_RAYS = [(c, s, c * c, c * s, s * s) for c, s in zip(_COS, _SIN, strict=True)]
+"""The direction of each ray, and what it adds to the normal equations."""
 
 
 def _by_pairs(now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
     """How far the centre of one level's contour has moved, m, by its rays that have an opposite."""
-    xx = xy = yy = bx = by = 0.0
-    for (c, s, cc, cs, ss), r, q, p, o in zip(_AXES, now[:AXES], now[AXES:], before[:AXES], before[AXES:], strict=True):
-        if r >= 0.0 and q >= 0.0 and p >= 0.0 and o >= 0.0:
-            moved = 0.5 * (r - p - q + o)
-            xx += cc
-            xy += cs
-            yy += ss
-            bx += moved * c
-            by += moved * s
-    return _solved(xx, xy, yy, bx, by)
+    opposites = zip(now[:AXES], now[AXES:], before[:AXES], before[AXES:], strict=True)
+    return _fitted([0.5 * (r - p - q + o) if min(r, q, p, o) >= 0.0 else None for r, q, p, o in opposites])
 
 
 def _by_rays(now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
     """The same by all rays."""
+    return _fitted([r - p if r >= 0.0 and p >= 0.0 else None for r, p in zip(now, before, strict=True)])
+
+
+def _fitted(moved: list[float | None]) -> tuple[float, float] | None:
+    """The vector u for which u . r_hat is nearest to what was `moved` along the first rays, m, least squares; None
+    where too few directions, or too similar ones, were seen."""
     xx = xy = yy = bx = by = 0.0
-    for (c, s, cc, cs, ss), r, p in zip(_RAYS, now, before, strict=True):
-        if r >= 0.0 and p >= 0.0:
-            moved = r - p
+    for (c, s, cc, cs, ss), along in zip(_RAYS, moved, strict=False):
+        if along is not None:
             xx += cc
             xy += cs
             yy += ss
-            bx += moved * c
-            by += moved * s
-    return _solved(xx, xy, yy, bx, by)
-
-
-def _solved(xx: float, xy: float, yy: float, bx: float, by: float) -> tuple[float, float] | None:
-    """The vector u for which the u . r_hat fit best; None where too few directions, or too similar ones, were seen."""
+            bx += along * c
+            by += along * s
     determinant = xx * yy - xy * xy
     if determinant < 1.0:  # three neighbouring directions have 1.5, all six axes 9
         return None

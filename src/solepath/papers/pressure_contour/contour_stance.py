@@ -26,11 +26,11 @@ class GyroscopeMagnitude(Detector):
 
     The paper says that angular velocity was used and no more. Published thresholds of |w| are 0.5 rad/s in code after
     Tunca et al. 2017 (Sensors 17, 825) and 0.6 rad/s in the code of Fischer et al. 2013 (IEEE Pervasive Computing 12);
-    shoes differ, though. In the recordings at hand a sensor in a tied shoe turns at 0.03
-    to 0.2 rad/s in the quietest 30 ms of its stances, loose insoles and shoes at 0.3 to 1.2, and quiet walkers swing
-    through moments of 0.3. So the threshold is the wearer's own: `margin` times the median quietest moment of the last
-    `KEPT` stances of walking, within `below` and `ceiling`, and `first` before there is one. A sensor 12 cm from the
-    heel's end moves at 3 cm/s at `below`.
+    shoes differ, though. In the recordings at hand a sensor in a tied shoe turns at 0.03 to 0.2 rad/s in the quietest
+    30 ms of its stances, loose insoles and shoes at 0.3 to 1.2, and quiet walkers swing through moments of 0.3. So the
+    threshold is the wearer's own: `margin` times the median quietest moment of the last `KEPT` stances of walking,
+    within `below` and `ceiling`, and `first` before there is one. A sensor 12 cm from the heel's end moves at 3 cm/s at
+    `below`.
 
     A motion that has lasted for `late` s has gone through a stance that was not seen: then `margin` times the quietest
     moment of that motion serves, and after `longest` s in proportion to how long it has lasted, without a ceiling. So
@@ -187,7 +187,6 @@ class ContourVelocity(Detector):
     """and the statistic."""
 
     def wear(self, layout: Layout) -> None:
-        """The device said where its cells are."""
         why = self.contours.wear(layout)
         self.lacking = None if why is None else f"{why}; the gyroscope says when the foot stands"
         self.count = len(layout.cells)

@@ -15,24 +15,22 @@ CHANCE, slope^2 / (2 s^2) > k (CHANCE^(-1/k) - 1), the F distribution with 2 and
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterable, Mapping, Sequence
-from io import StringIO
-from math import atan2, hypot, inf, isfinite
+from math import atan2, hypot, inf
 from pathlib import Path
 
 import numpy as np
 
 from ...calibration import Calibration, CalibrationError
-from ...calibration.file import bounded_text
+from ...calibration.measured import read_rows
 from ...events import StrideTaken
-from ...papers.pressure_contour.recipe import PRESSURE_CONTOUR
 from ...recipes import Recipe
 from ...session import Session
 from ...types import Foot, Packet, Sample, Vec3
-from ...types.attrs import frozen
+from ...types.attrs import evolve, frozen
 from ...types.vector import from_yaw, rotate
 from .bias_zupt import BiasZupt
+from .recipe import PRESSURE_CONTOUR
 
 STEPS_PER_LAP = 40
 """The paper's marks."""
@@ -76,24 +74,6 @@ class SquareDrift:
         return self.slope if self.agreed else (0.0, 0.0)
 
 
-def fit_square(
-    items: Iterable[Packet | Sample],
-    *,
-    foot: Foot | None = None,
-    marks: Sequence[CornerMark] | None = None,
-    steps_per_lap: int = STEPS_PER_LAP,
-    recipe: Recipe = PRESSURE_CONTOUR,
-    calibration: Calibration | None = None,
-    whole: bool = False,
-) -> Calibration:
-    """The drift that a recording of laps shows, as `square_drift` finds it; none where the laps do not agree on one,
-    unless the `whole` slope is asked for, as the paper takes it."""
-    found = square_drift(
-        items, foot=foot, marks=marks, steps_per_lap=steps_per_lap, recipe=recipe, calibration=calibration
-    )
-    return Calibration(drift={found.foot: found.slope if whole else found.kept})
-
-
 def square_drift(
     items: Iterable[Packet | Sample],
     *,
@@ -110,7 +90,7 @@ def square_drift(
     if not isinstance(recipe.corrector, BiasZupt):
         raise CalibrationError(f"recipe {recipe.name} takes no drift off")
     known = Calibration() if calibration is None else calibration
-    session = Session(recipe, calibration=_without_drift(known))
+    session = Session(recipe, calibration=evolve(known, drift={}))
     steps: dict[Foot, list[StrideTaken]] = {one: [] for one in Foot}
     for event in [*session.feed(items), *session.finish()]:
         if isinstance(event, StrideTaken):
@@ -132,39 +112,10 @@ def square_drift(
 
 def read_marks(path: Path | str) -> tuple[CornerMark, ...]:
     """Marks from a .csv with the columns `mark` and `t`, one row for every visit. CalibrationError when it is not."""
-    try:
-        rows = list(csv.DictReader(StringIO(bounded_text(Path(path), "utf-8-sig"), newline="")))
-    except OSError as error:
-        raise CalibrationError(f"{path}: {error.strerror}") from None
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise CalibrationError(f"{path}: is not a table ({error})") from None
-    marks = []
-    for number, row in enumerate(rows, 2):
-        name, t = row.get("mark"), _number(row.get("t"))
-        if not name or t is None:
-            raise CalibrationError(f"{path}, line {number}: a visit is a name in column mark and seconds in column t")
-        marks.append(CornerMark(name.strip(), t))
-    if not marks:
+    rows = read_rows(path, ("mark", "t"))
+    if not rows:
         raise CalibrationError(f"{path}: no visits of marks")
-    return tuple(marks)
-
-
-def _number(text: str | None) -> float | None:
-    try:
-        value = float(text or "")
-    except ValueError:
-        return None
-    return value if isfinite(value) else None
-
-
-def _without_drift(calibration: Calibration) -> Calibration:
-    return Calibration(
-        insoles=calibration.insoles,
-        shoe=calibration.shoe,
-        limbs=calibration.limbs,
-        weight=calibration.weight,
-        modes=calibration.modes,
-    )
+    return tuple([CornerMark(row.word("mark"), row.number("t")) for row in rows])
 
 
 Visits = dict[str, list[tuple[float, Vec3]]]

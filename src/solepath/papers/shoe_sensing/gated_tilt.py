@@ -195,7 +195,7 @@ class ShoeSensing(LinearDedrift):
             self.raw, self.raw_swing = (self.position, self.velocity), self.swing
             self.came = self.best = 0.0
         if self.raw is not None and not 0.0 < self.best <= stance.sigma:
-            self._come_down(stance)
+            self._come_down(*self.raw, stance)
         self.swing = 0.0
         self.position = self.stood
         self.velocity = stance.v_ref
@@ -225,12 +225,9 @@ class ShoeSensing(LinearDedrift):
             return False
         return vx * vx + vy * vy + vz * vz < limit * limit
 
-    def _come_down(self, stance: Stance) -> None:
-        """The foot stands, more certainly than it did before."""
-        if self.raw is None:
-            return
-        rx, ry, rz = stance.v_ref
-        (x, y, z), (vx, vy, vz) = self.raw
+    def _come_down(self, place: Vec3, velocity: Vec3, stance: Stance) -> None:
+        """The foot stands, more certainly than it did before, where the motion led to this place and velocity."""
+        (x, y, z), (vx, vy, vz), (rx, ry, rz) = place, velocity, stance.v_ref
         half = 0.5 * self.raw_swing
         k = 0.5 * self.heed / (GRAVITY * max(self.raw_swing, BROKEN))
         self.tipping = (k * (vy - ry), -k * (vx - rx))

@@ -58,7 +58,6 @@ class AnglePerMetre(Doing):
     """The end of the last step, or the last moment of standing; at first as above, s."""
 
     def reset(self, site: Site) -> None:
-        """The clock of a foot restarts."""
         foot = site.foot
         if foot is None:
             return
@@ -67,11 +66,9 @@ class AnglePerMetre(Doing):
         self.apart[foot] = None
 
     def finish(self, now: float) -> Sequence[Said]:
-        """A flight that is under way is over."""
         return self.flights.finish(now)
 
     def feed(self, view: FootView) -> Sequence[Said]:
-        """A sample of a foot, and the strides that came of it."""
         t = view.t
         if view.moved_at != t or not view.levelled:
             return ()

@@ -10,10 +10,12 @@ together. A mark is where the point of the ground below the ankle comes to be.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import atan2, cos, hypot, sin
+from math import atan2, cos, sin
+from operator import attrgetter
 from pathlib import Path
 
 from ...calibration import Calibration, CalibrationError
+from ...calibration.measured import read_rows
 from ...events import TouchedDown
 from ...foot.navigate.error_state import ErrorStateFilter
 from ...foot.stance.cycle import Cycle
@@ -23,7 +25,6 @@ from ...session import Session
 from ...types import Foot, WalkingMode
 from ...types.attrs import evolve, frozen
 from .modes import Modes
-from .rows import read_rows
 
 NEAR = 0.3
 """A mark that names a time is that of the touchdown within so many s of it."""
@@ -86,7 +87,7 @@ def touchdowns(walk: Recorded, known: Calibration, heading: float | None = None)
     recipe = Recipe("marked walk", Cycle(), ErrorStateFilter(), parts=usual(Modes(heading=heading)))
     session = Session(recipe, calibration=evolve(known, insoles=insoles))
     events = [*session.feed(walk.samples), *session.finish()]
-    return sorted([event for event in events if isinstance(event, TouchedDown)], key=_time)
+    return sorted([event for event in events if isinstance(event, TouchedDown)], key=attrgetter("t"))
 
 
 def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[StepError]:
@@ -100,8 +101,7 @@ def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[Ste
         at[k] = mark
     steps = []
     for k in range(3, len(downs)):
-        four = [at.get(j) for j in range(k - 3, k + 1)]
-        earliest, earlier, before, newest = four
+        earliest, earlier, before, newest = (at.get(j) for j in range(k - 3, k + 1))
         if earliest is None or earlier is None or before is None or newest is None:
             continue
         if not downs[k - 1].final:  # told before the first heading was settled: in another frame
@@ -173,16 +173,6 @@ def fit_modes(
     return Calibration(modes=mean_errors(errors))
 
 
-def spread(errors: Iterable[StepError], compensation: dict[Foot, dict[WalkingMode, tuple[float, float]]]) -> float:
-    """What single steps differ by from the means, rms, m."""
-    squares = [
-        hypot(error.forward - forward, error.left - left) ** 2
-        for error in errors
-        for forward, left in [compensation[error.foot][error.mode]]
-    ]
-    return float((sum(squares) / len(squares)) ** 0.5) if squares else 0.0
-
-
 def _touchdown_of(mark: ModeMark, downs: list[TouchedDown]) -> int:
     of_foot = [k for k, down in enumerate(downs) if down.foot is mark.foot]
     if mark.t is not None:
@@ -193,7 +183,3 @@ def _touchdown_of(mark: ModeMark, downs: list[TouchedDown]) -> int:
     if mark.step is None or mark.step > len(of_foot):
         raise CalibrationError(f"{mark.where}: the {mark.foot.value} foot came down {len(of_foot)} times only")
     return of_foot[mark.step - 1]
-
-
-def _time(down: TouchedDown) -> float:
-    return down.t

@@ -34,7 +34,7 @@ from ...events import Event, Limitation, TouchedDown, WalkingModeChanged
 from ...foot.rejection import rejected
 from ...foot.view import FootPose, FootView
 from ...foot.world import Covariance3
-from ...types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
+from ...types import OTHER, SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 from ...types.attrs import define, evolve, field
 from ...types.vector import TIE, ZERO, sub
 from .compensation import Compensation, chosen, epsilon_p, with_own
@@ -45,7 +45,7 @@ from .mode import LEAST_STEP, TH
 from .places import FootPlaces
 from .recognition import Recognition
 from .signs import Signs
-from .touchdown import OTHER, AnyTouchdown, Carrier, Height, PressureTouchdown, suspended
+from .touchdown import AnyTouchdown, Carrier, Height, PressureTouchdown, suspended
 
 AWAY = 0.03
 """A foot that comes down nearer to where it stood was not away, m: the flags of standing feet flicker."""
@@ -58,9 +58,9 @@ PATIENCE = 0.06
 
 @define
 class Modes(Track):
-    """See above. `compensation`: epsilon_P, None for methods I to III. `weight`, `th`: see `Recognition`. `heading`:
-    where the wearer looks at the start, in the world that the devices share, rad, where it is known
-    (`LowerLimbs.heading`)."""
+    """The wearer's track by touchdowns. `compensation`: epsilon_P, None for methods I to III. `weight`, `th`: see
+    `Recognition`. `heading`: where the wearer looks at the start, in the world that the devices share, rad, where it is
+    known (`LowerLimbs.heading`)."""
 
     feeds: ClassVar[bool] = True
     sites: ClassVar[tuple[Site, ...]] = ABOVE
@@ -114,12 +114,8 @@ class Modes(Track):
         compensation = self.compensation
         if compensation is not None and calibration.modes:
             compensation = with_own(compensation, calibration.modes)
-        return evolve(
-            self,
-            limbs=calibration.limbs or self.limbs,
-            weight=calibration.weight or self.weight,
-            compensation=compensation,
-        )
+        limbs, weight = calibration.limbs or self.limbs, calibration.weight or self.weight
+        return evolve(self, limbs=limbs, weight=weight, compensation=compensation)
 
     # --- samples ---
 
@@ -132,7 +128,6 @@ class Modes(Track):
         return self._awaited(t, t if sample.known_at is None else max(t, sample.known_at))
 
     def reset(self, site: Site) -> None:
-        """The clock of a site restarts."""
         self.places.chain.interrupt(site)
         self.places.tracks.reset(site)
         self.above.interrupt(site)
@@ -154,9 +149,7 @@ class Modes(Track):
 
     def _carry(self, foot: Foot, t: float, known_at: float) -> list[Event]:
         events = self._awaited(t, known_at)
-        seen = t
-        if isinstance(self.touchdown, Height):
-            seen = self._heights(t)
+        seen = self._heights(t) if isinstance(self.touchdown, Height) else t
         other = OTHER[foot]
         alone = foot if self._alone(foot, t) else other if self._alone(other, t) else None
         if alone is None and len(self.signs.shown) < len(Foot):
@@ -262,24 +255,16 @@ class Modes(Track):
                 compensation = epsilon_p(self.compensation, foot, mode, side.direction)
         places.put(foot, suspended(place, compensation), chained, t)
         self.touchdowns += 1
+        events: list[Event] = []
+        if not (chained or self.limited or chain.current(t)):
+            self.limited = True
+            what = f"{chain.why_not(t, self.above.times)}: the feet are where their own inertial tracks have them"
+            events.append(Limitation(t=t, known_at=known_at, site=None, what=what))
+        final = places.headed or not (chained or chain.hopeful())
         came = TouchedDown(
-            t=t,
-            known_at=known_at,
-            final=places.headed or not (chained or chain.hopeful()),
-            foot=foot,
-            position=side.place,
-            mode=mode,
-            compensation=compensation,
+            t=t, known_at=known_at, final=final, foot=foot, position=side.place, mode=mode, compensation=compensation
         )
-        return [*self._limited(chained or chain.current(t), t, known_at), came]
-
-    def _limited(self, chained: bool, t: float, known_at: float) -> list[Event]:
-        if chained or self.limited:
-            return []
-        self.limited = True
-        why = self.places.chain.why_not(t, self.above.times)
-        what = f"{why}: the feet are where their own inertial tracks have them"
-        return [Limitation(t=t, known_at=known_at, site=None, what=what)]
+        return [*events, came]
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
         """The mean of both feet: where the carrying one came down, and where the other is now."""
@@ -296,7 +281,7 @@ class Modes(Track):
         for foot, side in self.places.sides.items():
             moving = carrying is not None and foot is not carrying
             places.append(self.places.seen(foot, t)[0] if moving else side.place)
-        x, y, z = (0.5 * (places[0][axis] + places[1][axis]) for axis in range(3))
+        x, y, z = (0.5 * (one + other) for one, other in zip(*places, strict=True))
         return Position(t, (x, y, z), self._covariance(x, y, known))
 
     def _covariance(self, x: float, y: float, known: list[FootPose]) -> Covariance3:
@@ -305,9 +290,7 @@ class Modes(Track):
         scale, turn = self.scale_sigma**2, self.heading_sigma**2
         xx, yy = each + scale * x * x + turn * y * y, each + scale * y * y + turn * x * x
         xy = (scale - turn) * x * y
-        zz = sum([foot.covariance[5] for foot in known]) / len(known) ** 2
+        own = [sum([foot.covariance[i] for foot in known]) / len(known) ** 2 for i in range(6)]
         if not self.places.chain.aligned:
-            own = [foot.covariance for foot in known]
-            k = 1.0 / len(known) ** 2
-            xx, xy, yy = (value + k * sum([c[i] for c in own]) for i, value in ((0, xx), (1, xy), (3, yy)))
-        return (xx, xy, 0.0, yy, 0.0, zz)
+            xx, xy, yy = xx + own[0], xy + own[1], yy + own[3]
+        return (xx, xy, 0.0, yy, 0.0, own[5])

@@ -7,15 +7,13 @@ below 5 N is not recorded, and 200 N is the most.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
 
-from ...calibration import Calibration, CalibrationError, InsoleCalibration, Newtons
-from ...types import Foot
+from ...calibration import CalibrationError, Newtons
+from ...calibration.measured import read_rows
 from ...types.attrs import frozen
-from .rows import read_rows
 
 THRESHOLD, MOST = 5.0, 200.0
 """N: the range of the paper's insole."""
@@ -36,12 +34,9 @@ class GaugeFit:
 def fit_gauge(path: Path | str) -> GaugeFit:
     """The cubic of a csv file with the columns `counts` and `newtons`, least squares. CalibrationError for a file that
     cannot be read, too few points, or counts that do not rise with the force."""
-    rows = [(row.where, row.number("counts"), row.number("newtons")) for row in read_rows(path, ("counts", "newtons"))]
-    for where, _, force in rows:
-        if not 0.0 <= force <= MOST:
-            raise CalibrationError(f"{where}: {force:g} N, and the range is 0 to {MOST:g} N")
-    counts = np.array([count for _, count, _ in rows])
-    forces = np.array([force for *_, force in rows])
+    rows = read_rows(path, ("counts", "newtons"))
+    counts = np.array([row.number("counts") for row in rows])
+    forces = np.array([row.number("newtons", 0.0, MOST, "N") for row in rows])
     different = len(set(counts.tolist()))
     if different < LEAST_POINTS:
         raise CalibrationError(f"{path}: {different} different counts, and a cubic wants {LEAST_POINTS} or more")
@@ -55,9 +50,3 @@ def fit_gauge(path: Path | str) -> GaugeFit:
     a, b, c, d = (float(value) / unit**power for power, value in enumerate(scaled))
     newtons = Newtons((a, b, c, d), THRESHOLD, MOST)
     return GaugeFit(newtons, float(np.sqrt(np.mean(missed**2))), float(np.abs(missed).max()), len(rows))
-
-
-def fit_newtons(path: Path | str, feet: Iterable[Foot] = tuple(Foot)) -> Calibration:
-    """A calibration with the cubic of `path` (`fit_gauge`) for the insoles of `feet`."""
-    found = fit_gauge(path)
-    return Calibration(insoles={foot: InsoleCalibration(newtons=found.newtons) for foot in feet})

@@ -14,12 +14,12 @@ from math import atan2, cos, hypot, pi, sin
 from ...body.fuse.position import MeanOfFeet, PlacedTrack
 from ...calibration import Limbs
 from ...foot.view import FootView
-from ...types import Foot, Vec3
+from ...types import OTHER, Foot, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO, sub
 from .limbs.limbs import LowerLimbs
 from .mode import LEAST_STEP
-from .touchdown import OTHER, suspended, v_change
+from .touchdown import suspended, v_change
 
 FIRST_WAY = 1.5
 """So far the middle between the feet must go to tell the first heading for good, m."""
@@ -122,11 +122,11 @@ class FootPlaces:
     def seen(self, foot: Foot, t: float) -> tuple[Vec3, bool]:
         """Where `foot` is, seen from the other, by (1) to (3): the ground below it; and whether the chain tells it. A
         foot that by its track went on since it came down is no place to see another from: then by the own track."""
-        left, right, chained = self._ends(t)
-        carrying = self.sides[OTHER[foot]]
+        chained, carrying = self.chain.current(t), self.sides[OTHER[foot]]
         if not chained and carrying.gone > LEAST_STEP:
             x, y, _ = self.sides[foot].own
             return (x, y, self.sides[foot].track[2]), False
+        left, right = (self.chain.end(one, t) if chained else side.own for one, side in self.sides.items())
         x, y, _ = suspended(carrying.place, v_change(left, right, OTHER[foot]))
         if chained:
             reach = self._reach(foot, t)
@@ -155,13 +155,6 @@ class FootPlaces:
             side.reach = self._reach(foot, t)
         side.offset = sub(side.place, side.track)
         self._head(chained)
-
-    def _ends(self, t: float) -> tuple[Vec3, Vec3, bool]:
-        """P_L and P_R in one frame, m, and whether they are the chain's."""
-        if self.chain.current(t):
-            return self.chain.end(Foot.LEFT, t), self.chain.end(Foot.RIGHT, t), True
-        left, right = self.sides[Foot.LEFT], self.sides[Foot.RIGHT]
-        return suspended(left.track, left.offset), suspended(right.track, right.offset), False
 
     def _reach(self, foot: Foot, t: float) -> tuple[float, float]:
         x, y = self.chain.forward(foot, t)

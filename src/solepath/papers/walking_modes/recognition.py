@@ -10,10 +10,10 @@ After Gong et al. 2023 (Sensors 23, 5417), section 3.3. What the paper leaves op
 
 from __future__ import annotations
 
-from ...types import Foot, Layout, WalkingMode
+from ...types import OTHER, Foot, Layout, WalkingMode
 from ...types.attrs import define, field
 from .mode import LEAST_STEP, LINGERS, STANDING_WEIGHT, TH, Contact, at_pace, decide
-from .touchdown import OTHER, FootState, PressureTouchdown
+from .touchdown import FootState, PressureTouchdown
 
 LONG_ENOUGH = 2000
 """Samples that the mean of what both feet bear is taken over, from then on as a decaying one."""

@@ -13,11 +13,9 @@ else nothing changes. So in walking each foot carries from its own touchdown to 
 
 from __future__ import annotations
 
-from ...types import Foot, Vec3
+from ...types import OTHER, Foot, Vec3
 from ...types.attrs import define, field
 from ...types.vector import TIE, ZERO, sub
-
-OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 
 
 def v_change(left: Vec3, right: Vec3, carrying: Foot) -> Vec3:

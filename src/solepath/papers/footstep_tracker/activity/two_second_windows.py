@@ -133,56 +133,51 @@ class TwoSecondWindows(Doing):
             self.feet, self.standing = {}, {}
 
     def feed(self, view: FootView) -> Sequence[Said]:
-        """A sample of a foot."""
         acc, t = view.sample.acc, view.t
         if acc is None:
             return ()
-        windows = self.feet.get(view.foot)
-        if windows is None or self.origin is None:
-            if self.origin is None:
-                self.origin = t
-            windows = FootWindows()
-            self.feet = {**self.feet, view.foot: windows}
-            self.feet = {one: self.feet[one] for one in Foot if one in self.feet}
+        if self.origin is None:
+            self.origin = t
+        if view.foot not in self.feet:
+            feet = {**self.feet, view.foot: FootWindows()}
+            self.feet = {one: feet[one] for one in Foot if one in feet}
             self.standing.setdefault(view.foot, Standing())
-        if not windows.update(t - self.origin, acc, view.sample.gyro):
+        if not self.feet[view.foot].update(t - self.origin, acc, view.sample.gyro):
             return ()
         return self._full(view.known_at)
 
     def _full(self, known_at: float) -> list[Event]:
         """A half-second of one foot is over: decide about every window that no foot will add to."""
-        told: list[Event] = []
-        while True:
-            waiting = [w.ready[0].index for w in self.feet.values() if w.ready]
-            if not waiting:
-                return told
+        events: list[Event] = []
+        while waiting := [w.ready[0].index for w in self.feet.values() if w.ready]:
             index = min(waiting)
             newest = [w.newest for w in self.feet.values() if w.newest is not None]
             if any(index >= one >= max(newest) - SILENT for one in newest):
-                return told
-            seen: dict[Foot, FootWindow] = {}
-            for foot, windows in self.feet.items():
-                if windows.ready and windows.ready[0].index == index:
-                    seen[foot] = windows.ready.popleft()
+                break
+            ready = [(foot, w.ready) for foot, w in self.feet.items() if w.ready and w.ready[0].index == index]
+            seen = {foot: windows.popleft() for foot, windows in ready}
             if self.decided is None or index > self.decided:
-                self._decide(index, seen, known_at, told)
+                events += self._decide(index, seen, known_at)
+        return events
 
     # --- one window ---
 
-    def _decide(self, index: int, seen: dict[Foot, FootWindow], known_at: float, told: list[Event]) -> None:
+    def _decide(self, index: int, seen: dict[Foot, FootWindow], known_at: float) -> list[Event]:
+        events: list[Event] = []
         if self.decided is not None and index - self.decided > LOST:
-            self._lost(known_at, told)
+            events = [] if self.ride is None else self._no_ride(self.ride, known_at)
+            self.belief = None
+            events += self._change(self._newest(self.decided) + HOP, Activity.UNKNOWN, known_at)
         self.decided = index
         model = shipped() if self.model is None else self.model
         if sum([w.variance for w in seen.values()]) > model.moving * len(seen):
             self.moved += 1
             for foot in seen:
                 self.standing[foot].moved()
-            if self.moved >= WHOLE:
-                state = self._state(model, seen)
-                if self.moved >= SURE:
-                    self._moves(index, state, known_at, told)
-            return
+            if self.moved < WHOLE:
+                return events
+            state = self._state(model, seen)
+            return events if self.moved < SURE else events + self._moves(index, state, known_at)
         self.moved, self.belief = 0, None
         off = 0.0
         for foot, window in seen.items():
@@ -193,7 +188,7 @@ class TwoSecondWindows(Doing):
         if pulse == 0:
             for foot, window in seen.items():
                 self.standing[foot].learn(window.mean)
-        self._stands(index, pulse, seen, known_at, told)
+        return events + self._stands(index, pulse, seen, known_at)
 
     def _state(self, model: WindowModel, seen: dict[Foot, FootWindow]) -> Activity:
         """What kind of movement the hidden Markov model believes in, with this window."""
@@ -206,91 +201,76 @@ class TwoSecondWindows(Doing):
 
     # --- what follows ---
 
-    def _moves(self, index: int, state: Activity, known_at: float, told: list[Event]) -> None:
+    def _moves(self, index: int, state: Activity, known_at: float) -> list[Event]:
         began = self._newest(index - self.moved + 1)
+        events: list[Event] = []
         if self.ride is not None:
-            if self.ride.braking:
-                self._arrive(self.ride, began, known_at, told)
-            else:
-                self._no_ride(self.ride, known_at, told)
-        self._tell(self._middle(index) if self.activity in MOVING else began, state, known_at, told)
+            ride = self.ride
+            events = self._arrive(ride, began, known_at) if ride.braking else self._no_ride(ride, known_at)
+        if self.activity in MOVING:
+            began = self._newest(index) + 0.5 * (HOP - WINDOW)  # the half-second in the window's middle
+        return events + self._change(began, state, known_at)
 
-    def _stands(self, index: int, pulse: int, seen: dict[Foot, FootWindow], known_at: float, told: list[Event]) -> None:
-        ride = self.ride
+    def _stands(self, index: int, pulse: int, seen: dict[Foot, FootWindow], known_at: float) -> list[Event]:
+        ride, events = self.ride, list[Event]()
         if ride is not None:
             forth = 1 if ride.up else -1
             if pulse == -forth:
                 if not ride.braking:
-                    self._tell(ride.began, self.activity, known_at, told, revises=ride.began)
+                    events += self._change(ride.began, self.activity, known_at, revises=ride.began)
                 ride.braking, ride.newest = True, index
                 if index - ride.index < LONGEST_RIDE + LONGEST_PULSE:
-                    return
+                    return events
                 pulse = 0
             if ride.braking:
-                self._arrive(ride, self._start(index), known_at, told)
+                events += self._arrive(ride, self._start(index), known_at)
                 pulse = 0  # a lift that brakes hard swings back
             elif pulse == forth and index - ride.newest <= BLOCKS:
                 ride.newest, ride.first_pulse = index, ride.first_pulse + 1
                 if ride.first_pulse <= LONGEST_PULSE:
-                    return
+                    return events
                 first = all(self.standing[foot].windows <= LONGEST_PULSE for foot in seen)
                 for foot, window in seen.items():
                     self.standing[foot] = Standing(window.mean, QUICK, LONGEST_PULSE)
                 if first:  # what seemed to be standing at the very first was the pulse, and what lasts is standing
                     ride.up, ride.first_pulse = not ride.up, 1
-                    self._tell(ride.began, LIFT[ride.up], known_at, told, final=False, revises=ride.began)
-                    return
+                    return events + self._change(ride.began, LIFT[ride.up], known_at, final=False, revises=ride.began)
                 pulse = 0
-                self._no_ride(ride, known_at, told)
+                events += self._no_ride(ride, known_at)
             elif pulse == forth or index - ride.index > LONGEST_RIDE:
-                self._no_ride(ride, known_at, told)  # the other pulse of that one never came
+                events += self._no_ride(ride, known_at)  # the other pulse of that one never came
             else:
-                return
+                return events
         if pulse == 0:
-            self._tell(self._start(index), Activity.STANDING, known_at, told)
-            return
+            return events + self._change(self._start(index), Activity.STANDING, known_at)
         began = self._after(self._newest(index))
         self.ride = LiftPulses(began, index, pulse > 0, newest=index)
-        self._tell(began, LIFT[pulse > 0], known_at, told, final=False)
+        return events + self._change(began, LIFT[pulse > 0], known_at, final=False)
 
-    def _arrive(self, ride: LiftPulses, t: float, known_at: float, told: list[Event]) -> None:
+    def _arrive(self, ride: LiftPulses, t: float, known_at: float) -> list[Event]:
         self.ride = None
         t = self._after(t)
-        told.append(LiftRidden(t=t, known_at=known_at, t_start=ride.began, up=ride.up, height=None))
-        self._tell(t, Activity.STANDING, known_at, told)
+        ridden = LiftRidden(t=t, known_at=known_at, t_start=ride.began, up=ride.up, height=None)
+        return [ridden, *self._change(t, Activity.STANDING, known_at)]
 
-    def _no_ride(self, ride: LiftPulses, known_at: float, told: list[Event]) -> None:
+    def _no_ride(self, ride: LiftPulses, known_at: float) -> list[Event]:
         self.ride = None
-        self._tell(ride.began, Activity.STANDING, known_at, told, revises=ride.began)
+        return self._change(ride.began, Activity.STANDING, known_at, revises=ride.began)
 
-    def _lost(self, known_at: float, told: list[Event]) -> None:
-        """Too long without a window."""
-        if self.ride is not None:
-            self._no_ride(self.ride, known_at, told)
-        self.belief = None
-        if self.decided is not None:
-            self._tell(self._newest(self.decided) + HOP, Activity.UNKNOWN, known_at, told)
-
-    def _tell(
-        self,
-        t: float,
-        activity: Activity,
-        known_at: float,
-        told: list[Event],
-        *,
-        final: bool = True,
-        revises: float | None = None,
-    ) -> None:
+    def _change(
+        self, t: float, activity: Activity, known_at: float, *, final: bool = True, revises: float | None = None
+    ) -> list[Event]:
+        """The event of this activity, where that is another or a revision."""
         if activity is self.activity and revises is None:
-            return
+            return []
         if revises is None:
             t = self._after(t)
         if self.told is None and self.origin is not None:
             t = self.origin  # the first window speaks for the half-second that it was levelled in
         self.activity, self.told = activity, t
-        told.append(
+        return [
             ActivityChanged(t=t, known_at=known_at, final=final, activity=activity, probability=None, revises=revises)
-        )
+        ]
 
     def _after(self, t: float) -> float:
         """`t`, but not before what was told already."""
@@ -303,7 +283,3 @@ class TwoSecondWindows(Doing):
     def _newest(self, index: int) -> float:
         """When its newest half-second begins."""
         return (0.0 if self.origin is None else self.origin) + index * HOP
-
-    def _middle(self, index: int) -> float:
-        """When the half-second in its middle begins."""
-        return self._newest(index) + 0.5 * (HOP - WINDOW)

@@ -10,8 +10,8 @@ import json
 from functools import cache
 from importlib.resources import files
 from math import log
-from typing import Any
 
+from ....saving.codec import load
 from ....types.attrs import frozen
 from .hmm import Matrix
 from .windows import FootWindow
@@ -88,24 +88,5 @@ class WindowModel:
 @cache
 def shipped() -> WindowModel:
     """The model that comes with this release."""
-    return from_json(json.loads(files(__package__).joinpath("footstep_activity.json").read_text(encoding="utf-8")))
-
-
-def from_json(told: dict[str, Any]) -> WindowModel:
-    """The model of what footstep_activity.json holds."""
-    mixtures = {name: tuple([_gaussian(one) for one in told[name]]) for name in ("walking", "stairs_up", "stairs_down")}
-    return WindowModel(
-        trained_on=told["trained_on"],
-        moving=float(told["moving"]),
-        pulse=float(told["pulse"]),
-        transitions=_rows(told["transitions"]),
-        **mixtures,
-    )
-
-
-def _gaussian(told: dict[str, Any]) -> Gaussian:
-    return Gaussian(float(told["weight"]), tuple([float(value) for value in told["mean"]]), _rows(told["factor"]))
-
-
-def _rows(told: list[list[float]]) -> Matrix:
-    return tuple([tuple([float(value) for value in row]) for row in told])
+    text = files(__package__).joinpath("footstep_activity.json").read_text(encoding="utf-8")
+    return load(WindowModel, json.loads(text))

@@ -16,7 +16,7 @@ from math import atan2, cos, hypot, sin, sqrt
 from typing import NamedTuple
 
 from ....calibration import Limbs
-from ....types import Foot, Quat, Site, Vec3
+from ....types import OTHER, Foot, Quat, Site, Vec3
 from ....types.attrs import define, field
 from ....types.vector import IDENTITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate
 from .segment import LimbSegment
@@ -220,7 +220,7 @@ class LowerLimbs:
         if self.facing is not None or not self.aligned:
             return
         x = y = 0.0
-        for leg, sign in ((foot, 1.0), (Foot.LEFT if foot is Foot.RIGHT else Foot.RIGHT, -1.0)):
+        for leg, sign in ((foot, 1.0), (OTHER[foot], -1.0)):
             for site, length in zip(LEGS[leg], (self.limbs.thigh, self.limbs.shank), strict=False):
                 dx, dy, _ = rotate(self.segments[site].attitude(0.0, 0.0, t), (0.0, 0.0, -length))
                 x += sign * dx

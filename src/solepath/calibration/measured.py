@@ -5,12 +5,12 @@ from __future__ import annotations
 import csv
 from collections.abc import Collection
 from io import StringIO
-from math import isfinite
+from math import inf, isfinite
 from pathlib import Path
 
-from ...calibration import CalibrationError
-from ...calibration.file import bounded_text
-from ...types.attrs import frozen
+from ..types.attrs import frozen
+from .file import bounded_text
+from .records import CalibrationError
 
 
 @frozen
@@ -24,8 +24,14 @@ class TableRow:
         """Whether something stands there."""
         return bool(self.cells.get(column, ""))
 
-    def number(self, column: str) -> float:
-        """A finite number. CalibrationError when there is none."""
+    def word(self, column: str) -> str:
+        """What stands there. CalibrationError when nothing does."""
+        if not self.has(column):
+            raise CalibrationError(f"{self.where}: nothing in column {column}")
+        return self.cells[column]
+
+    def number(self, column: str, low: float = -inf, high: float = inf, unit: str = "") -> float:
+        """A finite number from `low` to `high`. CalibrationError when there is none."""
         text = self.cells.get(column, "")
         try:
             value = float(text)
@@ -33,6 +39,9 @@ class TableRow:
             raise CalibrationError(f"{self.where}: {column} is {text!r}, not a number") from None
         if not isfinite(value):
             raise CalibrationError(f"{self.where}: {column} is {text!r}, not a finite number")
+        if not low <= value <= high:
+            between = f"between {low:g} and {high:g} {unit}"
+            raise CalibrationError(f"{self.where}: {column} is {text}, which is not {between}")
         return value
 
     def one_of(self, column: str, allowed: Collection[str]) -> str:
@@ -45,7 +54,7 @@ class TableRow:
 
 def read_rows(path: Path | str, columns: Collection[str]) -> list[TableRow]:
     """The lines of a csv file below its header, empty ones left out. CalibrationError when the file cannot be read,
-    lacks one of `columns`, or has a line of another length."""
+    has not one of each of `columns`, or has a line of another length."""
     try:
         text = StringIO(bounded_text(Path(path), "utf-8-sig"), newline="")
         lines = [[cell.strip() for cell in line] for line in csv.reader(text)]
@@ -54,9 +63,9 @@ def read_rows(path: Path | str, columns: Collection[str]) -> list[TableRow]:
     except (UnicodeDecodeError, csv.Error) as error:
         raise CalibrationError(f"{path}: is not a csv file ({error})") from None
     header = lines[0] if lines else []
-    missing = [column for column in columns if column not in header]
+    missing = [column for column in columns if header.count(column) != 1]
     if missing:
-        raise CalibrationError(f"{path}, line 1: no column {' and no column '.join(missing)}")
+        raise CalibrationError(f"{path}, line 1: wants one column {' and one column '.join(missing)}")
     rows = []
     for number, line in enumerate(lines[1:], 2):
         if not any(line):

@@ -1,0 +1,34 @@
+"""Work that is the same for many jobs, done by several processes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import ExitStack
+from typing import TypeVar
+
+Job = TypeVar("Job")
+Done = TypeVar("Done")
+
+Progress = Callable[[int, int], None]
+"""Is called with (jobs done, all jobs)."""
+
+
+def each(
+    work: Callable[[Job], Done],
+    jobs: Sequence[Job],
+    *,
+    processes: int = 1,
+    progress: Progress | None = None,
+    before: int = 0,
+    after: int = 0,
+) -> Iterator[Done]:
+    """What `work`, a function of a module, makes of every job, in their order. `before`, `after`: how many jobs of
+    other work the progress counts before and after these."""
+    with ExitStack() as stack:
+        many = processes > 1 and len(jobs) > 1
+        pool = stack.enter_context(ProcessPoolExecutor(min(processes, len(jobs)))) if many else None
+        for done, outcome in enumerate((map if pool is None else pool.map)(work, jobs), before + 1):
+            if progress is not None:
+                progress(done, before + len(jobs) + after)
+            yield outcome
