@@ -9,21 +9,11 @@ from functools import partial
 
 from ...link.devices.cc2541 import PROFILE
 from ..sensors.device import device_numbers, started
-from ..sensors.parts import MAG3110, T5400
-from ..sensors.sensortags import (
-    CC2541,
-    CC2541_KEYS,
-    GYRO_COUNT,
-    MAG3110_COUNT,
-    calibration_bytes,
-    cc2541_bytes,
-    code_count,
-    raw_air,
-)
-from ..sensors.tag_signals import LATE_AIR, LATE_MAG, Series
+from ..sensors.sensortags import CC2541, CC2541_KEYS, LATE, calibration_bytes
+from ..sensors.tag_signals import Series
 from .attributes import READ_NOT_PERMITTED, AttError
 from .peripheral import Worn
-from .tag import HUMIDITY, INFRARED, STOCK, Make, Presses, Sensor, Tag, masked, room, shortest, switch
+from .tag import HUMIDITY, INFRARED, STOCK, Make, Presses, Sensor, Tag, room, shortest, switch
 
 # What the sensors say that measure nothing of the wearer: 24 degrees, half the air's moisture.
 _ROOM = {"cc2541/infrared": bytes.fromhex("0000000c"), "cc2541/humidity": bytes.fromhex("3867b072")}
@@ -36,12 +26,7 @@ class CC2541Peripheral(Tag):
         self.device = device
         numbers = device_numbers(worn.seed, worn.site)
         clock = started(numbers, 1.0 / device.rate, device.ppm)
-        self._late = {
-            "cc2541/accelerometer": 0.0,
-            "cc2541/gyroscope": float(numbers.uniform()) / device.rate,
-            "cc2541/magnetometer": LATE_MAG,
-            "cc2541/barometer": LATE_AIR,
-        }
+        self._begins = {**LATE, "cc2541/gyroscope": float(numbers.uniform()) / device.rate}
         self._shortest = shortest(device.rate)
         sensors = (
             Sensor("cc2541/accelerometer", 100, self._shortest, bytes(3)),
@@ -85,29 +70,12 @@ class CC2541Peripheral(Tag):
             return None
         if sensor in _ROOM:
             return 0.0, lambda number: _ROOM[sensor]
-        return self._late[sensor], partial(self._say, sensor, code, period)
+        return self._begins[sensor], partial(self._say, sensor, code, period)
 
     def _say(self, sensor: str, code: int, period: float, number: int) -> bytes:
         (series,) = self.series(sensor, period)
-        match sensor:
-            case "cc2541/accelerometer":
-                counts = series.count(number, self.device.part.acc, code_count(code))
-                return cc2541_bytes("accelerometer", acc=counts)
-            case "cc2541/gyroscope":
-                axes = (bool(code & 1), bool(code & 2), bool(code & 4))
-                counts = masked(series.count(number, self.device.part.gyro, GYRO_COUNT), axes)
-                return cc2541_bytes("gyroscope", gyro=counts)
-            case "cc2541/magnetometer":
-                return cc2541_bytes("magnetometer", mag=series.count(number, MAG3110, MAG3110_COUNT))
-        return cc2541_bytes("barometer", **raw_air(float(series.value(number)[0, 0])))
+        return self.device.said(sensor, series.value(number), code)[0]
 
     def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
-        worn, numbers = self._worn, self._numbers(list(self._late).index(sensor))
-        if sensor == "cc2541/barometer":
-            return (worn.air(period, T5400, numbers),)
-        when = worn.when(period, self._late[sensor])
-        motion = worn.motion(when)
-        if sensor == "cc2541/magnetometer":
-            return (worn.series(when, period, worn.mag(motion, when, MAG3110, numbers)),)
-        feel = worn.acc if sensor == "cc2541/accelerometer" else worn.gyro
-        return (worn.series(when, period, feel(motion, when, self.device.part, numbers)),)
+        numbers = self._numbers(list(self._begins).index(sensor))
+        return (self.device.measure(sensor, self._worn, period, self._begins[sensor], numbers),)

@@ -16,20 +16,11 @@ from ...link.devices.cc2650 import DRIVER, PROFILE
 from ...types.vector import GRAVITY
 from ..sensors.device import device_numbers, started
 from ..sensors.parts import AK8963, BMP280
-from ..sensors.sensortags import (
-    AK8963_COUNT,
-    BATTERY,
-    CC2650,
-    CC2650_KEYS,
-    GYRO_COUNT,
-    cc2650_air,
-    movement_bytes,
-    range_count,
-)
+from ..sensors.sensortags import BATTERY, CC2650, CC2650_KEYS, cc2650_air
 from ..sensors.tag_signals import LATE_AIR, Series
 from .attributes import Battery
 from .peripheral import Worn
-from .tag import HUMIDITY, INFRARED, LIGHT, STOCK, Make, Presses, Sensor, Tag, masked, room, shortest, switch
+from .tag import HUMIDITY, INFRARED, LIGHT, STOCK, Make, Presses, Sensor, Tag, room, shortest, switch
 
 WAKES = 0.040 * GRAVITY
 """m/s^2 from one sample to the next that wake a tag which lies still."""
@@ -91,11 +82,7 @@ class CC2650Peripheral(Tag):
         acc, gyro, mag = self.series("cc2650/movement", period)
         if config.wake_on_motion and not self._awake(acc, period, number):
             return None
-        return movement_bytes(
-            masked(gyro.count(number, self.device.part.gyro, GYRO_COUNT), config.gyro_axes),
-            masked(acc.count(number, self.device.part.acc, range_count(config.range)), config.acc_axes),
-            masked(mag.count(number, AK8963, AK8963_COUNT), (config.mag,) * 3),
-        )
+        return self.device.movement(config, acc.value(number), gyro.value(number), mag.value(number))[0]
 
     def _say_air(self, period: float, number: int) -> bytes:
         (air,) = self.series("cc2650/barometer", period)
@@ -106,12 +93,11 @@ class CC2650Peripheral(Tag):
         worn, part = self._worn, self.device.part
         if sensor == "cc2650/barometer":
             return (worn.air(period, BMP280, self._numbers(3)),)
-        when = worn.when(period)
-        motion = worn.motion(when)
+        moving = worn.moving(period)
         return (
-            worn.series(when, period, worn.acc(motion, when, part, self._numbers(0))),
-            worn.series(when, period, worn.gyro(motion, when, part, self._numbers(1))),
-            worn.series(when, period, worn.mag(motion, when, AK8963, self._numbers(2))),
+            moving.acc(part, self._numbers(0)),
+            moving.gyro(part, self._numbers(1)),
+            moving.mag(AK8963, self._numbers(2)),
         )
 
     def _awake(self, acc: Series, period: float, number: int) -> bool:

@@ -213,9 +213,3 @@ def switch(config: bytes, most: int) -> int:
 def room(values: Mapping[str, bytes]) -> list[Sensor]:
     """Sensors that measure nothing of the wearer and always say the same."""
     return [Sensor(n, 100, SLUGGISH if n.endswith("infrared") else STOCK, bytes(len(v))) for n, v in values.items()]
-
-
-def masked(row: tuple[int, int, int], axes: tuple[bool, ...]) -> tuple[int, int, int]:
-    """The axes that are on; the others read 0."""
-    x, y, z = (value if on else 0 for value, on in zip(row, axes, strict=True))
-    return (x, y, z)

@@ -11,11 +11,9 @@ from attrs import frozen
 from ...link.profile import Profile
 from ...types import Foot, Site
 from ..wearers.curves import Array
-from ..wearers.motion import Kinematics
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .parts import Imu
-from .sensors import CountReading, Instants, instants, read_triad
+from .sensors import Instants, instants
 
 CRYSTAL_PPM = 30.0
 """Standard deviation of a crystal's rate between devices: the usual 32 kHz tuning fork is within +-50 ppm or so."""
@@ -93,21 +91,6 @@ def samplings(walker: Walker, clock: DeviceClock, nominal: float, first: float |
     """The instants of a sensor that measures every `nominal` s of the device's time until the walk ends."""
     begin, interval = clock.first if first is None else first, clock.interval(nominal)
     return instants(begin, interval, max(2, int((walker.duration - begin) / interval)))
-
-
-def read_imu(
-    motion: Kinematics,
-    when: Instants,
-    part: Imu,
-    acc_count: float,
-    gyro_count: float,
-    rng: np.random.Generator,
-    bandwidth: float | None = None,
-) -> tuple[CountReading, CountReading]:
-    """Counts of accelerometer and gyroscope; `bandwidth` (Hz) where the device sets the part's low pass."""
-    acc = read_triad(motion.force, when, part.acc, acc_count, rng, bandwidth=bandwidth)
-    gyro = read_triad(motion.rate, when, part.gyro, gyro_count, rng, force=motion.force, bandwidth=bandwidth)
-    return acc, gyro
 
 
 FIELD: Array = np.array([16e-6, 12e-6, -43e-6])

@@ -17,10 +17,10 @@ from ...wire.insole_info import InsoleInfo, build_info
 from ..wearers.curves import Array
 from ..wearers.shoe import IN_SOLE, ON_HEEL, Mounting, Shoe
 from ..wearers.walker import Walker
-from .device import Notification, foot_of, prepared, read_imu, samplings, started
+from .device import Notification, foot_of, prepared, samplings, started
 from .insoles import SCALE, heel_array, layout
 from .parts import HEEL_ARRAY, INERTIACUBE3, LSM6DSOX, RESISTIVE, AttitudePart, CellPart, Imu
-from .sensors import attitude_read, read_cells, sample
+from .sensors import attitude_read, counted, measure_imu, read_cells, sample, samples_of
 
 HANDLING = 1e-3
 """s from a frame's last sample until the radio has it."""
@@ -149,7 +149,8 @@ class Insole:
         shape = self._layout(foot, walker.wearer.shoe)
 
         motion = walker.kinematics(foot, when.fine, self.mounting)
-        acc, gyro = read_imu(motion, when, self.part, ACC_COUNT, GYRO_COUNT, rng, bandwidth=0.5 * self.rate)
+        felt, turned = measure_imu(motion, when, self.part, rng, 0.5 * self.rate)
+        acc, gyro = counted(felt, self.part.acc, ACC_COUNT), counted(turned, self.part.gyro, GYRO_COUNT)
         lift = sample(motion.force, when) @ np.array(rotate(conjugate(self.mounting.attitude), (0.0, 0.0, 1.0)))
         loads = read_cells(
             walker.cell_loads(shape, when.taken), when.taken, self.cell_part, shape.scale or SCALE, rng, lift=lift
@@ -176,26 +177,13 @@ class Insole:
     def samples(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Sample]:
         """The same without a wire and a radio: what a perfect link makes of the walk, on the true clock."""
         signal = self.measure(walker, site, rng)
-        scale = signal.layout.scale or 1.0
         t = signal.first + signal.step * np.arange(len(signal.cells), dtype=np.float64)
-        cells = (scale * signal.cells).tolist()
-        imu = None if signal.imu is None else (signal.imu * ([ACC_COUNT] * 3 + [GYRO_COUNT] * 3)).tolist()
-        quats = None if signal.quats is None else (signal.quats / 16384.0).tolist()
-        found = []
-        for k, when in enumerate(t.tolist()):
-            fx, fy, fz, wx, wy, wz = imu[k] if imu is not None else (0.0,) * 6
-            found.append(
-                Sample(
-                    t=when,
-                    site=site,
-                    acc=None if imu is None else (fx, fy, fz),
-                    gyro=None if imu is None else (wx, wy, wz),
-                    pressure=tuple(cells[k]),
-                    quat=None if quats is None else tuple(quats[k]),
-                    saturated=bool(signal.full[k]),
-                )
-            )
-        return found
+        acc = gyro = None
+        if signal.imu is not None:
+            acc, gyro = signal.imu[:, :3] * ACC_COUNT, signal.imu[:, 3:] * GYRO_COUNT
+        quats = None if signal.quats is None else signal.quats / 16384.0
+        cells = (signal.layout.scale or 1.0) * signal.cells
+        return samples_of(site, t, acc, gyro, cells, quats, signal.full)
 
     @property
     def interval(self) -> int:

@@ -6,15 +6,20 @@ is too fast for the sample rate aliases or is rounded off as it is in the part.
 
 from __future__ import annotations
 
-from math import ceil, cos, exp, pi, sin, sqrt
+from itertools import repeat
+from math import ceil, cos, exp, inf, pi, sin, sqrt
+from typing import Any
 
 import numpy as np
 from attrs import frozen
+from numpy.typing import NDArray
 
+from ...types import Sample, Site
 from ...types.vector import GRAVITY
 from ..wearers.curves import Array
+from ..wearers.motion import Kinematics
 from ..wearers.turning import multiplied
-from .parts import AttitudePart, BarometerPart, CellPart, Triad
+from .parts import AttitudePart, BarometerPart, CellPart, Imu, Triad
 
 INTERNAL_RATE = 800.0
 """Hz: instants per second at which a signal is worked out before it is filtered, at least."""
@@ -55,34 +60,29 @@ class CountReading:
     saturated: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
 
-def read_triad(
-    true: Array,
-    when: Instants,
-    part: Triad,
-    count: float,
-    rng: np.random.Generator,
-    *,
-    force: Array | None = None,
-    bandwidth: float | None = None,
-) -> CountReading:
-    """What a triad reports of `true` (fine instants, 3); `count` is what one count is worth.
-
-    `force` is the specific force at the same instants, for gyroscopes that feel it. `bandwidth` overrides the part's.
-    """
-    return counted(measure(true, when, part, rng, force=force, bandwidth=bandwidth), part, count)
-
-
 def measure(
     true: Array,
     when: Instants,
     part: Triad,
     rng: np.random.Generator,
-    *,
     force: Array | None = None,
-    bandwidth: float | None = None,
+    bandwidth: float = inf,
 ) -> Array:
-    """What a triad measures of `true` at the instants that are taken (N, 3), before it makes counts of it."""
-    return sample(low_pass(errors(true, when, part, rng, force), when.rate, bandwidth or part.bandwidth), when)
+    """What a triad measures of `true` (fine instants, 3) at the instants that are taken (N, 3), before it makes counts.
+
+    `force` is the specific force at the same instants, for gyroscopes that feel it. `bandwidth` (Hz) is that of a
+    device's own low pass, where it is below the part's.
+    """
+    felt = errors(true, when, part, rng, force)
+    return sample(low_pass(felt, when.rate, min(part.bandwidth, bandwidth)), when)
+
+
+def measure_imu(
+    true: Kinematics, when: Instants, part: Imu, rng: np.random.Generator, bandwidth: float
+) -> tuple[Array, Array]:
+    """What accelerometer and gyroscope measure."""
+    acc = measure(true.force, when, part.acc, rng, bandwidth=bandwidth)
+    return acc, measure(true.rate, when, part.gyro, rng, true.force, bandwidth)
 
 
 def counted(measured: Array, part: Triad, count: float) -> CountReading:
@@ -217,3 +217,21 @@ def attitude_read(true: Array, t: Array, part: AttitudePart, north: float, rng: 
     axis = 0.5 * np.sinc(angle / (2.0 * pi)) * turned  # sin(angle / 2) / angle
     about = np.array([[cos(0.5 * north), 0.0, 0.0, -sin(0.5 * north)]])
     return multiplied(multiplied(about, np.concatenate((np.cos(0.5 * angle), axis), axis=1)), true)
+
+
+def samples_of(
+    site: Site,
+    t: Array,
+    acc: NDArray[Any] | None,
+    gyro: NDArray[Any] | None,
+    pressure: NDArray[Any] | None,
+    quat: NDArray[Any] | None = None,
+    saturated: NDArray[np.bool_] | None = None,
+) -> list[Sample]:
+    """Samples taken at `t`, with the rows of what was measured."""
+    vectors = [repeat(None) if one is None else map(tuple, one.tolist()) for one in (acc, gyro, pressure, quat)]
+    full = repeat(False) if saturated is None else saturated.tolist()
+    return [
+        Sample(when, site, a, g, p, q, saturated=limit)
+        for when, a, g, p, q, limit in zip(t.tolist(), *vectors, full, strict=False)
+    ]
