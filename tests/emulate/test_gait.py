@@ -74,7 +74,7 @@ def test_a_walk_ends_with_the_feet_together_at_the_end_of_the_route(route: Route
         at = strides[-1].end if strides else walker.plan.starts[foot]
         out = side * 0.5 * steady.step_width
         assert (at.x, at.y) == pytest.approx((end.x - out * sin(end.heading), end.y + out * cos(end.heading)), abs=1e-9)
-        assert at.yaw == pytest.approx(end.heading + side * steady.toe_out)
+        assert at.heading == pytest.approx(end.heading + side * steady.toe_out)
 
 
 def test_a_straight_walk_ends_after_its_distance() -> None:

@@ -14,7 +14,6 @@ from ...types import Foot
 from ..wearers.gait import (
     SETTLING,
     Climb,
-    FootStand,
     PlannedStride,
     WalkPlan,
     Wearer,
@@ -168,11 +167,11 @@ class _Planner:
         ]
         return [*falls, falls[-1]]
 
-    def _stance(self, pose: Pose, foot: Foot, width: float, turned: float) -> FootStand:
+    def _stance(self, pose: Pose, foot: Foot, width: float, turned: float) -> Pose:
         side = 1.0 if foot is Foot.LEFT else -1.0
         out = side * (0.5 * self.wearer.step_width + width)
-        yaw = pose.heading + side * (self.wearer.toe_out + turned)
-        return FootStand(pose.x - out * sin(pose.heading), pose.y + out * cos(pose.heading), pose.z, yaw)
+        heading = pose.heading + side * (self.wearer.toe_out + turned)
+        return Pose(pose.x - out * sin(pose.heading), pose.y + out * cos(pose.heading), pose.z, heading)
 
     # --- when -------------------------------------------------------------------------------------------------------
 

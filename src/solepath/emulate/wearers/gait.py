@@ -14,7 +14,7 @@ from attrs import frozen
 from ...calibration import Limbs
 from ...types import Foot
 from ..routes.lift import CarRide
-from ..routes.path import Flight
+from ..routes.path import Flight, Pose
 from ..routes.styles import Manner
 from .shoe import Rocker, Shoe
 
@@ -60,27 +60,17 @@ class Wearer:
 
 
 @frozen
-class FootStand:
-    """Where a foot stands flat: the ground point under the ankle, m, and the yaw of the foot, rad (not wrapped)."""
-
-    x: float
-    y: float
-    z: float
-    yaw: float
-
-
-@frozen
 class PlannedStride:
-    """One foot from one place to the next. Times in s: it leaves with `heel_off` and `toe_off`, and lands with
-    `heel_strike` and `foot_flat`."""
+    """One foot from where it stands flat (the ground under its ankle) to the next such place. Times in s: it leaves
+    with `heel_off` and `toe_off`, and lands with `heel_strike` and `foot_flat`."""
 
     number: int
     heel_off: float
     toe_off: float
     heel_strike: float
     foot_flat: float
-    start: FootStand
-    end: FootStand
+    start: Pose
+    end: Pose
     toe_off_pitch: float
     """Heel-up, positive, rad."""
     strike_pitch: float
@@ -109,13 +99,22 @@ class Climb:
     end: float
     flight: Flight
 
+    @property
+    def up(self) -> bool:
+        return self.flight.rise > 0.0
+
+    @property
+    def height(self) -> float:
+        """m from floor to floor, negative when it leads down."""
+        return self.flight.height
+
 
 @frozen
 class WalkPlan:
     """Everything that is decided before a foot moves."""
 
     duration: float
-    starts: dict[Foot, FootStand]
+    starts: dict[Foot, Pose]
     strides: dict[Foot, tuple[PlannedStride, ...]]
     bouts: tuple[tuple[float, float], ...]
     """When walking begins and when the closing foot is down, for each stretch between stands, s."""

@@ -116,7 +116,7 @@ class Loads:
         Cells that end behind the middle of the foot bear what they lie under, and their sum is less.
         """
         foot = layout.foot
-        shares = self._zones(foot, t)
+        shares = self.shares(foot, t)
         pitch = motion.pitch(t)
         heel = -0.035 * np.sin(np.maximum(pitch, 0.0)) / layout.length
         fore = 0.025 * np.sin(np.maximum(-pitch, 0.0)) / layout.length
@@ -140,10 +140,6 @@ class Loads:
         asked, over = self.leans[foot][rows].T
         return np.asarray(asked * (1.0 - hand_over((t - over) / SETTLING)))
 
-    def shares(self, foot: Foot, t: Array) -> Array:
-        """Shares of heel, midfoot, forefoot and toes in a foot's load, (4, N)."""
-        return np.stack(self._zones(foot, t))
-
     def share(self, foot: Foot, t: Array) -> Array:
         """Share of a foot in the body's load."""
         left = self._left_share(t)
@@ -158,8 +154,8 @@ class Loads:
         share = self.before[known] + (self.after[known] - self.before[known]) * hand_over(s)
         return np.where(k < 0, self.before[0], share)
 
-    def _zones(self, foot: Foot, t: Array) -> tuple[Array, Array, Array, Array]:
-        """Shares of heel, midfoot, forefoot and toes in the foot's load; they add up to one."""
+    def shares(self, foot: Foot, t: Array) -> Array:
+        """Shares of heel, midfoot, forefoot and toes in the foot's load, (4, N); they add up to one."""
         stances = self.stances[foot]
         rows = np.maximum(np.searchsorted(stances[:, 0], t, side="right") - 1, 0)
         row = stances[rows]
@@ -172,7 +168,7 @@ class Loads:
         middle = 0.5 * rolled * (1.0 - rolled)
         front = rolled - 0.5 * middle
         toes = front * (0.05 + 0.10 * rolled + 0.60 * hand_over((t - lift) / (off - lift)))
-        return 1.0 - rolled - 0.5 * middle, middle, front - toes, toes
+        return np.stack((1.0 - rolled - 0.5 * middle, middle, front - toes, toes))
 
 
 def loads(plan: WalkPlan, wearer: Wearer, rng: np.random.Generator) -> Loads:
