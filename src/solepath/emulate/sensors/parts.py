@@ -55,7 +55,7 @@ class Imu:
 def _gyro(
     density: float, bias: float, drift: float, scale: float, cross: float, bandwidth: float, g_effect: float = 0.0
 ) -> Triad:
-    """A gyroscope. `density`: degrees/s/sqrt(Hz). `bias`: degrees/s. `drift`: of it, per K. `g_effect`: degrees/s per g."""
+    """A gyroscope. `density`: degrees/s/sqrt(Hz). `bias`: degrees/s; `drift`: of it, per K; `g_effect`: per g."""
     return Triad(
         density * _DPS, bias * _DPS, drift * WARMING * _DPS, scale, cross, bandwidth, g_effect=g_effect * _DPS / _G
     )

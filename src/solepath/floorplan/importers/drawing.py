@@ -17,6 +17,7 @@ from ..doors import BESIDE, Line, Openings, cut
 from ..outlines import Ring, edges, holds, middle, tidy
 from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Point, Wall
 from ..segments import distance
+from .earth import to_mm
 
 _TOGETHER = 2e-3
 """m; walls on one line lie this near to it, and touch across such a gap."""
@@ -225,7 +226,7 @@ def _connector(parts: list[ConnectorPart], numbers: dict[str, int]) -> Connector
     for part in parts:
         outline = tidy(part.ring) if len(part.ring) >= 3 else ()
         at = part.place if part.place is not None else middle(outline)
-        stop = ConnectorStop(part.level, (round(at[0], 3) + 0.0, round(at[1], 3) + 0.0), outline)
+        stop = ConnectorStop(part.level, to_mm(at), outline)
         if part.level not in stops or not stops[part.level].outline:
             stops[part.level] = stop
     name = next((part.name for part in parts if part.name), "")

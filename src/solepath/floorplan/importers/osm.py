@@ -13,7 +13,7 @@ from ..doors import Line, Openings
 from ..outlines import Ring, edges, holds, with_holes, without_repeats
 from ..plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Wall
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
-from .earth import Tangent, south_west, to_mm
+from .earth import Tangent, south_west
 from .osm_doors import BESIDE, door_at, door_beside
 from .osm_file import Element, OsmFile, Refs, elements, shapes_of
 from .osm_tags import BORDERS, connects, is_door, is_indoor, label, length, level_id, levels
@@ -42,7 +42,7 @@ class _OsmReader:
         self._places: dict[str, Point] = {}
         for node in nodes:
             try:
-                self._places[node.id] = to_mm(tangent.plan(node.latitude, node.longitude))
+                self._places[node.id] = tangent.place((node.longitude, node.latitude))
             except FloorPlanError as error:
                 raise FloorPlanError(f"{node.name}: {error}") from None
         named = [one.tags["name"] for one in (*file.relations.values(), *file.ways.values())
