@@ -359,5 +359,5 @@ def _subscribed(device: Peripheral, channel: str, on: bool, now: float) -> bool:
 
 
 def _encrypted(device: Peripheral) -> bool:
-    device.encryption_changed(True)
+    device.is_encrypted = True
     return True

@@ -19,9 +19,7 @@ from bumble.controller import Connection, Controller
 from bumble.link import LocalLink
 
 _NOISY = logging.getLogger("bumble")
-if (
-    _NOISY.level == logging.NOTSET
-):  # bumble warns of much that is no trouble: packets in flight when their link ends, ...
+if _NOISY.level == logging.NOTSET:  # it warns of much that is no trouble: packets in flight when their link ends, ...
     _NOISY.setLevel(logging.CRITICAL)
 
 RSSI = -50  # dBm; there are no distances in this air

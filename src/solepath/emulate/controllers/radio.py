@@ -62,12 +62,9 @@ class VirtualRadio:
         async with self._opening:
             if self._device is None:
                 await self._open()
-            return self._started()
-
-    def _started(self) -> Device:
-        if self._device is None:
-            raise BleakError(f"{self.where}: the connection to the controller was lost")
-        return self._device
+            if self._device is None:
+                raise BleakError(f"{self.where}: the connection to the controller was lost")
+            return self._device
 
     async def _open(self) -> None:
         if self._closed:
@@ -79,7 +76,7 @@ class VirtualRadio:
         config = DeviceConfiguration(name="solepath", address=self._address, gatt_service_enabled=False)
         device = Device(config=config, host=Host(transport.source, transport.sink))
         device.keystore = self.keys
-        just_works(device, _never)
+        just_works(device, lambda: False)  # a central begins pairings, and answers none
         try:
             async with asyncio.timeout(PATIENCE):
                 await device.power_on()
@@ -254,11 +251,6 @@ def _cancelled() -> bool:
     """Whether it is the running task that is cancelled, and not what it waits for."""
     task = asyncio.current_task()
     return task is not None and task.cancelling() > 0
-
-
-def _never() -> bool:
-    """A central begins pairings, and answers none."""
-    return False
 
 
 _KEYS = PairingDelegate.KeyDistribution.DISTRIBUTE_ENCRYPTION_KEY

@@ -89,7 +89,11 @@ class Server:
     _stopped: bool = field(default=False, init=False)
 
     def __attrs_post_init__(self) -> None:
-        self._controller = VirtualController(self.peripheral.name, self.air, self._advertisement)
+        self._controller = VirtualController(
+            self.peripheral.name,
+            self.air,
+            lambda: self._advertised() if self.peripheral.visible(self._loop.time()) else None,
+        )
         config = DeviceConfiguration(
             name=self.peripheral.name,
             address=hci.Address(self.peripheral.address),
@@ -97,7 +101,7 @@ class Server:
             gatt_service_enabled=False,
         )
         self._device = Device(config=config, host=Host(self._controller, AsyncPipeSink(self._controller)))
-        just_works(self._device, self._agrees_to_pair)
+        just_works(self._device, lambda: self.peripheral.agrees_to_pair(self._loop.time()))
         self._served = furnish(self._device, self.peripheral, self)
         self._device.on(Device.EVENT_CONNECTION, self._connected)
 
@@ -123,14 +127,12 @@ class Server:
 
     async def _advertise(self) -> None:
         await self._device.start_advertising(
-            advertising_data=advertisement(self.peripheral.name, self.peripheral.advertised),
+            advertising_data=self._advertised(),
             advertising_interval_min=ADVERTISING,
             advertising_interval_max=ADVERTISING,
         )
 
-    def _advertisement(self) -> bytes | None:
-        if not self.peripheral.visible(self._loop.time()):
-            return None
+    def _advertised(self) -> bytes:
         return advertisement(self.peripheral.name, self.peripheral.advertised)
 
     # the link
@@ -140,21 +142,14 @@ class Server:
         self._silence = self._loop.create_future()
         self._device.gatt_server.max_mtu = self.peripheral.mtu
         link.on(Connection.EVENT_DISCONNECTION, partial(self._disconnected, link))
-        link.on(Connection.EVENT_CONNECTION_ATT_MTU_UPDATE, self._mtu_changed)
-        link.on(Connection.EVENT_CONNECTION_ENCRYPTION_CHANGE, partial(self._encryption_changed, link))
+        link.on(Connection.EVENT_CONNECTION_ATT_MTU_UPDATE, lambda: self._tell(link))
+        link.on(Connection.EVENT_CONNECTION_ENCRYPTION_CHANGE, lambda: self._tell(link))
         self.peripheral.connected(self._loop.time(), link.att_mtu)
         self._arm()
 
-    def _mtu_changed(self) -> None:
-        if self._link is not None:
-            self.peripheral.mtu_changed(self._link.att_mtu)
-
-    def _agrees_to_pair(self) -> bool:
-        return self.peripheral.agrees_to_pair(self._loop.time())
-
-    def _encryption_changed(self, link: Connection) -> None:
+    def _tell(self, link: Connection) -> None:
         if self._link is link:
-            self.peripheral.encryption_changed(link.is_encrypted)
+            self.peripheral.agreed_mtu, self.peripheral.is_encrypted = link.att_mtu, link.is_encrypted
 
     def _disconnected(self, link: Connection, reason: int) -> None:
         if self._link is not link:
@@ -218,17 +213,13 @@ class Server:
             return
         now = max(self._loop.time(), self._due)  # a timer may fire a clock's resolution early
         for outgoing in self.peripheral.poll(now):
-            self._notify(link, self._served[outgoing.channel], outgoing.value)
+            pdu = att.ATT_Handle_Value_Notification(
+                attribute_handle=self._served[outgoing.channel].handle,
+                attribute_value=outgoing.value[: link.att_mtu - 3],  # longer ones are cut without an error, as is usual
+            )
+            self._device.gatt_server.send_gatt_pdu(link, bytes(pdu))
         if self.peripheral.hang_up(now):
-            self._lose()
+            for connection in list(self._controller.le_connections.values()):
+                self.air.lose(self._controller, connection)
         else:
             self._arm()
-
-    def _notify(self, link: Connection, characteristic: Characteristic[bytes], value: bytes) -> None:
-        room = link.att_mtu - 3  # what is longer is cut without an error, as real stacks do
-        pdu = att.ATT_Handle_Value_Notification(attribute_handle=characteristic.handle, attribute_value=value[:room])
-        self._device.gatt_server.send_gatt_pdu(link, bytes(pdu))
-
-    def _lose(self) -> None:
-        for connection in list(self._controller.le_connections.values()):
-            self.air.lose(self._controller, connection)

@@ -81,9 +81,7 @@ class _TcpClient(asyncio.Protocol):
             return
         try:
             self._controller.on_hci_packet(hci.HCI_Packet.from_bytes(packet))
-        except (
-            Exception
-        ):  # bumble's controllers trust their hosts, and raise whatever comes of bytes that make no sense
+        except Exception:  # bumble trusts hosts, and raises whatever comes of bytes that make no sense
             self.drop()
 
     def pause_writing(self) -> None:

@@ -75,7 +75,7 @@ class CC2650Peripheral(Tag):
         if not switch(config, 1):
             return None
         if sensor == "cc2650/barometer":
-            return LATE_AIR, partial(self._say_air, period)
+            return LATE_AIR, lambda number: cc2650_air(float(self.series(sensor, period)[0].value(number)[0, 0]))
         return 0.0, lambda number: _ROOM[sensor]
 
     def _say_movement(self, config: Any, period: float, number: int) -> bytes | None:
@@ -83,10 +83,6 @@ class CC2650Peripheral(Tag):
         if config.wake_on_motion and not self._awake(acc, period, number):
             return None
         return self.device.movement(config, acc.value(number), gyro.value(number), mag.value(number))[0]
-
-    def _say_air(self, period: float, number: int) -> bytes:
-        (air,) = self.series("cc2650/barometer", period)
-        return cc2650_air(float(air.value(number)[0, 0]))
 
     def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
         """Of movement: accelerometer, gyroscope and magnetometer."""

@@ -92,9 +92,12 @@ class Peripheral:
         self._misfortune = Misfortune(faults, site)
         self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
         self._flows = Flows()
-        self._linked = self._encrypted = False
         self._now = float("-inf")
-        self._agreed = SMALLEST_MTU
+        self.is_connected = False
+        self.is_encrypted = False
+        """By the keys of a pairing, of now or of earlier."""
+        self.agreed_mtu = SMALLEST_MTU
+        """Of the link, while there is one."""
 
     # what its devices say
 
@@ -130,11 +133,6 @@ class Peripheral:
         return self._mtu if self._misfortune.mtu is None else min(self._mtu, self._misfortune.mtu)
 
     @property
-    def agreed_mtu(self) -> int:
-        """Of the link, while there is one."""
-        return self._agreed
-
-    @property
     def walk_time(self) -> float:
         """The time of the walk when it was last asked anything, s."""
         return self._now - self._began
@@ -153,10 +151,6 @@ class Peripheral:
     def needs_pairing(self) -> bool:
         """Whether it refuses requests on a link that is not encrypted, but for Device Information and battery."""
         return self._misfortune.needs_pairing
-
-    @property
-    def is_connected(self) -> bool:
-        return self._linked
 
     @property
     def began(self) -> float:
@@ -179,28 +173,21 @@ class Peripheral:
         """A link begins, with the MTU that is agreed so far."""
         self._pass(now)
         self._misfortune.connected()
-        self._linked, self._encrypted, self._agreed = True, False, mtu
+        self.is_connected, self.is_encrypted, self.agreed_mtu = True, False, mtu
         self.begin()
         self._tell()
-
-    def mtu_changed(self, mtu: int) -> None:
-        self._agreed = mtu
 
     def agrees_to_pair(self, now: float) -> bool:
         """Whether it takes part in a pairing that the host begins."""
         self._pass(now)
         return not self._misfortune.refuses(PAIRING)
 
-    def encryption_changed(self, encrypted: bool) -> None:
-        """The link is encrypted by the keys of a pairing, of now or of earlier; or it is not any more."""
-        self._encrypted = encrypted
-
     def disconnected(self, now: float) -> None:
         """The link is gone, whoever ended it: subscriptions are forgotten, the device does what its protocol says."""
         self._pass(now)
-        self._linked = self._encrypted = False
+        self.is_connected = self.is_encrypted = False
         self._flows.clear()
-        self._agreed = SMALLEST_MTU
+        self.agreed_mtu = SMALLEST_MTU
         self.stop()
 
     def subscribe(self, channel: str, on: bool, now: float) -> None:
@@ -235,7 +222,7 @@ class Peripheral:
 
     def next_due(self) -> float | None:
         """When `poll` or `hang_up` have something next; None when nothing is foreseeable."""
-        if not self._linked:
+        if not self.is_connected:
             return None
         fault = self._misfortune.next_at()
         soonest = min(self._flows.next_due(), float("inf") if fault is None else fault)
@@ -244,7 +231,7 @@ class Peripheral:
     def poll(self, now: float) -> list[Outgoing]:
         """The notifications that are due by now, after the faults, in order of their time."""
         found: list[Outgoing] = []
-        while self._linked:
+        while self.is_connected:
             channel, due = self._flows.first(now - self._began + _AT_ONCE)
             t = self._pass(now) if channel is None else self._happen(due)
             if channel is None or self._misfortune.cut:
@@ -252,7 +239,7 @@ class Peripheral:
             source, number = self._flows.take(channel)
             if self._misfortune.frozen(t) or self._is_closed(channel):
                 continue
-            for value in source.values(number, self._agreed):
+            for value in source.values(number, self.agreed_mtu):
                 found += [Outgoing(channel, sent) for sent in self._misfortune.carry(value)]
         for outgoing in found:
             self.sent[outgoing.channel] = self.sent.get(outgoing.channel, 0) + 1
@@ -263,7 +250,7 @@ class Peripheral:
     def hang_up(self, now: float) -> bool:
         """True once when the link is to be lost now as by a supervision timeout (0x08)."""
         self._pass(now)
-        cut, self._misfortune.cut = self._misfortune.cut and self._linked, False
+        cut, self._misfortune.cut = self._misfortune.cut and self.is_connected, False
         return cut
 
     def _fails(self, channel: str, t: float) -> bool:
@@ -277,7 +264,7 @@ class Peripheral:
 
     def _is_closed(self, channel: str) -> bool:
         """Whether the link must be encrypted first. What every device tells of itself is open to all."""
-        return self.needs_pairing and not self._encrypted and not channel.startswith("device/")
+        return self.needs_pairing and not self.is_encrypted and not channel.startswith("device/")
 
     def _check_paired(self, channel: str) -> None:
         if self._is_closed(channel):

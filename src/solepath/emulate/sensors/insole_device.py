@@ -57,7 +57,7 @@ class InsoleSignal:
     def frame(self, number: int, batch: int = 1) -> InsoleFrame:
         """The frame of this number when each has `batch` samples."""
         start = number * batch
-        rows = [self._row(k) for k in range(start, start + batch)]
+        rows = np.clip(np.arange(start, start + batch), 0, len(self.cells) - 1).tolist()
         return InsoleFrame(
             foot=self.layout.foot,
             layout=self.layout.id,
@@ -75,9 +75,6 @@ class InsoleSignal:
     def ready(self, number: int, batch: int = 1) -> float:
         """When the radio has a frame, s."""
         return self.first + self.step * (number * batch + batch - 1) + HANDLING
-
-    def _row(self, k: int) -> int:
-        return min(max(k, 0), len(self.cells) - 1)
 
     def _sample(self, row: int) -> InsoleSample:
         return InsoleSample(

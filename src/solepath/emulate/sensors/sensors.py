@@ -164,7 +164,12 @@ def read_cells(
     follow = 1.0 - exp(-interval / part.lag)
     for k in range(1, len(lagged)):
         lagged[k] = lagged[k - 1] + follow * (true[k] - lagged[k - 1])
-    counts = _in_place(lagged, gain, preload, part.noise * rng.standard_normal(true.shape), count)
+    # In place: the loads of many cells on a long walk are large enough once.
+    lagged *= gain
+    lagged += preload
+    lagged += part.noise * rng.standard_normal(true.shape)
+    lagged /= count
+    counts = np.rint(lagged, out=lagged)
     saturated = np.any(counts >= full, axis=1)
     return CountReading(np.clip(counts, 0, full, out=counts).astype(np.int64), saturated)
 
@@ -182,15 +187,6 @@ def _contact(
     np.maximum(change, -preload, out=change)
     change[true.any(axis=1)] = 0.0
     return change
-
-
-def _in_place(load: Array, gain: Array, preload: Array, noise: Array, count: float) -> Array:
-    """Counts where the loads were: a long walk of many cells is large enough once."""
-    load *= gain
-    load += preload
-    load += noise
-    load /= count
-    return np.rint(load, out=load)
 
 
 def air_pressure(height: Array) -> Array:

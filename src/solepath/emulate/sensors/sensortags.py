@@ -164,7 +164,7 @@ class CC2541:
         rows: list[dict[str, Any]]
         match channel:
             case "cc2541/accelerometer":
-                rows = [{"acc": row} for row in counts(measured, self.part.acc, code_count(code))]
+                rows = [{"acc": row} for row in counts(measured, self.part.acc, GRAVITY * 2**code / 128)]
             case "cc2541/gyroscope":
                 axes = [bool(code & bit) for bit in (1, 2, 4)]
                 rows = [{"gyro": row} for row in counts(measured, self.part.gyro, GYRO_COUNT, axes)]
@@ -203,8 +203,3 @@ def _keys(channel: str, presses: tuple[float, ...], down: bytes, up: bytes) -> l
 def cc2650_air(pascal: float) -> bytes:
     """What the barometer of a CC2650 says of this pressure."""
     return cc2650.DRIVER.write("cc2650/barometer", {"temperature": TEMPERATURE, "pressure": pascal})
-
-
-def code_count(code: int) -> float:
-    """m/s^2 per count of the CC2541's accelerometer when 1, 2 or 3 was written to AA12."""
-    return float(GRAVITY * 2**code / 128)

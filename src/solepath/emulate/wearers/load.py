@@ -142,17 +142,14 @@ class Loads:
 
     def share(self, foot: Foot, t: Array) -> Array:
         """Share of a foot in the body's load."""
-        left = self._left_share(t)
-        return left if foot is Foot.LEFT else np.asarray(1.0 - left)
-
-    def _left_share(self, t: Array) -> Array:
         if not len(self.begin):
             return np.full_like(t, 0.5)
         k = np.searchsorted(self.begin, t, side="right") - 1
         known = np.maximum(k, 0)
         s = (t - self.begin[known]) / (self.end[known] - self.begin[known])
         share = self.before[known] + (self.after[known] - self.before[known]) * hand_over(s)
-        return np.where(k < 0, self.before[0], share)
+        left = np.where(k < 0, self.before[0], share)
+        return left if foot is Foot.LEFT else np.asarray(1.0 - left)
 
     def shares(self, foot: Foot, t: Array) -> Array:
         """Shares of heel, midfoot, forefoot and toes in the foot's load, (4, N); they add up to one."""
