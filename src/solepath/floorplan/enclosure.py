@@ -88,18 +88,15 @@ class Enclosure:
         outside[0] = 1
         for at in order:  # which grows meanwhile
             # to the west of the first column lies the last one, which is barred; to the south of the first row likewise
-            if not east[at] and not outside[at + 1]:
-                outside[at + 1] = 1
-                order.append(at + 1)
-            if not east[at - 1] and not outside[at - 1]:
-                outside[at - 1] = 1
-                order.append(at - 1)
-            if not north[at] and not outside[at + columns]:
-                outside[at + columns] = 1
-                order.append(at + columns)
-            if not north[at - columns] and not outside[at - columns]:
-                outside[at - columns] = 1
-                order.append(at - columns)
+            for barred, there in (
+                (east[at], at + 1),
+                (east[at - 1], at - 1),
+                (north[at], at + columns),
+                (north[at - columns], at - columns),
+            ):
+                if not barred and not outside[there]:
+                    outside[there] = 1
+                    order.append(there)
 
     def _open_ends(self) -> Iterator[Point]:
         for own in (*self._walls.ends, *self._shut.ends):

@@ -25,7 +25,6 @@ from datetime import UTC, datetime, timedelta
 from importlib.metadata import version
 from math import isfinite
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 from mcap.writer import CompressionType, Writer
@@ -164,9 +163,7 @@ class McapWriter:
     def __enter__(self) -> McapWriter:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()
 
     # --- topics ---
@@ -187,10 +184,8 @@ class McapWriter:
 
     def _sample(self, item: Sample) -> None:
         data: dict[str, Any] = {"t": item.t}
-        for name in ("acc", "gyro", "mag"):
-            vector: Vec3 | None = getattr(item, name)
-            if vector is not None:
-                data[name] = _xyz(vector)
+        vectors: dict[str, Vec3 | None] = {"acc": item.acc, "gyro": item.gyro, "mag": item.mag}
+        data |= {name: _xyz(vector) for name, vector in vectors.items() if vector is not None}
         if item.quat is not None:
             data["quat"] = dict(zip("wxyz", item.quat, strict=True))
         if item.pressure is not None:

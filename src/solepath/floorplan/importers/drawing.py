@@ -14,7 +14,7 @@ from attrs import define, field
 
 from ..checks import MOST_LEVELS, MOST_WALLS
 from ..doors import BESIDE, Line, Openings, cut
-from ..outlines import Ring, edges, holds, middle, tidy
+from ..outlines import Ring, edges, holds, middle, tidy, with_holes
 from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Point, Wall
 from ..segments import distance
 from .earth import to_mm
@@ -37,11 +37,10 @@ class Border(Enum):
 
 @define
 class Space:
-    """A space on one level. `rings`: its outline, then its holes. `ring`: both in one."""
+    """A space on one level. `rings`: its outline, then its holes."""
 
     level: str
     rings: tuple[Ring, ...]
-    ring: Ring
     border: Border
 
 
@@ -55,9 +54,13 @@ class ConnectorPart:
     level: str
     place: Point | None
     rings: tuple[Ring, ...]
-    ring: Ring
     group: str
     rise: float | None = None
+
+    @property
+    def ring(self) -> Ring:
+        """Its outline and the holes in one."""
+        return with_holes(self.rings)
 
 
 @define
@@ -107,8 +110,8 @@ class Drawing:
         return tuple(sorted(found, key=lambda door: (door.start, door.end, door.name)))
 
     def _rooms(self, level: str) -> tuple[Ring, ...]:
-        return tuple(sorted(tidy(one.ring) for one in self.spaces
-                            if one.level == level and one.border is not Border.SOLID))  # fmt: skip
+        here = [one for one in self.spaces if one.level == level and one.border is not Border.SOLID]
+        return tuple(sorted([tidy(with_holes(one.rings)) for one in here]))
 
     def _walls(self, level: str) -> tuple[Wall, ...]:
         doors: list[Line] = [(start, end) for at, start, end, _ in self.doors if at == level]
@@ -181,7 +184,7 @@ def _joined(parts: list[ConnectorPart], numbers: dict[str, int], storeys: dict[s
     """Parts joined into connectors: those of one group, and those that lie over each other on levels whose order is one
     apart or less, or next to each other in the list of levels."""
     ordered = sorted(parts, key=lambda part: (part.kind.value, numbers[part.level], _corner(part), part.name))
-    middles = [_middle(part) for part in ordered]
+    middles = [middle(part.ring) if len(part.ring) >= 3 else part.place or (0.0, 0.0) for part in ordered]
     leader = list(range(len(ordered)))
 
     def lead(i: int) -> int:
@@ -206,10 +209,6 @@ def _joined(parts: list[ConnectorPart], numbers: dict[str, int], storeys: dict[s
 
 def _corner(part: ConnectorPart) -> Point:
     return min(part.ring) if part.ring else part.place or (0.0, 0.0)
-
-
-def _middle(part: ConnectorPart) -> Point:
-    return middle(part.ring) if len(part.ring) >= 3 else part.place or (0.0, 0.0)
 
 
 def _within(place: Point, part: ConnectorPart) -> bool:

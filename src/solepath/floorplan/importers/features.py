@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 
 from attrs import evolve, frozen
 
-from ..outlines import CLOSED, Ring, not_closed, ring, with_holes
+from ..outlines import CLOSED, Ring, not_closed, ring
 from ..plan import Anchor, FloorPlanError, Point
 from ..records import shown
 from .earth import south_west
@@ -83,8 +83,8 @@ class Feature:
         except FloorPlanError as error:
             self.wrong(str(error))
 
-    def polygons(self, place: Place, remark: Callable[[str], None]) -> list[tuple[tuple[Ring, ...], Ring]]:
-        """Of each of its polygons: the outline and the holes, and both in one."""
+    def polygons(self, place: Place, remark: Callable[[str], None]) -> list[tuple[Ring, ...]]:
+        """Of each of its polygons: the outline and the holes."""
         found = []
         for polygon in self.lines:
             rings = []
@@ -96,7 +96,7 @@ class Feature:
                     remark(not_closed(open_by))
                 rings.append(corners)
             if rings:
-                found.append((tuple(rings), with_holes(rings[0], rings[1:])))
+                found.append(tuple(rings))
         return found or self.wrong("has no outline")
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from attrs import evolve
 
 from ..doors import with_doors_cut
-from ..outlines import Ring, middle, without_repeats
+from ..outlines import Ring, middle, with_holes, without_repeats
 from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Wall
 from .earth import Tangent
 from .features import Feature, Place, anchor_of, features, number
@@ -31,14 +31,10 @@ def of_collection(told: dict[str, Any], storey: float) -> FloorPlan:
         if one.kind not in _KINDS:
             one.wrong(f"there is no feature {one.kind[:30]!r}, only {', '.join(_KINDS)}")
     reader = _GeoJsonReader(known, *_frame(told, known))
-    return reader.plan(_name(told), storey, told.get("elevations", "known"))
-
-
-def _name(told: dict[str, Any]) -> str:
     name = told.get("name", "")
     if not isinstance(name, str):
         raise FloorPlanError("its name is no text")
-    return name
+    return reader.plan(name, storey, told.get("elevations", "known"))
 
 
 def _frame(told: dict[str, Any], known: list[Feature]) -> tuple[Anchor | None, Place]:
@@ -140,8 +136,8 @@ class _GeoJsonReader:
 
     def _outline(self, one: Feature, level: str) -> Ring:
         on = f"{one.name} on level {level!r}"
-        ((_, outline),) = one.polygons(self._place, lambda what: self._remarks.append(f"{on}: {what}"))
-        return outline
+        (rings,) = one.polygons(self._place, lambda what: self._remarks.append(f"{on}: {what}"))
+        return with_holes(rings)
 
     def _stop(self, one: Feature, level: str) -> None:
         if one.geometry == "Point":

@@ -118,7 +118,7 @@ class _ImdfReader:
             self._names[one.id] = name
             self._drawing.storeys[name] = Storey(self._label(one, "name") or name, ordinal, float(ordinal))
             if one.properties.get("outdoor") is not True:
-                for rings, _ in self._rings(one):
+                for rings in self._rings(one):
                     for line in rings:
                         self._drawing.lines += [(name, (ax, ay), (bx, by)) for ax, ay, bx, by in edges(line)]
 
@@ -135,10 +135,10 @@ class _ImdfReader:
             border = Border.SOLID if category in _SOLID else Border.OPEN if category in _OPEN else Border.WALL
             self._space(one, level, border)
             return
-        for i, (rings, whole) in enumerate(self._rings(one)):
+        for i, rings in enumerate(self._rings(one)):
             point = None if i else self._display_point(one)
             name, group = self._label(one, "name"), f"{one.id or one.name}.{i}"
-            self._drawing.parts.append(ConnectorPart(kind, name, level, point, rings, whole, group))
+            self._drawing.parts.append(ConnectorPart(kind, name, level, point, rings, group))
 
     def _display_point(self, one: Feature) -> Point | None:
         told = one.properties.get("display_point")
@@ -147,8 +147,7 @@ class _ImdfReader:
         return one.placed([positions(told.get("coordinates"), one)], self._place)[0]
 
     def _space(self, one: Feature, level: str, border: Border) -> None:
-        for rings, whole in self._rings(one):
-            self._drawing.spaces.append(Space(level, rings, whole, border))
+        self._drawing.spaces += [Space(level, rings, border) for rings in self._rings(one)]
 
     def _opening(self, one: Feature) -> None:
         level = self._level(one)
@@ -158,8 +157,8 @@ class _ImdfReader:
         name = self._label(one, "name")
         self._drawing.doors += [(level, a, b, name) for a, b in zip(points, points[1:], strict=False)]
 
-    def _rings(self, one: Feature) -> list[tuple[tuple[Ring, ...], Ring]]:
-        """Of each polygon: its outline and its holes, and both in one."""
+    def _rings(self, one: Feature) -> list[tuple[Ring, ...]]:
+        """Of each polygon: its outline and its holes."""
         if one.geometry not in ("Polygon", "MultiPolygon"):
             one.wrong(f"is no Polygon but a {one.geometry}")
         return one.polygons(self._place, lambda what: self._drawing.remarks.append(f"{one.name}: {what}"))

@@ -48,11 +48,11 @@ class BtsnoopLog:
         return {"began": moment.isoformat().replace("+00:00", "Z"), "began_t": 0.0, "source": "btsnoop"}
 
     def __iter__(self) -> Iterator[Packet]:
-        for item in ValueListener(self.path, _silent).listen(self._read):
+        for item in ValueListener(self.path, lambda _: None).listen(self._read):  # what is wrong was reported before
             match item:
                 case Value():
-                    device, data = self.devices.get(item.device), item.data
-                    channel = None if device is None else device.channels.get((item.attribute, item.how))
+                    device, data = self.devices.get(item.device), item.said.value
+                    channel = None if device is None else device.channels.get((item.said.handle, item.said.how))
                 case Begun():
                     # the log does not say how the host heard of it, so neither name nor signal
                     channel, data = "receiver/connected", build_connected(ConnectionFrame("", None))
@@ -65,10 +65,6 @@ class BtsnoopLog:
 
     def _read(self, done: int) -> None:
         self.done = done
-
-
-def _silent(sentence: str) -> None:
-    """It was reported when the log was read first."""
 
 
 def open_btsnoop(
@@ -95,7 +91,7 @@ def open_btsnoop(
             began = item.t if began is None else began
             if isinstance(item, Value):
                 device = devices.setdefault(item.device, LoggedDevice(item.device))
-                device.seen.setdefault(item.attribute, ValueEvidence()).see(item.how, item.data)
+                device.seen.setdefault(item.said.handle, ValueEvidence()).see(item.said.how, item.said.value)
     except RecordingError as error:
         damage = error  # told once more by the iteration, after the packets before it
     used: set[tuple[str, int]] = set()

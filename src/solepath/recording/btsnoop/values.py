@@ -9,7 +9,7 @@ from pathlib import Path
 from attrs import define, field, frozen
 
 from ..trouble import RecordingError, Report
-from .att import FROM_CLIENT, AttOperation, AttValue, Conversation
+from .att import FROM_CLIENT, AttValue, Conversation
 from .hci import Begun, Controller, Ended, HciConnection, Pdu
 from .records import read_records
 
@@ -21,9 +21,7 @@ class Value:
     t: int
     link: HciConnection
     device: str
-    how: AttOperation
-    attribute: int
-    data: bytes
+    said: AttValue
 
 
 @define
@@ -72,15 +70,10 @@ class ValueListener:
         if talk is None:
             types = self.types.setdefault(device, {})
             talk = self._talks[pdu.link.number, of_peer] = Conversation(types, self.flaws)
-        yield from _values(pdu.t, pdu.link, device, talk.feed(pdu.data))
+        yield from (Value(pdu.t, pdu.link, device, one) for one in talk.feed(pdu.data))
 
     def _finish(self, t: int, link: HciConnection, own: str) -> Iterator[Value]:
         for of_peer, device in ((True, link.peer), (False, own)):
             talk = self._talks.pop((link.number, of_peer), None)
             if talk is not None:
-                yield from _values(t, link, device, talk.finish())
-
-
-def _values(t: int, link: HciConnection, device: str, told: list[AttValue]) -> Iterator[Value]:
-    for one in told:
-        yield Value(t, link, device, one.how, one.handle, one.value)
+                yield from (Value(t, link, device, one) for one in talk.finish())
