@@ -11,10 +11,8 @@ from contextlib import asynccontextmanager
 from functools import partial
 from typing import TypeVar
 
-from attrs import define, field
 from bumble import att, hci
 from bumble.device import Connection, Device, DeviceConfiguration
-from bumble.gatt import Characteristic
 from bumble.host import Host
 from bumble.transport.common import AsyncPipeSink, Transport
 
@@ -71,28 +69,20 @@ async def on_air(peripherals: Iterable[Peripheral], link: VirtualAir) -> AsyncIt
             await server.stop()
 
 
-@define(eq=False)
 class Server:
     """Serves one Peripheral: asks it at the times it names, and obeys it."""
 
-    peripheral: Peripheral
-    air: VirtualAir
-    _served: dict[str, Characteristic[bytes]] = field(init=False)
-    _controller: VirtualController = field(init=False)
-    _device: Device = field(init=False)
-    _loop: asyncio.AbstractEventLoop = field(factory=asyncio.get_running_loop, init=False)
-    _link: Connection | None = field(default=None, init=False)
-    _timer: asyncio.TimerHandle | None = field(default=None, init=False)
-    _due: float = field(default=0.0, init=False)
-    _silence: asyncio.Future[bytes] | None = field(default=None, init=False)
-    _restart: asyncio.Task[None] | None = field(default=None, init=False)
-    _stopped: bool = field(default=False, init=False)
-
-    def __attrs_post_init__(self) -> None:
+    def __init__(self, peripheral: Peripheral, air: VirtualAir) -> None:
+        self.peripheral, self.air = peripheral, air
+        self._loop = asyncio.get_running_loop()
+        self._link: Connection | None = None
+        self._timer: asyncio.TimerHandle | None = None
+        self._due = 0.0
+        self._silence: asyncio.Future[bytes] | None = None
+        self._restart: asyncio.Task[None] | None = None
+        self._stopped = False
         self._controller = VirtualController(
-            self.peripheral.name,
-            self.air,
-            lambda: self._advertised() if self.peripheral.visible(self._loop.time()) else None,
+            peripheral.name, air, lambda: self._advertised() if peripheral.visible(self._loop.time()) else None
         )
         config = DeviceConfiguration(
             name=self.peripheral.name,

@@ -16,6 +16,7 @@ A fault script (faults.py) acts inside; the server sees only its effects.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from math import inf
 
 from attrs import frozen
 
@@ -92,7 +93,7 @@ class Peripheral:
         self._misfortune = Misfortune(faults, site)
         self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
         self._flows = Flows()
-        self._now = float("-inf")
+        self._now = -inf
         self.is_connected = False
         self.is_encrypted = False
         """By the keys of a pairing, of now or of earlier."""
@@ -166,8 +167,7 @@ class Peripheral:
 
     def visible(self, now: float) -> bool:
         """Whether it advertises, if it is not connected."""
-        t = self._pass(now)
-        return not self._misfortune.hidden(t)
+        return not self._misfortune.hidden(self._pass(now))
 
     def connected(self, now: float, mtu: int) -> None:
         """A link begins, with the MTU that is agreed so far."""
@@ -224,9 +224,8 @@ class Peripheral:
         """When `poll` or `hang_up` have something next; None when nothing is foreseeable."""
         if not self.is_connected:
             return None
-        fault = self._misfortune.next_at()
-        soonest = min(self._flows.next_due(), float("inf") if fault is None else fault)
-        return None if soonest == float("inf") else max(self._now, self._began + soonest)
+        soonest = min(self._flows.first(inf)[1], self._misfortune.next_at())
+        return None if soonest == inf else max(self._now, self._began + soonest)
 
     def poll(self, now: float) -> list[Outgoing]:
         """The notifications that are due by now, after the faults, in order of their time."""

@@ -14,6 +14,8 @@ from math import pi
 from attrs import frozen
 
 from ...floorplan.doors import with_doors_cut
+from ...floorplan.importers.drawing import merged
+from ...floorplan.importers.earth import to_mm
 from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Point, Wall
 
 EAST, NORTH = 56.0, 63.0
@@ -131,25 +133,9 @@ def _door(box: _Box, side: str, width: float, name: str = "") -> Door:
 
 def _walls(boxes: list[_Box]) -> tuple[Wall, ...]:
     """The sides of all boxes, each line drawn once."""
-    across: dict[float, list[tuple[float, float]]] = {}
-    along: dict[float, list[tuple[float, float]]] = {}
-    for x0, y0, x1, y1 in boxes:
-        for y in (y0, y1):
-            across.setdefault(round(y, 6), []).append((x0, x1))
-        for x in (x0, x1):
-            along.setdefault(round(x, 6), []).append((y0, y1))
-    found = [Wall((a, y), (b, y)) for y in sorted(across) for a, b in _joined(across[y])]
-    return (*found, *(Wall((x, a), (x, b)) for x in sorted(along) for a, b in _joined(along[x])))
-
-
-def _joined(pieces: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    found: list[tuple[float, float]] = []
-    for a, b in sorted(pieces):
-        if found and a <= found[-1][1] + 1e-6:
-            found[-1] = (found[-1][0], max(b, found[-1][1]))
-        else:
-            found.append((a, b))
-    return found
+    rings = [[to_mm(corner) for corner in _ring(box)] for box in boxes]
+    sides = [side for ring in rings for side in pairwise([*ring, ring[0]])]
+    return tuple(merged({Wall(min(side), max(side)) for side in sides}))
 
 
 def _ring(box: _Box) -> tuple[Point, ...]:

@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+End = tuple[float, float, float]
+"""Value, velocity and acceleration at one end of a curve."""
 
 DEGREE = 7
 """Of every curve here: a quintic for the two ends, and two degrees more for what happens in between."""
@@ -26,7 +28,7 @@ def constant(value: float) -> Array:
     return curve
 
 
-def join(start: tuple[float, float, float], end: tuple[float, float, float], duration: float) -> Array:
+def join(start: End, end: End, duration: float) -> Array:
     """The quintic in s = t / duration with the given value, velocity and acceleration (per s) at either end."""
     p0, v0, a0 = start[0], start[1] * duration, start[2] * duration**2
     p1, v1, a1 = end[0], end[1] * duration, end[2] * duration**2

@@ -19,7 +19,7 @@ from ...types import Foot, Phase
 from ..routes.lift import CarRide
 from ..routes.path import Flight, Pose
 from ..routes.styles import Manner, style_of
-from .curves import BUMP, EVEN_OUT, Array, constant, evaluate, join, part
+from .curves import BUMP, EVEN_OUT, Array, End, constant, evaluate, join, part
 from .gait import PlannedStride, WalkPlan
 from .motion import PHASES, FootMotion
 from .shoe import Rocker, Shoe
@@ -178,7 +178,7 @@ class _Pieces:
             lift = max(lift, float(np.max(stride.clearance + (least - z - up) / bump)))
         return lift
 
-    def _ankle(self, arc: Rocker, at: Pose, pitch: tuple[float, float, float]) -> _Joint:
+    def _ankle(self, arc: Rocker, at: Pose, pitch: End) -> _Joint:
         """The ankle point while the shoe rolls on `arc` with this pitch, rate and acceleration."""
         angle, rate, change = pitch
         dx, dz = self.shoe.ankle[0] - arc.x, self.shoe.ankle[2] - arc.radius
@@ -241,9 +241,7 @@ def _landing(stride: PlannedStride) -> Array:
     return stride.strike_pitch * part(_from_rest(LAND), 1.0, 0.0)
 
 
-def _swing_pitch(
-    off: tuple[float, float, float], strike: tuple[float, float, float], duration: float
-) -> tuple[Array, Array]:
+def _swing_pitch(off: End, strike: End, duration: float) -> tuple[Array, Array]:
     """Pitch in swing: the reversal after toe-off, then a rate that is nearly steady until the foot is braked.
 
     With r = rate after the reversal of length a, b the rest, the pitch there is off + a (rate_off + r) / 2, and r is
@@ -255,9 +253,7 @@ def _swing_pitch(
     return join(off, middle, a), join(middle, strike, b)
 
 
-def _kicked_pitch(
-    off: tuple[float, float, float], strike: tuple[float, float, float], duration: float
-) -> tuple[Array, Array]:
+def _kicked_pitch(off: End, strike: End, duration: float) -> tuple[Array, Array]:
     """Pitch in a runner's swing: the heel goes up to KICK, and then the foot swings through."""
     a, b = KICKED * duration, (1.0 - KICKED) * duration
     top = (KICK, 0.0, KICKING * (strike[0] - KICK) / b**2)
@@ -274,7 +270,7 @@ def _pitch_at(pitches: tuple[Array, Array], s: Array, turn: float) -> Array:
     return np.where(s < turn, early, late)
 
 
-def _ends(curve: Array, s: float, duration: float) -> tuple[float, float, float]:
+def _ends(curve: Array, s: float, duration: float) -> End:
     """Value, velocity and acceleration of a curve at s, per second."""
     value, slope, bend = (float(evaluate(curve, s, order)) for order in range(3))
     return value, slope / duration, bend / duration**2

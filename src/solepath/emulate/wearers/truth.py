@@ -114,14 +114,13 @@ class FootTruth:
 
 @frozen(eq=False)
 class Truth:
-    """The whole walk: `duration` in s, `path_length` of the route's centre line in m.
+    """The whole walk: `duration` in s.
 
     `activities`: what the wearer does from when to when, s, without a gap. `flights` and `rides` are the stairs that
     were walked and the lifts that were taken, in order.
     """
 
     duration: float
-    path_length: float
     feet: dict[Foot, FootTruth]
     activities: tuple[tuple[float, float, Activity], ...]
     flights: tuple[Climb, ...]

@@ -48,7 +48,7 @@ class Walker:
         places = {foot: (mountings or {}).get(foot, IN_SOLE) for foot in Foot}
         feet = {foot: foot_truth(foot, self.plan, self.motions[foot], places[foot]) for foot in Foot}
         plan = self.plan
-        return Truth(plan.duration, self.route.length, feet, activities(plan), plan.climbs, plan.rides, plan)
+        return Truth(plan.duration, feet, activities(plan), plan.climbs, plan.rides, plan)
 
     def kinematics(self, foot: Foot, t: Array, mounting: Mounting = IN_SOLE) -> Kinematics:
         """Exact motion of a foot's sensor at any instants."""

@@ -127,7 +127,7 @@ class Drawing:
         for i, (lines, border) in enumerate(loose):
             if border is Border.OPEN:
                 walls.update(cut(sorted(lines, key=_ends), borders, SHARED, but=i))
-        kept = cut(_merged(walls), Openings(doors), BESIDE)
+        kept = cut(merged(walls), Openings(doors), BESIDE)
         return tuple(sorted({_wall(wall.start, wall.end) for wall in kept}, key=_ends))
 
 
@@ -139,7 +139,7 @@ def _ends(wall: Wall) -> tuple[Point, Point]:
     return wall.start, wall.end
 
 
-def _merged(walls: set[Wall]) -> list[Wall]:
+def merged(walls: set[Wall]) -> list[Wall]:
     """Walls that lie on one line and touch, made one: most walls are drawn twice, once from either room."""
     found: list[Wall] = []
     for wall in sorted(walls, key=_on_line):
