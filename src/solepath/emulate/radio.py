@@ -60,15 +60,13 @@ class Radio:
                 data = data[: int(rng.integers(0, len(data)))]
             copies = (delay, again) if twice < self.duplicate else (delay,)
             for part in copies:
-                arrival = self._event(item.t + self.latency + self.jitter * part, phase)
+                arrival = item.t + self.latency + self.jitter * part
+                if self.interval > 0.0:
+                    arrival = phase + self.interval * ceil((arrival - phase) / self.interval)
                 if self.in_order:
                     arrival = newest = max(newest, arrival)
                 found.append(Packet(float(arrival), site, item.channel, data))
         return found if self.in_order else sorted(found, key=attrgetter("t"))
-
-    def _event(self, t: float, phase: float) -> float:
-        """The connection event at which what is ready at `t` is sent."""
-        return t if self.interval <= 0.0 else phase + self.interval * ceil((t - phase) / self.interval)
 
 
 CLEAN = Radio()

@@ -141,7 +141,9 @@ class McapWriter:
         if packet.device:
             data["device"] = packet.device
         with self._told():
-            topic = self._packet_topic(packet)
+            topic = f"/{site}/packets/{_sound(packet.channel)}"
+            if topic not in self._channels and len(self._channels) >= MOST_TOPICS:
+                topic = f"/{site}/packets"  # a damaged recording may hold any number of channels
             about = {"site": site, "channel": _sound(packet.channel)}
             self._put(topic, "solepath.Packet", packet.t, packet.t, data, about)
             self.count += 1
@@ -167,12 +169,6 @@ class McapWriter:
         self.close()
 
     # --- topics ---
-
-    def _packet_topic(self, packet: Packet) -> str:
-        topic = f"/{packet.site.value}/packets/{_sound(packet.channel)}"
-        if topic in self._channels or len(self._channels) < MOST_TOPICS:
-            return topic
-        return f"/{packet.site.value}/packets"  # a damaged recording may hold any number of channels
 
     def _made(self, events: list[Event]) -> None:
         """What the session made of a packet, or of the end: the samples that it took, and then the events."""

@@ -11,7 +11,7 @@ from typing import Any
 from attrs import frozen
 
 from solepath.emulate.controllers.tcp import serve
-from solepath.emulate.devices.attributes import WRONG_LENGTH, AttError, Characteristic, Service
+from solepath.emulate.devices.attributes import AttCode, AttError, Characteristic, Service
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.types import Site
 
@@ -71,7 +71,7 @@ class Strap(Peripheral):
 
     def take(self, channel: str, value: bytes, t: float) -> None:
         if len(value) != 1:
-            raise AttError(WRONG_LENGTH)
+            raise AttError(AttCode.WRONG_LENGTH)
         self.rate = value[0]
         self.flow("strap/beat", Count(self.rate, self.size) if self.rate else None, t)
 

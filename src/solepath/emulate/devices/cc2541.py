@@ -11,7 +11,7 @@ from ...link.devices.cc2541 import PROFILE
 from ..sensors.device import device_numbers, started
 from ..sensors.sensortags import CC2541, CC2541_KEYS, LATE, calibration_bytes
 from ..sensors.tag_signals import Series
-from .attributes import READ_NOT_PERMITTED, AttError
+from .attributes import AttCode, AttError
 from .peripheral import Worn
 from .tag import HUMIDITY, INFRARED, STOCK, Make, Presses, Sensor, Tag, room, shortest, switch
 
@@ -55,7 +55,7 @@ class CC2541Peripheral(Tag):
         if channel != "cc2541/barometer-calibration":
             return super().value(channel, t)
         if not self._fetched:
-            raise AttError(READ_NOT_PERMITTED)
+            raise AttError(AttCode.READ_NOT_PERMITTED)
         return calibration_bytes()
 
     def take(self, channel: str, value: bytes, t: float) -> None:

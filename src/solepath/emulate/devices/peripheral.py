@@ -22,18 +22,7 @@ from attrs import frozen
 
 from ...types import Site
 from ..wearers.walker import Walker
-from .attributes import (
-    NOT_PAIRED,
-    READ_NOT_PERMITTED,
-    REFUSED,
-    REQUEST_NOT_SUPPORTED,
-    SMALLEST_MTU,
-    WRITE_NOT_PERMITTED,
-    AttError,
-    Outgoing,
-    Service,
-    check_fits,
-)
+from .attributes import SMALLEST_MTU, AttCode, AttError, Outgoing, Service, check_fits
 from .faults import PAIRING, Fault, Misfortune, What
 from .flows import Flows, ValueSource
 
@@ -104,11 +93,11 @@ class Peripheral:
 
     def value(self, channel: str, t: float) -> bytes:
         """What a read of the channel gives at `t` of the walk. AttError."""
-        raise AttError(READ_NOT_PERMITTED)
+        raise AttError(AttCode.READ_NOT_PERMITTED)
 
     def take(self, channel: str, value: bytes, t: float) -> None:
         """Obey a write at `t` of the walk. AttError."""
-        raise AttError(WRITE_NOT_PERMITTED)
+        raise AttError(AttCode.WRITE_NOT_PERMITTED)
 
     def stop(self) -> None:
         """Do as the device does when its link is gone. The flows have been stopped already."""
@@ -193,7 +182,7 @@ class Peripheral:
     def subscribe(self, channel: str, on: bool, now: float) -> None:
         """AttError for a channel that does not notify."""
         if "notify" not in self._properties.get(channel, ()):
-            raise AttError(REQUEST_NOT_SUPPORTED)
+            raise AttError(AttCode.REQUEST_NOT_SUPPORTED)
         t = self._pass(now)
         self._check_paired(channel)
         self._flows.subscribe(channel, on, t)
@@ -205,7 +194,7 @@ class Peripheral:
         if self._fails(channel, t):
             return None
         if "read" not in self._properties.get(channel, ()):
-            raise AttError(READ_NOT_PERMITTED)
+            raise AttError(AttCode.READ_NOT_PERMITTED)
         return self.value(channel, t)
 
     def write(self, channel: str, value: bytes, now: float) -> bool:
@@ -214,7 +203,7 @@ class Peripheral:
         if self._fails(channel, t):
             return False
         if not self._properties.get(channel, frozenset()) & {"write", "write-without-response"}:
-            raise AttError(WRITE_NOT_PERMITTED)
+            raise AttError(AttCode.WRITE_NOT_PERMITTED)
         self.take(channel, bytes(value), t)
         self._misfortune.thaw()
         self._tell()
@@ -257,7 +246,7 @@ class Peripheral:
             self._tell()
             return True
         if self._misfortune.refuses(channel):
-            raise AttError(REFUSED)
+            raise AttError(AttCode.REFUSED)
         self._check_paired(channel)
         return False
 
@@ -267,7 +256,7 @@ class Peripheral:
 
     def _check_paired(self, channel: str) -> None:
         if self._is_closed(channel):
-            raise AttError(NOT_PAIRED)
+            raise AttError(AttCode.NOT_PAIRED)
 
     def _pass(self, now: float) -> float:
         """Time passes; returns the time of the walk."""

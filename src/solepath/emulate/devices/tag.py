@@ -13,7 +13,7 @@ from ...link.profile import Profile, ti
 from ..sensors.device import DeviceClock, device_numbers, foot_of
 from ..sensors.sensortags import CC2541, CC2650, PRESS
 from ..sensors.tag_signals import HANDLING, Series, WornTag
-from .attributes import NOTIFY, READ, REFUSED, WRITE, WRONG_LENGTH, AttError, Characteristic, information, services
+from .attributes import NOTIFY, READ, WRITE, AttCode, AttError, Characteristic, information, services
 from .peripheral import Peripheral, Worn
 
 MTU = 23
@@ -139,7 +139,7 @@ class Tag(Peripheral, ABC):
     def make(self, sensor: str, config: bytes, period: float) -> Make | None:
         """What a sensor says that is configured like this; None when that is off. AttError for a configuration that the
         firmware does not take."""
-        raise AttError(REFUSED)
+        raise AttError(AttCode.REFUSED)
 
     def stop(self) -> None:
         """Everything is off and as it was when the tag was switched on."""
@@ -162,7 +162,7 @@ class Tag(Peripheral, ABC):
         name, kind = _split(channel)
         sensor, state = self._sensors[name], self._states[name]
         if len(value) != (sensor.size if kind == "config" else 1):
-            raise AttError(WRONG_LENGTH)
+            raise AttError(AttCode.WRONG_LENGTH)
         new = _State(value, state.period)
         if kind == "period":
             new = _State(state.config, max(sensor.shortest, value[0]))
@@ -206,7 +206,7 @@ def shortest(rate: float) -> int:
 def switch(config: bytes, most: int) -> int:
     """A configuration of one byte. AttError when it is more than `most`."""
     if config[0] > most:
-        raise AttError(REFUSED)
+        raise AttError(AttCode.REFUSED)
     return config[0]
 
 

@@ -125,16 +125,12 @@ def wandering(seed: int) -> Way:
 # --- corridors --------------------------------------------------------------------------------------------------------
 
 
-def _lane(well: Well, level: str) -> float:
-    """To the left of a stairwell's middle: the lane that ends, and begins, on this level."""
-    return -LANE if level == GROUND else LANE
-
-
 def _inside(one: Exit, level: str) -> Point:
     """Where one stands in a cabin, or before the first edge of the stairs."""
     if isinstance(one, Cabin):
         return one.middle
-    return in_well(one, APPROACH - ahead(level == GROUND, GOING), _lane(one, level))
+    lane = -LANE if level == GROUND else LANE  # that begins, and ends, on this level
+    return in_well(one, APPROACH - ahead(level == GROUND, GOING), lane)
 
 
 def _beside(one: Exit, level: str, dx: float, dy: float) -> Point:

@@ -58,6 +58,10 @@ class Wearer:
     Movement, 2009)."""
     limbs: Limbs = Limbs()
 
+    def cadence(self, speed: float) -> float:
+        """Steps per minute at `speed` m/s: the walk ratio W = l / c and v = l c / 60 give c = sqrt(60 v / W)."""
+        return float(np.sqrt(60.0 * speed / self.walk_ratio))
+
 
 @frozen
 class PlannedStride:
@@ -120,21 +124,6 @@ class WalkPlan:
     """When walking begins and when the closing foot is down, for each stretch between stands, s."""
     climbs: tuple[Climb, ...] = ()
     rides: tuple[CarRide, ...] = ()
-
-
-def cadence(speed: float, wearer: Wearer) -> float:
-    """Steps per minute at `speed` m/s: the walk ratio W = l / c and v = l c / 60 give c = sqrt(60 v / W)."""
-    return float(np.sqrt(60.0 * speed / wearer.walk_ratio))
-
-
-def step_length(speed: float, wearer: Wearer) -> float:
-    """m."""
-    return wearer.walk_ratio * cadence(speed, wearer)
-
-
-def step_time(speed: float, wearer: Wearer) -> float:
-    """s."""
-    return 60.0 / cadence(speed, wearer)
 
 
 def double_support(speed: float) -> float:
