@@ -44,7 +44,7 @@ class Bench:
         self.devices = {site: devices[site] for site in Site if site in devices}
         self._began, script = began, tuple(faults)
         self.peripherals: tuple[Peripheral, ...] = tuple(
-            _peripheral(device, Worn(self.walker, site, f"F0:5E:00:00:00:{number:02X}", seed, mtu, began, script))
+            _peripheral(device, self.walker, seed, Worn(site, f"F0:5E:00:00:00:{number:02X}", mtu, began, script))
             for number, (site, device) in enumerate(self.devices.items(), 1)
         )
 
@@ -74,12 +74,12 @@ class Bench:
         return self.walker.truth({foot_of(site): device.mounting for site, device in self.devices.items()})
 
 
-def _peripheral(device: Device, worn: Worn) -> Peripheral:
+def _peripheral(device: Device, walker: Walker, seed: int, worn: Worn) -> Peripheral:
     match device:
         case Insole():
-            return InsolePeripheral(device, worn)
+            return InsolePeripheral(device, walker, seed, worn)
         case CC2650():
-            return CC2650Peripheral(device, worn)
+            return CC2650Peripheral(device, walker, seed, worn)
         case CC2541():
-            return CC2541Peripheral(device, worn)
+            return CC2541Peripheral(device, walker, seed, worn)
     raise ValueError(f"no peripheral is known for {type(device).__name__}")

@@ -11,9 +11,10 @@ from ...link.devices.cc2541 import PROFILE
 from ..sensors.device import device_numbers, started
 from ..sensors.sensortags import CC2541, CC2541_KEYS, LATE, calibration_bytes
 from ..sensors.tag_signals import Series
+from ..wearers.walker import Walker
 from .attributes import AttCode, AttError
 from .peripheral import Worn
-from .tag import HUMIDITY, INFRARED, STOCK, Make, Presses, Sensor, Tag, room, shortest, switch
+from .tag import STOCK, Make, Presses, Sensor, Tag, room, shortest, switch
 
 # What the sensors say that measure nothing of the wearer: 24 degrees, half the air's moisture.
 _ROOM = {"cc2541/infrared": bytes.fromhex("0000000c"), "cc2541/humidity": bytes.fromhex("3867b072")}
@@ -22,9 +23,9 @@ _ROOM = {"cc2541/infrared": bytes.fromhex("0000000c"), "cc2541/humidity": bytes.
 class CC2541Peripheral(Tag):
     """A CC2541 on a foot."""
 
-    def __init__(self, device: CC2541, worn: Worn) -> None:
+    def __init__(self, device: CC2541, walker: Walker, seed: int, worn: Worn) -> None:
         self.device = device
-        numbers = device_numbers(worn.seed, worn.site)
+        numbers = device_numbers(seed, worn.site)
         clock = started(numbers, 1.0 / device.rate, device.ppm)
         self._begins = {**LATE, "cc2541/gyroscope": float(numbers.uniform()) / device.rate}
         self._shortest = shortest(device.rate)
@@ -35,8 +36,7 @@ class CC2541Peripheral(Tag):
             Sensor("cc2541/barometer", 100, STOCK, bytes(4)),
             *room(_ROOM),
         )
-        others = {"cc2541/infrared": INFRARED, "cc2541/humidity": HUMIDITY}
-        super().__init__(device, worn, clock, PROFILE, sensors, others, name="SensorTag", model="SensorTag")
+        super().__init__(device, walker, seed, worn, clock, PROFILE, sensors, "SensorTag")
 
     def prepare(self) -> None:
         for sensor in ("cc2541/accelerometer", "cc2541/gyroscope"):
@@ -68,8 +68,6 @@ class CC2541Peripheral(Tag):
         code = switch(config, most)
         if not code or (sensor == "cc2541/barometer" and code == 2):
             return None
-        if sensor in _ROOM:
-            return 0.0, lambda number: _ROOM[sensor]
         return self._begins[sensor], partial(self._say, sensor, code, period)
 
     def _say(self, sensor: str, code: int, period: float, number: int) -> bytes:

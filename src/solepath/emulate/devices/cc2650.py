@@ -18,9 +18,10 @@ from ..sensors.device import device_numbers, started
 from ..sensors.parts import AK8963, BMP280
 from ..sensors.sensortags import BATTERY, CC2650, CC2650_KEYS, cc2650_air
 from ..sensors.tag_signals import LATE_AIR, Series
+from ..wearers.walker import Walker
 from .attributes import Battery
 from .peripheral import Worn
-from .tag import HUMIDITY, INFRARED, LIGHT, STOCK, Make, Presses, Sensor, Tag, room, shortest, switch
+from .tag import STOCK, Make, Presses, Sensor, Tag, room, shortest, switch
 
 WAKES = 0.040 * GRAVITY
 """m/s^2 from one sample to the next that wake a tag which lies still."""
@@ -41,18 +42,16 @@ _ROOM = {
 class CC2650Peripheral(Tag):
     """A CC2650 on a foot."""
 
-    def __init__(self, device: CC2650, worn: Worn) -> None:
+    def __init__(self, device: CC2650, walker: Walker, seed: int, worn: Worn) -> None:
         self.device = device
-        clock = started(device_numbers(worn.seed, worn.site), 1.0 / device.rate, device.ppm)
+        clock = started(device_numbers(seed, worn.site), 1.0 / device.rate, device.ppm)
         self._shortest = shortest(device.rate)
         sensors = (
             Sensor("cc2650/movement", 100, self._shortest, bytes(18), size=2),
             Sensor("cc2650/barometer", 100, STOCK, bytes(6)),
             *room(_ROOM),
         )
-        others = {"cc2650/infrared": INFRARED, "cc2650/humidity": HUMIDITY, "cc2650/light": LIGHT}
-        name = "CC2650 SensorTag"
-        super().__init__(device, worn, clock, PROFILE, sensors, others, name=name, model=name)
+        super().__init__(device, walker, seed, worn, clock, PROFILE, sensors, "CC2650 SensorTag")
         self._moved: dict[float, list[int]] = {}
         self._battery = Battery(BATTERY)
 
@@ -74,9 +73,7 @@ class CC2650Peripheral(Tag):
             return (0.0, partial(self._say_movement, parsed, period)) if bits & _AXES else None
         if not switch(config, 1):
             return None
-        if sensor == "cc2650/barometer":
-            return LATE_AIR, lambda number: cc2650_air(float(self.series(sensor, period)[0].value(number)[0, 0]))
-        return 0.0, lambda number: _ROOM[sensor]
+        return LATE_AIR, lambda number: cc2650_air(float(self.series(sensor, period)[0].value(number)[0, 0]))
 
     def _say_movement(self, config: Any, period: float, number: int) -> bytes | None:
         acc, gyro, mag = self.series("cc2650/movement", period)

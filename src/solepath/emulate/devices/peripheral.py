@@ -21,7 +21,6 @@ from math import inf
 from attrs import frozen
 
 from ...types import Site
-from ..wearers.walker import Walker
 from .attributes import SMALLEST_MTU, AttCode, AttError, Outgoing, Service, check_fits
 from .faults import PAIRING, Fault, Misfortune, What
 from .flows import Flows, ValueSource
@@ -32,54 +31,36 @@ _AT_ONCE = 2e-6
 
 @frozen
 class Worn:
-    """What a device on a wearer has beside what it measures: who walks, where it is worn, and its address.
+    """Where a device is worn, its address, and what befalls it.
 
-    `seed`: of its errors. `mtu`: the largest that it agrees to, where its firmware leaves that open. `began`: the
-    loop's time at which the walk begins.
+    `mtu`: the largest that it agrees to. `began`: the loop's time at which its wearer's walk begins; until then he
+    stands as at its beginning.
     """
 
-    walker: Walker
     site: Site
     address: str
-    seed: int = 1
     mtu: int = 247
     began: float = 0.0
     faults: tuple[Fault, ...] = ()
 
 
 class Peripheral:
-    """A device without attributes of its own; insole.py and sensortags.py say what theirs are.
+    """A device without attributes of its own; insole.py and tag.py say what theirs are.
 
-    `mtu`: the largest that it agrees to. `began`: the loop's time at which its wearer's walk begins; until then he
-    stands as at its beginning. `sent` counts the notifications that were handed over by channel, and `log` has them
-    all once a list is put there.
+    `sent` counts the notifications that were handed over by channel, and `log` has them all once a list is put there.
     """
 
-    def __init__(
-        self,
-        *,
-        site: Site,
-        address: str,
-        name: str,
-        services: Iterable[Service],
-        advertised: Iterable[str],
-        mtu: int = 247,
-        began: float = 0.0,
-        faults: Iterable[Fault] = (),
-    ) -> None:
-        self.site = site
-        self.address = address
+    def __init__(self, worn: Worn, name: str, services: Iterable[Service], advertised: Iterable[str]) -> None:
+        self.site, self.address = worn.site, worn.address
         self.services = tuple(services)
         self.advertised = tuple(advertised)
         self.sent: dict[str, int] = {}
         self.log: list[Outgoing] | None = None
         self.changed: Callable[[], None] | None = None
-        faults = tuple(faults)
-        for said in (name, *(fault.argument for fault in faults if fault.what is What.NAME)):
+        for said in (name, *(fault.argument for fault in worn.faults if fault.what is What.NAME)):
             check_fits(said, self.advertised)
-        self._name, self._mtu, self._began = name, mtu, began
-        self._faults = faults
-        self._misfortune = Misfortune(faults, site)
+        self._name, self._mtu, self._began, self._faults = name, worn.mtu, worn.began, worn.faults
+        self._misfortune = Misfortune(worn.faults, worn.site)
         self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
         self._flows = Flows()
         self._now = -inf
