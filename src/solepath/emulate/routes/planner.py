@@ -11,6 +11,7 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ...types import Foot
+from ..wearers.curves import Rng
 from ..wearers.gait import SETTLING, Climb, PlannedStride, WalkPlan, Wearer, double_support
 from .lift import CarRide, ride
 from .path import Flight, Lifted, Piece, Pivot, Pose, WalkPath
@@ -21,7 +22,7 @@ LEVEL = 1e-6
 """m: floors that differ by less are the same."""
 
 
-def plan(route: Route, wearer: Wearer, rng: np.random.Generator) -> WalkPlan:
+def plan(route: Route, wearer: Wearer, rng: Rng) -> WalkPlan:
     """Lay out the footfalls of `route` and time them; all randomness of the gait is drawn here."""
     return _Planner(wearer, rng).run(legs(route))
 
@@ -40,7 +41,7 @@ class _Footfall:
 
 
 class _Planner:
-    def __init__(self, wearer: Wearer, rng: np.random.Generator) -> None:
+    def __init__(self, wearer: Wearer, rng: Rng) -> None:
         self.wearer = wearer
         self.rng = rng
         self.t = 0.0

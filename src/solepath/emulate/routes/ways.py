@@ -17,7 +17,7 @@ from attrs import frozen
 
 from ...floorplan.plan import Point, Start
 from ...types import Foot
-from ..wearers.curves import Array
+from ..wearers.curves import Array, Rng
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
 from .building import (
@@ -156,7 +156,7 @@ def _network(dx: float, dy: float, *turnings: Point) -> dict[Point, list[Point]]
     return nodes
 
 
-def _strolled(nodes: dict[Point, list[Point]], begin: Point, end: Point, rng: np.random.Generator) -> list[Point]:
+def _strolled(nodes: dict[Point, list[Point]], begin: Point, end: Point, rng: Rng) -> list[Point]:
     """From turning to turning without going back: at random for some corners, and then by the fewest places."""
     path = [begin, nodes[begin][int(rng.integers(len(nodes[begin])))]]
     corners = int(rng.integers(FEWEST, MOST + 1))

@@ -10,7 +10,7 @@ from attrs import frozen
 
 from ...link.profile import Profile
 from ...types import Foot, Site
-from ..wearers.curves import Array
+from ..wearers.curves import Array, Rng
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
 from .sensors import Instants, instants
@@ -52,7 +52,7 @@ class Device(Protocol):
     @property
     def mounting(self) -> Mounting: ...
 
-    def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
+    def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
         """All that the device sends over the walk, in the order of sending."""
 
 
@@ -69,7 +69,7 @@ def prepared(profile: Profile, own: Mapping[str, bytes]) -> list[Notification]:
     return [Notification(each * k, channel, data, True) for k, (channel, data) in enumerate(said, 1)]
 
 
-def device_numbers(seed: int, site: Site, *more: int) -> np.random.Generator:
+def device_numbers(seed: int, site: Site, *more: int) -> Rng:
     """The random numbers of the device at a site; with `more`, of a part of it."""
     return np.random.default_rng([seed, 2, list(Site).index(site), *more])
 
@@ -81,7 +81,7 @@ def foot_of(site: Site) -> Foot:
     return site.foot
 
 
-def started(rng: np.random.Generator, interval: float, ppm: float | None = None) -> DeviceClock:
+def started(rng: Rng, interval: float, ppm: float | None = None) -> DeviceClock:
     """A clock that begins to sample at some moment within one `interval` after the setup."""
     drawn = CRYSTAL_PPM * float(rng.standard_normal())
     return DeviceClock(drawn if ppm is None else ppm, SETUP + interval * float(rng.uniform()))

@@ -14,7 +14,7 @@ from ...wire.device import build_battery, build_firmware
 from ...wire.fragment import FRAME_IDS, split
 from ...wire.insole import InsoleFrame, InsoleSample, build_frame
 from ...wire.insole_info import InsoleInfo, build_info
-from ..wearers.curves import Array
+from ..wearers.curves import Array, Rng
 from ..wearers.shoe import IN_SOLE, ON_HEEL, Mounting, Shoe
 from ..wearers.walker import Walker
 from .device import Notification, foot_of, prepared, samplings, started
@@ -123,7 +123,7 @@ class Insole:
     tells_full: bool = True
     broken: tuple[tuple[int, int], ...] = ()
 
-    def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
+    def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
         signal = self.measure(walker, site, rng)
         own = {
             "insole/info": build_info(self.info(signal)),
@@ -137,7 +137,7 @@ class Insole:
                 sent.append(Notification(ready, "insole/frame", piece))
         return sent
 
-    def measure(self, walker: Walker, site: Site, rng: np.random.Generator) -> InsoleSignal:
+    def measure(self, walker: Walker, site: Site, rng: Rng) -> InsoleSignal:
         """All that the insole measures over the walk."""
         foot = foot_of(site)
         clock = started(rng, self.interval / TICK_RATE, self.ppm)
@@ -171,7 +171,7 @@ class Insole:
             full=acc.saturated | gyro.saturated | (full & self.tells_full),
         )
 
-    def samples(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Sample]:
+    def samples(self, walker: Walker, site: Site, rng: Rng) -> list[Sample]:
         """The same without a wire and a radio: what a perfect link makes of the walk, on the true clock."""
         signal = self.measure(walker, site, rng)
         t = signal.first + signal.step * np.arange(len(signal.cells), dtype=np.float64)
@@ -210,16 +210,16 @@ class Insole:
             raise ValueError(f"the {foot.value} foot cannot wear cells of the {self.cells.foot.value} foot")
         return self.cells
 
-    def _attitudes(self, true: Array, t: Array, rng: np.random.Generator) -> Counts | None:
+    def _attitudes(self, true: Array, t: Array, rng: Rng) -> Counts | None:
         """The device's own idea of its attitude in Q14."""
         if not self.quaternion:
             return None
         if self.attitude is not None:
-            found: Counts = np.rint(16384 * attitude_read(true, t, self.attitude, self.north, rng)).astype(np.int16)
-            return found
-        tilt = radians(0.5) * rng.standard_normal(2)
-        off = from_rotation_vector((float(tilt[0]), float(tilt[1]), float(rng.uniform(-3.0, 3.0))))
-        felt = np.array([multiply(off, (w, x, y, z)) for w, x, y, z in true.tolist()])
+            felt = attitude_read(true, t, self.attitude, self.north, rng)
+        else:
+            tilt = radians(0.5) * rng.standard_normal(2)
+            off = from_rotation_vector((float(tilt[0]), float(tilt[1]), float(rng.uniform(-3.0, 3.0))))
+            felt = np.array([multiply(off, (w, x, y, z)) for w, x, y, z in true.tolist()])
         quats: Counts = np.rint(16384 * felt).astype(np.int16)
         return quats
 

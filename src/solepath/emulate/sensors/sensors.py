@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ...types import Sample, Site
 from ...types.vector import GRAVITY
-from ..wearers.curves import Array
+from ..wearers.curves import Array, Rng
 from ..wearers.motion import Kinematics
 from ..wearers.turning import multiplied
 from .parts import AttitudePart, BarometerPart, CellPart, Imu, Triad
@@ -61,12 +61,7 @@ class CountReading:
 
 
 def measure(
-    true: Array,
-    when: Instants,
-    part: Triad,
-    rng: np.random.Generator,
-    force: Array | None = None,
-    bandwidth: float = inf,
+    true: Array, when: Instants, part: Triad, rng: Rng, force: Array | None = None, bandwidth: float = inf
 ) -> Array:
     """What a triad measures of `true` (fine instants, 3) at the instants that are taken (N, 3), before it makes counts.
 
@@ -77,9 +72,7 @@ def measure(
     return sample(low_pass(felt, when.rate, min(part.bandwidth, bandwidth)), when)
 
 
-def measure_imu(
-    true: Kinematics, when: Instants, part: Imu, rng: np.random.Generator, bandwidth: float
-) -> tuple[Array, Array]:
+def measure_imu(true: Kinematics, when: Instants, part: Imu, rng: Rng, bandwidth: float) -> tuple[Array, Array]:
     """What accelerometer and gyroscope measure."""
     acc = measure(true.force, when, part.acc, rng, bandwidth=bandwidth)
     return acc, measure(true.rate, when, part.gyro, rng, true.force, bandwidth)
@@ -93,7 +86,7 @@ def counted(measured: Array, part: Triad, count: float) -> CountReading:
     return CountReading(clipped.astype(np.int64), np.any(np.abs(counts) >= limit - 1, axis=1))
 
 
-def errors(true: Array, when: Instants, part: Triad, rng: np.random.Generator, force: Array | None = None) -> Array:
+def errors(true: Array, when: Instants, part: Triad, rng: Rng, force: Array | None = None) -> Array:
     """Scale, misalignment, bias, its wander, and white noise added to `true`; nothing is filtered or clipped yet."""
     mixing = np.eye(3) + np.diag(part.scale * rng.standard_normal(3))
     mixing += part.cross * rng.standard_normal((3, 3)) * (1.0 - np.eye(3))
@@ -123,7 +116,7 @@ def sample(signal: Array, when: Instants) -> Array:
     return signal[when.before :: when.every]
 
 
-def wander(t: Array, memory: float, axes: int, rng: np.random.Generator) -> Array:
+def wander(t: Array, memory: float, axes: int, rng: Rng) -> Array:
     """A Gauss-Markov process of unit sigma and `memory` s that is 0 at the start, (N, axes).
 
     Worked out ten times in `memory` and joined smoothly: temperature has no fast part, white noise is another matter.
@@ -141,13 +134,7 @@ def wander(t: Array, memory: float, axes: int, rng: np.random.Generator) -> Arra
 
 
 def read_cells(
-    true: Array,
-    when: Array,
-    part: CellPart,
-    count: float,
-    rng: np.random.Generator,
-    full: int = 4095,
-    lift: Array | None = None,
+    true: Array, when: Array, part: CellPart, count: float, rng: Rng, full: int = 4095, lift: Array | None = None
 ) -> CountReading:
     """What the cells of an insole report of their true loads `true` (N, cells), N, taken at `when` (N).
 
@@ -174,9 +161,7 @@ def read_cells(
     return CountReading(np.clip(counts, 0, full, out=counts).astype(np.int64), saturated)
 
 
-def _contact(
-    true: Array, interval: float, part: CellPart, preload: Array, lift: Array | None, rng: np.random.Generator
-) -> Array:
+def _contact(true: Array, interval: float, part: CellPart, preload: Array, lift: Array | None, rng: Rng) -> Array:
     """What the foot in the air adds to the preload of each cell, (N, cells); nothing while it stands."""
     keep = exp(-interval / part.rub_memory)
     change = part.rub * sqrt(1.0 - keep * keep) * rng.standard_normal(true.shape)
@@ -194,14 +179,14 @@ def air_pressure(height: Array) -> Array:
     return np.asarray(101325.0 * (1.0 - 2.25577e-5 * height) ** 5.25588)
 
 
-def read_barometer(height: Array, t: Array, part: BarometerPart, rng: np.random.Generator) -> Array:
+def read_barometer(height: Array, t: Array, part: BarometerPart, rng: Rng) -> Array:
     """Pa that a barometer reports at heights (N) and instants (N)."""
     pressure = air_pressure(height) + part.offset * rng.standard_normal()
     pressure += part.wander * wander(t, part.memory, 1, rng)[:, 0]
     return np.asarray(pressure + part.noise * rng.standard_normal(len(t)))
 
 
-def attitude_read(true: Array, t: Array, part: AttitudePart, north: float, rng: np.random.Generator) -> Array:
+def attitude_read(true: Array, t: Array, part: AttitudePart, north: float, rng: Rng) -> Array:
     """What a device says of its attitudes `true` (N, 4) at instants `t`, (N, 4): sensor to its own world.
 
     That world is the walk's turned about the vertical by `north` rad and by the part's errors, a Gauss-Markov process

@@ -6,7 +6,6 @@ from math import radians
 from operator import attrgetter
 from typing import Any
 
-import numpy as np
 from attrs import asdict, frozen
 
 from ...link.devices import cc2541, cc2650
@@ -15,7 +14,7 @@ from ...types.vector import GRAVITY
 from ...wire.device import build_battery, build_firmware
 from ...wire.fields import build_whole
 from ...wire.sensortag import PERIOD
-from ..wearers.curves import Array
+from ..wearers.curves import Array, Rng
 from ..wearers.shoe import ON_INSTEP, Mounting
 from ..wearers.walker import Walker
 from .device import Notification, foot_of, prepared, started
@@ -57,7 +56,7 @@ class CC2650:
     firmware: str = "1.40 (Nov 16 2016)"
     presses: tuple[float, ...] = ()
 
-    def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
+    def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
         period = 1.0 / self.rate
         worn = WornTag(walker, foot_of(site), self.mounting, started(rng, period, self.ppm))
         moving = worn.moving(period)
@@ -121,7 +120,7 @@ class CC2541:
     firmware: str = "1.5 (Oct 23 2013)"
     presses: tuple[float, ...] = ()
 
-    def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
+    def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
         period = 1.0 / self.rate
         worn = WornTag(walker, foot_of(site), self.mounting, started(rng, period, self.ppm))
         begins = {**LATE, "cc2541/gyroscope": period * float(rng.uniform())}
@@ -148,7 +147,7 @@ class CC2541:
         sent += _keys("cc2541/keys", self.presses, *CC2541_KEYS)
         return sorted(sent, key=attrgetter("t"))
 
-    def measure(self, channel: str, worn: WornTag, period: float, late: float, rng: np.random.Generator) -> Series:
+    def measure(self, channel: str, worn: WornTag, period: float, late: float, rng: Rng) -> Series:
         """What the sensor of a channel measures every `period` s, `late` s after the tag's first sample."""
         match channel:
             case "cc2541/accelerometer":

@@ -10,7 +10,7 @@ import numpy as np
 from ...calibration import Limbs
 from ...types import Layout, Sample, Site, Vec3
 from ...types.vector import from_rotation_vector
-from ..wearers.curves import Array
+from ..wearers.curves import Array, Rng
 from ..wearers.limbs import body
 from ..wearers.shoe import ON_INSTEP, Mounting
 from ..wearers.walker import Walker
@@ -108,7 +108,7 @@ def suit(
     return worn
 
 
-def _pressed(walker: Walker, layout: Layout, t: Array, part: CellPart | None, rng: np.random.Generator) -> Array:
+def _pressed(walker: Walker, layout: Layout, t: Array, part: CellPart | None, rng: Rng) -> Array:
     true = walker.cell_loads(layout, t)
     if part is None:
         return true

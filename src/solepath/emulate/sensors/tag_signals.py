@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-import numpy as np
 from attrs import frozen
 
 from ...types import Foot
-from ..wearers.curves import Array
+from ..wearers.curves import Array, Rng
 from ..wearers.motion import Kinematics
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
@@ -66,15 +65,15 @@ class TagMotion:
     step: float
     motion: Kinematics
 
-    def acc(self, part: Imu, rng: np.random.Generator) -> Series:
+    def acc(self, part: Imu, rng: Rng) -> Series:
         """m/s^2."""
         return self._series(measure(self.motion.force, self.when, part.acc, rng))
 
-    def gyro(self, part: Imu, rng: np.random.Generator) -> Series:
+    def gyro(self, part: Imu, rng: Rng) -> Series:
         """rad/s."""
         return self._series(measure(self.motion.rate, self.when, part.gyro, rng, self.motion.force))
 
-    def mag(self, part: Triad, rng: np.random.Generator) -> Series:
+    def mag(self, part: Triad, rng: Rng) -> Series:
         """T."""
         return self._series(measure(seen_from(self.motion.attitude, FIELD), self.when, part, rng))
 
@@ -97,7 +96,7 @@ class WornTag:
         motion = self.walker.kinematics(self.foot, when.fine, self.mounting)
         return TagMotion(when, self.clock.interval(period), motion)
 
-    def air(self, period: float, part: BarometerPart, rng: np.random.Generator) -> Series:
+    def air(self, period: float, part: BarometerPart, rng: Rng) -> Series:
         """Pa, (N, 1), measured every `period` s."""
         t = samplings(self.walker, self.clock, period, self.clock.first + LATE_AIR).taken
         height = self.walker.kinematics(self.foot, t, self.mounting).position[:, 2]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Rng = np.random.Generator
 End = tuple[float, float, float]
 """Value, velocity and acceleration at one end of a curve."""
 

@@ -16,6 +16,7 @@ from ...types import Foot
 from ..routes.lift import CarRide
 from ..routes.path import Flight, Pose
 from ..routes.styles import Manner
+from .curves import Rng
 from .shoe import Rocker, Shoe
 
 SETTLING = 0.45
@@ -175,16 +176,11 @@ def wearer(stature: float, mass: float, foot_length: float) -> Wearer:
     )
 
 
-def anybody(rng: np.random.Generator) -> tuple[Wearer, float]:
+def anybody(rng: Rng) -> tuple[Wearer, float]:
     """Somebody between 1.55 m and 1.92 m tall, neither thin nor fat, and the stature, m."""
     stature = float(rng.uniform(1.55, 1.92))
     return wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature), stature
 
 
-SUBJECTS = (
-    wearer(1.72, 63.0, 0.245),
-    wearer(1.68, 52.5, 0.255),
-    wearer(1.60, 50.0, 0.235),
-    wearer(1.83, 81.0, 0.270),
-)
+SUBJECTS = (wearer(1.72, 63.0, 0.245), wearer(1.68, 52.5, 0.255), wearer(1.60, 50.0, 0.235), wearer(1.83, 81.0, 0.270))
 """Of table 3: height, weight and shoe size (Sensors 23, 5417)."""

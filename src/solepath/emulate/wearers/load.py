@@ -30,7 +30,7 @@ from ...types import Foot, Layout
 from ...types.vector import GRAVITY
 from ..routes.lift import CarRide
 from ..routes.styles import Manner, style_of
-from .curves import Array
+from .curves import Array, Rng
 from .gait import SETTLING, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, pattern
@@ -168,7 +168,7 @@ class Loads:
         return np.stack((1.0 - rolled - 0.5 * middle, middle, front - toes, toes))
 
 
-def loads(plan: WalkPlan, wearer: Wearer, rng: np.random.Generator) -> Loads:
+def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
     """The loads that go with a plan. `rng`: for what varies between steps, where the wearer says that it does."""
     hand_overs, beats = _hand_overs(plan)
     table = np.array(hand_overs).reshape(-1, 4)
@@ -249,7 +249,7 @@ def _stances(plan: WalkPlan, foot: Foot) -> Array:
     return np.array([(*land, *leave) for land, leave in zip(lands, leaves, strict=True)])
 
 
-def _leans(plan: WalkPlan, foot: Foot, wearer: Wearer, rng: np.random.Generator) -> Array:
+def _leans(plan: WalkPlan, foot: Foot, wearer: Wearer, rng: Rng) -> Array:
     """For every stance: the way asked of the load, and the last heel-strike of its walk."""
     rows = [(0.0, -_EVER)]
     for stride in plan.strides[foot]:

@@ -84,9 +84,7 @@ INFORMATION = Struct(
     Terminated,
 )
 TYPE_RESPONSE = Struct(
-    "size" / Int8ul,
-    "entries" / GreedyRange(Struct("handle" / Int16ul, "value" / Bytes(this._.size - 2))),
-    Terminated,
+    "size" / Int8ul, "entries" / GreedyRange(Struct("handle" / Int16ul, "value" / Bytes(this._.size - 2))), Terminated
 )
 DECLARATION = Struct("properties" / Int8ul, "handle" / Int16ul, "type" / GreedyBytes)
 SEVERAL_VALUES = Struct(

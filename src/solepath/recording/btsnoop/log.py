@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime, timedelta
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from ...types import Packet, Site
 from ...wire.receiver import ConnectionFrame, build_connected
 from ..trouble import RecordingError, Report, printable, warn
 from .att import AttOperation
-from .devices import CHANNELS, Handles, LoggedDevice, name_attributes, no_use, one, place, upper
+from .devices import CHANNELS, Handles, LoggedDevice, name_attributes, no_use, one, place
 from .evidence import ValueEvidence
 from .hci import Begun, Ended
 from .records import refuse_pipe
@@ -48,7 +49,8 @@ class BtsnoopLog:
         return {"began": moment.isoformat().replace("+00:00", "Z"), "began_t": 0.0, "source": "btsnoop"}
 
     def __iter__(self) -> Iterator[Packet]:
-        for item in ValueListener(self.path, lambda _: None).listen(self._read):  # what is wrong was reported before
+        listener = ValueListener(self.path, lambda _: None)  # what is wrong was reported before
+        for item in listener.listen(partial(setattr, self, "done")):
             match item:
                 case Value():
                     device, data = self.devices.get(item.device), item.said.value
@@ -63,9 +65,6 @@ class BtsnoopLog:
             if device is not None and device.site is not None and channel is not None:
                 yield Packet((item.t - self.began) / 1e6, device.site, channel, data, device.address)
 
-    def _read(self, done: int) -> None:
-        self.done = done
-
 
 def open_btsnoop(
     path: Path | str, *, sites: Mapping[str, Site] | None = None, handles: Handles | None = None, report: Report = warn
@@ -79,11 +78,11 @@ def open_btsnoop(
     """
     path = Path(path)
     refuse_pipe(path)
-    handles = {(upper(device), handle): channel for (device, handle), channel in (handles or {}).items()}
+    handles = {(device.upper(), handle): channel for (device, handle), channel in (handles or {}).items()}
     for channel in handles.values():
         if channel not in CHANNELS:
             raise ValueError(f"no device has a channel {channel!r}")
-    places = {upper(device): site for device, site in (sites or {}).items()}
+    places = {device.upper(): site for device, site in (sites or {}).items()}
     listener, devices, began = ValueListener(path, report), dict[str, LoggedDevice](), None
     damage: RecordingError | None = None
     try:
@@ -107,7 +106,7 @@ def open_btsnoop(
         raise RecordingError(path, no_use(wish, handles[wish], devices, listener.types))
     if not usable:
         raise RecordingError(path, "; ".join(["holds no packets of a device whose place is known", *left_out[:5]]))
-    strangers = [address for address in sites or {} if upper(address) not in map(upper, devices)]
+    strangers = [address for address in sites or {} if address.upper() not in map(str.upper, devices)]
     if strangers:
         there = ", ".join(device.address for device in devices.values() if device.channels)
         raise RecordingError(path, f"holds no device {strangers[0]} that could be used; there is {there}")
