@@ -44,8 +44,8 @@ class CC2541Peripheral(Tag):
         for sensor in ("cc2541/magnetometer", "cc2541/barometer"):
             self.series(sensor, 1.0)
 
-    def begin(self) -> None:
-        self.flow("cc2541/keys", Presses(self.device.presses, *CC2541_KEYS), self.walk_time)
+    def begin(self, t: float) -> None:
+        self.flow("cc2541/keys", Presses(self.device.presses, *CC2541_KEYS), t)
 
     def stop(self) -> None:
         super().stop()

@@ -59,9 +59,9 @@ class CC2650Peripheral(Tag):
         self.series("cc2650/movement", 0.01 * self._shortest)
         self.series("cc2650/barometer", 1.0)
 
-    def begin(self) -> None:
-        self.flow("cc2650/keys", Presses(self.device.presses, *CC2650_KEYS), self.walk_time)
-        self.flow("device/battery", self._battery, self.walk_time)
+    def begin(self, t: float) -> None:
+        self.flow("cc2650/keys", Presses(self.device.presses, *CC2650_KEYS), t)
+        self.flow("device/battery", self._battery, t)
 
     def value(self, channel: str, t: float) -> bytes:
         return self._battery.level(t) if channel == "device/battery" else super().value(channel, t)

@@ -135,8 +135,8 @@ class InsolePeripheral(Peripheral):
             self._signals[self._interval] = found
         return found
 
-    def begin(self) -> None:
-        self.flow("device/battery", self._battery, self.walk_time)
+    def begin(self, t: float) -> None:
+        self.flow("device/battery", self._battery, t)
 
     def stop(self) -> None:
         self._frames = None

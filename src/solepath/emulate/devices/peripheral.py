@@ -83,8 +83,8 @@ class Peripheral:
     def stop(self) -> None:
         """Do as the device does when its link is gone. The flows have been stopped already."""
 
-    def begin(self) -> None:
-        """Do as the device does when it is connected."""
+    def begin(self, t: float) -> None:
+        """Do as the device does when it is connected at `t` of the walk."""
 
     def prepare(self) -> None:
         """Work out now what would otherwise be worked out when a host first asks for it."""
@@ -102,11 +102,6 @@ class Peripheral:
     @property
     def mtu(self) -> int:
         return self._mtu if self._misfortune.mtu is None else min(self._mtu, self._misfortune.mtu)
-
-    @property
-    def walk_time(self) -> float:
-        """The time of the walk when it was last asked anything, s."""
-        return self._now - self._began
 
     @property
     def restarted(self) -> float | None:
@@ -141,10 +136,10 @@ class Peripheral:
 
     def connected(self, now: float, mtu: int) -> None:
         """A link begins, with the MTU that is agreed so far."""
-        self._pass(now)
+        t = self._pass(now)
         self._misfortune.connected()
         self.is_connected, self.is_encrypted, self.agreed_mtu = True, False, mtu
-        self.begin()
+        self.begin(t)
         self._tell()
 
     def agrees_to_pair(self, now: float) -> bool:

@@ -65,39 +65,35 @@ CABINS = (
 WELLS = (Well("west stairs", (7.8, 20.9), pi), Well("north stairs", (31.4, 55.2), 0.5 * pi))
 
 
-def _split(marks: tuple[float, ...]) -> list[tuple[float, float]]:
-    return list(pairwise(marks))
-
-
 def _rooms() -> list[tuple[_Box, str]]:
     """Every room, and which of its sides has the door: "n", "e", "s", "w", or "" for a shaft."""
     w, e, s, n = COLUMNS[0] - HALF, COLUMNS[2] + HALF, ROWS[0] - HALF, ROWS[2] + HALF
     inner = [(COLUMNS[0] + HALF, COLUMNS[1] - HALF), (COLUMNS[1] + HALF, COLUMNS[2] - HALF)]
     low, high = (ROWS[0] + HALF, ROWS[1] - HALF), (ROWS[1] + HALF, ROWS[2] - HALF)
     found: list[tuple[_Box, str]] = []
-    for a, b in _split((0.0, 4.0, 5.8, 13.0, 19.5, 22.3, 29.0, 36.0, 43.0, 50.0, 57.0, NORTH)):
+    for a, b in pairwise((0.0, 4.0, 5.8, 13.0, 19.5, 22.3, 29.0, 36.0, 43.0, 50.0, 57.0, NORTH)):
         shaft, well = a == 4.0, a == 19.5
         found += [] if well else [((0.0, a, w - CABIN if shaft else w, b), "" if shaft else "e")]
-    for a, b in _split((0.0, 7.0, 14.0, 21.0, 28.0, 35.0, 42.0, 49.0, 57.0, 58.8, NORTH)):
+    for a, b in pairwise((0.0, 7.0, 14.0, 21.0, 28.0, 35.0, 42.0, 49.0, 57.0, 58.8, NORTH)):
         shaft = a == 57.0
         found += [((e + CABIN if shaft else e, a, EAST, b), "" if shaft else "w")]
-    for a, b in _split((inner[0][0], 17.0, 24.0, 31.0, 38.0, inner[1][1])):
+    for a, b in pairwise((inner[0][0], 17.0, 24.0, 31.0, 38.0, inner[1][1])):
         found.append(((a, 0.0, b, s), "n"))
-    for a, b in _split((inner[0][0], 17.0, 24.0, 30.0, 32.8, 39.0, inner[1][1])):
+    for a, b in pairwise((inner[0][0], 17.0, 24.0, 30.0, 32.8, 39.0, inner[1][1])):
         found += [] if a == 30.0 else [((a, n, b, NORTH), "s")]
     for (left, right), middle in zip(inner, (17.0, 36.0), strict=True):
-        for a, b in _split((low[0], 18.0, low[1])):
+        for a, b in pairwise((low[0], 18.0, low[1])):
             found += [((left, a, middle, b), "w"), ((middle, a, right, b), "e")]
     left, right = inner[0]
-    for a, b in _split((high[0], 36.0, 44.0, high[1])):
+    for a, b in pairwise((high[0], 36.0, 44.0, high[1])):
         found.append(((left, a, 17.0, b), "w"))
-    for a, b in _split((high[0], 37.0, 45.0, 46.8, high[1])):
+    for a, b in pairwise((high[0], 37.0, 45.0, 46.8, high[1])):
         shaft = a == 45.0
         found.append(((17.0, a, right - CABIN if shaft else right, b), "" if shaft else "e"))
     left, right = inner[1]
     found += [((left, high[0], 32.0, 36.0), "s"), ((32.0, high[0] + CABIN, 33.8, 36.0), "")]
     found.append(((33.8, high[0], right, 36.0), "s"))
-    for a, b in _split((36.0, 44.0, high[1])):
+    for a, b in pairwise((36.0, 44.0, high[1])):
         found += [((left, a, 36.0, b), "w"), ((36.0, a, right, b), "e")]
     return found
 

@@ -36,7 +36,7 @@ from .building import (
     Well,
     in_well,
 )
-from .course import OTHER, Course, course_from
+from .course import OTHER, Course
 from .path import ahead
 from .route import Route
 
@@ -84,7 +84,7 @@ def case_study() -> Way:
     """As in section V-F of Liu et al. 2015: down by the lift at the bottom left, along corridors, and away by another
     lift. The paper gives no measures; this one turns five times on the floor."""
     a, b = CABINS[:2]
-    course = course_from(UPPER, a.middle, a.out)
+    course = Course(UPPER, a.middle, a.out)
     course.stand()
     course.ride()
     west, middle, east = COLUMNS
@@ -99,7 +99,7 @@ def case_study() -> Way:
 
 def corridor() -> Way:
     """63 m straight on from door to door, as the long corridor of section V-D."""
-    course = course_from(GROUND, (COLUMNS[0], 0.0), 0.5 * pi)
+    course = Course(GROUND, (COLUMNS[0], 0.0), 0.5 * pi)
     course.stand()
     course.along([(COLUMNS[0], NORTH)])
     course.stand()
@@ -190,15 +190,15 @@ def _straight(a: Point, b: Point, c: Point) -> bool:
 def _arriving(one: Exit, level: str, dx: float, dy: float) -> Course:
     """From the other floor to this one; the course then is where one comes out."""
     if isinstance(one, Cabin):
-        course = course_from(OTHER[level], one.middle, one.out)
+        course = Course(OTHER[level], one.middle, one.out)
         course.stand()
         course.ride()
         return course
     inside, turning = _inside(one, OTHER[level]), _beside(one, OTHER[level], dx, dy)
     if one.inward == pi:
-        course = course_from(OTHER[level], (turning[0], turning[1] - RUN_UP), 0.5 * pi)
+        course = Course(OTHER[level], (turning[0], turning[1] - RUN_UP), 0.5 * pi)
     else:
-        course = course_from(OTHER[level], (turning[0] - RUN_UP, turning[1]), 0.0)
+        course = Course(OTHER[level], (turning[0] - RUN_UP, turning[1]), 0.0)
     course.stand()
     course.along([turning, inside])
     course.climb(up=level == UPPER)

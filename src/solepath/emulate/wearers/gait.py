@@ -138,28 +138,22 @@ STATURE = 1.75
 """m: of the default wearer."""
 
 
-def shoe_for(foot_length: float) -> Shoe:
-    """The default shoe, larger or smaller in every direction, m."""
-    k = foot_length / FOOT
-    plain = Shoe()
-    x, y, z = plain.ankle
-    return Shoe(
-        length=k * plain.length,
-        width=k * plain.width,
-        heel=Rocker(k * plain.heel.x, k * plain.heel.radius),
-        forefoot=Rocker(k * plain.forefoot.x, k * plain.forefoot.radius),
-        ankle=(k * x, k * y, k * z),
-    )
-
-
 def wearer(stature: float, mass: float, foot_length: float) -> Wearer:
-    """A wearer of so many m and kg in shoes for a foot of `foot_length` m.
+    """A wearer of so many m and kg in shoes for a foot of `foot_length` m, the default ones made larger or smaller.
 
     Limbs by the proportions of `Limbs`; `foot` is what of the shoe is ahead of the ankle. The walk ratio goes with the
     stature to the power of 1.5: steps then are as long as legs at cadences that go with a pendulum's, as dynamic
     similarity has it (Alexander 1989, Physiol. Rev. 69).
     """
-    shoe, plain = shoe_for(foot_length), Wearer()
+    plain, k = Wearer(), foot_length / FOOT
+    old = plain.shoe
+    shoe = Shoe(
+        length=k * old.length,
+        width=k * old.width,
+        heel=Rocker(k * old.heel.x, k * old.heel.radius),
+        forefoot=Rocker(k * old.forefoot.x, k * old.forefoot.radius),
+        ankle=(k * old.ankle[0], k * old.ankle[1], k * old.ankle[2]),
+    )
     limbs = Limbs(
         hip_width=0.191 * stature,
         thigh=0.245 * stature,

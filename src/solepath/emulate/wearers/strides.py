@@ -54,29 +54,28 @@ _Joint = tuple[Array, Array, Array]
 
 def foot_motions(plan: WalkPlan, shoe: Shoe) -> dict[Foot, FootMotion]:
     """Both feet of a plan."""
-    return {foot: foot_motion(plan.starts[foot], plan.strides[foot], shoe, plan.rides) for foot in Foot}
-
-
-def foot_motion(
-    start: Pose, strides: tuple[PlannedStride, ...], shoe: Shoe, rides: tuple[CarRide, ...] = ()
-) -> FootMotion:
-    """One foot that stands at `start`, makes the strides, and stands; in between it may ride."""
-    pieces = _Pieces(shoe, rides)
-    leaves = [*(stride.heel_off for stride in strides), _EVER]
-    pieces.stand(start, -_EVER, leaves[0], 0.0)
-    for stride, leave in zip(strides, leaves[1:], strict=True):
-        pieces.push_off(stride)
-        pieces.swing(stride)
-        pieces.land(stride)
-        pieces.stand(stride.end, stride.foot_flat, leave, stride.settle if leave < _EVER else 0.0)
-    return pieces.done()
+    return {foot: _Pieces(shoe, plan.rides).joined(plan.starts[foot], plan.strides[foot]) for foot in Foot}
 
 
 class _Pieces:
+    """One foot that may ride in between."""
+
     def __init__(self, shoe: Shoe, rides: tuple[CarRide, ...]) -> None:
         self.shoe = shoe
         self.rides = rides
         self.rows: list[tuple[float, float, list[Array], tuple[float, float], float, int]] = []
+
+    def joined(self, start: Pose, strides: tuple[PlannedStride, ...]) -> FootMotion:
+        """It stands at `start`, makes the strides, and stands."""
+        leaves = [*(stride.heel_off for stride in strides), _EVER]
+        self.stand(start, -_EVER, leaves[0], 0.0)
+        for stride, leave in zip(strides, leaves[1:], strict=True):
+            self.push_off(stride)
+            self.swing(stride)
+            self.land(stride)
+            self.stand(stride.end, stride.foot_flat, leave, stride.settle if leave < _EVER else 0.0)
+        begin, duration, curves, carried, radius, phase = map(np.array, zip(*self.rows, strict=True))
+        return FootMotion(begin, duration, curves, carried, radius, phase.astype(np.intp), self.rides)
 
     def stand(self, at: Pose, begin: float, end: float, settle: float) -> None:
         for car in self.rides:
@@ -217,18 +216,6 @@ class _Pieces:
         self, begin: float, end: float, curves: list[Array], carried: tuple[float, float], radius: float, phase: Phase
     ) -> None:
         self.rows.append((begin, end - begin, curves, carried, radius, PHASES.index(phase)))
-
-    def done(self) -> FootMotion:
-        begin, duration, curves, carried, radius, phase = zip(*self.rows, strict=True)
-        return FootMotion(
-            begin=np.array(begin),
-            duration=np.array(duration),
-            curves=np.array(curves),
-            carried=np.array(carried),
-            radius=np.array(radius),
-            phase=np.array(phase, dtype=np.intp),
-            rides=self.rides,
-        )
 
 
 def _from_rest(end: tuple[float, float]) -> Array:

@@ -56,20 +56,6 @@ def _runs(plan: WalkPlan) -> list[tuple[float, float, Activity]]:
     return found
 
 
-def elevation(plan: WalkPlan, t: Array) -> Array:
-    """How much higher than at t = 0 the wearer is, m: the mean of what both feet stand on."""
-    total = np.zeros(len(t))
-    for foot in Foot:
-        when, climbed = [0.0], [0.0]
-        for stride in plan.strides[foot]:
-            when += [stride.toe_off, stride.heel_strike]
-            climbed += [climbed[-1], climbed[-1] + stride.end.z - stride.start.z]
-        total += 0.5 * np.interp(t, when, climbed)
-    for car in plan.rides:
-        total += car.at(t)[0][:, 2]
-    return total
-
-
 @frozen
 class TrueStep:
     """One foot from foot-flat to its next foot-flat; for the first step from t = 0, when it stood already."""
@@ -141,7 +127,17 @@ class Truth:
     def elevation(self, t: Array | float) -> Array:
         """How much higher than at t = 0 the wearer is at instants `t`, (N), m: the mean of the floors or treads that
         both feet stand on, between which a foot in the air goes evenly."""
-        return elevation(self.plan, np.atleast_1d(np.asarray(t, dtype=np.float64)))
+        t = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        total = np.zeros(len(t))
+        for foot in Foot:
+            when, climbed = [0.0], [0.0]
+            for stride in self.plan.strides[foot]:
+                when += [stride.toe_off, stride.heel_strike]
+                climbed += [climbed[-1], climbed[-1] + stride.end.z - stride.start.z]
+            total += 0.5 * np.interp(t, when, climbed)
+        for car in self.plan.rides:
+            total += car.at(t)[0][:, 2]
+        return total
 
 
 def foot_truth(foot: Foot, plan: WalkPlan, motion: FootMotion, mounting: Mounting) -> FootTruth:

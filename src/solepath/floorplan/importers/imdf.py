@@ -6,8 +6,8 @@ IMDF draws units, not walls, and no heights: walls are outlines (drawing.py), an
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 
 from ..outlines import Ring, edges, without_repeats
 from ..plan import ConnectorKind, FloorPlan, FloorPlanError, Point
@@ -42,10 +42,11 @@ def of_files(files: Mapping[str, bytes], storey: float) -> FloorPlan:
     does not fit."""
     if "manifest.json" not in files:
         raise FloorPlanError("has no manifest.json, which every IMDF archive has")
-    manifest = _file(files, "manifest.json")
-    version = manifest.get("version")
-    if not isinstance(version, str) or not version.startswith("1."):
-        raise FloorPlanError(f"manifest.json: is of version {version!r}; this release reads IMDF 1")
+    with _named("manifest.json"):
+        manifest = parsed(files["manifest.json"])
+        version = manifest.get("version")
+        if not isinstance(version, str) or not version.startswith("1."):
+            raise FloorPlanError(f"is of version {version!r}; this release reads IMDF 1")
     for needed in ("level.geojson", "unit.geojson"):
         if needed not in files:
             raise FloorPlanError(f"has no {needed}")
@@ -53,9 +54,11 @@ def of_files(files: Mapping[str, bytes], storey: float) -> FloorPlan:
     return _ImdfReader(files, language if isinstance(language, str) else "en").plan(storey)
 
 
-def _file(files: Mapping[str, bytes], name: str) -> dict[str, Any]:
+@contextmanager
+def _named(name: str) -> Iterator[None]:
+    """Complaints name the file."""
     try:
-        return parsed(files[name])
+        yield
     except FloorPlanError as error:
         raise FloorPlanError(f"{name}: {error}") from None
 
@@ -78,13 +81,11 @@ class _ImdfReader:
     def _of(self, files: Mapping[str, bytes], kind: str) -> list[Feature]:
         if f"{kind}.geojson" not in files:
             return []
-        try:
+        with _named(f"{kind}.geojson"):
             found = list(features(parsed(files[f"{kind}.geojson"]), "feature_type", of_properties=False))
             for one in found:
                 if one.kind != kind:
                     one.wrong(f"is a {one.kind[:30]!r} among the {kind}s")
-        except FloorPlanError as error:
-            raise FloorPlanError(f"{kind}.geojson: {error}") from None
         return found
 
     def _label(self, one: Feature, key: str) -> str:
