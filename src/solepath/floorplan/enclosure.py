@@ -117,9 +117,6 @@ class Enclosure:
     def _nearest(self, x: float, y: float) -> tuple[int, int]:
         return round((x - self._left) / self._space), round((y - self._bottom) / self._space)
 
-    def _free(self, x0: float, y0: float, x1: float, y1: float) -> bool:
-        return not (self._walls.crosses(x0, y0, x1, y1) or self._shut.crosses(x0, y0, x1, y1))
-
     def inside(self, x: float, y: float) -> bool:
         """Whether (x, y), m, is enclosed; where the walls have open ends, whether it is within the hull of them all."""
         if self._hull:
@@ -131,7 +128,11 @@ class Enclosure:
             return False
         i, j = self._nearest(x, y)
         for k, m in ((i, j), (i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
-            if 0 <= k < self.columns and 0 <= m < self.rows and self._free(x, y, *self.place(k, m)):
+            if (
+                0 <= k < self.columns
+                and 0 <= m < self.rows
+                and not any(walls.crosses(x, y, *self.place(k, m)) for walls in (self._walls, self._shut))
+            ):
                 return not self._outside[m * self.columns + k]
         return True
 

@@ -128,7 +128,8 @@ class McapWriter:
         with self._told():
             self._writer.start(profile="", library=f"solepath {version('solepath')}")
             about = {"format": FORMAT, "version": VERSION, **self._header}
-            self._writer.add_metadata("solepath", {_sound(key): _text(value) for key, value in about.items()})
+            texts = {key: value if isinstance(value, str) else json.dumps(value) for key, value in about.items()}
+            self._writer.add_metadata("solepath", {_sound(key): _sound(text) for key, text in texts.items()})
 
     def write(self, packet: Packet) -> None:
         """The packet, the samples in it and the events that it brings."""
@@ -263,11 +264,6 @@ def _zero(header: Mapping[str, Any], first: float) -> int:
 
 def _xyz(vector: Vec3) -> dict[str, float]:
     return {"x": vector[0], "y": vector[1], "z": vector[2]}
-
-
-def _text(value: Any) -> str:
-    """A value of a header as metadata holds it."""
-    return _sound(value) if isinstance(value, str) else json.dumps(value)
 
 
 def _sound(text: str) -> str:

@@ -13,15 +13,24 @@ from typing import TypeVar
 
 from bumble import att, hci
 from bumble.device import Connection, Device, DeviceConfiguration
+from bumble.gatt import (
+    GATT_CHARACTERISTIC_USER_DESCRIPTION_DESCRIPTOR,
+    Characteristic,
+    CharacteristicValue,
+    Descriptor,
+    Service,
+)
 from bumble.host import Host
+from bumble.profiles.gap import GenericAccessService
 from bumble.transport.common import AsyncPipeSink, Transport
 
 from ...ble.air import Backend
+from ..devices import attributes as emulated
 from ..devices.attributes import AttError
 from ..devices.peripheral import Peripheral
 from .central import backend_of
 from .controller import VirtualAir, VirtualController
-from .gatt import advertisement, furnish
+from .gatt import AttributeServer, advertisement, short_or_long
 from .radio import VirtualRadio, end_link, just_works
 
 _T = TypeVar("_T")
@@ -29,6 +38,8 @@ _T = TypeVar("_T")
 ADVERTISING = 62.5
 """ms between advertisements: bumble's controller reads the 0.625 ms units of HCI as milliseconds, so it is 100 ms."""
 _CENTRAL = "C0:50:1E:9A:74:01"
+_STANDARD = ("0000180a", "0000180f")
+"""Services that the Bluetooth SIG describes: their characteristics need no description."""
 
 
 @asynccontextmanager
@@ -92,8 +103,33 @@ class Server:
         )
         self._device = Device(config=config, host=Host(self._controller, AsyncPipeSink(self._controller)))
         just_works(self._device, lambda: self.peripheral.agrees_to_pair(self._loop.time()))
-        self._served = furnish(self._device, self.peripheral, self)
+        self._device.gatt_server = AttributeServer(self._device)
+        self._device.add_service(GenericAccessService(peripheral.name))
+        self._served: dict[str, Characteristic[bytes]] = {}
+        for service in peripheral.services:
+            described = not service.uuid.startswith(_STANDARD)
+            found = {each.channel: self._characteristic(each, described) for each in service.characteristics}
+            self._device.add_service(Service(short_or_long(service.uuid), list(found.values())))
+            self._served |= found
         self._device.on(Device.EVENT_CONNECTION, self._connected)
+
+    def _characteristic(self, said: emulated.Characteristic, described: bool) -> Characteristic[bytes]:
+        properties = Characteristic.Properties(0)
+        for name in said.properties:
+            properties |= Characteristic.Properties[name.upper().replace("-", "_")]
+        description = Descriptor(
+            GATT_CHARACTERISTIC_USER_DESCRIPTION_DESCRIPTOR, att.Attribute.READABLE, said.channel.encode()
+        )
+        served: Characteristic[bytes] = Characteristic(
+            short_or_long(said.uuid),
+            properties,
+            att.Attribute.READABLE | att.Attribute.WRITEABLE,  # the device itself says what is not permitted
+            CharacteristicValue(read=partial(self.read, said.channel), write=partial(self.write, said.channel)),
+            [description] if described else [],
+        )
+        subscribed: Callable[[Connection, bool, bool], None] = partial(self.subscribe, said.channel)
+        served.on(Characteristic.EVENT_SUBSCRIPTION, subscribed)
+        return served
 
     async def start(self) -> None:
         """Goes on the air and advertises."""
@@ -152,7 +188,7 @@ class Server:
         if not self._stopped:
             self._restart = self._loop.create_task(self._advertise())
 
-    # requests (gatt.Answers)
+    # requests; the channel comes first, since it is bound when the table of attributes is made
 
     async def read(self, channel: str, link: Connection) -> bytes:
         value = self._ask(partial(self.peripheral.read, channel))

@@ -8,7 +8,7 @@ from operator import attrgetter
 import numpy as np
 
 from ...calibration import Limbs
-from ...types import Layout, Sample, Site, Vec3
+from ...types import Layout, Sample, Site
 from ...types.vector import from_rotation_vector
 from ..wearers.curves import Array, Rng
 from ..wearers.limbs import body
@@ -33,7 +33,13 @@ def strapped(site: Site, limbs: Limbs, seed: int, turned: float = TURNED) -> Mou
     """
     rng = np.random.default_rng([seed, 5, list(Site).index(site)])
     x, y, z = (turned * float(value) for value in rng.standard_normal(3))
-    return Mounting(_place(site, limbs), from_rotation_vector((x, y, z)))
+    place = ON_INSTEP.position
+    if site is Site.PELVIS:
+        place = (-0.10, 0.0, 0.05)
+    elif site.foot is None:
+        thigh = site in (Site.LEFT_THIGH, Site.RIGHT_THIGH)
+        place = (0.06, 0.0, -0.5 * (limbs.thigh if thigh else limbs.shank))
+    return Mounting(place, from_rotation_vector((x, y, z)))
 
 
 def limb_samples(
@@ -115,12 +121,3 @@ def _pressed(walker: Walker, layout: Layout, t: Array, part: CellPart | None, rn
     scale = layout.scale or SCALE
     lift = walker.kinematics(layout.foot, t).force[:, 2]
     return np.asarray(read_cells(true, t, part, scale, rng, lift=lift).counts * scale)
-
-
-def _place(site: Site, limbs: Limbs) -> Vec3:
-    if site is Site.PELVIS:
-        return (-0.10, 0.0, 0.05)
-    if site.foot is not None:
-        return ON_INSTEP.position
-    thigh = site in (Site.LEFT_THIGH, Site.RIGHT_THIGH)
-    return (0.06, 0.0, -0.5 * (limbs.thigh if thigh else limbs.shank))

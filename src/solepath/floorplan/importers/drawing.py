@@ -183,7 +183,15 @@ def _border_of(part: ConnectorPart, doors: list[Line]) -> Border:
 def _joined(parts: list[ConnectorPart], numbers: dict[str, int], storeys: dict[str, Storey]) -> list[Connector]:
     """Parts joined into connectors: those of one group, and those that lie over each other on levels whose order is one
     apart or less, or next to each other in the list of levels."""
-    ordered = sorted(parts, key=lambda part: (part.kind.value, numbers[part.level], _corner(part), part.name))
+    ordered = sorted(
+        parts,
+        key=lambda part: (
+            part.kind.value,
+            numbers[part.level],
+            min(part.ring, default=part.place or (0.0, 0.0)),
+            part.name,
+        ),
+    )
     middles = [middle(part.ring) if len(part.ring) >= 3 else part.place or (0.0, 0.0) for part in ordered]
     leader = list(range(len(ordered)))
 
@@ -205,10 +213,6 @@ def _joined(parts: list[ConnectorPart], numbers: dict[str, int], storeys: dict[s
     together = sorted(range(len(ordered)), key=lambda i: (lead(i), i))
     found = [_connector([ordered[i] for i in some], numbers) for _, some in groupby(together, key=lead)]
     return sorted(found, key=lambda one: (one.kind.value, one.name, one.stops[0].place))
-
-
-def _corner(part: ConnectorPart) -> Point:
-    return min(part.ring) if part.ring else part.place or (0.0, 0.0)
 
 
 def _within(place: Point, part: ConnectorPart) -> bool:
