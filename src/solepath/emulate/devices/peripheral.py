@@ -118,12 +118,7 @@ class Peripheral:
         """Whether it refuses requests on a link that is not encrypted, but for Device Information and battery."""
         return self._misfortune.needs_pairing
 
-    @property
-    def began(self) -> float:
-        return self._began
-
-    @began.setter
-    def began(self, began: float) -> None:
+    def walk_from(self, began: float) -> None:
         """The walk begins anew, and the script of its faults with it: nothing of an earlier one holds over."""
         self._began = began
         self._misfortune = Misfortune(self._faults, self.site)
