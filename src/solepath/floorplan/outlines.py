@@ -88,9 +88,8 @@ def tidy(outline: Ring) -> Ring:
 
 def _straight(a: Point, b: Point, c: Point) -> bool:
     """Whether b is no corner: it lies between a and c, within a millimetre of the line."""
-    if not (a[0] - b[0]) * (c[0] - b[0]) + (a[1] - b[1]) * (c[1] - b[1]) < 0.0:
-        return False
-    return distance(*a, *c, *b) <= 1e-3
+    between = (a[0] - b[0]) * (c[0] - b[0]) + (a[1] - b[1]) * (c[1] - b[1]) < 0.0
+    return between and distance(*a, *c, *b) <= 1e-3
 
 
 def with_holes(rings: tuple[Ring, ...]) -> Ring:

@@ -105,10 +105,9 @@ class McapWriter:
                 writer.write(packet)
 
     An existing file is replaced. `header`: of the recording that the packets come from. `profiles`: devices of the
-    app's own, as for Session. `count`: packets written.
-    `outside`: times that no log time can hold; the nearest that can stands for them. RecordingError when the file
-    cannot be written, ValueError for a packet whose time is not finite. What a session holds back comes with `close`;
-    a file that was never closed has no index, but its chunks can be read.
+    app's own, as for Session. `count`: packets written. `outside`: times that no log time can hold; the nearest that
+    can stands for them. RecordingError when the file cannot be written, ValueError for a packet whose time is not
+    finite. What a session holds back comes with `close`; a file never closed has no index, but whole chunks.
     """
 
     def __init__(self, path: Path | str, header: Mapping[str, Any] = {}, *, profiles: Iterable[Driver] = ()) -> None:
@@ -169,8 +168,6 @@ class McapWriter:
     def __exit__(self, *error: object) -> None:
         self.close()
 
-    # --- topics ---
-
     def _made(self, events: list[Event]) -> None:
         """What the session made of a packet, or of the end: the samples that it took, and then the events."""
         samples, self._session.samples = self._session.samples, []
@@ -210,8 +207,6 @@ class McapWriter:
                 data |= {"heading_change": event.heading_change, "height_change": event.height_change}
                 data |= {"position": _xyz(event.position), "degraded": event.degraded}
                 self._put(_of(event.foot, "steps"), "solepath.Step", event.t, event.known_at, data)
-
-    # --- messages ---
 
     def _put(
         self, topic: str, schema: str, t: float, known_at: float, data: Any, about: dict[str, str] | None = None

@@ -136,8 +136,6 @@ class RadioClient(BaseBleakClient):
     def is_connected(self) -> bool:
         return self._link is not None
 
-    # the link
-
     async def connect(self, pair: bool, **kwargs: Any) -> None:
         """Connects, agrees on an MTU and discovers what the device has. The link is encrypted if there are keys of an
         earlier pairing; if there are none and `pair`, the device is paired with.
@@ -227,8 +225,6 @@ class RadioClient(BaseBleakClient):
         """Forgets the keys, which ends the link."""
         await self.radio.keys.delete(self.address)
         await self.disconnect()
-
-    # attributes
 
     async def _request(self, exchange: Callable[[], Coroutine[Any, Any, _T]]) -> _T:
         link = self._link

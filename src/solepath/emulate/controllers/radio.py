@@ -110,8 +110,6 @@ class VirtualRadio:
             else:
                 return
 
-    # scanning
-
     async def listen(self, listener: ScanListener) -> None:
         """From now on `listener` hears what is advertised. BleakError."""
         device = await self.device()
@@ -148,8 +146,6 @@ class VirtualRadio:
         for listener in list(self._listeners):
             listener(advertisement)
 
-    # connecting
-
     async def connect(self, peer: hci.Address) -> Connection:
         """A link to the device of this address. Tries until it is cancelled; BleakError."""
         while True:
@@ -181,8 +177,6 @@ class VirtualRadio:
                 await link.disconnect()
         except (TimeoutError, core.BaseBumbleError, asyncio.CancelledError):
             attempt.cancel()
-
-    # tasks
 
     def task(self, work: Coroutine[Any, Any, _T]) -> asyncio.Task[_T]:
         """Work that must be ended when the radio closes."""

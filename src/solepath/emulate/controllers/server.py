@@ -149,8 +149,6 @@ class Server:
         await self._device.power_off()
         self.air.leave(self._controller)
 
-    # advertising
-
     async def _advertise(self) -> None:
         await self._device.start_advertising(
             advertising_data=self._advertised(),
@@ -160,8 +158,6 @@ class Server:
 
     def _advertised(self) -> bytes:
         return advertisement(self.peripheral.name, self.peripheral.advertised)
-
-    # the link
 
     def _connected(self, link: Connection) -> None:
         self._link = link
@@ -218,8 +214,6 @@ class Server:
         if self._silence is None:
             raise att.ATT_Error(att.ATT_UNLIKELY_ERROR_ERROR)
         return await asyncio.shield(self._silence)
-
-    # notifications
 
     def _disarm(self) -> None:
         if self._timer is not None:

@@ -9,7 +9,7 @@ from functools import partial
 
 from ...link.devices.cc2541 import PROFILE
 from ..sensors.device import device_numbers, started
-from ..sensors.sensortags import CC2541, CC2541_KEYS, LATE, calibration_bytes
+from ..sensors.sensortags import CALIBRATION, CC2541, CC2541_KEYS, LATE
 from ..sensors.tag_signals import Series
 from ..wearers.walker import Walker
 from .attributes import AttCode, AttError
@@ -56,7 +56,7 @@ class CC2541Peripheral(Tag):
             return super().value(channel, t)
         if not self._fetched:
             raise AttError(AttCode.READ_NOT_PERMITTED)
-        return calibration_bytes()
+        return CALIBRATION
 
     def take(self, channel: str, value: bytes, t: float) -> None:
         super().take(channel, value, t)

@@ -133,7 +133,7 @@ class CC2541:
             "cc2541/gyroscope-period": written,
             "cc2541/magnetometer-period": slow,
             "cc2541/barometer-period": slow,
-            "cc2541/barometer-calibration": calibration_bytes(),
+            "cc2541/barometer-calibration": CALIBRATION,
         }
         sent = prepared(cc2541.PROFILE, own)
         for channel, every, code in (
@@ -181,6 +181,8 @@ def cc2541_bytes(channel: str, **fields: Any) -> bytes:
 
 CC2541_KEYS = tuple([cc2541_bytes("cc2541/keys", left=left, right=False, side=False) for left in (True, False)])
 """The left key down, and up."""
+CALIBRATION = cc2541_bytes("cc2541/barometer-calibration", **asdict(T5400_CALIBRATION))
+"""What the barometer's calibration reads as."""
 
 
 def raw_air(pascal: float) -> dict[str, int]:
@@ -189,10 +191,6 @@ def raw_air(pascal: float) -> dict[str, int]:
     t = round((TEMPERATURE - c.c2 / 2**10) * 2**24 / c.c1)
     low, high = c.pascal(t, 0), c.pascal(t, 1)
     return {"temperature": t, "pressure": round((pascal - low) / (high - low))}
-
-
-def calibration_bytes() -> bytes:
-    return cc2541_bytes("cc2541/barometer-calibration", **asdict(T5400_CALIBRATION))
 
 
 def _keys(channel: str, presses: tuple[float, ...], down: bytes, up: bytes) -> list[Notification]:
