@@ -22,7 +22,6 @@ _POST = BESIDE + 0.05
 OPEN_END = 0.05
 """m; a wall's end farther than this from all other walls and doors is an open end."""
 
-
 _ON = 1e-9
 """Of the lattice's spacing: a wall that passes a place of the lattice by less goes through it."""
 

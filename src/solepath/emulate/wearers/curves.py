@@ -18,7 +18,6 @@ DEGREE = 7
 BUMP: Array = np.array([0.0, 0.0, 0.0, 64.0, -192.0, 192.0, -64.0, 0.0])
 """64 s^3 (1 - s)^3: 1 in the middle; value, slope and curvature are 0 at both ends."""
 
-
 EVEN_OUT: Array = np.array([0.0, 0.0, 0.0, 1.0, -5.0, 9.0, -7.0, 2.0])
 """s^3 (1 - s)^3 (1 - 2 s): starts earlier, is slower in the middle and stops later; nothing changes at both ends."""
 

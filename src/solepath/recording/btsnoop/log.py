@@ -20,7 +20,7 @@ from ..trouble import RecordingError, Report, printable, warn
 from .att import AttOperation
 from .devices import CHANNELS, Handles, LoggedDevice, name_attributes, no_use, one, place
 from .evidence import ValueEvidence
-from .hci import Begun, Ended
+from .hci import LinkChange
 from .records import refuse_pipe
 from .values import Value, ValueListener
 
@@ -55,13 +55,11 @@ class BtsnoopLog:
                 case Value():
                     device, data = self.devices.get(item.device), item.said.value
                     channel = None if device is None else device.channels.get((item.said.handle, item.said.how))
-                case Begun():
+                case LinkChange():
+                    device = self.devices.get(item.link.peer)
                     # the log does not say how the host heard of it, so neither name nor signal
-                    channel, data = "receiver/connected", build_connected(ConnectionFrame("", None))
-                    device = self.devices.get(item.link.peer)
-                case Ended():
-                    channel, data = "receiver/disconnected", b""
-                    device = self.devices.get(item.link.peer)
+                    channel = "receiver/connected" if item.begins else "receiver/disconnected"
+                    data = build_connected(ConnectionFrame("", None)) if item.begins else b""
             if device is not None and device.site is not None and channel is not None:
                 yield Packet((item.t - self.began) / 1e6, device.site, channel, data, device.address)
 

@@ -10,7 +10,7 @@ from attrs import define, field, frozen
 
 from ..trouble import RecordingError, Report
 from .att import FROM_CLIENT, AttValue, Conversation
-from .hci import Begun, Controller, Ended, HciConnection, Pdu
+from .hci import Controller, HciConnection, LinkChange, Pdu
 from .records import read_records
 
 
@@ -39,7 +39,7 @@ class ValueListener:
     _talks: dict[tuple[int, bool], Conversation] = field(factory=dict)
     """By connection and whether the peer is the server."""
 
-    def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[Value | Begun | Ended]:
+    def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[Value | LinkChange]:
         """RecordingError, after everything before it, for what makes the log unusable."""
         controller = Controller(self.flaws)
         t, failure = 0, None
@@ -50,10 +50,9 @@ class ValueListener:
                     match item:
                         case Pdu():
                             yield from self._pdu(item)
-                        case Ended():
-                            yield from self._finish(t, item.link, controller.own(item.link.adapter))
-                            yield item
-                        case Begun():
+                        case LinkChange():
+                            if not item.begins:
+                                yield from self._finish(t, item.link, controller.own(item.link.adapter))
                             yield item
         except RecordingError as error:
             failure = error
