@@ -37,7 +37,7 @@ async def emulated() -> None:
     bench.prepare()
     left, right = (peripheral.address for peripheral in bench.peripherals)
     async with virtual_air(bench.peripherals) as backend:
-        bench.began = asyncio.get_running_loop().time() + 1.0
+        bench.walk_from(asyncio.get_running_loop().time() + 1.0)
         await listen(left, right, backend, 8.0)
 
 

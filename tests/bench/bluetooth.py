@@ -89,8 +89,9 @@ async def delays(tier: str) -> tuple[list[float], list[float]]:
         TIERS[tier](made) as backend,
         Devices([Wanted(None, profile=INSOLE), Wanted(None, profile=INSOLE)], backend=backend) as devices,
     ):
-        made.began = loop.time() + 1.0
-        end = made.began + REAL
+        began = loop.time() + 1.0
+        made.walk_from(began)
+        end = began + REAL
         sent = {peripheral.site: 0.0 for peripheral in made.peripherals}
         for peripheral in made.peripherals:
             poll = peripheral.poll
@@ -103,7 +104,7 @@ async def delays(tier: str) -> tuple[list[float], list[float]]:
         async for packet in devices:
             moved = any([isinstance(event, FootMoved) for event in session.feed(packet)])
             done = loop.time()
-            if moved and packet.t > made.began:
+            if moved and packet.t > began:
                 on_the_way.append(packet.t - sent[packet.site])
                 worked.append(done - packet.t)
             if packet.t > end:

@@ -120,7 +120,8 @@ def walk(seed: int, cuts: int = 200) -> Walked:
 
     async def listen() -> None:
         began = asyncio.get_running_loop().time() + 3.0
-        bench.began = walked.began = began
+        walked.began = began
+        bench.walk_from(began)
         bench.prepare()
         session = Session(poses=True)
         async with bumble(bench) as backend:

@@ -48,7 +48,7 @@ def heard(tier: str, faults: str, pair: bool, seconds: float, kind: str = "insol
 
     async def listen() -> list[Packet]:
         worn = bench(faults, device)
-        worn.began = asyncio.get_running_loop().time()
+        worn.walk_from(asyncio.get_running_loop().time())
         wanted = [Wanted(LEFT, worn[LEFT].address, profile)]
         async with TIERS[tier](worn) as backend, Devices(wanted, backend=backend, pair=pair) as devices:
             return await hear(devices, seconds)

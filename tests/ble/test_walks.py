@@ -57,7 +57,7 @@ def heard(
 
     async def listen() -> tuple[list[Packet], float]:
         began = asyncio.get_running_loop().time() + 5.0
-        bench.began = began
+        bench.walk_from(began)
         bench.prepare()
         async with bumble(bench, interval) as backend, Devices(wanted, backend=backend) as devices:
             return await hear(devices, 5.0 + seconds), began

@@ -22,7 +22,7 @@ def test_with_the_lengths_of_a_posture_the_paper_s_equations_give_the_way_of_the
     stride = walker.plan.strides[Foot.LEFT][2]
     t = np.linspace(stride.heel_off + 1e-6, stride.toe_off - 1e-6, 30)
     true = walker.kinematics(Foot.LEFT, t, mounting).position
-    yaw = np.array([cos(stride.start.yaw), sin(stride.start.yaw)])
+    yaw = np.array([cos(stride.start.heading), sin(stride.start.heading)])
     ahead = (true[:, :2] - (stride.start.x, stride.start.y)) @ yaw + shoe.ankle[0]
     for k, pitch in enumerate((-walker.motions[Foot.LEFT].pitch(t)).tolist()):
         at = posture(pitch, shoe, mounting)

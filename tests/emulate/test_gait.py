@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath.emulate.routes.route import Pivot, Route, TurnAction, legs
-from solepath.emulate.wearers.gait import Wearer, cadence, step_length, step_time
+from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
 
@@ -74,7 +74,7 @@ def test_a_walk_ends_with_the_feet_together_at_the_end_of_the_route(route: Route
         at = strides[-1].end if strides else walker.plan.starts[foot]
         out = side * 0.5 * steady.step_width
         assert (at.x, at.y) == pytest.approx((end.x - out * sin(end.heading), end.y + out * cos(end.heading)), abs=1e-9)
-        assert at.yaw == pytest.approx(end.heading + side * steady.toe_out)
+        assert at.heading == pytest.approx(end.heading + side * steady.toe_out)
 
 
 def test_a_straight_walk_ends_after_its_distance() -> None:
@@ -106,8 +106,9 @@ def test_walks_begin_and_end_with_half_steps() -> None:
 
 def test_speed_is_step_length_times_cadence() -> None:
     for speed in (0.7, 1.0, 1.3, 1.7):
-        assert step_length(speed, Wearer()) / step_time(speed, Wearer()) == pytest.approx(speed)
-    assert 105 < cadence(1.3, Wearer()) < 115
+        cadence = Wearer().cadence(speed)
+        assert Wearer().walk_ratio * cadence * cadence / 60.0 == pytest.approx(speed)
+    assert 105 < Wearer().cadence(1.3) < 115
     walker = Walker(Route().stand(1).walk(60.0, 1.3).stop(1), seed=6)
     one, two = (walker.truth().steps(Foot.LEFT)[k] for k in (3, -3))
     gone = walker.truth().pose(Foot.LEFT, [one.t_end, two.t_end]).position[:, 0]

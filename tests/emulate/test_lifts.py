@@ -68,7 +68,7 @@ def test_the_wearer_is_carried_to_the_floor_and_stands_there(up_and_down: Walker
     truth = up_and_down.truth()
     assert [one.height for one in truth.rides] == [7.0, -3.5]
     for begin, end in ((truth.rides[0], 7.0), (truth.rides[1], 3.5)):
-        t = np.array([begin.t_end + 0.5])
+        t = np.array([begin.end + 0.5])
         assert truth.pose(foot, t).position[0, 2] == pytest.approx(end, abs=1e-9)
         assert np.linalg.norm(truth.pose(foot, t).velocity) == pytest.approx(0.0, abs=1e-9)
     assert truth.elevation(up_and_down.duration)[0] == pytest.approx(3.5)
@@ -78,7 +78,7 @@ def test_a_foot_in_a_lift_feels_more_than_its_weight_first_on_the_way_up_and_les
     up_and_down: Walker,
 ) -> None:
     for one in up_and_down.truth().rides:
-        t = np.linspace(one.t_start, one.t_end, 2000)
+        t = np.linspace(one.begin, one.end, 2000)
         felt = np.linalg.norm(up_and_down.kinematics(Foot.LEFT, t, ON_INSTEP).force, axis=1) - GRAVITY
         sign = np.sign(one.height)
         first, last = sign * felt[:600], sign * felt[-900:]

@@ -25,12 +25,13 @@ from solepath.emulate.sensors.parts import (
 from solepath.emulate.sensors.sensors import (
     air_pressure,
     attitude_read,
+    counted,
     errors,
     instants,
     low_pass,
+    measure,
     read_barometer,
     read_cells,
-    read_triad,
     sample,
     wander,
 )
@@ -80,10 +81,10 @@ def test_counts_are_rounded_and_stop_at_full_scale() -> None:
     when = instants(0.0, 0.01, 5)
     ramp = np.outer(np.ones(len(when.fine)), [1.26, -50.0, 39.9])
     eight = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.0, bandwidth=1e9, bits=8)
-    found = read_triad(ramp, when, eight, 0.25, np.random.default_rng(1))
+    found = counted(measure(ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
     assert found.counts.tolist() == [[5, -128, 127]] * 5
     assert found.saturated.all()
-    quiet = read_triad(0.1 * ramp, when, eight, 0.25, np.random.default_rng(1))
+    quiet = counted(measure(0.1 * ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
     assert not quiet.saturated.any()
 
 

@@ -121,9 +121,9 @@ def test_stairs_are_told_as_such_from_the_first_foot_up_to_both_feet_above(store
     up, down = Activity.STAIRS_UP, Activity.STAIRS_DOWN
     assert [what for what in told if what in (up, down)] == [up, up, down, down]
     for flight in truth.flights:
-        before, after = truth.elevation(np.array([flight.t_start, flight.t_end]))
+        before, after = truth.elevation(np.array([flight.begin, flight.end]))
         assert after - before == pytest.approx(flight.height, abs=1e-9)
-        assert truth.activity(flight.t_start + 0.1) is (up if flight.up else down)
+        assert truth.activity(flight.begin + 0.1) is (up if flight.up else down)
 
 
 @pytest.mark.parametrize("device", [CC2650(), CC2541(rate=20.0)])

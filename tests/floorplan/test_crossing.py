@@ -219,17 +219,6 @@ def test_the_grid_of_rooms_says_what_counting_the_edges_says(
         assert plan.inside(0, x, y) == odd
 
 
-def test_the_nearest_stop_of_a_kind_is_found() -> None:
-    plan = IndexedPlan(HOUSE)
-    found = plan.nearest(1, 9.0, 4.0)
-    assert found == (LIFT, LIFT.stops[1], 1.0)
-    found = plan.nearest(1, 9.0, 5.0, ConnectorKind.STAIRS)
-    assert found == (STAIRS, STAIRS.stops[1], 7.0)
-    assert plan.stops(0) == ((LIFT, LIFT.stops[0]), (STAIRS, STAIRS.stops[0]))
-    assert plan.stops(0, ConnectorKind.LIFT) == ((LIFT, LIFT.stops[0]),)
-    assert IndexedPlan(FloorPlan("none", (level("0", 0.0),))).nearest(0, 1.0, 1.0) is None
-
-
 def test_levels_go_by_their_ids() -> None:
     plan = IndexedPlan(HOUSE)
     assert [plan.number("0"), plan.number("1")] == [0, 1]

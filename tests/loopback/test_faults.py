@@ -148,7 +148,7 @@ def test_a_walk_that_begins_anew_has_the_faults_of_its_script_again() -> None:
     device = tag("1 left_foot drop 3; 2 left_foot disconnect")
     assert sum(t < 2.0 for t, _ in movements(device, 5.0)) > 5
     assert device.suffered == 2 and not device.is_connected
-    device.began = 10.0
+    device.walk_from(10.0)
     assert device.suffered == 0
     set_up(device, cc2650.PROFILE, now=9.0)
     again = movements(device, 20.0)
@@ -161,7 +161,7 @@ def test_what_was_to_last_in_an_earlier_walk_does_not_last_in_the_next() -> None
     device = tag("1 left_foot vanish 1000; 3 left_foot freeze; 2 left_foot name gone; 2 left_foot pairing")
     assert not device.visible(5.0) and device.name == "gone" and device.needs_pairing
     device.disconnected(5.0)
-    device.began = 10.0
+    device.walk_from(10.0)
     assert device.visible(9.0) and device.name != "gone" and not device.needs_pairing
     set_up(device, cc2650.PROFILE, now=9.0)
     assert movements(device, 9.9)

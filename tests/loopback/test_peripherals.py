@@ -136,7 +136,7 @@ def _lasting(device: Device) -> Peripheral:
 def test_a_walk_may_be_begun_when_the_devices_run_already() -> None:
     tag = set_up(worn(Insole(), began=1e6), insole.PROFILE)
     still = frames(played(tag, 3.0))
-    tag.began = 3.0
+    tag.walk_from(3.0)
     walk = frames(played(tag, 3.0 + walker().duration))
     assert len({frame.samples for frame in still}) == 1
     assert len({frame.samples for frame in walk}) > 0.9 * len(walk)

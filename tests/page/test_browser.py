@@ -240,7 +240,7 @@ def test_a_lost_link_shows_and_recovers(browser: Browsing) -> None:
                     for event in session.feed(packet):
                         scene.take(None, [event])
 
-            bench.began = asyncio.get_running_loop().time()
+            bench.walk_from(asyncio.get_running_loop().time())
             async with meanwhile(listen()):
                 for state in ("ok", "lost", "ok"):
                     await view.until(link("left", state))

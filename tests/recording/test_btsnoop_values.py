@@ -131,9 +131,9 @@ def heard_by_tshark(path: Path) -> list[tuple[int, int, int, bytes]]:
 
 def heard_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
     listener = ValueListener(path, pytest.fail)
-    values = [item for item in listener.listen() if isinstance(item, Value) and item.how is AttOperation.NOTIFIED]
+    values = [item for item in listener.listen() if isinstance(item, Value) and item.said.how is AttOperation.NOTIFIED]
     assert not listener.flaws
-    return [(value.t, value.link.handle, value.attribute, value.data) for value in values]
+    return [(value.t, value.link.handle, value.said.handle, value.said.value) for value in values]
 
 
 @needs_tshark
@@ -196,7 +196,11 @@ def told_by_tshark(path: Path) -> list[tuple[AttOperation, int, bytes]]:
 
 def told_to_us(path: Path) -> list[tuple[AttOperation, int, bytes]]:
     values = [item for item in ValueListener(path, pytest.fail).listen() if isinstance(item, Value)]
-    return [(value.how, value.attribute, value.data) for value in values if value.how is not AttOperation.NOTIFIED]
+    return [
+        (value.said.how, value.said.handle, value.said.value)
+        for value in values
+        if value.said.how is not AttOperation.NOTIFIED
+    ]
 
 
 async def snooped_by_bumble(central_log: Path, device_log: Path) -> list[bytes]:

@@ -28,7 +28,6 @@ class Backend:
 NATIVE = Backend()
 """The Bluetooth of this machine."""
 
-
 RETRY = 2.0
 """s before a scan that failed is begun again."""
 DEAF = 60.0

@@ -96,7 +96,9 @@ class Connection:
         """For ever."""
         pause, self._lacking_since = PAUSE, _now()
         while True:
-            found = await self._search()
+            since, complain = self._lacking_since, self.voice.complain
+            search = Search(self.air, self.wanted, self.address, self._barred, self.patience, since, complain)
+            found = await search.run()
             self._trying, self.signal = found.address, found.signal if found.signal > WEAKEST else None
             self._streamed = False
             try:
@@ -115,10 +117,6 @@ class Connection:
                 await asyncio.sleep(pause)
             if not self._streamed:
                 pause = min(2.0 * pause, LONGEST_PAUSE)
-
-    async def _search(self) -> Found:
-        since, complain = self._lacking_since, self.voice.complain
-        return await Search(self.air, self.wanted, self.address, self._barred, self.patience, since, complain).run()
 
     def _barred(self, found: Found) -> bool:
         """Is it another's, or known not to be the one?"""

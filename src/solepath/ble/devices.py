@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator, Iterable
-from types import TracebackType
 
 from ..types import Packet, Site
 from .air import NATIVE, Backend, Scanner, scanner
@@ -96,9 +95,7 @@ class Devices:
             task.add_done_callback(self._ended)
         return self
 
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    async def __aexit__(self, *error: object) -> None:
         for task in self._tasks:
             task.cancel()
         try:
@@ -122,15 +119,11 @@ class Devices:
         if self._taken >= IN_A_ROW:
             self._taken = 0
             await asyncio.sleep(0)
-        if self._fault is not None:
-            self._fault.result()
-        packet = self._inbox.take()
+        packet = self._next()
         if packet is not None:
             return packet
         if self._waiter is not None:
             raise RuntimeError("somebody else waits for the next packet already")
-        if not self._tasks:
-            raise StopAsyncIteration
         loop = asyncio.get_running_loop()
         self._taken, self._waiter = 0, loop.create_future()
         timer = loop.call_later(TICK, self._wake)
@@ -139,14 +132,16 @@ class Devices:
         finally:
             timer.cancel()
             self._waiter = None
+        return self._next() or Packet(loop.time(), self._connections[0].site, "receiver/tick", b"")
+
+    def _next(self) -> Packet | None:
+        """What has arrived; None while there may be more to come."""
         if self._fault is not None:
             self._fault.result()
         packet = self._inbox.take()
-        if packet is not None:
-            return packet
-        if not self._tasks:
+        if packet is None and not self._tasks:
             raise StopAsyncIteration
-        return Packet(loop.time(), self._connections[0].site, "receiver/tick", b"")
+        return packet
 
     def _wake(self) -> None:
         if self._waiter is not None and not self._waiter.done():

@@ -47,14 +47,17 @@ class Search:
             while True:
                 now = loop.time()
                 self._heard = {at: one for at, one in self._heard.items() if now - one.t < MISTAKEN}
-                able = [one for one in self._heard.values() if self._may_be(one)]
+                able = [one for one in self._heard.values() if self._is_the_one(one) or not self.barred(one)]
                 there = [one for one in able if now - one.t < FORGET]
                 first = None if not there else now if first is None else first
                 chosen = self._choose(able, there, settled=first is not None and now - first >= SETTLE)
                 if chosen is not None:
                     return chosen
                 if not self._heard and now >= late:
-                    self._complain_once(self._nobody())
+                    self._complain_once(
+                        f"no {self.wanted.words} is heard: switch it on, bring it near, "
+                        "and see that no other program or phone holds it"
+                    )
                 self._news.clear()
                 with suppress(TimeoutError):
                     async with asyncio.timeout(SETTLE / 2):
@@ -74,9 +77,6 @@ class Search:
     def _is_the_one(self, found: Found) -> bool:
         return found.address == self.address or self.wanted.is_address(found.address)
 
-    def _may_be(self, found: Found) -> bool:
-        return self._is_the_one(found) or not self.barred(found)
-
     def _choose(self, able: list[Found], there: list[Found], settled: bool) -> Found | None:
         for one in there:
             if self._is_the_one(one):
@@ -94,9 +94,3 @@ class Search:
         if not self._complained:
             self._complained = True
             self.complain(what)
-
-    def _nobody(self) -> str:
-        return (
-            f"no {self.wanted.words} is heard: switch it on, bring it near, "
-            "and see that no other program or phone holds it"
-        )

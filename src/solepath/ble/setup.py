@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
 
 from bleak import BleakClient
 from bleak.backends.characteristic import BleakGATTCharacteristic
@@ -76,20 +77,24 @@ def refused(error: BleakError, client: BleakClient) -> bool:
     return isinstance(error, BleakGATTProtocolError) or client.is_connected
 
 
-async def read(client: BleakClient, channel: Channel, voice: Voice) -> None:
-    """Say what the channel holds, where the device has it. That it refuses to tell is told and passed over."""
-    one = characteristic(client, channel)
-    if one is None:
-        return
+@asynccontextmanager
+async def asking(client: BleakClient, voice: Voice, failure: str) -> AsyncIterator[None]:
+    """Around one request. That the device refuses it is told and passed over. FAILURES."""
     try:
         async with calling(ANSWER):
-            data = await client.read_gatt_char(one)
+            yield
     except BleakError as error:
         if not refused(error, client):
             raise
-        voice.complain(f"{channel.name} cannot be read: {sentence(error)}")
-        return
-    voice.say(channel.name, bytes(data))
+        voice.complain(f"{failure}: {sentence(error)}")
+
+
+async def read(client: BleakClient, channel: Channel, voice: Voice) -> None:
+    """Say what the channel holds, where the device has it and tells."""
+    one = characteristic(client, channel)
+    if one is not None:
+        async with asking(client, voice, f"{channel.name} cannot be read"):
+            voice.say(channel.name, bytes(await client.read_gatt_char(one)))
 
 
 async def subscribe(client: BleakClient, profile: Profile, hearer: Callable[[str], Hearer], voice: Voice) -> None:
@@ -98,13 +103,9 @@ async def subscribe(client: BleakClient, profile: Profile, hearer: Callable[[str
     for channel in profile.channels:
         if channel.how is not Access.NOTIFY or (one := speaking(client, channel)) is None:
             continue
-        try:
-            async with calling(ANSWER):
-                await client.start_notify(one, hearer(channel.name))
-        except BleakError as error:
-            if channel.name in profile.streams or not refused(error, client):
-                raise
-            voice.complain(f"{channel.name} cannot be subscribed: {sentence(error)}")
+        failure = f"{channel.name} cannot be subscribed"
+        async with calling(ANSWER) if channel.name in profile.streams else asking(client, voice, failure):
+            await client.start_notify(one, hearer(channel.name))
 
 
 async def write_setup(client: BleakClient, profile: Profile, voice: Voice) -> list[Packet]:
@@ -119,15 +120,12 @@ async def write_setup(client: BleakClient, profile: Profile, voice: Voice) -> li
         if one is None:
             voice.complain(f"{write.channel} is not there to be set: the device keeps to its own")
             continue
-        try:
-            async with calling(ANSWER):
-                await client.write_gatt_char(one, write.value)  # with a response, where it gives one
-        except BleakError as error:
-            if not refused(error, client):
-                raise
-            voice.complain(f"{write.channel} was not set to {write.value.hex()}: {sentence(error)}")
-            continue
-        written.append(voice.say(write.channel, write.value))
-        for name in write.then_read:
-            await read(client, profile.channel(name), voice)
+        said: Packet | None = None
+        async with asking(client, voice, f"{write.channel} was not set to {write.value.hex()}"):
+            await client.write_gatt_char(one, write.value)  # with a response, where it gives one
+            said = voice.say(write.channel, write.value)
+        if said is not None:
+            written.append(said)
+            for name in write.then_read:
+                await read(client, profile.channel(name), voice)
     return written

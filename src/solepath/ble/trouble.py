@@ -8,22 +8,9 @@ import sys
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
-from bleak.exc import (
-    BleakBluetoothNotAvailableError,
-    BleakBluetoothNotAvailableReason,
-    BleakCharacteristicNotFoundError,
-    BleakDBusError,
-    BleakDeviceNotFoundError,
-    BleakError,
-    BleakGATTProtocolError,
-    BleakGATTProtocolErrorCode,
-)
-from bleak_retry_connector import (
-    BleakAbortedError,
-    BleakConnectionError,
-    BleakNotFoundError,
-    BleakOutOfConnectionSlotsError,
-)
+import bleak_retry_connector as retry
+from bleak import exc
+from bleak.exc import BleakDBusError, BleakError, BleakGATTProtocolError
 
 LOG = logging.getLogger("solepath.ble")
 LOG.addHandler(logging.NullHandler())  # who wants to see it says so; a terminal is not ours to write to
@@ -67,7 +54,7 @@ async def calling(seconds: float) -> AsyncIterator[None]:
         raise Surprise(error) from error
 
 
-_REASON = BleakBluetoothNotAvailableReason
+_REASON = exc.BleakBluetoothNotAvailableReason
 _NOT_AVAILABLE = {
     _REASON.NO_BLUETOOTH: "this machine has no Bluetooth adapter: plug one in, or switch it on in the firmware's setup",
     _REASON.NO_BLE_CENTRAL_ROLE: "this Bluetooth adapter cannot connect to sensors: one with Bluetooth Low Energy can",
@@ -90,10 +77,10 @@ _NOT_PAIRED = "the device wants to be paired first: pair=True, or --pair"
 _NOT_PAIRED_OVER_DBUS = ("org.bluez.Error.NotPermitted", "Not paired")
 """What BlueZ makes of the codes of _PAIRING, but for that of authorization."""
 _PAIRING = {
-    BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHENTICATION,
-    BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHORIZATION,
-    BleakGATTProtocolErrorCode.INSUFFICIENT_ENCRYPTION,
-    BleakGATTProtocolErrorCode.INSUFFICIENT_ENCRYPTION_KEY_SIZE,
+    exc.BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHENTICATION,
+    exc.BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHORIZATION,
+    exc.BleakGATTProtocolErrorCode.INSUFFICIENT_ENCRYPTION,
+    exc.BleakGATTProtocolErrorCode.INSUFFICIENT_ENCRYPTION_KEY_SIZE,
 }
 _LOST = ("not connected", "disconnected", "link was lost", "service discovery has not been performed")
 """How bleak, BlueZ and the loopback say that a connection ended during a request."""
@@ -103,7 +90,7 @@ NO_ANSWER = "the device does not answer: bring it near, and see that no other pr
 def sentence(error: BaseException) -> str:
     """One line about any of FAILURES."""
     match error:
-        case BleakBluetoothNotAvailableError():
+        case exc.BleakBluetoothNotAvailableError():
             return _NOT_AVAILABLE[error.reason]
         case BleakDBusError() if error.args[:2] == _NOT_PAIRED_OVER_DBUS:
             return _NOT_PAIRED
@@ -116,15 +103,15 @@ def sentence(error: BaseException) -> str:
         case BleakGATTProtocolError():
             meaning = str(error.args[-1]).removeprefix("GATT Protocol Error: ")
             return f"the device answered with the ATT error 0x{int(error.code):02X} ({meaning})"
-        case BleakCharacteristicNotFoundError():
+        case exc.BleakCharacteristicNotFoundError():
             return f"the device has no characteristic {error.char_specifier}"
-        case BleakOutOfConnectionSlotsError():
+        case retry.BleakOutOfConnectionSlotsError():
             return "the adapter holds as many connections as it can: disconnect another device"
-        case BleakNotFoundError() | BleakDeviceNotFoundError():
+        case retry.BleakNotFoundError() | exc.BleakDeviceNotFoundError():
             return NO_ANSWER
-        case BleakAbortedError():
+        case retry.BleakAbortedError():
             return "the connection broke off while it was made: bring the device near"
-        case BleakConnectionError() if isinstance(error.__cause__, FAILURES):
+        case retry.BleakConnectionError() if isinstance(error.__cause__, FAILURES):
             return f"cannot connect: {sentence(error.__cause__)}"
         case BleakError() if any(words in str(error).lower() for words in _LOST):
             return "the connection was lost: the device is sought again, bring it near if this happens often"

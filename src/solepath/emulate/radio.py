@@ -15,6 +15,7 @@ from attrs import field, frozen
 
 from ..types import Packet, Site
 from .sensors.device import Notification
+from .wearers.curves import Rng
 
 
 def _share(_: object, attribute: object, value: float) -> None:
@@ -40,7 +41,7 @@ class Radio:
     interval: float = 0.0
     in_order: bool = True
 
-    def carry(self, sent: list[Notification], site: Site, rng: np.random.Generator) -> list[Packet]:
+    def carry(self, sent: list[Notification], site: Site, rng: Rng) -> list[Packet]:
         """What arrives of what was sent, by time of arrival."""
         chances = rng.uniform(size=(len(sent), 6))
         phase = self.interval * float(rng.uniform())
@@ -60,22 +61,20 @@ class Radio:
                 data = data[: int(rng.integers(0, len(data)))]
             copies = (delay, again) if twice < self.duplicate else (delay,)
             for part in copies:
-                arrival = self._event(item.t + self.latency + self.jitter * part, phase)
+                arrival = item.t + self.latency + self.jitter * part
+                if self.interval > 0.0:
+                    arrival = phase + self.interval * ceil((arrival - phase) / self.interval)
                 if self.in_order:
                     arrival = newest = max(newest, arrival)
                 found.append(Packet(float(arrival), site, item.channel, data))
         return found if self.in_order else sorted(found, key=attrgetter("t"))
-
-    def _event(self, t: float, phase: float) -> float:
-        """The connection event at which what is ready at `t` is sent."""
-        return t if self.interval <= 0.0 else phase + self.interval * ceil((t - phase) / self.interval)
 
 
 CLEAN = Radio()
 """A good link: nothing lost, 5 to 9 ms."""
 
 
-def _flip(data: bytes, rng: np.random.Generator) -> bytes:
+def _flip(data: bytes, rng: Rng) -> bytes:
     damaged = bytearray(data)
     for bit in rng.integers(0, 8 * len(data), size=int(rng.integers(1, 4))):
         damaged[int(bit) // 8] ^= 1 << (int(bit) % 8)

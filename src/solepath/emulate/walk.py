@@ -55,14 +55,12 @@ def emulate(
     walker = Walker(route, wearer, seed)
     sites = list(Site)
     packets: list[Packet] = []
-    mountings = {}
     for site in sorted(devices, key=sites.index):
         device = devices[site]
-        if site.foot is not None:
-            mountings[site.foot] = device.mounting
         sent = device.emit(walker, site, device_numbers(seed, site))
         packets += radio.carry(sent, site, np.random.default_rng([seed, 3, sites.index(site)]))
     packets.sort(key=attrgetter("t"))
+    mountings = {site.foot: device.mounting for site, device in devices.items() if site.foot is not None}
     return EmulatedWalk(tuple(packets), walker.truth(mountings), walker)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from math import hypot
 
 from ..types.attrs import evolve
@@ -130,7 +130,7 @@ def _faults_of_units(plan: FloorPlan) -> Iterator[str]:
     points += [point for one in plan.connectors for stop in one.stops for point in (stop.place, *stop.outline)]
     if any(not _is_place(point) for point in points) or not points:
         return
-    wide = max(_extent(x for x, _ in points), _extent(y for _, y in points))
+    wide = max([max(axis) - min(axis) for axis in zip(*points, strict=True)])
     if wide > WIDEST:
         yield f"the plan is {wide:.0f} wide; it must be in metres, is it in millimetres or another unit?"
     if wide < NARROWEST and any(level.walls or level.rooms for level in plan.levels):
@@ -155,11 +155,6 @@ def _drawn(level: Level) -> Iterator[tuple[str, tuple[Point, ...]]]:
 
 def _is_place(point: Point) -> bool:
     return abs(point[0]) <= FARTHEST and abs(point[1]) <= FARTHEST  # NaN is not
-
-
-def _extent(values: Iterable[float]) -> float:
-    known = list(values)
-    return max(known) - min(known)
 
 
 def warnings(plan: FloorPlan) -> tuple[str, ...]:

@@ -100,12 +100,8 @@ class Walls:
 
     def joined(self, x: float, y: float, own: tuple[float, float, float, float], within: float) -> bool:
         """Whether a wall other than `own`, and than `own` drawn once more, comes within `within` <= REACH, m."""
-        across, up = (x - self._left) * self._per_m, (y - self._bottom) * self._per_m
-        if not (0.0 <= across < self._columns and 0.0 <= up < self._rows):
-            return False
-        at = int(up) * self._columns + int(across)
         same = (own, (own[2], own[3], own[0], own[1]))
-        return any(wall[3:] not in same and distance(*wall[3:], x, y) <= within for wall in self._near[at])
+        return any(wall[3:] not in same and distance(*wall[3:], x, y) <= within for wall in self._at(x, y))
 
     def _crosses_far(self, x0: float, y0: float, x1: float, y1: float) -> bool:
         if not (isfinite(x0) and isfinite(y0) and isfinite(x1) and isfinite(y1)):
@@ -117,13 +113,17 @@ class Walls:
         dx, dy = (x1 - x0) / count, (y1 - y0) / count
         tried = None
         for k in range(count):
-            across, up = (x0 + k * dx - self._left) * self._per_m, (y0 + k * dy - self._bottom) * self._per_m
-            if 0.0 <= across < self._columns and 0.0 <= up < self._rows:
-                near = self._near[int(up) * self._columns + int(across)]
-                if near is not tried and _touches_any(near, x0, y0, x1, y1):
-                    return True
-                tried = near
+            near = self._at(x0 + k * dx, y0 + k * dy)
+            if near is not tried and _touches_any(near, x0, y0, x1, y1):
+                return True
+            tried = near
         return False
+
+    def _at(self, x: float, y: float) -> tuple[_Wall, ...]:
+        """The walls that the cell of a place knows."""
+        across, up = (x - self._left) * self._per_m, (y - self._bottom) * self._per_m
+        inside = 0.0 <= across < self._columns and 0.0 <= up < self._rows
+        return self._near[int(up) * self._columns + int(across)] if inside else ()
 
 
 def _touches_any(walls: tuple[_Wall, ...], x0: float, y0: float, x1: float, y1: float) -> bool:

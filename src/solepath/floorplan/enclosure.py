@@ -22,7 +22,6 @@ _POST = BESIDE + 0.05
 OPEN_END = 0.05
 """m; a wall's end farther than this from all other walls and doors is an open end."""
 
-
 _ON = 1e-9
 """Of the lattice's spacing: a wall that passes a place of the lattice by less goes through it."""
 
@@ -88,18 +87,15 @@ class Enclosure:
         outside[0] = 1
         for at in order:  # which grows meanwhile
             # to the west of the first column lies the last one, which is barred; to the south of the first row likewise
-            if not east[at] and not outside[at + 1]:
-                outside[at + 1] = 1
-                order.append(at + 1)
-            if not east[at - 1] and not outside[at - 1]:
-                outside[at - 1] = 1
-                order.append(at - 1)
-            if not north[at] and not outside[at + columns]:
-                outside[at + columns] = 1
-                order.append(at + columns)
-            if not north[at - columns] and not outside[at - columns]:
-                outside[at - columns] = 1
-                order.append(at - columns)
+            for barred, there in (
+                (east[at], at + 1),
+                (east[at - 1], at - 1),
+                (north[at], at + columns),
+                (north[at - columns], at - columns),
+            ):
+                if not barred and not outside[there]:
+                    outside[there] = 1
+                    order.append(there)
 
     def _open_ends(self) -> Iterator[Point]:
         for own in (*self._walls.ends, *self._shut.ends):
@@ -120,9 +116,6 @@ class Enclosure:
     def _nearest(self, x: float, y: float) -> tuple[int, int]:
         return round((x - self._left) / self._space), round((y - self._bottom) / self._space)
 
-    def _free(self, x0: float, y0: float, x1: float, y1: float) -> bool:
-        return not (self._walls.crosses(x0, y0, x1, y1) or self._shut.crosses(x0, y0, x1, y1))
-
     def inside(self, x: float, y: float) -> bool:
         """Whether (x, y), m, is enclosed; where the walls have open ends, whether it is within the hull of them all."""
         if self._hull:
@@ -134,7 +127,11 @@ class Enclosure:
             return False
         i, j = self._nearest(x, y)
         for k, m in ((i, j), (i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
-            if 0 <= k < self.columns and 0 <= m < self.rows and self._free(x, y, *self.place(k, m)):
+            if (
+                0 <= k < self.columns
+                and 0 <= m < self.rows
+                and not any(walls.crosses(x, y, *self.place(k, m)) for walls in (self._walls, self._shut))
+            ):
                 return not self._outside[m * self.columns + k]
         return True
 

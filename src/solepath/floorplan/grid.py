@@ -8,7 +8,6 @@ from math import ceil, hypot, sqrt
 _ROUNDING = 1e-6
 """m; more than is lost where the ends of a row's stretch are computed."""
 
-
 CELLS = 2_000_000
 """Of the grids of all levels of a plan together, ..."""
 PLACES = 500_000

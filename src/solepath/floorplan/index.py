@@ -7,13 +7,14 @@ no machine and is not saved: with the same plan it is the same again.
 
 from __future__ import annotations
 
-from math import hypot, isfinite
+from math import isfinite
 
 from .checks import unusable
 from .crossing import MOST_CELLS, Walls
 from .enclosure import MOST_PLACES, Enclosure
 from .grid import CELLS, PLACES, share
-from .plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, FloorPlanError
+from .outlines import Ring
+from .plan import FloorPlan, FloorPlanError
 from .rooms import MOST_CELLS as MOST_ROOM_CELLS
 from .rooms import Rooms
 
@@ -25,7 +26,7 @@ class IndexedPlan:
     """`plan` with its walls in grids. Levels are told by their place in `plan.levels`. FloorPlanError when the plan
     cannot be used."""
 
-    __slots__ = ("_insides", "_numbers", "_stops", "_walls", "fingerprint", "plan")
+    __slots__ = ("_insides", "_numbers", "_walls", "fingerprint", "plan")
 
     def __init__(self, plan: FloorPlan) -> None:
         why_not = unusable(plan)
@@ -41,18 +42,14 @@ class IndexedPlan:
             thickest, (x, y) = walls.thickest
             if thickest > THICKEST:
                 raise FloorPlanError(f"level {level.id!r}: {thickest} walls lie around ({x:.0f}, {y:.0f})")
-        here: list[list[tuple[Connector, ConnectorStop]]] = [[] for _ in plan.levels]
-        for one in plan.connectors:
-            for stop in one.stops:
-                here[self._numbers[stop.level]].append((one, stop))
-        self._stops: list[tuple[tuple[Connector, ConnectorStop], ...]] = [tuple(pairs) for pairs in here]
+        outlines: list[list[Ring]] = [[] for _ in plan.levels]
+        for stop in [stop for one in plan.connectors for stop in one.stops]:
+            outlines[self._numbers[stop.level]].append(stop.outline)
         room_cells = share(MOST_ROOM_CELLS, CELLS, count)
         places = share(MOST_PLACES, PLACES, sum([not level.rooms for level in plan.levels]))
         self._insides: list[Rooms | Enclosure] = [
-            Rooms(level, tuple([stop.outline for _, stop in pairs]), room_cells)
-            if level.rooms
-            else Enclosure(level, walls, places)
-            for level, walls, pairs in zip(plan.levels, self._walls, self._stops, strict=True)
+            Rooms(level, tuple(here), room_cells) if level.rooms else Enclosure(level, walls, places)
+            for level, walls, here in zip(plan.levels, self._walls, outlines, strict=True)
         ]
 
     def number(self, level: str) -> int:
@@ -75,22 +72,3 @@ class IndexedPlan:
         if not (isfinite(x) and isfinite(y)):
             return False
         return self._insides[level].inside(x, y)
-
-    def stops(self, level: int, kind: ConnectorKind | None = None) -> tuple[tuple[Connector, ConnectorStop], ...]:
-        """The connectors that stop at this level, of one kind or of all, each with that stop."""
-        if kind is None:
-            return self._stops[level]
-        return tuple(pair for pair in self._stops[level] if pair[0].kind is kind)
-
-    def nearest(
-        self, level: int, x: float, y: float, kind: ConnectorKind | None = None
-    ) -> tuple[Connector, ConnectorStop, float] | None:
-        """The connector whose stop at this level is the nearest to (x, y), that stop, and how far off it is as the crow
-        flies, m; None when none stops here. 0.3 us for each that does."""
-        best, least = None, 0.0
-        for pair in self._stops[level]:
-            if kind is None or pair[0].kind is kind:
-                away = hypot(pair[1].place[0] - x, pair[1].place[1] - y)
-                if best is None or away < least:
-                    best, least = pair, away
-        return None if best is None else (*best, least)

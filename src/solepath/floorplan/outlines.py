@@ -88,15 +88,15 @@ def tidy(outline: Ring) -> Ring:
 
 def _straight(a: Point, b: Point, c: Point) -> bool:
     """Whether b is no corner: it lies between a and c, within a millimetre of the line."""
-    if not (a[0] - b[0]) * (c[0] - b[0]) + (a[1] - b[1]) * (c[1] - b[1]) < 0.0:
-        return False
-    return distance(*a, *c, *b) <= 1e-3
+    between = (a[0] - b[0]) * (c[0] - b[0]) + (a[1] - b[1]) * (c[1] - b[1]) < 0.0
+    return between and distance(*a, *c, *b) <= 1e-3
 
 
-def with_holes(outline: Ring, holes: list[Ring]) -> Ring:
-    """One ring for an outline with holes: each hole is joined to it by a cut, walked there and back, which counts for
-    nothing where edges are counted even and odd."""
-    for hole in holes:
+def with_holes(rings: tuple[Ring, ...]) -> Ring:
+    """One ring for an outline and its holes: each hole is joined to it by a cut, walked there and back, which counts
+    for nothing where edges are counted even and odd."""
+    outline = rings[0] if rings else ()
+    for hole in rings[1:]:
         k = hole.index(min(hole))
         away = [hypot(x - hole[k][0], y - hole[k][1]) for x, y in outline]
         i = away.index(min(away))

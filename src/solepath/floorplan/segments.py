@@ -31,9 +31,7 @@ def side(ax: float, ay: float, bx: float, by: float, cx: float, cy: float) -> in
     return (exact > 0) - (exact < 0)
 
 
-def touch(
-    ax: float, ay: float, bx: float, by: float, px: float, py: float, qx: float, qy: float
-) -> bool:  # fmt: skip
+def touch(ax: float, ay: float, bx: float, by: float, px: float, py: float, qx: float, qy: float) -> bool:
     """Whether the straight lines a to b and p to q, ends included, have a point in common. Exact for all finite
     floats, also where a line is a single point."""
     if max(ax, bx) < min(px, qx) or max(px, qx) < min(ax, bx) or max(ay, by) < min(py, qy) or max(py, qy) < min(ay, by):

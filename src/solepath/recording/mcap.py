@@ -25,7 +25,6 @@ from datetime import UTC, datetime, timedelta
 from importlib.metadata import version
 from math import isfinite
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 from mcap.writer import CompressionType, Writer
@@ -106,10 +105,9 @@ class McapWriter:
                 writer.write(packet)
 
     An existing file is replaced. `header`: of the recording that the packets come from. `profiles`: devices of the
-    app's own, as for Session. `count`: packets written.
-    `outside`: times that no log time can hold; the nearest that can stands for them. RecordingError when the file
-    cannot be written, ValueError for a packet whose time is not finite. What a session holds back comes with `close`;
-    a file that was never closed has no index, but its chunks can be read.
+    app's own, as for Session. `count`: packets written. `outside`: times that no log time can hold; the nearest that
+    can stands for them. RecordingError when the file cannot be written, ValueError for a packet whose time is not
+    finite. What a session holds back comes with `close`; a file never closed has no index, but whole chunks.
     """
 
     def __init__(self, path: Path | str, header: Mapping[str, Any] = {}, *, profiles: Iterable[Driver] = ()) -> None:
@@ -129,7 +127,8 @@ class McapWriter:
         with self._told():
             self._writer.start(profile="", library=f"solepath {version('solepath')}")
             about = {"format": FORMAT, "version": VERSION, **self._header}
-            self._writer.add_metadata("solepath", {_sound(key): _text(value) for key, value in about.items()})
+            texts = {key: value if isinstance(value, str) else json.dumps(value) for key, value in about.items()}
+            self._writer.add_metadata("solepath", {_sound(key): _sound(text) for key, text in texts.items()})
 
     def write(self, packet: Packet) -> None:
         """The packet, the samples in it and the events that it brings."""
@@ -142,7 +141,9 @@ class McapWriter:
         if packet.device:
             data["device"] = packet.device
         with self._told():
-            topic = self._packet_topic(packet)
+            topic = f"/{site}/packets/{_sound(packet.channel)}"
+            if topic not in self._channels and len(self._channels) >= MOST_TOPICS:
+                topic = f"/{site}/packets"  # a damaged recording may hold any number of channels
             about = {"site": site, "channel": _sound(packet.channel)}
             self._put(topic, "solepath.Packet", packet.t, packet.t, data, about)
             self.count += 1
@@ -164,18 +165,8 @@ class McapWriter:
     def __enter__(self) -> McapWriter:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()
-
-    # --- topics ---
-
-    def _packet_topic(self, packet: Packet) -> str:
-        topic = f"/{packet.site.value}/packets/{_sound(packet.channel)}"
-        if topic in self._channels or len(self._channels) < MOST_TOPICS:
-            return topic
-        return f"/{packet.site.value}/packets"  # a damaged recording may hold any number of channels
 
     def _made(self, events: list[Event]) -> None:
         """What the session made of a packet, or of the end: the samples that it took, and then the events."""
@@ -187,10 +178,8 @@ class McapWriter:
 
     def _sample(self, item: Sample) -> None:
         data: dict[str, Any] = {"t": item.t}
-        for name in ("acc", "gyro", "mag"):
-            vector: Vec3 | None = getattr(item, name)
-            if vector is not None:
-                data[name] = _xyz(vector)
+        vectors: dict[str, Vec3 | None] = {"acc": item.acc, "gyro": item.gyro, "mag": item.mag}
+        data |= {name: _xyz(vector) for name, vector in vectors.items() if vector is not None}
         if item.quat is not None:
             data["quat"] = dict(zip("wxyz", item.quat, strict=True))
         if item.pressure is not None:
@@ -218,8 +207,6 @@ class McapWriter:
                 data |= {"heading_change": event.heading_change, "height_change": event.height_change}
                 data |= {"position": _xyz(event.position), "degraded": event.degraded}
                 self._put(_of(event.foot, "steps"), "solepath.Step", event.t, event.known_at, data)
-
-    # --- messages ---
 
     def _put(
         self, topic: str, schema: str, t: float, known_at: float, data: Any, about: dict[str, str] | None = None
@@ -272,11 +259,6 @@ def _zero(header: Mapping[str, Any], first: float) -> int:
 
 def _xyz(vector: Vec3) -> dict[str, float]:
     return {"x": vector[0], "y": vector[1], "z": vector[2]}
-
-
-def _text(value: Any) -> str:
-    """A value of a header as metadata holds it."""
-    return _sound(value) if isinstance(value, str) else json.dumps(value)
 
 
 def _sound(text: str) -> str:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from datetime import UTC, datetime
 from math import isfinite
 from pathlib import Path
-from types import TracebackType
+from sys import float_info
 from typing import Any, BinaryIO
 
 from ..types import Packet, Site
@@ -139,11 +139,7 @@ def _packet(fields: dict[str, Any]) -> Packet:
     t, site, channel, data = fields["t"], fields["site"], fields["channel"], fields["data"]
     if type(t) not in (int, float):
         raise _LineFlaw(f'"t" is not a number but {_short(t)}')
-    try:
-        t = float(t)
-    except OverflowError:
-        raise _LineFlaw('"t" is not a finite number') from None
-    if not isfinite(t):
+    if not abs(t) <= float_info.max:
         raise _LineFlaw('"t" is not a finite number')
     if not isinstance(site, str) or site not in _SITES:
         raise _LineFlaw(f'"site" is not one of {", ".join(_SITES)} but {_short(site)}')
@@ -154,7 +150,7 @@ def _packet(fields: dict[str, Any]) -> Packet:
     device = fields.get("device", "")
     if not isinstance(device, str):
         raise _LineFlaw(f'"device" is not text but {_short(device)}')
-    return Packet(t=t, site=_SITES[site], channel=channel, data=bytes.fromhex(data), device=device)
+    return Packet(t=float(t), site=_SITES[site], channel=channel, data=bytes.fromhex(data), device=device)
 
 
 _SITES = {site.value: site for site in Site}
@@ -256,7 +252,5 @@ class PacketWriter:
     def __enter__(self) -> PacketWriter:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()

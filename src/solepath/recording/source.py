@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -45,7 +46,7 @@ class Source:
 
     def _packets(self) -> Iterator[Packet]:
         any_there = used = False
-        for packet in read_packets(self.path, report=self.report, progress=self._read):
+        for packet in read_packets(self.path, report=self.report, progress=partial(setattr, self, "done")):
             any_there = True
             if self.foot is None or packet.site.foot in (None, self.foot):
                 used = True
@@ -54,9 +55,6 @@ class Source:
             self.report(f"{printable(str(self.path))}: holds no packets")
         elif self.foot is not None and not used:
             raise RecordingError(self.path, f"holds no packets of the {self.foot.value} foot")
-
-    def _read(self, done: int) -> None:
-        self.done = done
 
 
 def open_source(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> Source:

@@ -190,7 +190,7 @@ class Bluez(bus.Service):
         while not device.visible(loop.time()):
             await asyncio.sleep(HEARD)  # until it is cancelled
         self._links[path] = LoopbackLink(device, device.mtu, 0.01, lambda: self._lost(path))
-        device.encryption_changed(self.objects[path][_DEVICE]["Paired"].value)
+        device.is_encrypted = self.objects[path][_DEVICE]["Paired"].value
         self.change(path, _DEVICE, Connected=Variant("b", True))
         await asyncio.sleep(0.05)
         for attribute, interface, properties in _attributes(path, device.services):
@@ -206,7 +206,7 @@ class Bluez(bus.Service):
         device = self._devices[path]
         if not await self._links[path].request(device.agrees_to_pair):
             raise Refused("org.bluez.Error.AuthenticationFailed", "Authentication Failed")
-        device.encryption_changed(True)
+        device.is_encrypted = True
         self.change(path, _DEVICE, Paired=Variant("b", True))
 
     async def _request(self, path: str, do: Callable[[Peripheral, str, float], T | None]) -> T:

@@ -28,7 +28,7 @@ from bleak.exc import BleakDeviceNotFoundError, BleakError, BleakGATTProtocolErr
 from solepath.ble.air import Backend
 from solepath.emulate.devices.attributes import (
     SMALLEST_MTU,
-    WRITE_NOT_PERMITTED,
+    AttCode,
     AttError,
     Characteristic,
     Outgoing,
@@ -251,7 +251,7 @@ class _MemoryClient(BaseBleakClient):
 
     async def write_gatt_descriptor(self, descriptor: BleakGATTDescriptor, data: SizedBuffer) -> None:
         self._up()
-        raise BleakGATTProtocolError(WRITE_NOT_PERMITTED)
+        raise BleakGATTProtocolError(AttCode.WRITE_NOT_PERMITTED)
 
     async def start_notify(
         self, characteristic: BleakGATTCharacteristic, callback: NotifyCallback, **kwargs: Any
@@ -359,5 +359,5 @@ def _subscribed(device: Peripheral, channel: str, on: bool, now: float) -> bool:
 
 
 def _encrypted(device: Peripheral) -> bool:
-    device.encryption_changed(True)
+    device.is_encrypted = True
     return True

@@ -11,8 +11,8 @@ from typing import Any
 from attrs import frozen
 
 from solepath.emulate.controllers.tcp import serve
-from solepath.emulate.devices.attributes import WRONG_LENGTH, AttError, Characteristic, Service
-from solepath.emulate.devices.peripheral import Peripheral
+from solepath.emulate.devices.attributes import AttCode, AttError, Characteristic, Service
+from solepath.emulate.devices.peripheral import Peripheral, Worn
 from solepath.types import Site
 
 
@@ -61,9 +61,7 @@ class Strap(Peripheral):
     size = 20
 
     def __init__(self, name: str, address: str, *, advertised: Sequence[str] = (HEART_RATE,), **given: Any) -> None:
-        super().__init__(
-            site=Site.PELVIS, name=name, address=address, services=SERVICES, advertised=advertised, **given
-        )
+        super().__init__(Worn(Site.PELVIS, address, **given), name, SERVICES, advertised)
         self.rate = 0
 
     def value(self, channel: str, t: float) -> bytes:
@@ -71,7 +69,7 @@ class Strap(Peripheral):
 
     def take(self, channel: str, value: bytes, t: float) -> None:
         if len(value) != 1:
-            raise AttError(WRONG_LENGTH)
+            raise AttError(AttCode.WRONG_LENGTH)
         self.rate = value[0]
         self.flow("strap/beat", Count(self.rate, self.size) if self.rate else None, t)
 

@@ -66,7 +66,7 @@ def prepared(options: argparse.Namespace) -> Bench:
 
 async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio.Event) -> int:
     """Until it is told to stop; the exit status."""
-    bench.began = asyncio.get_running_loop().time() + 1e6  # until somebody is connected the wearer stands
+    bench.walk_from(asyncio.get_running_loop().time() + 1e6)  # until somebody is connected the wearer stands
     async with AsyncExitStack() as stack:
         try:
             where = host_and_port("--listen", options.listen)
@@ -122,6 +122,6 @@ async def _walk_when_connected(bench: Bench) -> None:
             alone_since = now if alone_since is None else alone_since
         elif alone_since is not None:
             if now - alone_since > RESTED:
-                bench.began = now + HESITATES
+                bench.walk_from(now + HESITATES)
             alone_since = None
         await asyncio.sleep(0.01)

@@ -136,8 +136,6 @@ class RadioClient(BaseBleakClient):
     def is_connected(self) -> bool:
         return self._link is not None
 
-    # the link
-
     async def connect(self, pair: bool, **kwargs: Any) -> None:
         """Connects, agrees on an MTU and discovers what the device has. The link is encrypted if there are keys of an
         earlier pairing; if there are none and `pair`, the device is paired with.
@@ -148,9 +146,12 @@ class RadioClient(BaseBleakClient):
         if self._link is not None:
             raise BleakError("already connected")
         timeout: float = kwargs.get("timeout", self._timeout)
-        device = self._device or await self._find(timeout)
+        if self._device is None:
+            self._device = await BleakScanner.find_device_by_address(self.address, timeout, backend=self.scanner)
+        if self._device is None:
+            raise BleakDeviceNotFoundError(self.address, f"device {self.address} was not found")
         async with asyncio.timeout(timeout):
-            link = await self.radio.connect(device.details["peer"])
+            link = await self.radio.connect(self._device.details["peer"])
             self._link = link
             link.on(Connection.EVENT_DISCONNECTION, partial(self._lost, link))
             try:
@@ -167,14 +168,6 @@ class RadioClient(BaseBleakClient):
                 await self.disconnect()
                 raise
             self._established = True
-
-    async def _find(self, timeout: float) -> BLEDevice:
-        """By its address."""
-        device = await BleakScanner.find_device_by_address(self.address, timeout, backend=self.scanner)
-        if device is None:
-            raise BleakDeviceNotFoundError(self.address, f"device {self.address} was not found")
-        self._device = device
-        return device
 
     async def _discover(self, peer: Peer) -> BleakGATTServiceCollection:
         found = BleakGATTServiceCollection()
@@ -232,8 +225,6 @@ class RadioClient(BaseBleakClient):
         """Forgets the keys, which ends the link."""
         await self.radio.keys.delete(self.address)
         await self.disconnect()
-
-    # attributes
 
     async def _request(self, exchange: Callable[[], Coroutine[Any, Any, _T]]) -> _T:
         link = self._link

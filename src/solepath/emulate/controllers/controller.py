@@ -13,15 +13,12 @@ from collections.abc import Callable
 from functools import partial
 from math import ceil
 
-from attrs import define, field
 from bumble import core, hci, ll
 from bumble.controller import Connection, Controller
 from bumble.link import LocalLink
 
 _NOISY = logging.getLogger("bumble")
-if (
-    _NOISY.level == logging.NOTSET
-):  # bumble warns of much that is no trouble: packets in flight when their link ends, ...
+if _NOISY.level == logging.NOTSET:  # it warns of much that is no trouble: packets in flight when their link ends, ...
     _NOISY.setLevel(logging.CRITICAL)
 
 RSSI = -50  # dBm; there are no distances in this air
@@ -182,7 +179,6 @@ _SLACK = 1e-6
 """Of an interval: what the sums of floats may be out by."""
 
 
-@define(eq=False)
 class Events:
     """One link's. The first is `interval` s after it was made, and the others at the same distance.
 
@@ -190,16 +186,14 @@ class Events:
     than some packets at each is not modelled. What is said in answer goes at the next.
     """
 
-    interval: float
-    _loop: asyncio.AbstractEventLoop = field(factory=asyncio.get_running_loop, init=False)
-    _began: float = field(init=False)
-    _done: int = field(default=0, init=False)
-    """The number of the last event at which anything went."""
-    _ready: list[Callable[[], None]] = field(factory=list, init=False)
-    _timer: asyncio.TimerHandle | None = field(default=None, init=False)
-
-    def __attrs_post_init__(self) -> None:
+    def __init__(self, interval: float) -> None:
+        self.interval = interval
+        self._loop = asyncio.get_running_loop()
         self._began = self._loop.time()
+        self._done = 0
+        """The number of the last event at which anything went."""
+        self._ready: list[Callable[[], None]] = []
+        self._timer: asyncio.TimerHandle | None = None
 
     def send(self, packet: Callable[[], None]) -> None:
         """Call it at the next event."""

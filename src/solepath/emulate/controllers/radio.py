@@ -62,12 +62,9 @@ class VirtualRadio:
         async with self._opening:
             if self._device is None:
                 await self._open()
-            return self._started()
-
-    def _started(self) -> Device:
-        if self._device is None:
-            raise BleakError(f"{self.where}: the connection to the controller was lost")
-        return self._device
+            if self._device is None:
+                raise BleakError(f"{self.where}: the connection to the controller was lost")
+            return self._device
 
     async def _open(self) -> None:
         if self._closed:
@@ -79,7 +76,7 @@ class VirtualRadio:
         config = DeviceConfiguration(name="solepath", address=self._address, gatt_service_enabled=False)
         device = Device(config=config, host=Host(transport.source, transport.sink))
         device.keystore = self.keys
-        just_works(device, _never)
+        just_works(device, lambda: False)  # a central begins pairings, and answers none
         try:
             async with asyncio.timeout(PATIENCE):
                 await device.power_on()
@@ -112,8 +109,6 @@ class VirtualRadio:
                 await asyncio.sleep(RETURN)
             else:
                 return
-
-    # scanning
 
     async def listen(self, listener: ScanListener) -> None:
         """From now on `listener` hears what is advertised. BleakError."""
@@ -151,8 +146,6 @@ class VirtualRadio:
         for listener in list(self._listeners):
             listener(advertisement)
 
-    # connecting
-
     async def connect(self, peer: hci.Address) -> Connection:
         """A link to the device of this address. Tries until it is cancelled; BleakError."""
         while True:
@@ -184,8 +177,6 @@ class VirtualRadio:
                 await link.disconnect()
         except (TimeoutError, core.BaseBumbleError, asyncio.CancelledError):
             attempt.cancel()
-
-    # tasks
 
     def task(self, work: Coroutine[Any, Any, _T]) -> asyncio.Task[_T]:
         """Work that must be ended when the radio closes."""
@@ -254,11 +245,6 @@ def _cancelled() -> bool:
     """Whether it is the running task that is cancelled, and not what it waits for."""
     task = asyncio.current_task()
     return task is not None and task.cancelling() > 0
-
-
-def _never() -> bool:
-    """A central begins pairings, and answers none."""
-    return False
 
 
 _KEYS = PairingDelegate.KeyDistribution.DISTRIBUTE_ENCRYPTION_KEY

@@ -11,19 +11,26 @@ from contextlib import asynccontextmanager
 from functools import partial
 from typing import TypeVar
 
-from attrs import define, field
 from bumble import att, hci
 from bumble.device import Connection, Device, DeviceConfiguration
-from bumble.gatt import Characteristic
+from bumble.gatt import (
+    GATT_CHARACTERISTIC_USER_DESCRIPTION_DESCRIPTOR,
+    Characteristic,
+    CharacteristicValue,
+    Descriptor,
+    Service,
+)
 from bumble.host import Host
+from bumble.profiles.gap import GenericAccessService
 from bumble.transport.common import AsyncPipeSink, Transport
 
 from ...ble.air import Backend
+from ..devices import attributes as emulated
 from ..devices.attributes import AttError
 from ..devices.peripheral import Peripheral
 from .central import backend_of
 from .controller import VirtualAir, VirtualController
-from .gatt import advertisement, furnish
+from .gatt import AttributeServer, advertisement, short_or_long
 from .radio import VirtualRadio, end_link, just_works
 
 _T = TypeVar("_T")
@@ -31,6 +38,8 @@ _T = TypeVar("_T")
 ADVERTISING = 62.5
 """ms between advertisements: bumble's controller reads the 0.625 ms units of HCI as milliseconds, so it is 100 ms."""
 _CENTRAL = "C0:50:1E:9A:74:01"
+_STANDARD = ("0000180a", "0000180f")
+"""Services that the Bluetooth SIG describes: their characteristics need no description."""
 
 
 @asynccontextmanager
@@ -71,25 +80,21 @@ async def on_air(peripherals: Iterable[Peripheral], link: VirtualAir) -> AsyncIt
             await server.stop()
 
 
-@define(eq=False)
 class Server:
     """Serves one Peripheral: asks it at the times it names, and obeys it."""
 
-    peripheral: Peripheral
-    air: VirtualAir
-    _served: dict[str, Characteristic[bytes]] = field(init=False)
-    _controller: VirtualController = field(init=False)
-    _device: Device = field(init=False)
-    _loop: asyncio.AbstractEventLoop = field(factory=asyncio.get_running_loop, init=False)
-    _link: Connection | None = field(default=None, init=False)
-    _timer: asyncio.TimerHandle | None = field(default=None, init=False)
-    _due: float = field(default=0.0, init=False)
-    _silence: asyncio.Future[bytes] | None = field(default=None, init=False)
-    _restart: asyncio.Task[None] | None = field(default=None, init=False)
-    _stopped: bool = field(default=False, init=False)
-
-    def __attrs_post_init__(self) -> None:
-        self._controller = VirtualController(self.peripheral.name, self.air, self._advertisement)
+    def __init__(self, peripheral: Peripheral, air: VirtualAir) -> None:
+        self.peripheral, self.air = peripheral, air
+        self._loop = asyncio.get_running_loop()
+        self._link: Connection | None = None
+        self._timer: asyncio.TimerHandle | None = None
+        self._due = 0.0
+        self._silence: asyncio.Future[bytes] | None = None
+        self._restart: asyncio.Task[None] | None = None
+        self._stopped = False
+        self._controller = VirtualController(
+            peripheral.name, air, lambda: self._advertised() if peripheral.visible(self._loop.time()) else None
+        )
         config = DeviceConfiguration(
             name=self.peripheral.name,
             address=hci.Address(self.peripheral.address),
@@ -97,9 +102,34 @@ class Server:
             gatt_service_enabled=False,
         )
         self._device = Device(config=config, host=Host(self._controller, AsyncPipeSink(self._controller)))
-        just_works(self._device, self._agrees_to_pair)
-        self._served = furnish(self._device, self.peripheral, self)
+        just_works(self._device, lambda: self.peripheral.agrees_to_pair(self._loop.time()))
+        self._device.gatt_server = AttributeServer(self._device)
+        self._device.add_service(GenericAccessService(peripheral.name))
+        self._served: dict[str, Characteristic[bytes]] = {}
+        for service in peripheral.services:
+            described = not service.uuid.startswith(_STANDARD)
+            found = {each.channel: self._characteristic(each, described) for each in service.characteristics}
+            self._device.add_service(Service(short_or_long(service.uuid), list(found.values())))
+            self._served |= found
         self._device.on(Device.EVENT_CONNECTION, self._connected)
+
+    def _characteristic(self, said: emulated.Characteristic, described: bool) -> Characteristic[bytes]:
+        properties = Characteristic.Properties(0)
+        for name in said.properties:
+            properties |= Characteristic.Properties[name.upper().replace("-", "_")]
+        description = Descriptor(
+            GATT_CHARACTERISTIC_USER_DESCRIPTION_DESCRIPTOR, att.Attribute.READABLE, said.channel.encode()
+        )
+        served: Characteristic[bytes] = Characteristic(
+            short_or_long(said.uuid),
+            properties,
+            att.Attribute.READABLE | att.Attribute.WRITEABLE,  # the device itself says what is not permitted
+            CharacteristicValue(read=partial(self.read, said.channel), write=partial(self.write, said.channel)),
+            [description] if described else [],
+        )
+        subscribed: Callable[[Connection, bool, bool], None] = partial(self.subscribe, said.channel)
+        served.on(Characteristic.EVENT_SUBSCRIPTION, subscribed)
+        return served
 
     async def start(self) -> None:
         """Goes on the air and advertises."""
@@ -119,42 +149,29 @@ class Server:
         await self._device.power_off()
         self.air.leave(self._controller)
 
-    # advertising
-
     async def _advertise(self) -> None:
         await self._device.start_advertising(
-            advertising_data=advertisement(self.peripheral.name, self.peripheral.advertised),
+            advertising_data=self._advertised(),
             advertising_interval_min=ADVERTISING,
             advertising_interval_max=ADVERTISING,
         )
 
-    def _advertisement(self) -> bytes | None:
-        if not self.peripheral.visible(self._loop.time()):
-            return None
+    def _advertised(self) -> bytes:
         return advertisement(self.peripheral.name, self.peripheral.advertised)
-
-    # the link
 
     def _connected(self, link: Connection) -> None:
         self._link = link
         self._silence = self._loop.create_future()
         self._device.gatt_server.max_mtu = self.peripheral.mtu
         link.on(Connection.EVENT_DISCONNECTION, partial(self._disconnected, link))
-        link.on(Connection.EVENT_CONNECTION_ATT_MTU_UPDATE, self._mtu_changed)
-        link.on(Connection.EVENT_CONNECTION_ENCRYPTION_CHANGE, partial(self._encryption_changed, link))
+        link.on(Connection.EVENT_CONNECTION_ATT_MTU_UPDATE, lambda: self._tell(link))
+        link.on(Connection.EVENT_CONNECTION_ENCRYPTION_CHANGE, lambda: self._tell(link))
         self.peripheral.connected(self._loop.time(), link.att_mtu)
         self._arm()
 
-    def _mtu_changed(self) -> None:
-        if self._link is not None:
-            self.peripheral.mtu_changed(self._link.att_mtu)
-
-    def _agrees_to_pair(self) -> bool:
-        return self.peripheral.agrees_to_pair(self._loop.time())
-
-    def _encryption_changed(self, link: Connection) -> None:
+    def _tell(self, link: Connection) -> None:
         if self._link is link:
-            self.peripheral.encryption_changed(link.is_encrypted)
+            self.peripheral.agreed_mtu, self.peripheral.is_encrypted = link.att_mtu, link.is_encrypted
 
     def _disconnected(self, link: Connection, reason: int) -> None:
         if self._link is not link:
@@ -167,7 +184,7 @@ class Server:
         if not self._stopped:
             self._restart = self._loop.create_task(self._advertise())
 
-    # requests (gatt.Answers)
+    # requests; the channel comes first, since it is bound when the table of attributes is made
 
     async def read(self, channel: str, link: Connection) -> bytes:
         value = self._ask(partial(self.peripheral.read, channel))
@@ -198,8 +215,6 @@ class Server:
             raise att.ATT_Error(att.ATT_UNLIKELY_ERROR_ERROR)
         return await asyncio.shield(self._silence)
 
-    # notifications
-
     def _disarm(self) -> None:
         if self._timer is not None:
             self._timer.cancel()
@@ -218,17 +233,13 @@ class Server:
             return
         now = max(self._loop.time(), self._due)  # a timer may fire a clock's resolution early
         for outgoing in self.peripheral.poll(now):
-            self._notify(link, self._served[outgoing.channel], outgoing.value)
+            pdu = att.ATT_Handle_Value_Notification(
+                attribute_handle=self._served[outgoing.channel].handle,
+                attribute_value=outgoing.value[: link.att_mtu - 3],  # longer ones are cut without an error, as is usual
+            )
+            self._device.gatt_server.send_gatt_pdu(link, bytes(pdu))
         if self.peripheral.hang_up(now):
-            self._lose()
+            for connection in list(self._controller.le_connections.values()):
+                self.air.lose(self._controller, connection)
         else:
             self._arm()
-
-    def _notify(self, link: Connection, characteristic: Characteristic[bytes], value: bytes) -> None:
-        room = link.att_mtu - 3  # what is longer is cut without an error, as real stacks do
-        pdu = att.ATT_Handle_Value_Notification(attribute_handle=characteristic.handle, attribute_value=value[:room])
-        self._device.gatt_server.send_gatt_pdu(link, bytes(pdu))
-
-    def _lose(self) -> None:
-        for connection in list(self._controller.le_connections.values()):
-            self.air.lose(self._controller, connection)

@@ -16,7 +16,7 @@ from typing import cast
 
 from bumble import core, hci
 from bumble.transport import open_transport
-from bumble.transport.common import PacketParser, Transport
+from bumble.transport.common import PacketParser, StreamPacketSink, Transport
 
 from ...ble.air import Backend
 from ..devices.peripheral import Peripheral
@@ -66,7 +66,7 @@ class _TcpClient(asyncio.Protocol):
         self._transport = cast(asyncio.Transport, transport)
         self._transport.set_write_buffer_limits(high=_BACKLOG)
         self._controller = VirtualController("client", self._air)
-        self._controller.host = _Outlet(self._transport)
+        self._controller.host = StreamPacketSink(self._transport)
         self._clients.add(self)
 
     def data_received(self, data: bytes) -> None:
@@ -81,9 +81,7 @@ class _TcpClient(asyncio.Protocol):
             return
         try:
             self._controller.on_hci_packet(hci.HCI_Packet.from_bytes(packet))
-        except (
-            Exception
-        ):  # bumble's controllers trust their hosts, and raise whatever comes of bytes that make no sense
+        except Exception:  # bumble trusts hosts, and raises whatever comes of bytes that make no sense
             self.drop()
 
     def pause_writing(self) -> None:
@@ -101,18 +99,6 @@ class _TcpClient(asyncio.Protocol):
         controller.host = None
         self._air.leave(controller)
         self._transport.abort()
-
-
-class _Outlet:
-    """Where a controller's packets go."""
-
-    def __init__(self, transport: asyncio.Transport) -> None:
-        self._transport = transport
-
-    def on_packet(self, packet: bytes) -> None:
-        """Sends it, while there is somebody to send to."""
-        if not self._transport.is_closing():
-            self._transport.write(packet)
 
 
 def address_of(where: str) -> tuple[str, int]:

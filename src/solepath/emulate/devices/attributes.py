@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from enum import IntEnum
 from math import ceil, floor, inf
 
 from attrs import frozen
@@ -10,14 +11,18 @@ from attrs import frozen
 from ...link.profile import Profile, standard
 from ...wire.device import build_battery, build_firmware
 
-READ_NOT_PERMITTED = 0x02
-WRITE_NOT_PERMITTED = 0x03
-NOT_PAIRED = 0x05
-"""Insufficient authentication (Bluetooth Core, vol 3 part C, 10.3.1)."""
-REQUEST_NOT_SUPPORTED = 0x06
-WRONG_LENGTH = 0x0D
-REFUSED = 0x80
-"""The first of the codes that an application may give a meaning (Bluetooth Core, vol 3 part F, 3.4.1.1)."""
+
+class AttCode(IntEnum):
+    """Why a request is refused (Bluetooth Core, vol 3 part F, 3.4.1.1)."""
+
+    READ_NOT_PERMITTED = 0x02
+    WRITE_NOT_PERMITTED = 0x03
+    NOT_PAIRED = 0x05
+    REQUEST_NOT_SUPPORTED = 0x06
+    WRONG_LENGTH = 0x0D
+    REFUSED = 0x80
+    """The first of the codes that an application may give a meaning."""
+
 
 SMALLEST_MTU = 23
 ADVERTISEMENT = 31

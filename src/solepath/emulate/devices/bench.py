@@ -42,9 +42,9 @@ class Bench:
             devices = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
         self.walker = Walker(route, wearer, seed)
         self.devices = {site: devices[site] for site in Site if site in devices}
-        self._began, script = began, tuple(faults)
+        script = tuple(faults)
         self.peripherals: tuple[Peripheral, ...] = tuple(
-            _peripheral(device, Worn(self.walker, site, f"F0:5E:00:00:00:{number:02X}", seed, mtu, began, script))
+            _peripheral(device, self.walker, seed, Worn(site, f"F0:5E:00:00:00:{number:02X}", mtu, began, script))
             for number, (site, device) in enumerate(self.devices.items(), 1)
         )
 
@@ -54,15 +54,10 @@ class Bench:
                 return peripheral
         raise KeyError(site)
 
-    @property
-    def began(self) -> float:
-        return self._began
-
-    @began.setter
-    def began(self, began: float) -> None:
-        self._began = began
+    def walk_from(self, began: float) -> None:
+        """The walk begins anew at this time of the loop."""
         for peripheral in self.peripherals:
-            peripheral.began = began
+            peripheral.walk_from(began)
 
     def prepare(self) -> None:
         """Work out now what the devices send after their usual setup, so that nobody waits for it on the link."""
@@ -74,12 +69,12 @@ class Bench:
         return self.walker.truth({foot_of(site): device.mounting for site, device in self.devices.items()})
 
 
-def _peripheral(device: Device, worn: Worn) -> Peripheral:
+def _peripheral(device: Device, walker: Walker, seed: int, worn: Worn) -> Peripheral:
     match device:
         case Insole():
-            return InsolePeripheral(device, worn)
+            return InsolePeripheral(device, walker, seed, worn)
         case CC2650():
-            return CC2650Peripheral(device, worn)
+            return CC2650Peripheral(device, walker, seed, worn)
         case CC2541():
-            return CC2541Peripheral(device, worn)
+            return CC2541Peripheral(device, walker, seed, worn)
     raise ValueError(f"no peripheral is known for {type(device).__name__}")

@@ -9,21 +9,12 @@ from functools import partial
 
 from ...link.devices.cc2541 import PROFILE
 from ..sensors.device import device_numbers, started
-from ..sensors.parts import MAG3110, T5400
-from ..sensors.sensortags import (
-    CC2541,
-    CC2541_KEYS,
-    GYRO_COUNT,
-    MAG3110_COUNT,
-    calibration_bytes,
-    cc2541_bytes,
-    code_count,
-    raw_air,
-)
-from ..sensors.tag_signals import LATE_AIR, LATE_MAG, Series
-from .attributes import READ_NOT_PERMITTED, AttError
+from ..sensors.sensortags import CALIBRATION, CC2541, CC2541_KEYS, LATE
+from ..sensors.tag_signals import Series
+from ..wearers.walker import Walker
+from .attributes import AttCode, AttError
 from .peripheral import Worn
-from .tag import HUMIDITY, INFRARED, STOCK, Make, Presses, Sensor, Tag, masked, room, shortest, switch
+from .tag import STOCK, Make, Presses, Sensor, Tag, room, shortest, switch
 
 # What the sensors say that measure nothing of the wearer: 24 degrees, half the air's moisture.
 _ROOM = {"cc2541/infrared": bytes.fromhex("0000000c"), "cc2541/humidity": bytes.fromhex("3867b072")}
@@ -32,16 +23,11 @@ _ROOM = {"cc2541/infrared": bytes.fromhex("0000000c"), "cc2541/humidity": bytes.
 class CC2541Peripheral(Tag):
     """A CC2541 on a foot."""
 
-    def __init__(self, device: CC2541, worn: Worn) -> None:
+    def __init__(self, device: CC2541, walker: Walker, seed: int, worn: Worn) -> None:
         self.device = device
-        numbers = device_numbers(worn.seed, worn.site)
+        numbers = device_numbers(seed, worn.site)
         clock = started(numbers, 1.0 / device.rate, device.ppm)
-        self._late = {
-            "cc2541/accelerometer": 0.0,
-            "cc2541/gyroscope": float(numbers.uniform()) / device.rate,
-            "cc2541/magnetometer": LATE_MAG,
-            "cc2541/barometer": LATE_AIR,
-        }
+        self._begins = {**LATE, "cc2541/gyroscope": float(numbers.uniform()) / device.rate}
         self._shortest = shortest(device.rate)
         sensors = (
             Sensor("cc2541/accelerometer", 100, self._shortest, bytes(3)),
@@ -50,8 +36,7 @@ class CC2541Peripheral(Tag):
             Sensor("cc2541/barometer", 100, STOCK, bytes(4)),
             *room(_ROOM),
         )
-        others = {"cc2541/infrared": INFRARED, "cc2541/humidity": HUMIDITY}
-        super().__init__(device, worn, clock, PROFILE, sensors, others, name="SensorTag", model="SensorTag")
+        super().__init__(device, walker, seed, worn, clock, PROFILE, sensors, "SensorTag")
 
     def prepare(self) -> None:
         for sensor in ("cc2541/accelerometer", "cc2541/gyroscope"):
@@ -59,8 +44,8 @@ class CC2541Peripheral(Tag):
         for sensor in ("cc2541/magnetometer", "cc2541/barometer"):
             self.series(sensor, 1.0)
 
-    def begin(self) -> None:
-        self.flow("cc2541/keys", Presses(self.device.presses, *CC2541_KEYS), self.walk_time)
+    def begin(self, t: float) -> None:
+        self.flow("cc2541/keys", Presses(self.device.presses, *CC2541_KEYS), t)
 
     def stop(self) -> None:
         super().stop()
@@ -70,8 +55,8 @@ class CC2541Peripheral(Tag):
         if channel != "cc2541/barometer-calibration":
             return super().value(channel, t)
         if not self._fetched:
-            raise AttError(READ_NOT_PERMITTED)
-        return calibration_bytes()
+            raise AttError(AttCode.READ_NOT_PERMITTED)
+        return CALIBRATION
 
     def take(self, channel: str, value: bytes, t: float) -> None:
         super().take(channel, value, t)
@@ -83,31 +68,12 @@ class CC2541Peripheral(Tag):
         code = switch(config, most)
         if not code or (sensor == "cc2541/barometer" and code == 2):
             return None
-        if sensor in _ROOM:
-            return 0.0, lambda number: _ROOM[sensor]
-        return self._late[sensor], partial(self._say, sensor, code, period)
+        return self._begins[sensor], partial(self._say, sensor, code, period)
 
     def _say(self, sensor: str, code: int, period: float, number: int) -> bytes:
         (series,) = self.series(sensor, period)
-        match sensor:
-            case "cc2541/accelerometer":
-                counts = series.count(number, self.device.part.acc, code_count(code))
-                return cc2541_bytes("accelerometer", acc=counts)
-            case "cc2541/gyroscope":
-                axes = (bool(code & 1), bool(code & 2), bool(code & 4))
-                counts = masked(series.count(number, self.device.part.gyro, GYRO_COUNT), axes)
-                return cc2541_bytes("gyroscope", gyro=counts)
-            case "cc2541/magnetometer":
-                return cc2541_bytes("magnetometer", mag=series.count(number, MAG3110, MAG3110_COUNT))
-        return cc2541_bytes("barometer", **raw_air(float(series.value(number)[0, 0])))
+        return self.device.said(sensor, series.value(number), code)[0]
 
     def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
-        worn, numbers = self._worn, self._numbers(list(self._late).index(sensor))
-        if sensor == "cc2541/barometer":
-            return (worn.air(period, T5400, numbers),)
-        when = worn.when(period, self._late[sensor])
-        motion = worn.motion(when)
-        if sensor == "cc2541/magnetometer":
-            return (worn.series(when, period, worn.mag(motion, when, MAG3110, numbers)),)
-        feel = worn.acc if sensor == "cc2541/accelerometer" else worn.gyro
-        return (worn.series(when, period, feel(motion, when, self.device.part, numbers)),)
+        numbers = self._numbers(list(self._begins).index(sensor))
+        return (self.device.measure(sensor, self._worn, period, self._begins[sensor], numbers),)

@@ -16,20 +16,12 @@ from ...link.devices.cc2650 import DRIVER, PROFILE
 from ...types.vector import GRAVITY
 from ..sensors.device import device_numbers, started
 from ..sensors.parts import AK8963, BMP280
-from ..sensors.sensortags import (
-    AK8963_COUNT,
-    BATTERY,
-    CC2650,
-    CC2650_KEYS,
-    GYRO_COUNT,
-    cc2650_air,
-    movement_bytes,
-    range_count,
-)
+from ..sensors.sensortags import BATTERY, CC2650, CC2650_KEYS, cc2650_air
 from ..sensors.tag_signals import LATE_AIR, Series
+from ..wearers.walker import Walker
 from .attributes import Battery
 from .peripheral import Worn
-from .tag import HUMIDITY, INFRARED, LIGHT, STOCK, Make, Presses, Sensor, Tag, masked, room, shortest, switch
+from .tag import STOCK, Make, Presses, Sensor, Tag, room, shortest, switch
 
 WAKES = 0.040 * GRAVITY
 """m/s^2 from one sample to the next that wake a tag which lies still."""
@@ -50,18 +42,16 @@ _ROOM = {
 class CC2650Peripheral(Tag):
     """A CC2650 on a foot."""
 
-    def __init__(self, device: CC2650, worn: Worn) -> None:
+    def __init__(self, device: CC2650, walker: Walker, seed: int, worn: Worn) -> None:
         self.device = device
-        clock = started(device_numbers(worn.seed, worn.site), 1.0 / device.rate, device.ppm)
+        clock = started(device_numbers(seed, worn.site), 1.0 / device.rate, device.ppm)
         self._shortest = shortest(device.rate)
         sensors = (
             Sensor("cc2650/movement", 100, self._shortest, bytes(18), size=2),
             Sensor("cc2650/barometer", 100, STOCK, bytes(6)),
             *room(_ROOM),
         )
-        others = {"cc2650/infrared": INFRARED, "cc2650/humidity": HUMIDITY, "cc2650/light": LIGHT}
-        name = "CC2650 SensorTag"
-        super().__init__(device, worn, clock, PROFILE, sensors, others, name=name, model=name)
+        super().__init__(device, walker, seed, worn, clock, PROFILE, sensors, "CC2650 SensorTag")
         self._moved: dict[float, list[int]] = {}
         self._battery = Battery(BATTERY)
 
@@ -69,9 +59,9 @@ class CC2650Peripheral(Tag):
         self.series("cc2650/movement", 0.01 * self._shortest)
         self.series("cc2650/barometer", 1.0)
 
-    def begin(self) -> None:
-        self.flow("cc2650/keys", Presses(self.device.presses, *CC2650_KEYS), self.walk_time)
-        self.flow("device/battery", self._battery, self.walk_time)
+    def begin(self, t: float) -> None:
+        self.flow("cc2650/keys", Presses(self.device.presses, *CC2650_KEYS), t)
+        self.flow("device/battery", self._battery, t)
 
     def value(self, channel: str, t: float) -> bytes:
         return self._battery.level(t) if channel == "device/battery" else super().value(channel, t)
@@ -83,35 +73,24 @@ class CC2650Peripheral(Tag):
             return (0.0, partial(self._say_movement, parsed, period)) if bits & _AXES else None
         if not switch(config, 1):
             return None
-        if sensor == "cc2650/barometer":
-            return LATE_AIR, partial(self._say_air, period)
-        return 0.0, lambda number: _ROOM[sensor]
+        return LATE_AIR, lambda number: cc2650_air(float(self.series(sensor, period)[0].value(number)[0, 0]))
 
     def _say_movement(self, config: Any, period: float, number: int) -> bytes | None:
         acc, gyro, mag = self.series("cc2650/movement", period)
         if config.wake_on_motion and not self._awake(acc, period, number):
             return None
-        return movement_bytes(
-            masked(gyro.count(number, self.device.part.gyro, GYRO_COUNT), config.gyro_axes),
-            masked(acc.count(number, self.device.part.acc, range_count(config.range)), config.acc_axes),
-            masked(mag.count(number, AK8963, AK8963_COUNT), (config.mag,) * 3),
-        )
-
-    def _say_air(self, period: float, number: int) -> bytes:
-        (air,) = self.series("cc2650/barometer", period)
-        return cc2650_air(float(air.value(number)[0, 0]))
+        return self.device.movement(config, acc.value(number), gyro.value(number), mag.value(number))[0]
 
     def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
         """Of movement: accelerometer, gyroscope and magnetometer."""
         worn, part = self._worn, self.device.part
         if sensor == "cc2650/barometer":
             return (worn.air(period, BMP280, self._numbers(3)),)
-        when = worn.when(period)
-        motion = worn.motion(when)
+        moving = worn.moving(period)
         return (
-            worn.series(when, period, worn.acc(motion, when, part, self._numbers(0))),
-            worn.series(when, period, worn.gyro(motion, when, part, self._numbers(1))),
-            worn.series(when, period, worn.mag(motion, when, AK8963, self._numbers(2))),
+            moving.acc(part, self._numbers(0)),
+            moving.gyro(part, self._numbers(1)),
+            moving.mag(AK8963, self._numbers(2)),
         )
 
     def _awake(self, acc: Series, period: float, number: int) -> bool:

@@ -29,6 +29,7 @@ from collections.abc import Iterable
 from enum import Enum
 from math import inf, isfinite
 from operator import attrgetter
+from typing import TypeVar
 
 from attrs import frozen
 
@@ -38,6 +39,9 @@ HANGING = 1.0
 """s from a request that is never answered until the link is lost."""
 PAIRING = "pairing"
 """What is refused, in place of a channel, when it is an attempt to pair."""
+
+
+_E = TypeVar("_E", bound=Enum)
 
 
 class What(Enum):
@@ -83,9 +87,7 @@ def parse_faults(text: str) -> tuple[Fault, ...]:
     found = []
     for number, line in enumerate(text.splitlines(), 1):
         try:
-            words = _words(line)
-            for each in words:
-                found.append(_fault(each))
+            found += [_fault(words) for words in _words(line)]
         except ValueError as error:
             raise ValueError(f"line {number}: {error}") from None
     return tuple(found)
@@ -107,7 +109,8 @@ def _words(line: str) -> list[list[str]]:
 def _fault(words: list[str]) -> Fault:
     if len(words) < 3:
         raise ValueError("a fault is SECONDS SITE WHAT [AMOUNT]")
-    at, site, what = _number(words[0], "seconds"), _site(words[1]), _what(words[2])
+    at, what = _number(words[0], "seconds"), _one_of(What, words[2], "fault")
+    site = None if words[1] == "*" else _one_of(Site, words[1], "site", "* and ")
     rest = words[3:]
     argument = ""
     if what in _NAMING:
@@ -144,20 +147,12 @@ def _number(word: str, what: str) -> float:
     return value
 
 
-def _site(word: str) -> Site | None:
-    if word == "*":
-        return None
+def _one_of(kind: type[_E], word: str, called: str, also: str = "") -> _E:
     try:
-        return Site(word)
+        return kind(word)
     except ValueError:
-        raise ValueError(f"no site {word!r}; there are * and {', '.join(site.value for site in Site)}") from None
-
-
-def _what(word: str) -> What:
-    try:
-        return What(word)
-    except ValueError:
-        raise ValueError(f"no fault {word!r}; there are {', '.join(what.value for what in What)}") from None
+        there = ", ".join(one.value for one in kind)
+        raise ValueError(f"no {called} {word!r}; there are {also}{there}") from None
 
 
 class Misfortune:
@@ -185,10 +180,9 @@ class Misfortune:
         self.needs_pairing = False
         """Whether the device wants to be paired with."""
 
-    def next_at(self) -> float | None:
-        """When something happens by itself, s; None when nothing is to come."""
-        at = min(self._coming[0].at if self._coming else inf, self._lost_at)
-        return None if at == inf else at
+    def next_at(self) -> float:
+        """When something happens by itself, s; inf when nothing is to come."""
+        return min(self._coming[0].at if self._coming else inf, self._lost_at)
 
     def advance(self, t: float) -> None:
         """Let happen what is to happen until `t`."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import inf
 from typing import Protocol
 
 from attrs import define, field
@@ -72,10 +71,6 @@ class Flows:
                 if due < soonest or (due == soonest and first is None):
                     first, soonest = channel, due
         return first, soonest
-
-    def next_due(self) -> float:
-        """When any of them has something to tell; inf when none does."""
-        return self.first(inf)[1]
 
     def take(self, channel: str) -> tuple[ValueSource, int]:
         """The channel's source and the number of its next value, which is taken by this."""

@@ -17,6 +17,7 @@ from ...wire.insole_control import Resend, SetInterval, StartSampling, StopSampl
 from ...wire.insole_info import build_info
 from ..sensors.device import device_numbers, foot_of
 from ..sensors.insole_device import BATTERY, TICK_RATE, Insole, InsoleSignal
+from ..wearers.walker import Walker
 from .attributes import NOTIFY, READ, WRITE, AttError, Battery, information, services
 from .peripheral import Peripheral, Worn
 
@@ -108,19 +109,10 @@ class InsolePeripheral(Peripheral):
     whole walk is worth is worked out once for each interval, when it is first needed or by `prepare`.
     """
 
-    def __init__(self, device: Insole, worn: Worn) -> None:
-        super().__init__(
-            site=worn.site,
-            address=worn.address,
-            name=f"solepath {'L' if foot_of(worn.site) is Foot.LEFT else 'R'}",
-            services=_SERVICES,
-            advertised=INSOLE.services,
-            mtu=worn.mtu,
-            began=worn.began,
-            faults=worn.faults,
-        )
-        self.device = device
-        self._worn = worn
+    def __init__(self, device: Insole, walker: Walker, seed: int, worn: Worn) -> None:
+        name = f"solepath {'L' if foot_of(worn.site) is Foot.LEFT else 'R'}"
+        super().__init__(worn, name, _SERVICES, INSOLE.services)
+        self.device, self._walker, self._seed = device, walker, seed
         self._interval = device.interval
         self._signals: dict[int, InsoleSignal] = {}
         self._frames: _Frames | None = None
@@ -137,14 +129,14 @@ class InsolePeripheral(Peripheral):
             device = self.device
             if device.interval != self._interval:
                 device = evolve(device, rate=TICK_RATE / self._interval)
-            found = device.measure(self._worn.walker, self.site, device_numbers(self._worn.seed, self.site))
+            found = device.measure(self._walker, self.site, device_numbers(self._seed, self.site))
             while len(self._signals) >= _SIGNALS:
                 self._signals.pop(next(iter(self._signals)))
             self._signals[self._interval] = found
         return found
 
-    def begin(self) -> None:
-        self.flow("device/battery", self._battery, self.walk_time)
+    def begin(self, t: float) -> None:
+        self.flow("device/battery", self._battery, t)
 
     def stop(self) -> None:
         self._frames = None

@@ -16,23 +16,12 @@ A fault script (faults.py) acts inside; the server sees only its effects.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from math import inf
 
 from attrs import frozen
 
 from ...types import Site
-from ..wearers.walker import Walker
-from .attributes import (
-    NOT_PAIRED,
-    READ_NOT_PERMITTED,
-    REFUSED,
-    REQUEST_NOT_SUPPORTED,
-    SMALLEST_MTU,
-    WRITE_NOT_PERMITTED,
-    AttError,
-    Outgoing,
-    Service,
-    check_fits,
-)
+from .attributes import SMALLEST_MTU, AttCode, AttError, Outgoing, Service, check_fits
 from .faults import PAIRING, Fault, Misfortune, What
 from .flows import Flows, ValueSource
 
@@ -42,75 +31,60 @@ _AT_ONCE = 2e-6
 
 @frozen
 class Worn:
-    """What a device on a wearer has beside what it measures: who walks, where it is worn, and its address.
+    """Where a device is worn, its address, and what befalls it.
 
-    `seed`: of its errors. `mtu`: the largest that it agrees to, where its firmware leaves that open. `began`: the
-    loop's time at which the walk begins.
+    `mtu`: the largest that it agrees to. `began`: the loop's time at which its wearer's walk begins; until then he
+    stands as at its beginning.
     """
 
-    walker: Walker
     site: Site
     address: str
-    seed: int = 1
     mtu: int = 247
     began: float = 0.0
     faults: tuple[Fault, ...] = ()
 
 
 class Peripheral:
-    """A device without attributes of its own; insole.py and sensortags.py say what theirs are.
+    """A device without attributes of its own; insole.py and tag.py say what theirs are.
 
-    `mtu`: the largest that it agrees to. `began`: the loop's time at which its wearer's walk begins; until then he
-    stands as at its beginning. `sent` counts the notifications that were handed over by channel, and `log` has them
-    all once a list is put there.
+    `sent` counts the notifications that were handed over by channel, and `log` has them all once a list is put there.
     """
 
-    def __init__(
-        self,
-        *,
-        site: Site,
-        address: str,
-        name: str,
-        services: Iterable[Service],
-        advertised: Iterable[str],
-        mtu: int = 247,
-        began: float = 0.0,
-        faults: Iterable[Fault] = (),
-    ) -> None:
-        self.site = site
-        self.address = address
+    def __init__(self, worn: Worn, name: str, services: Iterable[Service], advertised: Iterable[str]) -> None:
+        self.site, self.address = worn.site, worn.address
         self.services = tuple(services)
         self.advertised = tuple(advertised)
         self.sent: dict[str, int] = {}
         self.log: list[Outgoing] | None = None
         self.changed: Callable[[], None] | None = None
-        faults = tuple(faults)
-        for said in (name, *(fault.argument for fault in faults if fault.what is What.NAME)):
+        for said in (name, *(fault.argument for fault in worn.faults if fault.what is What.NAME)):
             check_fits(said, self.advertised)
-        self._name, self._mtu, self._began = name, mtu, began
-        self._faults = faults
-        self._misfortune = Misfortune(faults, site)
+        self._name, self._mtu, self._began, self._faults = name, worn.mtu, worn.began, worn.faults
+        self._misfortune = Misfortune(worn.faults, worn.site)
         self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
         self._flows = Flows()
-        self._linked = self._encrypted = False
-        self._now = float("-inf")
-        self._agreed = SMALLEST_MTU
+        self._now = -inf
+        self.is_connected = False
+        self.is_encrypted = False
+        """By the keys of a pairing, of now or of earlier."""
+        self.agreed_mtu = SMALLEST_MTU
+        """Of the link, while there is one."""
 
     # what its devices say
 
     def value(self, channel: str, t: float) -> bytes:
         """What a read of the channel gives at `t` of the walk. AttError."""
-        raise AttError(READ_NOT_PERMITTED)
+        raise AttError(AttCode.READ_NOT_PERMITTED)
 
     def take(self, channel: str, value: bytes, t: float) -> None:
         """Obey a write at `t` of the walk. AttError."""
-        raise AttError(WRITE_NOT_PERMITTED)
+        raise AttError(AttCode.WRITE_NOT_PERMITTED)
 
     def stop(self) -> None:
         """Do as the device does when its link is gone. The flows have been stopped already."""
 
-    def begin(self) -> None:
-        """Do as the device does when it is connected."""
+    def begin(self, t: float) -> None:
+        """Do as the device does when it is connected at `t` of the walk."""
 
     def prepare(self) -> None:
         """Work out now what would otherwise be worked out when a host first asks for it."""
@@ -130,16 +104,6 @@ class Peripheral:
         return self._mtu if self._misfortune.mtu is None else min(self._mtu, self._misfortune.mtu)
 
     @property
-    def agreed_mtu(self) -> int:
-        """Of the link, while there is one."""
-        return self._agreed
-
-    @property
-    def walk_time(self) -> float:
-        """The time of the walk when it was last asked anything, s."""
-        return self._now - self._began
-
-    @property
     def restarted(self) -> float | None:
         """When it began anew the last time, in time of the walk; None when it never did."""
         return self._misfortune.restarted
@@ -154,16 +118,7 @@ class Peripheral:
         """Whether it refuses requests on a link that is not encrypted, but for Device Information and battery."""
         return self._misfortune.needs_pairing
 
-    @property
-    def is_connected(self) -> bool:
-        return self._linked
-
-    @property
-    def began(self) -> float:
-        return self._began
-
-    @began.setter
-    def began(self, began: float) -> None:
+    def walk_from(self, began: float) -> None:
         """The walk begins anew, and the script of its faults with it: nothing of an earlier one holds over."""
         self._began = began
         self._misfortune = Misfortune(self._faults, self.site)
@@ -172,41 +127,33 @@ class Peripheral:
 
     def visible(self, now: float) -> bool:
         """Whether it advertises, if it is not connected."""
-        t = self._pass(now)
-        return not self._misfortune.hidden(t)
+        return not self._misfortune.hidden(self._pass(now))
 
     def connected(self, now: float, mtu: int) -> None:
         """A link begins, with the MTU that is agreed so far."""
-        self._pass(now)
+        t = self._pass(now)
         self._misfortune.connected()
-        self._linked, self._encrypted, self._agreed = True, False, mtu
-        self.begin()
+        self.is_connected, self.is_encrypted, self.agreed_mtu = True, False, mtu
+        self.begin(t)
         self._tell()
-
-    def mtu_changed(self, mtu: int) -> None:
-        self._agreed = mtu
 
     def agrees_to_pair(self, now: float) -> bool:
         """Whether it takes part in a pairing that the host begins."""
         self._pass(now)
         return not self._misfortune.refuses(PAIRING)
 
-    def encryption_changed(self, encrypted: bool) -> None:
-        """The link is encrypted by the keys of a pairing, of now or of earlier; or it is not any more."""
-        self._encrypted = encrypted
-
     def disconnected(self, now: float) -> None:
         """The link is gone, whoever ended it: subscriptions are forgotten, the device does what its protocol says."""
         self._pass(now)
-        self._linked = self._encrypted = False
+        self.is_connected = self.is_encrypted = False
         self._flows.clear()
-        self._agreed = SMALLEST_MTU
+        self.agreed_mtu = SMALLEST_MTU
         self.stop()
 
     def subscribe(self, channel: str, on: bool, now: float) -> None:
         """AttError for a channel that does not notify."""
         if "notify" not in self._properties.get(channel, ()):
-            raise AttError(REQUEST_NOT_SUPPORTED)
+            raise AttError(AttCode.REQUEST_NOT_SUPPORTED)
         t = self._pass(now)
         self._check_paired(channel)
         self._flows.subscribe(channel, on, t)
@@ -218,7 +165,7 @@ class Peripheral:
         if self._fails(channel, t):
             return None
         if "read" not in self._properties.get(channel, ()):
-            raise AttError(READ_NOT_PERMITTED)
+            raise AttError(AttCode.READ_NOT_PERMITTED)
         return self.value(channel, t)
 
     def write(self, channel: str, value: bytes, now: float) -> bool:
@@ -227,7 +174,7 @@ class Peripheral:
         if self._fails(channel, t):
             return False
         if not self._properties.get(channel, frozenset()) & {"write", "write-without-response"}:
-            raise AttError(WRITE_NOT_PERMITTED)
+            raise AttError(AttCode.WRITE_NOT_PERMITTED)
         self.take(channel, bytes(value), t)
         self._misfortune.thaw()
         self._tell()
@@ -235,16 +182,15 @@ class Peripheral:
 
     def next_due(self) -> float | None:
         """When `poll` or `hang_up` have something next; None when nothing is foreseeable."""
-        if not self._linked:
+        if not self.is_connected:
             return None
-        fault = self._misfortune.next_at()
-        soonest = min(self._flows.next_due(), float("inf") if fault is None else fault)
-        return None if soonest == float("inf") else max(self._now, self._began + soonest)
+        soonest = min(self._flows.first(inf)[1], self._misfortune.next_at())
+        return None if soonest == inf else max(self._now, self._began + soonest)
 
     def poll(self, now: float) -> list[Outgoing]:
         """The notifications that are due by now, after the faults, in order of their time."""
         found: list[Outgoing] = []
-        while self._linked:
+        while self.is_connected:
             channel, due = self._flows.first(now - self._began + _AT_ONCE)
             t = self._pass(now) if channel is None else self._happen(due)
             if channel is None or self._misfortune.cut:
@@ -252,7 +198,7 @@ class Peripheral:
             source, number = self._flows.take(channel)
             if self._misfortune.frozen(t) or self._is_closed(channel):
                 continue
-            for value in source.values(number, self._agreed):
+            for value in source.values(number, self.agreed_mtu):
                 found += [Outgoing(channel, sent) for sent in self._misfortune.carry(value)]
         for outgoing in found:
             self.sent[outgoing.channel] = self.sent.get(outgoing.channel, 0) + 1
@@ -263,7 +209,7 @@ class Peripheral:
     def hang_up(self, now: float) -> bool:
         """True once when the link is to be lost now as by a supervision timeout (0x08)."""
         self._pass(now)
-        cut, self._misfortune.cut = self._misfortune.cut and self._linked, False
+        cut, self._misfortune.cut = self._misfortune.cut and self.is_connected, False
         return cut
 
     def _fails(self, channel: str, t: float) -> bool:
@@ -271,17 +217,17 @@ class Peripheral:
             self._tell()
             return True
         if self._misfortune.refuses(channel):
-            raise AttError(REFUSED)
+            raise AttError(AttCode.REFUSED)
         self._check_paired(channel)
         return False
 
     def _is_closed(self, channel: str) -> bool:
         """Whether the link must be encrypted first. What every device tells of itself is open to all."""
-        return self.needs_pairing and not self._encrypted and not channel.startswith("device/")
+        return self.needs_pairing and not self.is_encrypted and not channel.startswith("device/")
 
     def _check_paired(self, channel: str) -> None:
         if self._is_closed(channel):
-            raise AttError(NOT_PAIRED)
+            raise AttError(AttCode.NOT_PAIRED)
 
     def _pass(self, now: float) -> float:
         """Time passes; returns the time of the walk."""

@@ -7,13 +7,14 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from math import ceil, inf
 
-from attrs import define, frozen
+from attrs import define, evolve, frozen
 
 from ...link.profile import Profile, ti
 from ..sensors.device import DeviceClock, device_numbers, foot_of
 from ..sensors.sensortags import CC2541, CC2650, PRESS
 from ..sensors.tag_signals import HANDLING, Series, WornTag
-from .attributes import NOTIFY, READ, REFUSED, WRITE, WRONG_LENGTH, AttError, Characteristic, information, services
+from ..wearers.walker import Walker
+from .attributes import NOTIFY, READ, WRITE, AttCode, AttError, Characteristic, information, services
 from .peripheral import Peripheral, Worn
 
 MTU = 23
@@ -22,8 +23,8 @@ STOCK = 10
 """The shortest period of stock firmware, in units of 10 ms."""
 SLUGGISH = 30
 """The same of the infrared thermometer."""
-INFRARED, HUMIDITY, LIGHT = 0xAA00, 0xAA20, 0xAA70
-"""Services of sensors that the profiles leave out."""
+SERVICES = {"infrared": 0xAA00, "humidity": 0xAA20, "light": 0xAA70}
+"""Of the sensors that the profiles leave out."""
 
 Make = tuple[float, Callable[[int], bytes | None]]
 """How many s after the clock's first sample a sensor begins, and what it says."""
@@ -33,13 +34,14 @@ Make = tuple[float, Callable[[int], bytes | None]]
 class Sensor:
     """`name` is that of its data channel; the others end in -config and -period. Periods are in units of 10 ms:
     `default` after connecting, `shortest` what the firmware makes of anything below. `blank`: the data read while it is
-    off. `size`: bytes of the configuration."""
+    off. `size`: bytes of the configuration. `always`: what a sensor says that measures nothing of the wearer."""
 
     name: str
     default: int
     shortest: int
     blank: bytes
     size: int = 1
+    always: bytes = b""
 
 
 @define
@@ -88,39 +90,29 @@ class Presses:
 
 
 class Tag(Peripheral, ABC):
-    """A SensorTag of a kind that is sold as `model`, as it is worn. `clock` is its own; `others` are sensors that the
-    profile does not know, with their service. Of the device, `rate` is the fastest that its firmware takes if that is
-    more than the stock 10 Hz; range and rates in force are what is written to it."""
+    """A SensorTag as it is worn; `name` is what its model is sold by, `clock` its own. Of the device, `rate` is the
+    fastest that its firmware takes if that is more than the stock 10 Hz; what is written sets range and rates."""
 
     def __init__(
         self,
         device: CC2541 | CC2650,
+        walker: Walker,
+        seed: int,
         worn: Worn,
         clock: DeviceClock,
         profile: Profile,
         sensors: Iterable[Sensor],
-        others: Mapping[str, int],
-        *,
         name: str,
-        model: str,
     ) -> None:
         self._sensors = {sensor.name: sensor for sensor in sensors}
-        more = [one for sensor, service in others.items() for one in _table(sensor, service)]
+        more = [one for sensor in self._sensors.values() if sensor.always for one in _table(sensor.name)]
         allowed = {channel.name: self._allowed(channel.name) for channel in profile.channels}
-        super().__init__(
-            site=worn.site,
-            address=worn.address,
-            name=name,
-            services=services(profile, allowed, more, ("manufacturer", "model")),
-            advertised=profile.services,
-            mtu=MTU,
-            began=worn.began,
-            faults=worn.faults,
-        )
-        self._said = information(device.firmware, manufacturer="Texas Instruments", model=model)
+        table = services(profile, allowed, more, ("manufacturer", "model"))
+        super().__init__(evolve(worn, mtu=MTU), name, table, profile.services)
+        self._said = information(device.firmware, manufacturer="Texas Instruments", model=name)
         self.clock = clock
-        self._numbers = partial(device_numbers, worn.seed, worn.site)
-        self._worn = WornTag(worn.walker, foot_of(worn.site), device.mounting, clock)
+        self._numbers = partial(device_numbers, seed, worn.site)
+        self._worn = WornTag(walker, foot_of(worn.site), device.mounting, clock)
         self._series: dict[tuple[str, float], tuple[Series, ...]] = {}
         self._states: dict[str, _State] = {}
         self.stop()
@@ -139,7 +131,7 @@ class Tag(Peripheral, ABC):
     def make(self, sensor: str, config: bytes, period: float) -> Make | None:
         """What a sensor says that is configured like this; None when that is off. AttError for a configuration that the
         firmware does not take."""
-        raise AttError(REFUSED)
+        raise AttError(AttCode.REFUSED)
 
     def stop(self) -> None:
         """Everything is off and as it was when the tag was switched on."""
@@ -162,7 +154,7 @@ class Tag(Peripheral, ABC):
         name, kind = _split(channel)
         sensor, state = self._sensors[name], self._states[name]
         if len(value) != (sensor.size if kind == "config" else 1):
-            raise AttError(WRONG_LENGTH)
+            raise AttError(AttCode.WRONG_LENGTH)
         new = _State(value, state.period)
         if kind == "period":
             new = _State(state.config, max(sensor.shortest, value[0]))
@@ -172,7 +164,11 @@ class Tag(Peripheral, ABC):
 
     def _source(self, name: str, state: _State) -> TimedSource | None:
         period = 0.01 * state.period
-        made = self.make(name, state.config, period)
+        always = self._sensors[name].always
+        if always:
+            made: Make | None = (0.0, lambda number: always) if switch(state.config, 1) else None
+        else:
+            made = self.make(name, state.config, period)
         return None if made is None else TimedSource(self.clock.first + made[0], self.clock.interval(period), made[1])
 
     def _allowed(self, channel: str) -> frozenset[str]:
@@ -192,8 +188,9 @@ def _split(channel: str) -> tuple[str, str]:
     return channel, ""
 
 
-def _table(sensor: str, service: int) -> list[tuple[str, Characteristic]]:
+def _table(sensor: str) -> list[tuple[str, Characteristic]]:
     """Data, configuration and period, in a row as TI numbers them."""
+    service = SERVICES[sensor.partition("/")[2]]
     rows = ((1, "", READ | NOTIFY), (2, "-config", READ | WRITE), (3, "-period", READ | WRITE))
     return [(ti(service), Characteristic(ti(service + k), sensor + end, may)) for k, end, may in rows]
 
@@ -206,16 +203,11 @@ def shortest(rate: float) -> int:
 def switch(config: bytes, most: int) -> int:
     """A configuration of one byte. AttError when it is more than `most`."""
     if config[0] > most:
-        raise AttError(REFUSED)
+        raise AttError(AttCode.REFUSED)
     return config[0]
 
 
 def room(values: Mapping[str, bytes]) -> list[Sensor]:
     """Sensors that measure nothing of the wearer and always say the same."""
-    return [Sensor(n, 100, SLUGGISH if n.endswith("infrared") else STOCK, bytes(len(v))) for n, v in values.items()]
-
-
-def masked(row: tuple[int, int, int], axes: tuple[bool, ...]) -> tuple[int, int, int]:
-    """The axes that are on; the others read 0."""
-    x, y, z = (value if on else 0 for value, on in zip(row, axes, strict=True))
-    return (x, y, z)
+    slow = {name: SLUGGISH if name.endswith("infrared") else STOCK for name in values}
+    return [Sensor(name, 100, slow[name], bytes(len(said)), always=said) for name, said in values.items()]

@@ -14,6 +14,8 @@ from math import pi
 from attrs import frozen
 
 from ...floorplan.doors import with_doors_cut
+from ...floorplan.importers.drawing import merged
+from ...floorplan.importers.earth import to_mm
 from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Point, Wall
 
 EAST, NORTH = 56.0, 63.0
@@ -63,39 +65,35 @@ CABINS = (
 WELLS = (Well("west stairs", (7.8, 20.9), pi), Well("north stairs", (31.4, 55.2), 0.5 * pi))
 
 
-def _split(marks: tuple[float, ...]) -> list[tuple[float, float]]:
-    return list(pairwise(marks))
-
-
 def _rooms() -> list[tuple[_Box, str]]:
     """Every room, and which of its sides has the door: "n", "e", "s", "w", or "" for a shaft."""
     w, e, s, n = COLUMNS[0] - HALF, COLUMNS[2] + HALF, ROWS[0] - HALF, ROWS[2] + HALF
     inner = [(COLUMNS[0] + HALF, COLUMNS[1] - HALF), (COLUMNS[1] + HALF, COLUMNS[2] - HALF)]
     low, high = (ROWS[0] + HALF, ROWS[1] - HALF), (ROWS[1] + HALF, ROWS[2] - HALF)
     found: list[tuple[_Box, str]] = []
-    for a, b in _split((0.0, 4.0, 5.8, 13.0, 19.5, 22.3, 29.0, 36.0, 43.0, 50.0, 57.0, NORTH)):
+    for a, b in pairwise((0.0, 4.0, 5.8, 13.0, 19.5, 22.3, 29.0, 36.0, 43.0, 50.0, 57.0, NORTH)):
         shaft, well = a == 4.0, a == 19.5
         found += [] if well else [((0.0, a, w - CABIN if shaft else w, b), "" if shaft else "e")]
-    for a, b in _split((0.0, 7.0, 14.0, 21.0, 28.0, 35.0, 42.0, 49.0, 57.0, 58.8, NORTH)):
+    for a, b in pairwise((0.0, 7.0, 14.0, 21.0, 28.0, 35.0, 42.0, 49.0, 57.0, 58.8, NORTH)):
         shaft = a == 57.0
         found += [((e + CABIN if shaft else e, a, EAST, b), "" if shaft else "w")]
-    for a, b in _split((inner[0][0], 17.0, 24.0, 31.0, 38.0, inner[1][1])):
+    for a, b in pairwise((inner[0][0], 17.0, 24.0, 31.0, 38.0, inner[1][1])):
         found.append(((a, 0.0, b, s), "n"))
-    for a, b in _split((inner[0][0], 17.0, 24.0, 30.0, 32.8, 39.0, inner[1][1])):
+    for a, b in pairwise((inner[0][0], 17.0, 24.0, 30.0, 32.8, 39.0, inner[1][1])):
         found += [] if a == 30.0 else [((a, n, b, NORTH), "s")]
     for (left, right), middle in zip(inner, (17.0, 36.0), strict=True):
-        for a, b in _split((low[0], 18.0, low[1])):
+        for a, b in pairwise((low[0], 18.0, low[1])):
             found += [((left, a, middle, b), "w"), ((middle, a, right, b), "e")]
     left, right = inner[0]
-    for a, b in _split((high[0], 36.0, 44.0, high[1])):
+    for a, b in pairwise((high[0], 36.0, 44.0, high[1])):
         found.append(((left, a, 17.0, b), "w"))
-    for a, b in _split((high[0], 37.0, 45.0, 46.8, high[1])):
+    for a, b in pairwise((high[0], 37.0, 45.0, 46.8, high[1])):
         shaft = a == 45.0
         found.append(((17.0, a, right - CABIN if shaft else right, b), "" if shaft else "e"))
     left, right = inner[1]
     found += [((left, high[0], 32.0, 36.0), "s"), ((32.0, high[0] + CABIN, 33.8, 36.0), "")]
     found.append(((33.8, high[0], right, 36.0), "s"))
-    for a, b in _split((36.0, 44.0, high[1])):
+    for a, b in pairwise((36.0, 44.0, high[1])):
         found += [((left, a, 36.0, b), "w"), ((36.0, a, right, b), "e")]
     return found
 
@@ -131,25 +129,9 @@ def _door(box: _Box, side: str, width: float, name: str = "") -> Door:
 
 def _walls(boxes: list[_Box]) -> tuple[Wall, ...]:
     """The sides of all boxes, each line drawn once."""
-    across: dict[float, list[tuple[float, float]]] = {}
-    along: dict[float, list[tuple[float, float]]] = {}
-    for x0, y0, x1, y1 in boxes:
-        for y in (y0, y1):
-            across.setdefault(round(y, 6), []).append((x0, x1))
-        for x in (x0, x1):
-            along.setdefault(round(x, 6), []).append((y0, y1))
-    found = [Wall((a, y), (b, y)) for y in sorted(across) for a, b in _joined(across[y])]
-    return (*found, *(Wall((x, a), (x, b)) for x in sorted(along) for a, b in _joined(along[x])))
-
-
-def _joined(pieces: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    found: list[tuple[float, float]] = []
-    for a, b in sorted(pieces):
-        if found and a <= found[-1][1] + 1e-6:
-            found[-1] = (found[-1][0], max(b, found[-1][1]))
-        else:
-            found.append((a, b))
-    return found
+    rings = [[to_mm(corner) for corner in _ring(box)] for box in boxes]
+    sides = [side for ring in rings for side in pairwise([*ring, ring[0]])]
+    return tuple(merged({Wall(min(side), max(side)) for side in sides}))
 
 
 def _ring(box: _Box) -> tuple[Point, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import atan2, cos, hypot, pi, sin, tan
 
-from attrs import define
+from attrs import Factory, define
 
 from ...floorplan.plan import Point, Start
 from .building import APPROACH, GOING, GROUND, LANE, RISE, STEPS, STOREY, UPPER
@@ -22,10 +22,6 @@ TURNING = 5.6
 OTHER = {GROUND: UPPER, UPPER: GROUND}
 
 
-def course_from(level: str, at: Point, heading: float) -> Course:
-    return Course(level, at, heading, Start(level, at, heading))
-
-
 @define
 class Course:
     """A route under way: the level, the place and the heading where it has come to."""
@@ -33,7 +29,7 @@ class Course:
     level: str
     at: Point
     heading: float
-    start: Start
+    start: Start = Factory(lambda course: Start(course.level, course.at, course.heading), takes_self=True)
     route: Route = Route(speed=SPEED)
 
     def stand(self) -> None:

@@ -15,7 +15,7 @@ from math import sqrt
 import numpy as np
 from attrs import frozen
 
-from ..wearers.curves import Array
+from ..wearers.curves import Array, Rng
 
 SHAKE = (0.012, 0.012, 0.018)
 """m/s^2: amplitude of each of the WAVES sines along x, y and z."""
@@ -96,7 +96,7 @@ class CarRide:
         )
 
 
-def ride(lift: Lift, begin: float, rng: np.random.Generator) -> CarRide:
+def ride(lift: Lift, begin: float, rng: Rng) -> CarRide:
     """The ride of `lift` when the car starts at `begin` s; `rng` draws how it shakes."""
     up = 1.0 if lift.height > 0.0 else -1.0
     knots, rows = [0.0], [(0.0, 0.0, 0.0, 0.0)]

@@ -11,17 +11,8 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ...types import Foot
-from ..wearers.gait import (
-    SETTLING,
-    Climb,
-    FootStand,
-    PlannedStride,
-    WalkPlan,
-    Wearer,
-    double_support,
-    step_length,
-    step_time,
-)
+from ..wearers.curves import Rng
+from ..wearers.gait import SETTLING, Climb, PlannedStride, WalkPlan, Wearer, double_support
 from .lift import CarRide, ride
 from .path import Flight, Lifted, Piece, Pivot, Pose, WalkPath
 from .route import Leg, Route, Stand, legs
@@ -31,19 +22,18 @@ LEVEL = 1e-6
 """m: floors that differ by less are the same."""
 
 
-def plan(route: Route, wearer: Wearer, rng: np.random.Generator) -> WalkPlan:
+def plan(route: Route, wearer: Wearer, rng: Rng) -> WalkPlan:
     """Lay out the footfalls of `route` and time them; all randomness of the gait is drawn here."""
     return _Planner(wearer, rng).run(legs(route))
 
 
 @frozen
 class _Footfall:
-    """One step to come: the place on the path, the speed, how far the path advances in it, how long it usually takes
-    (s), and how the path bends there (1/m)."""
+    """One step to come: the place on the path, the speed, how long it usually takes (s), and how the path bends
+    there (1/m)."""
 
     pose: Pose
     speed: float
-    advance: float
     duration: float
     curvature: float = 0.0
     manner: Manner = Manner.WALK
@@ -51,7 +41,7 @@ class _Footfall:
 
 
 class _Planner:
-    def __init__(self, wearer: Wearer, rng: np.random.Generator) -> None:
+    def __init__(self, wearer: Wearer, rng: Rng) -> None:
         self.wearer = wearer
         self.rng = rng
         self.t = 0.0
@@ -113,7 +103,8 @@ class _Planner:
                 falls += self._on_marks(section, section.spacing)
             else:
                 falls += self._naturally(section)
-        return [*falls, _closing(falls[-1])]
+        # The closing half step: beside the foot that arrived.
+        return [*falls, evolve(falls[-1], manner=Manner.WALK)]
 
     def _naturally(self, path: WalkPath) -> list[_Footfall]:
         """Steps of natural length with a few per cent of variation, stretched to end exactly at the path's end."""
@@ -121,21 +112,23 @@ class _Planner:
         s = 0.0
         while not ends or ends[-1] < path.length:
             speed, running = path.pace(min(s, path.length))
-            usual = speed * 60.0 / running_cadence(speed) if running else step_length(speed, self.wearer)
+            usual = (
+                speed * 60.0 / running_cadence(speed)
+                if running
+                else self.wearer.walk_ratio * self.wearer.cadence(speed)
+            )
             s += usual * self._vary(self.wearer.length_variation)
             ends.append(s)
         if len(ends) > 1 and ends[-1] - path.length > path.length - ends[-2]:
             ends.pop()
         fit = path.length / ends[-1]
         falls = []
-        before = 0.0
         for end in (fit * end for end in ends):
             pose = path.at(end)[0]
             speed, running = path.pace(end)
-            usual = 60.0 / running_cadence(speed) if running else step_time(speed, self.wearer)
+            usual = 60.0 / running_cadence(speed) if running else 60.0 / self.wearer.cadence(speed)
             manner = Manner.RUN if running else Manner.WALK
-            falls.append(_Footfall(pose, speed, end - before, usual, path.curvature(end), manner))
-            before = end
+            falls.append(_Footfall(pose, speed, usual, path.curvature(end), manner))
         return falls
 
     def _on_marks(self, path: WalkPath, spacing: float) -> list[_Footfall]:
@@ -145,7 +138,7 @@ class _Planner:
         for k in range(1, count + 1):
             _, speed = path.at(each * k)
             hit = each * k + self.wearer.aim * float(np.clip(self.rng.standard_normal(), -3.0, 3.0))
-            falls.append(_Footfall(path.at(hit)[0], speed, each, each / speed, path.curvature(each * k)))
+            falls.append(_Footfall(path.at(hit)[0], speed, each / speed, path.curvature(each * k)))
         return falls
 
     def _on_stairs(self, piece: Piece, flight: Flight) -> list[_Footfall]:
@@ -156,23 +149,21 @@ class _Planner:
             hit = flight.going * k + self.wearer.aim * float(np.clip(self.rng.standard_normal(), -2.0, 2.0))
             pose = evolve(piece.start.ahead(hit, 0.0), z=flight.z + flight.rise * k)
             duration = flight.going / piece.speed
-            falls.append(_Footfall(pose, piece.speed, flight.going, duration, 0.0, manner, flight))
+            falls.append(_Footfall(pose, piece.speed, duration, 0.0, manner, flight))
         return falls
 
     def _on_the_spot(self, pivot: Pivot) -> list[_Footfall]:
         count = max(1, int(np.ceil(abs(pivot.angle) / self.wearer.pivot_step)))
         turned = [pivot.angle * k / count for k in range(1, count + 1)]
-        duration = step_time(pivot.speed, self.wearer)
-        falls = [
-            _Footfall(evolve(pivot.start, heading=pivot.start.heading + a), pivot.speed, 0.0, duration) for a in turned
-        ]
+        duration = 60.0 / self.wearer.cadence(pivot.speed)
+        falls = [_Footfall(evolve(pivot.start, heading=pivot.start.heading + a), pivot.speed, duration) for a in turned]
         return [*falls, falls[-1]]
 
-    def _stance(self, pose: Pose, foot: Foot, width: float, turned: float) -> FootStand:
+    def _stance(self, pose: Pose, foot: Foot, width: float, turned: float) -> Pose:
         side = 1.0 if foot is Foot.LEFT else -1.0
         out = side * (0.5 * self.wearer.step_width + width)
-        yaw = pose.heading + side * (self.wearer.toe_out + turned)
-        return FootStand(pose.x - out * sin(pose.heading), pose.y + out * cos(pose.heading), pose.z, yaw)
+        heading = pose.heading + side * (self.wearer.toe_out + turned)
+        return Pose(pose.x - out * sin(pose.heading), pose.y + out * cos(pose.heading), pose.z, heading)
 
     # --- when -------------------------------------------------------------------------------------------------------
 
@@ -193,8 +184,8 @@ class _Planner:
         wearer, before = self.wearer, self.strides[foot]
         start = self.at[foot]
         manner = fall.manner
-        if fall.flight is not None:
-            self._step_on(fall.flight)
+        if fall.flight is not None and fall.flight is not self.flight:
+            self.flight, self.climbing = fall.flight, None
         if abs(fall.pose.z - start.z) > LEVEL:
             manner = Manner.UP if fall.pose.z > start.z else Manner.DOWN
         style = None if manner is Manner.WALK else style_of(manner, fall.speed)
@@ -251,11 +242,6 @@ class _Planner:
         self.running = fall.speed if manner is Manner.RUN else None
         self._step_off(before[-1])
 
-    def _step_on(self, flight: Flight) -> None:
-        if self.flight is not flight:
-            self.flight = flight
-            self.climbing = None
-
     def _step_off(self, stride: PlannedStride) -> None:
         """A climb is over when both feet are beyond the flight."""
         flight = self.flight
@@ -270,8 +256,3 @@ class _Planner:
     def _vary(self, sigma: float) -> float:
         """A factor about 1, never further away than three sigma."""
         return 1.0 + sigma * float(np.clip(self.rng.standard_normal(), -3.0, 3.0))
-
-
-def _closing(last: _Footfall) -> _Footfall:
-    """The closing half step: beside the foot that arrived."""
-    return evolve(last, advance=0.0, manner=Manner.WALK)

@@ -51,9 +51,7 @@ def posture(pitch: float, shoe: Shoe | None = None, mounting: Mounting = IN_SOLE
     rocker = shoe.forefoot
     raised = rocker.radius * tan(0.5 * pitch)
     return Posture(
-        pitch,
-        rocker.x - mounting.position[0] + raised,
-        shoe.length - rocker.x - rocker.radius * pitch + raised,
+        pitch, rocker.x - mounting.position[0] + raised, shoe.length - rocker.x - rocker.radius * pitch + raised
     )
 
 

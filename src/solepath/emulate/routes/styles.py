@@ -41,9 +41,8 @@ class Style:
     `early`: from heel-off to that heel-strike. `flat`: from heel-strike to foot-flat. `slide`, `sink`: how fast the
     shoe still goes ahead and down when it touches the ground. `clearance`: of the sole in swing, m. `hold`: how the
     swing lags behind a quintic in the middle, as a share of its way. `soon`: how much it rises, or sinks, early.
-    `weave`: how much the foot
-    rolls and turns in swing, relative to walking. `front`: share of the load that lands on the forefoot.
-    `bounce`: amplitude of the load's swing about the weight.
+    `weave`: how much the foot rolls and turns in swing, relative to walking. `front`: share of the load that lands on
+    the forefoot. `bounce`: amplitude of the load's swing about the weight.
     """
 
     double: float

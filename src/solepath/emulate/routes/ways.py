@@ -17,7 +17,7 @@ from attrs import frozen
 
 from ...floorplan.plan import Point, Start
 from ...types import Foot
-from ..wearers.curves import Array
+from ..wearers.curves import Array, Rng
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
 from .building import (
@@ -36,7 +36,7 @@ from .building import (
     Well,
     in_well,
 )
-from .course import OTHER, Course, course_from
+from .course import OTHER, Course
 from .path import ahead
 from .route import Route
 
@@ -84,7 +84,7 @@ def case_study() -> Way:
     """As in section V-F of Liu et al. 2015: down by the lift at the bottom left, along corridors, and away by another
     lift. The paper gives no measures; this one turns five times on the floor."""
     a, b = CABINS[:2]
-    course = course_from(UPPER, a.middle, a.out)
+    course = Course(UPPER, a.middle, a.out)
     course.stand()
     course.ride()
     west, middle, east = COLUMNS
@@ -99,7 +99,7 @@ def case_study() -> Way:
 
 def corridor() -> Way:
     """63 m straight on from door to door, as the long corridor of section V-D."""
-    course = course_from(GROUND, (COLUMNS[0], 0.0), 0.5 * pi)
+    course = Course(GROUND, (COLUMNS[0], 0.0), 0.5 * pi)
     course.stand()
     course.along([(COLUMNS[0], NORTH)])
     course.stand()
@@ -125,16 +125,12 @@ def wandering(seed: int) -> Way:
 # --- corridors --------------------------------------------------------------------------------------------------------
 
 
-def _lane(well: Well, level: str) -> float:
-    """To the left of a stairwell's middle: the lane that ends, and begins, on this level."""
-    return -LANE if level == GROUND else LANE
-
-
 def _inside(one: Exit, level: str) -> Point:
     """Where one stands in a cabin, or before the first edge of the stairs."""
     if isinstance(one, Cabin):
         return one.middle
-    return in_well(one, APPROACH - ahead(level == GROUND, GOING), _lane(one, level))
+    lane = -LANE if level == GROUND else LANE  # that begins, and ends, on this level
+    return in_well(one, APPROACH - ahead(level == GROUND, GOING), lane)
 
 
 def _beside(one: Exit, level: str, dx: float, dy: float) -> Point:
@@ -160,7 +156,7 @@ def _network(dx: float, dy: float, *turnings: Point) -> dict[Point, list[Point]]
     return nodes
 
 
-def _strolled(nodes: dict[Point, list[Point]], begin: Point, end: Point, rng: np.random.Generator) -> list[Point]:
+def _strolled(nodes: dict[Point, list[Point]], begin: Point, end: Point, rng: Rng) -> list[Point]:
     """From turning to turning without going back: at random for some corners, and then by the fewest places."""
     path = [begin, nodes[begin][int(rng.integers(len(nodes[begin])))]]
     corners = int(rng.integers(FEWEST, MOST + 1))
@@ -194,15 +190,15 @@ def _straight(a: Point, b: Point, c: Point) -> bool:
 def _arriving(one: Exit, level: str, dx: float, dy: float) -> Course:
     """From the other floor to this one; the course then is where one comes out."""
     if isinstance(one, Cabin):
-        course = course_from(OTHER[level], one.middle, one.out)
+        course = Course(OTHER[level], one.middle, one.out)
         course.stand()
         course.ride()
         return course
     inside, turning = _inside(one, OTHER[level]), _beside(one, OTHER[level], dx, dy)
     if one.inward == pi:
-        course = course_from(OTHER[level], (turning[0], turning[1] - RUN_UP), 0.5 * pi)
+        course = Course(OTHER[level], (turning[0], turning[1] - RUN_UP), 0.5 * pi)
     else:
-        course = course_from(OTHER[level], (turning[0] - RUN_UP, turning[1]), 0.0)
+        course = Course(OTHER[level], (turning[0] - RUN_UP, turning[1]), 0.0)
     course.stand()
     course.along([turning, inside])
     course.climb(up=level == UPPER)

@@ -10,12 +10,10 @@ from attrs import frozen
 
 from ...link.profile import Profile
 from ...types import Foot, Site
-from ..wearers.curves import Array
-from ..wearers.motion import Kinematics
+from ..wearers.curves import Array, Rng
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .parts import Imu
-from .sensors import CountReading, Instants, instants, read_triad
+from .sensors import Instants, instants
 
 CRYSTAL_PPM = 30.0
 """Standard deviation of a crystal's rate between devices: the usual 32 kHz tuning fork is within +-50 ppm or so."""
@@ -54,7 +52,7 @@ class Device(Protocol):
     @property
     def mounting(self) -> Mounting: ...
 
-    def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
+    def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
         """All that the device sends over the walk, in the order of sending."""
 
 
@@ -71,7 +69,7 @@ def prepared(profile: Profile, own: Mapping[str, bytes]) -> list[Notification]:
     return [Notification(each * k, channel, data, True) for k, (channel, data) in enumerate(said, 1)]
 
 
-def device_numbers(seed: int, site: Site, *more: int) -> np.random.Generator:
+def device_numbers(seed: int, site: Site, *more: int) -> Rng:
     """The random numbers of the device at a site; with `more`, of a part of it."""
     return np.random.default_rng([seed, 2, list(Site).index(site), *more])
 
@@ -83,7 +81,7 @@ def foot_of(site: Site) -> Foot:
     return site.foot
 
 
-def started(rng: np.random.Generator, interval: float, ppm: float | None = None) -> DeviceClock:
+def started(rng: Rng, interval: float, ppm: float | None = None) -> DeviceClock:
     """A clock that begins to sample at some moment within one `interval` after the setup."""
     drawn = CRYSTAL_PPM * float(rng.standard_normal())
     return DeviceClock(drawn if ppm is None else ppm, SETUP + interval * float(rng.uniform()))
@@ -93,21 +91,6 @@ def samplings(walker: Walker, clock: DeviceClock, nominal: float, first: float |
     """The instants of a sensor that measures every `nominal` s of the device's time until the walk ends."""
     begin, interval = clock.first if first is None else first, clock.interval(nominal)
     return instants(begin, interval, max(2, int((walker.duration - begin) / interval)))
-
-
-def read_imu(
-    motion: Kinematics,
-    when: Instants,
-    part: Imu,
-    acc_count: float,
-    gyro_count: float,
-    rng: np.random.Generator,
-    bandwidth: float | None = None,
-) -> tuple[CountReading, CountReading]:
-    """Counts of accelerometer and gyroscope; `bandwidth` (Hz) where the device sets the part's low pass."""
-    acc = read_triad(motion.force, when, part.acc, acc_count, rng, bandwidth=bandwidth)
-    gyro = read_triad(motion.rate, when, part.gyro, gyro_count, rng, force=motion.force, bandwidth=bandwidth)
-    return acc, gyro
 
 
 FIELD: Array = np.array([16e-6, 12e-6, -43e-6])

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import struct
 
-import numpy as np
 from attrs import frozen
 
 from ...link.devices.dot_orientation import DRIVER
 from ...types import Site
+from ..wearers.curves import Rng
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
 from .device import Notification, prepared, samplings, started
@@ -38,7 +38,7 @@ class Dot:
     ppm: float | None = None
     ticks: int | None = None
 
-    def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
+    def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
         clock = started(rng, 1.0 / RATE, self.ppm)
         drawn = int(rng.integers(0, 2**32))
         begun = drawn if self.ticks is None else self.ticks

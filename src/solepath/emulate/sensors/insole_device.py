@@ -14,13 +14,13 @@ from ...wire.device import build_battery, build_firmware
 from ...wire.fragment import FRAME_IDS, split
 from ...wire.insole import InsoleFrame, InsoleSample, build_frame
 from ...wire.insole_info import InsoleInfo, build_info
-from ..wearers.curves import Array
+from ..wearers.curves import Array, Rng
 from ..wearers.shoe import IN_SOLE, ON_HEEL, Mounting, Shoe
 from ..wearers.walker import Walker
-from .device import Notification, foot_of, prepared, read_imu, samplings, started
+from .device import Notification, foot_of, prepared, samplings, started
 from .insoles import SCALE, heel_array, layout
 from .parts import HEEL_ARRAY, INERTIACUBE3, LSM6DSOX, RESISTIVE, AttitudePart, CellPart, Imu
-from .sensors import attitude_read, read_cells, sample
+from .sensors import attitude_read, counted, measure_imu, read_cells, sample, samples_of
 
 HANDLING = 1e-3
 """s from a frame's last sample until the radio has it."""
@@ -57,7 +57,7 @@ class InsoleSignal:
     def frame(self, number: int, batch: int = 1) -> InsoleFrame:
         """The frame of this number when each has `batch` samples."""
         start = number * batch
-        rows = [self._row(k) for k in range(start, start + batch)]
+        rows = np.clip(np.arange(start, start + batch), 0, len(self.cells) - 1).tolist()
         return InsoleFrame(
             foot=self.layout.foot,
             layout=self.layout.id,
@@ -75,9 +75,6 @@ class InsoleSignal:
     def ready(self, number: int, batch: int = 1) -> float:
         """When the radio has a frame, s."""
         return self.first + self.step * (number * batch + batch - 1) + HANDLING
-
-    def _row(self, k: int) -> int:
-        return min(max(k, 0), len(self.cells) - 1)
 
     def _sample(self, row: int) -> InsoleSample:
         return InsoleSample(
@@ -126,7 +123,7 @@ class Insole:
     tells_full: bool = True
     broken: tuple[tuple[int, int], ...] = ()
 
-    def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
+    def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
         signal = self.measure(walker, site, rng)
         own = {
             "insole/info": build_info(self.info(signal)),
@@ -140,7 +137,7 @@ class Insole:
                 sent.append(Notification(ready, "insole/frame", piece))
         return sent
 
-    def measure(self, walker: Walker, site: Site, rng: np.random.Generator) -> InsoleSignal:
+    def measure(self, walker: Walker, site: Site, rng: Rng) -> InsoleSignal:
         """All that the insole measures over the walk."""
         foot = foot_of(site)
         clock = started(rng, self.interval / TICK_RATE, self.ppm)
@@ -149,7 +146,8 @@ class Insole:
         shape = self._layout(foot, walker.wearer.shoe)
 
         motion = walker.kinematics(foot, when.fine, self.mounting)
-        acc, gyro = read_imu(motion, when, self.part, ACC_COUNT, GYRO_COUNT, rng, bandwidth=0.5 * self.rate)
+        felt, turned = measure_imu(motion, when, self.part, rng, 0.5 * self.rate)
+        acc, gyro = counted(felt, self.part.acc, ACC_COUNT), counted(turned, self.part.gyro, GYRO_COUNT)
         lift = sample(motion.force, when) @ np.array(rotate_back(self.mounting.attitude, (0.0, 0.0, 1.0)))
         loads = read_cells(
             walker.cell_loads(shape, when.taken), when.taken, self.cell_part, shape.scale or SCALE, rng, lift=lift
@@ -173,29 +171,16 @@ class Insole:
             full=acc.saturated | gyro.saturated | (full & self.tells_full),
         )
 
-    def samples(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Sample]:
+    def samples(self, walker: Walker, site: Site, rng: Rng) -> list[Sample]:
         """The same without a wire and a radio: what a perfect link makes of the walk, on the true clock."""
         signal = self.measure(walker, site, rng)
-        scale = signal.layout.scale or 1.0
         t = signal.first + signal.step * np.arange(len(signal.cells), dtype=np.float64)
-        cells = (scale * signal.cells).tolist()
-        imu = None if signal.imu is None else (signal.imu * ([ACC_COUNT] * 3 + [GYRO_COUNT] * 3)).tolist()
-        quats = None if signal.quats is None else (signal.quats / 16384.0).tolist()
-        found = []
-        for k, when in enumerate(t.tolist()):
-            fx, fy, fz, wx, wy, wz = imu[k] if imu is not None else (0.0,) * 6
-            found.append(
-                Sample(
-                    t=when,
-                    site=site,
-                    acc=None if imu is None else (fx, fy, fz),
-                    gyro=None if imu is None else (wx, wy, wz),
-                    pressure=tuple(cells[k]),
-                    quat=None if quats is None else tuple(quats[k]),
-                    saturated=bool(signal.full[k]),
-                )
-            )
-        return found
+        acc = gyro = None
+        if signal.imu is not None:
+            acc, gyro = signal.imu[:, :3] * ACC_COUNT, signal.imu[:, 3:] * GYRO_COUNT
+        quats = None if signal.quats is None else signal.quats / 16384.0
+        cells = (signal.layout.scale or 1.0) * signal.cells
+        return samples_of(site, t, acc, gyro, cells, quats, signal.full)
 
     @property
     def interval(self) -> int:
@@ -225,16 +210,16 @@ class Insole:
             raise ValueError(f"the {foot.value} foot cannot wear cells of the {self.cells.foot.value} foot")
         return self.cells
 
-    def _attitudes(self, true: Array, t: Array, rng: np.random.Generator) -> Counts | None:
+    def _attitudes(self, true: Array, t: Array, rng: Rng) -> Counts | None:
         """The device's own idea of its attitude in Q14."""
         if not self.quaternion:
             return None
         if self.attitude is not None:
-            found: Counts = np.rint(16384 * attitude_read(true, t, self.attitude, self.north, rng)).astype(np.int16)
-            return found
-        tilt = radians(0.5) * rng.standard_normal(2)
-        off = from_rotation_vector((float(tilt[0]), float(tilt[1]), float(rng.uniform(-3.0, 3.0))))
-        felt = np.array([multiply(off, (w, x, y, z)) for w, x, y, z in true.tolist()])
+            felt = attitude_read(true, t, self.attitude, self.north, rng)
+        else:
+            tilt = radians(0.5) * rng.standard_normal(2)
+            off = from_rotation_vector((float(tilt[0]), float(tilt[1]), float(rng.uniform(-3.0, 3.0))))
+            felt = np.array([multiply(off, (w, x, y, z)) for w, x, y, z in true.tolist()])
         quats: Counts = np.rint(16384 * felt).astype(np.int16)
         return quats
 

@@ -52,15 +52,22 @@ class Imu:
     gyro: Triad
 
 
+def _gyro(
+    density: float, bias: float, drift: float, scale: float, cross: float, bandwidth: float, g_effect: float = 0.0
+) -> Triad:
+    """A gyroscope. `density`: degrees/s/sqrt(Hz). `bias`: degrees/s; `drift`: of it, per K; `g_effect`: per g."""
+    return Triad(
+        density * _DPS, bias * _DPS, drift * WARMING * _DPS, scale, cross, bandwidth, g_effect=g_effect * _DPS / _G
+    )
+
+
 LSM6DSOX = Imu(
     "LSM6DSOX",
     # ST DS12814, table 2 (typical): noise density 110 ug/sqrt(Hz) at +-16 g, zero-g offset +-20 mg, 0.1 mg/K,
     # sensitivity tolerance +-1 %; the low pass at ODR/2 is set by the device. Cross axis is not given: 1 % assumed.
     Triad(density=110e-6 * _G, bias=10 * _MG, wander=0.1 * WARMING * _MG, scale=0.005, cross=0.005, bandwidth=400.0),
     # Same table: 3.8 mdps/sqrt(Hz), zero-rate level +-1 dps, 0.010 dps/K, sensitivity tolerance +-1 %.
-    Triad(
-        density=3.8e-3 * _DPS, bias=0.5 * _DPS, wander=0.010 * WARMING * _DPS, scale=0.005, cross=0.005, bandwidth=400.0
-    ),
+    _gyro(density=3.8e-3, bias=0.5, drift=0.010, scale=0.005, cross=0.005, bandwidth=400.0),
 )
 
 MPU9250 = Imu(
@@ -70,9 +77,7 @@ MPU9250 = Imu(
     Triad(density=300e-6 * _G, bias=30 * _MG, wander=1.5 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=260.0),
     # Table 1: 0.01 dps/sqrt(Hz), ZRO +-5 dps, +-30 dps over 125 K (0.24 dps/K as the extreme, half of it as sigma),
     # scale +-3 %, cross axis +-2 %, low pass up to 250 Hz.
-    Triad(
-        density=0.01 * _DPS, bias=2.5 * _DPS, wander=0.12 * WARMING * _DPS, scale=0.015, cross=0.010, bandwidth=250.0
-    ),
+    _gyro(density=0.01, bias=2.5, drift=0.12, scale=0.015, cross=0.010, bandwidth=250.0),
 )
 
 MPU6050 = Imu(
@@ -84,15 +89,7 @@ MPU6050 = Imu(
     # Section 6.1 (*): 0.005 dps/sqrt(Hz), the 18 degrees/h/sqrt(Hz) that Sensors 2016, 16, 1809 names; initial ZRO
     # +-20 dps, +-20 dps over 125 K (half of the extreme as sigma), scale +-3 %, cross axis +-2 %, linear acceleration
     # sensitivity 0.1 dps/g, low pass up to 256 Hz.
-    Triad(
-        density=0.005 * _DPS,
-        bias=10.0 * _DPS,
-        wander=0.08 * WARMING * _DPS,
-        scale=0.015,
-        cross=0.010,
-        bandwidth=256.0,
-        g_effect=0.1 * _DPS / _G,
-    ),
+    _gyro(density=0.005, bias=10.0, drift=0.08, scale=0.015, cross=0.010, bandwidth=256.0, g_effect=0.1),
 )
 
 KXTJ9_IMU3000 = Imu(
@@ -112,15 +109,7 @@ KXTJ9_IMU3000 = Imu(
     ),
     # InvenSense PS-IMU-3000A rev. 1.1 (*): 0.01 dps/sqrt(Hz), initial ZRO +-20 dps, +-0.03 dps/K, scale +-3 %,
     # cross axis 2 %, linear acceleration sensitivity 0.1 dps/g, low pass up to 256 Hz.
-    Triad(
-        density=0.01 * _DPS,
-        bias=10.0 * _DPS,
-        wander=0.03 * WARMING * _DPS,
-        scale=0.015,
-        cross=0.010,
-        bandwidth=188.0,
-        g_effect=0.1 * _DPS / _G,
-    ),
+    _gyro(density=0.01, bias=10.0, drift=0.03, scale=0.015, cross=0.010, bandwidth=188.0, g_effect=0.1),
 )
 
 AK8963 = Triad(density=0.15e-6, bias=10e-6, wander=0.2e-6, scale=0.025, cross=0.01, bandwidth=50.0)

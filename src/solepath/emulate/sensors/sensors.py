@@ -6,15 +6,20 @@ is too fast for the sample rate aliases or is rounded off as it is in the part.
 
 from __future__ import annotations
 
-from math import ceil, cos, exp, pi, sin, sqrt
+from itertools import repeat
+from math import ceil, cos, exp, inf, pi, sin, sqrt
+from typing import Any
 
 import numpy as np
 from attrs import frozen
+from numpy.typing import NDArray
 
+from ...types import Sample, Site
 from ...types.vector import GRAVITY
-from ..wearers.curves import Array
+from ..wearers.curves import Array, Rng
+from ..wearers.motion import Kinematics
 from ..wearers.turning import multiplied
-from .parts import AttitudePart, BarometerPart, CellPart, Triad
+from .parts import AttitudePart, BarometerPart, CellPart, Imu, Triad
 
 INTERNAL_RATE = 800.0
 """Hz: instants per second at which a signal is worked out before it is filtered, at least."""
@@ -55,34 +60,22 @@ class CountReading:
     saturated: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
 
-def read_triad(
-    true: Array,
-    when: Instants,
-    part: Triad,
-    count: float,
-    rng: np.random.Generator,
-    *,
-    force: Array | None = None,
-    bandwidth: float | None = None,
-) -> CountReading:
-    """What a triad reports of `true` (fine instants, 3); `count` is what one count is worth.
-
-    `force` is the specific force at the same instants, for gyroscopes that feel it. `bandwidth` overrides the part's.
-    """
-    return counted(measure(true, when, part, rng, force=force, bandwidth=bandwidth), part, count)
-
-
 def measure(
-    true: Array,
-    when: Instants,
-    part: Triad,
-    rng: np.random.Generator,
-    *,
-    force: Array | None = None,
-    bandwidth: float | None = None,
+    true: Array, when: Instants, part: Triad, rng: Rng, force: Array | None = None, bandwidth: float = inf
 ) -> Array:
-    """What a triad measures of `true` at the instants that are taken (N, 3), before it makes counts of it."""
-    return sample(low_pass(errors(true, when, part, rng, force), when.rate, bandwidth or part.bandwidth), when)
+    """What a triad measures of `true` (fine instants, 3) at the instants that are taken (N, 3), before it makes counts.
+
+    `force` is the specific force at the same instants, for gyroscopes that feel it. `bandwidth` (Hz) is that of a
+    device's own low pass, where it is below the part's.
+    """
+    felt = errors(true, when, part, rng, force)
+    return sample(low_pass(felt, when.rate, min(part.bandwidth, bandwidth)), when)
+
+
+def measure_imu(true: Kinematics, when: Instants, part: Imu, rng: Rng, bandwidth: float) -> tuple[Array, Array]:
+    """What accelerometer and gyroscope measure."""
+    acc = measure(true.force, when, part.acc, rng, bandwidth=bandwidth)
+    return acc, measure(true.rate, when, part.gyro, rng, true.force, bandwidth)
 
 
 def counted(measured: Array, part: Triad, count: float) -> CountReading:
@@ -93,7 +86,7 @@ def counted(measured: Array, part: Triad, count: float) -> CountReading:
     return CountReading(clipped.astype(np.int64), np.any(np.abs(counts) >= limit - 1, axis=1))
 
 
-def errors(true: Array, when: Instants, part: Triad, rng: np.random.Generator, force: Array | None = None) -> Array:
+def errors(true: Array, when: Instants, part: Triad, rng: Rng, force: Array | None = None) -> Array:
     """Scale, misalignment, bias, its wander, and white noise added to `true`; nothing is filtered or clipped yet."""
     mixing = np.eye(3) + np.diag(part.scale * rng.standard_normal(3))
     mixing += part.cross * rng.standard_normal((3, 3)) * (1.0 - np.eye(3))
@@ -123,7 +116,7 @@ def sample(signal: Array, when: Instants) -> Array:
     return signal[when.before :: when.every]
 
 
-def wander(t: Array, memory: float, axes: int, rng: np.random.Generator) -> Array:
+def wander(t: Array, memory: float, axes: int, rng: Rng) -> Array:
     """A Gauss-Markov process of unit sigma and `memory` s that is 0 at the start, (N, axes).
 
     Worked out ten times in `memory` and joined smoothly: temperature has no fast part, white noise is another matter.
@@ -141,13 +134,7 @@ def wander(t: Array, memory: float, axes: int, rng: np.random.Generator) -> Arra
 
 
 def read_cells(
-    true: Array,
-    when: Array,
-    part: CellPart,
-    count: float,
-    rng: np.random.Generator,
-    full: int = 4095,
-    lift: Array | None = None,
+    true: Array, when: Array, part: CellPart, count: float, rng: Rng, full: int = 4095, lift: Array | None = None
 ) -> CountReading:
     """What the cells of an insole report of their true loads `true` (N, cells), N, taken at `when` (N).
 
@@ -164,14 +151,17 @@ def read_cells(
     follow = 1.0 - exp(-interval / part.lag)
     for k in range(1, len(lagged)):
         lagged[k] = lagged[k - 1] + follow * (true[k] - lagged[k - 1])
-    counts = _in_place(lagged, gain, preload, part.noise * rng.standard_normal(true.shape), count)
+    # In place: the loads of many cells on a long walk are large enough once.
+    lagged *= gain
+    lagged += preload
+    lagged += part.noise * rng.standard_normal(true.shape)
+    lagged /= count
+    counts = np.rint(lagged, out=lagged)
     saturated = np.any(counts >= full, axis=1)
     return CountReading(np.clip(counts, 0, full, out=counts).astype(np.int64), saturated)
 
 
-def _contact(
-    true: Array, interval: float, part: CellPart, preload: Array, lift: Array | None, rng: np.random.Generator
-) -> Array:
+def _contact(true: Array, interval: float, part: CellPart, preload: Array, lift: Array | None, rng: Rng) -> Array:
     """What the foot in the air adds to the preload of each cell, (N, cells); nothing while it stands."""
     keep = exp(-interval / part.rub_memory)
     change = part.rub * sqrt(1.0 - keep * keep) * rng.standard_normal(true.shape)
@@ -184,28 +174,19 @@ def _contact(
     return change
 
 
-def _in_place(load: Array, gain: Array, preload: Array, noise: Array, count: float) -> Array:
-    """Counts where the loads were: a long walk of many cells is large enough once."""
-    load *= gain
-    load += preload
-    load += noise
-    load /= count
-    return np.rint(load, out=load)
-
-
 def air_pressure(height: Array) -> Array:
     """Pa at a height in m, by the international standard atmosphere (ISO 2533)."""
     return np.asarray(101325.0 * (1.0 - 2.25577e-5 * height) ** 5.25588)
 
 
-def read_barometer(height: Array, t: Array, part: BarometerPart, rng: np.random.Generator) -> Array:
+def read_barometer(height: Array, t: Array, part: BarometerPart, rng: Rng) -> Array:
     """Pa that a barometer reports at heights (N) and instants (N)."""
     pressure = air_pressure(height) + part.offset * rng.standard_normal()
     pressure += part.wander * wander(t, part.memory, 1, rng)[:, 0]
     return np.asarray(pressure + part.noise * rng.standard_normal(len(t)))
 
 
-def attitude_read(true: Array, t: Array, part: AttitudePart, north: float, rng: np.random.Generator) -> Array:
+def attitude_read(true: Array, t: Array, part: AttitudePart, north: float, rng: Rng) -> Array:
     """What a device says of its attitudes `true` (N, 4) at instants `t`, (N, 4): sensor to its own world.
 
     That world is the walk's turned about the vertical by `north` rad and by the part's errors, a Gauss-Markov process
@@ -217,3 +198,21 @@ def attitude_read(true: Array, t: Array, part: AttitudePart, north: float, rng: 
     axis = 0.5 * np.sinc(angle / (2.0 * pi)) * turned  # sin(angle / 2) / angle
     about = np.array([[cos(0.5 * north), 0.0, 0.0, -sin(0.5 * north)]])
     return multiplied(multiplied(about, np.concatenate((np.cos(0.5 * angle), axis), axis=1)), true)
+
+
+def samples_of(
+    site: Site,
+    t: Array,
+    acc: NDArray[Any] | None,
+    gyro: NDArray[Any] | None,
+    pressure: NDArray[Any] | None,
+    quat: NDArray[Any] | None = None,
+    saturated: NDArray[np.bool_] | None = None,
+) -> list[Sample]:
+    """Samples taken at `t`, with the rows of what was measured."""
+    vectors = [repeat(None) if one is None else map(tuple, one.tolist()) for one in (acc, gyro, pressure, quat)]
+    full = repeat(False) if saturated is None else saturated.tolist()
+    return [
+        Sample(when, site, a, g, p, q, saturated=limit)
+        for when, a, g, p, q, limit in zip(t.tolist(), *vectors, full, strict=False)
+    ]

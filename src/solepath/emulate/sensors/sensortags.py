@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from math import radians
 from operator import attrgetter
 from typing import Any
 
-import numpy as np
 from attrs import asdict, frozen
 
 from ...link.devices import cc2541, cc2650
@@ -16,11 +14,12 @@ from ...types.vector import GRAVITY
 from ...wire.device import build_battery, build_firmware
 from ...wire.fields import build_whole
 from ...wire.sensortag import PERIOD
+from ..wearers.curves import Array, Rng
 from ..wearers.shoe import ON_INSTEP, Mounting
 from ..wearers.walker import Walker
 from .device import Notification, foot_of, prepared, started
 from .parts import AK8963, BMP280, KXTJ9_IMU3000, MAG3110, MPU9250, T5400, Imu
-from .tag_signals import HANDLING, LATE_MAG, SLOW, Series, WornTag
+from .tag_signals import LATE_AIR, LATE_MAG, SLOW, Series, WornTag, counts
 
 GYRO_COUNT = radians(500.0 / 65536.0)
 """rad/s per count of both tags: +-250 degrees/s, which a swinging foot exceeds."""
@@ -35,9 +34,7 @@ TEMPERATURE = 24.0
 BATTERY = 91
 """Percent, of the CC2650."""
 
-Counts = tuple[int, int, int]
-_ON = (True, True, True)
-_EVERYTHING = {"gyro_axes": _ON, "acc_axes": _ON, "mag": True, "wake_on_motion": False}
+_EVERYTHING = {"gyro_axes": (True,) * 3, "acc_axes": (True,) * 3, "mag": True, "wake_on_motion": False}
 CC2650_KEYS = tuple(
     [cc2650.DRIVER.write("cc2650/keys", {"left": left, "right": False, "reed": False}) for left in (True, False)]
 )
@@ -59,45 +56,52 @@ class CC2650:
     firmware: str = "1.40 (Nov 16 2016)"
     presses: tuple[float, ...] = ()
 
-    def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
+    def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
         period = 1.0 / self.rate
         worn = WornTag(walker, foot_of(site), self.mounting, started(rng, period, self.ppm))
-        when = worn.when(period)
-        motion = worn.motion(when)
-        acc = worn.series(when, period, worn.acc(motion, when, self.part, rng))
-        gyro = worn.series(when, period, worn.gyro(motion, when, self.part, rng))
-        mag = worn.series(when, period, worn.mag(motion, when, AK8963, rng))
-        sent = self._setup()
-        counts = (
-            gyro.counts(self.part.gyro, GYRO_COUNT),
-            acc.counts(self.part.acc, range_count(self.range)),
-            mag.counts(AK8963, AK8963_COUNT),
-        )
-        for k, row in enumerate(zip(*counts, strict=True)):
-            data = movement_bytes(*row)
-            sent.append(Notification(acc.taken(k) + HANDLING, "cc2650/movement", data))
+        moving = worn.moving(period)
+        acc, gyro, mag = moving.acc(self.part, rng), moving.gyro(self.part, rng), moving.mag(AK8963, rng)
         air = worn.air(SLOW, BMP280, rng)
-        for k, (pascal,) in enumerate(air.values.tolist()):
-            sent.append(Notification(air.taken(k) + HANDLING, "cc2650/barometer", cc2650_air(pascal)))
-        sent += _keys("cc2650/keys", self.presses, *CC2650_KEYS)
-        return sorted(sent, key=attrgetter("t"))
-
-    def _setup(self) -> list[Notification]:
-        config = {**_EVERYTHING, "range": self.range}
+        config = cc2650.DRIVER.write("cc2650/movement-config", {**_EVERYTHING, "range": self.range})
         own = {
             "device/firmware": build_firmware(self.firmware),
             "device/battery": build_battery(BATTERY),
-            "cc2650/movement-period": build_whole(PERIOD, {"period": 1.0 / self.rate}),
-            "cc2650/movement-config": cc2650.DRIVER.write("cc2650/movement-config", config),
+            "cc2650/movement-period": build_whole(PERIOD, {"period": period}),
+            "cc2650/movement-config": config,
             "cc2650/barometer-period": build_whole(PERIOD, {"period": SLOW}),
         }
-        return prepared(cc2650.PROFILE, own)
+        moved = self.movement(
+            cc2650.DRIVER.parse("cc2650/movement-config", config), acc.values, gyro.values, mag.values
+        )
+        sent = prepared(cc2650.PROFILE, own) + acc.notified("cc2650/movement", moved)
+        sent += air.notified("cc2650/barometer", map(cc2650_air, air.values[:, 0].tolist()))
+        sent += _keys("cc2650/keys", self.presses, *CC2650_KEYS)
+        return sorted(sent, key=attrgetter("t"))
+
+    def movement(self, config: Any, acc: Array, gyro: Array, mag: Array) -> list[bytes]:
+        """What the movement sensor says of the rows of what was measured, when its configuration is `config`."""
+        rows = zip(
+            counts(gyro, self.part.gyro, GYRO_COUNT, config.gyro_axes),
+            counts(acc, self.part.acc, config.range * GRAVITY / 32768, config.acc_axes),
+            counts(mag, AK8963, AK8963_COUNT, (config.mag,) * 3),
+            strict=True,
+        )
+        return [cc2650.DRIVER.write("cc2650/movement", {"gyro": g, "acc": a, "mag": m}) for g, a, m in rows]
 
 
 T5400_CALIBRATION = cc2541.BarometerCalibration(
     c1=45697, c2=25592, c3=48894, c4=36174, c5=7001, c6=1990, c7=-2364, c8=-9363
 )
 """Made up, of the size of real coefficients."""
+LATE = {
+    "cc2541/accelerometer": 0.0,
+    "cc2541/gyroscope": 0.0,
+    "cc2541/magnetometer": LATE_MAG,
+    "cc2541/barometer": LATE_AIR,
+}
+"""s after the tag's first sample at which a sensor begins; the gyroscope anywhere within its first period."""
+ALL_AXES = 7
+"""What switches the whole gyroscope on."""
 
 
 @frozen
@@ -116,48 +120,69 @@ class CC2541:
     firmware: str = "1.5 (Oct 23 2013)"
     presses: tuple[float, ...] = ()
 
-    def emit(self, walker: Walker, site: Site, rng: np.random.Generator) -> list[Notification]:
+    def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
         period = 1.0 / self.rate
         worn = WornTag(walker, foot_of(site), self.mounting, started(rng, period, self.ppm))
-        acc_when = worn.when(period)
-        gyro_when = worn.when(period, period * float(rng.uniform()))
-        mag_when = worn.when(SLOW, LATE_MAG)
-        acc = worn.series(acc_when, period, worn.acc(worn.motion(acc_when), acc_when, self.part, rng))
-        gyro = worn.series(gyro_when, period, worn.gyro(worn.motion(gyro_when), gyro_when, self.part, rng))
-        mag = worn.series(mag_when, SLOW, worn.mag(worn.motion(mag_when), mag_when, MAG3110, rng))
-        air = worn.air(SLOW, T5400, rng)
-
-        sent = self._setup()
-        accs, gyros = acc.counts(self.part.acc, code_count(self.code)), gyro.counts(self.part.gyro, GYRO_COUNT)
-        sent += _each(acc, "accelerometer", [{"acc": row} for row in accs])
-        sent += _each(gyro, "gyroscope", [{"gyro": row} for row in gyros])
-        sent += _each(mag, "magnetometer", [{"mag": row} for row in mag.counts(MAG3110, MAG3110_COUNT)])
-        sent += _each(air, "barometer", [raw_air(pascal) for (pascal,) in air.values.tolist()])
+        begins = {**LATE, "cc2541/gyroscope": period * float(rng.uniform())}
+        written = build_whole(PERIOD, {"period": period})
+        slow = build_whole(PERIOD, {"period": SLOW})
+        own = {
+            "device/firmware": build_firmware(self.firmware),
+            "cc2541/accelerometer-period": written,
+            "cc2541/accelerometer-config": cc2541_bytes("cc2541/accelerometer-config", code=self.code),
+            "cc2541/gyroscope-period": written,
+            "cc2541/magnetometer-period": slow,
+            "cc2541/barometer-period": slow,
+            "cc2541/barometer-calibration": CALIBRATION,
+        }
+        sent = prepared(cc2541.PROFILE, own)
+        for channel, every, code in (
+            ("cc2541/accelerometer", period, self.code),
+            ("cc2541/gyroscope", period, ALL_AXES),
+            ("cc2541/magnetometer", SLOW, 1),
+            ("cc2541/barometer", SLOW, 1),
+        ):
+            series = self.measure(channel, worn, every, begins[channel], rng)
+            sent += series.notified(channel, self.said(channel, series.values, code))
         sent += _keys("cc2541/keys", self.presses, *CC2541_KEYS)
         return sorted(sent, key=attrgetter("t"))
 
-    def _setup(self) -> list[Notification]:
-        period = build_whole(PERIOD, {"period": 1.0 / self.rate})
-        config = cc2541_bytes("accelerometer-config", code=self.code)
-        own = {
-            "device/firmware": build_firmware(self.firmware),
-            "cc2541/accelerometer-period": period,
-            "cc2541/accelerometer-config": config,
-            "cc2541/gyroscope-period": period,
-            "cc2541/magnetometer-period": build_whole(PERIOD, {"period": SLOW}),
-            "cc2541/barometer-period": build_whole(PERIOD, {"period": SLOW}),
-            "cc2541/barometer-calibration": calibration_bytes(),
-        }
-        return prepared(cc2541.PROFILE, own)
+    def measure(self, channel: str, worn: WornTag, period: float, late: float, rng: Rng) -> Series:
+        """What the sensor of a channel measures every `period` s, `late` s after the tag's first sample."""
+        match channel:
+            case "cc2541/accelerometer":
+                return worn.moving(period, late).acc(self.part, rng)
+            case "cc2541/gyroscope":
+                return worn.moving(period, late).gyro(self.part, rng)
+            case "cc2541/magnetometer":
+                return worn.moving(period, late).mag(MAG3110, rng)
+        return worn.air(period, T5400, rng)
+
+    def said(self, channel: str, measured: Array, code: int) -> list[bytes]:
+        """What the sensor of a channel says of the rows of what it measured, when `code` configured it."""
+        rows: list[dict[str, Any]]
+        match channel:
+            case "cc2541/accelerometer":
+                rows = [{"acc": row} for row in counts(measured, self.part.acc, GRAVITY * 2**code / 128)]
+            case "cc2541/gyroscope":
+                axes = [bool(code & bit) for bit in (1, 2, 4)]
+                rows = [{"gyro": row} for row in counts(measured, self.part.gyro, GYRO_COUNT, axes)]
+            case "cc2541/magnetometer":
+                rows = [{"mag": row} for row in counts(measured, MAG3110, MAG3110_COUNT)]
+            case _:
+                rows = [raw_air(pascal) for pascal in measured[:, 0].tolist()]
+        return [cc2541_bytes(channel, **row) for row in rows]
 
 
-def cc2541_bytes(sensor: str, **fields: Any) -> bytes:
-    """What a sensor of a CC2541 says."""
-    return build_whole(cc2541.FORMATS[f"cc2541/{sensor}"], fields)
+def cc2541_bytes(channel: str, **fields: Any) -> bytes:
+    """What a channel of a CC2541 says."""
+    return build_whole(cc2541.FORMATS[channel], fields)
 
 
-CC2541_KEYS = tuple([cc2541_bytes("keys", left=left, right=False, side=False) for left in (True, False)])
+CC2541_KEYS = tuple([cc2541_bytes("cc2541/keys", left=left, right=False, side=False) for left in (True, False)])
 """The left key down, and up."""
+CALIBRATION = cc2541_bytes("cc2541/barometer-calibration", **asdict(T5400_CALIBRATION))
+"""What the barometer's calibration reads as."""
 
 
 def raw_air(pascal: float) -> dict[str, int]:
@@ -168,37 +193,10 @@ def raw_air(pascal: float) -> dict[str, int]:
     return {"temperature": t, "pressure": round((pascal - low) / (high - low))}
 
 
-def calibration_bytes() -> bytes:
-    return cc2541_bytes("barometer-calibration", **asdict(T5400_CALIBRATION))
-
-
 def _keys(channel: str, presses: tuple[float, ...], down: bytes, up: bytes) -> list[Notification]:
     return [n for t in presses for n in (Notification(t, channel, down), Notification(t + PRESS, channel, up))]
-
-
-def _each(series: Series, sensor: str, said: Sequence[Mapping[str, Any]]) -> list[Notification]:
-    when = [series.taken(k) + HANDLING for k in range(len(said))]
-    return [
-        Notification(t, f"cc2541/{sensor}", cc2541_bytes(sensor, **fields))
-        for t, fields in zip(when, said, strict=True)
-    ]
 
 
 def cc2650_air(pascal: float) -> bytes:
     """What the barometer of a CC2650 says of this pressure."""
     return cc2650.DRIVER.write("cc2650/barometer", {"temperature": TEMPERATURE, "pressure": pascal})
-
-
-def movement_bytes(gyro: Counts, acc: Counts, mag: Counts) -> bytes:
-    """What the movement sensor of a CC2650 says."""
-    return cc2650.DRIVER.write("cc2650/movement", {"gyro": gyro, "acc": acc, "mag": mag})
-
-
-def range_count(gravities: int) -> float:
-    """m/s^2 per count of the CC2650's accelerometer at a range of +-`gravities` g."""
-    return gravities * GRAVITY / 32768
-
-
-def code_count(code: int) -> float:
-    """m/s^2 per count of the CC2541's accelerometer when 1, 2 or 3 was written to AA12."""
-    return float(GRAVITY * 2**code / 128)

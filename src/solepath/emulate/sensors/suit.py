@@ -8,11 +8,10 @@ from operator import attrgetter
 import numpy as np
 
 from ...calibration import Limbs
-from ...types import Layout, Sample, Site, Vec3
+from ...types import Layout, Sample, Site
 from ...types.vector import from_rotation_vector
-from ..wearers.curves import Array
+from ..wearers.curves import Array, Rng
 from ..wearers.limbs import body
-from ..wearers.motion import Kinematics
 from ..wearers.shoe import ON_INSTEP, Mounting
 from ..wearers.walker import Walker
 from .device import Device
@@ -20,7 +19,7 @@ from .dot import Dot
 from .insole_device import Insole
 from .insoles import SCALE
 from .parts import CRE_CC02, MPU9250, WORN_RESISTIVE, AttitudePart, CellPart, Imu
-from .sensors import Instants, attitude_read, instants, measure, read_cells, sample
+from .sensors import attitude_read, instants, measure_imu, read_cells, sample, samples_of
 
 TURNED = 0.15
 """rad: how sensors that are strapped on by hand differ from the segment's axes about each axis (assumed)."""
@@ -34,7 +33,13 @@ def strapped(site: Site, limbs: Limbs, seed: int, turned: float = TURNED) -> Mou
     """
     rng = np.random.default_rng([seed, 5, list(Site).index(site)])
     x, y, z = (turned * float(value) for value in rng.standard_normal(3))
-    return Mounting(_place(site, limbs), from_rotation_vector((x, y, z)))
+    place = ON_INSTEP.position
+    if site is Site.PELVIS:
+        place = (-0.10, 0.0, 0.05)
+    elif site.foot is None:
+        thigh = site in (Site.LEFT_THIGH, Site.RIGHT_THIGH)
+        place = (0.06, 0.0, -0.5 * (limbs.thigh if thigh else limbs.shank))
+    return Mounting(place, from_rotation_vector((x, y, z)))
 
 
 def limb_samples(
@@ -59,15 +64,13 @@ def limb_samples(
     `cell_part` at the scale of the layout. `seed`: of mountings and errors.
     """
     wearer = walker.wearer
-    known = limbs is None or limbs == wearer.limbs
     limbs = limbs or wearer.limbs
-    made = (
-        walker.body
-        if known
-        else body(walker.plan, walker.motions, walker.loads, wearer.shoe, wearer.centre_height, limbs)
-    )
+    if limbs == wearer.limbs:
+        made = walker.body
+    else:
+        made = body(walker.plan, walker.motions, walker.loads, wearer.shoe, wearer.centre_height, limbs)
     when = instants(0.0, 1.0 / rate, int(walker.duration * rate) + 1)
-    found = []
+    found: list[Sample] = []
     for order, site in enumerate(Site):
         rng = np.random.default_rng([seed, 6, order])
         mounting = strapped(site, limbs, seed, turned)
@@ -76,17 +79,14 @@ def limb_samples(
             acc, gyro, turn = true.force, true.rate, true.attitude
         else:
             true = made.at(site, when.fine, mounting)
-            acc, gyro = _felt(true, when, errors, rate, rng)
+            acc, gyro = measure_imu(true, when, errors, rng, 0.5 * rate)
             turn = sample(true.attitude, when)
         if attitude is not None:
             turn = attitude_read(turn, when.taken, attitude, north, rng)
         cells = None
         if site.foot is not None and layouts is not None and site in layouts:
-            cells = _pressed(walker, layouts[site], when.taken, cell_part, rng).tolist()
-        rows = zip(when.taken.tolist(), acc.tolist(), gyro.tolist(), turn.tolist(), strict=True)
-        for k, (t, (ax, ay, az), (gx, gy, gz), (w, x, y, z)) in enumerate(rows):
-            pressure = None if cells is None else tuple(cells[k])
-            found.append(Sample(t, site, (ax, ay, az), (gx, gy, gz), pressure, (w, x, y, z)))
+            cells = _pressed(walker, layouts[site], when.taken, cell_part, rng)
+        found += samples_of(site, when.taken, acc, gyro, cells, turn)
     return sorted(found, key=attrgetter("t"))
 
 
@@ -114,27 +114,10 @@ def suit(
     return worn
 
 
-def _felt(true: Kinematics, when: Instants, part: Imu, rate: float, rng: np.random.Generator) -> tuple[Array, Array]:
-    acc, gyro = part.acc, part.gyro
-    return (
-        measure(true.force, when, acc, rng, bandwidth=min(acc.bandwidth, 0.5 * rate)),
-        measure(true.rate, when, gyro, rng, force=true.force, bandwidth=min(gyro.bandwidth, 0.5 * rate)),
-    )
-
-
-def _pressed(walker: Walker, layout: Layout, t: Array, part: CellPart | None, rng: np.random.Generator) -> Array:
+def _pressed(walker: Walker, layout: Layout, t: Array, part: CellPart | None, rng: Rng) -> Array:
     true = walker.cell_loads(layout, t)
     if part is None:
         return true
     scale = layout.scale or SCALE
     lift = walker.kinematics(layout.foot, t).force[:, 2]
     return np.asarray(read_cells(true, t, part, scale, rng, lift=lift).counts * scale)
-
-
-def _place(site: Site, limbs: Limbs) -> Vec3:
-    if site is Site.PELVIS:
-        return (-0.10, 0.0, 0.05)
-    if site.foot is not None:
-        return ON_INSTEP.position
-    thigh = site in (Site.LEFT_THIGH, Site.RIGHT_THIGH)
-    return (0.06, 0.0, -0.5 * (limbs.thigh if thigh else limbs.shank))

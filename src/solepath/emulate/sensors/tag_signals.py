@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Iterable, Sequence
+
 from attrs import frozen
 
 from ...types import Foot
-from ..wearers.curves import Array
+from ..wearers.curves import Array, Rng
 from ..wearers.motion import Kinematics
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .device import FIELD, DeviceClock, samplings, seen_from
+from .device import FIELD, DeviceClock, Notification, samplings, seen_from
 from .parts import BarometerPart, Imu, Triad
 from .sensors import Instants, counted, measure, read_barometer
 
@@ -21,6 +22,8 @@ SLOW = 1.0
 LATE_MAG = 0.3
 LATE_AIR = 0.5
 """s after the first sample of the others."""
+
+Counts = tuple[int, int, int]
 
 
 @frozen(eq=False)
@@ -43,14 +46,39 @@ class Series:
         row = min(max(number, 0), len(self.values) - 1)
         return self.values[row : row + 1]
 
-    def count(self, number: int, part: Triad, count: float) -> tuple[int, int, int]:
-        """One value as a triad counts it."""
-        x, y, z = counted(self.value(number), part, count).counts[0].tolist()
-        return (x, y, z)
+    def notified(self, channel: str, said: Iterable[bytes]) -> list[Notification]:
+        """What is said of each value, as it is sent."""
+        return [Notification(self.taken(k) + HANDLING, channel, data) for k, data in enumerate(said)]
 
-    def counts(self, part: Triad, count: float) -> list[tuple[int, int, int]]:
-        """All values as a triad counts them."""
-        return [(x, y, z) for x, y, z in counted(self.values, part, count).counts.tolist()]
+
+def counts(measured: Array, part: Triad, count: float, axes: Sequence[bool] = (True, True, True)) -> list[Counts]:
+    """The rows of what a triad measured, (N, 3), as it counts them; axes that are off read 0."""
+    x, y, z = (counted(measured, part, count).counts * axes).T.tolist()
+    return list(zip(x, y, z, strict=True))
+
+
+@frozen(eq=False)
+class TagMotion:
+    """How a tag moves at the instants of a sensor, and what sensors measure of it; every `step` s of true time."""
+
+    when: Instants
+    step: float
+    motion: Kinematics
+
+    def acc(self, part: Imu, rng: Rng) -> Series:
+        """m/s^2."""
+        return self._series(measure(self.motion.force, self.when, part.acc, rng))
+
+    def gyro(self, part: Imu, rng: Rng) -> Series:
+        """rad/s."""
+        return self._series(measure(self.motion.rate, self.when, part.gyro, rng, self.motion.force))
+
+    def mag(self, part: Triad, rng: Rng) -> Series:
+        """T."""
+        return self._series(measure(seen_from(self.motion.attitude, FIELD), self.when, part, rng))
+
+    def _series(self, values: Array) -> Series:
+        return Series(float(self.when.taken[0]), self.step, values)
 
 
 @frozen(eq=False)
@@ -62,31 +90,14 @@ class WornTag:
     mounting: Mounting
     clock: DeviceClock
 
-    def when(self, period: float, late: float = 0.0) -> Instants:
-        """The instants of a sensor that measures every `period` s, `late` s after the first sample."""
-        return samplings(self.walker, self.clock, period, self.clock.first + late)
+    def moving(self, period: float, late: float = 0.0) -> TagMotion:
+        """For a sensor that measures every `period` s, `late` s after the first sample."""
+        when = samplings(self.walker, self.clock, period, self.clock.first + late)
+        motion = self.walker.kinematics(self.foot, when.fine, self.mounting)
+        return TagMotion(when, self.clock.interval(period), motion)
 
-    def motion(self, when: Instants) -> Kinematics:
-        return self.walker.kinematics(self.foot, when.fine, self.mounting)
-
-    def acc(self, motion: Kinematics, when: Instants, part: Imu, rng: np.random.Generator) -> Array:
-        """m/s^2."""
-        return measure(motion.force, when, part.acc, rng)
-
-    def gyro(self, motion: Kinematics, when: Instants, part: Imu, rng: np.random.Generator) -> Array:
-        """rad/s."""
-        return measure(motion.rate, when, part.gyro, rng, force=motion.force)
-
-    def mag(self, motion: Kinematics, when: Instants, part: Triad, rng: np.random.Generator) -> Array:
-        """T."""
-        return measure(seen_from(motion.attitude, FIELD), when, part, rng)
-
-    def air(self, period: float, part: BarometerPart, rng: np.random.Generator) -> Series:
-        """Pa, (N, 1)."""
-        when = self.when(period, LATE_AIR)
-        height = self.walker.kinematics(self.foot, when.taken, self.mounting).position[:, 2]
-        return self.series(when, period, read_barometer(height, when.taken, part, rng)[:, None])
-
-    def series(self, when: Instants, period: float, values: Array) -> Series:
-        """What was measured every `period` s at these instants."""
-        return Series(float(when.taken[0]), self.clock.interval(period), values)
+    def air(self, period: float, part: BarometerPart, rng: Rng) -> Series:
+        """Pa, (N, 1), measured every `period` s."""
+        t = samplings(self.walker, self.clock, period, self.clock.first + LATE_AIR).taken
+        height = self.walker.kinematics(self.foot, t, self.mounting).position[:, 2]
+        return Series(float(t[0]), self.clock.interval(period), read_barometer(height, t, part, rng)[:, None])

@@ -8,13 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Rng = np.random.Generator
+End = tuple[float, float, float]
+"""Value, velocity and acceleration at one end of a curve."""
 
 DEGREE = 7
 """Of every curve here: a quintic for the two ends, and two degrees more for what happens in between."""
 
 BUMP: Array = np.array([0.0, 0.0, 0.0, 64.0, -192.0, 192.0, -64.0, 0.0])
 """64 s^3 (1 - s)^3: 1 in the middle; value, slope and curvature are 0 at both ends."""
-
 
 EVEN_OUT: Array = np.array([0.0, 0.0, 0.0, 1.0, -5.0, 9.0, -7.0, 2.0])
 """s^3 (1 - s)^3 (1 - 2 s): starts earlier, is slower in the middle and stops later; nothing changes at both ends."""
@@ -26,7 +28,7 @@ def constant(value: float) -> Array:
     return curve
 
 
-def join(start: tuple[float, float, float], end: tuple[float, float, float], duration: float) -> Array:
+def join(start: End, end: End, duration: float) -> Array:
     """The quintic in s = t / duration with the given value, velocity and acceleration (per s) at either end."""
     p0, v0, a0 = start[0], start[1] * duration, start[2] * duration**2
     p1, v1, a1 = end[0], end[1] * duration, end[2] * duration**2

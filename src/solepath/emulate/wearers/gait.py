@@ -14,8 +14,9 @@ from attrs import frozen
 from ...calibration import Limbs
 from ...types import Foot
 from ..routes.lift import CarRide
-from ..routes.path import Flight
+from ..routes.path import Flight, Pose
 from ..routes.styles import Manner
+from .curves import Rng
 from .shoe import Rocker, Shoe
 
 SETTLING = 0.45
@@ -58,29 +59,23 @@ class Wearer:
     Movement, 2009)."""
     limbs: Limbs = Limbs()
 
-
-@frozen
-class FootStand:
-    """Where a foot stands flat: the ground point under the ankle, m, and the yaw of the foot, rad (not wrapped)."""
-
-    x: float
-    y: float
-    z: float
-    yaw: float
+    def cadence(self, speed: float) -> float:
+        """Steps per minute at `speed` m/s: the walk ratio W = l / c and v = l c / 60 give c = sqrt(60 v / W)."""
+        return float(np.sqrt(60.0 * speed / self.walk_ratio))
 
 
 @frozen
 class PlannedStride:
-    """One foot from one place to the next. Times in s: it leaves with `heel_off` and `toe_off`, and lands with
-    `heel_strike` and `foot_flat`."""
+    """One foot from where it stands flat (the ground under its ankle) to the next such place. Times in s: it leaves
+    with `heel_off` and `toe_off`, and lands with `heel_strike` and `foot_flat`."""
 
     number: int
     heel_off: float
     toe_off: float
     heel_strike: float
     foot_flat: float
-    start: FootStand
-    end: FootStand
+    start: Pose
+    end: Pose
     toe_off_pitch: float
     """Heel-up, positive, rad."""
     strike_pitch: float
@@ -109,33 +104,27 @@ class Climb:
     end: float
     flight: Flight
 
+    @property
+    def up(self) -> bool:
+        return self.flight.rise > 0.0
+
+    @property
+    def height(self) -> float:
+        """m from floor to floor, negative when it leads down."""
+        return self.flight.height
+
 
 @frozen
 class WalkPlan:
     """Everything that is decided before a foot moves."""
 
     duration: float
-    starts: dict[Foot, FootStand]
+    starts: dict[Foot, Pose]
     strides: dict[Foot, tuple[PlannedStride, ...]]
     bouts: tuple[tuple[float, float], ...]
     """When walking begins and when the closing foot is down, for each stretch between stands, s."""
     climbs: tuple[Climb, ...] = ()
     rides: tuple[CarRide, ...] = ()
-
-
-def cadence(speed: float, wearer: Wearer) -> float:
-    """Steps per minute at `speed` m/s: the walk ratio W = l / c and v = l c / 60 give c = sqrt(60 v / W)."""
-    return float(np.sqrt(60.0 * speed / wearer.walk_ratio))
-
-
-def step_length(speed: float, wearer: Wearer) -> float:
-    """m."""
-    return wearer.walk_ratio * cadence(speed, wearer)
-
-
-def step_time(speed: float, wearer: Wearer) -> float:
-    """s."""
-    return 60.0 / cadence(speed, wearer)
 
 
 def double_support(speed: float) -> float:
@@ -149,28 +138,22 @@ STATURE = 1.75
 """m: of the default wearer."""
 
 
-def shoe_for(foot_length: float) -> Shoe:
-    """The default shoe, larger or smaller in every direction, m."""
-    k = foot_length / FOOT
-    plain = Shoe()
-    x, y, z = plain.ankle
-    return Shoe(
-        length=k * plain.length,
-        width=k * plain.width,
-        heel=Rocker(k * plain.heel.x, k * plain.heel.radius),
-        forefoot=Rocker(k * plain.forefoot.x, k * plain.forefoot.radius),
-        ankle=(k * x, k * y, k * z),
-    )
-
-
 def wearer(stature: float, mass: float, foot_length: float) -> Wearer:
-    """A wearer of so many m and kg in shoes for a foot of `foot_length` m.
+    """A wearer of so many m and kg in shoes for a foot of `foot_length` m, the default ones made larger or smaller.
 
     Limbs by the proportions of `Limbs`; `foot` is what of the shoe is ahead of the ankle. The walk ratio goes with the
     stature to the power of 1.5: steps then are as long as legs at cadences that go with a pendulum's, as dynamic
     similarity has it (Alexander 1989, Physiol. Rev. 69).
     """
-    shoe, plain = shoe_for(foot_length), Wearer()
+    plain, k = Wearer(), foot_length / FOOT
+    old = plain.shoe
+    shoe = Shoe(
+        length=k * old.length,
+        width=k * old.width,
+        heel=Rocker(k * old.heel.x, k * old.heel.radius),
+        forefoot=Rocker(k * old.forefoot.x, k * old.forefoot.radius),
+        ankle=(k * old.ankle[0], k * old.ankle[1], k * old.ankle[2]),
+    )
     limbs = Limbs(
         hip_width=0.191 * stature,
         thigh=0.245 * stature,
@@ -187,16 +170,11 @@ def wearer(stature: float, mass: float, foot_length: float) -> Wearer:
     )
 
 
-def anybody(rng: np.random.Generator) -> tuple[Wearer, float]:
+def anybody(rng: Rng) -> tuple[Wearer, float]:
     """Somebody between 1.55 m and 1.92 m tall, neither thin nor fat, and the stature, m."""
     stature = float(rng.uniform(1.55, 1.92))
     return wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature), stature
 
 
-SUBJECTS = (
-    wearer(1.72, 63.0, 0.245),
-    wearer(1.68, 52.5, 0.255),
-    wearer(1.60, 50.0, 0.235),
-    wearer(1.83, 81.0, 0.270),
-)
+SUBJECTS = (wearer(1.72, 63.0, 0.245), wearer(1.68, 52.5, 0.255), wearer(1.60, 50.0, 0.235), wearer(1.83, 81.0, 0.270))
 """Of table 3: height, weight and shoe size (Sensors 23, 5417)."""

@@ -238,7 +238,7 @@ def _pressed(plan: WalkPlan, loads: Loads, shoe: Shoe, t: Array) -> Array:
     total = np.zeros((len(t), 2))
     for foot in Foot:
         places = [plan.starts[foot], *(stride.end for stride in plan.strides[foot])]
-        table = np.array([(at.x, at.y, at.yaw) for at in places])
+        table = np.array([(at.x, at.y, at.heading) for at in places])
         x, y, yaw = table[np.maximum(np.searchsorted(loads.stances[foot][:, 0], t, side="right") - 1, 0)].T
         zones = np.array([zone.x for zone in (HEEL, MIDFOOT, FOREFOOT, TOES)]) * shoe.length
         ahead, left = zones @ loads.shares(foot, t) - shoe.ankle[0], loads.lean(foot, t)

@@ -30,7 +30,7 @@ from ...types import Foot, Layout
 from ...types.vector import GRAVITY
 from ..routes.lift import CarRide
 from ..routes.styles import Manner, style_of
-from .curves import Array
+from .curves import Array, Rng
 from .gait import SETTLING, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, pattern
@@ -116,7 +116,7 @@ class Loads:
         Cells that end behind the middle of the foot bear what they lie under, and their sum is less.
         """
         foot = layout.foot
-        shares = self._zones(foot, t)
+        shares = self.shares(foot, t)
         pitch = motion.pitch(t)
         heel = -0.035 * np.sin(np.maximum(pitch, 0.0)) / layout.length
         fore = 0.025 * np.sin(np.maximum(-pitch, 0.0)) / layout.length
@@ -140,26 +140,19 @@ class Loads:
         asked, over = self.leans[foot][rows].T
         return np.asarray(asked * (1.0 - hand_over((t - over) / SETTLING)))
 
-    def shares(self, foot: Foot, t: Array) -> Array:
-        """Shares of heel, midfoot, forefoot and toes in a foot's load, (4, N)."""
-        return np.stack(self._zones(foot, t))
-
     def share(self, foot: Foot, t: Array) -> Array:
         """Share of a foot in the body's load."""
-        left = self._left_share(t)
-        return left if foot is Foot.LEFT else np.asarray(1.0 - left)
-
-    def _left_share(self, t: Array) -> Array:
         if not len(self.begin):
             return np.full_like(t, 0.5)
         k = np.searchsorted(self.begin, t, side="right") - 1
         known = np.maximum(k, 0)
         s = (t - self.begin[known]) / (self.end[known] - self.begin[known])
         share = self.before[known] + (self.after[known] - self.before[known]) * hand_over(s)
-        return np.where(k < 0, self.before[0], share)
+        left = np.where(k < 0, self.before[0], share)
+        return left if foot is Foot.LEFT else np.asarray(1.0 - left)
 
-    def _zones(self, foot: Foot, t: Array) -> tuple[Array, Array, Array, Array]:
-        """Shares of heel, midfoot, forefoot and toes in the foot's load; they add up to one."""
+    def shares(self, foot: Foot, t: Array) -> Array:
+        """Shares of heel, midfoot, forefoot and toes in the foot's load, (4, N); they add up to one."""
         stances = self.stances[foot]
         rows = np.maximum(np.searchsorted(stances[:, 0], t, side="right") - 1, 0)
         row = stances[rows]
@@ -172,10 +165,10 @@ class Loads:
         middle = 0.5 * rolled * (1.0 - rolled)
         front = rolled - 0.5 * middle
         toes = front * (0.05 + 0.10 * rolled + 0.60 * hand_over((t - lift) / (off - lift)))
-        return 1.0 - rolled - 0.5 * middle, middle, front - toes, toes
+        return np.stack((1.0 - rolled - 0.5 * middle, middle, front - toes, toes))
 
 
-def loads(plan: WalkPlan, wearer: Wearer, rng: np.random.Generator) -> Loads:
+def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
     """The loads that go with a plan. `rng`: for what varies between steps, where the wearer says that it does."""
     hand_overs, beats = _hand_overs(plan)
     table = np.array(hand_overs).reshape(-1, 4)
@@ -256,7 +249,7 @@ def _stances(plan: WalkPlan, foot: Foot) -> Array:
     return np.array([(*land, *leave) for land, leave in zip(lands, leaves, strict=True)])
 
 
-def _leans(plan: WalkPlan, foot: Foot, wearer: Wearer, rng: np.random.Generator) -> Array:
+def _leans(plan: WalkPlan, foot: Foot, wearer: Wearer, rng: Rng) -> Array:
     """For every stance: the way asked of the load, and the last heel-strike of its walk."""
     rows = [(0.0, -_EVER)]
     for stride in plan.strides[foot]:

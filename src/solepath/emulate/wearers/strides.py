@@ -17,10 +17,10 @@ from attrs import evolve
 
 from ...types import Foot, Phase
 from ..routes.lift import CarRide
-from ..routes.path import Flight
+from ..routes.path import Flight, Pose
 from ..routes.styles import Manner, style_of
-from .curves import BUMP, EVEN_OUT, Array, constant, evaluate, join, part
-from .gait import FootStand, PlannedStride, WalkPlan
+from .curves import BUMP, EVEN_OUT, Array, End, constant, evaluate, join, part
+from .gait import PlannedStride, WalkPlan
 from .motion import PHASES, FootMotion
 from .shoe import Rocker, Shoe
 
@@ -54,31 +54,30 @@ _Joint = tuple[Array, Array, Array]
 
 def foot_motions(plan: WalkPlan, shoe: Shoe) -> dict[Foot, FootMotion]:
     """Both feet of a plan."""
-    return {foot: foot_motion(plan.starts[foot], plan.strides[foot], shoe, plan.rides) for foot in Foot}
-
-
-def foot_motion(
-    start: FootStand, strides: tuple[PlannedStride, ...], shoe: Shoe, rides: tuple[CarRide, ...] = ()
-) -> FootMotion:
-    """One foot that stands at `start`, makes the strides, and stands; in between it may ride."""
-    pieces = _Pieces(shoe, rides)
-    leaves = [*(stride.heel_off for stride in strides), _EVER]
-    pieces.stand(start, -_EVER, leaves[0], 0.0)
-    for stride, leave in zip(strides, leaves[1:], strict=True):
-        pieces.push_off(stride)
-        pieces.swing(stride)
-        pieces.land(stride)
-        pieces.stand(stride.end, stride.foot_flat, leave, stride.settle if leave < _EVER else 0.0)
-    return pieces.done()
+    return {foot: _Pieces(shoe, plan.rides).joined(plan.starts[foot], plan.strides[foot]) for foot in Foot}
 
 
 class _Pieces:
+    """One foot that may ride in between."""
+
     def __init__(self, shoe: Shoe, rides: tuple[CarRide, ...]) -> None:
         self.shoe = shoe
         self.rides = rides
         self.rows: list[tuple[float, float, list[Array], tuple[float, float], float, int]] = []
 
-    def stand(self, at: FootStand, begin: float, end: float, settle: float) -> None:
+    def joined(self, start: Pose, strides: tuple[PlannedStride, ...]) -> FootMotion:
+        """It stands at `start`, makes the strides, and stands."""
+        leaves = [*(stride.heel_off for stride in strides), _EVER]
+        self.stand(start, -_EVER, leaves[0], 0.0)
+        for stride, leave in zip(strides, leaves[1:], strict=True):
+            self.push_off(stride)
+            self.swing(stride)
+            self.land(stride)
+            self.stand(stride.end, stride.foot_flat, leave, stride.settle if leave < _EVER else 0.0)
+        begin, duration, curves, carried, radius, phase = map(np.array, zip(*self.rows, strict=True))
+        return FootMotion(begin, duration, curves, carried, radius, phase.astype(np.intp), self.rides)
+
+    def stand(self, at: Pose, begin: float, end: float, settle: float) -> None:
         for car in self.rides:
             if begin <= car.begin and car.end <= end:
                 # FootMotion adds the way of the car while it goes.
@@ -114,9 +113,9 @@ class _Pieces:
         residual = np.array(_residual(stride))
         p1, v1 = p1 - 0.5 * IMPACT * residual, v1 + residual
         x, y, z = (join((p0[i], v0[i], a0[i]), (p1[i], v1[i], a1[i]), duration) for i in range(3))
-        yaw = join((stride.start.yaw, 0.0, 0.0), (stride.end.yaw, 0.0, 0.0), duration) + stride.weave[1] * BUMP
+        yaw = join((stride.start.heading, 0.0, 0.0), (stride.end.heading, 0.0, 0.0), duration) + stride.weave[1] * BUMP
         roll = stride.weave[0] * BUMP
-        sideways = 0.5 * (stride.start.yaw + stride.end.yaw)
+        sideways = 0.5 * (stride.start.heading + stride.end.heading)
         cruise = CRUISE if stride.flight is None else 0.0
         x += -sin(sideways) * stride.weave[2] * BUMP + cruise * (p1[0] - p0[0]) * EVEN_OUT
         y += cos(sideways) * stride.weave[2] * BUMP + cruise * (p1[1] - p0[1]) * EVEN_OUT
@@ -178,13 +177,13 @@ class _Pieces:
             lift = max(lift, float(np.max(stride.clearance + (least - z - up) / bump)))
         return lift
 
-    def _ankle(self, arc: Rocker, at: FootStand, pitch: tuple[float, float, float]) -> _Joint:
+    def _ankle(self, arc: Rocker, at: Pose, pitch: End) -> _Joint:
         """The ankle point while the shoe rolls on `arc` with this pitch, rate and acceleration."""
         angle, rate, change = pitch
         dx, dz = self.shoe.ankle[0] - arc.x, self.shoe.ankle[2] - arc.radius
         along = cos(angle) * dx - sin(angle) * dz  # from the arc's centre to the ankle: ahead and up
         up = sin(angle) * dx + cos(angle) * dz
-        ahead = np.array([cos(at.yaw), sin(at.yaw), 0.0])
+        ahead = np.array([cos(at.heading), sin(at.heading), 0.0])
         above = np.array([0.0, 0.0, 1.0])
         place = self._centre(arc, at)
         position = place + ahead * (along - arc.radius * angle) + above * up
@@ -192,16 +191,16 @@ class _Pieces:
         acceleration = ahead * ((-up - arc.radius) * change - along * rate**2) + above * (along * change - up * rate**2)
         return position, velocity, acceleration
 
-    def _centre(self, arc: Rocker, at: FootStand) -> Array:
+    def _centre(self, arc: Rocker, at: Pose) -> Array:
         """The centre of an arc's circle while the foot stands flat."""
         forward = arc.x - self.shoe.ankle[0]
-        return np.array([at.x + cos(at.yaw) * forward, at.y + sin(at.yaw) * forward, at.z + arc.radius])
+        return np.array([at.x + cos(at.heading) * forward, at.y + sin(at.heading) * forward, at.z + arc.radius])
 
     def _roll(
         self,
         phase: Phase,
         arc: Rocker,
-        at: FootStand,
+        at: Pose,
         begin: float,
         end: float,
         pitch: Array,
@@ -210,25 +209,13 @@ class _Pieces:
         place = [constant(float(value)) for value in self._centre(arc, at)]
         if give is not None:
             place = [a + b for a, b in zip(place, give, strict=True)]
-        curves = [*place, pitch, constant(at.yaw), constant(0.0)]
+        curves = [*place, pitch, constant(at.heading), constant(0.0)]
         self._add(begin, end, curves, (arc.x, arc.radius), arc.radius, phase)
 
     def _add(
         self, begin: float, end: float, curves: list[Array], carried: tuple[float, float], radius: float, phase: Phase
     ) -> None:
         self.rows.append((begin, end - begin, curves, carried, radius, PHASES.index(phase)))
-
-    def done(self) -> FootMotion:
-        begin, duration, curves, carried, radius, phase = zip(*self.rows, strict=True)
-        return FootMotion(
-            begin=np.array(begin),
-            duration=np.array(duration),
-            curves=np.array(curves),
-            carried=np.array(carried),
-            radius=np.array(radius),
-            phase=np.array(phase, dtype=np.intp),
-            rides=self.rides,
-        )
 
 
 def _from_rest(end: tuple[float, float]) -> Array:
@@ -241,9 +228,7 @@ def _landing(stride: PlannedStride) -> Array:
     return stride.strike_pitch * part(_from_rest(LAND), 1.0, 0.0)
 
 
-def _swing_pitch(
-    off: tuple[float, float, float], strike: tuple[float, float, float], duration: float
-) -> tuple[Array, Array]:
+def _swing_pitch(off: End, strike: End, duration: float) -> tuple[Array, Array]:
     """Pitch in swing: the reversal after toe-off, then a rate that is nearly steady until the foot is braked.
 
     With r = rate after the reversal of length a, b the rest, the pitch there is off + a (rate_off + r) / 2, and r is
@@ -255,9 +240,7 @@ def _swing_pitch(
     return join(off, middle, a), join(middle, strike, b)
 
 
-def _kicked_pitch(
-    off: tuple[float, float, float], strike: tuple[float, float, float], duration: float
-) -> tuple[Array, Array]:
+def _kicked_pitch(off: End, strike: End, duration: float) -> tuple[Array, Array]:
     """Pitch in a runner's swing: the heel goes up to KICK, and then the foot swings through."""
     a, b = KICKED * duration, (1.0 - KICKED) * duration
     top = (KICK, 0.0, KICKING * (strike[0] - KICK) / b**2)
@@ -274,7 +257,7 @@ def _pitch_at(pitches: tuple[Array, Array], s: Array, turn: float) -> Array:
     return np.where(s < turn, early, late)
 
 
-def _ends(curve: Array, s: float, duration: float) -> tuple[float, float, float]:
+def _ends(curve: Array, s: float, duration: float) -> End:
     """Value, velocity and acceleration of a curve at s, per second."""
     value, slope, bend = (float(evaluate(curve, s, order)) for order in range(3))
     return value, slope / duration, bend / duration**2
@@ -286,7 +269,7 @@ def _residual(stride: PlannedStride) -> tuple[float, float, float]:
     if stride.manner is not Manner.WALK:
         style = style_of(stride.manner, stride.speed)
         slide, sink = style.slide, style.sink
-    return (slide * cos(stride.end.yaw), slide * sin(stride.end.yaw), -sink)
+    return (slide * cos(stride.end.heading), slide * sin(stride.end.heading), -sink)
 
 
 def _give(speed: float) -> Array:

@@ -10,46 +10,15 @@ from __future__ import annotations
 from math import atan2, cos, hypot, sin
 
 import numpy as np
-from attrs import frozen
+from attrs import evolve, frozen
 
 from ...types import Activity, Foot, Phase, Vec3
+from ..routes.lift import CarRide
 from ..routes.styles import Manner
 from .curves import Array
-from .gait import WalkPlan
-from .motion import FootMotion
+from .gait import Climb, WalkPlan
+from .motion import FootMotion, Kinematics
 from .shoe import Mounting
-
-
-@frozen
-class TrueFlight:
-    """A flight from when the first foot leaves the one floor until both are on the other, s. `steps`: its risers;
-    `height`: from floor to floor, m, negative down."""
-
-    t_start: float
-    t_end: float
-    up: bool
-    steps: int
-    height: float
-
-
-@frozen
-class TrueRide:
-    """A ride from when the car moves until it stands, s; `height` in m, negative down."""
-
-    t_start: float
-    t_end: float
-    height: float
-
-
-def flights(plan: WalkPlan) -> tuple[TrueFlight, ...]:
-    return tuple(
-        TrueFlight(climb.begin, climb.end, climb.flight.rise > 0.0, climb.flight.steps, climb.flight.height)
-        for climb in plan.climbs
-    )
-
-
-def rides(plan: WalkPlan) -> tuple[TrueRide, ...]:
-    return tuple(TrueRide(car.begin, car.end, car.height) for car in plan.rides)
 
 
 def activities(plan: WalkPlan) -> tuple[tuple[float, float, Activity], ...]:
@@ -58,7 +27,7 @@ def activities(plan: WalkPlan) -> tuple[tuple[float, float, Activity], ...]:
     found = [(begin, end, Activity.WALKING) for begin, end in plan.bouts]
     found += _runs(plan)
     for climb in plan.climbs:
-        found.append((climb.begin, climb.end, Activity.STAIRS_UP if climb.flight.rise > 0.0 else Activity.STAIRS_DOWN))
+        found.append((climb.begin, climb.end, Activity.STAIRS_UP if climb.up else Activity.STAIRS_DOWN))
     for car in plan.rides:
         found.append((car.begin, car.end, Activity.ELEVATOR_UP if car.height > 0.0 else Activity.ELEVATOR_DOWN))
     told: list[tuple[float, float, Activity]] = []
@@ -87,20 +56,6 @@ def _runs(plan: WalkPlan) -> list[tuple[float, float, Activity]]:
     return found
 
 
-def elevation(plan: WalkPlan, t: Array) -> Array:
-    """How much higher than at t = 0 the wearer is, m: the mean of what both feet stand on."""
-    total = np.zeros(len(t))
-    for foot in Foot:
-        when, climbed = [0.0], [0.0]
-        for stride in plan.strides[foot]:
-            when += [stride.toe_off, stride.heel_strike]
-            climbed += [climbed[-1], climbed[-1] + stride.end.z - stride.start.z]
-        total += 0.5 * np.interp(t, when, climbed)
-    for car in plan.rides:
-        total += car.at(t)[0][:, 2]
-    return total
-
-
 @frozen
 class TrueStep:
     """One foot from foot-flat to its next foot-flat; for the first step from t = 0, when it stood already."""
@@ -120,17 +75,6 @@ class TrueStep:
     """rad, in (-pi, pi]."""
 
 
-@frozen
-class PoseAt:
-    """Where a foot's sensor was at some instants: `position` (N, 3) m, `velocity` (N, 3) m/s, `attitude` (N, 4)
-    sensor to world."""
-
-    t: Array
-    position: Array
-    velocity: Array
-    attitude: Array
-
-
 @frozen(eq=False)
 class FootTruth:
     """One foot. Times are true times, s; the stand before the first step has no events."""
@@ -145,10 +89,10 @@ class FootTruth:
     motion: FootMotion
     mounting: Mounting
 
-    def pose(self, t: Array | float) -> PoseAt:
-        when = np.atleast_1d(np.asarray(t, dtype=np.float64))
-        found = self.motion.at(when, self.mounting)
-        return PoseAt(when, found.position - np.array(self.origin), found.velocity, found.attitude)
+    def pose(self, t: Array | float) -> Kinematics:
+        """Everything about the sensor at any instants, its position relative to the first one."""
+        found = self.motion.at(np.atleast_1d(np.asarray(t, dtype=np.float64)), self.mounting)
+        return evolve(found, position=found.position - np.array(self.origin))
 
     def phases(self, t: Array | float) -> list[Phase]:
         return self.motion.phases(np.atleast_1d(np.asarray(t, dtype=np.float64)))
@@ -156,22 +100,21 @@ class FootTruth:
 
 @frozen(eq=False)
 class Truth:
-    """The whole walk: `duration` in s, `path_length` of the route's centre line in m.
+    """The whole walk: `duration` in s.
 
     `activities`: what the wearer does from when to when, s, without a gap. `flights` and `rides` are the stairs that
     were walked and the lifts that were taken, in order.
     """
 
     duration: float
-    path_length: float
     feet: dict[Foot, FootTruth]
     activities: tuple[tuple[float, float, Activity], ...]
-    flights: tuple[TrueFlight, ...]
-    rides: tuple[TrueRide, ...]
+    flights: tuple[Climb, ...]
+    rides: tuple[CarRide, ...]
     plan: WalkPlan
 
-    def pose(self, foot: Foot, t: Array | float) -> PoseAt:
-        """Position (relative to the foot's first), velocity and attitude of a foot's sensor at any instants."""
+    def pose(self, foot: Foot, t: Array | float) -> Kinematics:
+        """Everything about a foot's sensor at any instants, its position relative to the foot's first."""
         return self.feet[foot].pose(t)
 
     def steps(self, foot: Foot) -> tuple[TrueStep, ...]:
@@ -184,7 +127,17 @@ class Truth:
     def elevation(self, t: Array | float) -> Array:
         """How much higher than at t = 0 the wearer is at instants `t`, (N), m: the mean of the floors or treads that
         both feet stand on, between which a foot in the air goes evenly."""
-        return elevation(self.plan, np.atleast_1d(np.asarray(t, dtype=np.float64)))
+        t = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        total = np.zeros(len(t))
+        for foot in Foot:
+            when, climbed = [0.0], [0.0]
+            for stride in self.plan.strides[foot]:
+                when += [stride.toe_off, stride.heel_strike]
+                climbed += [climbed[-1], climbed[-1] + stride.end.z - stride.start.z]
+            total += 0.5 * np.interp(t, when, climbed)
+        for car in self.plan.rides:
+            total += car.at(t)[0][:, 2]
+        return total
 
 
 def foot_truth(foot: Foot, plan: WalkPlan, motion: FootMotion, mounting: Mounting) -> FootTruth:
@@ -195,7 +148,7 @@ def foot_truth(foot: Foot, plan: WalkPlan, motion: FootMotion, mounting: Mountin
     steps = []
     for k, stride in enumerate(strides):
         dx, dy, dz = (float(v) for v in places[k + 1] - places[k])
-        turned = stride.end.yaw - stride.start.yaw
+        turned = stride.end.heading - stride.start.heading
         steps.append(
             TrueStep(
                 foot=foot,

@@ -10,7 +10,7 @@ from ...types import SITE_OF_FOOT, Foot, Layout, Sample
 from ..routes.planner import plan
 from ..routes.route import Route
 from ..sensors.parts import Imu
-from ..sensors.sensors import errors, instants, low_pass, sample
+from ..sensors.sensors import instants, measure_imu, samples_of
 from .curves import Array
 from .gait import Wearer
 from .limbs import Body, body
@@ -18,7 +18,7 @@ from .load import loads
 from .motion import Kinematics
 from .shoe import IN_SOLE, Mounting
 from .strides import foot_motions
-from .truth import Truth, activities, flights, foot_truth, rides
+from .truth import Truth, activities, foot_truth
 
 
 class Walker:
@@ -48,7 +48,7 @@ class Walker:
         places = {foot: (mountings or {}).get(foot, IN_SOLE) for foot in Foot}
         feet = {foot: foot_truth(foot, self.plan, self.motions[foot], places[foot]) for foot in Foot}
         plan = self.plan
-        return Truth(plan.duration, self.route.length, feet, activities(plan), flights(plan), rides(plan), plan)
+        return Truth(plan.duration, feet, activities(plan), plan.climbs, plan.rides, plan)
 
     def kinematics(self, foot: Foot, t: Array, mounting: Mounting = IN_SOLE) -> Kinematics:
         """Exact motion of a foot's sensor at any instants."""
@@ -79,27 +79,7 @@ class Walker:
             exact = self.kinematics(foot, t, mounting)
             acc, gyro = exact.force, exact.rate
         else:
-            t, acc, gyro = self._imperfect(foot, rate, count, errors, mounting)
-        cells = None if layout is None else self.cell_loads(layout, t).tolist()
-        site = SITE_OF_FOOT[foot]
-        found = []
-        for k, (when, (ax, ay, az), (gx, gy, gz)) in enumerate(
-            zip(t.tolist(), acc.tolist(), gyro.tolist(), strict=True)
-        ):
-            pressure = None if cells is None else tuple(cells[k])
-            found.append(Sample(when, site, (ax, ay, az), (gx, gy, gz), pressure))
-        return found
-
-    def _imperfect(
-        self, foot: Foot, rate: float, count: int, part: Imu, mounting: Mounting
-    ) -> tuple[Array, Array, Array]:
-        rng = np.random.default_rng([self.seed, 1, list(Foot).index(foot)])
-        when = instants(0.0, 1.0 / rate, count)
-        true = self.kinematics(foot, when.fine, mounting)
-        acc = errors(true.force, when, part.acc, rng)
-        gyro = errors(true.rate, when, part.gyro, rng, true.force)
-        return (
-            when.taken,
-            sample(low_pass(acc, when.rate, min(part.acc.bandwidth, 0.5 * rate)), when),
-            sample(low_pass(gyro, when.rate, min(part.gyro.bandwidth, 0.5 * rate)), when),
-        )
+            when = instants(0.0, 1.0 / rate, count)
+            t, rng = when.taken, np.random.default_rng([self.seed, 1, list(Foot).index(foot)])
+            acc, gyro = measure_imu(self.kinematics(foot, when.fine, mounting), when, errors, rng, 0.5 * rate)
+        return samples_of(SITE_OF_FOOT[foot], t, acc, gyro, None if layout is None else self.cell_loads(layout, t))

@@ -13,9 +13,10 @@ from math import atan2, hypot
 from ...types.attrs import define, field
 from ..checks import MOST_LEVELS, MOST_WALLS
 from ..doors import BESIDE, Line, Openings, cut
-from ..outlines import Ring, edges, holds, middle, tidy
+from ..outlines import Ring, edges, holds, middle, tidy, with_holes
 from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Point, Wall
 from ..segments import distance
+from .earth import to_mm
 
 _TOGETHER = 2e-3
 """m; walls on one line lie this near to it, and touch across such a gap."""
@@ -35,11 +36,10 @@ class Border(Enum):
 
 @define
 class Space:
-    """A space on one level. `rings`: its outline, then its holes. `ring`: both in one."""
+    """A space on one level. `rings`: its outline, then its holes."""
 
     level: str
     rings: tuple[Ring, ...]
-    ring: Ring
     border: Border
 
 
@@ -53,9 +53,13 @@ class ConnectorPart:
     level: str
     place: Point | None
     rings: tuple[Ring, ...]
-    ring: Ring
     group: str
     rise: float | None = None
+
+    @property
+    def ring(self) -> Ring:
+        """Its outline and the holes in one."""
+        return with_holes(self.rings)
 
 
 @define
@@ -105,8 +109,8 @@ class Drawing:
         return tuple(sorted(found, key=lambda door: (door.start, door.end, door.name)))
 
     def _rooms(self, level: str) -> tuple[Ring, ...]:
-        return tuple(sorted(tidy(one.ring) for one in self.spaces
-                            if one.level == level and one.border is not Border.SOLID))  # fmt: skip
+        here = [one for one in self.spaces if one.level == level and one.border is not Border.SOLID]
+        return tuple(sorted([tidy(with_holes(one.rings)) for one in here]))
 
     def _walls(self, level: str) -> tuple[Wall, ...]:
         doors: list[Line] = [(start, end) for at, start, end, _ in self.doors if at == level]
@@ -122,7 +126,7 @@ class Drawing:
         for i, (lines, border) in enumerate(loose):
             if border is Border.OPEN:
                 walls.update(cut(sorted(lines, key=_ends), borders, SHARED, but=i))
-        kept = cut(_merged(walls), Openings(doors), BESIDE)
+        kept = cut(merged(walls), Openings(doors), BESIDE)
         return tuple(sorted({_wall(wall.start, wall.end) for wall in kept}, key=_ends))
 
 
@@ -134,7 +138,7 @@ def _ends(wall: Wall) -> tuple[Point, Point]:
     return wall.start, wall.end
 
 
-def _merged(walls: set[Wall]) -> list[Wall]:
+def merged(walls: set[Wall]) -> list[Wall]:
     """Walls that lie on one line and touch, made one: most walls are drawn twice, once from either room."""
     found: list[Wall] = []
     for wall in sorted(walls, key=_on_line):
@@ -178,8 +182,16 @@ def _border_of(part: ConnectorPart, doors: list[Line]) -> Border:
 def _joined(parts: list[ConnectorPart], numbers: dict[str, int], storeys: dict[str, Storey]) -> list[Connector]:
     """Parts joined into connectors: those of one group, and those that lie over each other on levels whose order is one
     apart or less, or next to each other in the list of levels."""
-    ordered = sorted(parts, key=lambda part: (part.kind.value, numbers[part.level], _corner(part), part.name))
-    middles = [_middle(part) for part in ordered]
+    ordered = sorted(
+        parts,
+        key=lambda part: (
+            part.kind.value,
+            numbers[part.level],
+            min(part.ring, default=part.place or (0.0, 0.0)),
+            part.name,
+        ),
+    )
+    middles = [middle(part.ring) if len(part.ring) >= 3 else part.place or (0.0, 0.0) for part in ordered]
     leader = list(range(len(ordered)))
 
     def lead(i: int) -> int:
@@ -202,14 +214,6 @@ def _joined(parts: list[ConnectorPart], numbers: dict[str, int], storeys: dict[s
     return sorted(found, key=lambda one: (one.kind.value, one.name, one.stops[0].place))
 
 
-def _corner(part: ConnectorPart) -> Point:
-    return min(part.ring) if part.ring else part.place or (0.0, 0.0)
-
-
-def _middle(part: ConnectorPart) -> Point:
-    return middle(part.ring) if len(part.ring) >= 3 else part.place or (0.0, 0.0)
-
-
 def _within(place: Point, part: ConnectorPart) -> bool:
     return len(part.ring) >= 3 and holds(edges(part.ring), *place)
 
@@ -224,7 +228,7 @@ def _connector(parts: list[ConnectorPart], numbers: dict[str, int]) -> Connector
     for part in parts:
         outline = tidy(part.ring) if len(part.ring) >= 3 else ()
         at = part.place if part.place is not None else middle(outline)
-        stop = ConnectorStop(part.level, (round(at[0], 3) + 0.0, round(at[1], 3) + 0.0), outline)
+        stop = ConnectorStop(part.level, to_mm(at), outline)
         if part.level not in stops or not stops[part.level].outline:
             stops[part.level] = stop
     name = next((part.name for part in parts if part.name), "")

@@ -42,6 +42,10 @@ class Tangent:
         s, c = self._turn
         return c * east - s * north, s * east + c * north
 
+    def place(self, position: Point) -> Point:
+        """The same at (longitude, latitude), to the millimetre: degrees in a file are never better."""
+        return to_mm(self.plan(position[1], position[0]))
+
     def degrees(self, point: Point) -> tuple[float, float]:
         """(latitude, longitude) of a point of the plan."""
         s, c = self._turn
@@ -80,5 +84,5 @@ def south_west(places: list[tuple[float, float]]) -> Anchor:
 
 
 def to_mm(point: Point) -> Point:
-    """Degrees in a file are never good to a millimetre; and so the same place has the same numbers in every format."""
+    """So that the same place has the same numbers in every format."""
     return round(point[0], 3) + 0.0, round(point[1], 3) + 0.0

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from math import isfinite
 from typing import Any, NoReturn
 
-from ...types.attrs import frozen
-from ..plan import FloorPlanError
+from ...types.attrs import evolve, frozen
+from ..outlines import CLOSED, Ring, not_closed, ring
+from ..plan import Anchor, FloorPlanError, Point
+from ..records import shown
+from .earth import south_west
 
 MOST_CORNERS = 1_000_000
 """Of a file: more points than any building has."""
@@ -18,6 +21,12 @@ LARGEST = 1e9
 
 Position = tuple[float, float]
 """(x, y) as the file has them: m, or (longitude, latitude) in degrees."""
+
+Place = Callable[[Position], Point]
+"""From the file's coordinates to the plan's."""
+
+_DEPTHS = {"Point": 0, "MultiPoint": 1, "LineString": 1, "MultiLineString": 2, "Polygon": 2, "MultiPolygon": 3}
+"""How deep the positions of a geometry lie in lists."""
 
 
 @frozen
@@ -29,7 +38,7 @@ class Feature:
     name: str
     kind: str
     properties: dict[str, Any]
-    geometry: str
+    geometry: str = "none"
     points: tuple[Position, ...] = ()
     lines: tuple[tuple[tuple[Position, ...], ...], ...] = ()
 
@@ -45,7 +54,7 @@ class Feature:
             return value
         if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < LARGEST:
             return f"{value:g}" if isinstance(value, float) else str(value)
-        return self.wrong(f"its {key} is missing" if value is None else f"its {key} is {_shown(value)}, not a text")
+        return self.wrong(f"its {key} is missing" if value is None else f"its {key} is {shown(value)}, not a text")
 
     def figure(self, key: str) -> float | None:
         """A number of the properties, or None where there is none."""
@@ -58,6 +67,36 @@ class Feature:
         if value is not None and value != int(value):
             self.wrong(f"its {key} is {value:g}, not a whole number")
         return None if value is None else int(value)
+
+    def ordinal(self) -> int:
+        """Of a level, which has an id as well."""
+        if not self.id:
+            self.wrong("a level needs an id")
+        ordinal = self.whole("ordinal")
+        return self.wrong("its ordinal is missing") if ordinal is None else ordinal
+
+    def placed(self, line: Iterable[Position], place: Place) -> list[Point]:
+        """A line of it on the plan."""
+        try:
+            return [place(position) for position in line]
+        except FloorPlanError as error:
+            self.wrong(str(error))
+
+    def polygons(self, place: Place, remark: Callable[[str], None]) -> list[tuple[Ring, ...]]:
+        """Of each of its polygons: the outline and the holes."""
+        found = []
+        for polygon in self.lines:
+            rings = []
+            for line in polygon:
+                corners, open_by = ring(self.placed(line, place))
+                if len(corners) < 3:
+                    self.wrong("its outline has fewer than three corners")
+                if open_by > CLOSED:
+                    remark(not_closed(open_by))
+                rings.append(corners)
+            if rings:
+                found.append(tuple(rings))
+        return found or self.wrong("has no outline")
 
 
 def parsed(data: bytes) -> dict[str, Any]:
@@ -82,13 +121,13 @@ def features(collection: dict[str, Any], kind_key: str, of_properties: bool) -> 
     if collection.get("type") != "FeatureCollection" or not isinstance(collection.get("features"), list):
         raise FloorPlanError("is not a GeoJSON FeatureCollection")
     seen: set[str] = set()
-    corners = _Corners()
+    corners = 0
     for i, told in enumerate(collection["features"]):
         if not isinstance(told, dict) or told.get("type") != "Feature":
             raise FloorPlanError(f"feature {i} is not a GeoJSON Feature")
         given = told.get("id")
         if not (given is None or isinstance(given, str) or type(given) is int and abs(given) < LARGEST):
-            raise FloorPlanError(f"feature {i}: its id is {_shown(given)}, neither a text nor a whole number")
+            raise FloorPlanError(f"feature {i}: its id is {shown(given)}, neither a text nor a whole number")
         own = "" if given is None else str(given)
         if own and own in seen:
             raise FloorPlanError(f"two features have the id {own!r}")
@@ -103,67 +142,48 @@ def features(collection: dict[str, Any], kind_key: str, of_properties: bool) -> 
             raise FloorPlanError(f"feature {own[:60] or i!r}: its {kind_key} is missing")
         word = kind[:20] if kind.isascii() and kind.isalpha() else "feature"
         name = f"{word} {own[:60]!r}" if own else f"feature {i}"
-        yield _shaped(Feature(own, name, kind, properties, "none"), told.get("geometry"), corners)
+        one = _shaped(Feature(own, name, kind, properties), told.get("geometry"))
+        corners += len(one.points) + sum([len(line) for part in one.lines for line in part])
+        if corners > MOST_CORNERS:
+            raise FloorPlanError(f"has more than {MOST_CORNERS} points")
+        yield one
 
 
-class _Corners:
-    """How many points were read."""
-
-    def __init__(self) -> None:
-        self.count = 0
-
-
-def _shaped(feature: Feature, geometry: object, corners: _Corners) -> Feature:
+def _shaped(feature: Feature, geometry: object) -> Feature:
     if geometry is None:
         return feature
     if not isinstance(geometry, dict) or not isinstance(geometry.get("type"), str):
         feature.wrong("its geometry is no object with a type")
-    kind, told = geometry["type"], geometry.get("coordinates")
-    points: tuple[Position, ...] = ()
-    lines: tuple[tuple[tuple[Position, ...], ...], ...] = ()
-    if kind == "Point":
-        points = (_position(told, feature),)
-    elif kind == "MultiPoint":
-        points = _line(told, feature, corners)
-    elif kind == "LineString":
-        lines = ((_line(told, feature, corners),),)
-    elif kind in ("MultiLineString", "Polygon"):
-        lines = (tuple(_line(line, feature, corners) for line in _list(told, feature)),)
-    elif kind == "MultiPolygon":
-        lines = tuple(tuple(_line(line, feature, corners) for line in _list(one, feature))
-                      for one in _list(told, feature))  # fmt: skip
-    else:
+    kind = geometry["type"]
+    if kind not in _DEPTHS:
         feature.wrong(f"its geometry is a {kind[:30]!r}")
-    return Feature(feature.id, feature.name, feature.kind, feature.properties, kind, points, lines)
+    found = positions(geometry.get("coordinates"), feature, _DEPTHS[kind])
+    if kind in ("Point", "MultiPoint"):
+        return evolve(feature, geometry=kind, points=found if _DEPTHS[kind] else (found,))
+    for _ in range(3 - _DEPTHS[kind]):
+        found = (found,)
+    return evolve(feature, geometry=kind, lines=found)
 
 
-def _list(told: object, feature: Feature) -> list[Any]:
-    return told if isinstance(told, list) else feature.wrong("its coordinates are no list")
-
-
-def _line(told: object, feature: Feature, corners: _Corners) -> tuple[Position, ...]:
-    line = _list(told, feature)
-    corners.count += len(line)
-    if corners.count > MOST_CORNERS:
-        raise FloorPlanError(f"has more than {MOST_CORNERS} points")
-    return tuple([_position(one, feature) for one in line])
-
-
-def _position(told: object, feature: Feature) -> Position:
-    pair = _list(told, feature)
-    if len(pair) < 2:
+def positions(told: object, feature: Feature, depth: int = 0) -> Any:
+    """A position, or positions in tuples as deep as they are in lists."""
+    if not isinstance(told, list):
+        feature.wrong("its coordinates are no list")
+    if depth:
+        return tuple([positions(one, feature, depth - 1) for one in told])
+    if len(told) < 2:
         feature.wrong("it has a position without two coordinates")
     what = f"{feature.name}: a coordinate"
-    return number(pair[0], what), number(pair[1], what)
+    return number(told[0], what), number(told[1], what)
+
+
+def anchor_of(some: Iterable[Feature]) -> Anchor:
+    """The south-west corner of all that is drawn, in degrees."""
+    drawn = [p for one in some for p in (*one.points, *(p for part in one.lines for line in part for p in line))]
+    return south_west([(latitude, longitude) for longitude, latitude in drawn])
 
 
 def number(told: object, what: str) -> float:
     if isinstance(told, bool) or not isinstance(told, int | float) or not abs(told) < LARGEST or not isfinite(told):
-        raise FloorPlanError(f"{what} is {_shown(told)}, not a number that can be")
+        raise FloorPlanError(f"{what} is {shown(told)}, not a number that can be")
     return float(told)
-
-
-def _shown(told: object) -> str:
-    if isinstance(told, dict | list):
-        return "a list" if isinstance(told, list) else "an object"
-    return repr(told)[:40] if not isinstance(told, int) or abs(told) < 10**30 else "a huge number"

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from ...types.attrs import evolve
 from ..doors import with_doors_cut
-from ..outlines import CLOSED, Ring, middle, not_closed, ring, with_holes, without_repeats
-from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Point, Wall
-from .earth import Tangent, south_west, to_mm
-from .features import Feature, Position, features, number
+from ..outlines import Ring, middle, with_holes, without_repeats
+from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Wall
+from .earth import Tangent
+from .features import Feature, Place, anchor_of, features, number
 
 FORMAT = "solepath-floorplan"
 VERSION = 1
@@ -29,17 +30,13 @@ def of_collection(told: dict[str, Any], storey: float) -> FloorPlan:
         if one.kind not in _KINDS:
             one.wrong(f"there is no feature {one.kind[:30]!r}, only {', '.join(_KINDS)}")
     reader = _GeoJsonReader(known, *_frame(told, known))
-    return reader.plan(_name(told), storey, told.get("elevations", "known"))
-
-
-def _name(told: dict[str, Any]) -> str:
     name = told.get("name", "")
     if not isinstance(name, str):
         raise FloorPlanError("its name is no text")
-    return name
+    return reader.plan(name, storey, told.get("elevations", "known"))
 
 
-def _frame(told: dict[str, Any], known: list[Feature]) -> tuple[Anchor | None, Callable[[Position], Point]]:
+def _frame(told: dict[str, Any], known: list[Feature]) -> tuple[Anchor | None, Place]:
     """The anchor, and from the file's coordinates to the plan's."""
     frame, given = told.get("frame"), told.get("anchor")
     anchor = None if given is None else _anchor(given)
@@ -48,11 +45,8 @@ def _frame(told: dict[str, Any], known: list[Feature]) -> tuple[Anchor | None, C
     if frame != "wgs84":
         raise FloorPlanError(f"its frame is {frame!r}; it can be 'local' or 'wgs84'")
     if anchor is None:
-        every = [p for one in known for p in one.points] + [p for one in known for part in one.lines for line in part
-                                                            for p in line]  # fmt: skip
-        anchor = south_west([(latitude, longitude) for longitude, latitude in every])
-    tangent = Tangent(anchor)
-    return anchor, lambda position: to_mm(tangent.plan(position[1], position[0]))
+        anchor = anchor_of(known)
+    return anchor, Tangent(anchor).place
 
 
 def _anchor(given: object) -> Anchor:
@@ -70,7 +64,7 @@ def _anchor(given: object) -> Anchor:
 class _GeoJsonReader:
     """The features of one file on their way into records."""
 
-    def __init__(self, known: list[Feature], anchor: Anchor | None, place: Callable[[Position], Point]) -> None:
+    def __init__(self, known: list[Feature], anchor: Anchor | None, place: Place) -> None:
         self._known, self._anchor, self._place = known, anchor, place
         self._remarks: list[str] = []
         self._walls: dict[str, list[Wall]] = {}
@@ -86,9 +80,8 @@ class _GeoJsonReader:
             if one.kind != "level":
                 self._take(one)
         drawn = [
-            with_doors_cut(Level(id=level.id, name=level.name, ordinal=level.ordinal, elevation=level.elevation,
-                                 walls=tuple(self._walls[level.id]), doors=tuple(self._doors[level.id]),
-                                 rooms=tuple(self._rooms[level.id])))
+            with_doors_cut(evolve(level, walls=tuple(self._walls[level.id]), doors=tuple(self._doors[level.id]),
+                                  rooms=tuple(self._rooms[level.id])))
             for level in levels
         ]  # fmt: skip
         heights = {level.id: level.elevation for level in levels}
@@ -102,11 +95,7 @@ class _GeoJsonReader:
         high = [one.figure("elevation") for one in told]
         found = []
         for one, elevation in zip(told, high, strict=True):
-            if not one.id:
-                one.wrong("a level needs an id")
-            ordinal = one.whole("ordinal")
-            if ordinal is None:
-                one.wrong("its ordinal is missing")
+            ordinal = one.ordinal()
             if elevation is None:
                 if any(other is not None for other in high):
                     one.wrong("its elevation is missing, while other levels have one")
@@ -124,8 +113,8 @@ class _GeoJsonReader:
         elif one.kind == "door":
             if one.geometry != "LineString" or len(one.lines[0][0]) != 2 or one.lines[0][0][0] == one.lines[0][0][1]:
                 one.wrong("a door is a LineString of two points")
-            start, end = one.lines[0][0]
-            self._doors[level].append(Door(self._place(start), self._place(end), one.text("name", "")))
+            start, end = one.placed(one.lines[0][0], self._place)
+            self._doors[level].append(Door(start, end, one.text("name", "")))
         elif one.kind == "room":
             if one.geometry != "Polygon":
                 one.wrong("a room is a Polygon")
@@ -138,28 +127,20 @@ class _GeoJsonReader:
             one.wrong("a wall is a LineString, a MultiLineString or a Polygon")
         found = []
         for line in one.lines[0]:
-            points = without_repeats([self._place(position) for position in line])
+            points = without_repeats(one.placed(line, self._place))
             found += [Wall(a, b) for a, b in zip(points, points[1:], strict=False)]
         if not found:
             one.wrong("has no length")
         return found
 
     def _outline(self, one: Feature, level: str) -> Ring:
-        rings = []
-        for line in one.lines[0]:
-            points, open_by = ring([self._place(position) for position in line])
-            if len(points) < 3:
-                one.wrong("its outline has fewer than three corners")
-            if open_by > CLOSED:
-                self._remarks.append(f"{one.name} on level {level!r}: {not_closed(open_by)}")
-            rings.append(points)
-        if not rings:
-            one.wrong("has no outline")
-        return with_holes(rings[0], rings[1:])
+        on = f"{one.name} on level {level!r}"
+        (rings,) = one.polygons(self._place, lambda what: self._remarks.append(f"{on}: {what}"))
+        return with_holes(rings)
 
     def _stop(self, one: Feature, level: str) -> None:
         if one.geometry == "Point":
-            stop = ConnectorStop(level, self._place(one.points[0]))
+            stop = ConnectorStop(level, one.placed(one.points, self._place)[0])
         elif one.geometry == "Polygon":
             outline = self._outline(one, level)
             given = one.properties.get("place")
@@ -167,7 +148,7 @@ class _GeoJsonReader:
                 stop = ConnectorStop(level, middle(outline), outline)
             elif isinstance(given, list) and len(given) == 2:
                 x, y = (number(value, f"{one.name}: its place") for value in given)
-                stop = ConnectorStop(level, self._place((x, y)), outline)
+                stop = ConnectorStop(level, one.placed([(x, y)], self._place)[0], outline)
             else:
                 one.wrong("its place is no position")
         else:

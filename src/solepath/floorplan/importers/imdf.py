@@ -6,14 +6,14 @@ IMDF draws units, not walls, and no heights: walls are outlines (drawing.py), an
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 
-from ..outlines import CLOSED, Ring, not_closed, ring, with_holes, without_repeats
+from ..outlines import Ring, edges, without_repeats
 from ..plan import ConnectorKind, FloorPlan, FloorPlanError, Point
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
-from .earth import Tangent, south_west, to_mm
-from .features import Feature, Position, features, parsed
+from .earth import Tangent
+from .features import Feature, anchor_of, features, parsed, positions
 
 FILES = ("manifest.json", "venue.geojson", "building.geojson", "level.geojson", "unit.geojson", "opening.geojson",
          "fixture.geojson")  # fmt: skip
@@ -42,10 +42,11 @@ def of_files(files: Mapping[str, bytes], storey: float) -> FloorPlan:
     does not fit."""
     if "manifest.json" not in files:
         raise FloorPlanError("has no manifest.json, which every IMDF archive has")
-    manifest = _file(files, "manifest.json")
-    version = manifest.get("version")
-    if not isinstance(version, str) or not version.startswith("1."):
-        raise FloorPlanError(f"manifest.json: is of version {version!r}; this release reads IMDF 1")
+    with _named("manifest.json"):
+        manifest = parsed(files["manifest.json"])
+        version = manifest.get("version")
+        if not isinstance(version, str) or not version.startswith("1."):
+            raise FloorPlanError(f"is of version {version!r}; this release reads IMDF 1")
     for needed in ("level.geojson", "unit.geojson"):
         if needed not in files:
             raise FloorPlanError(f"has no {needed}")
@@ -53,9 +54,11 @@ def of_files(files: Mapping[str, bytes], storey: float) -> FloorPlan:
     return _ImdfReader(files, language if isinstance(language, str) else "en").plan(storey)
 
 
-def _file(files: Mapping[str, bytes], name: str) -> dict[str, Any]:
+@contextmanager
+def _named(name: str) -> Iterator[None]:
+    """Complaints name the file."""
     try:
-        return parsed(files[name])
+        yield
     except FloorPlanError as error:
         raise FloorPlanError(f"{name}: {error}") from None
 
@@ -71,22 +74,18 @@ class _ImdfReader:
         self._fixtures = self._of(files, "fixture")
         buildings = self._of(files, "building") + self._of(files, "venue")
         self._drawing = Drawing(next((name for one in buildings if (name := self._label(one, "name"))), ""))
-        every = [position for one in self._levels + self._units for part in one.lines for line in part
-                 for position in line]  # fmt: skip
-        self._anchor = south_west([(latitude, longitude) for longitude, latitude in every])
-        self._tangent = Tangent(self._anchor)
+        self._anchor = anchor_of(self._levels + self._units)
+        self._place = Tangent(self._anchor).place
         self._names: dict[str, str] = {}
 
     def _of(self, files: Mapping[str, bytes], kind: str) -> list[Feature]:
         if f"{kind}.geojson" not in files:
             return []
-        try:
+        with _named(f"{kind}.geojson"):
             found = list(features(parsed(files[f"{kind}.geojson"]), "feature_type", of_properties=False))
             for one in found:
                 if one.kind != kind:
                     one.wrong(f"is a {one.kind[:30]!r} among the {kind}s")
-        except FloorPlanError as error:
-            raise FloorPlanError(f"{kind}.geojson: {error}") from None
         return found
 
     def _label(self, one: Feature, key: str) -> str:
@@ -113,20 +112,16 @@ class _ImdfReader:
         """A level goes by its short name where no other has it, and otherwise by its id."""
         shorts = [self._label(one, "short_name") for one in self._levels]
         for one, short in zip(self._levels, shorts, strict=True):
-            if not one.id:
-                one.wrong("a level needs an id")
-            ordinal = one.whole("ordinal")
-            if ordinal is None:
-                one.wrong("its ordinal is missing")
+            ordinal = one.ordinal()
             name = short if short and shorts.count(short) == 1 else one.id
             if name in self._drawing.storeys:
                 one.wrong(f"its id is the short name of another level, {name!r}")
             self._names[one.id] = name
             self._drawing.storeys[name] = Storey(self._label(one, "name") or name, ordinal, float(ordinal))
             if one.properties.get("outdoor") is not True:
-                for rings, _ in self._rings(one):
+                for rings in self._rings(one):
                     for line in rings:
-                        self._drawing.lines += [(name, a, b) for a, b in zip(line, (*line[1:], line[0]), strict=True)]
+                        self._drawing.lines += [(name, (ax, ay), (bx, by)) for ax, ay, bx, by in edges(line)]
 
     def _level(self, one: Feature) -> str:
         level = one.properties.get("level_id")
@@ -141,54 +136,30 @@ class _ImdfReader:
             border = Border.SOLID if category in _SOLID else Border.OPEN if category in _OPEN else Border.WALL
             self._space(one, level, border)
             return
-        for i, (rings, whole) in enumerate(self._rings(one)):
+        for i, rings in enumerate(self._rings(one)):
             point = None if i else self._display_point(one)
             name, group = self._label(one, "name"), f"{one.id or one.name}.{i}"
-            self._drawing.parts.append(ConnectorPart(kind, name, level, point, rings, whole, group))
+            self._drawing.parts.append(ConnectorPart(kind, name, level, point, rings, group))
 
     def _display_point(self, one: Feature) -> Point | None:
         told = one.properties.get("display_point")
         if not isinstance(told, dict) or told.get("type") != "Point":
             return None
-        shaped = list(features({"type": "FeatureCollection", "features": [
-            {"type": "Feature", "id": one.id or None, "feature_type": one.kind, "geometry": told}]},
-            "feature_type", of_properties=False))  # fmt: skip
-        return self._place(shaped[0].points[0], one)
+        return one.placed([positions(told.get("coordinates"), one)], self._place)[0]
 
     def _space(self, one: Feature, level: str, border: Border) -> None:
-        for rings, whole in self._rings(one):
-            self._drawing.spaces.append(Space(level, rings, whole, border))
+        self._drawing.spaces += [Space(level, rings, border) for rings in self._rings(one)]
 
     def _opening(self, one: Feature) -> None:
         level = self._level(one)
         if one.geometry != "LineString":
             one.wrong("an opening is a LineString")
-        points = without_repeats([self._place(position, one) for position in one.lines[0][0]])
+        points = without_repeats(one.placed(one.lines[0][0], self._place))
         name = self._label(one, "name")
         self._drawing.doors += [(level, a, b, name) for a, b in zip(points, points[1:], strict=False)]
 
-    def _rings(self, one: Feature) -> list[tuple[tuple[Ring, ...], Ring]]:
-        """Of each polygon: its outline and its holes, and both in one."""
+    def _rings(self, one: Feature) -> list[tuple[Ring, ...]]:
+        """Of each polygon: its outline and its holes."""
         if one.geometry not in ("Polygon", "MultiPolygon"):
             one.wrong(f"is no Polygon but a {one.geometry}")
-        found = []
-        for polygon in one.lines:
-            rings = []
-            for line in polygon:
-                corners, open_by = ring([self._place(position, one) for position in line])
-                if len(corners) < 3:
-                    one.wrong("its outline has fewer than three corners")
-                if open_by > CLOSED:
-                    self._drawing.remarks.append(f"{one.name}: {not_closed(open_by)}")
-                rings.append(corners)
-            if rings:
-                found.append((tuple(rings), with_holes(rings[0], rings[1:])))
-        if not found:
-            one.wrong("has no outline")
-        return found
-
-    def _place(self, position: Position, one: Feature) -> Point:
-        try:
-            return to_mm(self._tangent.plan(position[1], position[0]))
-        except FloorPlanError as error:
-            one.wrong(str(error))
+        return one.polygons(self._place, lambda what: self._drawing.remarks.append(f"{one.name}: {what}"))

@@ -10,10 +10,10 @@ from __future__ import annotations
 from math import floor
 
 from ..doors import Line, Openings
-from ..outlines import Ring, edges, holds, with_holes, without_repeats
+from ..outlines import Ring, edges, holds, without_repeats
 from ..plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Wall
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
-from .earth import Tangent, south_west, to_mm
+from .earth import Tangent, south_west
 from .osm_doors import BESIDE, door_at, door_beside
 from .osm_file import Element, OsmFile, Refs, elements, shapes_of
 from .osm_tags import BORDERS, connects, is_door, is_indoor, label, length, level_id, levels
@@ -42,7 +42,7 @@ class _OsmReader:
         self._places: dict[str, Point] = {}
         for node in nodes:
             try:
-                self._places[node.id] = to_mm(tangent.plan(node.latitude, node.longitude))
+                self._places[node.id] = tangent.place((node.longitude, node.latitude))
             except FloorPlanError as error:
                 raise FloorPlanError(f"{node.name}: {error}") from None
         named = [one.tags["name"] for one in (*file.relations.values(), *file.ways.values())
@@ -98,11 +98,10 @@ class _OsmReader:
         outlines = self._outlines(shapes)
         for level in on:
             if border in (None, Border.SOLID):
-                for rings, _ in outlines:
-                    self._drawing.lines += [(level, (ax, ay), (bx, by)) for ring in rings
-                                            for ax, ay, bx, by in edges(ring)]  # fmt: skip
+                self._drawing.lines += [(level, (ax, ay), (bx, by)) for rings in outlines for ring in rings
+                                        for ax, ay, bx, by in edges(ring)]  # fmt: skip
             else:
-                self._drawing.spaces += [Space(level, rings, whole, border) for rings, whole in outlines if border]
+                self._drawing.spaces += [Space(level, rings, border) for rings in outlines if border]
             if border is not Border.FREE:
                 self._drawing.lines += [(level, *line) for refs in lines for line in self._lines(refs)]
                 self._walled(level, shapes, lines)
@@ -111,27 +110,24 @@ class _OsmReader:
                    lines: list[Refs]) -> None:  # fmt: skip
         rise = length(one.tags.get("step:height"))
         rise = rise if rise is not None and 0.02 <= rise <= 0.6 else None
-        for rings, whole in self._outlines(shapes):
-            self._drawing.parts += [
-                ConnectorPart(kind, label(one), level, None, rings, whole, one.name, rise) for level in on
-            ]
+        for rings in self._outlines(shapes):
+            parts = self._drawing.parts
+            parts += [ConnectorPart(kind, label(one), level, None, rings, one.name, rise) for level in on]
         for level in on:
             self._walled(level, shapes, [])
         for refs in lines:
             up = refs[::-1] if one.tags.get("incline", "up").startswith(("down", "-")) else refs
             for i, level in enumerate(on):  # the ends are known, and what is between them lies between them
                 at = self._places[up[round(i * (len(up) - 1) / max(len(on) - 1, 1))]]
-                self._drawing.parts.append(ConnectorPart(kind, label(one), level, at, (), (), one.name, rise))
+                self._drawing.parts.append(ConnectorPart(kind, label(one), level, at, (), one.name, rise))
 
-    def _outlines(self, shapes: list[list[Refs]]) -> list[tuple[tuple[Ring, ...], Ring]]:
-        """Of each shape: its outline and its holes, and both in one."""
+    def _outlines(self, shapes: list[list[Refs]]) -> list[tuple[Ring, ...]]:
+        """Of each shape: its outline and its holes."""
         found = []
         for shape in shapes:
             rings = [tuple(without_repeats([self._places[ref] for ref in refs])) for refs in shape]
-            rings = [ring for ring in rings if len(set(ring)) >= 3]
-            if rings:
-                found.append((tuple(rings), with_holes(rings[0], rings[1:])))
-        return found
+            found.append(tuple([ring for ring in rings if len(set(ring)) >= 3]))
+        return [rings for rings in found if rings]
 
     def _lines(self, refs: Refs) -> list[Line]:
         points = without_repeats([self._places[ref] for ref in refs])
@@ -163,7 +159,7 @@ class _OsmReader:
         kind, place = connects(one), self._places[one.id]
         told = [level_id(level) for level in self._levels[one.id]]
         if kind is not None:
-            self._drawing.parts += [ConnectorPart(kind, label(one), level, place, (), (), one.name) for level in told]
+            self._drawing.parts += [ConnectorPart(kind, label(one), level, place, (), one.name) for level in told]
             return
         width = length(one.tags.get("width", one.tags.get("door:width")))
         for level in told or sorted(self._next):

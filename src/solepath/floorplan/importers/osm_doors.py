@@ -6,6 +6,7 @@ from math import hypot
 
 from ..doors import Line
 from ..plan import Point
+from .earth import to_mm
 
 WIDTH = 1.0
 """m; of a door whose node tells none."""
@@ -64,4 +65,4 @@ def _way(a: Point, b: Point) -> tuple[float, float, float]:
 
 
 def _moved(place: Point, ux: float, uy: float, by: float) -> Point:
-    return round(place[0] + by * ux, 3) + 0.0, round(place[1] + by * uy, 3) + 0.0
+    return to_mm((place[0] + by * ux, place[1] + by * uy))

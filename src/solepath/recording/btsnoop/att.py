@@ -67,21 +67,24 @@ HANDLE = Struct("handle" / Int16ul, Terminated)
 HANDLE_VALUE = Struct("handle" / Int16ul, "value" / GreedyBytes)
 BLOB_REQUEST = Struct("handle" / Int16ul, "offset" / Int16ul, Terminated)
 TYPE_REQUEST = Struct("first" / Int16ul, "last" / Int16ul, "type" / GreedyBytes)
-
-
-def _uuid_size(context: Any) -> int:
-    return 2 if context._.format == 1 else 16
+ASKED: dict[int, Any] = {
+    Op.MTU_REQUEST: MTU,
+    Op.READ_BY_TYPE: TYPE_REQUEST,
+    Op.READ: HANDLE,
+    Op.READ_BLOB: BLOB_REQUEST,
+    Op.WRITE: HANDLE_VALUE,
+}
+"""The bodies of the requests whose answers tell something."""
 
 
 INFORMATION = Struct(
     "format" / Int8ul,
-    "entries" / GreedyRange(Struct("handle" / Int16ul, "type" / Bytes(_uuid_size))),
+    "entries"
+    / GreedyRange(Struct("handle" / Int16ul, "type" / Bytes(lambda context: 2 if context._.format == 1 else 16))),
     Terminated,
 )
 TYPE_RESPONSE = Struct(
-    "size" / Int8ul,
-    "entries" / GreedyRange(Struct("handle" / Int16ul, "value" / Bytes(this._.size - 2))),
-    Terminated,
+    "size" / Int8ul, "entries" / GreedyRange(Struct("handle" / Int16ul, "value" / Bytes(this._.size - 2))), Terminated
 )
 DECLARATION = Struct("properties" / Int8ul, "handle" / Int16ul, "type" / GreedyBytes)
 SEVERAL_VALUES = Struct(
@@ -149,26 +152,14 @@ class Conversation:
         return self._values
 
     def _client(self, opcode: int, body: bytes) -> None:
-        match opcode:
-            case Op.WRITE_COMMAND:
-                said = parse_whole(HANDLE_VALUE, body)
-                self._values.append(AttValue(AttOperation.WRITTEN, said.handle, said.value))
-            case Op.PREPARE_WRITE:
-                self.flaws["long writes, which are passed over"] += 1
+        if opcode == Op.WRITE_COMMAND:
+            said = parse_whole(HANDLE_VALUE, body)
+            self._values.append(AttValue(AttOperation.WRITTEN, said.handle, said.value))
+        if opcode == Op.PREPARE_WRITE:
+            self.flaws["long writes, which are passed over"] += 1
         if opcode not in REQUESTS:
             return
-        asked: Any = None
-        match opcode:
-            case Op.MTU_REQUEST:
-                asked = parse_whole(MTU, body)
-            case Op.READ_BY_TYPE:
-                asked = parse_whole(TYPE_REQUEST, body)
-            case Op.READ:
-                asked = parse_whole(HANDLE, body)
-            case Op.READ_BLOB:
-                asked = parse_whole(BLOB_REQUEST, body)
-            case Op.WRITE:
-                asked = parse_whole(HANDLE_VALUE, body)
+        asked: Any = parse_whole(ASKED[opcode], body) if opcode in ASKED else None
         begun = self._begun
         goes_on = (
             opcode == Op.READ_BLOB

@@ -49,11 +49,6 @@ class LoggedDevice:
         )
 
 
-def upper(address: str) -> str:
-    """Addresses are the same in either case."""
-    return address.upper()
-
-
 def name_attributes(device: LoggedDevice, types: Mapping[int, str], handles: Handles) -> set[tuple[str, int]]:
     """Which of its attributes are channels: by what the caller says, by discovery, by proof. What of `handles` was of
     use: what is said of any device counts where discovery says nothing, and no word makes one device of another."""
@@ -61,7 +56,7 @@ def name_attributes(device: LoggedDevice, types: Mapping[int, str], handles: Han
     used: set[tuple[str, int]] = set()
     for handle, evidence in device.seen.items():
         said = None
-        for wish in ((upper(device.address), handle), ("", handle)):
+        for wish in ((device.address.upper(), handle), ("", handle)):
             if wish in handles and _may_be(handles[wish], wish, device, types):
                 said = said or handles[wish]
                 used.add(wish)
@@ -95,7 +90,7 @@ def no_use(
 ) -> str:
     """Why what was said of an attribute is of no use."""
     address, handle = wish
-    there = [device for device in devices.values() if address in ("", upper(device.address))]
+    there = [device for device in devices.values() if address in ("", device.address.upper())]
     if not there:
         return f"holds no device {address}, whose {handle:#06x} was said to be {channel}"
     with_it = [device for device in there if handle in device.seen]
@@ -129,7 +124,7 @@ def _profile(uuids: set[str]) -> Profile | None:
 
 def place(device: LoggedDevice, places: Mapping[str, Site]) -> None:
     """Where the caller says, else the foot that it says itself."""
-    device.site = places.get(upper(device.address))
+    device.site = places.get(device.address.upper())
     for (handle, how), channel in device.channels.items():
         foot = _foot(channel, how, device.seen[handle])
         if device.site is None and foot is not None:

@@ -6,6 +6,8 @@ to go by, which proves nothing; those must be named by whoever knows.
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 from attrs import define, field
 
 from ...link.devices.reassembly import Reassembly
@@ -42,28 +44,21 @@ class ValueEvidence:
             return
         if how is AttOperation.READ:
             self.read = data
-            self._read(data)
+            with suppress(WireError):
+                self.foot = parse_info(data).foot
+                self.is_info = True
             return
         self.count += 1
         if self.count > LOOKED_AT:
             return
         self.lengths.add(len(data))
-        try:
+        with suppress(WireError):
             whole: bytes | None = data
             if is_fragment(data):
                 whole, _ = self._pieces.feed(parse_fragment(data))
             if whole is not None:
                 self.foot = parse_frame(whole).foot
                 self.frames += 1
-        except WireError:
-            pass
-
-    def _read(self, data: bytes) -> None:
-        try:
-            self.foot = parse_info(data).foot
-            self.is_info = True
-        except WireError:
-            pass
 
     @property
     def channel(self) -> str | None:

@@ -68,15 +68,12 @@ class HciConnection:
 
 
 @frozen
-class Begun:
+class LinkChange:
+    """A connection that begins at `t`, or ends."""
+
     t: int
     link: HciConnection
-
-
-@frozen
-class Ended:
-    t: int
-    link: HciConnection
+    begins: bool
 
 
 @frozen
@@ -105,7 +102,7 @@ class Controller:
     _random: dict[int, str] = field(factory=dict)
     _count: int = 0
 
-    def feed(self, record: HciRecord) -> Iterator[Begun | Ended | Pdu]:
+    def feed(self, record: HciRecord) -> Iterator[LinkChange | Pdu]:
         if record.kind is not RecordKind.OTHER and not record.whole:
             self.flaws["records that the logger cut short"] += 1
         try:
@@ -119,15 +116,15 @@ class Controller:
         except WireError:
             self.flaws["records that are not HCI"] += 1
 
-    def _command(self, record: HciRecord) -> Iterator[Ended]:
+    def _command(self, record: HciRecord) -> Iterator[LinkChange]:
         command = parse_whole(COMMAND, record.data)
         if command.opcode == RESET:
             for key in [key for key in self._links if key[0] == record.adapter]:
-                yield Ended(record.t, self._links.pop(key))
+                yield LinkChange(record.t, self._links.pop(key), False)
         elif command.opcode == LE_SET_RANDOM_ADDRESS and len(command.parameters) == 6:
             self._random[record.adapter] = address_text(command.parameters)
 
-    def _event(self, record: HciRecord) -> Iterator[Begun | Ended]:
+    def _event(self, record: HciRecord) -> Iterator[LinkChange]:
         event = parse_whole(EVENT, record.data)
         parameters = event.parameters
         if event.size != len(parameters):
@@ -137,7 +134,7 @@ class Controller:
             if made.status == 0:
                 handle = made.handle & HANDLE_BITS
                 yield from self._end(record, handle)
-                yield Begun(record.t, self._begin(record, handle, address_text(made.peer)))
+                yield LinkChange(record.t, self._begin(record, handle, address_text(made.peer)), True)
         elif event.code == DISCONNECTED:
             lost = parse_whole(DISCONNECTION_COMPLETE, parameters)
             if lost.status == 0:
@@ -152,10 +149,10 @@ class Controller:
         self._count += 1
         return link
 
-    def _end(self, record: HciRecord, handle: int) -> Iterator[Ended]:
+    def _end(self, record: HciRecord, handle: int) -> Iterator[LinkChange]:
         link = self._links.pop((record.adapter, handle), None)
         if link is not None:
-            yield Ended(record.t, link)
+            yield LinkChange(record.t, link, False)
 
     def _acl(self, record: HciRecord) -> Iterator[Pdu]:
         if len(record.data) < 4:

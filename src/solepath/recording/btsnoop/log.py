@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime, timedelta
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,9 +18,9 @@ from ...types import Packet, Site
 from ...wire.receiver import ConnectionFrame, build_connected
 from ..trouble import RecordingError, Report, printable, warn
 from .att import AttOperation
-from .devices import CHANNELS, Handles, LoggedDevice, name_attributes, no_use, one, place, upper
+from .devices import CHANNELS, Handles, LoggedDevice, name_attributes, no_use, one, place
 from .evidence import ValueEvidence
-from .hci import Begun, Ended
+from .hci import LinkChange
 from .records import refuse_pipe
 from .values import Value, ValueListener
 
@@ -48,27 +49,19 @@ class BtsnoopLog:
         return {"began": moment.isoformat().replace("+00:00", "Z"), "began_t": 0.0, "source": "btsnoop"}
 
     def __iter__(self) -> Iterator[Packet]:
-        for item in ValueListener(self.path, _silent).listen(self._read):
+        listener = ValueListener(self.path, lambda _: None)  # what is wrong was reported before
+        for item in listener.listen(partial(setattr, self, "done")):
             match item:
                 case Value():
-                    device, data = self.devices.get(item.device), item.data
-                    channel = None if device is None else device.channels.get((item.attribute, item.how))
-                case Begun():
+                    device, data = self.devices.get(item.device), item.said.value
+                    channel = None if device is None else device.channels.get((item.said.handle, item.said.how))
+                case LinkChange():
+                    device = self.devices.get(item.link.peer)
                     # the log does not say how the host heard of it, so neither name nor signal
-                    channel, data = "receiver/connected", build_connected(ConnectionFrame("", None))
-                    device = self.devices.get(item.link.peer)
-                case Ended():
-                    channel, data = "receiver/disconnected", b""
-                    device = self.devices.get(item.link.peer)
+                    channel = "receiver/connected" if item.begins else "receiver/disconnected"
+                    data = build_connected(ConnectionFrame("", None)) if item.begins else b""
             if device is not None and device.site is not None and channel is not None:
                 yield Packet((item.t - self.began) / 1e6, device.site, channel, data, device.address)
-
-    def _read(self, done: int) -> None:
-        self.done = done
-
-
-def _silent(sentence: str) -> None:
-    """It was reported when the log was read first."""
 
 
 def open_btsnoop(
@@ -83,11 +76,11 @@ def open_btsnoop(
     """
     path = Path(path)
     refuse_pipe(path)
-    handles = {(upper(device), handle): channel for (device, handle), channel in (handles or {}).items()}
+    handles = {(device.upper(), handle): channel for (device, handle), channel in (handles or {}).items()}
     for channel in handles.values():
         if channel not in CHANNELS:
             raise ValueError(f"no device has a channel {channel!r}")
-    places = {upper(device): site for device, site in (sites or {}).items()}
+    places = {device.upper(): site for device, site in (sites or {}).items()}
     listener, devices, began = ValueListener(path, report), dict[str, LoggedDevice](), None
     damage: RecordingError | None = None
     try:
@@ -95,7 +88,7 @@ def open_btsnoop(
             began = item.t if began is None else began
             if isinstance(item, Value):
                 device = devices.setdefault(item.device, LoggedDevice(item.device))
-                device.seen.setdefault(item.attribute, ValueEvidence()).see(item.how, item.data)
+                device.seen.setdefault(item.said.handle, ValueEvidence()).see(item.said.how, item.said.value)
     except RecordingError as error:
         damage = error  # told once more by the iteration, after the packets before it
     used: set[tuple[str, int]] = set()
@@ -111,7 +104,7 @@ def open_btsnoop(
         raise RecordingError(path, no_use(wish, handles[wish], devices, listener.types))
     if not usable:
         raise RecordingError(path, "; ".join(["holds no packets of a device whose place is known", *left_out[:5]]))
-    strangers = [address for address in sites or {} if upper(address) not in map(upper, devices)]
+    strangers = [address for address in sites or {} if address.upper() not in map(str.upper, devices)]
     if strangers:
         there = ", ".join(device.address for device in devices.values() if device.channels)
         raise RecordingError(path, f"holds no device {strangers[0]} that could be used; there is {there}")

@@ -9,8 +9,8 @@ from pathlib import Path
 from attrs import define, field, frozen
 
 from ..trouble import RecordingError, Report
-from .att import FROM_CLIENT, AttOperation, AttValue, Conversation
-from .hci import Begun, Controller, Ended, HciConnection, Pdu
+from .att import FROM_CLIENT, AttValue, Conversation
+from .hci import Controller, HciConnection, LinkChange, Pdu
 from .records import read_records
 
 
@@ -21,9 +21,7 @@ class Value:
     t: int
     link: HciConnection
     device: str
-    how: AttOperation
-    attribute: int
-    data: bytes
+    said: AttValue
 
 
 @define
@@ -41,7 +39,7 @@ class ValueListener:
     _talks: dict[tuple[int, bool], Conversation] = field(factory=dict)
     """By connection and whether the peer is the server."""
 
-    def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[Value | Begun | Ended]:
+    def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[Value | LinkChange]:
         """RecordingError, after everything before it, for what makes the log unusable."""
         controller = Controller(self.flaws)
         t, failure = 0, None
@@ -52,10 +50,9 @@ class ValueListener:
                     match item:
                         case Pdu():
                             yield from self._pdu(item)
-                        case Ended():
-                            yield from self._finish(t, item.link, controller.own(item.link.adapter))
-                            yield item
-                        case Begun():
+                        case LinkChange():
+                            if not item.begins:
+                                yield from self._finish(t, item.link, controller.own(item.link.adapter))
                             yield item
         except RecordingError as error:
             failure = error
@@ -72,15 +69,10 @@ class ValueListener:
         if talk is None:
             types = self.types.setdefault(device, {})
             talk = self._talks[pdu.link.number, of_peer] = Conversation(types, self.flaws)
-        yield from _values(pdu.t, pdu.link, device, talk.feed(pdu.data))
+        yield from (Value(pdu.t, pdu.link, device, one) for one in talk.feed(pdu.data))
 
     def _finish(self, t: int, link: HciConnection, own: str) -> Iterator[Value]:
         for of_peer, device in ((True, link.peer), (False, own)):
             talk = self._talks.pop((link.number, of_peer), None)
             if talk is not None:
-                yield from _values(t, link, device, talk.finish())
-
-
-def _values(t: int, link: HciConnection, device: str, told: list[AttValue]) -> Iterator[Value]:
-    for one in told:
-        yield Value(t, link, device, one.how, one.handle, one.value)
+                yield from (Value(t, link, device, one) for one in talk.finish())

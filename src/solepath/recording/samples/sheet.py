@@ -21,6 +21,7 @@ from ..trouble import RecordingError, Report, open_file, printable
 from .table import QUANTITIES, FootTable
 
 _COLUMN = re.compile(r"(t|acc|gyro|pressure)(?:_(left|right))?(?:_([xyz]|[0-9]{1,4}))?(?:_(left|right))?")
+_NUMBER = re.compile(r"[-+]?[0-9.]+(?:e[-+]?[0-9]+)?")
 _AXES = {"x": 0, "y": 1, "z": 2}
 
 
@@ -130,17 +131,9 @@ def _guess(header: list[str]) -> str:
     """What the first line may be, where it names nothing that is needed."""
     if len(header) == 1 and re.search("[;\t]", header[0]):
         return "its columns are not separated by commas"
-    if any(map(_is_number, header)):
+    if any(_NUMBER.fullmatch(name) for name in header):
         return "it holds numbers: is the line with the names missing?"
     return f"it names {printable(', '.join(header), 80)}"
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
 
 
 def _check_components(foot: _FootColumns) -> None:

@@ -91,7 +91,8 @@ def checked(table: FootTable) -> FootTable:
             raise table.flaw
         table.t = table.t[:end]
         table.columns = {q: column[:end] for q, column in table.columns.items()}
-    _check_scales(table)
+    for quantity, complaint in _complaints(table.t, table.columns):
+        raise RecordingError(table.path, complaint, table.names[quantity])
     return table
 
 
@@ -114,13 +115,8 @@ def _first_bad_row(table: FootTable) -> tuple[int, str, str]:
     return min(bad, key=itemgetter(0))
 
 
-def _check_scales(table: FootTable) -> None:
-    """Refuse units that are plainly not SI; a wrong unit would give a track that looks like one."""
-    for quantity, complaint in _complaints(table.t, table.columns):
-        raise RecordingError(table.path, complaint, table.names[quantity])
-
-
 def _complaints(t: Floats, columns: Mapping[str, Floats]) -> Iterator[tuple[str, str]]:
+    """Units that are plainly not SI: a wrong unit would give a track that looks like one."""
     if len(t) > 2:
         step = float(np.median(np.diff(t)))
         if not FASTEST <= step <= SLOWEST:
