@@ -11,6 +11,7 @@ from secrets import token_hex
 from stat import S_IWUSR
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
+from ..recording import PacketWriter, RecordingError, printable, read_header, read_packets, why
 from ..types import Packet, Site
 from .common.failure import Failure, note
 
@@ -89,7 +90,6 @@ class _FileWriter(Protocol):
 
 
 def run(options: argparse.Namespace) -> int:
-    from ..recording import RecordingError, printable, read_header, read_packets
     from ..recording.btsnoop import is_btsnoop
     from ..show.tables.progress import progress_bar
 
@@ -157,8 +157,6 @@ Make = Callable[[Path, Mapping[str, Any]], _FileWriter]
 
 def _maker(out: Path) -> Make:
     """What writes a file of this name."""
-    from ..recording import PacketWriter, printable
-
     suffix = out.suffix.lower()
     if suffix == RECORDING:
         return PacketWriter
@@ -178,8 +176,6 @@ def _write(
 ) -> tuple[int, Failure | None]:
     """(how many packets `out` holds, what was wrong with the source after them). Where nothing could be read, or not
     everything be written, `out` is as it was before."""
-    from ..recording import RecordingError, printable, why
-
     if out.exists() and out.samefile(source):
         raise Failure(f"{printable(str(out))}: is what is to be converted")
     damage: Failure | None = None
@@ -206,8 +202,6 @@ def _write(
 
 def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | Failure]:
     """The packets, and in the end what made the reading stop, if anything did: told from what the writing says."""
-    from ..recording import RecordingError
-
     try:
         yield from packets
     except RecordingError as error:
@@ -217,8 +211,6 @@ def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | Failure]:
 @contextmanager
 def _replacing(out: Path) -> Iterator[Path]:
     """A file to write that takes the place of `out` when it is done, and is gone when it is not."""
-    from ..recording import printable, why
-
     if out.exists() and not out.is_file():  # a pipe or a device cannot be replaced
         yield out
         return

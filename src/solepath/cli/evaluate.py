@@ -9,7 +9,9 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .common.failure import Failure, known_recipe, note
+from ..recipes import DEFAULT, NAMES, by_name
+from ..recording import RecordingError
+from .common.failure import Failure, note, recipe_named
 from .common.files import write_json
 from .common.recorded import add_calibration, calibration_of
 
@@ -66,7 +68,6 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from .. import recipes
     from ..lab.evaluate import ablation
     from ..lab.evaluate.changes import read_scores
     from ..lab.evaluate.datasets import EMULATED
@@ -74,7 +75,6 @@ def run(options: argparse.Namespace) -> int:
     from ..lab.evaluate.report import as_json
     from ..lab.tables.markdown import accuracy_table
     from ..lab.tables.scores import ablation_table, comparison_tables, score_table
-    from ..recording import RecordingError
     from ..show.tables.progress import progress_bar
 
     walks = [data_set.name for data_set in EMULATED]
@@ -86,8 +86,8 @@ def run(options: argparse.Namespace) -> int:
         raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
     if options.walks < 1 or options.seed < 0:
         raise Failure("--walks must be 1 or more, and --seed not negative")
-    known = [recipes.by_name(name) for name in recipes.NAMES]
-    chosen = [recipes.by_name(known_recipe(name, list(recipes.NAMES))) for name in options.recipe]
+    known = [by_name(name) for name in NAMES]
+    chosen = [recipe_named(name) for name in options.recipe]
     if options.ablation:
         if chosen:
             raise Failure("--ablation chooses the recipes itself, so it goes without --recipe")
@@ -111,7 +111,7 @@ def run(options: argparse.Namespace) -> int:
                 parts.append(evaluate(folder, chosen or known, only=recorded, **how))
             if emulated:
                 seeds = range(options.seed, options.seed + options.walks)
-                parts.append(evaluate_emulated(chosen or [recipes.DEFAULT], seeds, only=walked, **how))
+                parts.append(evaluate_emulated(chosen or [DEFAULT], seeds, only=walked, **how))
             for result in chain(*parts):
                 results.append(result)
                 if not options.markdown and not options.ablation:

@@ -12,7 +12,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .common.failure import Failure, count, is_there, known_recipe, positive, seed
+from ..recording import printable
+from .common.failure import Failure, count, is_there, positive, recipe_named, seed
 from .common.files import check_writable, write_json
 
 if TYPE_CHECKING:
@@ -135,9 +136,7 @@ def verdict(alone: list[str], killed: list[list[str]]) -> int:
 
 def _check(options: argparse.Namespace) -> None:
     """Failure for what could only go wrong after a while."""
-    from ..recipes import NAMES
-
-    known_recipe(options.recipe, list(NAMES))
+    recipe_named(options.recipe)
     if options.seconds is not None and options.seconds > LONGEST:
         raise Failure(f"--seconds {options.seconds:g}: {LONGEST:g} is the most")
     if options.seconds is not None and options.seconds < 1.0:
@@ -178,8 +177,6 @@ def _directory(options: argparse.Namespace) -> Iterator[Path]:
 def _leave(stage: DemoStage, out: Path) -> None:
     """The events of the uninterrupted run, and how to look at them."""
     from shlex import quote
-
-    from ..recording import printable
 
     told = out / "told"
     shutil.copytree(stage.told, told)

@@ -7,18 +7,17 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..recording import printable
-from .common.failure import Failure, attended, known_recipe, note
+from ..calibration import Calibration
+from ..recording import RecordingError, Source, began, printable, read_header
+from ..session import Session
+from ..types import Packet, Sample
+from .common.failure import Failure, note, recipe_named
 from .common.floorplan import add_floorplan, floorplan_of
 from .common.recorded import add_calibration, add_foot, calibration_of, check_pressure, foot_of, source_of
 from .common.view import View, add_speed, add_view, need_page, newtons_of, pace_of, play, run_rest, view_of
 
 if TYPE_CHECKING:
-    from ..calibration import Calibration
     from ..floorplan.index import IndexedPlan
-    from ..recording import Source
-    from ..session import Session
-    from ..types import Packet, Sample
     from .common.results import Results
 
 LONG = 4_000_000
@@ -54,13 +53,10 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from .. import recipes
-    from ..recording import RecordingError
-    from ..session import Session
     from .common.loop import stopped_alike
     from .common.results import Results
 
-    recipe = recipes.by_name(known_recipe(options.recipe, list(recipes.NAMES)))
+    recipe = recipe_named(options.recipe)
     calibration = calibration_of(options)
     need_page(options, options.view is not None)
     view = view_of(options)
@@ -105,8 +101,6 @@ def run(options: argparse.Namespace) -> int:
 
 def _when(source: Source) -> str:
     """When the recording began, to be read; "" where it does not say."""
-    from ..recording import RecordingError, began, read_header
-
     if source.samples is not None:
         return ""
     try:
@@ -124,7 +118,6 @@ class _Reading:
         self.failure: Failure | None = None
 
     def __iter__(self) -> Iterator[Packet | Sample]:
-        from ..recording import RecordingError
         from ..show.tables.progress import progress_bar
 
         source = self.source
@@ -142,7 +135,7 @@ def _straight(reading: _Reading, session: Session, results: Results) -> float:
     """The recording through the session, item by item; how long that took, s."""
     from time import perf_counter
 
-    began = perf_counter()
+    start = perf_counter()
     for item in reading:
         results.begin()
         results.told(item, session.feed(item))
@@ -150,7 +143,7 @@ def _straight(reading: _Reading, session: Session, results: Results) -> float:
         results.begin()  # of a recording of nothing
     # what came before a fault in the file is a walk of its own: it is finished and written like any other
     results.told(None, session.finish())
-    return perf_counter() - began
+    return perf_counter() - start
 
 
 def _played(
@@ -185,7 +178,6 @@ def _played(
     if shown:
         if fault:
             note(fault)
-        player.speed(pace)
-        play(player, view, once=not attended())
+        play(player, view, pace)
     run_rest(player, "recording")
     return shown

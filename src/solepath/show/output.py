@@ -13,7 +13,6 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from math import degrees
 from pathlib import Path
-from types import TracebackType
 from typing import Any, TextIO
 
 from attrs import define, field
@@ -162,7 +161,5 @@ class TrackFiles:
     def __enter__(self) -> TrackFiles:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()

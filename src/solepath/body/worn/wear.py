@@ -87,4 +87,3 @@ class Wear(Part):
             self.sides.forget()
             found.append(FeetSwapped(t=t, known_at=view.known_at))
         return found
-

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from ...types import Site
 from ..common.failure import Failure, attended, need, note, positive
 
 if TYPE_CHECKING:
@@ -52,7 +53,6 @@ def wanted(options: argparse.Namespace) -> list[Wanted]:
     from ...ble import Wanted
     from ...ble.wanted import check
     from ...link.catalogue import BY_NAME
-    from ...types import Site
 
     named = [(Site.LEFT_FOOT, options.left), (Site.RIGHT_FOOT, options.right)]
     sites = {site.value: site for site in Site}
@@ -80,7 +80,6 @@ def chosen(found: list[Found], kind: str | None) -> list[Wanted]:
     from ...ble import Wanted
     from ...link.catalogue import BY_NAME
     from ...link.devices.insole import PROFILE as INSOLE
-    from ...types import Site
 
     told = None if kind is None else BY_NAME[kind]
     if told is not None:

@@ -7,6 +7,7 @@ from math import isfinite, nan, radians
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...recording import printable
 from .failure import Failure, note
 
 if TYPE_CHECKING:
@@ -37,7 +38,6 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
     from ...floorplan.importers.reading import read_floorplan
     from ...floorplan.index import IndexedPlan
     from ...floorplan.plan import FloorPlanError
-    from ...recording import printable
 
     start = None if options.start is None else start_of(options.start)
     if options.floorplan is None:
@@ -60,7 +60,6 @@ def start_of(text: str) -> Start:
     """LEVEL,X,Y or LEVEL,X,Y,HEADING; the level's name may have commas. Failure when it is something else."""
     from ...floorplan.plan import Start
     from ...floorplan.records import no_start
-    from ...recording import printable
 
     for numbers in (3, 2):
         level, *parts = text.rsplit(",", numbers)

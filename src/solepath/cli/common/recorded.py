@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from ...calibration import Calibration, CalibrationError
+from ...link.decoder import Decoder
+from ...recipes import Recipe
+from ...recording import RecordingError, Source, open_source, printable
+from ...types import Foot, Packet, Sample, Site
 from .failure import Failure, note
-
-if TYPE_CHECKING:
-    from ...recipes import Recipe
-    from ...recording import Source
-    from ...types import Foot
 
 
 def add_foot(command: argparse.ArgumentParser) -> None:
@@ -23,32 +22,22 @@ def add_foot(command: argparse.ArgumentParser) -> None:
 
 
 def foot_of(options: argparse.Namespace) -> Foot | None:
-    from ...types import Foot
-
     return Foot(options.foot) if options.foot else None
 
 
 def source_of(path: Path, foot: Foot | None = None) -> Source:
     """What a recording holds; its flaws are noted. RecordingError when it cannot be used."""
-    from ...recording import open_source
-
     return open_source(path, foot, report=note)
 
 
 def check_pressure(recipe: Recipe, source: Source) -> None:
     """Failure when the recipe needs pressure cells and nothing in the recording comes from any. It reads packets only
     until the first sample with pressure."""
-    from ...recording import printable
-
     if recipe.needs_pressure and not _pressed(source):
         raise Failure(f"recipe {recipe.name} needs pressure cells; {printable(str(source.path))} has none")
 
 
 def _pressed(source: Source) -> bool:
-    from ...link.decoder import Decoder
-    from ...recording import RecordingError, open_source
-    from ...types import Packet, Sample, Site
-
     if source.samples is not None:
         return any("pressure" in table.columns for table in source.samples.tables)
     decoders: dict[Site, Decoder] = {}
@@ -67,10 +56,6 @@ def _said_later(sentence: str) -> None:
     """The run itself reports it."""
 
 
-if TYPE_CHECKING:
-    from ...calibration import Calibration
-
-
 def add_calibration(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--calibration",
@@ -82,9 +67,7 @@ def add_calibration(command: argparse.ArgumentParser) -> None:
 
 def calibration_of(options: argparse.Namespace) -> Calibration | None:
     """What --calibration names; None without it. Failure when that is no calibration."""
-    from ...calibration import CalibrationError
     from ...calibration.file import read_calibration
-    from ...recording import printable
 
     if options.calibration is None:
         return None

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from types import TracebackType
 
 from attrs import define, field
 
@@ -95,12 +94,10 @@ class Results:
     def __enter__(self) -> Results:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         """The files are closed, and those that are not in their places are thrown away."""
         try:
-            self._open.__exit__(kind, error, trace)
+            self._open.close()
         finally:
             self._replacing.drop()
             self._replacing_report.drop()

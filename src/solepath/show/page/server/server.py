@@ -15,7 +15,6 @@ import secrets
 from collections.abc import Callable
 from importlib.resources import files
 from importlib.resources.abc import Traversable
-from types import TracebackType
 from typing import cast
 
 from aiohttp import web
@@ -94,9 +93,7 @@ class Page:
         self._listening = await asyncio.get_running_loop().create_server(self._connect, sock=socket)
         return self
 
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    async def __aexit__(self, *error: object) -> None:
         if self._listening is not None:
             self._listening.close()
         if self._server is not None:

@@ -6,26 +6,17 @@ from math import hypot
 from xml.etree.ElementTree import Element
 
 from ....types import Foot, Layout
-from ...tables.plan import px
+from ...tables.plan import blend, px
 from ..markup import add, figure, table
 from ..soles import STATIONS, ReportSole
 from .axes import Chart, around, drawing, line, write
-from .track import legend_lines
+from .stride import legend
 
 SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")
 """From no load to the highest: darker is more, on a grey printer too."""
 TALL = 250.0
 """Of a sole, px."""
 THIRDS = ("heel", "midfoot", "forefoot")
-
-
-def shade(share: float) -> str:
-    """Of a share of the highest load, 0 to 1."""
-    at = min(max(share, 0.0), 1.0) * (len(SHADES) - 1)
-    k = min(int(at), len(SHADES) - 2)
-    low, high = SHADES[k], SHADES[k + 1]
-    pairs = [(int(low[i : i + 2], 16), int(high[i : i + 2], 16)) for i in (1, 3, 5)]
-    return "#" + "".join([f"{round(a + (at - k) * (b - a)):02x}" for a, b in pairs])
 
 
 def pressure_figures(parent: Element, soles: dict[Foot, ReportSole]) -> bool:
@@ -99,7 +90,7 @@ def _map(
             _sole(svg, sole, sole.layout, loads[foot], highest, 110.0 if foot is Foot.LEFT else 290.0, foot, paths)
     y = TALL + 40.0
     for k in range(30):
-        add(svg, "rect", x=px(110.0 + 6.0 * k), y=px(y), width="6.4", height="9", fill=shade(k / 29.0))
+        add(svg, "rect", x=px(110.0 + 6.0 * k), y=px(y), width="6.4", height="9", fill=blend(SHADES, k / 29.0))
     write(svg, 104.0, y + 9.0, "0", "tick", "end")
     write(svg, 296.0, y + 9.0, f"{highest:.3g} {unit} a cell", "tick")
     notes = [f"{one[0].upper()}{one[1:]}." for one in said]
@@ -131,7 +122,8 @@ def _sole(
     cells = add(svg, "g", class_="cells")
     for cell, load in zip(layout.cells, loads, strict=True):
         x, y = at(cell.x, cell.y)
-        add(cells, "circle", cx=px(x), cy=px(y), r=px(r * scale), fill=shade(load / highest if highest > 0.0 else 0.0))
+        shade = blend(SHADES, load / highest if highest > 0.0 else 0.0)
+        add(cells, "circle", cx=px(x), cy=px(y), r=px(r * scale), fill=shade)
     if paths:
         single = "".join([line([at(*one) for one in path]) for path in sole.paths if len(path) > 1])
         if single:
@@ -153,7 +145,7 @@ def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
     chart = Chart.of(svg, (0.0, 100.0), around(values, least=1.0, zero=True), labels, 190.0)
     for foot, curve in curves.items():
         chart.path([(100.0 * k / (STATIONS - 1), value) for k, value in enumerate(curve)], f"line {foot}")
-    legend_lines(svg, list(curves))
+    legend(svg, list(curves), lines=True)
     counted = ", ".join([f"{foot} {sole.contacts}" for foot, sole in soles.items()])
     figure(parent, svg, "Mean force over a contact", f"Contacts: {counted}.")
 

@@ -12,7 +12,7 @@ from ....types import Foot
 from ...tables.plan import px
 from ..clock import ReportClock
 from ..markup import add, figure
-from .axes import TOP, Chart, around, drawing, write
+from .axes import Chart, around, drawing, write
 
 HEIGHT = 190.0
 DISC, CROSS = "h0", "m-2.6-2.6l5.2 5.2m0-5.2l-5.2 5.2"
@@ -111,11 +111,15 @@ def _panel(
     figure(parent, svg, f"{title} over time")
 
 
-def legend(svg: Element, feet: Sequence[Foot]) -> None:
-    """Which mark is whose, at the right above a chart."""
-    x, y = 390.0, TOP - 12.0
+def legend(svg: Element, feet: Sequence[Foot], *, lines: bool = False) -> None:
+    """Which mark, or which of the lines, is whose, at the right above a chart: left solid, right dashed."""
+    x = 390.0
     for foot in reversed(feet):
-        write(svg, x, y, foot.value, "tick", "end")
+        write(svg, x, 12.0, foot.value, "tick", "end")
         x -= 5.6 * len(foot.value) + 8.0
-        add(svg, "path", class_=f"mark {foot}", d=f"M{px(x)} {px(y - 4.0)}{SHAPES[foot]}")
-        x -= 12.0
+        if lines:
+            add(svg, "path", class_=f"line {foot}", d=f"M{px(x - 20.0)} 8h20")
+            x -= 30.0
+        else:
+            add(svg, "path", class_=f"mark {foot}", d=f"M{px(x)} 8{SHAPES[foot]}")
+            x -= 12.0
