@@ -62,9 +62,6 @@ def _recording(command: argparse.ArgumentParser) -> None:
     add_foot(command)
 
 
-# --- noise ------------------------------------------------------------------------------------------------------------
-
-
 def _add_noise(kinds: Any) -> None:
     command: argparse.ArgumentParser = kinds.add_parser(
         "noise",
@@ -97,9 +94,6 @@ def _noise(options: argparse.Namespace, known: Calibration) -> Learnt:
     return learnt, [table(["foot", "cells", "mean noise", "largest"], rows)]
 
 
-# --- shoe -------------------------------------------------------------------------------------------------------------
-
-
 def _add_shoe(kinds: Any) -> None:
     command: argparse.ArgumentParser = kinds.add_parser(
         "shoe",
@@ -123,9 +117,6 @@ def _shoe(options: argparse.Namespace, known: Calibration) -> Learnt:
         f"{1000.0 * fit.residual_radius:.1f} mm, of L_p2t {1000.0 * fit.residual_to_toe:.1f} mm, largest "
         f"{1000.0 * fit.worst:.1f} mm",
     ]
-
-
-# --- square -----------------------------------------------------------------------------------------------------------
 
 
 def _add_square(kinds: Any) -> None:
@@ -178,9 +169,6 @@ def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
     ]
 
 
-# --- toe-out ----------------------------------------------------------------------------------------------------------
-
-
 def _add_toe_out(kinds: Any) -> None:
     command: argparse.ArgumentParser = kinds.add_parser(
         "toe-out",
@@ -211,9 +199,6 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> Learnt:
     return learnt(found), lines
 
 
-# --- newton -----------------------------------------------------------------------------------------------------------
-
-
 def _add_newton(kinds: Any) -> None:
     command: argparse.ArgumentParser = kinds.add_parser(
         "newton",
@@ -239,9 +224,6 @@ def _newton(options: argparse.Namespace, known: Calibration) -> Learnt:
         f"{' and '.join(foot.value for foot in feet)}: N = {a:.4g} + {b:.4g} c + {c:.4g} c^2 + {d:.4g} c^3, "
         f"{fit.points} points, rms error {fit.residual:.2f} N, largest {fit.worst:.2f} N",
     ]
-
-
-# --- modes ------------------------------------------------------------------------------------------------------------
 
 
 def _add_modes(kinds: Any) -> None:

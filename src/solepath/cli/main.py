@@ -49,8 +49,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         status = run(arguments)
         sys.stdout.flush()
+        return status
     except Failure as failure:
-        return complain(str(failure))
+        note(str(failure))
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
@@ -58,8 +59,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except OSError as error:
-        return complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
-    return status
+        note(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+    return 2
 
 
 def _open_closed() -> None:
@@ -67,9 +68,3 @@ def _open_closed() -> None:
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode, encoding="utf-8"))
-
-
-def complain(sentence: str) -> int:
-    """One line on stderr; the exit status that goes with it."""
-    note(sentence)
-    return 2

@@ -40,11 +40,16 @@ def add_devices(command: argparse.ArgumentParser) -> None:
         "--profile", metavar="NAME", help="the kind of all these devices, where their names do not say it"
     )
     command.add_argument("--pair", action="store_true", help="pair with the devices")
+    add_duration(command, UNWATCHED)
+
+
+def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
+    """For how long; `unattended`: s, without a terminal."""
     command.add_argument(
         "--duration",
         metavar="S",
         type=positive,
-        help=f"end by itself after so long (default: at Ctrl-C; {UNWATCHED:g} s without a terminal)",
+        help=f"end by itself after so long (default: at Ctrl-C; {unattended:g} s without a terminal)",
     )
 
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
 
 from attrs import define, field
@@ -12,7 +11,7 @@ from ...events import Event
 from ...floorplan.plan import FloorPlan
 from ...recording import printable
 from ...show.observer import Observer
-from ...show.output import PLAN, TrackFiles
+from ...show.output import PLAN, TrackFiles, naming
 from ...show.report import Report
 from ...show.tables.placed import place_lines
 from ...show.tables.plan import PlanPicture
@@ -76,8 +75,8 @@ class Results:
     def print(self, seconds: float) -> None:
         """The files and the report, whole, in their places; the summary. `seconds` on the wall that it took."""
         self._open.close()
-        if self._picture is not None and self._picture_at is not None:
-            with _named(self._picture_at, self.out):
+        if self._picture is not None and self._picture_at is not None and self.out is not None:
+            with naming(self.out):
                 self._picture.write(self._picture_at, self.title)
         self._replacing.keep()
         print(summary(self.observer, title=self.title, seconds=seconds))
@@ -85,10 +84,10 @@ class Results:
             print("\n".join(place_lines(self.observer.places)))
         if self.out is not None:
             print(f"written to {printable(str(self.out))}")
-        if self._report is not None and self._report_at is not None:
-            with _named(self._report_at, self.report):
+        if self._report is not None and self._report_at is not None and self.report is not None:
+            with naming(self.report):
                 self._report.write(self._report_at)
-                self._replacing_report.keep()
+            self._replacing_report.keep()
             print(f"report in {printable(str(self.report))}")
 
     def __enter__(self) -> Results:
@@ -101,13 +100,3 @@ class Results:
         finally:
             self._replacing.drop()
             self._replacing_report.drop()
-
-
-@contextmanager
-def _named(written: Path, wanted: Path | None) -> Iterator[None]:
-    """Errors name the file that was wanted."""
-    try:
-        yield
-    except OSError as error:
-        name = str(wanted) if error.filename == str(written) else error.filename
-        raise OSError(error.errno, error.strerror, name) from None

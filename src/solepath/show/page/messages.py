@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import cached_property
 from math import isfinite
 from typing import Any
 
@@ -71,14 +72,9 @@ def encode(message: dict[str, Any]) -> str:
 class Written(dict[str, Any]):
     """A part of messages that never changes, and is sent often: its text is made once, when it is first wanted."""
 
-    __slots__ = ("_text",)
-
-    @property
+    @cached_property
     def text(self) -> str:
-        text: str | None = getattr(self, "_text", None)
-        if text is None:
-            text = self._text = _json(self)
-        return text
+        return _json(self)
 
 
 def _json(value: Any) -> str:

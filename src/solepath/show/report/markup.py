@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from xml.etree.ElementTree import Element, SubElement
 
 from ...recording import printable
+from .style import STYLE
 
 LONGEST = 300
 """Characters of a sentence that came from outside."""
@@ -17,6 +18,25 @@ def add(parent: Element, tag: str, text: str = "", **attributes: str) -> Element
     made = SubElement(parent, tag, named)
     if text:
         made.text = printable(text, LONGEST)
+    return made
+
+
+def skeleton(title: str) -> tuple[Element, Element]:
+    """(the document, where its contents go)."""
+    html = Element("html", {"lang": "en"})
+    head = add(html, "head")
+    add(head, "meta", charset="utf-8")
+    add(head, "meta", name="viewport", content="width=device-width, initial-scale=1")
+    add(head, "meta", name="color-scheme", content="light dark")
+    add(head, "title", title)
+    add(head, "style").text = STYLE
+    return html, add(add(html, "body"), "main")
+
+
+def section(parent: Element, name: str, title: str) -> Element:
+    """A part with a heading."""
+    made = add(parent, "section", aria_labelledby=name)
+    add(made, "h2", title, id=name)
     return made
 
 

@@ -26,16 +26,6 @@ Pair = tuple[float, float]
 
 
 @define
-class KeptSample:
-    """One sample: when, the loads of the cells, their sum, the centre of pressure."""
-
-    t: float
-    values: tuple[float, ...]
-    force: float
-    centre: Pair | None
-
-
-@define
 class ReportSole:
     """One foot's. Loads in the unit of the samples, places in the foot frame, m."""
 
@@ -56,7 +46,7 @@ class ReportSole:
     """Sum of each cell over all samples: for who takes no stride."""
     force: float = 0.0
     """Of all samples, summed."""
-    newest: deque[KeptSample] = field(factory=lambda: deque(maxlen=KEPT))
+    newest: deque[FootPressed] = field(factory=lambda: deque(maxlen=KEPT))
 
     def press(self, event: FootPressed) -> None:
         """One sample. One of another number of cells than before begins anew."""
@@ -67,7 +57,7 @@ class ReportSole:
         self.standing = [a + b for a, b in zip(self.standing, event.values, strict=True)]
         if self.newest and event.t <= self.newest[-1].t:
             self.newest.clear()
-        self.newest.append(KeptSample(event.t, event.values, event.force, event.centre))
+        self.newest.append(event)
 
     def _begin(self, cells: int) -> None:
         self.standing, self.means, self.peaks = [0.0] * cells, [0.0] * cells, [0.0] * cells

@@ -15,6 +15,7 @@ from attrs import define, field
 
 from ...events import Event, Placed, PlaceLost
 from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Point
+from ..output import naming
 
 WIDTH = 720.0
 """Of the drawing of a level, px, at the most, where nothing else is said ..."""
@@ -60,10 +61,8 @@ class PlanPicture:
         """The picture into a file, UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
         tree = ElementTree(self.drawn(title))
         indent(tree, space=" ")
-        try:
+        with naming(path):
             tree.write(path, encoding="utf-8", xml_declaration=True)
-        except OSError as error:
-            raise OSError(error.errno, error.strerror, str(path)) from None
 
     def drawn(self, title: str) -> Element:
         """The picture as an <svg> element."""

@@ -33,12 +33,7 @@ MOST_CONNECTIONS = 64
 IDLE = 10.0
 """s after which a connection that asks for nothing, or for half of something, is closed."""
 METHODS = ("GET", "HEAD")
-KINDS = {
-    ".html": "text/html",
-    ".css": "text/css",
-    ".js": "text/javascript",
-    ".svg": "image/svg+xml",
-}
+KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 
 
 class Page:
