@@ -7,8 +7,8 @@ from math import degrees
 from pathlib import Path
 from typing import Any
 
-from ..calibration import Calibration, CalibrationError, InsoleCalibration, merged
-from ..recording import RecordingError, printable
+from ..calibration import Calibration, InsoleCalibration, merged
+from ..recording import printable
 from ..show.tables.table import number, table
 from ..types import Foot
 from .common.failure import Failure, count, degrees_of, positive, recipe_named, share
@@ -39,15 +39,12 @@ def run(options: argparse.Namespace) -> int:
     if options.out.exists() and not options.out.is_file() and not options.out.is_dir():  # of a folder the system speaks
         raise Failure(f"{options.out}: is no regular file")
     check_writable(options.out)
-    try:
-        known = read_calibration(options.out) if options.out.exists() else Calibration()
-        learnt, lines = options.learn(options, known)
-        whole = merged(known, learnt)
-        why_not = unusable(whole)
-        if why_not is not None:
-            raise CalibrationError(f"nothing is written, for this cannot be: {why_not}")
-    except (CalibrationError, RecordingError) as error:
-        raise Failure(printable(str(error), 2000)) from None
+    known = read_calibration(options.out) if options.out.exists() else Calibration()
+    learnt, lines = options.learn(options, known)
+    whole = merged(known, learnt)
+    why_not = unusable(whole)
+    if why_not is not None:
+        raise Failure(f"nothing is written, for this cannot be: {why_not}")
     write_calibration(options.out, whole)
     print("\n".join([*lines, f"written to {printable(str(options.out))}"]))
     return 0

@@ -97,22 +97,19 @@ def run(options: argparse.Namespace) -> int:
     make = _maker(out)
     log: BtsnoopLog | None = None
     packets: Iterable[Packet]
-    try:
-        total = source.stat().st_size if source.is_file() else 0
-        with progress_bar(printable(source.name), total, wanted=total > LONG) as show:
-            if is_btsnoop(source):
-                log = _opened(options)
-                packets, header = _shown(log, show), log.header
-            elif options.sites or options.handles:
-                raise Failure("--site and --handle are for btsnoop logs; a recording knows its sites and channels")
-            elif out.suffix.lower() == RECORDING:
-                raise Failure(f"{printable(str(source))}: is no btsnoop log; a recording is converted to {MCAP} only")
-            else:
-                header = read_header(source)
-                packets = read_packets(source, report=note, progress=show)
-            count, damage = _write(packets, header, make, source, out)
-    except RecordingError as error:
-        raise Failure(str(error)) from None
+    total = source.stat().st_size if source.is_file() else 0
+    with progress_bar(printable(source.name), total, wanted=total > LONG) as show:
+        if is_btsnoop(source):
+            log = _opened(options)
+            packets, header = _shown(log, show), log.header
+        elif options.sites or options.handles:
+            raise Failure("--site and --handle are for btsnoop logs; a recording knows its sites and channels")
+        elif out.suffix.lower() == RECORDING:
+            raise Failure(f"{printable(str(source))}: is no btsnoop log; a recording is converted to {MCAP} only")
+        else:
+            header = read_header(source)
+            packets = read_packets(source, report=note, progress=show)
+        count, damage = _write(packets, header, make, source, out)
     for device in [] if log is None else log.devices.values():
         if device.site is not None and device.count:
             kind = "" if device.profile is None else f", {device.profile.name}"
@@ -173,18 +170,18 @@ def _maker(out: Path) -> Make:
 
 def _write(
     packets: Iterable[Packet], header: Mapping[str, Any], make: Make, source: Path, out: Path
-) -> tuple[int, Failure | None]:
+) -> tuple[int, RecordingError | None]:
     """(how many packets `out` holds, what was wrong with the source after them). Where nothing could be read, or not
     everything be written, `out` is as it was before."""
     if out.exists() and out.samefile(source):
         raise Failure(f"{printable(str(out))}: is what is to be converted")
-    damage: Failure | None = None
+    damage: RecordingError | None = None
     with _replacing(out) as path:
         try:
             writer = make(path, header)
             try:
                 for packet in _until_damage(packets):
-                    if isinstance(packet, Failure):
+                    if isinstance(packet, RecordingError):
                         damage = packet
                         break
                     writer.write(packet)
@@ -200,12 +197,12 @@ def _write(
     return writer.count, damage
 
 
-def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | Failure]:
+def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | RecordingError]:
     """The packets, and in the end what made the reading stop, if anything did: told from what the writing says."""
     try:
         yield from packets
     except RecordingError as error:
-        yield Failure(str(error))
+        yield error
 
 
 @contextmanager

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..recording import PacketWriter, RecordingError, printable
+from ..recording import PacketWriter, printable
 from ..types import Foot
 from .common.failure import Failure, is_there, note, positive, seconds, seed, share
 from .common.view import View, add_speed, add_view, pace_of, play, run_rest, view_of
@@ -114,12 +114,9 @@ def _show(demo: Demo, view: View, pace: float) -> None:
 
 
 def _record(demo: Demo, path: Path) -> None:
-    try:
-        with PacketWriter(path) as writer:
-            for packet in demo.walk.packets:
-                writer.write(packet)
-    except RecordingError as error:
-        raise Failure(str(error)) from None
+    with PacketWriter(path) as writer:
+        for packet in demo.walk.packets:
+            writer.write(packet)
     print(f"{len(demo.walk.packets)} packets recorded in {printable(str(path))}", flush=True)
 
 

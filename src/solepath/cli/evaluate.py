@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..recipes import DEFAULT, NAMES, by_name
-from ..recording import RecordingError
 from .common.failure import Failure, note, recipe_named
 from .common.files import write_json
 from .common.recorded import add_calibration, calibration_of
@@ -93,31 +92,28 @@ def run(options: argparse.Namespace) -> int:
             raise Failure("--ablation chooses the recipes itself, so it goes without --recipe")
         chosen = list(ablation.recipes())
     results = []
-    try:
-        before = read_scores(options.compare) if options.compare else None
-        with progress_bar("recordings", 100) as show:
+    before = read_scores(options.compare) if options.compare else None
+    with progress_bar("recordings", 100) as show:
 
-            def percent(done: int, total: int) -> None:
-                show(100 * done // total)
+        def percent(done: int, total: int) -> None:
+            show(100 * done // total)
 
-            how: dict[str, Any] = {
-                "calibration": calibration_of(options), "processes": max(1, options.processes), "progress": percent,
-            }  # fmt: skip
-            parts: list[Iterator[Result]] = []
-            if options.ablation and folder is not None and not options.only:
-                main = {column.data_set for column in ablation.COLUMNS}
-                recorded = [data_set.name for data_set in find(folder) if data_set.name in main]
-            if folder is not None and (recorded or not options.only):
-                parts.append(evaluate(folder, chosen or known, only=recorded, **how))
-            if emulated:
-                seeds = range(options.seed, options.seed + options.walks)
-                parts.append(evaluate_emulated(chosen or [DEFAULT], seeds, only=walked, **how))
-            for result in chain(*parts):
-                results.append(result)
-                if not options.markdown and not options.ablation:
-                    print(score_table(result), end="\n\n", flush=True)
-    except RecordingError as error:
-        raise Failure(str(error)) from None
+        how: dict[str, Any] = {
+            "calibration": calibration_of(options), "processes": max(1, options.processes), "progress": percent,
+        }  # fmt: skip
+        parts: list[Iterator[Result]] = []
+        if options.ablation and folder is not None and not options.only:
+            main = {column.data_set for column in ablation.COLUMNS}
+            recorded = [data_set.name for data_set in find(folder) if data_set.name in main]
+        if folder is not None and (recorded or not options.only):
+            parts.append(evaluate(folder, chosen or known, only=recorded, **how))
+        if emulated:
+            seeds = range(options.seed, options.seed + options.walks)
+            parts.append(evaluate_emulated(chosen or [DEFAULT], seeds, only=walked, **how))
+        for result in chain(*parts):
+            results.append(result)
+            if not options.markdown and not options.ablation:
+                print(score_table(result), end="\n\n", flush=True)
     if options.ablation:
         print(ablation_table(results, options.markdown))
     elif options.markdown:

@@ -10,6 +10,8 @@ import os
 import sys
 from collections.abc import Sequence
 
+from ..calibration import CalibrationError
+from ..recording import RecordingError
 from . import calibrate, convert, demo, evaluate, fleet_demo, reproduce, track
 from .bluetooth import emulate, live, scan
 from .common.failure import Failure, note
@@ -50,8 +52,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status = run(arguments)
         sys.stdout.flush()
         return status
-    except Failure as failure:
-        note(str(failure))
+    except (Failure, RecordingError, CalibrationError) as wrong:
+        note(str(wrong))
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:

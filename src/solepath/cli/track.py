@@ -11,7 +11,7 @@ from ..calibration import Calibration
 from ..recording import RecordingError, Source, began, printable, read_header
 from ..session import Session
 from ..types import Packet, Sample
-from .common.failure import Failure, note, recipe_named
+from .common.failure import note, recipe_named
 from .common.floorplan import add_floorplan, floorplan_of
 from .common.recorded import add_calibration, add_foot, calibration_of, check_pressure, foot_of, source_of
 from .common.view import View, add_speed, add_view, need_page, newtons_of, pace_of, play, run_rest, view_of
@@ -61,10 +61,7 @@ def run(options: argparse.Namespace) -> int:
     need_page(options, options.view is not None)
     view = view_of(options)
     pace = 1.0 if view is None else pace_of(options, 1.0)
-    try:
-        source = source_of(options.file, foot_of(options))
-    except RecordingError as error:
-        raise Failure(str(error)) from None
+    source = source_of(options.file, foot_of(options))
     check_pressure(recipe, source)
     plan, start = floorplan_of(options)
     session = Session(
@@ -115,7 +112,7 @@ class _Reading:
 
     def __init__(self, source: Source) -> None:
         self.source = source
-        self.failure: Failure | None = None
+        self.failure: RecordingError | None = None
 
     def __iter__(self) -> Iterator[Packet | Sample]:
         from ..show.tables.progress import progress_bar
@@ -128,7 +125,7 @@ class _Reading:
                     yield item
                     show(source.done)
             except RecordingError as error:
-                self.failure = Failure(str(error))
+                self.failure = error
 
 
 def _straight(reading: _Reading, session: Session, results: Results) -> float:

@@ -17,7 +17,8 @@ LONGEST = 2000
 
 
 class Failure(Exception):
-    """The command cannot go on: one sentence for stderr, exit status 2."""
+    """The command cannot go on: one sentence for stderr, exit status 2. So does a RecordingError or
+    CalibrationError that nobody catches."""
 
 
 def note(sentence: str) -> None:

@@ -48,11 +48,11 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
         plan = read_floorplan(options.floorplan)
         indexed = IndexedPlan(plan)
     except FloorPlanError as error:
-        raise Failure(printable(str(error), 2000)) from None
+        raise Failure(str(error)) from None
     for sentence in warnings(plan):
         note(f"{options.floorplan}: {sentence}")
     if start is not None and (why_not := nowhere(indexed, start)) is not None:
-        raise Failure(printable(f"{options.floorplan}: {why_not}", 2000))
+        raise Failure(f"{options.floorplan}: {why_not}")
     return indexed, start
 
 

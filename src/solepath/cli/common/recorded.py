@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ...calibration import Calibration, CalibrationError
+from ...calibration import Calibration
 from ...link.decoder import Decoder
 from ...recipes import Recipe
 from ...recording import RecordingError, Source, open_source, printable
@@ -66,12 +66,7 @@ def add_calibration(command: argparse.ArgumentParser) -> None:
 
 
 def calibration_of(options: argparse.Namespace) -> Calibration | None:
-    """What --calibration names; None without it. Failure when that is no calibration."""
+    """What --calibration names; None without it. CalibrationError when that is none."""
     from ...calibration.file import read_calibration
 
-    if options.calibration is None:
-        return None
-    try:
-        return read_calibration(options.calibration)
-    except CalibrationError as error:
-        raise Failure(printable(str(error), 2000)) from None
+    return None if options.calibration is None else read_calibration(options.calibration)

@@ -10,6 +10,8 @@ from .style import STYLE
 
 LONGEST = 300
 """Characters of a sentence that came from outside."""
+MOST = 40
+"""Sentences of a list."""
 
 
 def add(parent: Element, tag: str, text: str = "", **attributes: str) -> Element:
@@ -40,14 +42,14 @@ def section(parent: Element, name: str, title: str) -> Element:
     return made
 
 
-def sentences(parent: Element, told: Sequence[str], most: int = 40) -> None:
+def sentences(parent: Element, told: Sequence[str]) -> None:
     """A list of sentences, and how many more there are."""
     if told:
         listed = add(parent, "ul")
-        for one in told[:most]:
+        for one in told[:MOST]:
             add(listed, "li", one)
-        if len(told) > most:
-            add(listed, "li", f"and {len(told) - most} more")
+        if len(told) > MOST:
+            add(listed, "li", f"and {len(told) - MOST} more")
 
 
 def figure(parent: Element, svg: Element, caption: str, *notes: str) -> Element:

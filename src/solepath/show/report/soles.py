@@ -44,8 +44,6 @@ class ReportSole:
     paths: deque[list[Pair]] = field(factory=lambda: deque(maxlen=PATHS))
     standing: list[float] = field(factory=list)
     """Sum of each cell over all samples: for who takes no stride."""
-    force: float = 0.0
-    """Of all samples, summed."""
     newest: deque[FootPressed] = field(factory=lambda: deque(maxlen=KEPT))
 
     def press(self, event: FootPressed) -> None:
@@ -53,7 +51,6 @@ class ReportSole:
         if len(self.standing) != len(event.values):
             self._begin(len(event.values))
         self.samples += 1
-        self.force += event.force
         self.standing = [a + b for a, b in zip(self.standing, event.values, strict=True)]
         if self.newest and event.t <= self.newest[-1].t:
             self.newest.clear()
@@ -62,7 +59,7 @@ class ReportSole:
     def _begin(self, cells: int) -> None:
         self.standing, self.means, self.peaks = [0.0] * cells, [0.0] * cells, [0.0] * cells
         self.forces, self.path = [0.0] * STATIONS, [(0.0, 0.0, 0)] * STATIONS
-        self.samples, self.contacts, self.force = 0, 0, 0.0
+        self.samples = self.contacts = 0
         self.newest.clear()
         self.paths.clear()
 

@@ -70,9 +70,9 @@ class AxisScale:
         return self.start if span <= 0.0 else self.start + (value - self.low) / span * (self.end - self.start)
 
 
-def drawing(name: str, title: str, what: str, height: float, width: float = WIDTH) -> Element:
+def drawing(name: str, title: str, what: str, height: float) -> Element:
     """An empty <svg>. `name`: its own on the page; `title` and `what`: for who cannot see it."""
-    svg = Element("svg", {"viewBox": f"0 0 {px(width)} {px(height)}", "role": "img"})
+    svg = Element("svg", {"viewBox": f"0 0 {px(WIDTH)} {px(height)}", "role": "img"})
     svg.set("aria-labelledby", f"{name}-title {name}-what")
     add(svg, "title", title, id=f"{name}-title")
     add(svg, "desc", what, id=f"{name}-what")
