@@ -62,11 +62,9 @@ from solepath.show.page.messages import FASTEST, SLOWEST, encode, parse_command
 from solepath.show.page.player.playback import Playback
 from solepath.show.page.scene import plan_drawing
 from solepath.show.page.scene.lists import MOST_POINTS, RECENT
-from solepath.show.page.scene.log import MOST_LINES
+from solepath.show.page.scene.log import MOST_LINES, sentence
 from solepath.show.page.scene.scene import Scene
-from solepath.show.page.scene.sentences import sentence
-from solepath.show.tables.gait import gait_lines
-from solepath.show.tables.gait_rows import gait_rows
+from solepath.show.tables.gait import gait_lines, gait_rows
 from solepath.types import Turn
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT

@@ -16,7 +16,7 @@ from walks import insoles
 from solepath import PlaceLost
 from solepath.body.place.particles import Particles
 from solepath.cli.common.failure import Failure
-from solepath.cli.common.floorplan import start_of
+from solepath.cli.common.inputs import start_of
 from solepath.floorplan.importers.geojson import write_floorplan
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall
 from solepath.recording import PacketWriter

@@ -25,7 +25,7 @@ from solepath.emulate.routes.route import Route
 from solepath.events import Event, FootMoved, FootPressed, GaitCycleMeasured, LayoutKnown, StrideTaken, WearerMoved
 from solepath.floorplan.plan import Start
 from solepath.show.report import Report
-from solepath.show.tables.gait_rows import gait_rows
+from solepath.show.tables.gait import gait_rows
 from solepath.show.tables.table import number, percent
 from solepath.types import Foot
 

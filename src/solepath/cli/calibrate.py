@@ -13,7 +13,7 @@ from ..show.tables.table import number, table
 from ..types import Foot
 from .common.failure import Failure, count, degrees_of, positive, recipe_named, share
 from .common.files import check_writable
-from .common.recorded import add_foot, check_pressure, foot_of, source_of
+from .common.inputs import add_foot, check_pressure, foot_of, source_of
 
 MERGED = "What FILE holds already of other kinds, or of the other foot, stays."
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..recipes import DEFAULT, NAMES, by_name
 from .common.failure import Failure, note, recipe_named
 from .common.files import write_json
-from .common.recorded import add_calibration, calibration_of
+from .common.inputs import add_calibration, calibration_of
 
 if TYPE_CHECKING:
     from ..lab.evaluate.report import Result

@@ -12,8 +12,16 @@ from ..recording import RecordingError, Source, began, printable, read_header
 from ..session import Session
 from ..types import Packet, Sample
 from .common.failure import note, recipe_named
-from .common.floorplan import add_floorplan, floorplan_of
-from .common.recorded import add_calibration, add_foot, calibration_of, check_pressure, foot_of, source_of
+from .common.inputs import (
+    add_calibration,
+    add_floorplan,
+    add_foot,
+    calibration_of,
+    check_pressure,
+    floorplan_of,
+    foot_of,
+    source_of,
+)
 from .common.view import View, add_speed, add_view, need_page, newtons_of, pace_of, play, run_rest, view_of
 
 if TYPE_CHECKING:

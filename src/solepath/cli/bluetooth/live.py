@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..common.failure import recipe_named
-from ..common.floorplan import add_floorplan, floorplan_of
-from ..common.recorded import add_calibration, calibration_of
+from ..common.inputs import add_calibration, add_floorplan, calibration_of, floorplan_of
 from ..common.view import add_view, need_page, view_of
 from .choosing import add_devices, need_bleak
 

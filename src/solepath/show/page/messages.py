@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from functools import cached_property
 from math import isfinite
 from typing import Any
@@ -97,3 +98,13 @@ def _is_finite(value: float) -> bool:
         return isfinite(value)
     except OverflowError:
         return False
+
+
+def shown(value: float | None, digits: int = 3) -> float | None:
+    """`value` with so many digits after the point; None of what is no number: JSON has none for it."""
+    return None if value is None or not isfinite(value) else round(value, digits)
+
+
+def placed(values: Iterable[float], digits: int = 3) -> list[float | None]:
+    """The same of a place, m: to the millimetre."""
+    return [shown(value, digits) for value in values]

@@ -6,7 +6,7 @@ from xml.etree.ElementTree import Element
 
 from ...body.gait.means import GaitMeans, GaitParameters, StrideFigures
 from ...types import Foot
-from ..tables.gait_rows import ENOUGH, gait_rows, strides_of
+from ..tables.gait import ENOUGH, gait_rows, strides_of
 from ..tables.table import number, percent
 from .markup import add, table
 

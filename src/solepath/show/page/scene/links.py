@@ -6,7 +6,7 @@ from typing import Any
 
 from ....types import Site
 from ...links import LinkLedger
-from .rounding import shown
+from ..messages import shown
 
 
 def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:

@@ -9,8 +9,8 @@ from attrs import asdict, define
 from ....body.gait.means import GaitMeans, GaitParameters
 from ....events import GaitCycleMeasured
 from ....types import Foot
-from ...tables.gait_rows import ENOUGH, GaitRow, gait_rows, strides_of
-from .rounding import shown
+from ...tables.gait import ENOUGH, GaitRow, gait_rows, strides_of
+from ..messages import shown
 
 
 @define

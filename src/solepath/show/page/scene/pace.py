@@ -8,7 +8,7 @@ from attrs import define, field
 
 from ....events import GaitCycleMeasured
 from ....types import Activity, Foot
-from .rounding import shown
+from ..messages import shown
 
 STRIDES = 2
 """Of a foot, which follow on one another: one alone errs by some per cent."""

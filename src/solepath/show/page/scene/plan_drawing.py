@@ -7,8 +7,7 @@ from typing import Any
 from weakref import ref
 
 from ....floorplan.plan import Connector, Door, FloorPlan, Level, Wall
-from ..messages import Written
-from .rounding import placed, shown
+from ..messages import Written, placed, shown
 
 _known: dict[int, tuple[ref[FloorPlan], Written]] = {}
 """By the plan's identity, since to compare or hash a large one takes as long as to draw it. What is drawn goes when its

@@ -31,6 +31,7 @@ from ....floorplan.plan import FloorPlan
 from ....foot.phase import BEGINS, SUPPORT
 from ....types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site
 from ...observer import REJECTED, FootCounts, Observer
+from ..messages import shown
 from ..player.playback import Playback
 from .feet import FootScene
 from .links import link_frame, unheard_since
@@ -39,7 +40,6 @@ from .log import SceneLog
 from .measured import SceneMeasures
 from .pace import ScenePace, activity_frame
 from .plan_drawing import drawn
-from .rounding import shown
 from .scales import Scales
 from .whereabouts import Whereabouts
 
