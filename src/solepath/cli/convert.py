@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import argparse
-import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
-from secrets import token_hex
-from stat import S_IWUSR
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from ..recording import PacketWriter, RecordingError, printable, read_header, read_packets, why
 from ..types import Packet, Site
 from .common.failure import Failure, note
+from .common.files import Replacing
 
 if TYPE_CHECKING:
     from ..recording.btsnoop import BtsnoopLog
@@ -208,26 +206,11 @@ def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | RecordingError
 @contextmanager
 def _replacing(out: Path) -> Iterator[Path]:
     """A file to write that takes the place of `out` when it is done, and is gone when it is not."""
-    if out.exists() and not out.is_file():  # a pipe or a device cannot be replaced
-        yield out
-        return
-    target = Path(os.path.realpath(out))
-    part = target.with_name(f".solepath-{token_hex(8)}.part")  # nobody's: "x" refuses a name that is taken
+    files = Replacing()
     try:
-        part.open("xb").close()
+        yield files.beside(out, read_only=True)
+        files.keep()
     except OSError as error:
         raise Failure(f"{printable(str(out))}: {why(error)}") from None
-    try:
-        mode = target.stat().st_mode & 0o777 if target.exists() else None
-        if mode is not None:
-            part.chmod(mode | S_IWUSR)
-        yield part
-        if mode is not None:
-            part.chmod(mode)
-        try:
-            part.replace(target)
-        except OSError as error:
-            raise Failure(f"{printable(str(out))}: {why(error)}") from None
     finally:
-        with suppress(OSError):
-            part.unlink()
+        files.drop()
