@@ -77,6 +77,9 @@ class Written(dict[str, Any]):
     def text(self) -> str:
         return _json(self)
 
+    def __deepcopy__(self, memo: dict[int, Any]) -> Written:
+        return self
+
 
 def _json(value: Any) -> str:
     return json.dumps(value, allow_nan=False, separators=(",", ":"))

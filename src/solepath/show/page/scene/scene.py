@@ -31,7 +31,7 @@ from ....floorplan.plan import FloorPlan
 from ....foot.phase import BEGINS, SUPPORT
 from ....types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site
 from ...observer import REJECTED, FootCounts, Observer
-from ..messages import shown
+from ..messages import Written, shown
 from ..player.playback import Playback
 from .feet import FootScene
 from .links import link_frame, unheard_since
@@ -83,6 +83,11 @@ class Scene:
     log: SceneLog = field(factory=SceneLog, init=False)
     layouts: int = field(default=0, init=False)
     """How often one became known: a page that drew others needs the scene anew."""
+    drawing: Written | None = field(init=False)
+    """Of the plan: made once, however many watch and wherever the player goes."""
+
+    def __attrs_post_init__(self) -> None:
+        self.drawing = None if self.plan is None else drawn(self.plan)
 
     # --- in ---
 
@@ -179,7 +184,7 @@ class Scene:
             "recipe": self.recipe,
             "source": self.source,
             "control": False,
-            "plan": None if self.plan is None else drawn(self.plan),
+            "plan": self.drawing,
             "layouts": {foot.value: one.layout_message(foot in self.newtons) for foot, one in self.feet.items()},
             "tracks": {name: list(track.points) for name, track in self._tracks().items()},
             "places": list(self.whereabouts.places.points),
