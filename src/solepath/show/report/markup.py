@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from xml.etree.ElementTree import Element, SubElement
 
 from ...recording import printable
@@ -50,6 +50,14 @@ def sentences(parent: Element, told: Sequence[str]) -> None:
             add(listed, "li", one)
         if len(told) > MOST:
             add(listed, "li", f"and {len(told) - MOST} more")
+
+
+def terms(parent: Element, told: Iterable[tuple[str, str]], **attributes: str) -> None:
+    """Words, and what they mean."""
+    listed = add(parent, "dl", **attributes)
+    for word, meaning in told:
+        add(listed, "dt", word)
+        add(listed, "dd", meaning)
 
 
 def figure(parent: Element, svg: Element, caption: str, *notes: str) -> Element:

@@ -32,7 +32,7 @@ from .figures.pressure import pressure_figures
 from .figures.stride import DrawnStride, stride_figures
 from .figures.track import Stood, height_figure, plan_figure, track_figure
 from .gait_table import gait_tables
-from .markup import add, section, sentences, skeleton, table
+from .markup import add, section, sentences, skeleton, table, terms
 from .soles import ReportSole
 from .words import CAUTION, link_rows, overview, sensors, without, wrong
 
@@ -169,14 +169,10 @@ class Report:
         return "<!DOCTYPE html>\n" + tostring(html, encoding="unicode", method="html") + "\n"
 
     def _facts(self, main: Element, clock: ReportClock) -> None:
-        facts = add(main, "dl", class_="facts")
         when = f"{clock.begin:.1f} to {clock.end:.1f} s of its own clock" if self.spanned else ""
         told = [("When", self.when), ("Recording", when), ("Sensors", sensors(self.observer))]
         told += [("Recipe", self.recipe), ("Made by", f"solepath {self.version}".rstrip())]
-        for name, words in told:
-            if words:
-                add(facts, "dt", name)
-                add(facts, "dd", words)
+        terms(main, [(name, words) for name, words in told if words], class_="facts")
         add(main, "p", CAUTION, class_="caution")
 
     def _track(self, part: Element, clock: ReportClock) -> None:
