@@ -1,4 +1,4 @@
-"""What an observer has counted, in words."""
+"""What an observer has counted, in words: all of it at the end, and how the links do at this moment."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from ...types import SITE_OF_FOOT, Foot, Site, Turn, WalkingMode
 from ..links import LinkLedger
 from ..observer import GAIT_EVENTS, FootCounts, Observer
 from .gait import gait_lines
+from .placed import here
 from .table import milliseconds, number, table
 
 
@@ -116,3 +117,25 @@ def latency(observer: Observer) -> list[str]:
     medians = {GAIT_EVENTS[kind]: median(known.elements()) for kind, known in observer.delays.items() if known}
     known = [f"{name} {milliseconds(1e-4 * tenths)} ms" for name, tenths in medians.items()]
     return [f"known after it happened, median: {', '.join(known)}"] if known else []
+
+
+def status(observer: Observer) -> list[str]:
+    """A line for each site that was heard of, in the order of Site, and one for the place once it is known."""
+    lines = [_link(site, observer.links[site], observer.now) for site in Site if site in observer.links]
+    place = observer.places.last
+    return lines if place is None else [*lines, here(place)]
+
+
+def _link(site: Site, link: LinkLedger, now: float) -> str:
+    told = [f"{site.words}: {link.rate_of_late(now) or 0.0:.0f} Hz"]
+    if link.loss is not None:
+        told.append(f"{100.0 * link.loss:.1f} % lost")
+    if link.battery is not None:
+        told.append(f"battery {100.0 * link.battery:.0f} %")
+    if link.signal is not None:
+        told.append(f"{link.signal} dBm")
+    if link.state(now) == "lost":
+        told.append("disconnected")
+    if link.trouble:
+        told.append(printable(link.trouble))
+    return ", ".join(told)

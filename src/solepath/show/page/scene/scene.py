@@ -34,11 +34,10 @@ from ...observer import REJECTED, FootCounts, Observer
 from ..messages import Written, shown
 from ..player.playback import Playback
 from .feet import FootScene
+from .gait import SceneMeasures, ScenePace, activity_frame
 from .links import link_frame, unheard_since
 from .lists import WalkedTrack
 from .log import SceneLog
-from .measured import SceneMeasures
-from .pace import ScenePace, activity_frame
 from .plan_drawing import drawn
 from .scales import Scales
 from .whereabouts import Whereabouts
