@@ -161,9 +161,3 @@ class TrackFiles:
     def close(self) -> None:
         with naming(self.directory):
             self._stack.close()
-
-    def __enter__(self) -> TrackFiles:
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        self.close()

@@ -55,8 +55,8 @@ class Results:
     def begin(self) -> None:
         """There is something to write, or there will be nothing."""
         if self._files is None and self.out is not None:
-            files = TrackFiles(self.out, places=self.plan is not None, beside=self._replacing.beside)
-            self._files = self._open.enter_context(files)
+            self._files = TrackFiles(self.out, places=self.plan is not None, beside=self._replacing.beside)
+            self._open.callback(self._files.close)
             if self.plan is not None:
                 self._picture_at = self._replacing.beside(self.out / PLAN)
         if self._report_at is None and self.report is not None:

@@ -29,7 +29,7 @@ from .clock import ReportClock
 from .figures.activity import activity_figure
 from .figures.cycle import cycle_figure
 from .figures.pressure import pressure_figures
-from .figures.stride import DrawnStride, stride_figures
+from .figures.stride import stride_figures
 from .figures.track import Stood, height_figure, plan_figure, track_figure
 from .gait_table import gait_tables
 from .markup import add, section, sentences, skeleton, table, terms
@@ -79,7 +79,7 @@ class Report:
     observer: Observer = field(factory=Observer)
     # state
     soles: dict[Foot, ReportSole] = field(factory=dict, init=False)
-    strides: dict[Foot, Thinned[DrawnStride]] = field(factory=lambda: _of_both(STRIDES), init=False)
+    strides: dict[Foot, Thinned[GaitCycleMeasured]] = field(factory=lambda: _of_both(STRIDES), init=False)
     prints: dict[Foot, Thinned[Stood]] = field(factory=lambda: _of_both(POINTS), init=False)
     heights: dict[Foot, Thinned[Stood]] = field(factory=lambda: _of_both(POINTS), init=False)
     way: Thinned[Stood] = field(factory=lambda: Thinned(POINTS), init=False)
@@ -106,7 +106,7 @@ class Report:
                 self.sampled = _wider(self.sampled, event.t)
                 self._sole(event.foot).press(event)
             case GaitCycleMeasured():
-                self.strides[event.foot].add(DrawnStride.of(event))
+                self.strides[event.foot].add(event)
                 self._sole(event.foot).stride(event)
             case StrideTaken(final=True):
                 self.prints[event.foot].add(Stood(event.t, event.position))

@@ -101,8 +101,8 @@ def marks(points: Iterable[Point], shape: str) -> str:
     return "".join([f"M{px(x)} {px(y)}{shape}" for x, y in points])
 
 
-def grid(svg: Element, x: AxisScale, y: AxisScale, across: Sequence[float], up: Sequence[float]) -> None:
-    """Lines at these values of x and y, and the values beside the axes."""
+def grid(svg: Element, x: AxisScale, y: AxisScale, across: Sequence[float], up: Sequence[float]) -> Element:
+    """Lines at these values of x and y, a path, and the values beside the axes."""
     path = add(svg, "path", class_="grid")
     lines = []
     for value, words in zip(across, told(across), strict=True):
@@ -112,6 +112,7 @@ def grid(svg: Element, x: AxisScale, y: AxisScale, across: Sequence[float], up: 
         lines.append(f"M{px(x.start)} {px(y.at(value))}H{px(x.end)}")
         write(svg, x.start - 5.0, y.at(value) + 4.0, words, "tick", "end")
     path.set("d", "".join(lines))
+    return path
 
 
 @define
