@@ -80,9 +80,9 @@ class Report:
     # state
     soles: dict[Foot, ReportSole] = field(factory=dict, init=False)
     strides: dict[Foot, Thinned[GaitCycleMeasured]] = field(factory=lambda: _of_both(STRIDES), init=False)
-    prints: dict[Foot, Thinned[Stood]] = field(factory=lambda: _of_both(POINTS), init=False)
-    heights: dict[Foot, Thinned[Stood]] = field(factory=lambda: _of_both(POINTS), init=False)
-    way: Thinned[Stood] = field(factory=lambda: Thinned(POINTS), init=False)
+    prints: dict[Foot, Thinned[StrideTaken]] = field(factory=lambda: _of_both(POINTS), init=False)
+    heights: dict[Foot, Thinned[FootMoved]] = field(factory=lambda: _of_both(POINTS), init=False)
+    way: Thinned[WearerMoved] = field(factory=lambda: Thinned(POINTS), init=False)
     places: Thinned[Placed | PlaceLost] = field(factory=lambda: Thinned(PLACES), init=False)
     sampled: tuple[float, float] | None = field(default=None, init=False)
     """First and last sample, s ..."""
@@ -109,9 +109,9 @@ class Report:
                 self.strides[event.foot].add(event)
                 self._sole(event.foot).stride(event)
             case StrideTaken(final=True):
-                self.prints[event.foot].add(Stood(event.t, event.position))
+                self.prints[event.foot].add(event)
             case WearerMoved():
-                self.way.add(Stood(event.t, event.position))
+                self.way.add(event)
             case LayoutKnown(site=site, layout=layout) if site.foot is not None:
                 self._sole(site.foot).layout = layout
             case Placed(candidates=candidates):
@@ -127,7 +127,7 @@ class Report:
     def _height(self, event: FootMoved) -> None:
         last = self.heights[event.foot].last
         if event.phase is Phase.STATIONARY and (last is None or not 0.0 <= event.t - last.t < OFTEN):
-            self.heights[event.foot].add(Stood(event.t, event.position))
+            self.heights[event.foot].add(event)
 
     @property
     def clock(self) -> ReportClock:
@@ -180,7 +180,7 @@ class Report:
         if self.plan is not None and not plan_figure(shown, self.plan, list(self.places)):
             add(shown, "p", "Where on the floor plan the wearer was is not known.")
         prints = {foot: list(some) for foot, some in self.prints.items() if len(some)}
-        way = list(self.way) or max(prints.values(), key=len, default=[])
+        way: Sequence[Stood] = list(self.way) or max(prints.values(), key=len, default=[])
         if not track_figure(shown, way, prints, clock):
             add(shown, "p", "There is no track: no foot with a motion sensor took two steps.")
         height_figure(shown, {foot: list(some) for foot, some in self.heights.items()}, clock)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from xml.etree.ElementTree import Element
 
-from attrs import evolve, frozen
+from attrs import evolve
 
-from ....events import Placed, PlaceLost
+from ....events import FootMoved, Placed, PlaceLost, StrideTaken, WearerMoved
 from ....floorplan.plan import FloorPlan
-from ....types import Foot, Vec3
+from ....types import Foot
 from ...tables.plan import PlanPicture, px
 from ..clock import ReportClock
 from ..markup import add, figure
@@ -27,15 +27,12 @@ SMALLEST = 4.0
 """m that the longer side shows at least, so that standing still is not magnified."""
 
 
-@frozen
-class Stood:
-    """Where something was, world frame, m, and when, s."""
-
-    t: float
-    position: Vec3
+Stood = FootMoved | StrideTaken | WearerMoved
+"""What says where a foot or the wearer was, and when."""
+OfFeet = Mapping[Foot, Sequence[Stood]]
 
 
-def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[Stood]], clock: ReportClock) -> bool:
+def track_figure(parent: Element, way: Sequence[Stood], prints: OfFeet, clock: ReportClock) -> bool:
     """The way from above, x to the right and y up; False where there is none. `way`: the wearer's, or a foot's where
     only feet are known; `prints`: where the feet stood."""
     few = sum([len(some) for some in prints.values()]) <= PRINTS
@@ -84,7 +81,7 @@ def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[
     return True
 
 
-def _astray(way: Sequence[Stood], prints: dict[Foot, list[Stood]]) -> float:
+def _astray(way: Sequence[Stood], prints: OfFeet) -> float:
     """How far a print lies from where the wearer was then, at the most, m."""
     times, farthest = [one.t for one in way], 0.0
     for one in [one for some in prints.values() for one in some] if way else []:
@@ -124,7 +121,7 @@ def _times(svg: Element, way: Sequence[Stood], at: Callable[[Stood], Point], clo
             write(svg, a, b - 6.0, f"{words} {unit}", "halo tick", "middle")
 
 
-def height_figure(parent: Element, heights: dict[Foot, list[Stood]], clock: ReportClock) -> bool:
+def height_figure(parent: Element, heights: OfFeet, clock: ReportClock) -> bool:
     """The height of the standing foot over time; False where there is none."""
     known = {foot: some for foot, some in heights.items() if len(some) > 1}
     if not known:
