@@ -134,7 +134,7 @@ def walked() -> ReportSole:
 
 def test_loads_of_a_contact_are_means_and_peaks_of_each_cell_and_the_centre_goes_from_heel_to_toe() -> None:
     sole = walked()
-    assert sole.contacts == 3 and sole.unit == "N" and sole.mapped()
+    assert sole.contacts == 3 and sole.unit == "N" and sole.mapped
     assert [one / 3 for one in sole.means] == pytest.approx([50.0, 50.0], rel=0.02)
     assert [one / 3 for one in sole.peaks] == pytest.approx([100.0, 100.0], rel=0.02)
     assert [one / 3 for one in sole.forces] == pytest.approx([100.0] * STATIONS)

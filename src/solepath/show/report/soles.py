@@ -99,6 +99,7 @@ class ReportSole:
         """Of the loads."""
         return "N" if self.layout is not None and self.layout.scale is not None else "counts"
 
-    def mapped(self) -> bool:
-        """Whether it is known where the cells lie."""
-        return self.layout is not None and len(self.layout.cells) == len(self.standing) > 0
+    @property
+    def mapped(self) -> Layout | None:
+        """Where the cells lie that there are; None where that is not known."""
+        return self.layout if self.layout is not None and len(self.layout.cells) == len(self.standing) > 0 else None
