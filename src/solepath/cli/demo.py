@@ -76,9 +76,11 @@ def run(options: argparse.Namespace) -> int:
         _record(demo, options.record)
     if view is not None:
         _show(demo, view, pace)
-    elif sys.stdout.isatty() and _rich_is_there():
+    elif sys.stdout.isatty() and is_there("rich"):
         _draw(demo, PACE if options.speed is None else options.speed)
     else:
+        if sys.stdout.isatty():
+            note("the live view needs rich (pip install rich); plain text without it")
         _tell(demo)
     print()
     told = [*gait_lines(demo.observer.gait), comparison_table(demo.comparison()), ""]
@@ -118,13 +120,6 @@ def _record(demo: Demo, path: Path) -> None:
         for packet in demo.walk.packets:
             writer.write(packet)
     print(f"{len(demo.walk.packets)} packets recorded in {printable(str(path))}", flush=True)
-
-
-def _rich_is_there() -> bool:
-    if is_there("rich"):
-        return True
-    note("the live view needs rich (pip install rich); plain text without it")
-    return False
 
 
 def _draw(demo: Demo, speed: float) -> None:

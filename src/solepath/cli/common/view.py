@@ -6,7 +6,7 @@ import argparse
 import os
 import sys
 from collections.abc import AsyncIterator, Callable
-from contextlib import asynccontextmanager
+from contextlib import AsyncExitStack, asynccontextmanager
 from itertools import count
 from typing import TYPE_CHECKING
 
@@ -102,20 +102,17 @@ async def page_of(scene: Scene, view: View, commands: Callable[[Command], None] 
     from ...show.page.server.access import on_loopback
     from ...show.page.server.server import Page
 
-    page = Page(scene, host=view.host, port=view.port, commands=commands)
-    try:
-        await page.__aenter__()
-    except (OSError, UnicodeError) as error:
-        raise _taken(view, error) from None
-    try:
+    async with AsyncExitStack() as stack:
+        try:
+            page = await stack.enter_async_context(Page(scene, host=view.host, port=view.port, commands=commands))
+        except (OSError, UnicodeError) as error:
+            raise _taken(view, error) from None
         print(f"the page: {page.url}", flush=True)
         if not on_loopback(view.host):
             note("the page can be reached from other machines: whoever has this address with its token sees it")
         if view.browser and _there_is_a_browser():
             await asyncio.to_thread(_open, page.url)
         yield page
-    finally:
-        await page.__aexit__(None, None, None)
 
 
 def play(player: Player, view: View, pace: float) -> None:
