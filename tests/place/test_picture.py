@@ -21,8 +21,8 @@ from solepath.floorplan.importers.geojson import write_floorplan
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall
 from solepath.recording import PacketWriter
 from solepath.show.places import PlaceCounts
-from solepath.show.tables.placed import place_lines
 from solepath.show.tables.plan import COLOURS, PlanPicture, blend
+from solepath.show.tables.summary import place_lines
 
 SVG = "{http://www.w3.org/2000/svg}"
 

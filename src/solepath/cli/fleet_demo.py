@@ -70,6 +70,7 @@ def run(options: argparse.Namespace) -> int:
     from ..fleet.demo.stage import DemoStage
     from ..fleet.demo.wearers import DemoPlan
     from .common.loop import stopped_alike
+    from .fleet_table import figures, table_of
 
     seconds = options.seconds or min(max(WALKED / options.wearers, LEAST), MOST)
     plan = DemoPlan(options.wearers, seconds, options.seed, options.recipe, options.processes)
@@ -79,7 +80,12 @@ def run(options: argparse.Namespace) -> int:
             differences = play(stage, options.kills, keep=options.keep)
         except (RunFailed, Torn) as failed:
             raise Failure(str(failed)) from None
-        return conclude(stage, differences, options.out, options.json)
+        print(f"\n{table_of(stage)}")
+        if options.json is not None:
+            write_json(options.json, {**figures(stage), "differences": differences})
+        if options.out is not None:
+            _leave(stage, options.out)
+        return verdict(differences, [outcome.differences for outcome in stage.outcomes])
 
 
 def play(stage: DemoStage, kills: int, *, keep: bool) -> list[str]:
@@ -107,18 +113,6 @@ def play(stage: DemoStage, kills: int, *, keep: bool) -> list[str]:
             print(line, flush=True)
     print(of_worth(stage.outcomes))
     return differences
-
-
-def conclude(stage: DemoStage, differences: list[str], out: Path | None, json: Path | None) -> int:
-    """The table, the files, and the exit status."""
-    from .fleet_table import figures, table_of
-
-    print(f"\n{table_of(stage)}")
-    if json is not None:
-        write_json(json, {**figures(stage), "differences": differences})
-    if out is not None:
-        _leave(stage, out)
-    return verdict(differences, [outcome.differences for outcome in stage.outcomes])
 
 
 def _counted(count: int, one: str, many: str) -> str:

@@ -13,9 +13,8 @@ from ...recording import printable
 from ...show.observer import Observer
 from ...show.output import PLAN, TrackFiles, naming
 from ...show.report import Report
-from ...show.tables.placed import place_lines
 from ...show.tables.plan import PlanPicture
-from ...show.tables.summary import summary
+from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample
 from .files import Replacing, check_writable
 
