@@ -174,7 +174,7 @@ def _open(url: str) -> None:
 
 def _check_free(view: View) -> None:
     """Failure now when nothing will be served there later, after a long recording was read."""
-    from ...show.page.server.address import listen
+    from ...show.page.server.access import listen
 
     try:
         listen(view.host, view.port).close()

@@ -21,8 +21,7 @@ from aiohttp import web
 
 from ..messages import Command
 from ..scene.scene import Scene
-from .access import Access, AccessDenied
-from .address import listen, reached_at
+from .access import Access, AccessDenied, listen, reached_at
 from .connection import HEADERS, BrowserConnection, NoRoom
 from .offences import Offences
 from .watcher import Watcher
