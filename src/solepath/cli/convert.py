@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..recording import PacketWriter, RecordingError, printable, read_header, read_packets, why
 from ..types import Packet, Site
@@ -15,6 +15,7 @@ from .common.files import Replacing
 
 if TYPE_CHECKING:
     from ..recording.btsnoop import BtsnoopLog
+    from ..recording.mcap import McapWriter
 
 LONG = 4_000_000
 """Bytes from which on there is a progress bar."""
@@ -80,13 +81,6 @@ _Key = TypeVar("_Key", str, tuple[str, int])
 _Said = TypeVar("_Said")
 
 
-class _FileWriter(Protocol):
-    count: int
-
-    def write(self, packet: Packet) -> None: ...
-    def close(self) -> None: ...
-
-
 def run(options: argparse.Namespace) -> int:
     from ..recording.btsnoop import is_btsnoop
     from ..show.tables.progress import progress_bar
@@ -147,7 +141,7 @@ def _shown(log: BtsnoopLog, show: Callable[[int], None]) -> Iterator[Packet]:
         yield packet
 
 
-Make = Callable[[Path, Mapping[str, Any]], _FileWriter]
+Make = Callable[[Path, Mapping[str, Any]], "PacketWriter | McapWriter"]
 
 
 def _maker(out: Path) -> Make:
