@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from contextlib import closing
 from functools import cache
 from math import degrees, pi
 from pathlib import Path
@@ -262,7 +263,7 @@ def test_a_runner_is_in_the_air_where_a_walker_stands_on_both_feet() -> None:
 
 def test_gait_csv_has_a_line_for_each_stride_and_nothing_where_nothing_could_be_told(tmp_path: Path) -> None:
     _, strides, _ = walked(LEVEL, 0, (Foot.RIGHT,))
-    with TrackFiles(tmp_path) as files:
+    with closing(TrackFiles(tmp_path)) as files:
         for stride in strides:
             files.write(stride)
     with (tmp_path / "gait_cycles.csv").open(newline="") as file:

@@ -35,8 +35,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.show.page.scene.scales import LEAST, rounded
 from solepath.show.page.scene.scene import Scene
-from solepath.show.tables.gait import gait_lines
-from solepath.show.tables.gait_rows import ENOUGH, gait_rows
+from solepath.show.tables.gait import ENOUGH, gait_lines, gait_rows
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 WALK = Route().stand(1.5).walk(14.0, 1.3).stop(6.0)

@@ -32,8 +32,7 @@ from solepath import Foot, LinkTrouble, Session, Site
 from solepath.show.page.messages import Command, CommandError, parse_command
 from solepath.show.page.scene.scene import Scene
 from solepath.show.page.server import connection, offences, server, watcher
-from solepath.show.page.server.access import Access, AccessDenied, host_of, on_loopback
-from solepath.show.page.server.address import reached_at
+from solepath.show.page.server.access import Access, AccessDenied, host_of, on_loopback, reached_at
 from solepath.show.page.server.connection import HEADERS
 from solepath.show.page.server.server import MOST_CONNECTIONS, MOST_WATCHERS, Page
 

@@ -16,13 +16,13 @@ from walks import insoles
 from solepath import PlaceLost
 from solepath.body.place.particles import Particles
 from solepath.cli.common.failure import Failure
-from solepath.cli.common.floorplan import start_of
+from solepath.cli.common.inputs import start_of
 from solepath.floorplan.importers.geojson import write_floorplan
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall
 from solepath.recording import PacketWriter
 from solepath.show.places import PlaceCounts
-from solepath.show.tables.placed import place_lines
-from solepath.show.tables.plan import PlanPicture, colour
+from solepath.show.tables.plan import COLOURS, PlanPicture, blend
+from solepath.show.tables.summary import place_lines
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -84,8 +84,9 @@ def test_the_track_is_broken_where_the_place_was_lost() -> None:
 
 
 def test_colours_run_from_the_start_to_the_end() -> None:
-    assert colour(-1.0) == colour(0.0) != colour(0.5) != colour(1.0) == colour(2.0)
-    assert all(len(colour(k / 50.0)) == 7 for k in range(51))
+    shades = [blend(COLOURS, share) for share in (-1.0, 0.0, 0.5, 1.0, 2.0)]
+    assert shades[0] == shades[1] != shades[2] != shades[3] == shades[4]
+    assert all(len(blend(COLOURS, k / 50.0)) == 7 for k in range(51))
 
 
 def test_the_summary_says_when_the_wearer_was_found_and_on_which_levels() -> None:

@@ -25,8 +25,7 @@ from solepath.emulate.routes.route import Route
 from solepath.events import Event, FootMoved, FootPressed, GaitCycleMeasured, LayoutKnown, StrideTaken, WearerMoved
 from solepath.floorplan.plan import Start
 from solepath.show.report import Report
-from solepath.show.report.page import text_of
-from solepath.show.tables.gait_rows import gait_rows
+from solepath.show.tables.gait import gait_rows
 from solepath.show.tables.table import number, percent
 from solepath.types import Foot
 
@@ -50,7 +49,7 @@ def told(*events: Event, title: str = "a walk", **more: str) -> Report:
 
 
 def shown(report: Report) -> Node:
-    return parsed(text_of(report.drawn()))
+    return parsed(report.text())
 
 
 def headings(page: Node) -> list[str]:

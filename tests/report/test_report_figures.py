@@ -14,9 +14,9 @@ from solepath.show.report.bounded import Thinned
 from solepath.show.report.clock import ReportClock, lasted
 from solepath.show.report.figures.axes import AxisScale, line, ticks, told
 from solepath.show.report.figures.cycle import contacts, neither, overlaps
-from solepath.show.report.figures.pressure import shade
+from solepath.show.report.figures.pressure import SHADES
 from solepath.show.report.soles import KEPT, STATIONS, ReportSole
-from solepath.show.tables.plan import PlanPicture
+from solepath.show.tables.plan import PlanPicture, blend
 from solepath.types import Cell, Foot, Layout
 
 L, R = Foot.LEFT, Foot.RIGHT
@@ -134,7 +134,7 @@ def walked() -> ReportSole:
 
 def test_loads_of_a_contact_are_means_and_peaks_of_each_cell_and_the_centre_goes_from_heel_to_toe() -> None:
     sole = walked()
-    assert sole.contacts == 3 and sole.unit == "N" and sole.mapped()
+    assert sole.contacts == 3 and sole.unit == "N" and sole.mapped
     assert [one / 3 for one in sole.means] == pytest.approx([50.0, 50.0], rel=0.02)
     assert [one / 3 for one in sole.peaks] == pytest.approx([100.0, 100.0], rel=0.02)
     assert [one / 3 for one in sole.forces] == pytest.approx([100.0] * STATIONS)
@@ -174,7 +174,7 @@ def test_more_load_is_darker() -> None:
         r, g, b = (int(colour[i : i + 2], 16) for i in (1, 3, 5))
         return 0.2126 * r + 0.7152 * g + 0.0722 * b
 
-    lights = [light(shade(k / 20.0)) for k in range(21)]
+    lights = [light(blend(SHADES, k / 20.0)) for k in range(21)]
     assert lights == sorted(lights, reverse=True)
 
 

@@ -33,7 +33,7 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import emulate
 from solepath.show.links import LinkLedger
 from solepath.show.observer import Observer
-from solepath.show.tables.status import status
+from solepath.show.tables.summary import status
 from solepath.show.track import MOST_POINTS, LiveTrack
 
 LEFT = Site.LEFT_FOOT

@@ -26,8 +26,7 @@ from solepath.events import (
 from solepath.session import Session
 from solepath.show.observer import Observer
 from solepath.show.tables.plot import plot
-from solepath.show.tables.status import status
-from solepath.show.tables.summary import link_health, summary, worn
+from solepath.show.tables.summary import link_health, status, summary, worn
 from solepath.show.tables.table import milliseconds, number, percent, table
 from solepath.types import Foot, Packet, Sample, Site, WalkingMode
 

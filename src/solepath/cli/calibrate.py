@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import argparse
+from math import degrees
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from .common.failure import Failure, count, degrees_of, known_recipe, positive, share
+from ..calibration import Calibration, InsoleCalibration, merged
+from ..recording import printable
+from ..show.tables.table import number, table
+from ..types import Foot
+from .common.failure import Failure, count, degrees_of, positive, recipe_named, share
 from .common.files import check_writable
-from .common.recorded import add_foot, check_pressure, foot_of, source_of
-
-if TYPE_CHECKING:
-    from ..calibration import Calibration
+from .common.inputs import add_foot, check_pressure, foot_of, source_of
 
 MERGED = "What FILE holds already of other kinds, or of the other foot, stays."
 
@@ -24,35 +26,31 @@ def add_to(commands: Any) -> None:
     )
     kinds = command.add_subparsers(metavar="KIND", dest="kind", required=True)
     for add in (_add_noise, _add_shoe, _add_square, _add_toe_out, _add_newton, _add_modes):
-        kind = add(kinds)
+        add(kinds)
+    for kind in kinds.choices.values():
         kind.add_argument("--out", metavar="FILE", type=Path, required=True, help="the calibration file")
         kind.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
-    from ..calibration import Calibration, CalibrationError, merged
     from ..calibration.file import read_calibration, write_calibration
     from ..calibration.limits import unusable
-    from ..recording import RecordingError, printable
 
     if options.out.exists() and not options.out.is_file() and not options.out.is_dir():  # of a folder the system speaks
         raise Failure(f"{options.out}: is no regular file")
     check_writable(options.out)
-    try:
-        known = read_calibration(options.out) if options.out.exists() else Calibration()
-        learnt, lines = options.learn(options, known)
-        whole = merged(known, learnt)
-        why_not = unusable(whole)
-        if why_not is not None:
-            raise CalibrationError(f"nothing is written, for this cannot be: {why_not}")
-    except (CalibrationError, RecordingError) as error:
-        raise Failure(printable(str(error), 2000)) from None
+    known = read_calibration(options.out) if options.out.exists() else Calibration()
+    learnt, lines = options.learn(options, known)
+    whole = merged(known, learnt)
+    why_not = unusable(whole)
+    if why_not is not None:
+        raise Failure(f"nothing is written, for this cannot be: {why_not}")
     write_calibration(options.out, whole)
     print("\n".join([*lines, f"written to {printable(str(options.out))}"]))
     return 0
 
 
-Learnt = tuple["Calibration", list[str]]
+Learnt = tuple[Calibration, list[str]]
 """What was learnt, and the lines that say so."""
 
 
@@ -61,16 +59,14 @@ def _recording(command: argparse.ArgumentParser) -> None:
     add_foot(command)
 
 
-# --- noise ------------------------------------------------------------------------------------------------------------
-
-
-def _add_noise(kinds: Any) -> argparse.ArgumentParser:
+def _add_noise(kinds: Any) -> None:
     command: argparse.ArgumentParser = kinds.add_parser(
         "noise",
         help="what pressure cells show in the air, from a walk",
         description="From some 20 s of walking: what every cell shows while the foot swings, which is taken off later.",
         epilog="example: solepath calibrate noise walk.jsonl --out me.json",
     )
+    command.set_defaults(learn=_noise)
     _recording(command)
     command.add_argument(
         "--share",
@@ -79,14 +75,11 @@ def _add_noise(kinds: Any) -> argparse.ArgumentParser:
         default=0.15,
         help="of the samples with the least load that are taken for swing (default: 0.15)",
     )
-    command.set_defaults(learn=_noise)
-    return command
 
 
 def _noise(options: argparse.Namespace, known: Calibration) -> Learnt:
     from ..papers.kupt_dfpc.noise import pressure_noise
     from ..recording.decoded import recorded
-    from ..show.tables.table import number, table
 
     if options.share == 0.0:
         raise Failure("--share 0: of no samples at all nothing is learnt")
@@ -98,10 +91,7 @@ def _noise(options: argparse.Namespace, known: Calibration) -> Learnt:
     return learnt, [table(["foot", "cells", "mean noise", "largest"], rows)]
 
 
-# --- shoe -------------------------------------------------------------------------------------------------------------
-
-
-def _add_shoe(kinds: Any) -> argparse.ArgumentParser:
+def _add_shoe(kinds: Any) -> None:
     command: argparse.ArgumentParser = kinds.add_parser(
         "shoe",
         help="how a shoe rolls over its forefoot, from postures measured with rulers",
@@ -109,14 +99,11 @@ def _add_shoe(kinds: Any) -> argparse.ArgumentParser:
         "L_p2t_m, and H_imu_m and heel_L_r_m where they are known.",
         epilog="example: solepath calibrate shoe postures.csv --out me.json",
     )
-    command.add_argument("file", metavar="POSTURES", type=Path, help="the csv file")
     command.set_defaults(learn=_shoe)
-    return command
+    command.add_argument("file", metavar="POSTURES", type=Path, help="the csv file")
 
 
 def _shoe(options: argparse.Namespace, known: Calibration) -> Learnt:
-    from math import degrees
-
     from ..papers.kupt_dfpc.shoe import fit_shoe
 
     fit = fit_shoe(options.file)
@@ -129,10 +116,7 @@ def _shoe(options: argparse.Namespace, known: Calibration) -> Learnt:
     ]
 
 
-# --- square -----------------------------------------------------------------------------------------------------------
-
-
-def _add_square(kinds: Any) -> argparse.ArgumentParser:
+def _add_square(kinds: Any) -> None:
     command: argparse.ArgumentParser = kinds.add_parser(
         "square",
         help="which way positions drift, from laps of a square over marks",
@@ -140,6 +124,7 @@ def _add_square(kinds: Any) -> argparse.ArgumentParser:
         "in every lap: how fast the positions of pressure-contour and gyroscope drift, which is taken off later.",
         epilog="example: solepath calibrate square laps.jsonl --out me.json",
     )
+    command.set_defaults(learn=_square)
     _recording(command)
     command.add_argument(
         "--marks",
@@ -157,16 +142,12 @@ def _add_square(kinds: Any) -> argparse.ArgumentParser:
     command.add_argument(
         "--whole", action="store_true", help="keep a drift that the laps do not agree on, as the paper"
     )
-    command.set_defaults(learn=_square)
-    return command
 
 
 def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
-    from ..calibration import Calibration
     from ..papers.pressure_contour.square import read_marks, square_drift
-    from ..recipes import NAMES, by_name
 
-    recipe = by_name(known_recipe(options.recipe, list(NAMES)))
+    recipe = recipe_named(options.recipe)
     foot = foot_of(options)
     marks = read_marks(options.marks) if options.marks else None
     source = source_of(options.file, foot)
@@ -185,10 +166,7 @@ def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
     ]
 
 
-# --- toe-out ----------------------------------------------------------------------------------------------------------
-
-
-def _add_toe_out(kinds: Any) -> argparse.ArgumentParser:
+def _add_toe_out(kinds: Any) -> None:
     command: argparse.ArgumentParser = kinds.add_parser(
         "toe-out",
         help="how far feet point beside their way, from a straight walk of known length",
@@ -196,17 +174,13 @@ def _add_toe_out(kinds: Any) -> argparse.ArgumentParser:
         "the recipe footstep-tracker takes into account.",
         epilog="example: solepath calibrate toe-out corridor.jsonl --distance 20 --out me.json",
     )
+    command.set_defaults(learn=_toe_out)
     _recording(command)
     command.add_argument("--distance", metavar="M", type=positive, required=True, help="length of the walk, m")
-    command.set_defaults(learn=_toe_out)
-    return command
 
 
 def _toe_out(options: argparse.Namespace, known: Calibration) -> Learnt:
-    from math import degrees
-
     from ..papers.footstep_tracker.toe_out import learnt, toe_out
-    from ..show.tables.table import number, table
 
     found = toe_out(source_of(options.file, foot_of(options)), options.distance)
     angles = ["none" if one.angle is None else number(degrees(one.angle)) for one in found]
@@ -222,10 +196,7 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> Learnt:
     return learnt(found), lines
 
 
-# --- newton -----------------------------------------------------------------------------------------------------------
-
-
-def _add_newton(kinds: Any) -> argparse.ArgumentParser:
+def _add_newton(kinds: Any) -> None:
     command: argparse.ArgumentParser = kinds.add_parser(
         "newton",
         help="from an insole's counts to newtons, from what a gauge pressed",
@@ -233,16 +204,13 @@ def _add_newton(kinds: Any) -> argparse.ArgumentParser:
         "and newtons.",
         epilog="example: solepath calibrate newton gauge.csv --foot left --out me.json",
     )
+    command.set_defaults(learn=_newton)
     command.add_argument("file", metavar="GAUGE", type=Path, help="the csv file")
     command.add_argument("--foot", choices=["left", "right"], help="whose insole it is (default: both are alike)")
-    command.set_defaults(learn=_newton)
-    return command
 
 
 def _newton(options: argparse.Namespace, known: Calibration) -> Learnt:
-    from ..calibration import Calibration, InsoleCalibration
     from ..papers.walking_modes.newton import fit_gauge
-    from ..types import Foot
 
     foot = foot_of(options)
     feet = list(Foot) if foot is None else [foot]
@@ -255,10 +223,7 @@ def _newton(options: argparse.Namespace, known: Calibration) -> Learnt:
     ]
 
 
-# --- modes ------------------------------------------------------------------------------------------------------------
-
-
-def _add_modes(kinds: Any) -> argparse.ArgumentParser:
+def _add_modes(kinds: Any) -> None:
     command: argparse.ArgumentParser = kinds.add_parser(
         "modes",
         help="a wearer's own compensation of touchdowns, from walks over marks",
@@ -267,6 +232,7 @@ def _add_modes(kinds: Any) -> argparse.ArgumentParser:
         "Limbs and insoles that FILE knows already are used.",
         epilog="example: solepath calibrate modes straight.jsonl straight.csv bend.jsonl bend.csv --out me.json",
     )
+    command.set_defaults(learn=_modes)
     command.add_argument("files", metavar="RECORDING MARKS", nargs="+", type=Path, help="two files for each walk")
     command.add_argument(
         "--heading",
@@ -274,14 +240,11 @@ def _add_modes(kinds: Any) -> argparse.ArgumentParser:
         type=degrees_of,
         help="where the wearer looks at the start, in the world that all sensors share (default: the first step says)",
     )
-    command.set_defaults(learn=_modes)
-    return command
 
 
 def _modes(options: argparse.Namespace, known: Calibration) -> Learnt:
     from ..papers.walking_modes.calibrate import fit_modes
     from ..recording.decoded import recorded
-    from ..show.tables.table import number, table
 
     if len(options.files) % 2:
         raise Failure("calibrate modes takes two files for each walk: the recording, and the csv file of its marks")

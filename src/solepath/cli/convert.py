@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import argparse
-import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
-from secrets import token_hex
-from stat import S_IWUSR
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from ..recording import PacketWriter, RecordingError, printable, read_header, read_packets, why
 from ..types import Packet, Site
 from .common.failure import Failure, note
+from .common.files import Replacing
 
 if TYPE_CHECKING:
     from ..recording.btsnoop import BtsnoopLog
+    from ..recording.mcap import McapWriter
 
 LONG = 4_000_000
 """Bytes from which on there is a progress bar."""
@@ -81,15 +81,7 @@ _Key = TypeVar("_Key", str, tuple[str, int])
 _Said = TypeVar("_Said")
 
 
-class _FileWriter(Protocol):
-    count: int
-
-    def write(self, packet: Packet) -> None: ...
-    def close(self) -> None: ...
-
-
 def run(options: argparse.Namespace) -> int:
-    from ..recording import RecordingError, printable, read_header, read_packets
     from ..recording.btsnoop import is_btsnoop
     from ..show.tables.progress import progress_bar
 
@@ -97,22 +89,19 @@ def run(options: argparse.Namespace) -> int:
     make = _maker(out)
     log: BtsnoopLog | None = None
     packets: Iterable[Packet]
-    try:
-        total = source.stat().st_size if source.is_file() else 0
-        with progress_bar(printable(source.name), total, wanted=total > LONG) as show:
-            if is_btsnoop(source):
-                log = _opened(options)
-                packets, header = _shown(log, show), log.header
-            elif options.sites or options.handles:
-                raise Failure("--site and --handle are for btsnoop logs; a recording knows its sites and channels")
-            elif out.suffix.lower() == RECORDING:
-                raise Failure(f"{printable(str(source))}: is no btsnoop log; a recording is converted to {MCAP} only")
-            else:
-                header = read_header(source)
-                packets = read_packets(source, report=note, progress=show)
-            count, damage = _write(packets, header, make, source, out)
-    except RecordingError as error:
-        raise Failure(str(error)) from None
+    total = source.stat().st_size if source.is_file() else 0
+    with progress_bar(printable(source.name), total, wanted=total > LONG) as show:
+        if is_btsnoop(source):
+            log = _opened(options)
+            packets, header = _shown(log, show), log.header
+        elif options.sites or options.handles:
+            raise Failure("--site and --handle are for btsnoop logs; a recording knows its sites and channels")
+        elif out.suffix.lower() == RECORDING:
+            raise Failure(f"{printable(str(source))}: is no btsnoop log; a recording is converted to {MCAP} only")
+        else:
+            header = read_header(source)
+            packets = read_packets(source, report=note, progress=show)
+        count, damage = _write(packets, header, make, source, out)
     for device in [] if log is None else log.devices.values():
         if device.site is not None and device.count:
             kind = "" if device.profile is None else f", {device.profile.name}"
@@ -152,13 +141,11 @@ def _shown(log: BtsnoopLog, show: Callable[[int], None]) -> Iterator[Packet]:
         yield packet
 
 
-Make = Callable[[Path, Mapping[str, Any]], _FileWriter]
+Make = Callable[[Path, Mapping[str, Any]], "PacketWriter | McapWriter"]
 
 
 def _maker(out: Path) -> Make:
     """What writes a file of this name."""
-    from ..recording import PacketWriter, printable
-
     suffix = out.suffix.lower()
     if suffix == RECORDING:
         return PacketWriter
@@ -175,20 +162,18 @@ def _maker(out: Path) -> Make:
 
 def _write(
     packets: Iterable[Packet], header: Mapping[str, Any], make: Make, source: Path, out: Path
-) -> tuple[int, Failure | None]:
+) -> tuple[int, RecordingError | None]:
     """(how many packets `out` holds, what was wrong with the source after them). Where nothing could be read, or not
     everything be written, `out` is as it was before."""
-    from ..recording import RecordingError, printable, why
-
     if out.exists() and out.samefile(source):
         raise Failure(f"{printable(str(out))}: is what is to be converted")
-    damage: Failure | None = None
+    damage: RecordingError | None = None
     with _replacing(out) as path:
         try:
             writer = make(path, header)
             try:
                 for packet in _until_damage(packets):
-                    if isinstance(packet, Failure):
+                    if isinstance(packet, RecordingError):
                         damage = packet
                         break
                     writer.write(packet)
@@ -204,41 +189,22 @@ def _write(
     return writer.count, damage
 
 
-def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | Failure]:
+def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | RecordingError]:
     """The packets, and in the end what made the reading stop, if anything did: told from what the writing says."""
-    from ..recording import RecordingError
-
     try:
         yield from packets
     except RecordingError as error:
-        yield Failure(str(error))
+        yield error
 
 
 @contextmanager
 def _replacing(out: Path) -> Iterator[Path]:
     """A file to write that takes the place of `out` when it is done, and is gone when it is not."""
-    from ..recording import printable, why
-
-    if out.exists() and not out.is_file():  # a pipe or a device cannot be replaced
-        yield out
-        return
-    target = Path(os.path.realpath(out))
-    part = target.with_name(f".solepath-{token_hex(8)}.part")  # nobody's: "x" refuses a name that is taken
+    files = Replacing()
     try:
-        part.open("xb").close()
+        yield files.beside(out, read_only=True)
+        files.keep()
     except OSError as error:
         raise Failure(f"{printable(str(out))}: {why(error)}") from None
-    try:
-        mode = target.stat().st_mode & 0o777 if target.exists() else None
-        if mode is not None:
-            part.chmod(mode | S_IWUSR)
-        yield part
-        if mode is not None:
-            part.chmod(mode)
-        try:
-            part.replace(target)
-        except OSError as error:
-            raise Failure(f"{printable(str(out))}: {why(error)}") from None
     finally:
-        with suppress(OSError):
-            part.unlink()
+        files.drop()

@@ -7,8 +7,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .common.failure import Failure, attended, is_there, note, positive, seconds, seed, share
-from .common.view import View, add_speed, add_view, pace_of, view_of
+from ..recording import PacketWriter, printable
+from ..types import Foot
+from .common.failure import Failure, is_there, note, positive, seconds, seed, share
+from .common.view import View, add_speed, add_view, pace_of, play, run_rest, view_of
 
 if TYPE_CHECKING:
     from ..lab.emulated.demo import Demo
@@ -74,9 +76,11 @@ def run(options: argparse.Namespace) -> int:
         _record(demo, options.record)
     if view is not None:
         _show(demo, view, pace)
-    elif sys.stdout.isatty() and _rich_is_there():
+    elif sys.stdout.isatty() and is_there("rich"):
         _draw(demo, PACE if options.speed is None else options.speed)
     else:
+        if sys.stdout.isatty():
+            note("the live view needs rich (pip install rich); plain text without it")
         _tell(demo)
     print()
     told = [*gait_lines(demo.observer.gait), comparison_table(demo.comparison()), ""]
@@ -104,32 +108,18 @@ def _show(demo: Demo, view: View, pace: float) -> None:
     from ..show.page.player.kept import KeptItems
     from ..show.page.player.player import Player
     from ..show.page.scene.scene import Scene
-    from .common.view import play, run_rest
 
     scene = Scene("An emulated walk", "default", "demo", plan=None if demo.plan is None else demo.plan.plan)
     player = Player(KeptItems(demo.walk.packets), demo.session, scene, demo.plan, told=demo.told)
-    player.speed(pace)
-    play(player, view, once=not attended())
+    play(player, view, pace)
     run_rest(player, "walk")
 
 
 def _record(demo: Demo, path: Path) -> None:
-    from ..recording import PacketWriter, RecordingError, printable
-
-    try:
-        with PacketWriter(path) as writer:
-            for packet in demo.walk.packets:
-                writer.write(packet)
-    except RecordingError as error:
-        raise Failure(str(error)) from None
+    with PacketWriter(path) as writer:
+        for packet in demo.walk.packets:
+            writer.write(packet)
     print(f"{len(demo.walk.packets)} packets recorded in {printable(str(path))}", flush=True)
-
-
-def _rich_is_there() -> bool:
-    if is_there("rich"):
-        return True
-    note("the live view needs rich (pip install rich); plain text without it")
-    return False
 
 
 def _draw(demo: Demo, speed: float) -> None:
@@ -158,7 +148,6 @@ def _tell(demo: Demo) -> None:
     """Lines of plain text instead of a picture, as fast as it goes."""
     from ..show.tables.plot import plot
     from ..show.tables.summary import link_health
-    from ..types import Foot
 
     due = REPORT_EVERY
     for packet in demo.play():

@@ -9,9 +9,10 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .common.failure import Failure, known_recipe, note
+from ..recipes import DEFAULT, NAMES, by_name
+from .common.failure import Failure, note, recipe_named
 from .common.files import write_json
-from .common.recorded import add_calibration, calibration_of
+from .common.inputs import add_calibration, calibration_of
 
 if TYPE_CHECKING:
     from ..lab.evaluate.report import Result
@@ -66,7 +67,6 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from .. import recipes
     from ..lab.evaluate import ablation
     from ..lab.evaluate.changes import read_scores
     from ..lab.evaluate.datasets import EMULATED
@@ -74,7 +74,6 @@ def run(options: argparse.Namespace) -> int:
     from ..lab.evaluate.report import as_json
     from ..lab.tables.markdown import accuracy_table
     from ..lab.tables.scores import ablation_table, comparison_tables, score_table
-    from ..recording import RecordingError
     from ..show.tables.progress import progress_bar
 
     walks = [data_set.name for data_set in EMULATED]
@@ -86,38 +85,35 @@ def run(options: argparse.Namespace) -> int:
         raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
     if options.walks < 1 or options.seed < 0:
         raise Failure("--walks must be 1 or more, and --seed not negative")
-    known = [recipes.by_name(name) for name in recipes.NAMES]
-    chosen = [recipes.by_name(known_recipe(name, list(recipes.NAMES))) for name in options.recipe]
+    known = [by_name(name) for name in NAMES]
+    chosen = [recipe_named(name) for name in options.recipe]
     if options.ablation:
         if chosen:
             raise Failure("--ablation chooses the recipes itself, so it goes without --recipe")
         chosen = list(ablation.recipes())
     results = []
-    try:
-        before = read_scores(options.compare) if options.compare else None
-        with progress_bar("recordings", 100) as show:
+    before = read_scores(options.compare) if options.compare else None
+    with progress_bar("recordings", 100) as show:
 
-            def percent(done: int, total: int) -> None:
-                show(100 * done // total)
+        def percent(done: int, total: int) -> None:
+            show(100 * done // total)
 
-            how: dict[str, Any] = {
-                "calibration": calibration_of(options), "processes": max(1, options.processes), "progress": percent,
-            }  # fmt: skip
-            parts: list[Iterator[Result]] = []
-            if options.ablation and folder is not None and not options.only:
-                main = {column.data_set for column in ablation.COLUMNS}
-                recorded = [data_set.name for data_set in find(folder) if data_set.name in main]
-            if folder is not None and (recorded or not options.only):
-                parts.append(evaluate(folder, chosen or known, only=recorded, **how))
-            if emulated:
-                seeds = range(options.seed, options.seed + options.walks)
-                parts.append(evaluate_emulated(chosen or [recipes.DEFAULT], seeds, only=walked, **how))
-            for result in chain(*parts):
-                results.append(result)
-                if not options.markdown and not options.ablation:
-                    print(score_table(result), end="\n\n", flush=True)
-    except RecordingError as error:
-        raise Failure(str(error)) from None
+        how: dict[str, Any] = {
+            "calibration": calibration_of(options), "processes": max(1, options.processes), "progress": percent,
+        }  # fmt: skip
+        parts: list[Iterator[Result]] = []
+        if options.ablation and folder is not None and not options.only:
+            main = {column.data_set for column in ablation.COLUMNS}
+            recorded = [data_set.name for data_set in find(folder) if data_set.name in main]
+        if folder is not None and (recorded or not options.only):
+            parts.append(evaluate(folder, chosen or known, only=recorded, **how))
+        if emulated:
+            seeds = range(options.seed, options.seed + options.walks)
+            parts.append(evaluate_emulated(chosen or [DEFAULT], seeds, only=walked, **how))
+        for result in chain(*parts):
+            results.append(result)
+            if not options.markdown and not options.ablation:
+                print(score_table(result), end="\n\n", flush=True)
     if options.ablation:
         print(ablation_table(results, options.markdown))
     elif options.markdown:

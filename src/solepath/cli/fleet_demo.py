@@ -12,7 +12,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .common.failure import Failure, count, is_there, known_recipe, positive, seed
+from ..recording import printable
+from .common.failure import Failure, count, is_there, positive, recipe_named, seed
 from .common.files import check_writable, write_json
 
 if TYPE_CHECKING:
@@ -69,6 +70,7 @@ def run(options: argparse.Namespace) -> int:
     from ..fleet.demo.stage import DemoStage
     from ..fleet.demo.wearers import DemoPlan
     from .common.loop import stopped_alike
+    from .fleet_table import figures, table_of
 
     seconds = options.seconds or min(max(WALKED / options.wearers, LEAST), MOST)
     plan = DemoPlan(options.wearers, seconds, options.seed, options.recipe, options.processes)
@@ -78,7 +80,12 @@ def run(options: argparse.Namespace) -> int:
             differences = play(stage, options.kills, keep=options.keep)
         except (RunFailed, Torn) as failed:
             raise Failure(str(failed)) from None
-        return conclude(stage, differences, options.out, options.json)
+        print(f"\n{table_of(stage)}")
+        if options.json is not None:
+            write_json(options.json, {**figures(stage), "differences": differences})
+        if options.out is not None:
+            _leave(stage, options.out)
+        return verdict(differences, [outcome.differences for outcome in stage.outcomes])
 
 
 def play(stage: DemoStage, kills: int, *, keep: bool) -> list[str]:
@@ -108,18 +115,6 @@ def play(stage: DemoStage, kills: int, *, keep: bool) -> list[str]:
     return differences
 
 
-def conclude(stage: DemoStage, differences: list[str], out: Path | None, json: Path | None) -> int:
-    """The table, the files, and the exit status."""
-    from .fleet_table import figures, table_of
-
-    print(f"\n{table_of(stage)}")
-    if json is not None:
-        write_json(json, {**figures(stage), "differences": differences})
-    if out is not None:
-        _leave(stage, out)
-    return verdict(differences, [outcome.differences for outcome in stage.outcomes])
-
-
 def _counted(count: int, one: str, many: str) -> str:
     return f"{count} {one if count == 1 else many}"
 
@@ -135,9 +130,7 @@ def verdict(alone: list[str], killed: list[list[str]]) -> int:
 
 def _check(options: argparse.Namespace) -> None:
     """Failure for what could only go wrong after a while."""
-    from ..recipes import NAMES
-
-    known_recipe(options.recipe, list(NAMES))
+    recipe_named(options.recipe)
     if options.seconds is not None and options.seconds > LONGEST:
         raise Failure(f"--seconds {options.seconds:g}: {LONGEST:g} is the most")
     if options.seconds is not None and options.seconds < 1.0:
@@ -178,8 +171,6 @@ def _directory(options: argparse.Namespace) -> Iterator[Path]:
 def _leave(stage: DemoStage, out: Path) -> None:
     """The events of the uninterrupted run, and how to look at them."""
     from shlex import quote
-
-    from ..recording import printable
 
     told = out / "told"
     shutil.copytree(stage.told, told)

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from attrs import asdict
+from attrs.filters import exclude
+
 from ..show.tables.table import number, percent, table
 
 if TYPE_CHECKING:
@@ -123,13 +126,7 @@ def figures(stage: DemoStage) -> dict[str, Any]:
             "events": engine.events,
             "files": engine.files,
         },
-        "sessions": {
-            "rate": bare.rate,
-            "state": bare.state,
-            "largest": bare.largest,
-            "held": bare.held,
-            "snapshot": bare.snapshot,
-        },
+        "sessions": asdict(bare, filter=exclude("cpu")),
         "ratio": rate / bare.rate,
         "kills": kills,
         "runs": [{"equal": not outcome.differences, "differences": outcome.differences} for outcome in stage.outcomes],

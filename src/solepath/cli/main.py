@@ -10,6 +10,8 @@ import os
 import sys
 from collections.abc import Sequence
 
+from ..calibration import CalibrationError
+from ..recording import RecordingError
 from . import calibrate, convert, demo, evaluate, fleet_demo, reproduce, track
 from .bluetooth import emulate, live, scan
 from .common.failure import Failure, note
@@ -49,8 +51,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         status = run(arguments)
         sys.stdout.flush()
-    except Failure as failure:
-        return complain(str(failure))
+        return status
+    except (Failure, RecordingError, CalibrationError) as wrong:
+        note(str(wrong))
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
@@ -58,8 +61,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except OSError as error:
-        return complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
-    return status
+        note(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+    return 2
 
 
 def _open_closed() -> None:
@@ -67,9 +70,3 @@ def _open_closed() -> None:
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode, encoding="utf-8"))
-
-
-def complain(sentence: str) -> int:
-    """One line on stderr; the exit status that goes with it."""
-    note(sentence)
-    return 2

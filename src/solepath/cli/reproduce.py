@@ -8,6 +8,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from ..recording import printable
 from .common.failure import Failure, count, need, seed
 from .common.files import check_writable, write_json
 
@@ -53,7 +54,6 @@ def run(options: argparse.Namespace) -> int:
 
     from ..lab.reproduce.tables import as_json
     from ..lab.tables.comparison import reproduced
-    from ..recording import printable
     from ..show.tables.progress import progress_bar
 
     with progress_bar("walks", 100) as show:
@@ -76,8 +76,6 @@ def run(options: argparse.Namespace) -> int:
 
 def _figure(options: argparse.Namespace) -> Path | None:
     """Where the figure goes. Failure when it could not be drawn there."""
-    from ..recording import printable
-
     path: Path | None = options.figure
     if path is None:
         return None

@@ -7,18 +7,25 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..recording import printable
-from .common.failure import Failure, attended, known_recipe, note
-from .common.floorplan import add_floorplan, floorplan_of
-from .common.recorded import add_calibration, add_foot, calibration_of, check_pressure, foot_of, source_of
+from ..calibration import Calibration
+from ..recording import RecordingError, Source, began, printable, read_header
+from ..session import Session
+from ..types import Packet, Sample
+from .common.failure import note, recipe_named
+from .common.inputs import (
+    add_calibration,
+    add_floorplan,
+    add_foot,
+    calibration_of,
+    check_pressure,
+    floorplan_of,
+    foot_of,
+    source_of,
+)
 from .common.view import View, add_speed, add_view, need_page, newtons_of, pace_of, play, run_rest, view_of
 
 if TYPE_CHECKING:
-    from ..calibration import Calibration
     from ..floorplan.index import IndexedPlan
-    from ..recording import Source
-    from ..session import Session
-    from ..types import Packet, Sample
     from .common.results import Results
 
 LONG = 4_000_000
@@ -54,21 +61,15 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from .. import recipes
-    from ..recording import RecordingError
-    from ..session import Session
     from .common.loop import stopped_alike
     from .common.results import Results
 
-    recipe = recipes.by_name(known_recipe(options.recipe, list(recipes.NAMES)))
+    recipe = recipe_named(options.recipe)
     calibration = calibration_of(options)
     need_page(options, options.view is not None)
     view = view_of(options)
     pace = 1.0 if view is None else pace_of(options, 1.0)
-    try:
-        source = source_of(options.file, foot_of(options))
-    except RecordingError as error:
-        raise Failure(str(error)) from None
+    source = source_of(options.file, foot_of(options))
     check_pressure(recipe, source)
     plan, start = floorplan_of(options)
     session = Session(
@@ -105,8 +106,6 @@ def run(options: argparse.Namespace) -> int:
 
 def _when(source: Source) -> str:
     """When the recording began, to be read; "" where it does not say."""
-    from ..recording import RecordingError, began, read_header
-
     if source.samples is not None:
         return ""
     try:
@@ -121,10 +120,9 @@ class _Reading:
 
     def __init__(self, source: Source) -> None:
         self.source = source
-        self.failure: Failure | None = None
+        self.failure: RecordingError | None = None
 
     def __iter__(self) -> Iterator[Packet | Sample]:
-        from ..recording import RecordingError
         from ..show.tables.progress import progress_bar
 
         source = self.source
@@ -135,14 +133,14 @@ class _Reading:
                     yield item
                     show(source.done)
             except RecordingError as error:
-                self.failure = Failure(str(error))
+                self.failure = error
 
 
 def _straight(reading: _Reading, session: Session, results: Results) -> float:
     """The recording through the session, item by item; how long that took, s."""
     from time import perf_counter
 
-    began = perf_counter()
+    start = perf_counter()
     for item in reading:
         results.begin()
         results.told(item, session.feed(item))
@@ -150,7 +148,7 @@ def _straight(reading: _Reading, session: Session, results: Results) -> float:
         results.begin()  # of a recording of nothing
     # what came before a fault in the file is a walk of its own: it is finished and written like any other
     results.told(None, session.finish())
-    return perf_counter() - began
+    return perf_counter() - start
 
 
 def _played(
@@ -185,7 +183,6 @@ def _played(
     if shown:
         if fault:
             note(fault)
-        player.speed(pace)
-        play(player, view, once=not attended())
+        play(player, view, pace)
     run_rest(player, "recording")
     return shown

@@ -29,15 +29,15 @@ _LOG = logging.getLogger(__name__)
 class LineSource(FixedPartitionedSource[bytes, dict[str, int]]):
     """The lines of the files in `directory` whose names fit `pattern`, as bytes, without empty ones.
 
-    Files are read one after the other in the order of their names (so pad numbers with zeros), each from its first line
-    to its last. Every directory in `directory` is read so too, at the same time as the others: workers share the work
-    by directories, and the files of one wearer lie in one of them. All workers see all of them. What is hidden (its
-    name begins with a dot) is passed over.
+    Files are read one after the other in the order of their names (so pad numbers with zeros). Every directory in
+    `directory` is read so too, at the same time as the others: workers, who all see all of them, share the work by
+    directories, and the files of one wearer lie in one of them. What is hidden (its name begins with a dot) is passed
+    over.
 
     A line counts when its line feed is there: files may grow at their ends. How much of each was read goes into the
-    recovery store, so what is new, whatever the names of new files, is read at the next start; or by the same job, when
-    it is to `follow`: then it does not end, and looks again so often. A new directory is seen at the next start. What
-    was read to its end may be taken away. Of a line that is too long for `read_line` comes as much as it refuses.
+    recovery store, so what is new is read at the next start, or by the same job when it is to `follow`: then it does
+    not end, and looks again so often. A new directory is seen at the next start. What was read to its end may be taken
+    away. Of a line that is too long for `read_line` comes as much as it refuses.
 
     `batch`: lines that are read at a time. NotADirectoryError when there is no such directory; an OSError that names
     the file when one cannot be read. A job that ends says in a warning which files do not end with a line feed.

@@ -6,14 +6,12 @@
 Needs the extra `bytewax`, or pyarrow itself. It knows no engine: one writes through `PartFiles`, and keeps the number
 of the next part among its own state.
 
-A part is whole or not there: it is written under a name that readers pass over (it begins with a dot and does not end
-in `.parquet`), brought to the disk, and renamed. After a crash the engine says which part comes next, and those from it
-on are removed, since their events come again. So the files hold each event once; a reader may see those of the last
-seconds before a crash go away with the restart and come back the same.
+A part is written under a name that readers pass over, brought to the disk, and renamed. After a crash the engine says
+which part comes next, and those from it on are removed, since their events come again. So the files hold each event
+once; a reader may see those of the last seconds before a crash go away with the restart and come back the same.
 
-Every `close` makes a file, so how often it is called is the size of a file. Where few walk, close seldom, or join the
-files of days gone by into another directory, in DuckDB by
-`COPY (SELECT * FROM 'told/*.parquet' ORDER BY wearer, number) TO 'june.parquet'`.
+Every `close` makes a file. Where few walk, close seldom, or join the files of days gone by into another directory, in
+DuckDB by `COPY (SELECT * FROM 'told/*.parquet' ORDER BY wearer, number) TO 'june.parquet'`.
 """
 
 from __future__ import annotations
@@ -58,19 +56,16 @@ _TAKEN_UP = "%s: an earlier run goes on, and its parts are back (%d); those of a
 class PartFiles:
     """The part files of one writer in `directory`, which is made when there is none.
 
-    `partition`: letters and digits that tell this writer from others in the same directory, which may live in other
-    processes; no two write under the same. `resume`: the run and the number of the next part, as the last `close` that
-    counts gave them; parts from there on are removed.
+    `partition`: letters and digits that tell this writer from others in the same directory, in whatever process.
+    `resume`: the run and the number of the next part, as the last `close` that counts gave them; parts from there on
+    are removed. None when nothing is remembered: then a new run begins, whose parts are numbered from 0. Parts of
+    another run are hidden from readers then (renamed, `.part-0-1749718800000-00000007.parquet.replaced`), since the
+    events of a fleet that begins anew are numbered anew, and a warning is logged. Whoever resumes that run has its
+    parts back.
 
-    None when nothing is remembered, at the first start as well as after the engine's own state was lost, or not given:
-    then a new run begins, whose parts are numbered from 0. Parts of another run are hidden from readers then (renamed,
-    `.part-0-1749718800000-00000007.parquet.replaced`), since the events of a fleet that begins anew are numbered anew,
-    and a warning is logged. Nothing is lost if that was a mistake: whoever resumes a run has its parts back.
-
-    `partitions`: all that the job has, in every process. Parts of others are hidden then, by the first: they were
-    written when the job had more. Where nobody says, they are left as they are.
-
-    `group`: so many events are gathered, sorted by wearer and packed as one row group of the part.
+    `partitions`: all that the job has, in every process. The first hides the parts of others, which were written when
+    the job had more; where nobody says, they are left. `group`: so many events are sorted by wearer and packed as one
+    row group.
 
     OSError, naming the file, when one cannot be written (the disk is full). Nothing of it is left then, on the disk or
     here: begin again with the last number that counted. ValueError for a partition that is no word.

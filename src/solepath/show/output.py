@@ -9,11 +9,10 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Callable
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from math import degrees
 from pathlib import Path
-from types import TracebackType
 from typing import Any, TextIO
 
 from attrs import define, field
@@ -89,6 +88,15 @@ def _place_row(event: Placed) -> list[str]:
     return [repr(event.t), event.level, *numbers, heading, str(len(event.candidates)), f"{first.weight:.4f}"]
 
 
+@contextmanager
+def naming(path: Path) -> Iterator[None]:
+    """An OSError within names this path: of a disk that is full the system does not say what was written."""
+    try:
+        yield
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
+
+
 @define
 class TrackFiles:
     """The files in `directory`, which is made when there is none. Files of an earlier run are replaced.
@@ -133,11 +141,8 @@ class TrackFiles:
     def write(self, event: Event) -> None:
         try:
             self._write(event)
-        except OSError as error:
-            raise self._named(error) from None
-
-    def _named(self, error: OSError) -> OSError:
-        return OSError(error.errno, error.strerror, str(self.directory))
+        except OSError as error:  # as `naming`, which would take its time for each event
+            raise OSError(error.errno, error.strerror, str(self.directory)) from None
 
     def _write(self, event: Event) -> None:
         if isinstance(event, FootMoved):
@@ -154,15 +159,5 @@ class TrackFiles:
             self._places.writerow(_place_row(event))
 
     def close(self) -> None:
-        try:
+        with naming(self.directory):
             self._stack.close()
-        except OSError as error:
-            raise self._named(error) from None
-
-    def __enter__(self) -> TrackFiles:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()

@@ -166,8 +166,9 @@ class _InFoot:
     def feed(self, sample: Sample) -> Any:
         tracker = self.tracker
         events = tracker.feed(sample)
-        found = _Navigated.of(tracker.corrector) if tracker.levelled else None
-        return sample.t, events, found, tracker.cues.sagittal
+        one = tracker.corrector
+        found = (one.position, one.velocity, one.attitude, one.covariance(), one.error_index)
+        return sample.t, events, found if tracker.levelled else None, tracker.cues.sagittal
 
 
 @define
@@ -179,18 +180,16 @@ class _Corrects(_InFoot):
         _, _, found, _ = said
         if found is None:
             return
-        for name in ("position", "velocity"):
-            value = getattr(found, name)
+        position, velocity, (w, x, y, z), spread, error_index = found
+        for name, value in (("position", position), ("velocity", velocity)):
             if len(value) != 3 or not _finite(value):
                 yield f"{name} is three finite numbers, not {value}"
-        w, x, y, z = found.attitude
         if not abs(w * w + x * x + y * y + z * z - 1.0) < 2.0 * UNIT:
-            yield f"attitude is a unit quaternion, not {found.attitude}"
-        spread = found.covariance
+            yield f"attitude is a unit quaternion, not {(w, x, y, z)}"
         if len(spread) != 7 or not _finite(spread) or min(spread[0], spread[3], spread[5], spread[6]) < 0.0:
             yield f"a covariance is seven finite numbers with variances of 0 or more, not {spread}"
-        if found.error_index is not None and not 0.0 <= found.error_index < inf:
-            yield f"error_index is None, or finite and not below 0, not {found.error_index}"
+        if error_index is not None and not 0.0 <= error_index < inf:
+            yield f"error_index is None, or finite and not below 0, not {error_index}"
 
 
 @define
@@ -205,21 +204,6 @@ class _Sees(_InFoot):
                 yield f"a cue is of the past, not a {type(event).__name__} of {event.t:.3f} s in a sample of {t:.3f} s"
         if not isfinite(sagittal):
             yield f"sagittal is finite, not {sagittal}"
-
-
-@define
-class _Navigated:
-    """What a corrector says at one sample."""
-
-    attitude: tuple[float, ...]
-    velocity: tuple[float, ...]
-    position: tuple[float, ...]
-    covariance: tuple[float, ...]
-    error_index: float | None
-
-    @classmethod
-    def of(cls, one: Corrector) -> _Navigated:
-        return cls(one.attitude, one.velocity, one.position, one.covariance(), one.error_index)
 
 
 def _placed(part: Any, foot: Foot, layout: Layout | None) -> _ByItself | _Corrects | _Sees:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from ...types import Site
 from ..common.failure import Failure, attended, need, note, positive
 
 if TYPE_CHECKING:
@@ -39,11 +40,16 @@ def add_devices(command: argparse.ArgumentParser) -> None:
         "--profile", metavar="NAME", help="the kind of all these devices, where their names do not say it"
     )
     command.add_argument("--pair", action="store_true", help="pair with the devices")
+    add_duration(command, UNWATCHED)
+
+
+def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
+    """For how long; `unattended`: s, without a terminal."""
     command.add_argument(
         "--duration",
         metavar="S",
         type=positive,
-        help=f"end by itself after so long (default: at Ctrl-C; {UNWATCHED:g} s without a terminal)",
+        help=f"end by itself after so long (default: at Ctrl-C; {unattended:g} s without a terminal)",
     )
 
 
@@ -52,7 +58,6 @@ def wanted(options: argparse.Namespace) -> list[Wanted]:
     from ...ble import Wanted
     from ...ble.wanted import check
     from ...link.catalogue import BY_NAME
-    from ...types import Site
 
     named = [(Site.LEFT_FOOT, options.left), (Site.RIGHT_FOOT, options.right)]
     sites = {site.value: site for site in Site}
@@ -80,7 +85,6 @@ def chosen(found: list[Found], kind: str | None) -> list[Wanted]:
     from ...ble import Wanted
     from ...link.catalogue import BY_NAME
     from ...link.devices.insole import PROFILE as INSOLE
-    from ...types import Site
 
     told = None if kind is None else BY_NAME[kind]
     if told is not None:

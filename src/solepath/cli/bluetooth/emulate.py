@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..common.failure import need, positive, seed
-from .choosing import UNATTENDED
+from .choosing import UNATTENDED, add_duration
 
 HERE = "127.0.0.1:9735"
 KINDS = ("insole", "cc2650", "cc2541", "cc2541-20hz")
@@ -27,10 +27,7 @@ def add_to(commands: Any) -> None:
         "solepath live --via tcp:127.0.0.1:9735",
     )
     command.add_argument(
-        "--listen",
-        metavar="HOST:PORT",
-        default=HERE,
-        help=f"where to (default: {HERE}; port 0: any that is free)",
+        "--listen", metavar="HOST:PORT", default=HERE, help=f"where to (default: {HERE}; port 0: any that is free)"
     )
     command.add_argument(
         "--device", choices=KINDS, default="insole", help="what is worn on both feet (default: insole)"
@@ -39,12 +36,7 @@ def add_to(commands: Any) -> None:
     command.add_argument("--seed", metavar="N", type=seed, default=1, help="another walk of this route (default: 1)")
     command.add_argument("--mtu", metavar="N", type=int, default=247, help="that insoles agree to (default: 247)")
     command.add_argument("--faults", metavar="FILE", type=Path, help="a script of what goes wrong")
-    command.add_argument(
-        "--duration",
-        metavar="S",
-        type=positive,
-        help=f"end by itself after so long (default: at Ctrl-C; {UNATTENDED:g} s without a terminal)",
-    )
+    add_duration(command, UNATTENDED)
     command.set_defaults(run=run)
 
 

@@ -7,9 +7,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..common.failure import known_recipe
-from ..common.floorplan import add_floorplan, floorplan_of
-from ..common.recorded import add_calibration, calibration_of
+from ..common.failure import recipe_named
+from ..common.inputs import add_calibration, add_floorplan, calibration_of, floorplan_of
 from ..common.view import add_view, need_page, view_of
 from .choosing import add_devices, need_bleak
 
@@ -50,9 +49,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from ... import recipes
-
-    recipe = recipes.by_name(known_recipe(options.recipe, list(recipes.NAMES)))
+    recipe = recipe_named(options.recipe)
     calibration = calibration_of(options)
     need_page(options, options.view is not None)
     view = view_of(options)

@@ -23,9 +23,7 @@ from ...session import Session
 from ...show.observer import Observer
 from ...show.output import EVENTS, GAIT_CYCLES, PLACES, STRIDES, TRACK, TrackFiles
 from ...show.page.scene.scene import Scene
-from ...show.tables.placed import place_lines
-from ...show.tables.status import status
-from ...show.tables.summary import summary
+from ...show.tables.summary import place_lines, status, summary
 from ...types import Packet
 from ..common.failure import Failure, is_there, note
 from ..common.files import check_writable

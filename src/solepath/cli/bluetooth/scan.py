@@ -49,13 +49,12 @@ def run(options: argparse.Namespace) -> int:
 def _tell(found: list[Found], strangers: bool) -> None:
     known = [one for one in found if one.profile is not None]
     if shown := found if strangers else known:
-        print(table(["address", "kind", "dBm", "name"], [_row(one) for one in shown]))
+        rows = [
+            [one.address, one.profile.name if one.profile else "-", str(one.signal), printable(one.name, 40) or "-"]
+            for one in shown
+        ]
+        print(table(["address", "kind", "dBm", "name"], rows))
     else:
         print("no sensor is heard: switch it on, bring it near, and see that no other program or phone holds it")
     if not strangers and len(known) < len(found):
         print(f"{len(found) - len(known)} of other kinds (--all shows them)")
-
-
-def _row(one: Found) -> list[str]:
-    kind = "-" if one.profile is None else one.profile.name
-    return [one.address, kind, str(one.signal), printable(one.name, 40) or "-"]

@@ -5,10 +5,11 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable
 from importlib.util import find_spec
 from math import isfinite, nan, radians
 
+from ...recipes import Recipe, by_name
 from ...recording import printable
 
 LONGEST = 2000
@@ -16,7 +17,8 @@ LONGEST = 2000
 
 
 class Failure(Exception):
-    """The command cannot go on: one sentence for stderr, exit status 2."""
+    """The command cannot go on: one sentence for stderr, exit status 2. So does a RecordingError or
+    CalibrationError that nobody catches."""
 
 
 def note(sentence: str) -> None:
@@ -57,12 +59,20 @@ def in_words(error: OSError) -> str:
     return (os.strerror(error.errno or 0) if known else error.strerror or str(error)).lower()
 
 
+def _number(text: str, what: str, holds: Callable[[float], bool]) -> float:
+    """The finite number that `text` is, and for which it `holds`; else argparse says that it is not `what`."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = nan
+    if not (isfinite(value) and holds(value)):
+        raise argparse.ArgumentTypeError(f"{text!r} is not {what}")
+    return value
+
+
 def positive(text: str) -> float:
     """An argparse type: a finite number above 0."""
-    value = _number(text)
-    if not isfinite(value) or value <= 0.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a positive number")
-    return value
+    return _number(text, "a positive number", lambda value: value > 0.0)
 
 
 def count(text: str) -> int:
@@ -82,37 +92,22 @@ def seed(text: str) -> int:
 
 def share(text: str) -> float:
     """An argparse type: a number from 0 to 1."""
-    value = _number(text)
-    if not 0.0 <= value <= 1.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number from 0 to 1")
-    return value
+    return _number(text, "a number from 0 to 1", lambda value: 0.0 <= value <= 1.0)
 
 
 def seconds(text: str) -> float:
     """An argparse type: a finite number of seconds, 0 or more."""
-    value = _number(text)
-    if not isfinite(value) or value < 0.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of seconds")
-    return value
+    return _number(text, "a number of seconds", lambda value: value >= 0.0)
 
 
 def degrees_of(text: str) -> float:
     """An argparse type: a finite angle in degrees, as rad."""
-    value = _number(text)
-    if not isfinite(value):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of degrees")
-    return radians(value)
+    return radians(_number(text, "a number of degrees", lambda _: True))
 
 
-def _number(text: str) -> float:
-    """NaN for what is no number."""
+def recipe_named(name: str) -> Recipe:
+    """Failure when there is none of this name."""
     try:
-        return float(text)
-    except ValueError:
-        return nan
-
-
-def known_recipe(name: str, names: Sequence[str]) -> str:
-    if name not in names:
-        raise Failure(f"there is no recipe {name!r}; there are: {', '.join(names)}")
-    return name
+        return by_name(name)
+    except ValueError as error:
+        raise Failure(str(error)) from None

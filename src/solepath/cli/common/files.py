@@ -9,6 +9,7 @@ from contextlib import suppress
 from errno import EISDIR
 from itertools import count
 from pathlib import Path
+from stat import S_IWUSR
 from typing import Any
 
 from attrs import define, field
@@ -42,22 +43,24 @@ class Replacing:
     _places: dict[Path, Path] = field(factory=dict, init=False)
     """What is written -> whose place it takes."""
 
-    def beside(self, path: Path) -> Path:
-        """An empty file in the directory of `path`. OSError, naming `path`, where that cannot be written."""
+    def beside(self, path: Path, *, read_only: bool = False) -> Path:
+        """An empty file in the directory of `path`. OSError, naming `path`, where that cannot be written. `read_only`:
+        one that may not be written is replaced all the same, and stays so."""
         place = Path(os.path.realpath(path))  # of a link, what it leads to
         there = place.exists()
         if place.is_dir():
             raise IsADirectoryError(EISDIR, os.strerror(EISDIR), str(path))
         if there and not place.is_file():
             return path
-        if there:
-            place.open("ab").close()  # one that may not be written is not replaced either
+        if there and not read_only:
+            place.open("ab").close()
         written = place.with_name(f".solepath-{os.getpid()}-{next(_numbers)}.part")
         self._places[written] = place  # before it is there: Ctrl-C may come between any two lines
         try:
             written.open("xb").close()
             if there:
                 shutil.copymode(place, written)  # whoever may not read the one may not read the other
+                written.chmod(written.stat().st_mode | S_IWUSR)
         except OSError as error:
             if isinstance(error, FileExistsError):
                 del self._places[written]  # another program's, which is not ours to throw away
@@ -67,6 +70,8 @@ class Replacing:
     def keep(self) -> None:
         for written, place in list(self._places.items()):
             try:
+                if place.exists():
+                    shutil.copymode(place, written)
                 os.replace(written, place)
             except OSError as error:
                 raise OSError(error.errno, error.strerror, str(place)) from None

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
-from types import TracebackType
 
 from attrs import define, field
 
@@ -13,11 +11,10 @@ from ...events import Event
 from ...floorplan.plan import FloorPlan
 from ...recording import printable
 from ...show.observer import Observer
-from ...show.output import PLAN, TrackFiles
+from ...show.output import PLAN, TrackFiles, naming
 from ...show.report import Report
-from ...show.tables.placed import place_lines
 from ...show.tables.plan import PlanPicture
-from ...show.tables.summary import summary
+from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample
 from .files import Replacing, check_writable
 
@@ -57,8 +54,8 @@ class Results:
     def begin(self) -> None:
         """There is something to write, or there will be nothing."""
         if self._files is None and self.out is not None:
-            files = TrackFiles(self.out, places=self.plan is not None, beside=self._replacing.beside)
-            self._files = self._open.enter_context(files)
+            self._files = TrackFiles(self.out, places=self.plan is not None, beside=self._replacing.beside)
+            self._open.callback(self._files.close)
             if self.plan is not None:
                 self._picture_at = self._replacing.beside(self.out / PLAN)
         if self._report_at is None and self.report is not None:
@@ -77,8 +74,8 @@ class Results:
     def print(self, seconds: float) -> None:
         """The files and the report, whole, in their places; the summary. `seconds` on the wall that it took."""
         self._open.close()
-        if self._picture is not None and self._picture_at is not None:
-            with _named(self._picture_at, self.out):
+        if self._picture is not None and self._picture_at is not None and self.out is not None:
+            with naming(self.out):
                 self._picture.write(self._picture_at, self.title)
         self._replacing.keep()
         print(summary(self.observer, title=self.title, seconds=seconds))
@@ -86,31 +83,19 @@ class Results:
             print("\n".join(place_lines(self.observer.places)))
         if self.out is not None:
             print(f"written to {printable(str(self.out))}")
-        if self._report is not None and self._report_at is not None:
-            with _named(self._report_at, self.report):
+        if self._report is not None and self._report_at is not None and self.report is not None:
+            with naming(self.report):
                 self._report.write(self._report_at)
-                self._replacing_report.keep()
+            self._replacing_report.keep()
             print(f"report in {printable(str(self.report))}")
 
     def __enter__(self) -> Results:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         """The files are closed, and those that are not in their places are thrown away."""
         try:
-            self._open.__exit__(kind, error, trace)
+            self._open.close()
         finally:
             self._replacing.drop()
             self._replacing_report.drop()
-
-
-@contextmanager
-def _named(written: Path, wanted: Path | None) -> Iterator[None]:
-    """Errors name the file that was wanted."""
-    try:
-        yield
-    except OSError as error:
-        name = str(wanted) if error.filename == str(written) else error.filename
-        raise OSError(error.errno, error.strerror, name) from None

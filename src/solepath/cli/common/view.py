@@ -6,21 +6,22 @@ import argparse
 import os
 import sys
 from collections.abc import AsyncIterator, Callable
-from contextlib import asynccontextmanager
+from contextlib import AsyncExitStack, asynccontextmanager
+from itertools import count
 from typing import TYPE_CHECKING
 
 from attrs import frozen
 
+from ...calibration import Calibration
 from ...recording import printable
-from .failure import Failure, host_and_port, in_words, need, note, positive
+from ...types import Foot
+from .failure import Failure, attended, host_and_port, in_words, need, note, positive
 
 if TYPE_CHECKING:
-    from ...calibration import Calibration
     from ...show.page.messages import Command
     from ...show.page.player.player import Player
     from ...show.page.scene.scene import Scene
     from ...show.page.server.server import Page
-    from ...types import Foot
 
 HERE = "127.0.0.1:8765"
 LONG = 40_000
@@ -89,8 +90,6 @@ def pace_of(options: argparse.Namespace, default: float) -> float:
 
 def newtons_of(calibration: Calibration | None) -> tuple[Foot, ...]:
     """The feet whose calibration turns counts into N."""
-    from ...types import Foot
-
     return tuple(foot for foot in Foot if calibration is not None and calibration.insole(foot).newtons is not None)
 
 
@@ -103,38 +102,37 @@ async def page_of(scene: Scene, view: View, commands: Callable[[Command], None] 
     from ...show.page.server.access import on_loopback
     from ...show.page.server.server import Page
 
-    page = Page(scene, host=view.host, port=view.port, commands=commands)
-    try:
-        await page.__aenter__()
-    except (OSError, UnicodeError) as error:
-        raise _taken(view, error) from None
-    try:
+    async with AsyncExitStack() as stack:
+        try:
+            page = await stack.enter_async_context(Page(scene, host=view.host, port=view.port, commands=commands))
+        except (OSError, UnicodeError) as error:
+            raise _taken(view, error) from None
         print(f"the page: {page.url}", flush=True)
         if not on_loopback(view.host):
             note("the page can be reached from other machines: whoever has this address with its token sees it")
         if view.browser and _there_is_a_browser():
             await asyncio.to_thread(_open, page.url)
         yield page
-    finally:
-        await page.__aexit__(None, None, None)
 
 
-def play(player: Player, view: View, *, once: bool) -> int:
-    """`player` on a page of its own until Ctrl-C; `once`: or until it was played to its end. The exit status."""
+def play(player: Player, view: View, pace: float) -> None:
+    """`player` on a page of its own, `pace` times as fast as it was, until Ctrl-C; where there is no terminal, or until
+    it was played to its end."""
     import asyncio
 
     from ...show.page.player.playing import Playing
     from .loop import run_to_end
 
     async def played(stop: asyncio.Event) -> int:
-        playing = Playing(player)
+        playing, once = Playing(player), not attended()
         async with page_of(player.scene, view, playing.command) as page:
             if not once:
                 print("Ctrl-C ends it", flush=True)
             await playing.run(page, stop, once=once)
         return 0
 
-    return run_to_end(played)
+    player.speed(pace)
+    run_to_end(played)
 
 
 def run_rest(player: Player, what: str) -> None:
@@ -148,7 +146,8 @@ def run_rest(player: Player, what: str) -> None:
     with progress_bar("computing", len(items), wanted=left > LONG) as show, listening() as told_to_stop:
         if left > 0:
             print(f"the rest of the {what}, as fast as it can be computed; Ctrl-C again gives it up ...", flush=True)
-        while player.run_through(_After(ITEMS, told_to_stop)):
+        fed = count(1)
+        while player.run_through(lambda: next(fed) % ITEMS == 0 or told_to_stop()):
             show(player.done)
             if told_to_stop():
                 at = items.t(player.done - 1) if player.done else items.begin
@@ -157,18 +156,6 @@ def run_rest(player: Player, what: str) -> None:
                     "or written, and what was written before stays as it is"
                 )
                 raise KeyboardInterrupt
-
-
-class _After:
-    """Enough after so many items, or when it is told to stop."""
-
-    def __init__(self, items: int, stop: Callable[[], bool]) -> None:
-        self._left = items
-        self._stop = stop
-
-    def __call__(self) -> bool:
-        self._left -= 1
-        return self._left <= 0 or self._stop()
 
 
 def _there_is_a_browser() -> bool:
@@ -187,7 +174,7 @@ def _open(url: str) -> None:
 
 def _check_free(view: View) -> None:
     """Failure now when nothing will be served there later, after a long recording was read."""
-    from ...show.page.server.address import listen
+    from ...show.page.server.access import listen
 
     try:
         listen(view.host, view.port).close()

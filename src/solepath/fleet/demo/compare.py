@@ -47,13 +47,18 @@ def differences(expected: pa.Table, found: pa.Table) -> list[str]:
     each as often."""
     if expected.equals(found):
         return []
-    wanted, got = (Counter(map(_row, table.to_pylist())) for table in (expected, found))
+    wanted, got = (Counter(tuple(row.values()) for row in table.to_pylist()) for table in (expected, found))
     told = [(row, "is missing") for row in (wanted - got).elements()]
     told += [(row, "is there, and should not be" if row not in wanted else "is there twice") for row in got - wanted]
     told.sort(key=lambda one: (one[0][:2], one[1]))
     first = [f"{wearer}, event {number} ({event} at {t} s) {what}" for (wearer, number, event, t, *_), what in told]
-    more = [f"and {len(first) - NAMED} more"] if len(first) > NAMED else []
-    return [*map(printable, first[:NAMED]), *more]
+    return _first(first)
+
+
+def _first(lines: list[str]) -> list[str]:
+    """The first few, and how many more there are."""
+    more = [f"and {len(lines) - NAMED} more"] if len(lines) > NAMED else []
+    return [*map(printable, lines[:NAMED]), *more]
 
 
 def of_sessions(told: pa.Table) -> pa.Table:
@@ -78,8 +83,7 @@ def remarked(expected: Mapping[str, Iterable[Remark]], told: pa.Table) -> list[s
     lines = sorted(
         f"{wearer}, {one.event} ({one.why}) of run {one.run}, number {one.number} {what}" for wearer, one, what in wrong
     )
-    more = [f"and {len(lines) - NAMED} more"] if len(lines) > NAMED else []
-    return [*map(printable, lines[:NAMED]), *more]
+    return _first(lines)
 
 
 def _remark(row: dict[str, Any]) -> Remark:
@@ -97,17 +101,13 @@ def _of_fleet(told: pa.Table) -> Any:
 def holes(told: pa.Table) -> list[str]:
     """Wearers whose events are not numbered 0, 1, 2 and so on, the first few, a sentence each."""
     counts = told.group_by("wearer").aggregate([("number", "min"), ("number", "max"), ("number", "count_distinct")])
-    wrong = [row for row in counts.to_pylist() if not _whole(row)]
+    wrong = [
+        row
+        for row in counts.to_pylist()
+        if row["number_min"] != 0 or row["number_max"] != row["number_count_distinct"] - 1
+    ]
     return [
         f"{printable(row['wearer'])} has {row['number_count_distinct']} events numbered from {row['number_min']} to "
         f"{row['number_max']}"
         for row in wrong[:NAMED]
     ]
-
-
-def _whole(row: dict[str, Any]) -> bool:
-    return bool(row["number_min"] == 0 and row["number_max"] == row["number_count_distinct"] - 1)
-
-
-def _row(row: dict[str, Any]) -> tuple[Any, ...]:
-    return tuple(row.values())

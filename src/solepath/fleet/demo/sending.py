@@ -81,10 +81,7 @@ def gap(packets: Sequence[Packet], every: float, rng: Random) -> Sending | None:
     at = next(place for place, (number, _) in enumerate(placed) if number >= end + TOO_LATE)
     late = rng.randrange(first, end)
     placed.insert(at, (late, heard[late]))
-    remarks = (
-        Remark("NumbersMissing", 0, first, LOST),
-        Remark("SentRejected", 0, late, Refusal.LATE.value),
-    )
+    remarks = (Remark("NumbersMissing", 0, first, LOST), Remark("SentRejected", 0, late, Refusal.LATE.value))
     items = [(0, number, what) for number, what in placed]
     return Sending(_bundles(items, every), tuple([*heard[:first], *heard[end:]]), remarks)
 

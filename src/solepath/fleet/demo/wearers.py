@@ -158,16 +158,11 @@ class Wearers:
         plan = DemoPlan(**json.loads((stage / "plan.json").read_text(encoding="utf-8")))
         walks = [list(read_packets(_recording(stage, number))) for number in range(len(DEVICES))]
         rng = Random(f"sendings {plan.seed}")
-        sendings = list(
-            chain.from_iterable(
-                (
-                    sending(packets, plan.bundle, rng),
-                    sending(packets, plan.bundle, rng, ends=True),
-                    sending(packets, plan.bundle, rng, runs=2),
-                )
-                for packets in walks
-            )
-        )
+        sendings = []
+        for packets in walks:
+            sendings.append(sending(packets, plan.bundle, rng))
+            sendings.append(sending(packets, plan.bundle, rng, ends=True))
+            sendings.append(sending(packets, plan.bundle, rng, runs=2))
         poisons = [poison(packets, plan.bundle, rng) for packets in walks]
         gaps = [one for packets in walks if (one := gap(packets, plan.bundle, rng)) is not None]
         found = []

@@ -64,23 +64,21 @@ class OtherState:
 def write_state(identity: Identity, rest: OtherState) -> bytes:
     """The bytes of a state."""
     first = _FIRST.pack(MAGIC, VERSION, identity.run, identity.next, identity.told, identity.known)
-    out = _StateWriter()
-    out.put(bytes([rest.ended * _ENDED + (rest.session is not None) * _SESSION]))
     left, strays = rest.left, rest.strays
-    out.count(len(left.spans))
-    for span in left.spans:
-        out.counts(span.run, span.first, span.end)
-    out.count(len(left.forgotten))
-    for runs in left.forgotten:
-        out.counts(*runs)
-    out.counts(strays.run, strays.count, strays.straight, strays.number)
-    out.count(len(rest.held))
-    for (run, number), what in sorted(rest.held.items(), key=lambda one: one[0]):
-        out.counts(run, number)
-        _write_what(out, what)
-    out.text(rest.failure)
-    session = b"" if rest.session is None else rest.session
-    return b"".join([first, _CHECK.pack(crc32(first)), out.done, _CHECK.pack(crc32(out.done)), session])
+    other = b"".join(
+        [
+            bytes([rest.ended * _ENDED + (rest.session is not None) * _SESSION]),
+            _counts(len(left.spans)),
+            *[_counts(span.run, span.first, span.end) for span in left.spans],
+            _counts(len(left.forgotten)),
+            *[_counts(*runs) for runs in left.forgotten],
+            _counts(strays.run, strays.count, strays.straight, strays.number),
+            _counts(len(rest.held)),
+            *[_counts(*place) + _held(rest.held[place]) for place in sorted(rest.held)],
+            _counted(_encoded(rest.failure)),
+        ]
+    )
+    return b"".join([first, _CHECK.pack(crc32(first)), other, _CHECK.pack(crc32(other)), rest.session or b""])
 
 
 def read_identity(state: bytes) -> Identity | None:
@@ -124,24 +122,37 @@ def _read_1(data: _StateReader) -> OtherState:
     return OtherState(bool(flags & _ENDED), Left(spans, forgotten), strays, dict(held), failure, session)
 
 
-def _write_what(out: _StateWriter, what: What) -> None:
+def _held(what: What) -> bytes:
     match what:
         case Packet(t, site, channel, data, device):
-            out.put(bytes([_PACKET]))
-            out.put(_FLOAT.pack(t))
-            for text in (site.value, channel, device):
-                out.text(text)
-            out.count(len(data))
-            out.put(data)
+            texts = [_encoded(text) for text in (site.value, channel, device)]
+            return bytes([_PACKET]) + _FLOAT.pack(t) + _counted(*texts, data)
         case Tick(t):
-            out.put(bytes([_TICK]))
-            out.put(_FLOAT.pack(t))
+            return bytes([_TICK]) + _FLOAT.pack(t)
         case End():
-            out.put(bytes([_END]))
+            return bytes([_END])
         case RejectedItem(reason, detail):
-            out.put(bytes([_REFUSED]))
-            out.text(reason.value)
-            out.text(detail)
+            return bytes([_REFUSED]) + _counted(_encoded(reason.value), _encoded(detail))
+
+
+def _counts(*numbers: int) -> bytes:
+    """Seven bits a byte, the lowest first; the eighth says that more follow."""
+    done = bytearray()
+    for number in numbers:
+        while number > 127:
+            done.append(number & 127 | 128)
+            number >>= 7
+        done.append(number)
+    return bytes(done)
+
+
+def _counted(*pieces: bytes) -> bytes:
+    """Each behind its length."""
+    return b"".join([_counts(len(piece)) + piece for piece in pieces])
+
+
+def _encoded(text: str) -> bytes:
+    return text.encode("utf-8", "surrogatepass")
 
 
 def _read_what(data: _StateReader) -> What:
@@ -156,30 +167,6 @@ def _read_what(data: _StateReader) -> What:
     if kind == _REFUSED:
         return RejectedItem(Refusal(data.text()), data.text())
     raise StateError("the state was damaged")
-
-
-@define
-class _StateWriter:
-    done: bytearray = field(factory=bytearray)
-
-    def put(self, data: bytes) -> None:
-        self.done += data
-
-    def count(self, number: int) -> None:
-        """Seven bits a byte, the lowest first; the eighth says that more follow."""
-        while number > 127:
-            self.done.append(number & 127 | 128)
-            number >>= 7
-        self.done.append(number)
-
-    def counts(self, *numbers: int) -> None:
-        for number in numbers:
-            self.count(number)
-
-    def text(self, text: str) -> None:
-        data = text.encode("utf-8", "surrogatepass")
-        self.count(len(data))
-        self.done += data
 
 
 @define

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
+from functools import cached_property
 from math import isfinite
 from typing import Any
 
@@ -71,14 +73,12 @@ def encode(message: dict[str, Any]) -> str:
 class Written(dict[str, Any]):
     """A part of messages that never changes, and is sent often: its text is made once, when it is first wanted."""
 
-    __slots__ = ("_text",)
-
-    @property
+    @cached_property
     def text(self) -> str:
-        text: str | None = getattr(self, "_text", None)
-        if text is None:
-            text = self._text = _json(self)
-        return text
+        return _json(self)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Written:
+        return self
 
 
 def _json(value: Any) -> str:
@@ -101,3 +101,13 @@ def _is_finite(value: float) -> bool:
         return isfinite(value)
     except OverflowError:
         return False
+
+
+def shown(value: float | None, digits: int = 3) -> float | None:
+    """`value` with so many digits after the point; None of what is no number: JSON has none for it."""
+    return None if value is None or not isfinite(value) else round(value, digits)
+
+
+def placed(values: Iterable[float], digits: int = 3) -> list[float | None]:
+    """The same of a place, m: to the millimetre."""
+    return [shown(value, digits) for value in values]

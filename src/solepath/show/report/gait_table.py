@@ -6,9 +6,9 @@ from xml.etree.ElementTree import Element
 
 from ...body.gait.means import GaitMeans, GaitParameters, StrideFigures
 from ...types import Foot
-from ..tables.gait_rows import ENOUGH, gait_rows, strides_of
+from ..tables.gait import ENOUGH, gait_rows, strides_of
 from ..tables.table import number, percent
-from .markup import add, table
+from .markup import add, table, terms
 
 HEADER = ("parameter", "left", "right", "both", "CV %", "asymmetry")
 
@@ -28,6 +28,13 @@ DEFINITIONS = {
     "terminal_double_support": "from the other foot's contact to this one's toe-off; below zero a flight",
 }
 """One line each; in full where GaitCycleMeasured is."""
+COLUMNS = [
+    ("steady strides", "neither first nor last of a walk, nor in a turn, on stairs or with samples missing"),
+    ("both", "mean of the feet's means; SD from the mean of their variances (Galna et al. 2013)"),
+    ("CV", "standard deviation / mean, of both feet (Hausdorff 2005)"),
+    ("asymmetry", "(right - left) / their mean; 0 of equal feet, none of a flight (Robinson et al. 1987)"),
+    ("asymmetry of angles", "right - left, in degrees, and no CV: their zero is the flat sole, not nothing"),
+]
 
 
 def gait_tables(parent: Element, means: GaitMeans) -> bool:
@@ -67,18 +74,5 @@ def _notes(parent: Element, known: list[GaitParameters]) -> None:
     """What the words of the table mean, folded away on a screen."""
     folded = add(parent, "details", open="open")
     add(folded, "summary", "What the parameters mean")
-    listed = add(folded, "dl")
     named = {row.name: row.label for one in known for row in gait_rows(one)}
-    for name, meaning in DEFINITIONS.items():
-        if name in named:
-            add(listed, "dt", named[name])
-            add(listed, "dd", meaning)
-    for word, meaning in (
-        ("steady strides", "neither first nor last of a walk, nor in a turn, on stairs or with samples missing"),
-        ("both", "mean of the feet's means; SD from the mean of their variances (Galna et al. 2013)"),
-        ("CV", "standard deviation / mean, of both feet (Hausdorff 2005)"),
-        ("asymmetry", "(right - left) / their mean; 0 of equal feet, none of a flight (Robinson et al. 1987)"),
-        ("asymmetry of angles", "right - left, in degrees, and no CV: their zero is the flat sole, not nothing"),
-    ):
-        add(listed, "dt", word)
-        add(listed, "dd", meaning)
+    terms(folded, [(named[name], meaning) for name, meaning in DEFINITIONS.items() if name in named] + COLUMNS)

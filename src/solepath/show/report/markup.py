@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from xml.etree.ElementTree import Element, SubElement
 
 from ...recording import printable
+from .style import STYLE
 
 LONGEST = 300
 """Characters of a sentence that came from outside."""
+MOST = 40
+"""Sentences of a list."""
 
 
 def add(parent: Element, tag: str, text: str = "", **attributes: str) -> Element:
@@ -20,14 +23,41 @@ def add(parent: Element, tag: str, text: str = "", **attributes: str) -> Element
     return made
 
 
-def sentences(parent: Element, told: Sequence[str], most: int = 40) -> None:
+def skeleton(title: str) -> tuple[Element, Element]:
+    """(the document, where its contents go)."""
+    html = Element("html", {"lang": "en"})
+    head = add(html, "head")
+    add(head, "meta", charset="utf-8")
+    add(head, "meta", name="viewport", content="width=device-width, initial-scale=1")
+    add(head, "meta", name="color-scheme", content="light dark")
+    add(head, "title", title)
+    add(head, "style").text = STYLE
+    return html, add(add(html, "body"), "main")
+
+
+def section(parent: Element, name: str, title: str) -> Element:
+    """A part with a heading."""
+    made = add(parent, "section", aria_labelledby=name)
+    add(made, "h2", title, id=name)
+    return made
+
+
+def sentences(parent: Element, told: Sequence[str]) -> None:
     """A list of sentences, and how many more there are."""
     if told:
         listed = add(parent, "ul")
-        for one in told[:most]:
+        for one in told[:MOST]:
             add(listed, "li", one)
-        if len(told) > most:
-            add(listed, "li", f"and {len(told) - most} more")
+        if len(told) > MOST:
+            add(listed, "li", f"and {len(told) - MOST} more")
+
+
+def terms(parent: Element, told: Iterable[tuple[str, str]], **attributes: str) -> None:
+    """Words, and what they mean."""
+    listed = add(parent, "dl", **attributes)
+    for word, meaning in told:
+        add(listed, "dt", word)
+        add(listed, "dd", meaning)
 
 
 def figure(parent: Element, svg: Element, caption: str, *notes: str) -> Element:

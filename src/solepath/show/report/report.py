@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from xml.etree.ElementTree import Element
+from xml.etree.ElementTree import Element, tostring
 
 from attrs import define, evolve, field
 
@@ -23,16 +23,16 @@ from ...events import (
 from ...floorplan.plan import FloorPlan
 from ...types import Foot, Packet, Phase, Sample
 from ..observer import Observer
-from .bounded import Thinned
+from ..output import naming
+from .bounded import T, Thinned
 from .clock import ReportClock
 from .figures.activity import activity_figure
 from .figures.cycle import cycle_figure
 from .figures.pressure import pressure_figures
-from .figures.stride import DrawnStride, stride_figures
+from .figures.stride import stride_figures
 from .figures.track import Stood, height_figure, plan_figure, track_figure
 from .gait_table import gait_tables
-from .markup import add, sentences, table
-from .page import save, section, skeleton
+from .markup import add, section, sentences, skeleton, table, terms
 from .soles import ReportSole
 from .words import CAUTION, link_rows, overview, sensors, without, wrong
 
@@ -58,8 +58,8 @@ def _installed() -> str:
         return ""
 
 
-def _points() -> dict[Foot, Thinned[Stood]]:
-    return {foot: Thinned(POINTS) for foot in Foot}
+def _of_both(most: int) -> dict[Foot, Thinned[T]]:
+    return {foot: Thinned(most) for foot in Foot}
 
 
 @define
@@ -79,18 +79,15 @@ class Report:
     observer: Observer = field(factory=Observer)
     # state
     soles: dict[Foot, ReportSole] = field(factory=dict, init=False)
-    strides: dict[Foot, Thinned[DrawnStride]] = field(init=False)
-    prints: dict[Foot, Thinned[Stood]] = field(factory=_points, init=False)
-    heights: dict[Foot, Thinned[Stood]] = field(factory=_points, init=False)
-    way: Thinned[Stood] = field(factory=lambda: Thinned(POINTS), init=False)
+    strides: dict[Foot, Thinned[GaitCycleMeasured]] = field(factory=lambda: _of_both(STRIDES), init=False)
+    prints: dict[Foot, Thinned[StrideTaken]] = field(factory=lambda: _of_both(POINTS), init=False)
+    heights: dict[Foot, Thinned[FootMoved]] = field(factory=lambda: _of_both(POINTS), init=False)
+    way: Thinned[WearerMoved] = field(factory=lambda: Thinned(POINTS), init=False)
     places: Thinned[Placed | PlaceLost] = field(factory=lambda: Thinned(PLACES), init=False)
     sampled: tuple[float, float] | None = field(default=None, init=False)
     """First and last sample, s ..."""
     spanned: tuple[float, float] | None = field(default=None, init=False)
     """... and of all events."""
-
-    def __attrs_post_init__(self) -> None:
-        self.strides = {foot: Thinned(STRIDES) for foot in Foot}
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
         """What the session was fed, and what it said of that. None: nothing came, time passed or the session ended."""
@@ -109,12 +106,12 @@ class Report:
                 self.sampled = _wider(self.sampled, event.t)
                 self._sole(event.foot).press(event)
             case GaitCycleMeasured():
-                self.strides[event.foot].add(DrawnStride.of(event))
+                self.strides[event.foot].add(event)
                 self._sole(event.foot).stride(event)
             case StrideTaken(final=True):
-                self.prints[event.foot].add(Stood(event.t, event.position))
+                self.prints[event.foot].add(event)
             case WearerMoved():
-                self.way.add(Stood(event.t, event.position))
+                self.way.add(event)
             case LayoutKnown(site=site, layout=layout) if site.foot is not None:
                 self._sole(site.foot).layout = layout
             case Placed(candidates=candidates):
@@ -130,7 +127,7 @@ class Report:
     def _height(self, event: FootMoved) -> None:
         last = self.heights[event.foot].last
         if event.phase is Phase.STATIONARY and (last is None or not 0.0 <= event.t - last.t < OFTEN):
-            self.heights[event.foot].add(Stood(event.t, event.position))
+            self.heights[event.foot].add(event)
 
     @property
     def clock(self) -> ReportClock:
@@ -140,10 +137,11 @@ class Report:
 
     def write(self, path: Path) -> None:
         """The page into a file, UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
-        save(self.drawn(), path)
+        with naming(path):
+            path.write_bytes(self.text().encode("utf-8"))
 
-    def drawn(self) -> Element:
-        """The page as an <html> element."""
+    def text(self) -> str:
+        """The page as HTML."""
         html, main = skeleton(self.title)
         clock = self.clock
         add(main, "h1", self.title)
@@ -168,17 +166,13 @@ class Report:
         if not activity_figure(add(part, "div", class_="figures"), self.observer.timeline.spans(clock.end), clock):
             add(part, "p", "No activity was told.")
         self._health(section(main, "health", "Sensors and links"))
-        return html
+        return "<!DOCTYPE html>\n" + tostring(html, encoding="unicode", method="html") + "\n"
 
     def _facts(self, main: Element, clock: ReportClock) -> None:
-        facts = add(main, "dl", class_="facts")
         when = f"{clock.begin:.1f} to {clock.end:.1f} s of its own clock" if self.spanned else ""
         told = [("When", self.when), ("Recording", when), ("Sensors", sensors(self.observer))]
         told += [("Recipe", self.recipe), ("Made by", f"solepath {self.version}".rstrip())]
-        for name, words in told:
-            if words:
-                add(facts, "dt", name)
-                add(facts, "dd", words)
+        terms(main, [(name, words) for name, words in told if words], class_="facts")
         add(main, "p", CAUTION, class_="caution")
 
     def _track(self, part: Element, clock: ReportClock) -> None:
@@ -186,7 +180,7 @@ class Report:
         if self.plan is not None and not plan_figure(shown, self.plan, list(self.places)):
             add(shown, "p", "Where on the floor plan the wearer was is not known.")
         prints = {foot: list(some) for foot, some in self.prints.items() if len(some)}
-        way = list(self.way) or max(prints.values(), key=len, default=[])
+        way: Sequence[Stood] = list(self.way) or max(prints.values(), key=len, default=[])
         if not track_figure(shown, way, prints, clock):
             add(shown, "p", "There is no track: no foot with a motion sensor took two steps.")
         height_figure(shown, {foot: list(some) for foot, some in self.heights.items()}, clock)

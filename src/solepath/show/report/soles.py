@@ -26,16 +26,6 @@ Pair = tuple[float, float]
 
 
 @define
-class KeptSample:
-    """One sample: when, the loads of the cells, their sum, the centre of pressure."""
-
-    t: float
-    values: tuple[float, ...]
-    force: float
-    centre: Pair | None
-
-
-@define
 class ReportSole:
     """One foot's. Loads in the unit of the samples, places in the foot frame, m."""
 
@@ -54,25 +44,22 @@ class ReportSole:
     paths: deque[list[Pair]] = field(factory=lambda: deque(maxlen=PATHS))
     standing: list[float] = field(factory=list)
     """Sum of each cell over all samples: for who takes no stride."""
-    force: float = 0.0
-    """Of all samples, summed."""
-    newest: deque[KeptSample] = field(factory=lambda: deque(maxlen=KEPT))
+    newest: deque[FootPressed] = field(factory=lambda: deque(maxlen=KEPT))
 
     def press(self, event: FootPressed) -> None:
         """One sample. One of another number of cells than before begins anew."""
         if len(self.standing) != len(event.values):
             self._begin(len(event.values))
         self.samples += 1
-        self.force += event.force
         self.standing = [a + b for a, b in zip(self.standing, event.values, strict=True)]
         if self.newest and event.t <= self.newest[-1].t:
             self.newest.clear()
-        self.newest.append(KeptSample(event.t, event.values, event.force, event.centre))
+        self.newest.append(event)
 
     def _begin(self, cells: int) -> None:
         self.standing, self.means, self.peaks = [0.0] * cells, [0.0] * cells, [0.0] * cells
         self.forces, self.path = [0.0] * STATIONS, [(0.0, 0.0, 0)] * STATIONS
-        self.samples, self.contacts, self.force = 0, 0, 0.0
+        self.samples = self.contacts = 0
         self.newest.clear()
         self.paths.clear()
 
@@ -112,6 +99,7 @@ class ReportSole:
         """Of the loads."""
         return "N" if self.layout is not None and self.layout.scale is not None else "counts"
 
-    def mapped(self) -> bool:
-        """Whether it is known where the cells lie."""
-        return self.layout is not None and len(self.layout.cells) == len(self.standing) > 0
+    @property
+    def mapped(self) -> Layout | None:
+        """Where the cells lie that there are; None where that is not known."""
+        return self.layout if self.layout is not None and len(self.layout.cells) == len(self.standing) > 0 else None

@@ -1,11 +1,111 @@
-"""Gait parameters as a table."""
+"""Gait parameters: which are shown, what they are called, in which unit and with how many digits, the same in every
+table, on the page and in the report; and their table in plain text."""
 
 from __future__ import annotations
 
-from ...body.gait.means import GaitMeans, GaitParameters
+from math import degrees
+
+from attrs import frozen
+
+from ...body.gait.means import Figure, GaitMeans, GaitParameters
 from ...types import Foot
-from .gait_rows import gait_rows, strides_of
 from .table import number, percent, table
+
+DEGREES = "deg"
+ENOUGH = 30
+"""Strides of both feet together: of fewer, standard deviation and CV mean little (Galna et al. 2013, as in
+body/gait/means.py)."""
+ROWS: tuple[tuple[str, str, str, int, float], ...] = (
+    ("stride_time", "stride time", "s", 3, 1.0),
+    ("step_time", "step time", "s", 3, 1.0),
+    ("stride_length", "stride length", "m", 3, 1.0),
+    ("step_length", "step length", "m", 3, 1.0),
+    ("step_width", "step width", "m", 3, 1.0),
+    ("speed", "speed", "m/s", 2, 1.0),
+    ("clearance", "rise of the sensor", "m", 3, 1.0),
+    ("toe_off_angle", "toe-off angle", DEGREES, 1, degrees(1.0)),
+    ("heel_strike_angle", "heel-strike angle", DEGREES, 1, degrees(1.0)),
+)
+"""Parameter of StrideFigures, what it is called, the unit that it is shown in, digits, and how many of that unit one of
+its own is."""
+SHARES = (
+    ("stance_time", "stance"),
+    ("single_support", "single support"),
+    ("initial_double_support", "initial double support"),
+    ("terminal_double_support", "terminal double support"),
+)
+"""Times that are shown as a share of the stride time, in percent with one digit."""
+
+
+@frozen
+class GaitRow:
+    """One parameter of steady strides. `left`, `right`, `both`, `sd`: in `unit`, None where it cannot be told (a share
+    of the stride has no `sd`; of one foot alone there is nothing of both). `cv`, `asymmetry`: shares (0.05 is 5 %), as
+    in Figure and GaitParameters; the `cv` of one foot alone is its own.
+
+    An angle is against the flat sole, and so its mean may be near zero or of another sign in each foot: a share of it
+    says nothing. It has a `difference`, right - left in `unit`, instead of `cv` and `asymmetry`."""
+
+    name: str
+    label: str
+    unit: str
+    digits: int
+    left: float | None
+    right: float | None
+    both: float | None
+    sd: float | None
+    cv: float | None
+    asymmetry: float | None
+    difference: float | None
+
+    def cells(self, apart: str) -> list[str]:
+        """As it is written in a table: left, right, both +- SD (`apart` stands between the two), CV in %, asymmetry."""
+        both = number(self.both, self.digits) + ("" if self.sd is None else f"{apart} {number(self.sd, self.digits)}")
+        feet = [number(one, self.digits) for one in (self.left, self.right)]
+        return [*feet, both, percent(self.cv), self.uneven]
+
+    @property
+    def uneven(self) -> str:
+        """Asymmetry as it is written in a table, with its unit."""
+        if self.difference is not None:
+            return f"{self.difference:+.{self.digits}f} {self.unit}"
+        return "-" if self.asymmetry is None else f"{100.0 * self.asymmetry:+.1f} %"
+
+
+def gait_rows(parameters: GaitParameters) -> list[GaitRow]:
+    """A row for each parameter that was measured, in the order in which they are shown."""
+    feet = [parameters.feet.get(foot) for foot in Foot]
+    rows = []
+    for name, label, unit, digits, scale in ROWS:
+        figure: Figure | None = getattr(parameters.both, name)
+        if figure is None:
+            continue
+        figures: list[Figure | None] = [None if one is None else getattr(one, name) for one in feet]
+        left, right = [None if one is None else scale * one.mean for one in figures]
+        both = sd = difference = None
+        if left is not None and right is not None:
+            both = scale * figure.mean
+            sd = None if figure.sd is None else scale * figure.sd
+            difference = right - left if unit == DEGREES else None
+        cv, asymmetry = (None, None) if unit == DEGREES else (figure.cv, parameters.asymmetry(name))
+        rows.append(GaitRow(name, label, unit, digits, left, right, both, sd, cv, asymmetry, difference))
+    for name, label in SHARES:
+        share = parameters.both.share(name)
+        if share is not None:
+            shares = [None if one is None else one.share(name) for one in feet]
+            left, right = [None if one is None else 100.0 * one for one in shares]
+            both = None if left is None or right is None else 100.0 * share
+            # double support that is a flight has none: relative to a mean below zero it would lean to the other foot
+            flies = left is None or right is None or min(left, right) <= 0.0
+            asymmetry = None if flies else parameters.asymmetry(name)
+            rows.append(GaitRow(name, label, "%", 1, left, right, both, None, None, asymmetry, None))
+    return rows
+
+
+def strides_of(parameters: GaitParameters, foot: Foot) -> int | None:
+    """How many of a foot's strides the means are of; None where it took none."""
+    figures = parameters.feet.get(foot)
+    return None if figures is None or figures.stride_time is None else figures.stride_time.strides
 
 
 def gait_lines(means: GaitMeans) -> list[str]:

@@ -6,6 +6,7 @@ are the fainter the less they are believed.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import cos, sin
 from pathlib import Path
 from xml.etree.ElementTree import Element, ElementTree, SubElement, indent
@@ -13,7 +14,8 @@ from xml.etree.ElementTree import Element, ElementTree, SubElement, indent
 from attrs import define, field
 
 from ...events import Event, Placed, PlaceLost
-from ...floorplan.plan import ConnectorKind, FloorPlan, Level, Point
+from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Point
+from ..output import naming
 
 WIDTH = 720.0
 """Of the drawing of a level, px, at the most, where nothing else is said ..."""
@@ -31,7 +33,7 @@ DOTS = 4000
 PAPER, INK, SOFT, FLOOR, EDGE = "#ffffff", "#1f2933", "#7b8794", "#f4f6f8", "#323f4b"
 DOOR, STAIRS, LIFT, CANDIDATE = "#d9b382", "#9fb3c8", "#b8a9c9", "#6b7a8c"
 START, END = "#2e7d32", "#c62828"
-COLOURS = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (240, 180, 32))
+COLOURS = ("#440154", "#3b528b", "#21918c", "#5ec962", "#f0b420")
 """From the start of the track to its end."""
 
 
@@ -59,10 +61,8 @@ class PlanPicture:
         """The picture into a file, UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
         tree = ElementTree(self.drawn(title))
         indent(tree, space=" ")
-        try:
+        with naming(path):
             tree.write(path, encoding="utf-8", xml_declaration=True)
-        except OSError as error:
-            raise OSError(error.errno, error.strerror, str(path)) from None
 
     def drawn(self, title: str) -> Element:
         """The picture as an <svg> element."""
@@ -97,7 +97,7 @@ class PlanPicture:
         for connector in self.plan.connectors:
             for stop in connector.stops:
                 if stop.level == level.id:
-                    _connector(panel, connector.kind, connector.name, stop.place, stop.outline, frame)
+                    _connector(panel, connector, stop, frame)
         lines = {"stroke-linecap": "round", "fill": "none"}
         doors = "".join([frame.line(door.start, door.end) for door in level.doors])
         if doors:
@@ -134,7 +134,7 @@ class PlanPicture:
                 if len(piece) > 1:
                     points = frame.points(tuple([one.position[:2] for one in piece]))
                     share = (k - 0.5 * len(piece)) / max(len(self.places), 1)
-                    SubElement(panel, "polyline", {"points": points, "stroke": colour(share), **style})
+                    SubElement(panel, "polyline", {"points": points, "stroke": blend(COLOURS, share), **style})
                 piece = [] if place is None else [place]
         known = [place for place in self.places if len(place.candidates) == 1]
         found = "start" if known[:1] == self.places[:1] else "found"
@@ -157,7 +157,7 @@ class PlanPicture:
         if self.places:
             for k in range(40):
                 piece = {"x": px(left + 3.0 * k), "y": px(top + 2.0), "width": "3.2", "height": "8"}
-                SubElement(svg, "rect", {**piece, "fill": colour(k / 39.0)})
+                SubElement(svg, "rect", {**piece, "fill": blend(COLOURS, k / 39.0)})
             first, last = self.places[0].t, self.places[-1].t
             _text(svg, left, top + 28.0, f"{first:.0f} s", size=12.0)
             _text(svg, left + 120.0, top + 28.0, f"{last:.0f} s", size=12.0, anchor="end")
@@ -213,19 +213,16 @@ class _Frame:
         return f"M{px(x)} {px(y)}L{px(x1)} {px(y1)}"
 
 
-def _connector(
-    panel: Element, kind: ConnectorKind, name: str, place: Point, outline: tuple[Point, ...], frame: _Frame
-) -> None:
-    fill = STAIRS if kind is ConnectorKind.STAIRS else LIFT
-    x, y = frame.at(place)
-    if outline:
-        SubElement(panel, "polygon", {"points": frame.points(outline), "fill": fill, "fill-opacity": "0.55"})
+def _connector(panel: Element, connector: Connector, stop: ConnectorStop, frame: _Frame) -> None:
+    steps, arrows = "M-4 3h2.7v-2.3h2.7v-2.3h2.7", "M-2.6 -0.8l2.6 -3l2.6 3M-2.6 0.8l2.6 3l2.6 -3"
+    fill, sign = (STAIRS, steps) if connector.kind is ConnectorKind.STAIRS else (LIFT, arrows)
+    x, y = frame.at(stop.place)
+    if stop.outline:
+        SubElement(panel, "polygon", {"points": frame.points(stop.outline), "fill": fill, "fill-opacity": "0.55"})
     mark = SubElement(panel, "g", {"transform": f"translate({px(x)} {px(y)})"})
-    SubElement(mark, "title").text = _plain(name)
+    SubElement(mark, "title").text = _plain(connector.name)
     SubElement(mark, "circle", {"r": "7", "fill": fill, "stroke": PAPER, "stroke-width": "1.5"})
-    stairs, lift = "M-4 3h2.7v-2.3h2.7v-2.3h2.7", "M-2.6 -0.8l2.6 -3l2.6 3M-2.6 0.8l2.6 3l2.6 -3"
-    sign = {"d": stairs if kind is ConnectorKind.STAIRS else lift, "stroke": INK, "stroke-width": "1.2", "fill": "none"}
-    SubElement(mark, "path", sign)
+    SubElement(mark, "path", {"d": sign, "stroke": INK, "stroke-width": "1.2", "fill": "none"})
 
 
 def _north(svg: Element, x: float, y: float, bearing: float) -> None:
@@ -239,12 +236,12 @@ def _north(svg: Element, x: float, y: float, bearing: float) -> None:
     _text(svg, x + 20.0 * east, y - 20.0 * up + 4.0, "N", size=11.0, weight="600", anchor="middle")
 
 
-def colour(share: float) -> str:
-    """Of the track at a share of its time, 0 to 1."""
-    at = min(max(share, 0.0), 1.0) * (len(COLOURS) - 1)
-    k = min(int(at), len(COLOURS) - 2)
-    mixed = [round(a + (at - k) * (b - a)) for a, b in zip(COLOURS[k], COLOURS[k + 1], strict=True)]
-    return "#{:02x}{:02x}{:02x}".format(*mixed)
+def blend(colours: Sequence[str], share: float) -> str:
+    """The colour at a share, 0 to 1, of the way from the first of them to the last, which are evenly apart."""
+    at = min(max(share, 0.0), 1.0) * (len(colours) - 1)
+    k = min(int(at), len(colours) - 2)
+    pairs = zip(bytes.fromhex(colours[k][1:]), bytes.fromhex(colours[k + 1][1:]), strict=True)
+    return f"#{bytes([round(a + (at - k) * (b - a)) for a, b in pairs]).hex()}"
 
 
 def _round_length(metres: float) -> float:

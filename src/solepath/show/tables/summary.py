@@ -1,14 +1,16 @@
-"""What an observer has counted, in words."""
+"""What an observer has counted, in words: all of it at the end, and how links and place are at this moment."""
 
 from __future__ import annotations
 
 from collections import Counter
 from statistics import median
 
+from ...events import Placed
 from ...recording import printable
 from ...types import SITE_OF_FOOT, Foot, Site, Turn, WalkingMode
 from ..links import LinkLedger
 from ..observer import GAIT_EVENTS, FootCounts, Observer
+from ..places import MOST, PlaceCounts
 from .gait import gait_lines
 from .table import milliseconds, number, table
 
@@ -116,3 +118,60 @@ def latency(observer: Observer) -> list[str]:
     medians = {GAIT_EVENTS[kind]: median(known.elements()) for kind, known in observer.delays.items() if known}
     known = [f"{name} {milliseconds(1e-4 * tenths)} ms" for name, tenths in medians.items()]
     return [f"known after it happened, median: {', '.join(known)}"] if known else []
+
+
+def status(observer: Observer) -> list[str]:
+    """A line for each site that was heard of, in the order of Site, and one for the place once it is known."""
+    lines = [_link(site, observer.links[site], observer.now) for site in Site if site in observer.links]
+    place = observer.places.last
+    return lines if place is None else [*lines, here(place)]
+
+
+def _link(site: Site, link: LinkLedger, now: float) -> str:
+    told = [f"{site.words}: {link.rate_of_late(now) or 0.0:.0f} Hz"]
+    if link.loss is not None:
+        told.append(f"{100.0 * link.loss:.1f} % lost")
+    if link.battery is not None:
+        told.append(f"battery {100.0 * link.battery:.0f} %")
+    if link.signal is not None:
+        told.append(f"{link.signal} dBm")
+    if link.state(now) == "lost":
+        told.append("disconnected")
+    if link.trouble:
+        told.append(printable(link.trouble))
+    return ", ".join(told)
+
+
+def place_lines(counts: PlaceCounts) -> list[str]:
+    """A line for each thing that is to be said of a whole recording."""
+    lines = []
+    if counts.found is not None:
+        strides, t = counts.found
+        share = f"; one place for {counts.decided} of {counts.places} steps"
+        lines.append(f"place: found after {strides} step{'s' * (strides != 1)}, at {number(t, 1)} s{share}")
+    else:
+        lines.append(f"place: not found; {counts.places} steps with several candidates")
+    if counts.last is not None:
+        x, y, _ = counts.last.position
+        at = f"({number(x, 1)}, {number(y, 1)}) m"
+        several = len(counts.last.candidates)
+        doubt = f", one of {several} candidates" if several > 1 else f", within {number(counts.last.spread, 1)} m"
+        lines.append(f"at the end: level {printable(counts.last.level)}, {at}{doubt}")
+    if counts.levels:
+        levels = ", ".join([f"{printable(name)} from {number(t, 1)} s" for t, name in counts.levels])
+        more = counts.changes - MOST
+        lines.append(f"levels: {levels}{f' and {more} more' if more > 0 else ''}")
+    lines += [f"from {number(t, 1)} s without a place: {printable(what)}" for t, what in counts.lost]
+    if counts.losses > MOST:
+        lines.append(f"and {counts.losses - MOST} times more")
+    return lines
+
+
+def here(place: Placed) -> str:
+    """Where the wearer is now, in a line."""
+    x, y, _ = place.position
+    several = len(place.candidates)
+    at = f"place: level {printable(place.level)}, ({number(x, 1)}, {number(y, 1)}) m"
+    if several == 1:
+        return f"{at}, within {number(place.spread, 1)} m"
+    return f"{at}, {100.0 * place.candidates[0].weight:.0f} % sure, one of {several} candidates"

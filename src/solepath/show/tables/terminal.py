@@ -15,8 +15,7 @@ from rich.text import Text
 from ...types import Foot, Phase
 from ..observer import FootCounts, Observer
 from .plot import plot
-from .status import status
-from .summary import link_health, worn
+from .summary import link_health, status, worn
 from .table import number
 
 FRAMES = 12.0

@@ -6,7 +6,7 @@ from typing import Any
 
 from attrs import define
 
-from ..scene.rounding import shown
+from ..messages import shown
 
 
 @define

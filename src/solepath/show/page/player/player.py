@@ -204,7 +204,7 @@ class Player:
     def _save(self, t: float) -> None:
         scene = copy(self.scene)
         # neither belongs to the moment, and plans are large
-        scene.plan = scene.playback = None
+        scene.plan = scene.drawing = scene.playback = None
         session = json.dumps(self.session.snapshot()).encode()
         packed = pickle.dumps(scene, pickle.HIGHEST_PROTOCOL)  # only ever read again by this process
         self._moments.append(_Moment(t, self._next, zlib.compress(session, 1), zlib.compress(packed, 1)))
@@ -213,8 +213,8 @@ class Player:
             self.spacing *= 2.0
 
     def _restore(self, moment: _Moment) -> None:
-        plan = self.scene.plan
+        plan, drawing = self.scene.plan, self.scene.drawing
         self.session = Session.restore(json.loads(zlib.decompress(moment.session)), floorplan=self.plan)
         self.scene = pickle.loads(zlib.decompress(moment.scene))
-        self.scene.plan, self.scene.playback = plan, self.playback
+        self.scene.plan, self.scene.drawing, self.scene.playback = plan, drawing, self.playback
         self._next, self._finished = moment.next, False

@@ -11,8 +11,8 @@ from attrs import define, field
 from ....events import FootMoved, FootPressed, StrideTaken
 from ....types import Foot, Layout, Phase, Vec3
 from ...observer import FootCounts
+from ..messages import placed, shown
 from .lists import Recent, WalkedTrack
-from .rounding import placed, shown
 
 RIBBON = 20.0
 """s of phases that are kept."""

@@ -6,24 +6,19 @@ from typing import Any
 
 from ....types import Site
 from ...links import LinkLedger
-from .rounding import shown
-
-
-def rate(link: LinkLedger, now: float) -> float | None:
-    """Samples a second of late, in the digits that are shown; None where nobody counts."""
-    exact = link.rate_of_late(now)
-    if exact is None:
-        return None
-    return round(exact) if exact >= 20.0 else round(exact, 1)
+from ..messages import shown
 
 
 def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:
     """As one of "links" of a frame."""
     state = link.state(now)
     silent = state in ("silent", "lost") and link.heard is not None
+    rate = link.rate_of_late(now)
+    if rate is not None:
+        rate = round(rate) if rate >= 20.0 else round(rate, 1)
     return {
         "state": state,
-        "rate": rate(link, now),
+        "rate": rate,
         "lost": link.lost,
         "loss": shown(link.loss_of_late(now), 4) if state == "ok" else None,
         "rejected": link.rejected.total(),

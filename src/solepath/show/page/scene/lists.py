@@ -12,7 +12,7 @@ from typing import Generic, TypeVar
 from attrs import define, field
 
 from ....types import Vec3
-from .rounding import placed, shown
+from ..messages import placed, shown
 
 T = TypeVar("T")
 

@@ -1,17 +1,52 @@
-"""The lines of the log that a page shows."""
+"""The log that a page shows: events as sentences, for a wearer or a clinician who reads what happened."""
 
 from __future__ import annotations
 
+from math import degrees
+
 from attrs import define, field
 
-from ....events import BatteryLevel, Event, FootSilent
-from ....types import SITE_OF_FOOT
+from ....events import (
+    BatteryLevel,
+    CellFault,
+    CellsFailed,
+    ClockReset,
+    Connected,
+    Disconnected,
+    Event,
+    FeetSwapped,
+    FlightClimbed,
+    FootHeard,
+    FootSilent,
+    InsoleNeverUnloads,
+    LiftRidden,
+    Limitation,
+    LinkTrouble,
+    PacketsDropped,
+    PlaceLost,
+    ScaleSuspect,
+    StreamRestarted,
+    StreamResumed,
+    StreamStale,
+    TurnMade,
+)
+from ....recording import printable
+from ....types import SITE_OF_FOOT, Turn
 from ...observer import Observer
+from ..messages import shown
 from .lists import Recent
-from .rounding import shown
-from .sentences import LOW, sentence
 
 MOST_LINES = 50
+LOW = 0.15
+"""A battery that is this empty is said."""
+FAULTS = {
+    CellFault.DEAD: ("cell shows no load", "cells show no load"),
+    CellFault.STUCK: ("cell shows one value all the time", "cells show one value all the time"),
+    CellFault.SATURATED: ("cell stays at the end of its range", "cells stay at the end of their range"),
+    CellFault.MISSING: ("cell sends no number", "cells send no number"),
+}
+"""Of one cell and of several."""
+TURNS = {Turn.LEFT: "turned left", Turn.RIGHT: "turned right", Turn.ABOUT: "turned about"}
 
 LogLine = tuple[float | None, str, str]
 """(t, kind, sentence)."""
@@ -39,3 +74,70 @@ class SceneLog:
     def add(self, t: float, kind: str, told: str) -> None:
         """One more line, of what happened at `t` s."""
         self.lines.add((shown(t), kind, told))
+
+
+def sentence(event: Event) -> tuple[str, str] | None:
+    """(kind, sentence) of what is worth a line; kind is "link", "wear", "gait" or "place". None of all else."""
+    told = _link(event) or _wear(event) or _gait(event)
+    return None if told is None else (told[0], printable(told[1], 300))
+
+
+def _link(event: Event) -> tuple[str, str] | None:
+    match event:
+        case Connected(site=site, name=name):
+            return "link", f"{site.words}: connected{f' to {name}' if name else ''}"
+        case Disconnected(site=site):
+            return "link", f"{site.words}: the connection is lost"
+        case StreamStale(site=site, silent_for=seconds):
+            return "link", f"{site.words}: nothing has come for {seconds:.1f} s"
+        case StreamResumed(site=site, silent_for=seconds):
+            return "link", f"{site.words}: data come again after {seconds:.1f} s"
+        case StreamRestarted(site=site):
+            return "link", f"{site.words}: the data had stopped, the sensor was set up again"
+        case ClockReset(site=site, restarted=restarted):
+            return "link", f"{site.words}: {'the sensor has started anew' if restarted else 'its clock has jumped'}"
+        case PacketsDropped(site=site, count=count):
+            return "link", f"{site.words}: {count} packet{'s' * (count != 1)} came too fast to be used"
+        case LinkTrouble(site=site, what=what):
+            return "link", f"{site.words}: {what}"
+        case BatteryLevel(site=site, level=level) if level <= LOW:
+            return "link", f"{site.words}: the battery is at {100.0 * level:.0f} %"
+        case _:
+            return None
+
+
+def _wear(event: Event) -> tuple[str, str] | None:
+    match event:
+        case Limitation(site=site, what=what):
+            return "wear", what if site is None else f"{site.words}: {what}"
+        case ScaleSuspect(site=site, magnitude=magnitude, suggestion=suggestion):
+            more = f": {suggestion}" if suggestion else ""
+            return "wear", f"{site.words}: the accelerometer reads {magnitude:.1f} m/s^2 at rest, not 9.8{more}"
+        case CellsFailed(site=site, fault=fault, cells=cells):
+            return "wear", f"{site.words}: {len(cells)} {FAULTS[fault][len(cells) != 1]}; left out from now on"
+        case InsoleNeverUnloads(site=site):
+            return "wear", f"{site.words}: the insole is never without load; the shoe may be too tight for it"
+        case FeetSwapped():
+            return "wear", "the insoles may be swapped: what comes as the left foot looks like a right one"
+        case FootSilent(foot=foot):
+            return "wear", f"{foot} foot: nothing comes while the other foot walks on"
+        case FootHeard(foot=foot, silent_for=seconds):
+            return "wear", f"{foot} foot: heard again after {seconds:.1f} s"
+        case _:
+            return None
+
+
+def _gait(event: Event) -> tuple[str, str] | None:
+    match event:
+        case TurnMade(turn=turn, angle=angle, final=True) if turn is not None:
+            return "gait", f"{TURNS[turn]} by {abs(degrees(angle)):.0f} degrees"
+        case FlightClimbed(up=up, steps=steps, height=height, final=True):
+            way = "up" if up else "down"
+            return "gait", f"stairs {way}: {steps} step{'s' * (steps != 1)}, {abs(height):.1f} m"
+        case LiftRidden(up=up, height=height, final=True):
+            far = "" if height is None else f", {abs(height):.1f} m"
+            return "gait", f"a lift {'up' if up else 'down'}{far}"
+        case PlaceLost(what=what):
+            return "place", what
+        case _:
+            return None

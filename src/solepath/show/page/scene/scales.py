@@ -13,7 +13,7 @@ from typing import Any
 from attrs import define, field
 
 from ....types import Foot, Layout
-from .rounding import shown
+from ..messages import shown
 
 STEPS = (1.0, 2.0, 4.0, 6.0, 8.0, 10.0)
 """Times a power of ten: where a scale may end."""

@@ -31,14 +31,14 @@ from ....floorplan.plan import FloorPlan
 from ....foot.phase import BEGINS, SUPPORT
 from ....types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site
 from ...observer import REJECTED, FootCounts, Observer
+from ..messages import Written, shown
 from ..player.playback import Playback
 from .feet import FootScene
+from .gait import SceneMeasures, ScenePace, activity_frame
 from .links import link_frame, unheard_since
+from .lists import WalkedTrack
 from .log import SceneLog
-from .measured import SceneMeasures
-from .pace import ScenePace, activity_frame
 from .plan_drawing import drawn
-from .rounding import shown
 from .scales import Scales
 from .whereabouts import Whereabouts
 
@@ -82,6 +82,11 @@ class Scene:
     log: SceneLog = field(factory=SceneLog, init=False)
     layouts: int = field(default=0, init=False)
     """How often one became known: a page that drew others needs the scene anew."""
+    drawing: Written | None = field(init=False)
+    """Of the plan: made once, however many watch and wherever the player goes."""
+
+    def __attrs_post_init__(self) -> None:
+        self.drawing = None if self.plan is None else drawn(self.plan)
 
     # --- in ---
 
@@ -170,8 +175,7 @@ class Scene:
 
     def whole(self) -> tuple[dict[str, Any], Cursor]:
         """Everything: the message "scene", and what `since` goes on from."""
-        values, feet, where = self._values(), self.feet, self.whereabouts
-        left, right = feet[Foot.LEFT], feet[Foot.RIGHT]
+        values = self._values()
         message = {
             "type": "scene",
             "v": VERSION,
@@ -179,15 +183,11 @@ class Scene:
             "recipe": self.recipe,
             "source": self.source,
             "control": False,
-            "plan": None if self.plan is None else drawn(self.plan),
-            "layouts": {foot.value: one.layout_message(foot in self.newtons) for foot, one in feet.items()},
-            "tracks": {
-                "left": list(left.track.points),
-                "right": list(right.track.points),
-                "wearer": list(where.track.points),
-            },
-            "places": list(where.places.points),
-            "phases": {foot.value: list(one.phases.items) for foot, one in feet.items()},
+            "plan": self.drawing,
+            "layouts": {foot.value: one.layout_message(foot in self.newtons) for foot, one in self.feet.items()},
+            "tracks": {name: list(track.points) for name, track in self._tracks().items()},
+            "places": list(self.whereabouts.places.points),
+            "phases": {foot.value: list(one.phases.items) for foot, one in self.feet.items()},
             "log": list(self.log.lines.items),
             "frame": {
                 "type": "frame",
@@ -209,10 +209,8 @@ class Scene:
         values, numbers, known = self._values(), self._numbers(), cursor.numbers
         message = {key: value for key, value in values.items() if value != cursor.values[key]}
         if numbers != known:
-            where = self.whereabouts
-            tracks = {foot.value: one.track.since(known[foot.value]) for foot, one in self.feet.items()}
-            tracks["wearer"] = where.track.since(known["wearer"])
-            places = where.places.since(known["places"])
+            tracks = {name: track.since(known[name]) for name, track in self._tracks().items()}
+            places = self.whereabouts.places.since(known["places"])
             if places is None or None in tracks.values():
                 return self.whole()
             phases = {foot.value: one.phases.since(known[f"phases {foot}"]) for foot, one in self.feet.items()}
@@ -231,17 +229,13 @@ class Scene:
     def _t(self) -> float:
         return shown(self.now) or 0.0
 
+    def _tracks(self) -> dict[str, WalkedTrack]:
+        return {**{foot.value: one.track for foot, one in self.feet.items()}, "wearer": self.whereabouts.track}
+
     def _numbers(self) -> dict[str, int]:
-        where, left, right = self.whereabouts, self.feet[Foot.LEFT], self.feet[Foot.RIGHT]
-        return {
-            "left": left.track.count,
-            "right": right.track.count,
-            "wearer": where.track.count,
-            "places": where.places.count,
-            "phases left": left.phases.count,
-            "phases right": right.phases.count,
-            "log": self.log.lines.count,
-        }
+        numbers = {name: track.count for name, track in self._tracks().items()}
+        numbers |= {f"phases {foot}": one.phases.count for foot, one in self.feet.items()}
+        return numbers | {"places": self.whereabouts.places.count, "log": self.log.lines.count}
 
     def _values(self) -> dict[str, Any]:
         now, seen = self.now, self.observer

@@ -7,8 +7,8 @@ from typing import Any
 from attrs import define, field
 
 from ....events import Candidate, Placed, WearerMoved
+from ..messages import placed, shown
 from .lists import ThinnedTrack, WalkedTrack
-from .rounding import placed, shown
 
 MOST_CANDIDATES = 40
 

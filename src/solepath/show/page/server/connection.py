@@ -82,11 +82,7 @@ class BrowserConnection(web.RequestHandler):
             self._to.abort()  # to close it would wait until all was read
 
     def handle_error(
-        self,
-        request: web.BaseRequest,
-        status: int = 500,
-        exc: BaseException | None = None,
-        message: str | None = None,
+        self, request: web.BaseRequest, status: int = 500, exc: BaseException | None = None, message: str | None = None
     ) -> web.StreamResponse:
         """The library's own answers tell what was wrong with words of whoever has sent it; this does not."""
         if request.writer.output_size > 0:

@@ -15,15 +15,13 @@ import secrets
 from collections.abc import Callable
 from importlib.resources import files
 from importlib.resources.abc import Traversable
-from types import TracebackType
 from typing import cast
 
 from aiohttp import web
 
 from ..messages import Command
 from ..scene.scene import Scene
-from .access import Access, AccessDenied
-from .address import listen, reached_at
+from .access import Access, AccessDenied, listen, reached_at
 from .connection import HEADERS, BrowserConnection, NoRoom
 from .offences import Offences
 from .watcher import Watcher
@@ -34,12 +32,7 @@ MOST_CONNECTIONS = 64
 IDLE = 10.0
 """s after which a connection that asks for nothing, or for half of something, is closed."""
 METHODS = ("GET", "HEAD")
-KINDS = {
-    ".html": "text/html",
-    ".css": "text/css",
-    ".js": "text/javascript",
-    ".svg": "image/svg+xml",
-}
+KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 
 
 class Page:
@@ -94,9 +87,7 @@ class Page:
         self._listening = await asyncio.get_running_loop().create_server(self._connect, sock=socket)
         return self
 
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    async def __aexit__(self, *error: object) -> None:
         if self._listening is not None:
             self._listening.close()
         if self._server is not None:

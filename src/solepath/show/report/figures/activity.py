@@ -8,7 +8,7 @@ from ....types import Activity
 from ...tables.plan import px
 from ..clock import ReportClock, lasted
 from ..markup import add, figure
-from .axes import AxisScale, drawing, ticks, told, write
+from .axes import AxisScale, drawing, grid, ticks, write
 
 ROW = 20.0
 LEFT = 96.0
@@ -30,15 +30,10 @@ def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]],
     svg = drawing("activities", "Activities over time", f"How long in all: {what}.", height)
     x = AxisScale(*clock.span, LEFT, 390.0)
     bottom = 8.0 + ROW * len(rows)
-    grid = add(svg, "path", class_="grid")
-    lines = []
-    marked = ticks(*clock.span, 6)
-    for value, words in zip(marked, told(marked), strict=True):
-        lines.append(f"M{px(x.at(value))} 8V{px(bottom)}")
-        write(svg, x.at(value), bottom + 14.0, words, "tick", "middle")
+    lines = grid(svg, x, AxisScale(0.0, 1.0, bottom, 8.0), ticks(*clock.span, 6), [])
     for k, one in enumerate(rows):
         y = 8.0 + ROW * k
-        lines.append(f"M{px(LEFT)} {px(y + ROW)}H390")
+        lines.set("d", f"{lines.get('d')}M{px(LEFT)} {px(y + ROW)}H390")
         write(svg, LEFT - 6.0, y + 14.0, named(one), "tick", "end")
         bars = []
         for a, b, did in spans:
@@ -46,7 +41,6 @@ def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]],
                 begin, end = x.at(clock.of(a)), x.at(clock.of(b))
                 bars.append(f"M{px(begin)} {px(y + 4.0)}H{px(max(end, begin + 0.6))}v{px(ROW - 8.0)}H{px(begin)}z")
         add(svg, "path", d="".join(bars), class_="bar")
-    grid.set("d", "".join(lines))
     write(svg, 0.5 * (LEFT + 390.0), bottom + 30.0, clock.label, "label", "middle")
     figure(parent, svg, "Activities over time")
     return True

@@ -70,9 +70,9 @@ class AxisScale:
         return self.start if span <= 0.0 else self.start + (value - self.low) / span * (self.end - self.start)
 
 
-def drawing(name: str, title: str, what: str, height: float, width: float = WIDTH) -> Element:
+def drawing(name: str, title: str, what: str, height: float) -> Element:
     """An empty <svg>. `name`: its own on the page; `title` and `what`: for who cannot see it."""
-    svg = Element("svg", {"viewBox": f"0 0 {px(width)} {px(height)}", "role": "img"})
+    svg = Element("svg", {"viewBox": f"0 0 {px(WIDTH)} {px(height)}", "role": "img"})
     svg.set("aria-labelledby", f"{name}-title {name}-what")
     add(svg, "title", title, id=f"{name}-title")
     add(svg, "desc", what, id=f"{name}-what")
@@ -101,6 +101,20 @@ def marks(points: Iterable[Point], shape: str) -> str:
     return "".join([f"M{px(x)} {px(y)}{shape}" for x, y in points])
 
 
+def grid(svg: Element, x: AxisScale, y: AxisScale, across: Sequence[float], up: Sequence[float]) -> Element:
+    """Lines at these values of x and y, a path, and the values beside the axes."""
+    path = add(svg, "path", class_="grid")
+    lines = []
+    for value, words in zip(across, told(across), strict=True):
+        lines.append(f"M{px(x.at(value))} {px(y.end)}V{px(y.start)}")
+        write(svg, x.at(value), y.start + 14.0, words, "tick", "middle")
+    for value, words in zip(up, told(up), strict=True):
+        lines.append(f"M{px(x.start)} {px(y.at(value))}H{px(x.end)}")
+        write(svg, x.start - 5.0, y.at(value) + 4.0, words, "tick", "end")
+    path.set("d", "".join(lines))
+    return path
+
+
 @define
 class Chart:
     """A drawing with two axes. `x`, `y`: from values to its pixels."""
@@ -111,26 +125,11 @@ class Chart:
 
     @classmethod
     def of(
-        cls,
-        svg: Element,
-        x: tuple[float, float],
-        y: tuple[float, float],
-        labels: tuple[str, str],
-        height: float,
+        cls, svg: Element, x: tuple[float, float], y: tuple[float, float], labels: tuple[str, str], height: float
     ) -> Chart:
         """With a grid and its labels; that of y stands above the axis."""
         made = cls(svg, AxisScale(*x, LEFT, WIDTH - RIGHT), AxisScale(*y, height - BOTTOM, TOP))
-        grid = add(svg, "path", class_="grid")
-        lines = []
-        across = ticks(*x, 6)
-        for value, words in zip(across, told(across), strict=True):
-            lines.append(f"M{px(made.x.at(value))} {px(TOP)}V{px(height - BOTTOM)}")
-            write(svg, made.x.at(value), height - BOTTOM + 14.0, words, "tick", "middle")
-        up = ticks(*y, 5)
-        for value, words in zip(up, told(up), strict=True):
-            lines.append(f"M{px(LEFT)} {px(made.y.at(value))}H{px(WIDTH - RIGHT)}")
-            write(svg, LEFT - 5.0, made.y.at(value) + 4.0, words, "tick", "end")
-        grid.set("d", "".join(lines))
+        grid(svg, made.x, made.y, ticks(*x, 6), ticks(*y, 5))
         write(svg, 0.5 * (LEFT + WIDTH - RIGHT), height - 5.0, labels[0], "label", "middle")
         write(svg, 2.0, 12.0, labels[1], "label")
         return made

@@ -6,26 +6,17 @@ from math import hypot
 from xml.etree.ElementTree import Element
 
 from ....types import Foot, Layout
-from ...tables.plan import px
+from ...tables.plan import blend, px
 from ..markup import add, figure, table
 from ..soles import STATIONS, ReportSole
 from .axes import Chart, around, drawing, line, write
-from .track import legend_lines
+from .stride import legend
 
 SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")
 """From no load to the highest: darker is more, on a grey printer too."""
 TALL = 250.0
 """Of a sole, px."""
 THIRDS = ("heel", "midfoot", "forefoot")
-
-
-def shade(share: float) -> str:
-    """Of a share of the highest load, 0 to 1."""
-    at = min(max(share, 0.0), 1.0) * (len(SHADES) - 1)
-    k = min(int(at), len(SHADES) - 2)
-    low, high = SHADES[k], SHADES[k + 1]
-    pairs = [(int(low[i : i + 2], 16), int(high[i : i + 2], 16)) for i in (1, 3, 5)]
-    return "#" + "".join([f"{round(a + (at - k) * (b - a)):02x}" for a, b in pairs])
 
 
 def pressure_figures(parent: Element, soles: dict[Foot, ReportSole]) -> bool:
@@ -35,16 +26,16 @@ def pressure_figures(parent: Element, soles: dict[Foot, ReportSole]) -> bool:
         return False
     walked = {foot: sole for foot, sole in pressed.items() if sole.contacts}
     if walked:
-        maps = {foot: sole for foot, sole in walked.items() if sole.mapped()}
-        means = {foot: [v / sole.contacts for v in sole.means] for foot, sole in maps.items()}
-        peaks = {foot: [v / sole.contacts for v in sole.peaks] for foot, sole in maps.items()}
-        _map(parent, "mean", "Mean load of a contact", maps, means, paths=True)
-        _map(parent, "peak", "Peak load of a contact", maps, peaks, paths=False)
+        maps = {foot: layout for foot, sole in walked.items() if (layout := sole.mapped)}
+        means = {foot: [v / walked[foot].contacts for v in walked[foot].means] for foot in maps}
+        peaks = {foot: [v / walked[foot].contacts for v in walked[foot].peaks] for foot in maps}
+        _map(parent, "mean", "Mean load of a contact", walked, maps, means, paths=True)
+        _map(parent, "peak", "Peak load of a contact", walked, maps, peaks, paths=False)
         _forces(parent, walked)
     else:
-        maps = {foot: sole for foot, sole in pressed.items() if sole.mapped()}
-        means = {foot: [v / sole.samples for v in sole.standing] for foot, sole in maps.items()}
-        _map(parent, "standing", "Mean load of the whole recording", maps, means, paths=False)
+        maps = {foot: layout for foot, sole in pressed.items() if (layout := sole.mapped)}
+        means = {foot: [v / pressed[foot].samples for v in pressed[foot].standing] for foot in maps}
+        _map(parent, "standing", "Mean load of the whole recording", pressed, maps, means, paths=False)
         add(parent, "p", "No whole stride was walked: the loads are means over the whole recording.")
     if maps:
         _thirds(parent, maps, means)
@@ -78,28 +69,28 @@ def _map(
     name: str,
     title: str,
     soles: dict[Foot, ReportSole],
+    maps: dict[Foot, Layout],
     loads: dict[Foot, list[float]],
     *,
     paths: bool,
 ) -> None:
-    if not soles:
+    if not maps:
         return
     highest = max([max(values) for values in loads.values()])
-    unit = _unit(soles)
+    unit = _unit({foot: soles[foot] for foot in maps})
     said = []
     for foot, values in loads.items():
         k = max(range(len(values)), key=values.__getitem__)
-        layout = soles[foot].layout
-        x = 0.0 if layout is None else layout.cells[k].x / max(layout.length, 1e-6)
+        x = maps[foot].cells[k].x / max(maps[foot].length, 1e-6)
         load = f"{values[k]:.3g} {soles[foot].unit} a cell"
         said.append(f"{foot}: highest {load}, at {100.0 * x:.0f} % of the length from the heel")
     svg = drawing(f"pressure-{name}", title, f"{'; '.join(said)}.", TALL + 66.0)
-    for foot, sole in soles.items():
-        if sole.layout is not None:
-            _sole(svg, sole, sole.layout, loads[foot], highest, 110.0 if foot is Foot.LEFT else 290.0, foot, paths)
+    for foot, layout in maps.items():
+        shares = [load / highest if highest > 0.0 else 0.0 for load in loads[foot]]
+        _sole(svg, foot, layout, shares, soles[foot] if paths else None)
     y = TALL + 40.0
     for k in range(30):
-        add(svg, "rect", x=px(110.0 + 6.0 * k), y=px(y), width="6.4", height="9", fill=shade(k / 29.0))
+        add(svg, "rect", x=px(110.0 + 6.0 * k), y=px(y), width="6.4", height="9", fill=blend(SHADES, k / 29.0))
     write(svg, 104.0, y + 9.0, "0", "tick", "end")
     write(svg, 296.0, y + 9.0, f"{highest:.3g} {unit} a cell", "tick")
     notes = [f"{one[0].upper()}{one[1:]}." for one in said]
@@ -108,17 +99,9 @@ def _map(
     figure(parent, svg, title, *notes)
 
 
-def _sole(
-    svg: Element,
-    sole: ReportSole,
-    layout: Layout,
-    loads: list[float],
-    highest: float,
-    middle: float,
-    foot: Foot,
-    paths: bool,
-) -> None:
-    """A sole seen from above, the toe up."""
+def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked: ReportSole | None) -> None:
+    """A sole seen from above, the toe up. `shares`: of the highest load; `walked`: whose paths are drawn on it."""
+    middle = 110.0 if foot is Foot.LEFT else 290.0
     xs, ys = [cell.x for cell in layout.cells], [cell.y for cell in layout.cells]
     r = radius(layout)
     scale = min((TALL - 10.0) / max(max(xs) - min(xs) + 2.0 * r, 1e-3), 150.0 / max(max(ys) - min(ys) + 2.0 * r, 1e-3))
@@ -129,14 +112,14 @@ def _sole(
 
     write(svg, middle, 14.0, foot.value, "label", "middle")
     cells = add(svg, "g", class_="cells")
-    for cell, load in zip(layout.cells, loads, strict=True):
+    for cell, share in zip(layout.cells, shares, strict=True):
         x, y = at(cell.x, cell.y)
-        add(cells, "circle", cx=px(x), cy=px(y), r=px(r * scale), fill=shade(load / highest if highest > 0.0 else 0.0))
-    if paths:
-        single = "".join([line([at(*one) for one in path]) for path in sole.paths if len(path) > 1])
+        add(cells, "circle", cx=px(x), cy=px(y), r=px(r * scale), fill=blend(SHADES, share))
+    if walked is not None:
+        single = "".join([line([at(*one) for one in path]) for path in walked.paths if len(path) > 1])
         if single:
             add(svg, "path", d=single, class_="single")
-        mean = [at(*one) for one in sole.mean_path]
+        mean = [at(*one) for one in walked.mean_path]
         if len(mean) > 1:
             add(svg, "path", d=line(mean), class_="under")
             add(svg, "path", d=line(mean), class_="centre")
@@ -153,24 +136,24 @@ def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
     chart = Chart.of(svg, (0.0, 100.0), around(values, least=1.0, zero=True), labels, 190.0)
     for foot, curve in curves.items():
         chart.path([(100.0 * k / (STATIONS - 1), value) for k, value in enumerate(curve)], f"line {foot}")
-    legend_lines(svg, list(curves))
+    legend(svg, list(curves), lines=True)
     counted = ", ".join([f"{foot} {sole.contacts}" for foot, sole in soles.items()])
     figure(parent, svg, "Mean force over a contact", f"Contacts: {counted}.")
 
 
-def _thirds(parent: Element, soles: dict[Foot, ReportSole], loads: dict[Foot, list[float]]) -> None:
+def _thirds(parent: Element, maps: dict[Foot, Layout], loads: dict[Foot, list[float]]) -> None:
     """How the load is shared out over the thirds of the insole's length."""
     rows = []
     for k, name in enumerate(THIRDS):
         row = [f"{name} third, %"]
         for foot in Foot:
-            if foot not in soles or (layout := soles[foot].layout) is None or sum(loads[foot]) <= 0.0:
+            if foot not in maps or sum(loads[foot]) <= 0.0:
                 row.append("-")
                 continue
             inside = [
                 load
-                for cell, load in zip(layout.cells, loads[foot], strict=True)
-                if min(max(int(3.0 * cell.x / layout.length), 0), 2) == k
+                for cell, load in zip(maps[foot].cells, loads[foot], strict=True)
+                if min(max(int(3.0 * cell.x / maps[foot].length), 0), 2) == k
             ]
             row.append(f"{100.0 * sum(inside) / sum(loads[foot]):.0f}")
         rows.append(row)

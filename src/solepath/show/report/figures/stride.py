@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
-from attrs import frozen
-
 from ....events import GaitCycleMeasured
 from ....types import Foot
 from ...tables.plan import px
 from ..clock import ReportClock
 from ..markup import add, figure
-from .axes import TOP, Chart, around, drawing, write
+from .axes import Chart, around, drawing, write
 
 HEIGHT = 190.0
 DISC, CROSS = "h0", "m-2.6-2.6l5.2 5.2m0-5.2l-5.2 5.2"
@@ -24,46 +22,35 @@ TURNED = 0.35
 """rad: a stride that turns by more is marked as one in a turn (20 degrees)."""
 
 
-@frozen
-class DrawnStride:
-    """What is drawn of one. Times in s, length in m, speed in m/s."""
-
-    t: float
-    time: float
-    length: float | None
-    speed: float | None
-    steady: bool
-    degraded: bool
-    turns: bool
-
-    @classmethod
-    def of(cls, event: GaitCycleMeasured) -> DrawnStride:
-        turns = event.turning_angle is not None and abs(event.turning_angle) > TURNED
-        return cls(event.t, event.stride_time, event.stride_length, event.speed, event.steady, event.degraded, turns)
+LEAST = 0.2
+"""Of the unit, that an axis covers."""
+PANELS = (("stride_length", "Stride length", "m"), ("stride_time", "Stride time", "s"), ("speed", "Speed", "m/s"))
 
 
-PANELS = (("length", "Stride length", "m", 0.2), ("time", "Stride time", "s", 0.2), ("speed", "Speed", "m/s", 0.2))
-
-
-def stride_figures(parent: Element, strides: dict[Foot, list[DrawnStride]], clock: ReportClock) -> bool:
+def stride_figures(parent: Element, strides: dict[Foot, list[GaitCycleMeasured]], clock: ReportClock) -> bool:
     """A chart for each of the three; False where there are no strides."""
     if not any(strides.values()):
         return False
-    for name, title, unit, least in PANELS:
+    for name, title, unit in PANELS:
         known = {
             foot: [(one, getattr(one, name)) for one in some if getattr(one, name) is not None]
             for foot, some in strides.items()
         }
         if any(known.values()):
-            _panel(parent, name, title, unit, least, known, clock)
+            _panel(parent, title, unit, known, clock)
     every = [one for some in strides.values() for one in some]
     notes = ["faint, strides that do not count in the table"] if any(not one.steady for one in every) else []
-    notes += ["ticks at the bottom, strides in a turn"] if any(one.turns for one in every) else []
+    notes += ["ticks at the bottom, strides in a turn"] if any(map(turns, every)) else []
     notes += ["ticks at the top, samples missing or saturated"] if any(one.degraded for one in every) else []
     notes += ["lines, means"] if any(map(dense, strides.values())) else []
     if notes:
         add(parent, "p", f"In the figures of strides: {'; '.join(notes)}.", class_="note")
     return True
+
+
+def turns(one: GaitCycleMeasured) -> bool:
+    """Whether it is marked as a stride in a turn."""
+    return one.turning_angle is not None and abs(one.turning_angle) > TURNED
 
 
 def dense(some: Sequence[object]) -> bool:
@@ -80,19 +67,17 @@ def means(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
 
 def _panel(
     parent: Element,
-    name: str,
     title: str,
     unit: str,
-    least: float,
-    known: dict[Foot, list[tuple[DrawnStride, float]]],
+    known: dict[Foot, list[tuple[GaitCycleMeasured, float]]],
     clock: ReportClock,
 ) -> None:
     values = [value for some in known.values() for _, value in some]
     what = f"{title} of every stride over time: {len(values)} strides, {min(values):.2f} to {max(values):.2f} {unit}."
-    svg = drawing(f"stride-{name}", f"{title} over time", what, HEIGHT)
+    svg = drawing(f"stride-{title.split()[-1].lower()}", f"{title} over time", what, HEIGHT)
     if any(map(dense, known.values())):
         svg.set("class", "dense")
-    chart = Chart.of(svg, clock.span, around(values, least=least), (clock.label, f"{title.lower()}, {unit}"), HEIGHT)
+    chart = Chart.of(svg, clock.span, around(values, least=LEAST), (clock.label, f"{title.lower()}, {unit}"), HEIGHT)
     for foot, some in known.items():
         for counted in (False, True):
             points = [(clock.of(one.t), value) for one, value in some if one.steady is counted]
@@ -100,7 +85,7 @@ def _panel(
         if dense(some):
             chart.path(means([(clock.of(one.t), value) for one, value in some if one.steady]), f"line {foot}")
     every = [pair for some in known.values() for pair in some]
-    turning = [clock.of(one.t) for one, _ in every if one.turns]
+    turning = [clock.of(one.t) for one, _ in every if turns(one)]
     if turning:
         bottom = chart.y.start
         add(svg, "path", class_="turn", d="".join([f"M{px(chart.x.at(t))} {px(bottom)}v-7" for t in turning]))
@@ -111,11 +96,15 @@ def _panel(
     figure(parent, svg, f"{title} over time")
 
 
-def legend(svg: Element, feet: Sequence[Foot]) -> None:
-    """Which mark is whose, at the right above a chart."""
-    x, y = 390.0, TOP - 12.0
+def legend(svg: Element, feet: Sequence[Foot], *, lines: bool = False) -> None:
+    """Which mark, or which of the lines, is whose, at the right above a chart: left solid, right dashed."""
+    x = 390.0
     for foot in reversed(feet):
-        write(svg, x, y, foot.value, "tick", "end")
+        write(svg, x, 12.0, foot.value, "tick", "end")
         x -= 5.6 * len(foot.value) + 8.0
-        add(svg, "path", class_=f"mark {foot}", d=f"M{px(x)} {px(y - 4.0)}{SHAPES[foot]}")
-        x -= 12.0
+        if lines:
+            add(svg, "path", class_=f"line {foot}", d=f"M{px(x - 20.0)} 8h20")
+            x -= 30.0
+        else:
+            add(svg, "path", class_=f"mark {foot}", d=f"M{px(x)} 8{SHAPES[foot]}")
+            x -= 12.0

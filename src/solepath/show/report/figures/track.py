@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from xml.etree.ElementTree import Element
 
-from attrs import evolve, frozen
+from attrs import evolve
 
-from ....events import Placed, PlaceLost
+from ....events import FootMoved, Placed, PlaceLost, StrideTaken, WearerMoved
 from ....floorplan.plan import FloorPlan
-from ....types import Foot, Vec3
+from ....types import Foot
 from ...tables.plan import PlanPicture, px
 from ..clock import ReportClock
 from ..markup import add, figure
-from .axes import WIDTH, AxisScale, Chart, around, drawing, line, marks, ticks, told, write
-from .stride import SHAPES
+from .axes import WIDTH, AxisScale, Chart, Point, around, drawing, grid, line, marks, ticks, told, write
+from .stride import SHAPES, legend
 
 PRINTS = 160
 """Footprints: more of them would hide the way."""
@@ -27,15 +27,12 @@ SMALLEST = 4.0
 """m that the longer side shows at least, so that standing still is not magnified."""
 
 
-@frozen
-class Stood:
-    """Where something was, world frame, m, and when, s."""
-
-    t: float
-    position: Vec3
+Stood = FootMoved | StrideTaken | WearerMoved
+"""What says where a foot or the wearer was, and when."""
+OfFeet = Mapping[Foot, Sequence[Stood]]
 
 
-def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[Stood]], clock: ReportClock) -> bool:
+def track_figure(parent: Element, way: Sequence[Stood], prints: OfFeet, clock: ReportClock) -> bool:
     """The way from above, x to the right and y up; False where there is none. `way`: the wearer's, or a foot's where
     only feet are known; `prints`: where the feet stood."""
     few = sum([len(some) for some in prints.values()]) <= PRINTS
@@ -59,9 +56,9 @@ def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[
     length = sum([_apart(a, b) for a, b in zip(way, way[1:], strict=False)])
     what = f"The track from above, {across:.1f} m by {up:.1f} m, {length:.0f} m long as drawn."
     svg = drawing("track", "Track from above", what, height)
-    _grid(svg, x, y, height - bottom, top)
+    _grid(svg, x, y)
 
-    def at(one: Stood) -> tuple[float, float]:
+    def at(one: Stood) -> Point:
         return x.at(one.position[0]), y.at(one.position[1])
 
     add(svg, "path", d=line([at(one) for one in way]), class_="way")
@@ -70,19 +67,11 @@ def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[
             if d := marks([at(one) for one in some], SHAPES[foot]):
                 add(svg, "path", d=d, class_=f"mark {foot}")
     _times(svg, way, at, clock)
-    if way:
-        for one, word in ((way[0], "start"), (way[-1], "end")):
-            a, b = at(one)
-            add(svg, "circle", cx=px(a), cy=px(b), r="4.5", class_=word)
-            late = a > 0.85 * WIDTH
-            write(
-                svg,
-                a - 8.0 if late else a + 8.0,
-                b + (13.0 if word == "end" else -6.0),
-                word,
-                "halo strong",
-                "end" if late else "start",
-            )
+    for one, word, below in ((way[0], "start", -6.0), (way[-1], "end", 13.0)):
+        a, b = at(one)
+        add(svg, "circle", cx=px(a), cy=px(b), r="4.5", class_=word)
+        aside, anchor = (-8.0, "end") if a > 0.85 * WIDTH else (8.0, "start")
+        write(svg, a + aside, b + below, word, "halo strong", anchor)
     notes = ["x along the first heading; the numbers along the way are times."]
     if beside and any(prints.values()):
         notes.append("\N{BLACK CIRCLE} where the left foot stood, \N{MULTIPLICATION SIGN} the right one.")
@@ -92,7 +81,7 @@ def track_figure(parent: Element, way: Sequence[Stood], prints: dict[Foot, list[
     return True
 
 
-def _astray(way: Sequence[Stood], prints: dict[Foot, list[Stood]]) -> float:
+def _astray(way: Sequence[Stood], prints: OfFeet) -> float:
     """How far a print lies from where the wearer was then, at the most, m."""
     times, farthest = [one.t for one in way], 0.0
     for one in [one for some in prints.values() for one in some] if way else []:
@@ -107,30 +96,22 @@ def _apart(a: Stood, b: Stood) -> float:
     return float((dx * dx + dy * dy) ** 0.5)
 
 
-def _grid(svg: Element, x: AxisScale, y: AxisScale, bottom: float, top: float) -> None:
+def _grid(svg: Element, x: AxisScale, y: AxisScale) -> None:
     """One step for both axes."""
-    grid = add(svg, "path", class_="grid")
     marked = ticks(x.low, x.high, 8)
     step = marked[1] - marked[0] if len(marked) > 1 else 1.0
-    lines = []
-    for value, words in zip(marked, told(marked), strict=True):
-        lines.append(f"M{px(x.at(value))} {px(top)}V{px(bottom)}")
-        write(svg, x.at(value), bottom + 14.0, words, "tick", "middle")
     up = [k * step for k in range(int(y.low // step) + 1, int(y.high // step) + 1)]
-    for value, words in zip(up, told(up), strict=True):
-        lines.append(f"M{px(x.start)} {px(y.at(value))}H{px(x.end)}")
-        write(svg, x.start - 5.0, y.at(value) + 4.0, words, "tick", "end")
-    grid.set("d", "".join(lines))
-    write(svg, 0.5 * (x.start + x.end), bottom + 29.0, "x and y, m", "label", "middle")
+    grid(svg, x, y, marked, up)
+    write(svg, 0.5 * (x.start + x.end), y.start + 29.0, "x and y, m", "label", "middle")
 
 
-def _times(svg: Element, way: Sequence[Stood], at: object, clock: ReportClock) -> None:
+def _times(svg: Element, way: Sequence[Stood], at: Callable[[Stood], Point], clock: ReportClock) -> None:
     """A few times along the way."""
-    if len(way) < 3 or not callable(at):
+    if len(way) < 3:
         return
     wanted = ticks(clock.of(way[0].t), clock.of(way[-1].t), 7)
     unit = "min" if clock.per_unit > 1.0 else "s"
-    taken: list[tuple[float, float]] = []
+    taken: list[Point] = []
     for value, words in zip(wanted, told(wanted), strict=True):
         near = min(way, key=lambda one: abs(clock.of(one.t) - value))
         a, b = at(near)
@@ -140,7 +121,7 @@ def _times(svg: Element, way: Sequence[Stood], at: object, clock: ReportClock) -
             write(svg, a, b - 6.0, f"{words} {unit}", "halo tick", "middle")
 
 
-def height_figure(parent: Element, heights: dict[Foot, list[Stood]], clock: ReportClock) -> bool:
+def height_figure(parent: Element, heights: OfFeet, clock: ReportClock) -> bool:
     """The height of the standing foot over time; False where there is none."""
     known = {foot: some for foot, some in heights.items() if len(some) > 1}
     if not known:
@@ -151,19 +132,9 @@ def height_figure(parent: Element, heights: dict[Foot, list[Stood]], clock: Repo
     chart = Chart.of(svg, clock.span, around(values, least=1.0), (clock.label, "height, m"), 180.0)
     for foot, some in known.items():
         chart.path([(clock.of(one.t), one.position[2]) for one in some], f"line {foot}")
-    legend_lines(svg, list(known))
+    legend(svg, list(known), lines=True)
     figure(parent, svg, "Height of the feet over time", "Of the foot on the ground, against where it began.")
     return True
-
-
-def legend_lines(svg: Element, feet: Sequence[Foot]) -> None:
-    """Left solid, right dashed."""
-    x = 390.0
-    for foot in reversed(feet):
-        write(svg, x, 12.0, foot.value, "tick", "end")
-        x -= 5.6 * len(foot.value) + 8.0
-        add(svg, "path", class_=f"line {foot}", d=f"M{px(x - 20.0)} 8h20")
-        x -= 30.0
 
 
 def plan_figure(parent: Element, plan: FloorPlan, told_of: Sequence[Placed | PlaceLost]) -> bool:

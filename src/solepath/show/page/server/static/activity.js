@@ -3,15 +3,13 @@
 import { ACTIVITIES, SUPPORTS, describe, doing, fixed, say, span, tell, write } from "./words.js";
 
 export class Doing {
+  wants = ["activity", "support", "pace", "feet", "scene", "second"];
+
   constructor() {
     for (const id of ["activity", "since", "support", "cadence", "speed", "steps", "distance"])
       this[id] = document.getElementById(id);
     this.icon = document.getElementById("activity-icon");
     this.supportWord = document.getElementById("support-word");
-  }
-
-  wants(changed) {
-    return ["activity", "support", "pace", "feet", "scene", "second"].some((name) => changed.has(name));
   }
 
   draw(state) {

@@ -1,20 +1,18 @@
 // The gait table: means of steady strides.
 
-import { fixed, percent, show, signed, write } from "./words.js";
+import { child, fixed, percent, show, signed, write } from "./words.js";
 
 const WIDEST = 0.2; // asymmetry that fills half of its bar
 const STEEPEST = 10; // degrees that do
 const UNITS = { deg: "°" };
 
 export class Gait {
+  wants = ["gait", "scene"];
+
   constructor() {
     for (const id of ["gait-rows", "gait-scroll", "gait-waiting", "gait-kind", "gait-note"])
       this[id] = document.getElementById(id);
     this.rows = new Map();
-  }
-
-  wants(changed) {
-    return changed.has("gait") || changed.has("scene");
   }
 
   draw({ gait }) {
@@ -89,10 +87,3 @@ class Row {
 }
 
 const cell = (name) => document.createElement(name);
-
-function child(parent, name, kind) {
-  const element = document.createElement(name);
-  if (kind) element.className = kind;
-  parent.append(element);
-  return element;
-}

@@ -9,16 +9,14 @@ const NAMES = 44; // px for heights in figures; names of levels stand on their l
 const OFTEN = 250; // ms
 
 export class Height {
+  wants = ["tracks", "places", "place", "scene", "theme"];
+
   constructor(redraw) {
     const canvas = document.getElementById("height");
     this.surface = new Surface(canvas, redraw);
     this.alternative = new Alternative(canvas);
     this.now = document.getElementById("height-now");
     this.drawn = 0;
-  }
-
-  wants(changed) {
-    return ["tracks", "places", "place", "scene", "theme"].some((name) => changed.has(name));
   }
 
   draw(state, now, changed) {

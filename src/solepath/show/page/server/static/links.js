@@ -1,17 +1,15 @@
 // How each sensor is heard. One that is lost is said at the top of the page as well.
 
-import { LINKS, capital, fixed, percent, say, show, span, tell, write } from "./words.js";
+import { LINKS, capital, child, fixed, percent, say, show, span, tell, write } from "./words.js";
 
 export class Links {
+  wants = ["links", "scene"];
+
   constructor() {
     this.list = document.getElementById("links");
     this.waiting = document.getElementById("links-waiting");
     this.banner = document.getElementById("link-banner");
     this.sites = new Map();
-  }
-
-  wants(changed) {
-    return changed.has("links") || changed.has("scene");
   }
 
   draw({ links }) {
@@ -42,20 +40,20 @@ class Link {
   constructor(name) {
     this.element = document.createElement("li");
     this.element.dataset.site = name;
-    const head = this.#add(this.element, "p", "link-name");
-    this.#add(head, "b").textContent = capital(name);
-    this.state = this.#add(head, "span", "link-state");
-    this.device = this.#add(head, "span", "link-device");
-    const figures = this.#add(this.element, "dl", "link-figures");
+    const head = child(this.element, "p", "link-name");
+    child(head, "b").textContent = capital(name);
+    this.state = child(head, "span", "link-state");
+    this.device = child(head, "span", "link-device");
+    const figures = child(this.element, "dl", "link-figures");
     this.figures = Object.fromEntries(
       ["rate", "loss", "lost", "battery", "signal", "gaps", "rejected"].map((title) => {
-        const pair = this.#add(figures, "div");
-        this.#add(pair, "dt").textContent = title;
+        const pair = child(figures, "div");
+        child(pair, "dt").textContent = title;
         pair.dataset.figure = title;
-        return [title, { pair, value: this.#add(pair, "dd") }];
+        return [title, { pair, value: child(pair, "dd") }];
       }),
     );
-    this.trouble = this.#add(this.element, "p", "trouble");
+    this.trouble = child(this.element, "p", "trouble");
   }
 
   show(link) {
@@ -78,12 +76,5 @@ class Link {
     const { pair, value } = this.figures[title];
     show(pair, known);
     write(value, words);
-  }
-
-  #add(parent, name, kind) {
-    const element = document.createElement(name);
-    if (kind) element.className = kind;
-    parent.append(element);
-    return element;
   }
 }

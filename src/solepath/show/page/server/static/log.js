@@ -1,16 +1,14 @@
 // What happened, in sentences, the newest at the top.
 
-import { clock } from "./words.js";
+import { child, clock } from "./words.js";
 
 export class Log {
+  wants = ["log", "scene"];
+
   constructor() {
     this.list = document.getElementById("log");
     this.waiting = document.getElementById("log-waiting");
     this.scroll = document.getElementById("log-scroll");
-  }
-
-  wants(changed) {
-    return changed.has("log") || changed.has("scene");
   }
 
   draw({ log, begin }) {
@@ -21,11 +19,8 @@ export class Log {
         .map(([t, kind, words]) => {
           const item = document.createElement("li");
           item.dataset.kind = kind;
-          const time = document.createElement("time");
-          time.textContent = clock(t - begin);
-          const sentence = document.createElement("span");
-          sentence.textContent = words;
-          item.append(time, sentence);
+          child(item, "time").textContent = clock(t - begin);
+          child(item, "span").textContent = words;
           return item;
         })
         .reverse(),

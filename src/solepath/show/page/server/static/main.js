@@ -65,7 +65,7 @@ function draw(now) {
   const t = pace.at(state, now);
   let drew = false;
   for (const panel of panels) {
-    const wanted = panel.wants(news) || (panel === ribbon && pace.moving) || (panel === track && track.moving);
+    const wanted = wants(panel, news) || (panel === ribbon && pace.moving) || (panel === track && track.moving);
     if (!wanted) continue;
     if (panel.draw(state, now, news, t) === "done") drew = true;
     else later(panel, news);
@@ -76,9 +76,11 @@ function draw(now) {
   if (pace.moving || track.moving || changed.size > 0) mark();
 }
 
+const wants = (panel, news) => panel.wants.some((name) => news.has(name));
+
 // What it will want to see another time.
 function later(panel, news) {
-  for (const name of news) if (panel.wants(new Set([name]))) changed.add(name);
+  for (const name of news) if (panel.wants.includes(name)) changed.add(name);
 }
 
 function heading() {

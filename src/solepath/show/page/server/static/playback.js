@@ -8,6 +8,7 @@ const PATIENCE = 1500; // ms in which what was asked for is shown, until it is s
 const OFTEN = 150; // ms between seeks while the bar is dragged
 
 export class Playback {
+  wants = ["playback", "scene"];
   #asked = null; // {t, at} of the newest seek
   #sent = 0;
   #dragged = false;
@@ -28,10 +29,6 @@ export class Playback {
       this.#dragged = false;
       this.#ask(Number(this.seek.value), true);
     });
-  }
-
-  wants(changed) {
-    return changed.has("playback") || changed.has("scene") || changed.has("connection");
   }
 
   draw(state) {

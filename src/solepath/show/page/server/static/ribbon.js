@@ -14,15 +14,13 @@ const SHADES = { LOADING: "-soft", STATIONARY: "", PUSH_OFF: "-soft", SWING: "" 
 const CALM = 500; // ms between pictures for who wants less motion
 
 export class Ribbon {
+  wants = ["phases", "scene", "theme", "playback", "links"];
+
   constructor(redraw) {
     const canvas = document.getElementById("ribbon");
     this.surface = new Surface(canvas, redraw);
     this.alternative = new Alternative(canvas);
     this.drawn = 0;
-  }
-
-  wants(changed) {
-    return ["phases", "scene", "theme", "playback", "links"].some((name) => changed.has(name));
   }
 
   draw(state, now, changed, t) {

@@ -7,6 +7,7 @@ const SOON = 400; // ms: what is there sooner needs no words
 const LONG = 900; // ms: what takes longer is said to who does not see it
 
 export class Seeking {
+  wants = ["playback", "scene", "second"];
   #since = null; // when it set out, ms
   #said = false;
 
@@ -15,10 +16,6 @@ export class Seeking {
     this.say = say;
     this.main = document.querySelector("main");
     for (const id of ["seeking", "seek-way", "seek-done"]) this[id] = document.getElementById(id);
-  }
-
-  wants(changed) {
-    return ["playback", "scene", "second"].some((name) => changed.has(name));
   }
 
   draw({ playback }, now) {

@@ -13,6 +13,9 @@ const PAD = 6; // px
 const READABLE = 120; // ms between numbers that change
 
 export class Soles {
+  // each second as well: a number that was written a moment ago may not have been the last
+  wants = ["feet", "scales", "links", "theme", "scene", "second"];
+
   constructor(redraw) {
     this.soles = FEET.map((foot) => new Sole(foot, redraw));
     this.scale = document.getElementById("scale");
@@ -20,11 +23,6 @@ export class Soles {
     this.top = document.getElementById("scale-top");
     this.note = document.getElementById("soles-note");
     this.drawn = 0;
-  }
-
-  wants(changed) {
-    // each second as well: a number that was written a moment ago may not have been the last
-    return ["feet", "scales", "links", "theme", "scene", "second"].some((name) => changed.has(name));
   }
 
   // Whether it drew; who wants less motion sees ten pictures a second.

@@ -67,21 +67,7 @@ export class State {
     for (const foot of FEET) this.layouts[foot] = layout(record(message.layouts)[foot]);
     const { tracks, places, phases, log } = message;
     this.#frame({ ...record(message.frame), tracks, places, phases, log }); // the scene's own lists are whole
-    return new Set([
-      "scene",
-      "feet",
-      "phases",
-      "tracks",
-      "places",
-      "log",
-      "wearer",
-      "place",
-      "activity",
-      "support",
-      "gait",
-      "links",
-      "playback",
-    ]);
+    return new Set(["scene", "feet", "phases", "tracks", "places", "log", "links", ...Object.keys(READ)]);
   }
 
   #frame(message) {
@@ -117,14 +103,11 @@ export class State {
       if (this.log.length > SAID) this.log.shift();
       changed.add("log");
     }
-    if ("wearer" in message) this.#set("wearer", wearer(message.wearer), changed);
-    if ("place" in message) this.#set("place", place(message.place), changed);
-    if ("activity" in message) this.#set("activity", activity(message.activity), changed);
-    if ("pace" in message) this.#set("pace", pace(message.pace), changed);
-    if ("scales" in message) this.#set("scales", scales(message.scales), changed);
-    if ("support" in message) this.#set("support", text(message.support) || null, changed);
-    if ("gait" in message) this.#set("gait", gait(message.gait), changed);
-    if ("playback" in message) this.#set("playback", playback(message.playback), changed);
+    for (const [name, read] of Object.entries(READ)) {
+      if (!(name in message)) continue;
+      this[name] = read(message[name]);
+      changed.add(name);
+    }
     for (const [site, link] of Object.entries(record(message.links))) {
       this.links[site] = { ...this.links[site], ...record(link) };
       changed.add("links");
@@ -143,11 +126,6 @@ export class State {
       if (this.heard) this.begin = Math.min(...firsts.filter((t) => t !== null), this.t || Infinity);
       if (!Number.isFinite(this.begin)) this.begin = 0;
     }
-  }
-
-  #set(name, value, changed) {
-    this[name] = value;
-    changed.add(name);
   }
 
   #foot(foot, news, changed) {
@@ -176,6 +154,11 @@ export class State {
     this.thinned += 1;
   }
 }
+
+const support = (value) => text(value) || null;
+
+// What a frame says anew as a whole, and how it is read.
+const READ = { wearer, place, activity, pace, scales, support, gait, playback };
 
 // By time: a phase may become known after one that began later.
 function insert(phases, one) {

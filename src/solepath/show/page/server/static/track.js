@@ -31,6 +31,7 @@ const CALM = 200; // ms between pictures for who wants less motion
 const WIDTHS = { left: 1.25, right: 1.25, wearer: 3.25 };
 
 export class Track {
+  wants = ["tracks", "places", "feet", "wearer", "place", "scene", "theme"];
   level = null; // chosen by hand; null follows the wearer
   byItself = null; // the same: true without the plan, false on it; null on it once there is a place
 
@@ -59,10 +60,6 @@ export class Track {
     this.margins = upright ? [EDGE + BUTTONS, 2 * EDGE + noted] : [2 * EDGE, EDGE + BUTTONS + noted];
     this.view.aside = upright ? (BUTTONS - EDGE) / 2 : 0;
     this.view.above = (upright ? 0 : (BUTTONS - EDGE) / 2) - noted / 2;
-  }
-
-  wants(changed) {
-    return ["tracks", "places", "feet", "wearer", "place", "scene", "theme"].some((name) => changed.has(name));
   }
 
   get moving() {

@@ -66,3 +66,11 @@ export function tell(element, data) {
 export function describe(element, name, words) {
   if (element.getAttribute(name) !== words) element.setAttribute(name, words);
 }
+
+// A new last child.
+export function child(parent, name, kind) {
+  const element = document.createElement(name);
+  if (kind) element.className = kind;
+  parent.append(element);
+  return element;
+}

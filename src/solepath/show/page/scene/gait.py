@@ -1,14 +1,16 @@
-"""What the wearer does now; and how fast, by the newest strides, and nothing once they are over."""
+"""The gait as a page shows it: what the wearer does now, how fast by the newest strides, and means of steady ones."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from attrs import define, field
+from attrs import asdict, define, field
 
+from ....body.gait.means import GaitMeans, GaitParameters
 from ....events import GaitCycleMeasured
 from ....types import Activity, Foot
-from .rounding import shown
+from ...tables.gait import ENOUGH, GaitRow, gait_rows, strides_of
+from ..messages import shown
 
 STRIDES = 2
 """Of a foot, which follow on one another: one alone errs by some per cent."""
@@ -63,3 +65,41 @@ def activity_frame(since: float, activity: Activity, unheard_since: float | None
         return {"now": activity.value, "since": shown(since), "last": None}
     last = None if activity is Activity.UNKNOWN else activity.value
     return {"now": Activity.UNKNOWN.value, "since": shown(unheard_since), "last": last}
+
+
+@define
+class SceneMeasures:
+    """Running means over the newest strides, of walking or of running as the newest was: written down anew when a
+    stride came."""
+
+    _newest: tuple[GaitCycleMeasured | None, GaitCycleMeasured | None] = (None, None)
+    _told: dict[str, Any] | None = None
+
+    def frame(self, means: GaitMeans) -> dict[str, Any] | None:
+        """As "gait" of a frame; None before any steady stride."""
+        newest = (means.left, means.right)
+        if newest[0] is not self._newest[0] or newest[1] is not self._newest[1]:
+            self._newest = newest
+            parameters = means.parameters
+            self._told = None if parameters is None else _told(parameters)
+        return self._told
+
+
+def _told(parameters: GaitParameters) -> dict[str, Any]:
+    return {
+        "running": parameters.running,
+        "cadence": shown(parameters.cadence, 1),
+        "coordination": shown(parameters.coordination, 4),
+        "strides": {foot.value: strides_of(parameters, foot) for foot in Foot},
+        "enough": ENOUGH,
+        "rows": [_row(row) for row in gait_rows(parameters)],
+    }
+
+
+def _row(row: GaitRow) -> dict[str, Any]:
+    told = asdict(row)
+    for name in ("left", "right", "both", "sd", "difference"):
+        told[name] = shown(told[name], row.digits)
+    for name in ("cv", "asymmetry"):
+        told[name] = shown(told[name], 4)
+    return told
