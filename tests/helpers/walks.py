@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache, partial
 from math import radians
 from typing import Any
 
 import declared
+import numpy as np
 from attrs import evolve, frozen
 
 from solepath import recipes
@@ -64,6 +65,18 @@ def samples(route: Route = SHORT, cells: int = 24, rate: float = 100.0, seed: in
 
 def _time(sample: Sample) -> float:
     return sample.t
+
+
+def columns_of(walker: Walker, foot: Foot) -> dict[str, np.ndarray]:
+    """Exact samples of a foot at 100 Hz, as a file of samples has them."""
+    found = walker.samples(foot, 100.0)
+    return {key: np.array([getattr(s, key) for s in found]) for key in ("t", "acc", "gyro")}
+
+
+def said(items: Iterable[Item], recipe: Recipe = DEFAULT, **given: Any) -> list[Any]:
+    """All that a session says of these items, and at the end."""
+    session = Session(recipe, **given)
+    return session.feed(items) + session.finish()
 
 
 # --- every machine ----------------------------------------------------------------------------------------------------

@@ -19,7 +19,6 @@ LONGER = {
     "src/solepath/papers/footstep_tracker/activity/two_second_windows.py": 310,
     "src/solepath/papers/walking_modes/modes.py": 314,
     "src/solepath/session/session.py": 377,
-    "tests/cli/test_cli_view.py": 322,
     "tests/helpers/radio/memory_radio.py": 363,
     "tests/link/test_decoder.py": 645,
     "tests/link/test_stream.py": 453,

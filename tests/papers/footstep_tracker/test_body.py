@@ -8,7 +8,9 @@ from pathlib import Path
 
 import pytest
 from attrs import evolve
-from walks import LEFT, RIGHT, of
+from recordings import recorded
+from strides import stride
+from walks import LEFT, RIGHT, of, said
 
 from solepath import Session
 from solepath.body.gait.direction import Direction, TurnProcess
@@ -20,35 +22,19 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.emulate.wearers.shoe import IN_SOLE
-from solepath.events import StrideFeatures, StrideTaken, TurnMade
+from solepath.events import StrideTaken, TurnMade
 from solepath.lab.train.turns import ANGLES, read, trained, walk
 from solepath.papers.footstep_tracker.footsteps import Footsteps
 from solepath.papers.footstep_tracker.projection import Projection
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.papers.footstep_tracker.toe_out import learnt, toe_out
 from solepath.recipes import DEFAULT, Recipe
-from solepath.recording import PacketWriter
 from solepath.types import Foot, Turn
 
 
 def step(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.0, 0.0)) -> StrideTaken:
     """A step that ends at `t` s and turns by `turn` rad."""
-    x, y = way
-    return StrideTaken(
-        t=t,
-        known_at=t,
-        foot=foot,
-        number=1,
-        t_start=t - 1.0,
-        t_end=t,
-        displacement=(x, y, 0.0),
-        position=(x, y, 0.0),
-        length=hypot(x, y),
-        heading_change=turn,
-        height_change=0.0,
-        covariance=(0.0,) * 6,
-        features=StrideFeatures(clearance=0.0, peak_speed=0.0, swing_pitch=0.0),
-    )
+    return stride(foot, t, (*way, 0.0), heading_change=turn)
 
 
 def heard() -> Footsteps:
@@ -198,8 +184,7 @@ def test_a_wearer_who_turns_is_told_to_have_turned() -> None:
     right = 0
     for seed in range(3, 7):
         for turn in ANGLES:
-            session = Session(FOOTSTEP_TRACKER)
-            events = session.feed(walk(seed, turn).packets) + session.finish()
+            events = said(walk(seed, turn).packets, FOOTSTEP_TRACKER)
             right += [made.turn for made in of(TurnMade, events) if made.turn is not None] == [turn]
     assert right >= 11  # of 12: who swings a foot round by 170 degrees at once does so too fast for its gyroscope
 
@@ -235,8 +220,7 @@ def test_who_turns_on_the_spot_has_turned_though_the_feet_hardly_leave_the_groun
     device = CC2541(rate=20.0, mounting=IN_SOLE)
     route = Route().stand(2.0).walk(3.0, 1.2).turn(radians(degrees_)).walk(3.0).stop(2.0)
     walked = emulate(route, devices={LEFT: device, RIGHT: evolve(device)}, seed=109)
-    session = Session(recipe)
-    (made,) = of(TurnMade, session.feed(walked.packets) + session.finish())
+    (made,) = of(TurnMade, said(walked.packets, recipe))
     assert made.turn is turn
     assert abs(degrees(made.angle) - degrees_) < 30.0
 
@@ -276,10 +260,7 @@ def test_the_angle_of_a_calibration_is_the_one_that_the_foot_uses() -> None:
 
 
 def test_calibrate_toe_out_writes_what_a_walk_tells(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    file, out = tmp_path / "corridor.jsonl", tmp_path / "me.json"
-    with PacketWriter(file) as writer:
-        for packet in corridor(15.0).packets:
-            writer.write(packet)
+    file, out = recorded(tmp_path / "corridor.jsonl", corridor(15.0).packets), tmp_path / "me.json"
     assert main(["calibrate", "toe-out", str(file), "--distance", "12", "--out", str(out)]) == 0
     assert "toe-out degrees" in capsys.readouterr().out
     assert set(read_calibration(out).toe_out) == set(Foot)

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from strides import stride
 from views import fed
 from walks import insoles, of
 
@@ -39,18 +40,12 @@ def step(
     number: int = 1,
 ) -> StrideTaken:
     """A step that ends at `end` s, of which the last 40 % are swing."""
-    return StrideTaken(
-        t=end,
-        known_at=end,
-        foot=foot,
+    return stride(
+        foot,
+        end,
+        (length * direction[0], length * direction[1], 0.0),
         number=number,
         t_start=end - lasts,
-        t_end=end,
-        displacement=(length * direction[0], length * direction[1], 0.0),
-        position=(0.0, 0.0, 0.0),
-        length=length,
-        heading_change=0.0,
-        height_change=0.0,
         covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4),
         t_toe_off=end - 0.5 * lasts,
         t_heel_strike=end - 0.1 * lasts,

@@ -7,10 +7,11 @@ import json
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from strides import stride
 
 from solepath.body.activity.flights import Flights
 from solepath.body.activity.steepness import HIGHEST_RISE
-from solepath.events import FlightClimbed, StrideFeatures, StrideTaken
+from solepath.events import FlightClimbed, StrideTaken
 from solepath.saving import codec as machine
 from solepath.types import Foot
 
@@ -19,22 +20,7 @@ FEET = (Foot.LEFT, Foot.RIGHT)
 
 
 def step(foot: Foot, t: float, height: float, ground: float = 0.6, degraded: bool = False) -> StrideTaken:
-    return StrideTaken(
-        t=t,
-        known_at=t,
-        foot=foot,
-        number=1,
-        t_start=t - 1.0,
-        t_end=t,
-        displacement=(ground, 0.0, height),
-        position=(0.0, 0.0, 0.0),
-        length=ground,
-        heading_change=0.0,
-        height_change=height,
-        covariance=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-        degraded=degraded,
-        features=StrideFeatures(0.1, 2.0, 1.0),
-    )
+    return stride(foot, t, (ground, 0.0, height), degraded=degraded)
 
 
 def flights_of(risers: list[int], *, feet: tuple[Foot, ...] = FEET, last: bool = True) -> list[FlightClimbed]:

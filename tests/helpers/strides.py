@@ -1,0 +1,20 @@
+"""Strides as events, made by hand."""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import Any
+
+from solepath.events import StrideFeatures, StrideTaken
+from solepath.types import Foot, Vec3
+
+
+def stride(foot: Foot, t: float, way: Vec3 = (1.2, 0.0, 0.0), **other: Any) -> StrideTaken:
+    """One that goes this way, m, within the second before `t`; `other`: what is said of it instead, its position too."""
+    x, y, z = way
+    known: dict[str, Any] = {
+        "known_at": t, "number": 1, "t_start": t - 1.0, "t_end": t, "displacement": way, "position": (0.0, 0.0, 0.0),
+        "length": hypot(x, y), "heading_change": 0.0, "height_change": z, "covariance": (0.0,) * 6,
+        "features": StrideFeatures(0.1, 4.0, 1.0),
+    }  # fmt: skip
+    return StrideTaken(t=t, foot=foot, **(known | other))
