@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Callable
 
 import pytest
-from airs import TIERS, hear, in_virtual_time
+from airs import TIERS, hear, in_virtual_time, troubles
 from bleak import BleakClient, BleakScanner
 from bleak.exc import BleakGATTProtocolError, BleakGATTProtocolErrorCode
 
@@ -22,7 +22,6 @@ from solepath.link.devices.cc2650 import PROFILE as CC2650
 from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.link.profile import Profile
 from solepath.types import Packet, Site
-from solepath.wire.fields import parse_text
 
 LEFT = Site.LEFT_FOOT
 ROUTE = Route().stand(2.0).walk(6.0).stop(2.0)
@@ -54,10 +53,6 @@ def heard(tier: str, faults: str, pair: bool, seconds: float, kind: str = "insol
             return await hear(devices, seconds)
 
     return in_virtual_time(listen)
-
-
-def troubles(packets: list[Packet]) -> list[str]:
-    return [parse_text(packet.data) for packet in packets if packet.channel == "receiver/trouble"]
 
 
 def streamed(packets: list[Packet], profile: Profile) -> list[float]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 
 import pytest
-from airs import hear, in_virtual_time
+from airs import hear, in_virtual_time, received, troubles
 from belts import STRAP, address, asked, strap
 from benches import LEFT, RIGHT, ROUTE
 from memory_radio import MemoryRadio
@@ -32,20 +32,12 @@ def feet(device: Device, faults: str = "") -> Bench:
 
 
 def got(peripherals: tuple[Peripheral, ...], wanted: list[Wanted], seconds: float = 6.0, **more: float) -> list[Packet]:
-    async def main() -> list[Packet]:
-        async with Devices(wanted, backend=MemoryRadio(peripherals).backend, **more) as devices:  # type: ignore[arg-type]
-            return await hear(devices, seconds)
-
-    return in_virtual_time(main)
+    return received(MemoryRadio(peripherals).backend, *wanted, seconds=seconds, **more)
 
 
 def connected(packets: list[Packet]) -> dict[Site, str]:
     """Which device was connected where, at last."""
     return {packet.site: packet.device for packet in packets if packet.channel == "receiver/connected"}
-
-
-def troubles(packets: list[Packet]) -> list[str]:
-    return [packet.data.decode() for packet in packets if packet.channel == "receiver/trouble"]
 
 
 def streams(packets: list[Packet], channel: str = "insole/frame") -> set[Site]:
@@ -197,13 +189,8 @@ def test_a_device_of_a_kind_that_nobody_knows_is_told_and_left() -> None:
 
 @pytest.mark.parametrize("which", [address(1), "strap 1"])
 def test_a_device_of_another_kind_than_was_said_is_told_and_left(which: str) -> None:
-    heard, wanted = asked(strap()), [Wanted(LEFT, which, CC2650)]
-
-    async def main() -> list[Packet]:
-        async with Devices(wanted, backend=heard.backend) as devices:
-            return await hear(devices, 20.0)
-
-    packets = in_virtual_time(main)
+    heard = asked(strap())
+    packets = received(heard.backend, Wanted(LEFT, which, CC2650), seconds=20.0)
     assert not connected(packets)
     assert troubles(packets) == ["strap 1 is no cc2650: it has no cc2650/movement"]
     assert {what for _, what, _ in heard.log} == {"connect", "disconnect"}
@@ -238,8 +225,9 @@ def test_a_device_that_seemed_unfit_is_tried_again_later() -> None:
 
 def test_after_its_patience_an_absent_device_is_complained_of_once() -> None:
     packets = got((), [Wanted(LEFT, "solepath L")], seconds=300.0, patience=7.0)
+    [words] = troubles(packets)
+    assert words.startswith("no device 'solepath L' is heard: switch it on, bring it near")
     [said] = [packet for packet in packets if packet.channel == "receiver/trouble"]
-    assert said.data.decode().startswith("no device 'solepath L' is heard: switch it on, bring it near")
     assert (said.site, said.device) == (LEFT, "")
     assert said.t == pytest.approx(7.0, abs=0.6)
 

@@ -11,12 +11,11 @@ from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontext
 
 import pytest
 from bleak import BleakClient, BleakScanner
-from bleak.backends.device import BLEDevice
 from bleak.exc import BleakError
 from here import HELPERS
 from strap import BEAT, CONTROL, LEVEL, Strap
+from virtual import find
 
-from solepath.ble.air import Backend
 from solepath.emulate.controllers import radio
 from solepath.emulate.controllers.tcp import address_of, reach, serve
 from solepath.emulate.devices.faults import parse_faults
@@ -72,12 +71,6 @@ async def program(*arguments: str) -> AsyncIterator[asyncio.subprocess.Process]:
 async def line(process: asyncio.subprocess.Process) -> str:
     assert process.stdout is not None
     return (await process.stdout.readline()).decode().strip()
-
-
-async def find(backend: Backend, name: str = "one") -> BLEDevice:
-    found = await BleakScanner.find_device_by_name(name, 5.0, backend=backend.scanner)
-    assert found is not None
-    return found
 
 
 async def beats(client: BleakClient, count: int = 50) -> list[int]:

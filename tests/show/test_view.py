@@ -31,7 +31,8 @@ from solepath.show.tables.table import milliseconds, number, percent, table
 from solepath.types import Foot, Packet, Sample, Site, WalkingMode
 
 STEP = stride(
-    Foot.LEFT, 2.0, (1.25, 0.0, 0.0), known_at=2.0625, position=(1.25, 0.0, 0.0), degraded=True, covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4),
+    Foot.LEFT, 2.0, (1.25, 0.0, 0.0), known_at=2.0625, position=(1.25, 0.0, 0.0), degraded=True,
+    covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4),
 )  # fmt: skip
 
 

@@ -10,10 +10,11 @@ from typing import Any, TypeVar
 import looptime
 from memory_radio import MemoryRadio
 
-from solepath.ble import Backend, Devices
+from solepath.ble import Backend, Devices, Wanted
 from solepath.emulate.controllers.server import virtual_air
 from solepath.emulate.devices.bench import Bench
 from solepath.types import Packet
+from solepath.wire.fields import parse_text
 
 T = TypeVar("T")
 
@@ -47,6 +48,23 @@ async def hear(devices: Devices, seconds: float) -> list[Packet]:
             break
         heard.append(packet)
     return heard
+
+
+def received(backend: Backend, *wanted: Wanted, seconds: float, **more: Any) -> list[Packet]:
+    """What an app gets that wants these, in so many seconds of virtual time; it leaves nothing running."""
+
+    async def main() -> list[Packet]:
+        async with Devices(wanted, backend=backend, **more) as devices:
+            found = await hear(devices, seconds)
+        assert not others()
+        return found
+
+    return in_virtual_time(main)
+
+
+def troubles(packets: list[Packet]) -> list[str]:
+    """What it is told of."""
+    return [parse_text(packet.data) for packet in packets if packet.channel == "receiver/trouble"]
 
 
 def others() -> set[asyncio.Task[Any]]:
