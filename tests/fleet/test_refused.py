@@ -61,11 +61,6 @@ def test_a_state_that_holds_what_cannot_be_held_is_refused(held: list[tuple[int,
     assert FLEET.open(WEARER, after).state() == after
 
 
-# --- at the edges -----------------------------------------------------------------------------------------------------
-
-FLEET = Fleet()
-
-
 # --- what is the caller's mistake -------------------------------------------------------------------------------------
 
 
