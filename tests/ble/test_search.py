@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import asyncio
-
 import pytest
-from airs import hear, in_virtual_time, received, troubles
-from belts import STRAP, address, asked, strap
+from airs import hear, received, troubles
+from belts import STRAP, address, asked, now, strap
 from benches import LEFT, RIGHT, ROUTE
 from memory_radio import MemoryRadio
+from virtual import virtually
 
-from solepath.ble import Backend, ConnectionState, Devices, Wanted, scan
+from solepath.ble import ConnectionState, Devices, Wanted, scan
 from solepath.emulate.devices import cc2650
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
@@ -248,30 +247,23 @@ def test_an_absent_device_never_delays_another() -> None:
 # --- scanning ---
 
 
-def test_only_one_scanner_works_at_a_time_and_none_once_all_are_found() -> None:
+@virtually
+async def test_only_one_scanner_works_at_a_time_and_none_once_all_are_found() -> None:
     heard = asked(*(strap(number, faults=f"{4 + number} * disconnect") for number in range(1, 5)))
     wanted = [Wanted(site, address(n), STRAP) for n, site in enumerate(list(Site)[:4], 1)]
-
-    async def main() -> None:
-        async with Devices(wanted, backend=heard.backend) as devices:
-            await hear(devices, 3.0)
-            assert {one.state for one in devices.connections} == {ConnectionState.LISTENING}
-            assert heard.scanning == 0
-            await hear(devices, 10.0)
+    async with Devices(wanted, backend=heard.backend) as devices:
+        await hear(devices, 3.0)
+        assert {one.state for one in devices.connections} == {ConnectionState.LISTENING}
         assert heard.scanning == 0
-
-    in_virtual_time(main)
+        await hear(devices, 10.0)
+    assert heard.scanning == 0
     assert heard.most == 1
 
 
-def test_a_scan_tells_of_known_devices_and_of_strangers() -> None:
-    bench = feet(Insole())
-
-    async def main() -> dict[str, str | None]:
-        backend: Backend = MemoryRadio((*bench.peripherals, strap())).backend
-        began = asyncio.get_running_loop().time()
-        found = await scan(2.0, backend=backend)
-        assert asyncio.get_running_loop().time() - began == pytest.approx(2.0)
-        return {one.address: one.profile.name if one.profile else None for one in found}
-
-    assert in_virtual_time(main) == {TAGS[0]: "insole", TAGS[1]: "insole", address(1): None}
+@virtually
+async def test_a_scan_tells_of_known_devices_and_of_strangers() -> None:
+    began = now()
+    found = await scan(2.0, backend=MemoryRadio((*feet(Insole()).peripherals, strap())).backend)
+    assert now() - began == pytest.approx(2.0)
+    kinds = {one.address: one.profile.name if one.profile else None for one in found}
+    assert kinds == {TAGS[0]: "insole", TAGS[1]: "insole", address(1): None}

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
-from airs import in_virtual_time, others, received, troubles
+from airs import others, received, troubles
 from belts import ONE, PELVIS, address, asked, times
 from bleak.exc import (
     BleakBluetoothNotAvailableError,
@@ -17,6 +18,7 @@ from bleak.exc import (
 )
 from memory_radio import MemoryRadio
 from strap import Strap
+from virtual import virtually
 
 from solepath.ble import Backend, BluetoothError, Devices, Wanted, scan
 from solepath.ble.trouble import sentence
@@ -51,22 +53,17 @@ def without_bluetooth(error: Exception) -> Backend:
 
 
 @pytest.mark.parametrize("error", UNAVAILABLE, ids=lambda error: " ".join(map(str, error.args))[:50])
-def test_to_enter_or_to_scan_without_bluetooth_is_an_error_that_says_what_to_do(error: Exception) -> None:
-    async def main() -> list[str]:
-        said = []
-        with pytest.raises(BluetoothError) as entered:
-            async with Devices([Wanted(PELVIS, "any")], backend=without_bluetooth(error)):
-                pass
-        said.append(str(entered.value))
-        assert entered.value.__cause__ is error
-        with pytest.raises(BluetoothError) as scanned:
-            await scan(1.0, backend=without_bluetooth(error))
-        said.append(str(scanned.value))
-        assert not others()
-        return said
-
-    one, other = in_virtual_time(main)
-    assert one == other and "\n" not in one
+@virtually
+async def test_to_enter_or_to_scan_without_bluetooth_is_an_error_that_says_what_to_do(error: Exception) -> None:
+    with pytest.raises(BluetoothError) as entered:
+        async with Devices([Wanted(PELVIS, "any")], backend=without_bluetooth(error)):
+            pass
+    one = str(entered.value)
+    assert entered.value.__cause__ is error
+    with pytest.raises(BluetoothError, match=f"^{re.escape(one)}$"):
+        await scan(1.0, backend=without_bluetooth(error))
+    assert not others()
+    assert "\n" not in one
     assert any(words in one for words in DO)
 
 
