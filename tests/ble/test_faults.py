@@ -84,34 +84,25 @@ def frames(packets: list[Packet]) -> list[Packet]:
 
 
 @both
-def test_notifications_that_are_lost_are_packets_lost(tier: str) -> None:
-    found = events(heard(tier, "4 * drop 3", 6.0))
-    [lost] = of(PacketsLost, found)
-    assert (lost.count, lost.channel, lost.site) == (3, "insole/frame", LEFT)
-    assert lost.t == pytest.approx(4.0, abs=0.1)
-    assert not of(PacketRejected, found)
-
-
-@both
-def test_notifications_that_come_twice_are_rejected_as_duplicates(tier: str) -> None:
-    found = events(heard(tier, "4 * duplicate 2", 6.0))
-    assert [event.reason for event in of(PacketRejected, found)] == [Rejection.DUPLICATE] * 2
-    assert not of(PacketsLost, found)
-
-
-@both
-def test_notifications_that_are_cut_short_are_rejected_and_missed(tier: str) -> None:
-    found = events(heard(tier, "4 * truncate 4", 6.0))
-    reasons = [event.reason for event in of(PacketRejected, found)]
-    assert len(reasons) == 4 and {*reasons} <= {Rejection.TRUNCATED, Rejection.CHECKSUM}
-    assert sum(event.count for event in of(PacketsLost, found)) == 4
-
-
-@both
-def test_notifications_with_turned_bits_fail_their_checksum_and_are_missed(tier: str) -> None:
-    found = events(heard(tier, "4 * flip 2; 5 * flip 3", 7.0))
-    assert [event.reason for event in of(PacketRejected, found)] == [Rejection.CHECKSUM] * 5
-    assert sum(event.count for event in of(PacketsLost, found)) == 5
+@pytest.mark.parametrize(
+    ("faults", "reasons", "rejected", "lost"),
+    [
+        ("4 * drop 3", set(), 0, 3),
+        ("4 * duplicate 2", {Rejection.DUPLICATE}, 2, 0),
+        ("4 * truncate 4", {Rejection.TRUNCATED, Rejection.CHECKSUM}, 4, 4),
+        ("4 * flip 2; 5 * flip 3", {Rejection.CHECKSUM}, 5, 5),
+    ],
+    ids=["lost", "twice", "cut short", "turned bits"],
+)
+def test_spoilt_notifications_are_rejected_with_their_reason_and_those_that_never_came_whole_are_packets_lost(
+    tier: str, faults: str, reasons: set[Rejection], rejected: int, lost: int
+) -> None:
+    found = events(heard(tier, faults, 7.0))
+    told, missed = [event.reason for event in of(PacketRejected, found)], of(PacketsLost, found)
+    assert len(told) == rejected and {*told} <= reasons
+    assert sum(event.count for event in missed) == lost
+    assert {(event.channel, event.site) for event in missed} <= {("insole/frame", LEFT)}
+    assert not missed or missed[0].t == pytest.approx(4.0, abs=0.1)
 
 
 def whole(packets: list[Packet]) -> dict[int, InsoleFrame]:

@@ -7,7 +7,14 @@ from pathlib import Path
 from typing import Any
 
 from solepath.recording import PacketWriter
-from solepath.types import Packet
+from solepath.types import Packet, Site
+
+PACKETS = [
+    Packet(12.5, Site.LEFT_FOOT, "device/battery", b"\x63"),
+    Packet(12.5, Site.RIGHT_FOOT, "insole/frame", bytes(range(256))),
+    Packet(0.1 + 12.65, Site.PELVIS, "cc2650/keys", b""),
+]
+"""Some, of which one says nothing."""
 
 
 def recorded(path: Path, packets: Iterable[Packet], header: dict[str, Any] | None = None) -> Path:

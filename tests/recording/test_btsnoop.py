@@ -54,9 +54,7 @@ def test_a_walk_in_two_insoles_gives_the_same_steps_as_the_walk_itself(tmp_path)
     path = log.save(tmp_path / "phone.log")
 
     def steps(packets) -> list[tuple[Foot, int, float]]:
-        session = Session()
-        events = [event for packet in packets for event in session.feed(packet)] + session.finish()
-        taken = [event for event in events if isinstance(event, StrideTaken)]
+        taken = walks.of(StrideTaken, walks.said(packets))
         return [(step.foot, step.number, round(step.length, 2)) for step in taken]
 
     assert steps(open_btsnoop(path, report=pytest.fail)) == steps(walk.packets) != []

@@ -9,24 +9,12 @@ import walks
 from here import PROTOCOL
 from hypothesis import given
 from hypothesis import strategies as st
+from recordings import PACKETS, recorded
 
-from solepath import Session
 from solepath.recording import PacketWriter, RecordingError, began, read_header, read_packets
 from solepath.types import Packet, Site
 
 HEADER = '{"format": "solepath-packets", "version": 1}\n'
-PACKETS = [
-    Packet(12.5, Site.LEFT_FOOT, "device/battery", b"\x63"),
-    Packet(12.5, Site.RIGHT_FOOT, "insole/frame", bytes(range(256))),
-    Packet(0.1 + 12.65, Site.PELVIS, "cc2650/keys", b""),
-]
-
-
-def written(path: Path, packets=PACKETS) -> Path:
-    with PacketWriter(path) as writer:
-        for packet in packets:
-            writer.write(packet)
-    return path
 
 
 def line_of(**fields) -> str:
@@ -59,7 +47,7 @@ def read_what_there_is(path: Path) -> tuple[list[Packet], str]:
 )
 def test_any_packets_survive_writing_and_reading(tmp_path_factory, times, contents):
     packets = [Packet(t, *content) for t, content in zip(times, contents, strict=False)]
-    path = written(tmp_path_factory.mktemp("recordings") / "any.jsonl", packets)
+    path = recorded(tmp_path_factory.mktemp("recordings") / "any.jsonl", packets)
     assert list(read_packets(path)) == packets
 
 
@@ -95,7 +83,7 @@ def test_upper_case_digits_and_blank_lines_are_read(tmp_path):
 
 @given(cut=st.integers(min_value=1, max_value=10_000))
 def test_cut_anywhere_after_the_header_no_packet_before_the_cut_is_lost(tmp_path_factory, cut):
-    path = written(tmp_path_factory.mktemp("recordings") / "walk.jsonl")
+    path = recorded(tmp_path_factory.mktemp("recordings") / "walk.jsonl", PACKETS)
     whole = path.read_bytes()
     first = whole.index(b"\n") + 1
     kept = whole[: first + cut % (len(whole) - first)]
@@ -183,7 +171,7 @@ def test_a_receivers_clock_that_was_set_back_is_left_to_the_decoder(tmp_path):
 
 
 def test_progress_ends_at_the_size_of_the_file(tmp_path):
-    path = written(tmp_path / "walk.jsonl")
+    path = recorded(tmp_path / "walk.jsonl", PACKETS)
     read = []
     list(read_packets(path, progress=read.append))
     assert read == sorted(read) and read[-1] == path.stat().st_size
@@ -205,7 +193,7 @@ def test_packets_that_no_recording_can_hold_are_refused_and_leave_it_whole(tmp_p
 
 def test_a_device_that_nobody_knows_is_not_written(tmp_path):
     named = Packet(1.0, Site.LEFT_FOOT, "insole/frame", b"", "C3:9F:02:5E:71:AA")
-    path = written(tmp_path / "walk.jsonl", [PACKETS[0], named])
+    path = recorded(tmp_path / "walk.jsonl", [PACKETS[0], named])
     first, second = (json.loads(line) for line in path.read_text().splitlines()[1:])
     assert "device" not in first and second["device"] == "C3:9F:02:5E:71:AA"
 
@@ -222,10 +210,10 @@ def test_a_recording_gives_the_same_events_bit_for_bit(tmp_path, name):
     packets += [Packet(end + 0.1 * k, Site.LEFT_FOOT, "receiver/tick", b"") for k in range(30)]
 
     def events(stream) -> list[str]:
-        session = Session(poses=True)
-        told = [event for packet in stream for event in session.feed(packet)] + session.finish()
-        return [repr(event) for event in told]  # repr tells every bit of a float, and -0.0 from 0.0
+        return [
+            repr(event) for event in walks.said(stream, poses=True)
+        ]  # repr tells every bit of a float, and -0.0 from 0.0
 
-    recorded = events(read_packets(written(tmp_path / "walk.jsonl", packets)))
-    assert recorded == events(packets)
-    assert sum(line.startswith(("Connected", "StreamStale")) for line in recorded) >= 2
+    told = events(read_packets(recorded(tmp_path / "walk.jsonl", packets)))
+    assert told == events(packets)
+    assert sum(line.startswith(("Connected", "StreamStale")) for line in told) >= 2

@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from solepath.emulate.sensors.insoles import heel_array, layout
 from solepath.papers.pressure_contour.contour import FIGURE_4, Contours
-from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Layout
 
 LENGTH = 0.28
@@ -124,14 +123,10 @@ def test_a_clock_that_begins_anew_is_not_waited_for() -> None:
     assert contours.velocity(1.05, cone(where, 0.046, 0.0)) is not None
 
 
-@pytest.mark.parametrize("cells", [24, 35, 96, 99])
 @pytest.mark.parametrize("foot", list(Foot))
-def test_insoles_of_many_layouts_have_contours(cells: int, foot: Foot) -> None:
-    assert Contours().wear(layout(cells, foot)) is None
-
-
-def test_the_array_under_the_heel_has_contours() -> None:
-    assert Contours().wear(heel_array(Foot.RIGHT)) is None
+def test_insoles_of_many_layouts_and_the_array_under_the_heel_have_contours(foot: Foot) -> None:
+    for cells in (*(layout(count, foot) for count in (24, 35, 96, 99)), heel_array(foot)):
+        assert Contours().wear(cells) is None
 
 
 def test_too_few_cells_under_the_heel_have_none() -> None:
@@ -160,13 +155,3 @@ def test_no_cells_and_no_loads_are_too_odd(where: list[tuple[float, float, float
         loads = data.draw(st.lists(numbers, min_size=len(contours.cells), max_size=len(contours.cells)))
         found = contours.velocity(t, loads)
         assert found is None or all(abs(value) < inf for value in found)
-
-
-def test_it_goes_on_from_a_snapshot() -> None:
-    where = layout(35, Foot.LEFT)
-    ours = Contours()
-    ours.wear(where)
-    ours.velocity(0.0, [cone(where, 0.05, 0.0)[i] for i in ours.cells])
-    theirs = machine.load(Contours, machine.save(ours))
-    later = [cone(where, 0.051, 0.0)[i] for i in ours.cells]
-    assert ours.velocity(0.05, later) == theirs.velocity(0.05, later)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from functools import cache
 from math import hypot, pi
 
@@ -19,7 +18,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.suit import limb_samples
 from solepath.emulate.wearers.walker import Walker
-from solepath.events import Event, Limitation, TouchedDown, WalkingModeChanged
+from solepath.events import Event, TouchedDown, WalkingModeChanged
 from solepath.papers.walking_modes.compensation import TABLE_1
 from solepath.papers.walking_modes.modes import Modes
 from solepath.papers.walking_modes.recipe import WALKING_MODES
@@ -141,19 +140,6 @@ def test_a_wearers_own_compensation_takes_the_place_of_table_1_mode_by_mode() ->
     assert Modes().calibrated(own).compensation is None
 
 
-def test_without_body_sensors_the_feet_are_where_their_own_tracks_have_them_and_that_is_said_once() -> None:
-    session = Session(III, calibration=KNOWN)
-    feet = [evolve(sample, quat=None) for sample in suit() if sample.site.foot is not None]
-    events = session.feed(feet)
-    said = [event.what for event in of(Limitation, events) if "own inertial tracks" in event.what]
-    assert len(said) == 1 and "pelvis" in said[0]
-    assert len(of(TouchedDown, events)) == sum(len(strides) for strides in walker().plan.strides.values())
-    end = walker().route.end
-    assert session.position is not None
-    x, y, _ = session.position.position
-    assert hypot(x - end.x, y - end.y) < 0.1 * walker().route.length
-
-
 def test_sensors_without_attitudes_are_taken_upright_by_gravity() -> None:
     bare = [evolve(sample, quat=None) for sample in suit()]
     session = Session(III, calibration=KNOWN)
@@ -167,17 +153,6 @@ def test_a_sensor_that_falls_silent_leaves_the_feet_to_their_own_tracks() -> Non
     session = Session(III.exchanged(Track, Modes(heading=0.0)), calibration=KNOWN)
     events = session.feed([s for s in suit() if s.site is not Site.LEFT_SHANK or s.t < 5.0])
     assert len(of(TouchedDown, events)) == sum(len(strides) for strides in walker().plan.strides.values())
-
-
-def test_a_walk_saved_in_the_middle_goes_on_the_same() -> None:
-    samples = suit()
-    for cut in (1, len(samples) // 3, len(samples) // 2 + 1):
-        whole, first = Session(WALKING_MODES, calibration=KNOWN), Session(WALKING_MODES, calibration=KNOWN)
-        straight = [*whole.feed(samples[:cut]), *whole.feed(samples[cut:])]
-        before = first.feed(samples[:cut])
-        second = Session.restore(json.loads(json.dumps(first.snapshot(), allow_nan=False)))
-        assert [*before, *second.feed(samples[cut:])] == straight
-        assert second.position == whole.position
 
 
 SITES = st.sampled_from(list(Site))

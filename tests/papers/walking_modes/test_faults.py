@@ -116,6 +116,8 @@ def test_the_feet_alone_go_all_the_way_by_any_method(recipe: str) -> None:
     assert hypot(x - FAR, y) < 2.0
     strides = sum(len(strides) for strides in walker().plan.strides.values())
     assert strides - 2 <= len(of(TouchedDown, events)) <= strides + 1
+    (said,) = [what for what in sentences(events) if "own inertial tracks" in what]
+    assert "pelvis" in said
 
 
 def lagging(samples: Sequence[Sample]) -> list[Sample]:
