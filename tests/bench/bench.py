@@ -17,6 +17,10 @@ from measure import RUNS, held, machine, seconds, uncollected
 from yardstick import Tuned, Usual
 
 from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StrideTaken, recipes
+from solepath.body.gait.turns import Turns
+from solepath.body.part import Doing, Part, Track
+from solepath.body.place.readings import Readings
+from solepath.body.worn.wear import Wear
 from solepath.calibration import InsoleCalibration
 from solepath.emulate.radio import CLEAN
 from solepath.emulate.routes.building import BUILDING
@@ -70,12 +74,21 @@ def told_of(recipe: Recipe, infos: list[Packet]) -> Session:
 
 
 class Timed:
-    """Stands before a part and sums up what its calls take, garbage collector or not; fields are the part's own."""
+    """Stands before a part and sums up what its calls take, garbage collector or not; fields are the part's own, and it
+    is taken for one of the part's class."""
 
     def __init__(self, part: Any) -> None:
         self.part = part
         self.taken = 0.0
         self.calls = 0
+
+    @property  # type: ignore[misc]
+    def __class__(self) -> Any:
+        return type(self.part)
+
+    def receive(self, event: Any) -> Any:
+        """Here, since a wearer asks the class whether there is one."""
+        return self.__getattr__("receive")(event)
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name in ("part", "taken", "calls"):
@@ -99,33 +112,45 @@ class Timed:
         return timed
 
 
+OF_A_SAMPLE: dict[str, str | type[Part]] = {
+    "rest": "rest",
+    "detector": "detector",
+    "filter": "corrector",
+    "cues": "cues",
+    "cells": "sole",
+    "activities": Doing,
+    "turns": Turns,
+    "how it is worn": Wear,
+    "body": Track,
+}
+"""What is told of a sample's time: which field of a foot takes it, or a part of which kind."""
+
+
 def shares_of(items: list[Sample], begin: Callable[[], Session]) -> dict[str, float]:
     """Microseconds a sample that each part of a foot and of a wearer takes, less what the clock does."""
-    held = {
-        "rest": ("foot", "rest"),
-        "detector": ("foot", "detector"),
-        "filter": ("foot", "corrector"),
-        "cues": ("foot", "cues"),
-        "cells": ("foot", "sole"),
-        "activities": ("wearer", "activity"),
-        "turns": ("wearer", "turns"),
-        "how it is worn": ("wearer", "wear"),
-        "body": ("wearer", "body"),
-    }
-    return {name: median([_share(items, begin(), *where) for _ in range(RUNS)]) for name, where in held.items()}
+    return {name: median([_share(items, begin(), what) for _ in range(RUNS)]) for name, what in OF_A_SAMPLE.items()}
 
 
-def _share(items: list[Sample], session: Session, whose: str, name: str) -> float:
+def _share(items: list[Sample], session: Session, what: str | type[Part]) -> float:
     """One at a time: a part that looks at one that is watched would pay for that."""
     session.feed(items[0])
-    wearer = session._state.wearer
-    holder: Any = wearer if whose == "wearer" else next(iter(wearer.feet.values()))
-    part = Timed(getattr(holder, name))
-    setattr(holder, name, part)
+    part = _watched(session, what)
     with uncollected():
         for item in items[1:]:
             session.feed(item)
     return (part.taken - part.calls * overhead()) / len(items) * 1e6
+
+
+def _watched(session: Session, what: str | type[Part]) -> Timed:
+    wearer = session._state.wearer
+    if isinstance(what, str):
+        foot = next(iter(wearer.feet.values()))
+        part = Timed(getattr(foot, what))
+        setattr(foot, what, part)
+    else:
+        place = next(k for k, one in enumerate(wearer.parts) if isinstance(one, what))
+        part = wearer.parts[place] = Timed(wearer.parts[place])
+    return part
 
 
 def overhead() -> float:
@@ -143,13 +168,11 @@ def overhead() -> float:
 
 def parts_of(items: list[Sample], recipe: Recipe, plan: IndexedPlan) -> dict[str, float]:
     """Microseconds a sample that activities, turns and the place on a plan take in a walk through a building."""
-    found: dict[str, list[float]] = {"activity": [], "turns": [], "place": []}
+    kinds: dict[str, type[Part]] = {"activity": Doing, "turns": Turns, "place": Readings}
+    found: dict[str, list[float]] = {name: [] for name in kinds}
     for _ in range(RUNS):
         session = Session(recipe, floorplan=plan)
-        wearer = session._state.wearer
-        watched = {name: Timed(getattr(wearer, name)) for name in found}
-        for name, part in watched.items():
-            setattr(wearer, name, part)
+        watched = {name: _watched(session, kind) for name, kind in kinds.items()}
         with uncollected():
             for item in items:
                 session.feed(item)
