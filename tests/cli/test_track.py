@@ -12,7 +12,7 @@ from commands import no_control_codes, one_line, refused, rows_in, run, solepath
 from recordings import recorded
 from walks import columns_of, of, said
 
-from solepath import Event, PacketsLost, StrideTaken
+from solepath import Event, StrideTaken
 from solepath.emulate.radio import Radio
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import emulate
@@ -121,11 +121,6 @@ def test_events_of_the_link_name_the_foot_too(tracked, told):
     assert {"PacketsLost", "PacketRejected"} <= {event["event"] for event in of_sites}
     for event in of_sites:
         assert event["site"] == f"{event['foot']}_foot"
-
-
-def test_events_of_what_is_no_foot_name_none():
-    lost = PacketsLost(t=1.0, known_at=1.0, site=Site.PELVIS, channel="insole/frame", count=2)
-    assert "foot" not in lost.to_dict() and lost.to_dict()["site"] == "pelvis"
 
 
 def test_a_recording_of_one_foot_is_of_the_foot_that_is_named(one_foot, tmp_path):

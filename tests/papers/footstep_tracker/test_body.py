@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from attrs import evolve
+from commands import refused, run
 from recordings import recorded
 from strides import stride
 from walks import LEFT, RIGHT, of, said
@@ -17,7 +18,6 @@ from solepath.body.gait.direction import Direction, TurnProcess
 from solepath.body.gait.turns import WEIGHTS, classified
 from solepath.calibration import Calibration, CalibrationError
 from solepath.calibration.file import read_calibration
-from solepath.cli.main import main
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import EmulatedWalk, emulate
@@ -259,13 +259,14 @@ def test_the_angle_of_a_calibration_is_the_one_that_the_foot_uses() -> None:
     assert (right.toe_out, right.outwards, left.toe_out, left.outwards) == (0.2, -1.0, 0.0, 1.0)
 
 
-def test_calibrate_toe_out_writes_what_a_walk_tells(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    file, out = recorded(tmp_path / "corridor.jsonl", corridor(15.0).packets), tmp_path / "me.json"
-    assert main(["calibrate", "toe-out", str(file), "--distance", "12", "--out", str(out)]) == 0
-    assert "toe-out degrees" in capsys.readouterr().out
+def test_calibrate_toe_out_writes_what_a_walk_tells_and_nothing_where_it_tells_none(tmp_path: Path) -> None:
+    file, out, other = recorded(tmp_path / "walk.jsonl", corridor(15.0).packets), tmp_path / "me.json", tmp_path / "no"
+    done = run("calibrate", "toe-out", file, "--distance", "12", "--out", out)
+    assert done.returncode == 0 and "toe-out degrees" in done.stdout
     assert set(read_calibration(out).toe_out) == set(Foot)
-    assert main(["calibrate", "toe-out", str(file), "--distance", "20", "--out", str(out)]) == 2
-    assert "nothing is learnt" in capsys.readouterr().err
-    assert main(["calibrate", "toe-out", str(file), "--distance", "3", "--out", str(out)]) == 2
-    with pytest.raises(SystemExit):
-        main(["calibrate", "toe-out", str(file), "--distance", "-3", "--out", str(out)])
+    for distance in ("20", "80", "1e308"):
+        said_of_it = refused("calibrate", "toe-out", file, "--distance", distance, "--out", other)
+        assert "nothing is learnt: the steps come to " in said_of_it and "m of the left foot and " in said_of_it
+    for distance in ("3", "-3"):
+        assert run("calibrate", "toe-out", file, "--distance", distance, "--out", other).returncode == 2
+    assert not other.exists()

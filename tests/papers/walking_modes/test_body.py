@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 from math import hypot, pi
 
@@ -19,6 +20,7 @@ from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.suit import limb_samples
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, TouchedDown, WalkingModeChanged
+from solepath.foot.world import Covariance3
 from solepath.papers.walking_modes.compensation import TABLE_1
 from solepath.papers.walking_modes.modes import Modes
 from solepath.papers.walking_modes.recipe import WALKING_MODES
@@ -47,6 +49,15 @@ def suit(route: Route = AROUND, north: float = 0.0, seed: int = 101) -> tuple[Sa
 def told(heading: float | None = None, north: float = 0.0) -> list[Event]:
     session = Session(III.exchanged(Track, Modes(heading=heading)), calibration=KNOWN)
     return [*session.feed(suit(north=north)), *session.finish()]
+
+
+def off(modes: Modes, samples: Sequence[Sample]) -> tuple[tuple[float, float], Covariance3]:
+    """How far from the end of the way the wearer is said to be in the end, m, and with which covariance."""
+    session = Session(III.exchanged(Track, modes), calibration=KNOWN)
+    session.feed(samples)
+    position, end = session.position, walker().route.end
+    assert position is not None
+    return (position.position[0] - end.x, position.position[1] - end.y), position.covariance
 
 
 def test_every_step_is_a_touchdown_where_the_foot_came_down() -> None:
@@ -79,20 +90,11 @@ def test_touchdowns_are_final_once_the_first_heading_is() -> None:
 
 @pytest.mark.parametrize("method", [Height(), NetAcceleration()])
 def test_the_other_methods_go_the_same_way_less_well(method: Height | NetAcceleration) -> None:
-    session = Session(III.exchanged(Track, Modes(method, heading=0.0)), calibration=KNOWN)
-    session.feed(suit())
-    position, end = session.position, walker().route.end
-    assert position is not None
-    assert hypot(position.position[0] - end.x, position.position[1] - end.y) < 0.1 * walker().route.length
+    assert hypot(*off(Modes(method, heading=0.0), suit())[0]) < 0.1 * walker().route.length
 
 
 def test_the_position_is_midway_between_the_feet_and_says_how_far_it_may_be_off() -> None:
-    session = Session(III.exchanged(Track, Modes(heading=0.0)), calibration=KNOWN)
-    session.feed(suit())
-    position, end = session.position, walker().route.end
-    assert position is not None
-    dx, dy = position.position[0] - end.x, position.position[1] - end.y
-    xx, xy, _, yy, _, _ = position.covariance
+    (dx, dy), (xx, xy, _, yy, _, _) = off(Modes(heading=0.0), suit())
     assert hypot(dx, dy) < 0.15
     assert (yy * dx * dx - 2.0 * xy * dx * dy + xx * dy * dy) / (xx * yy - xy * xy) < 9.2  # 99 % of a normal pair
 
@@ -142,11 +144,7 @@ def test_a_wearers_own_compensation_takes_the_place_of_table_1_mode_by_mode() ->
 
 def test_sensors_without_attitudes_are_taken_upright_by_gravity() -> None:
     bare = [evolve(sample, quat=None) for sample in suit()]
-    session = Session(III, calibration=KNOWN)
-    session.feed(bare)
-    body, end = session.position, walker().route.end
-    assert body is not None
-    assert hypot(body.position[0] - end.x, body.position[1] - end.y) < 0.15 * walker().route.length
+    assert hypot(*off(Modes(), bare)[0]) < 0.15 * walker().route.length
 
 
 def test_a_sensor_that_falls_silent_leaves_the_feet_to_their_own_tracks() -> None:
