@@ -6,7 +6,7 @@ from functools import cache
 from typing import TypeVar
 
 import pytest
-from airs import TIERS, hear, in_virtual_time
+from airs import TIERS, hear, in_virtual_time, whole
 from attrs import evolve
 from benches import LEFT, RIGHT
 
@@ -35,10 +35,8 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650 as Tag
 from solepath.link.devices.cc2650 import PROFILE as CC2650
 from solepath.link.devices.insole import PROFILE as INSOLE
-from solepath.link.devices.reassembly import Reassembly
 from solepath.link.profile import Write
 from solepath.types import Packet, Site
-from solepath.wire.fragment import is_fragment, parse_fragment
 from solepath.wire.insole import InsoleFrame, parse_frame
 
 E = TypeVar("E")
@@ -105,24 +103,16 @@ def test_spoilt_notifications_are_rejected_with_their_reason_and_those_that_neve
     assert not missed or missed[0].t == pytest.approx(4.0, abs=0.1)
 
 
-def whole(packets: list[Packet]) -> dict[int, InsoleFrame]:
+def by_number(packets: list[Packet]) -> dict[int, InsoleFrame]:
     """The frames by their numbers, with fragments put together."""
-    under_way, found = Reassembly(), []
-    for packet in frames(packets):
-        data: bytes | None = packet.data
-        if is_fragment(packet.data):
-            data, dropped = under_way.feed(parse_fragment(packet.data))
-            assert dropped is None
-        if data is not None:
-            found.append(parse_frame(bytes(data)))
-    return {frame.sequence: frame for frame in found}
+    return {frame.sequence: frame for frame in (parse_frame(packet.data) for packet in frames(whole(packets)))}
 
 
 @both
 def test_over_the_smallest_mtu_the_same_frames_come_in_fragments(tier: str) -> None:
     wide, narrow = heard(tier, "", 5.0), heard(tier, "0 * mtu 23", 5.0)
     assert max(len(packet.data) for packet in frames(narrow)) <= 20
-    one, other = whole(wide), whole(narrow)
+    one, other = by_number(wide), by_number(narrow)
     common = one.keys() & other.keys()
     assert len(common) > 200
     assert all(one[number] == other[number] for number in common)

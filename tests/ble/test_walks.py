@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 import pytest
-from airs import bumble, hear, in_virtual_time
+from airs import bumble, hear, in_virtual_time, whole
 from attrs import evolve
 from walks import said
 
@@ -33,10 +33,8 @@ from solepath.link.devices.cc2541 import PROFILE as CC2541
 from solepath.link.devices.cc2541 import PROFILE_20HZ as CC2541_20HZ
 from solepath.link.devices.cc2650 import PROFILE as CC2650
 from solepath.link.devices.insole import PROFILE as INSOLE
-from solepath.link.devices.reassembly import Reassembly
 from solepath.link.profile import Profile
 from solepath.types import Foot, Packet, Site
-from solepath.wire.fragment import is_fragment, parse_fragment
 
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 MINUTE = Route().stand(3.0).walk(20.0).turn(1.5, radius=1.5).walk(40.0, speed=1.2).stop(7.0)
@@ -63,21 +61,6 @@ def heard(
             return await hear(devices, 5.0 + seconds), began
 
     return in_virtual_time(listen)
-
-
-def whole(packets: list[Packet]) -> list[Packet]:
-    """The same with fragments put together, each frame at the arrival of its last."""
-    under_way = {site: Reassembly() for site in FEET}
-    found = []
-    for packet in packets:
-        if packet.channel == "insole/frame" and is_fragment(packet.data):
-            frame, dropped = under_way[packet.site].feed(parse_fragment(packet.data))
-            assert dropped is None
-            if frame is not None:
-                found.append(evolve(packet, data=bytes(frame)))
-        else:
-            found.append(packet)
-    return found
 
 
 @pytest.mark.parametrize(

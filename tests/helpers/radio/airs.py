@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import asyncio
+from collections import defaultdict
 from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from typing import Any, TypeVar
 
 import looptime
+from attrs import evolve
 from memory_radio import MemoryRadio
 
 from solepath.ble import Backend, Devices, Wanted
 from solepath.emulate.controllers.server import virtual_air
 from solepath.emulate.devices.bench import Bench
-from solepath.types import Packet
+from solepath.link.devices.reassembly import Reassembly
+from solepath.types import Packet, Site
 from solepath.wire.fields import parse_text
+from solepath.wire.fragment import is_fragment, parse_fragment
 
 T = TypeVar("T")
 
@@ -65,6 +69,21 @@ def received(backend: Backend, *wanted: Wanted, seconds: float, **more: Any) -> 
 def troubles(packets: list[Packet]) -> list[str]:
     """What it is told of."""
     return [parse_text(packet.data) for packet in packets if packet.channel == "receiver/trouble"]
+
+
+def whole(packets: list[Packet]) -> list[Packet]:
+    """The same with fragments put together, each frame at the arrival of its last."""
+    under_way = defaultdict[Site, Reassembly](Reassembly)
+    found = []
+    for packet in packets:
+        if packet.channel == "insole/frame" and is_fragment(packet.data):
+            frame, dropped = under_way[packet.site].feed(parse_fragment(packet.data))
+            assert dropped is None
+            if frame is not None:
+                found.append(evolve(packet, data=bytes(frame)))
+        else:
+            found.append(packet)
+    return found
 
 
 def others() -> set[asyncio.Task[Any]]:
