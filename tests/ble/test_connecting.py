@@ -8,11 +8,12 @@ from typing import Any
 
 import pytest
 from airs import received
-from belts import ONE, PELVIS, RATE, STRAP, address, asked, failing, now, strap, times
+from belts import ONE, PELVIS, RATE, STRAP, address, asked, failing, strap, times
 from benches import LEFT
 from bleak.exc import BleakDBusError, BleakError
 from memory_radio import MemoryRadio
 from strap import Strap
+from virtual import now
 
 from solepath import Session
 from solepath.ble import Backend, Wanted

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 from airs import hear, received, troubles
-from belts import STRAP, address, asked, now, strap
+from belts import STRAP, address, asked, strap
 from benches import LEFT, RIGHT, ROUTE
 from memory_radio import MemoryRadio
-from virtual import virtually
+from virtual import now, virtually
 
 from solepath.ble import ConnectionState, Devices, Wanted, scan
 from solepath.emulate.devices import cc2650

@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 from airs import hear, in_virtual_time, others
-from belts import ONE, PELVIS, STRAP, address, asked, failing, now, strap, times
+from belts import ONE, PELVIS, STRAP, address, asked, failing, strap, times
 from benches import LEFT, RIGHT
 from bleak.exc import BleakError
 from memory_radio import MemoryRadio
-from virtual import virtually
+from virtual import now, virtually
 
 from solepath.ble import Backend, BluetoothError, ConnectionState, Devices, Wanted
 from solepath.emulate import Route

@@ -42,9 +42,6 @@ def wait_for_sockets(process: subprocess.Popen[str]) -> None:
     time.sleep(0.3)
 
 
-# --- what is wrong is said in one line ---
-
-
 def complaint(*arguments: object) -> str:
     done = run(*arguments, expect=2)
     assert done.stderr.count("\n") == 1 and done.stderr.startswith("solepath: "), done.stderr

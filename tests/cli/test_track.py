@@ -44,9 +44,6 @@ def events_in(directory: Path) -> list[dict]:
     return [json.loads(line, parse_constant=refuse) for line in lines]
 
 
-# --- track ------------------------------------------------------------------------------------------------------------
-
-
 @pytest.fixture(scope="module")
 def tracked(packets, folder) -> tuple[subprocess.CompletedProcess[str], Path]:
     out = folder / "made" / "on the way"

@@ -17,6 +17,13 @@ from solepath.types import Packet, Site
 HEADER = '{"format": "solepath-packets", "version": 1}\n'
 
 
+def file(tmp_path: Path, text: str) -> Path:
+    """A recording of this text."""
+    path = tmp_path / "walk.jsonl"
+    path.write_text(text)
+    return path
+
+
 def line_of(**fields) -> str:
     return json.dumps({"t": 1.0, "site": "left_foot", "channel": "insole/frame", "data": "f5"} | fields) + "\n"
 
@@ -53,8 +60,7 @@ def test_any_packets_survive_writing_and_reading(tmp_path_factory, times, conten
 
 def test_the_example_of_the_specification_is_read(tmp_path):
     text = (PROTOCOL / "recording.md").read_text()
-    path = tmp_path / "example.jsonl"
-    path.write_text(text.split("## Example")[1].split("```")[1].strip() + "\n")
+    path = file(tmp_path, text.split("## Example")[1].split("```")[1].strip() + "\n")
     battery, keys = read_packets(path)
     assert battery == Packet(12.5, Site.LEFT_FOOT, "device/battery", b"c")
     assert keys == Packet(12.75, Site.RIGHT_FOOT, "cc2650/keys", b"\x01", "C3:9F:02:5E:71:AA")
@@ -70,14 +76,12 @@ def test_every_line_is_on_its_way_to_the_disk_before_the_next_packet(tmp_path):
 
 
 def test_unknown_keys_are_ignored_in_header_and_packets(tmp_path):
-    path = tmp_path / "walk.jsonl"
-    path.write_text('{"version": 1, "note": "x", "format": "solepath-packets"}\n' + line_of(rssi=-60, t=2))
+    path = file(tmp_path, '{"version": 1, "note": "x", "format": "solepath-packets"}\n' + line_of(rssi=-60, t=2))
     assert list(read_packets(path)) == [Packet(2.0, Site.LEFT_FOOT, "insole/frame", b"\xf5")]
 
 
 def test_upper_case_digits_and_blank_lines_are_read(tmp_path):
-    path = tmp_path / "walk.jsonl"
-    path.write_text(HEADER + "\n  \n" + line_of(data="F5aB"))
+    path = file(tmp_path, HEADER + "\n  \n" + line_of(data="F5aB"))
     assert [packet.data for packet in read_packets(path)] == [b"\xf5\xab"]
 
 
@@ -122,9 +126,7 @@ def test_cut_anywhere_after_the_header_no_packet_before_the_cut_is_lost(tmp_path
     ],
 )
 def test_a_bad_line_is_named_after_everything_before_it_was_read(tmp_path, line, complaint):
-    path = tmp_path / "walk.jsonl"
-    path.write_text(HEADER + line_of(t=0.5) + line + line_of(t=9.0))
-    packets, sentence = read_what_there_is(path)
+    packets, sentence = read_what_there_is(file(tmp_path, HEADER + line_of(t=0.5) + line + line_of(t=9.0)))
     assert [packet.t for packet in packets] == [0.5]
     assert f": line 3: {complaint}" in sentence
     assert sentence.isprintable() and len(sentence) < 400
@@ -138,25 +140,20 @@ def test_bytes_that_are_not_text_are_named(tmp_path):
 
 @pytest.mark.parametrize("version", [2, 0, "1", 1.0, True, None])
 def test_an_unknown_version_is_refused(tmp_path, version):
-    path = tmp_path / "walk.jsonl"
-    path.write_text(json.dumps({"format": "solepath-packets", "version": version}) + "\n" + line_of())
-    packets, sentence = read_what_there_is(path)
+    header = json.dumps({"format": "solepath-packets", "version": version})
+    packets, sentence = read_what_there_is(file(tmp_path, f"{header}\n{line_of()}"))
     assert packets == []
     assert f"line 1: is of version {json.dumps(version)}; this release reads version 1" in sentence
 
 
 @pytest.mark.parametrize("first", ['{"format": "solepath-pack', line_of(), "hello", '"x"\n'])
 def test_a_file_without_a_whole_header_is_refused(tmp_path, first):
-    path = tmp_path / "walk.jsonl"
-    path.write_text(first)
-    assert "line 1: " in read_what_there_is(path)[1]
+    assert "line 1: " in read_what_there_is(file(tmp_path, first))[1]
 
 
 @pytest.mark.parametrize("nothing", ["", "\n\n"])
 def test_an_empty_file_is_called_empty(tmp_path, nothing):
-    path = tmp_path / "walk.jsonl"
-    path.write_text(nothing)
-    assert read_what_there_is(path)[1].endswith("is empty")
+    assert read_what_there_is(file(tmp_path, nothing))[1].endswith("is empty")
 
 
 def test_a_missing_file_and_a_directory_are_named(tmp_path):
@@ -165,8 +162,7 @@ def test_a_missing_file_and_a_directory_are_named(tmp_path):
 
 
 def test_a_receivers_clock_that_was_set_back_is_left_to_the_decoder(tmp_path):
-    path = tmp_path / "walk.jsonl"
-    path.write_text(HEADER + line_of(t=9.0) + line_of(t=0.5))
+    path = file(tmp_path, HEADER + line_of(t=9.0) + line_of(t=0.5))
     assert [packet.t for packet in read_packets(path)] == [9.0, 0.5]
 
 

@@ -44,6 +44,15 @@ def heard() -> Footsteps:
     return body
 
 
+def gone(count: int, left: float, right: float) -> Footsteps:
+    """After so many steps of both feet, each m ahead."""
+    body = heard()
+    for k in range(count):
+        body.step(step(Foot.LEFT, k + 0.5, way=(left, 0.0)))
+        body.step(step(Foot.RIGHT, k + 1.0, way=(right, 0.0)))
+    return body
+
+
 def base(body: Footsteps) -> tuple[float, float]:
     (lx, ly), (rx, ry), (x, y) = body.left.here, body.right.here, body.base
     return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
@@ -53,18 +62,11 @@ def base(body: Footsteps) -> tuple[float, float]:
 
 
 def test_the_wearer_is_at_the_mean_of_what_both_feet_went() -> None:
-    body = heard()
-    for k in range(4):
-        body.step(step(Foot.LEFT, k + 0.5, way=(1.2, 0.0)))
-        body.step(step(Foot.RIGHT, k + 1.0, way=(1.0, 0.0)))
-    assert base(body) == pytest.approx((4.4, 0.0))
+    assert base(gone(4, 1.2, 1.0)) == pytest.approx((4.4, 0.0))
 
 
 def test_feet_that_are_more_than_a_metre_apart_begin_anew_at_their_mean() -> None:
-    body = heard()
-    for k in range(6):
-        body.step(step(Foot.LEFT, k + 0.5, way=(1.4, 0.0)))
-        body.step(step(Foot.RIGHT, k + 1.0, way=(1.0, 0.0)))
+    body = gone(6, 1.4, 1.0)
     assert body.restarts > 0
     assert base(body) == pytest.approx((0.5 * 6 * 2.4, 0.0))
     assert hypot(body.left.here[0] - body.right.here[0], 0.0) < 2.0
@@ -79,10 +81,7 @@ def test_half_a_stride_between_healthy_feet_is_no_difference() -> None:
 
 
 def test_a_foot_that_falls_silent_does_not_hold_the_wearer_back() -> None:
-    body = heard()
-    for k in range(5):
-        body.step(step(Foot.LEFT, k + 0.5))
-        body.step(step(Foot.RIGHT, k + 1.0))
+    body = gone(5, 1.0, 1.0)
     for k in range(5, 15):
         body.step(step(Foot.LEFT, k + 0.5))
     assert base(body) == pytest.approx((15.0, 0.0))

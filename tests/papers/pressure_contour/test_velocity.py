@@ -105,22 +105,13 @@ def test_half_a_contour_is_followed_where_the_other_half_lies_beyond_the_cells()
     assert seen[0] == pytest.approx(0.002 / STEP, rel=0.3)
 
 
-def test_looks_too_far_apart_are_not_compared() -> None:
-    where = grid()
-    contours = Contours()
+@pytest.mark.parametrize("again", [1.2, -98.0], ids=["too long after", "of a clock that begins anew"])
+def test_looks_that_are_not_to_be_compared_are_not_and_the_next_one_is(again: float) -> None:
+    where, contours = grid(), Contours()
     contours.wear(where)
     contours.velocity(1.0, cone(where, 0.046, 0.0))
-    assert contours.velocity(1.2, cone(where, 0.046, 0.0)) is None
-    assert contours.velocity(1.25, cone(where, 0.046, 0.0)) == pytest.approx((0.0, 0.0))
-
-
-def test_a_clock_that_begins_anew_is_not_waited_for() -> None:
-    where = grid()
-    contours = Contours()
-    contours.wear(where)
-    contours.velocity(100.0, cone(where, 0.046, 0.0))
-    assert contours.velocity(1.0, cone(where, 0.046, 0.0)) is None
-    assert contours.velocity(1.05, cone(where, 0.046, 0.0)) is not None
+    assert contours.velocity(again, cone(where, 0.046, 0.0)) is None
+    assert contours.velocity(again + STEP, cone(where, 0.046, 0.0)) == pytest.approx((0.0, 0.0))
 
 
 @pytest.mark.parametrize("foot", list(Foot))
