@@ -76,18 +76,9 @@ def test_evaluate_runs_with_a_calibration_and_refuses_what_is_none(folder, tmp_p
     assert "none.json: No such file" in refused("evaluate", tmp_path, "--calibration", tmp_path / "none.json")
 
 
-@pytest.mark.parametrize(
-    ("text", "complaint"),
-    [
-        ("{", "is not JSON"),
-        ('{"format": "something"}', "is not a calibration"),
-        ('{"format": "solepath-calibration", "version": 99}', "is of version 99"),
-    ],
-)
-def test_a_file_that_is_no_calibration_is_refused_in_one_line(packets, folder, text, complaint):
-    file = folder / "wrong.json"
-    file.write_text(text)
-    assert complaint in refused("track", packets, "--calibration", file)
+def test_a_file_that_is_no_calibration_is_refused_in_one_line(packets, tmp_path):
+    (tmp_path / "wrong.json").write_text("{")
+    assert "wrong.json: is not JSON" in refused("track", packets, "--calibration", tmp_path / "wrong.json")
 
 
 # --- calibrate --------------------------------------------------------------------------------------------------------

@@ -80,19 +80,11 @@ def test_the_site_and_the_channel_can_be_told(tmp_path):
     assert "there is no channel 'cc2650/moment'; there are: " in complaint(path, out, "--handle", "0x2b=cc2650/moment")
 
 
-@pytest.mark.parametrize(
-    "wish",
-    [
-        ("--site", "left_foot"),
-        ("--site", f"{TAG}=hand"),
-        ("--handle", "0x2b"),
-        ("--handle", "x=y"),
-        ("--handle", "0=a/b"),
-    ],
-)
-def test_a_wish_that_cannot_be_understood_is_named(log, tmp_path, wish):
-    done = convert(log, tmp_path / "walk.jsonl", *wish)
-    assert done.returncode == 2 and f"argument {wish[0]}: {wish[1]!r} is not " in done.stderr
+def test_a_wish_that_cannot_be_understood_is_named(log, tmp_path):
+    for option, wishes in (("--site", ("left_foot", f"{TAG}=hand")), ("--handle", ("0x2b", "x=y", "0=a/b"))):
+        for wish in wishes:
+            done = convert(log, tmp_path / "walk.jsonl", option, wish)
+            assert done.returncode == 2 and f"argument {option}: {wish!r} is not " in done.stderr
 
 
 def test_wishes_that_are_of_no_use_are_errors_and_nothing_is_written(log, tmp_path):

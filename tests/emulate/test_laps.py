@@ -78,13 +78,8 @@ def test_steps_are_labelled_by_the_bend_they_come_down_in() -> None:
     found = modes(walker)
     for foot in Foot:
         labels = [label for label, before in zip(found[foot], [None, *found[foot]], strict=False) if label != before]
-        assert labels[:5] == [
-            WalkingMode.STRAIGHT,
-            WalkingMode.LEFT_TIGHT,
-            WalkingMode.STRAIGHT,
-            WalkingMode.RIGHT_WIDE,
-            WalkingMode.STRAIGHT,
-        ]
+        straight, bends = WalkingMode.STRAIGHT, (WalkingMode.LEFT_TIGHT, WalkingMode.RIGHT_WIDE)
+        assert labels[:5] == [straight, bends[0], straight, bends[1], straight]
         assert len(found[foot]) == len(walker.truth().steps(foot))
         assert WalkingMode.STANDING in found[foot][-3:]
 

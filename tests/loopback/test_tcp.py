@@ -18,6 +18,7 @@ from here import HELPERS
 from strap import BEAT, CONTROL, LEVEL, Strap
 from virtual import find
 
+from solepath.ble.air import Backend
 from solepath.emulate.controllers import radio
 from solepath.emulate.controllers.tcp import address_of, reach, serve
 from solepath.emulate.devices.faults import parse_faults
@@ -27,7 +28,6 @@ HERE = HELPERS / "radio"
 LISTEN = """
 import asyncio, sys
 from bleak import BleakClient, BleakScanner
-from solepath.emulate.controllers import radio
 from solepath.emulate.controllers.tcp import reach
 from strap import BEAT, CONTROL
 
@@ -79,6 +79,14 @@ async def line(process: asyncio.subprocess.Process) -> str:
     return (await process.stdout.readline()).decode().strip()
 
 
+async def connected(backend: Backend) -> tuple[BleakClient, asyncio.Event]:
+    """A client, and whether it has lost its link."""
+    lost = asyncio.Event()
+    client = BleakClient(await find(backend), lambda _: lost.set(), backend=backend.client)
+    await client.connect()
+    return client, lost
+
+
 async def beats(client: BleakClient, count: int = 50) -> list[int]:
     """The numbers that are heard until there are `count`."""
     heard: list[int] = []
@@ -100,9 +108,7 @@ async def test_another_processs_devices_are_found_and_stream_until_it_is_killed_
     async with program("strap.py", "0") as server:
         port = await line(server)
         async with reach(f"tcp:127.0.0.1:{port}", mtu=185) as backend:
-            lost = asyncio.Event()
-            client = BleakClient(await find(backend), lambda _: lost.set(), backend=backend.client)
-            await client.connect()
+            client, lost = await connected(backend)
             assert client.mtu_size == 185
             heard = await beats(client)
             assert heard == list(range(heard[0], heard[0] + len(heard)))
@@ -146,9 +152,7 @@ async def test_a_server_that_hangs_is_an_error_until_it_goes_on(monkeypatch: pyt
     async with program("strap.py", "0") as server:
         port = await line(server)
         async with reach(f"tcp:127.0.0.1:{port}") as backend:
-            lost = asyncio.Event()
-            client = BleakClient(await find(backend), lambda _: lost.set(), backend=backend.client)
-            await client.connect()
+            client, lost = await connected(backend)
             server.send_signal(signal.SIGSTOP)
             await client.disconnect()
             assert not client.is_connected

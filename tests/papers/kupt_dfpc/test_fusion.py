@@ -7,6 +7,7 @@ from math import isfinite
 from typing import Any
 
 import pytest
+from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from strides import stride
@@ -40,17 +41,10 @@ def step(
     number: int = 1,
 ) -> StrideTaken:
     """A step that ends at `end` s, of which the last 40 % are swing."""
-    return stride(
-        foot,
-        end,
-        (length * direction[0], length * direction[1], 0.0),
-        number=number,
-        t_start=end - lasts,
-        covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4),
-        t_toe_off=end - 0.5 * lasts,
-        t_heel_strike=end - 0.1 * lasts,
-        features=StrideFeatures(0.1, 4.0, 1.0, 400.0, cop, index),
-    )
+    features = StrideFeatures(0.1, 4.0, 1.0, 400.0, cop, index)
+    way, off, strike = (length * direction[0], length * direction[1], 0.0), end - 0.5 * lasts, end - 0.1 * lasts
+    made = stride(foot, end, way, number=number, t_start=end - lasts, t_toe_off=off, t_heel_strike=strike)
+    return evolve(made, covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4), features=features)
 
 
 def walked(*steps: StrideTaken) -> tuple[DoubleFoot, list[StrideFused]]:
