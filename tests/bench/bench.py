@@ -6,20 +6,21 @@ last column is the same as a multiple of the yardstick (yardstick.py), which dep
 
 from __future__ import annotations
 
-import gc
 import json
-import os
-import platform
-import tracemalloc
 from collections.abc import Callable, Iterable
 from functools import partial
 from statistics import median
 from time import perf_counter
 from typing import Any
 
+from measure import RUNS, held, machine, seconds, uncollected
 from yardstick import Tuned, Usual
 
 from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StrideTaken, recipes
+from solepath.body.gait.turns import Turns
+from solepath.body.part import Doing, Part, Track
+from solepath.body.place.readings import Readings
+from solepath.body.worn.wear import Wear
 from solepath.calibration import InsoleCalibration
 from solepath.emulate.radio import CLEAN
 from solepath.emulate.routes.building import BUILDING
@@ -37,55 +38,32 @@ from solepath.foot.stance.cycle import Cycle
 from solepath.link.decoder import Decoder
 from solepath.types import SITE_OF_FOOT
 
-RUNS = 5
 ROUTE = Route().stand(2.0).walk(50.0, 1.3).stop(2.0)
 """About 43 s; the foot stands 10 % of it and walks the rest."""
 
 
-def seconds(work: Callable[[], object]) -> float:
-    """The median time of RUNS runs."""
+def each(items: list[Any], begin: Callable[[], Any], prepare: Iterable[Any] = ()) -> float:
+    """Microseconds an item: what is begun is fed `prepare` unmeasured, then all items one by one."""
     found = []
     for _ in range(RUNS):
-        gc.collect()
-        gc.disable()
-        began = perf_counter()
-        work()
-        found.append(perf_counter() - began)
-        gc.enable()
-    return median(found)
-
-
-def each(items: list[Any], machine: Callable[[], Any], prepare: Iterable[Any] = ()) -> float:
-    """Microseconds an item: a new machine is fed `prepare` unmeasured, then all items one by one."""
-    found = []
-    for _ in range(RUNS):
-        one = machine()
+        one = begin()
         for item in prepare:
             one.feed(item)
         feed = one.feed
-        gc.collect()
-        gc.disable()
-        began = perf_counter()
-        for item in items:
-            feed(item)
-        found.append((perf_counter() - began) / len(items) * 1e6)
-        gc.enable()
+        with uncollected():
+            began = perf_counter()
+            for item in items:
+                feed(item)
+            found.append((perf_counter() - began) / len(items) * 1e6)
     return median(found)
 
 
-def memory(items: Iterable[Any]) -> int:
-    """Bytes that a session holds after all this was fed."""
-    gc.collect()
-    tracemalloc.start()
-    before = tracemalloc.get_traced_memory()[0]
+def fed(items: Iterable[Any]) -> Session:
+    """A session after all this."""
     session = Session()
     for item in items:
         session.feed(item)
-    gc.collect()
-    held = tracemalloc.get_traced_memory()[0] - before
-    tracemalloc.stop()
-    del session
-    return held
+    return session
 
 
 def told_of(recipe: Recipe, infos: list[Packet]) -> Session:
@@ -96,12 +74,21 @@ def told_of(recipe: Recipe, infos: list[Packet]) -> Session:
 
 
 class Timed:
-    """Stands before a part and sums up what its calls take, garbage collector or not; fields are the part's own."""
+    """Stands before a part and sums up what its calls take, garbage collector or not; fields are the part's own, and it
+    is taken for one of the part's class."""
 
     def __init__(self, part: Any) -> None:
         self.part = part
         self.taken = 0.0
         self.calls = 0
+
+    @property  # type: ignore[misc]
+    def __class__(self) -> Any:
+        return type(self.part)
+
+    def receive(self, event: Any) -> Any:
+        """Here, since a wearer asks the class whether there is one."""
+        return self.__getattr__("receive")(event)
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name in ("part", "taken", "calls"):
@@ -125,35 +112,45 @@ class Timed:
         return timed
 
 
+OF_A_SAMPLE: dict[str, str | type[Part]] = {
+    "rest": "rest",
+    "detector": "detector",
+    "filter": "corrector",
+    "cues": "cues",
+    "cells": "sole",
+    "activities": Doing,
+    "turns": Turns,
+    "how it is worn": Wear,
+    "body": Track,
+}
+"""What is told of a sample's time: which field of a foot takes it, or a part of which kind."""
+
+
 def shares_of(items: list[Sample], begin: Callable[[], Session]) -> dict[str, float]:
     """Microseconds a sample that each part of a foot and of a wearer takes, less what the clock does."""
-    held = {
-        "rest": ("foot", "rest"),
-        "detector": ("foot", "detector"),
-        "filter": ("foot", "corrector"),
-        "cues": ("foot", "cues"),
-        "cells": ("foot", "sole"),
-        "activities": ("wearer", "activity"),
-        "turns": ("wearer", "turns"),
-        "how it is worn": ("wearer", "wear"),
-        "body": ("wearer", "body"),
-    }
-    return {name: median([_share(items, begin(), *where) for _ in range(RUNS)]) for name, where in held.items()}
+    return {name: median([_share(items, begin(), what) for _ in range(RUNS)]) for name, what in OF_A_SAMPLE.items()}
 
 
-def _share(items: list[Sample], session: Session, whose: str, name: str) -> float:
+def _share(items: list[Sample], session: Session, what: str | type[Part]) -> float:
     """One at a time: a part that looks at one that is watched would pay for that."""
     session.feed(items[0])
-    wearer = session._state.wearer
-    holder: Any = wearer if whose == "wearer" else next(iter(wearer.feet.values()))
-    part = Timed(getattr(holder, name))
-    setattr(holder, name, part)
-    gc.collect()
-    gc.disable()
-    for item in items[1:]:
-        session.feed(item)
-    gc.enable()
+    part = _watched(session, what)
+    with uncollected():
+        for item in items[1:]:
+            session.feed(item)
     return (part.taken - part.calls * overhead()) / len(items) * 1e6
+
+
+def _watched(session: Session, what: str | type[Part]) -> Timed:
+    wearer = session._state.wearer
+    if isinstance(what, str):
+        foot = next(iter(wearer.feet.values()))
+        part = Timed(getattr(foot, what))
+        setattr(foot, what, part)
+    else:
+        place = next(k for k, one in enumerate(wearer.parts) if isinstance(one, what))
+        part = wearer.parts[place] = Timed(wearer.parts[place])
+    return part
 
 
 def overhead() -> float:
@@ -171,18 +168,14 @@ def overhead() -> float:
 
 def parts_of(items: list[Sample], recipe: Recipe, plan: IndexedPlan) -> dict[str, float]:
     """Microseconds a sample that activities, turns and the place on a plan take in a walk through a building."""
-    found: dict[str, list[float]] = {"activity": [], "turns": [], "place": []}
+    kinds: dict[str, type[Part]] = {"activity": Doing, "turns": Turns, "place": Readings}
+    found: dict[str, list[float]] = {name: [] for name in kinds}
     for _ in range(RUNS):
         session = Session(recipe, floorplan=plan)
-        wearer = session._state.wearer
-        watched = {name: Timed(getattr(wearer, name)) for name in found}
-        for name, part in watched.items():
-            setattr(wearer, name, part)
-        gc.collect()
-        gc.disable()
-        for item in items:
-            session.feed(item)
-        gc.enable()
+        watched = {name: _watched(session, kind) for name, kind in kinds.items()}
+        with uncollected():
+            for item in items:
+                session.feed(item)
         for name, part in watched.items():
             found[name].append(part.taken / len(items) * 1e6)
     return {name: median(taken) for name, taken in found.items()}
@@ -216,13 +209,8 @@ def main() -> None:
     def decoder() -> Decoder:
         return Decoder(Site.LEFT_FOOT)
 
-    def knowing() -> Session:
-        session = Session()
-        session.feed(told)
-        return session
-
-    def knowing_poses(pressures: bool = False) -> Session:
-        session = Session(poses=True, pressures=pressures)
+    def knowing(**given: bool) -> Session:
+        session = Session(**given)
         session.feed(told)
         return session
 
@@ -232,8 +220,8 @@ def main() -> None:
     add("foot sample, inertial at 200 Hz", each(faster, Session))
     add("foot sample, inertial, FootMoved", each(bare, lambda: Session(poses=True)))
     add("foot sample, 96 cells", each(pressed, knowing))
-    add("foot sample, 96 cells, FootMoved", each(pressed, knowing_poses))
-    add("foot sample, 96 cells, FootMoved and FootPressed", each(pressed, partial(knowing_poses, True)))
+    add("foot sample, 96 cells, FootMoved", each(pressed, partial(knowing, poses=True)))
+    add("foot sample, 96 cells, FootMoved and FootPressed", each(pressed, partial(knowing, poses=True, pressures=True)))
     add("foot sample, inertial, linear dedrift", each(bare, lambda: Session(linear)))
     infos = [packet for packet in walk.packets if packet.channel == "insole/info"]
     two_feet = walker.samples(Foot.RIGHT, 100.0, LSM6DSOX, layout=layout(96, Foot.RIGHT)) + pressed
@@ -265,13 +253,8 @@ def main() -> None:
         for name, what in (("activity", "activities"), ("turns", "turns"), ("place", "place on a floor plan")):
             add(f"of it {what}, {recipe.name}", took[name])
 
-    def both() -> None:
-        session = Session()
-        for packet in walk.packets:
-            session.feed(packet)
-
     duration = walk.packets[-1].t
-    real_time = duration / seconds(both)
+    real_time = duration / seconds(lambda: fed(walk.packets))
 
     session = Session()
     steps = sum(isinstance(event, StrideTaken) for event in session.feed(walk.packets))
@@ -279,9 +262,7 @@ def main() -> None:
     text = json.dumps(saved)
     save, load = seconds(session.snapshot), seconds(lambda: Session.restore(saved))
 
-    print(
-        f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores, one used; medians of {RUNS}"
-    )
+    print(f"{machine()}, one used; medians of {RUNS}")
     print(f"{len(bare)} samples, {len(frames)} frames, {steps} steps of both feet in {duration:.0f} s of walking")
     print()
     width = max(len(what) for what, _, _ in rows)
@@ -291,8 +272,8 @@ def main() -> None:
     print()
     print(f"real-time factor, both feet with 96 cells at 100 Hz: {real_time:.0f}")
     print(f"snapshot {save * 1e3:.1f} ms, restore {load * 1e3:.1f} ms, {len(text) / 1000:.1f} kB as JSON")
-    print(f"memory of a session: {memory(bare) / 1000:.0f} kB one foot, inertial; ", end="")
-    print(f"{memory(walk.packets) / 1000:.0f} kB both feet with 96 cells and links")
+    print(f"memory of a session: {held(lambda: fed(bare)) / 1000:.0f} kB one foot, inertial; ", end="")
+    print(f"{held(lambda: fed(walk.packets)) / 1000:.0f} kB both feet with 96 cells and links")
 
 
 if __name__ == "__main__":

@@ -9,12 +9,11 @@ equally long, so that lines can be compared: what a sample takes differs between
 from __future__ import annotations
 
 import argparse
-import os
-import platform
 import tempfile
 from pathlib import Path
 
 from attrs import evolve
+from measure import machine
 
 from solepath.fleet.demo.stage import Bare, DemoStage
 from solepath.fleet.demo.wearers import DemoPlan
@@ -76,8 +75,7 @@ def main() -> None:
         DemoPlan(n, asked.seconds, recipe=asked.recipe, parts=asked.processes, every=asked.every) for n in asked.sizes
     ]
     rows = [line(plan) for plan in plans]
-    machine = f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores"
-    print(f"{machine}, {asked.processes} processes of bytewax\n\n{table(COLUMNS, rows)}\n")
+    print(f"{machine()}, {asked.processes} processes of bytewax\n\n{table(COLUMNS, rows)}\n")
     print(NOTE.format(every=f"{asked.every:g}", seconds=f"{asked.seconds:g}"))
 
 

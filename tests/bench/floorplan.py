@@ -6,14 +6,11 @@ same as a part of what it costs to try all walls of the level, one after the oth
 
 from __future__ import annotations
 
-import gc
-import os
-import platform
 from collections.abc import Callable
 from math import cos, sin, tau
 from random import Random
-from statistics import median
-from time import perf_counter
+
+from measure import RUNS, machine, seconds
 
 from solepath.emulate.routes.building import BUILDING
 from solepath.floorplan.checks import warnings
@@ -23,25 +20,11 @@ from solepath.floorplan.importers.reading import plan_of_bytes
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Door, FloorPlan, Level, Wall
 
-RUNS = 5
 STEP = 0.7
 """m."""
 PARTICLES = 1000
 
 Move = tuple[float, float, float, float]
-
-
-def seconds(work: Callable[[], object]) -> float:
-    """The median time of RUNS runs."""
-    found = []
-    for _ in range(RUNS):
-        gc.collect()
-        gc.disable()
-        began = perf_counter()
-        work()
-        found.append(perf_counter() - began)
-        gc.enable()
-    return median(found)
 
 
 def office(walls: int) -> FloorPlan:
@@ -127,8 +110,7 @@ def main() -> None:
     rows.append(("two floors of 56 m by 63 m: made ready", seconds(lambda: IndexedPlan(BUILDING)) * 1e3, "ms", ""))
     rows.append(("two floors of 56 m by 63 m: warnings", seconds(lambda: warnings(BUILDING)) * 1e3, "ms", ""))
 
-    print(f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores, one used; "
-          f"medians of {RUNS}")  # fmt: skip
+    print(f"{machine()}, one used; medians of {RUNS}")
     width = max(len(what) for what, *_ in rows)
     print(f"{'':{width}}  {'time':>9}     {'of every wall':>13}")
     for what, value, unit, ratio in rows:

@@ -12,10 +12,10 @@ from __future__ import annotations
 import argparse
 import gc
 import json
-import tracemalloc
 from time import process_time
 
 from attrs import evolve
+from measure import held
 
 from solepath import Calibration, Foot, Sample, Session, StrideTaken
 from solepath.calibration import InsoleCalibration
@@ -60,7 +60,7 @@ def main() -> None:
         took = (process_time() - began) / len(samples) * 1e6
         if k in (0, 1, count - 1) or k % asked.every == 0:
             size = len(json.dumps(session.snapshot()))
-            told.append((took, size, held(session)))
+            told.append((took, size, memory_of(session)))
             hour, memory = (k + 1) * length / 3600.0, told[-1][2] / 1000
             print(f"{hour:6.2f} {took:12.1f} {size:12} {memory:11.0f} {steps:6}", flush=True)
         gc.collect()
@@ -68,18 +68,10 @@ def main() -> None:
     print(f"the last beside the second: time {time:.2f}, snapshot {snapshot:.2f}, memory {memory:.2f}")
 
 
-def held(session: Session) -> int:
-    """Bytes of a session: those of another that is restored from its snapshot."""
+def memory_of(session: Session) -> int:
+    """Bytes of another that is restored from its snapshot."""
     saved = session.snapshot()
-    gc.collect()
-    tracemalloc.start()
-    before = tracemalloc.get_traced_memory()[0]
-    other = Session.restore(saved)
-    gc.collect()
-    found = tracemalloc.get_traced_memory()[0] - before
-    tracemalloc.stop()
-    del other
-    return found
+    return held(lambda: Session.restore(saved))
 
 
 if __name__ == "__main__":

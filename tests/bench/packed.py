@@ -11,14 +11,14 @@ from __future__ import annotations
 import argparse
 import gc
 import json
-import os
-import platform
 from collections import Counter
 from collections.abc import Callable
 from functools import partial
 from statistics import mean, median, quantiles
 from time import thread_time
 from typing import Any
+
+from measure import machine
 
 from solepath import Packet, Recipe, Session, Site, recipes
 from solepath.emulate.radio import Radio
@@ -181,10 +181,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fields", type=int, default=0, metavar="N")
     arguments = parser.parse_args()
-    print(
-        f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores, one used; bytes of "
-        "a state, us to pack and unpack"
-    )
+    print(f"{machine()}, one used; bytes of a state, us to pack and unpack")
     print(f"{'':34}  " + "  ".join(COLUMNS))
     for name in WALKS:
         session = walked(name)

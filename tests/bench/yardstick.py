@@ -1,19 +1,14 @@
 """Yardsticks for the benchmark: a foot-mounted error-state filter with SHOE in numpy, written the usual way and tuned.
 
 Both are the textbook arrangement of Foxlin (2005) and Skog et al. (2010), one sample at a time: nine error states
-(position, velocity, attitude), the SHOE detector over a window of five samples, a zero-velocity update whenever its
-statistic is below the gate. They agree to rounding, and neither does what else makes up a session: gaps, calibration,
-phases, steps, pressure, activities.
+(position, velocity, attitude), SHOE over five samples, a zero-velocity update whenever its statistic is below the gate.
+They agree to rounding, and do nothing else of a session: no gaps, calibration, phases, steps, pressure, activities.
 
-`Usual` is how published research code is written (OpenShoe's functions and what came after it in Python: one function
-for each equation of the paper, arrays in and arrays out). Vectors are arrays, the attitude is a quaternion that is
-turned into a matrix where one is needed, the matrices F and G of the error states are put together anew for every
-sample out of blocks, the gain comes from the inverse of the innovation's covariance, the covariance is made symmetric
-again after every change, and SHOE is a loop over the window as the paper has it, a sum over it. Nothing is slowed
-down on purpose: no copies, no Python loops where such code has none, no work that the method does not ask for.
+`Usual` is how published research code is written (OpenShoe's functions and what came after it in Python): a function
+for each equation, arrays in and out, F and G put together anew for every sample, a quaternion turned into a matrix
+where one is needed, the gain by an inverse, SHOE as a loop over the window. Nothing is slowed down on purpose.
 
-`Tuned` does the same with matrices made once where they can be, rotation matrices instead of quaternions, and SHOE as
-one expression over a ring of rows.
+`Tuned` does the same with matrices made once where they can be, rotation matrices, and SHOE as one expression.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from airs import others
+from airs import others, troubles
 from bluez import Bluez
 from bus import DAEMON, message_bus
 
@@ -26,7 +26,6 @@ from solepath.emulate.sensors.sensortags import CC2650
 from solepath.link.devices.cc2650 import PROFILE
 from solepath.recording import read_packets
 from solepath.types import Packet, Site
-from solepath.wire.fields import parse_text
 
 pytestmark = [
     pytest.mark.skipif(sys.platform != "linux", reason="BlueZ is Linux's"),
@@ -81,10 +80,6 @@ def of(packets: list[Packet], channel: str, site: Site = LEFT) -> list[bytes]:
 
 def frames(count: int) -> Callable[[list[Packet]], bool]:
     return lambda heard: heard[-1].channel == "insole/frame" and len(of(heard, "insole/frame")) >= count
-
-
-def troubles(packets: list[Packet]) -> list[str]:
-    return [parse_text(packet.data) for packet in packets if packet.channel == "receiver/trouble"]
 
 
 def test_a_scan_tells_who_advertises_and_leaves_the_adapter_alone_afterwards(on_a_bus):

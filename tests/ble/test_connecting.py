@@ -7,31 +7,29 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
-from airs import hear, in_virtual_time, memory
-from belts import ONE, PELVIS, RATE, STRAP, address, asked, failing, now, strap, times
+from airs import received
+from belts import ONE, PELVIS, RATE, STRAP, address, asked, failing, strap, times
 from benches import LEFT
 from bleak.exc import BleakDBusError, BleakError
 from memory_radio import MemoryRadio
 from strap import Strap
+from virtual import now
 
 from solepath import Session
-from solepath.ble import Backend, Devices, Wanted
+from solepath.ble import Backend, Wanted
 from solepath.emulate import Route
 from solepath.emulate.devices.attributes import AttError
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import Fault, What, parse_faults
-from solepath.types import Packet, Site
+from solepath.types import Site
 from solepath.wire.fields import parse_text
 
 
 def test_a_device_that_left_before_it_was_connected_is_soon_looked_for_again():
     bench = Bench(Route().stand(5.0), faults=parse_faults("0.005 left_foot vanish 300"))
 
-    async def main():
-        async with memory(bench) as backend, Devices([Wanted(None, "solepath L")], backend=backend) as devices:
-            return await hear(devices, 60.0)
-
-    troubles = [(p.t, parse_text(p.data)) for p in in_virtual_time(main) if p.channel == "receiver/trouble"]
+    packets = received(MemoryRadio(bench.peripherals).backend, Wanted(None, "solepath L"), seconds=60.0)
+    troubles = [(p.t, parse_text(p.data)) for p in packets if p.channel == "receiver/trouble"]
     (connecting, unanswered), (searching, unheard) = troubles
     assert unanswered.startswith("the device does not answer: bring it near") and connecting == pytest.approx(10.0)
     assert unheard.startswith("no device 'solepath L' is heard") and 20.0 < searching < 30.0
@@ -45,12 +43,8 @@ def test_a_device_that_is_heard_and_does_not_answer_is_told_when_patience_ends_n
         async def connect(self, pair, **more):
             await asyncio.Event().wait()
 
-    async def main():
-        wanted = [Wanted(Site.PELVIS, address(1), STRAP)]
-        async with Devices(wanted, backend=Backend(Client, beneath.scanner), patience=7.0) as devices:
-            return await hear(devices, 55.0)
-
-    [told] = [packet for packet in in_virtual_time(main) if packet.channel == "receiver/trouble"]
+    packets = received(Backend(Client, beneath.scanner), ONE, seconds=55.0, patience=7.0)
+    [told] = [packet for packet in packets if packet.channel == "receiver/trouble"]
     assert told.t == pytest.approx(7.0, abs=0.1)
     assert told.data.decode().endswith("see that no other program or phone holds it")
 
@@ -59,11 +53,8 @@ def test_attempts_that_fail_do_not_begin_patience_anew():
     """The device refuses its stream for a while, then is heard no more."""
     device = Odd("strap 1", address(1), faults=parse_faults("5 * vanish"))
 
-    async def main():
-        async with Devices([Wanted(Site.PELVIS, address(1), STRAP)], backend=asked(device).backend) as devices:
-            return await hear(devices, 30.0)
-
-    told = [(p.t, p.data.decode()) for p in in_virtual_time(main) if p.channel == "receiver/trouble"]
+    packets = received(asked(device).backend, ONE, seconds=30.0)
+    told = [(p.t, p.data.decode()) for p in packets if p.channel == "receiver/trouble"]
     unheard = [t for t, words in told if words.startswith("no strap")]
     assert told[0][0] < 1.0 and len(unheard) == 1 and unheard[0] == pytest.approx(10.5, abs=2.0)
 
@@ -79,12 +70,8 @@ def weak(every, seconds):
     """What is heard over a link that breaks so often, s."""
     cuts = [Fault(1.0 + every * k, Site.PELVIS, What.DISCONNECT) for k in range(int(seconds / every))]
 
-    async def main():
-        device = Strap("strap 1", address(1), faults=cuts)
-        async with Devices([Wanted(Site.PELVIS, address(1), STRAP)], backend=asked(device).backend) as devices:
-            return await hear(devices, seconds)
-
-    return in_virtual_time(main)
+    device = Strap("strap 1", address(1), faults=cuts)
+    return received(asked(device).backend, ONE, seconds=seconds)
 
 
 @pytest.mark.parametrize(("every", "share"), [(1.0, 0.5), (2.0, 0.75)])
@@ -102,11 +89,7 @@ def test_a_scan_that_fails_later_is_told_where_something_is_sought_and_is_begun_
     errors: list[Exception | None] = [None, None, BleakDBusError("org.bluez.Error.NotReady", []), BleakError("odd")]
     backend = failing(MemoryRadio([strap(1, faults="3 * disconnect"), strap(2)]).backend, errors)
 
-    async def main() -> list[Packet]:
-        async with Devices([ONE, Wanted(LEFT, address(2), STRAP)], backend=backend) as devices:
-            return await hear(devices, 12.0)
-
-    packets = in_virtual_time(main)
+    packets = received(backend, ONE, Wanted(LEFT, address(2), STRAP), seconds=12.0)
     assert [(packet.site, packet.data.decode()) for packet in packets if packet.channel == "receiver/trouble"] == [
         (PELVIS, "cannot look for devices: Bluetooth is off: turn it on"),
         (PELVIS, "cannot look for devices: odd"),
@@ -132,11 +115,7 @@ def test_a_scan_that_hears_nothing_any_more_is_begun_anew() -> None:
             if now() < 5.0 or self.began > 20.0:
                 super().call_detection_callbacks(*given)
 
-    async def main() -> list[Packet]:
-        async with Devices([ONE], backend=Backend(beneath.client, Scanner)) as devices:
-            return await hear(devices, 90.0)
-
-    packets = in_virtual_time(main)
+    packets = received(Backend(beneath.client, Scanner), ONE, seconds=90.0)
     back = times(packets, "receiver/connected")
     assert len(back) == 2 and back[1] < 75.0
     assert device.sent["strap/beat"] > 10 * RATE
@@ -150,11 +129,7 @@ def test_a_signal_that_no_radio_measures_and_a_name_that_is_no_text_are_no_fault
         def call_detection_callbacks(self, device: Any, said: Any) -> None:
             super().call_detection_callbacks(device, said._replace(rssi=127, local_name="str\ud800p"))
 
-    async def main() -> list[Packet]:
-        async with Devices([ONE], backend=Backend(beneath.client, Scanner)) as devices:
-            return await hear(devices, 3.0)
-
-    packets = in_virtual_time(main)
+    packets = received(Backend(beneath.client, Scanner), ONE, seconds=3.0)
     assert times(packets, "strap/beat")
     [event] = Session().feed([packet for packet in packets if packet.channel == "receiver/connected"])
     assert (event.name, event.signal) == ("str?p", None)  # type: ignore[attr-defined]

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from airs import hear, in_virtual_time
+from airs import received, troubles
 from attrs import evolve
 from belts import ONE, PELVIS, RATE, READ_AFTER, STRAP, Asked, address, asked, strap, times
 from benches import LEFT, RIGHT, ROUTE
 from strap import BATTERY, BEAT, CONTROL, HEART_RATE, LEVEL, Strap
 
 from solepath import BatteryLevel, LayoutKnown, PacketRejected, Session
-from solepath.ble import Devices, Wanted
+from solepath.ble import Wanted
 from solepath.emulate.devices.attributes import Characteristic, Service
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.sensors.insole_device import Insole
@@ -24,11 +24,7 @@ from solepath.types import Packet, Site
 
 
 def got(heard: Asked, *wanted: Wanted, seconds: float = 5.0, **more: Any) -> list[Packet]:
-    async def main() -> list[Packet]:
-        async with Devices(wanted, backend=heard.backend, **more) as devices:
-            return await hear(devices, seconds)
-
-    return in_virtual_time(main)
+    return received(heard.backend, *wanted, seconds=seconds, **more)
 
 
 def channels(packets: list[Packet], *, but: str = "receiver/tick") -> list[str]:
@@ -120,8 +116,7 @@ def test_what_a_device_does_not_have_to_be_set_is_told_and_passed_over() -> None
     setup = (Write("strap/nothing", b"\x01"), *STRAP.setup)
     profile = evolve(READ_AFTER, channels=(*READ_AFTER.channels, more), setup=setup)
     packets = got(asked(device), Wanted(PELVIS, address(1), profile))
-    [said] = [packet.data.decode() for packet in packets if packet.channel == "receiver/trouble"]
-    assert said == "strap/nothing is not there to be set: the device keeps to its own"
+    assert troubles(packets) == ["strap/nothing is not there to be set: the device keeps to its own"]
     assert len(times(packets, "strap/beat")) > 4 * RATE
 
 

@@ -6,7 +6,7 @@ from functools import cache
 from typing import TypeVar
 
 import pytest
-from airs import TIERS, hear, in_virtual_time
+from airs import TIERS, hear, in_virtual_time, whole
 from attrs import evolve
 from benches import LEFT, RIGHT
 
@@ -35,10 +35,8 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650 as Tag
 from solepath.link.devices.cc2650 import PROFILE as CC2650
 from solepath.link.devices.insole import PROFILE as INSOLE
-from solepath.link.devices.reassembly import Reassembly
 from solepath.link.profile import Write
 from solepath.types import Packet, Site
-from solepath.wire.fragment import is_fragment, parse_fragment
 from solepath.wire.insole import InsoleFrame, parse_frame
 
 E = TypeVar("E")
@@ -84,54 +82,37 @@ def frames(packets: list[Packet]) -> list[Packet]:
 
 
 @both
-def test_notifications_that_are_lost_are_packets_lost(tier: str) -> None:
-    found = events(heard(tier, "4 * drop 3", 6.0))
-    [lost] = of(PacketsLost, found)
-    assert (lost.count, lost.channel, lost.site) == (3, "insole/frame", LEFT)
-    assert lost.t == pytest.approx(4.0, abs=0.1)
-    assert not of(PacketRejected, found)
+@pytest.mark.parametrize(
+    ("faults", "reasons", "rejected", "lost"),
+    [
+        ("4 * drop 3", set(), 0, 3),
+        ("4 * duplicate 2", {Rejection.DUPLICATE}, 2, 0),
+        ("4 * truncate 4", {Rejection.TRUNCATED, Rejection.CHECKSUM}, 4, 4),
+        ("4 * flip 2; 5 * flip 3", {Rejection.CHECKSUM}, 5, 5),
+    ],
+    ids=["lost", "twice", "cut short", "turned bits"],
+)
+def test_spoilt_notifications_are_rejected_with_their_reason_and_those_that_never_came_whole_are_packets_lost(
+    tier: str, faults: str, reasons: set[Rejection], rejected: int, lost: int
+) -> None:
+    found = events(heard(tier, faults, 7.0))
+    told, missed = [event.reason for event in of(PacketRejected, found)], of(PacketsLost, found)
+    assert len(told) == rejected and {*told} <= reasons
+    assert sum(event.count for event in missed) == lost
+    assert {(event.channel, event.site) for event in missed} <= {("insole/frame", LEFT)}
+    assert not missed or missed[0].t == pytest.approx(4.0, abs=0.1)
 
 
-@both
-def test_notifications_that_come_twice_are_rejected_as_duplicates(tier: str) -> None:
-    found = events(heard(tier, "4 * duplicate 2", 6.0))
-    assert [event.reason for event in of(PacketRejected, found)] == [Rejection.DUPLICATE] * 2
-    assert not of(PacketsLost, found)
-
-
-@both
-def test_notifications_that_are_cut_short_are_rejected_and_missed(tier: str) -> None:
-    found = events(heard(tier, "4 * truncate 4", 6.0))
-    reasons = [event.reason for event in of(PacketRejected, found)]
-    assert len(reasons) == 4 and {*reasons} <= {Rejection.TRUNCATED, Rejection.CHECKSUM}
-    assert sum(event.count for event in of(PacketsLost, found)) == 4
-
-
-@both
-def test_notifications_with_turned_bits_fail_their_checksum_and_are_missed(tier: str) -> None:
-    found = events(heard(tier, "4 * flip 2; 5 * flip 3", 7.0))
-    assert [event.reason for event in of(PacketRejected, found)] == [Rejection.CHECKSUM] * 5
-    assert sum(event.count for event in of(PacketsLost, found)) == 5
-
-
-def whole(packets: list[Packet]) -> dict[int, InsoleFrame]:
+def by_number(packets: list[Packet]) -> dict[int, InsoleFrame]:
     """The frames by their numbers, with fragments put together."""
-    under_way, found = Reassembly(), []
-    for packet in frames(packets):
-        data: bytes | None = packet.data
-        if is_fragment(packet.data):
-            data, dropped = under_way.feed(parse_fragment(packet.data))
-            assert dropped is None
-        if data is not None:
-            found.append(parse_frame(bytes(data)))
-    return {frame.sequence: frame for frame in found}
+    return {frame.sequence: frame for frame in (parse_frame(packet.data) for packet in frames(whole(packets)))}
 
 
 @both
 def test_over_the_smallest_mtu_the_same_frames_come_in_fragments(tier: str) -> None:
     wide, narrow = heard(tier, "", 5.0), heard(tier, "0 * mtu 23", 5.0)
     assert max(len(packet.data) for packet in frames(narrow)) <= 20
-    one, other = whole(wide), whole(narrow)
+    one, other = by_number(wide), by_number(narrow)
     common = one.keys() & other.keys()
     assert len(common) > 200
     assert all(one[number] == other[number] for number in common)
@@ -227,13 +208,9 @@ def test_a_frozen_stream_is_restarted_and_resumes(tier: str, device: Device) -> 
 def test_a_stream_that_stays_frozen_is_connected_anew(tier: str) -> None:
     found = events(heard(tier, "4 * freeze; 4.5 * refuse insole/control 2", 12.0))
     order = of((StreamRestarted, Disconnected, Connected, StreamResumed), found)  # type: ignore[arg-type]
-    assert [type(event) for event in order] == [
-        Connected,
-        *[StreamRestarted] * 3,
-        Disconnected,
-        Connected,
-        StreamResumed,
-    ]
+    first, *restarted, gone, back, resumed = [type(event) for event in order]
+    assert restarted == [StreamRestarted] * 3
+    assert (first, gone, back, resumed) == (Connected, Disconnected, Connected, StreamResumed)
 
 
 WAKING = evolve(CC2650, setup=(CC2650.setup[0], Write("cc2650/movement-config", b"\xff\x02"), *CC2650.setup[2:]))

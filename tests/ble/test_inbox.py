@@ -20,9 +20,12 @@ puts = st.tuples(st.sampled_from([LEFT, RIGHT, PELVIS]), st.booleans())
 """(site, whether it is a notification)."""
 lives = st.lists(st.one_of(puts, puts, takes), max_size=60)
 capacities = st.integers(1, 6)
+Puts = list[tuple[Site, bool]]
+Life = list[tuple[Site, bool] | None]
+"""None: something is taken."""
 
 
-def lived(capacity: int, life: list[tuple[Site, bool] | None]) -> tuple[list[Packet], list[Packet], Inbox]:
+def lived(capacity: int, life: Life) -> tuple[list[Packet], list[Packet], Inbox]:
     """What was put, what was taken by then, and the inbox."""
     inbox, put, taken = Inbox(capacity), list[Packet](), list[Packet]()
     for moment, one in enumerate(life):
@@ -45,9 +48,7 @@ def emptied(inbox: Inbox) -> list[Packet]:
 
 
 @given(capacities, lives)
-def test_every_packet_is_either_taken_or_counted_as_dropped(
-    capacity: int, life: list[tuple[Site, bool] | None]
-) -> None:
+def test_every_packet_is_either_taken_or_counted_as_dropped(capacity: int, life: Life) -> None:
     put, taken, inbox = lived(capacity, life)
     taken += emptied(inbox)
     assert len(inbox) == 0
@@ -60,7 +61,7 @@ def test_every_packet_is_either_taken_or_counted_as_dropped(
 @given(capacities, lives)
 @example(3, [(LEFT, True), (RIGHT, True), (LEFT, False), (RIGHT, True), (RIGHT, True), (RIGHT, True), (RIGHT, True)])
 @example(1, [(LEFT, False), (LEFT, False), (LEFT, True), (LEFT, False), (LEFT, True), (LEFT, False), (LEFT, True)])
-def test_the_time_of_a_site_never_falls(capacity: int, life: list[tuple[Site, bool] | None]) -> None:
+def test_the_time_of_a_site_never_falls(capacity: int, life: Life) -> None:
     _, taken, inbox = lived(capacity, life)
     taken += emptied(inbox)
     for site in (LEFT, RIGHT, PELVIS):
@@ -69,9 +70,7 @@ def test_the_time_of_a_site_never_falls(capacity: int, life: list[tuple[Site, bo
 
 
 @given(capacities, lives)
-def test_notifications_are_taken_in_the_order_in_which_they_came_and_so_is_the_rest(
-    capacity: int, life: list[tuple[Site, bool] | None]
-) -> None:
+def test_notifications_are_taken_in_the_order_in_which_they_came_and_so_is_the_rest(capacity: int, life: Life) -> None:
     put, taken, inbox = lived(capacity, life)
     taken += emptied(inbox)
     for channel in ("stream", "setup"):
@@ -80,7 +79,7 @@ def test_notifications_are_taken_in_the_order_in_which_they_came_and_so_is_the_r
 
 
 @given(capacities, st.lists(puts, max_size=100))
-def test_however_much_comes_what_is_held_is_bounded(capacity: int, life: list[tuple[Site, bool]]) -> None:
+def test_however_much_comes_what_is_held_is_bounded(capacity: int, life: Puts) -> None:
     inbox = Inbox(capacity)
     for moment, (site, notified) in enumerate(life):
         inbox.put(Packet(float(moment), site, "any", b""), notified)
@@ -101,9 +100,7 @@ def test_what_was_read_or_written_outlives_any_flood_of_notifications() -> None:
 
 
 @given(capacities, st.lists(puts, max_size=40))
-def test_a_count_stands_where_the_dropped_stood_unless_what_was_read_fills_the_room(
-    capacity: int, life: list[tuple[Site, bool]]
-) -> None:
+def test_a_count_stands_where_the_dropped_stood_unless_what_was_read_fills_the_room(capacity: int, life: Puts) -> None:
     put, _, inbox = lived(capacity, [*life])
     left = emptied(inbox)
     if 2 * sum(not notified for _, notified in life) > capacity:
@@ -118,9 +115,7 @@ def test_a_count_stands_where_the_dropped_stood_unless_what_was_read_fills_the_r
 
 
 @given(capacities, lives)
-def test_a_session_refuses_nothing_that_comes_out_and_says_how_many_were_dropped(
-    capacity: int, life: list[tuple[Site, bool] | None]
-) -> None:
+def test_a_session_refuses_nothing_that_comes_out_and_says_how_many_were_dropped(capacity: int, life: Life) -> None:
     inbox, session, events, put = Inbox(capacity), Session(), list[Event](), 0
     for moment, one in enumerate([*life, *[None] * 3 * len(life)]):
         if one is not None:
@@ -134,7 +129,7 @@ def test_a_session_refuses_nothing_that_comes_out_and_says_how_many_were_dropped
 
 
 def test_who_takes_one_by_one_too_slowly_hears_not_only_of_drops() -> None:
-    life: list[tuple[Site, bool] | None] = [(LEFT, True)] * 3 + [*[(LEFT, True)] * 4, None] * 20
+    life: Life = [(LEFT, True)] * 3 + [*[(LEFT, True)] * 4, None] * 20
     _, taken, _ = lived(3, life)
     assert [packet.channel for packet in taken] == [DROPPED, "stream"] * 10
 

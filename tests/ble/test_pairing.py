@@ -6,9 +6,10 @@ import asyncio
 from collections.abc import Callable
 
 import pytest
-from airs import TIERS, hear, in_virtual_time
+from airs import TIERS, hear, in_virtual_time, troubles
 from bleak import BleakClient, BleakScanner
 from bleak.exc import BleakGATTProtocolError, BleakGATTProtocolErrorCode
+from virtual import virtually
 
 from solepath.ble import Backend, Devices, Wanted
 from solepath.emulate import Route
@@ -22,7 +23,6 @@ from solepath.link.devices.cc2650 import PROFILE as CC2650
 from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.link.profile import Profile
 from solepath.types import Packet, Site
-from solepath.wire.fields import parse_text
 
 LEFT = Site.LEFT_FOOT
 ROUTE = Route().stand(2.0).walk(6.0).stop(2.0)
@@ -54,10 +54,6 @@ def heard(tier: str, faults: str, pair: bool, seconds: float, kind: str = "insol
             return await hear(devices, seconds)
 
     return in_virtual_time(listen)
-
-
-def troubles(packets: list[Packet]) -> list[str]:
-    return [parse_text(packet.data) for packet in packets if packet.channel == "receiver/trouble"]
 
 
 def streamed(packets: list[Packet], profile: Profile) -> list[float]:
@@ -119,22 +115,20 @@ def test_a_refused_pairing_is_a_connection_that_fails_and_the_next_attempt_is_an
 
 
 @pytest.mark.parametrize("tier", TIERS)
-def test_an_unpaired_link_reads_what_every_device_tells_of_itself_and_nothing_more(tier: str) -> None:
-    async def main() -> None:
-        worn = bench("0 * pairing")
-        async with TIERS[tier](worn) as backend, await client(worn, backend) as host:
-            assert await host.read_gatt_char(FIRMWARE)
-            for request in (
-                host.read_gatt_char(INFO),
-                host.write_gatt_char(CONTROL, b"\x01", response=True),
-                host.start_notify(FRAME, print),
-            ):
-                with pytest.raises(BleakGATTProtocolError) as refused:
-                    await request
-                assert refused.value.code == BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHENTICATION
-            await host.pair()  # and on the same link it is encrypted from now on
-            assert await host.read_gatt_char(INFO)
-            await host.pair()
-            assert host.is_connected
-
-    in_virtual_time(main)
+@virtually
+async def test_an_unpaired_link_reads_what_every_device_tells_of_itself_and_nothing_more(tier: str) -> None:
+    worn = bench("0 * pairing")
+    async with TIERS[tier](worn) as backend, await client(worn, backend) as host:
+        assert await host.read_gatt_char(FIRMWARE)
+        for request in (
+            host.read_gatt_char(INFO),
+            host.write_gatt_char(CONTROL, b"\x01", response=True),
+            host.start_notify(FRAME, print),
+        ):
+            with pytest.raises(BleakGATTProtocolError) as refused:
+                await request
+            assert refused.value.code == BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHENTICATION
+        await host.pair()  # and on the same link it is encrypted from now on
+        assert await host.read_gatt_char(INFO)
+        await host.pair()
+        assert host.is_connected

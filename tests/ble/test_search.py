@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import asyncio
-
 import pytest
-from airs import hear, in_virtual_time
+from airs import hear, received, troubles
 from belts import STRAP, address, asked, strap
 from benches import LEFT, RIGHT, ROUTE
 from memory_radio import MemoryRadio
+from virtual import now, virtually
 
-from solepath.ble import Backend, ConnectionState, Devices, Wanted, scan
+from solepath.ble import ConnectionState, Devices, Wanted, scan
 from solepath.emulate.devices import cc2650
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
@@ -32,20 +31,12 @@ def feet(device: Device, faults: str = "") -> Bench:
 
 
 def got(peripherals: tuple[Peripheral, ...], wanted: list[Wanted], seconds: float = 6.0, **more: float) -> list[Packet]:
-    async def main() -> list[Packet]:
-        async with Devices(wanted, backend=MemoryRadio(peripherals).backend, **more) as devices:  # type: ignore[arg-type]
-            return await hear(devices, seconds)
-
-    return in_virtual_time(main)
+    return received(MemoryRadio(peripherals).backend, *wanted, seconds=seconds, **more)
 
 
 def connected(packets: list[Packet]) -> dict[Site, str]:
     """Which device was connected where, at last."""
     return {packet.site: packet.device for packet in packets if packet.channel == "receiver/connected"}
-
-
-def troubles(packets: list[Packet]) -> list[str]:
-    return [packet.data.decode() for packet in packets if packet.channel == "receiver/trouble"]
 
 
 def streams(packets: list[Packet], channel: str = "insole/frame") -> set[Site]:
@@ -197,13 +188,8 @@ def test_a_device_of_a_kind_that_nobody_knows_is_told_and_left() -> None:
 
 @pytest.mark.parametrize("which", [address(1), "strap 1"])
 def test_a_device_of_another_kind_than_was_said_is_told_and_left(which: str) -> None:
-    heard, wanted = asked(strap()), [Wanted(LEFT, which, CC2650)]
-
-    async def main() -> list[Packet]:
-        async with Devices(wanted, backend=heard.backend) as devices:
-            return await hear(devices, 20.0)
-
-    packets = in_virtual_time(main)
+    heard = asked(strap())
+    packets = received(heard.backend, Wanted(LEFT, which, CC2650), seconds=20.0)
     assert not connected(packets)
     assert troubles(packets) == ["strap 1 is no cc2650: it has no cc2650/movement"]
     assert {what for _, what, _ in heard.log} == {"connect", "disconnect"}
@@ -238,8 +224,9 @@ def test_a_device_that_seemed_unfit_is_tried_again_later() -> None:
 
 def test_after_its_patience_an_absent_device_is_complained_of_once() -> None:
     packets = got((), [Wanted(LEFT, "solepath L")], seconds=300.0, patience=7.0)
+    [words] = troubles(packets)
+    assert words.startswith("no device 'solepath L' is heard: switch it on, bring it near")
     [said] = [packet for packet in packets if packet.channel == "receiver/trouble"]
-    assert said.data.decode().startswith("no device 'solepath L' is heard: switch it on, bring it near")
     assert (said.site, said.device) == (LEFT, "")
     assert said.t == pytest.approx(7.0, abs=0.6)
 
@@ -260,30 +247,23 @@ def test_an_absent_device_never_delays_another() -> None:
 # --- scanning ---
 
 
-def test_only_one_scanner_works_at_a_time_and_none_once_all_are_found() -> None:
+@virtually
+async def test_only_one_scanner_works_at_a_time_and_none_once_all_are_found() -> None:
     heard = asked(*(strap(number, faults=f"{4 + number} * disconnect") for number in range(1, 5)))
     wanted = [Wanted(site, address(n), STRAP) for n, site in enumerate(list(Site)[:4], 1)]
-
-    async def main() -> None:
-        async with Devices(wanted, backend=heard.backend) as devices:
-            await hear(devices, 3.0)
-            assert {one.state for one in devices.connections} == {ConnectionState.LISTENING}
-            assert heard.scanning == 0
-            await hear(devices, 10.0)
+    async with Devices(wanted, backend=heard.backend) as devices:
+        await hear(devices, 3.0)
+        assert {one.state for one in devices.connections} == {ConnectionState.LISTENING}
         assert heard.scanning == 0
-
-    in_virtual_time(main)
+        await hear(devices, 10.0)
+    assert heard.scanning == 0
     assert heard.most == 1
 
 
-def test_a_scan_tells_of_known_devices_and_of_strangers() -> None:
-    bench = feet(Insole())
-
-    async def main() -> dict[str, str | None]:
-        backend: Backend = MemoryRadio((*bench.peripherals, strap())).backend
-        began = asyncio.get_running_loop().time()
-        found = await scan(2.0, backend=backend)
-        assert asyncio.get_running_loop().time() - began == pytest.approx(2.0)
-        return {one.address: one.profile.name if one.profile else None for one in found}
-
-    assert in_virtual_time(main) == {TAGS[0]: "insole", TAGS[1]: "insole", address(1): None}
+@virtually
+async def test_a_scan_tells_of_known_devices_and_of_strangers() -> None:
+    began = now()
+    found = await scan(2.0, backend=MemoryRadio((*feet(Insole()).peripherals, strap())).backend)
+    assert now() - began == pytest.approx(2.0)
+    kinds = {one.address: one.profile.name if one.profile else None for one in found}
+    assert kinds == {TAGS[0]: "insole", TAGS[1]: "insole", address(1): None}

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import asyncio
+from contextlib import suppress
 from functools import cache
 from typing import Any
 
 import pytest
 from airs import hear, in_virtual_time, others
-from belts import ONE, PELVIS, STRAP, address, asked, failing, now, strap, times
+from belts import ONE, PELVIS, STRAP, address, asked, failing, strap, times
 from benches import LEFT, RIGHT
 from bleak.exc import BleakError
 from memory_radio import MemoryRadio
+from virtual import now, virtually
 
 from solepath.ble import Backend, BluetoothError, ConnectionState, Devices, Wanted
 from solepath.emulate import Route
@@ -56,21 +58,16 @@ def test_what_an_app_is_too_slow_for_goes_from_the_oldest_on_and_is_counted() ->
         assert [packet.channel for packet in mine][: len(setup)] == setup
 
 
-def test_an_app_that_takes_a_packet_every_now_and_then_gets_them_in_order() -> None:
-    device = strap()
+@virtually
+async def test_an_app_that_takes_a_packet_every_now_and_then_gets_them_in_order() -> None:
+    device, packets = strap(), list[Packet]()
     device.log = []
-
-    async def main() -> list[Packet]:
-        found = []
-        async with Devices([ONE], backend=asked(device).backend, capacity=5) as devices:
-            async for packet in devices:
-                found.append(packet)
-                await asyncio.sleep(0.35)
-                if packet.t > 20.0:
-                    break
-        return found
-
-    packets = in_virtual_time(main)
+    async with Devices([ONE], backend=asked(device).backend, capacity=5) as devices:
+        async for packet in devices:
+            packets.append(packet)
+            await asyncio.sleep(0.35)
+            if packet.t > 20.0:
+                break
     assert [packet.t for packet in packets] == sorted(packet.t for packet in packets)
     while packets[-1].channel != "strap/beat":
         packets.pop()  # what was dropped after the last beat
@@ -84,83 +81,69 @@ def test_an_app_that_takes_a_packet_every_now_and_then_gets_them_in_order() -> N
 # --- taking and leaving ---
 
 
-def test_to_leave_disconnects_and_leaves_no_task_behind() -> None:
+@virtually
+async def test_to_leave_disconnects_and_leaves_no_task_behind() -> None:
     devices = [strap(n) for n in (1, 2)]
-
-    async def main() -> list[Packet]:
-        wanted = [Wanted(LEFT, address(1), STRAP), Wanted(RIGHT, address(2), STRAP), Wanted(PELVIS, "absent", STRAP)]
-        async with Devices(wanted, backend=MemoryRadio(devices).backend) as heard:
-            await hear(heard, 3.0)
-            assert all(device.is_connected for device in devices)
-        assert not any(device.is_connected for device in devices)
-        assert not others()
-        rest = [packet async for packet in heard]
-        assert [packet async for packet in heard] == []
-        await asyncio.sleep(0.0)
-        assert {one.state for one in heard.connections} == {ConnectionState.SEEKING}
-        return rest
-
-    rest = in_virtual_time(main)
+    wanted = [Wanted(LEFT, address(1), STRAP), Wanted(RIGHT, address(2), STRAP), Wanted(PELVIS, "absent", STRAP)]
+    async with Devices(wanted, backend=MemoryRadio(devices).backend) as heard:
+        await hear(heard, 3.0)
+        assert all(device.is_connected for device in devices)
+    assert not any(device.is_connected for device in devices)
+    assert not others()
+    rest = [packet async for packet in heard]
+    assert [packet async for packet in heard] == []
+    await asyncio.sleep(0.0)
+    assert {one.state for one in heard.connections} == {ConnectionState.SEEKING}
     assert {packet.site for packet in rest if packet.channel == "receiver/disconnected"} == {LEFT, RIGHT}
 
 
 @pytest.mark.parametrize("moment", [0.001, 0.02, 0.05, 0.08, 0.12, 0.5])
-def test_to_leave_at_any_moment_leaves_nothing_behind(moment: float) -> None:
+@virtually
+async def test_to_leave_at_any_moment_leaves_nothing_behind(moment: float) -> None:
     device = strap()
     heard = asked(device)
-
-    async def main() -> None:
-        async with Devices([ONE], backend=heard.backend):
-            await asyncio.sleep(moment)
-        assert not others() and not device.is_connected and heard.scanning == 0
-
-    in_virtual_time(main)
+    async with Devices([ONE], backend=heard.backend):
+        await asyncio.sleep(moment)
+    assert not others() and not device.is_connected and heard.scanning == 0
 
 
-def test_devices_that_were_left_can_be_entered_again_but_not_twice_at_once() -> None:
-    async def main() -> None:
-        devices = Devices([ONE], backend=MemoryRadio([strap()]).backend)
-        for _ in range(2):
-            async with devices:
-                packets = await hear(devices, 2.0)
-                with pytest.raises(RuntimeError, match="in use"):
-                    await devices.__aenter__()
-            assert times(packets, "strap/beat")
-        assert not others()
-
-    in_virtual_time(main)
+@virtually
+async def test_devices_that_were_left_can_be_entered_again_but_not_twice_at_once() -> None:
+    devices = Devices([ONE], backend=MemoryRadio([strap()]).backend)
+    for _ in range(2):
+        async with devices:
+            packets = await hear(devices, 2.0)
+            with pytest.raises(RuntimeError, match="in use"):
+                await devices.__aenter__()
+        assert times(packets, "strap/beat")
+    assert not others()
 
 
-def test_two_who_wait_for_the_next_packet_at_once_are_told_that_only_one_may() -> None:
-    async def main() -> None:
-        async with Devices([ONE], backend=asked().backend) as devices:
-            first = asyncio.create_task(anext(devices))
-            await asyncio.sleep(0.1)
-            with pytest.raises(RuntimeError, match="somebody else"):
-                await anext(devices)
-            assert (await first).channel == "receiver/tick"
-
-    in_virtual_time(main)
+@virtually
+async def test_two_who_wait_for_the_next_packet_at_once_are_told_that_only_one_may() -> None:
+    async with Devices([ONE], backend=asked().backend) as devices:
+        first = asyncio.create_task(anext(devices))
+        await asyncio.sleep(0.1)
+        with pytest.raises(RuntimeError, match="somebody else"):
+            await anext(devices)
+        assert (await first).channel == "receiver/tick"
 
 
-def test_who_gives_up_waiting_loses_no_packet() -> None:
-    async def main() -> list[Packet]:
-        found = []
-        async with Devices([ONE], backend=asked(strap()).backend) as devices:
-            while now() < 10.0:
-                try:
-                    async with asyncio.timeout(0.013):
-                        found.append(await anext(devices))
-                except TimeoutError:
-                    pass
-        return found
-
-    beats = [p for p in in_virtual_time(main) if p.channel == "strap/beat"]
+@virtually
+async def test_who_gives_up_waiting_loses_no_packet() -> None:
+    found = []
+    async with Devices([ONE], backend=asked(strap()).backend) as devices:
+        while now() < 10.0:
+            with suppress(TimeoutError):
+                async with asyncio.timeout(0.013):
+                    found.append(await anext(devices))
+    beats = [p for p in found if p.channel == "strap/beat"]
     numbers = [int.from_bytes(packet.data[:4], "little") for packet in beats]
     assert numbers == list(range(numbers[0], numbers[0] + len(numbers))) and len(numbers) > 90
 
 
-def test_a_fault_of_the_program_itself_is_raised_to_whoever_takes_packets() -> None:
+@virtually
+async def test_a_fault_of_the_program_itself_is_raised_to_whoever_takes_packets() -> None:
     class Faulty(Wanted):
         def fits(self, *given: Any) -> bool:
             return True
@@ -168,44 +151,36 @@ def test_a_fault_of_the_program_itself_is_raised_to_whoever_takes_packets() -> N
         def is_address(self, address: str) -> bool:
             raise ZeroDivisionError("a fault")
 
-    async def main() -> None:
-        async with Devices([Faulty(LEFT, address(2), STRAP)], backend=asked(strap(2)).backend) as devices:
-            with pytest.raises(ZeroDivisionError, match="a fault"):
-                await hear(devices, 5.0)
-            with pytest.raises(ZeroDivisionError, match="a fault"):
-                await anext(devices)
-        assert not others()
-
-    in_virtual_time(main)
+    async with Devices([Faulty(LEFT, address(2), STRAP)], backend=asked(strap(2)).backend) as devices:
+        with pytest.raises(ZeroDivisionError, match="a fault"):
+            await hear(devices, 5.0)
+        with pytest.raises(ZeroDivisionError, match="a fault"):
+            await anext(devices)
+    assert not others()
 
 
-def test_devices_that_were_never_entered_do_not_end_silently() -> None:
-    async def main() -> None:
-        with pytest.raises(RuntimeError, match="entered"):
-            await anext(Devices([ONE], backend=asked().backend))
-
-    in_virtual_time(main)
+@virtually
+async def test_devices_that_were_never_entered_do_not_end_silently() -> None:
+    with pytest.raises(RuntimeError, match="entered"):
+        await anext(Devices([ONE], backend=asked().backend))
 
 
-def test_of_two_who_enter_at_once_one_is_told_that_they_are_in_use() -> None:
+@virtually
+async def test_of_two_who_enter_at_once_one_is_told_that_they_are_in_use() -> None:
     """Also while the first is still waiting for Bluetooth; and an entry that failed is none."""
     device = strap()
     heard = asked(device)
-
-    async def main() -> None:
-        devices = Devices([ONE], backend=slowly(heard.backend))
-        first, second = await asyncio.gather(devices.__aenter__(), devices.__aenter__(), return_exceptions=True)
-        assert first is devices and isinstance(second, RuntimeError)
-        await hear(devices, 3.0)
-        await devices.__aexit__(None, None, None)
-        assert not others() and heard.scanning == 0 and not device.is_connected
-        broken = Devices([ONE], backend=failing(heard.backend, [BleakError("odd")]))
-        with pytest.raises(BluetoothError):
-            await broken.__aenter__()
-        async with broken:
-            assert times(await hear(broken, 3.0), "strap/beat")
-
-    in_virtual_time(main)
+    devices = Devices([ONE], backend=slowly(heard.backend))
+    first, second = await asyncio.gather(devices.__aenter__(), devices.__aenter__(), return_exceptions=True)
+    assert first is devices and isinstance(second, RuntimeError)
+    await hear(devices, 3.0)
+    await devices.__aexit__(None, None, None)
+    assert not others() and heard.scanning == 0 and not device.is_connected
+    broken = Devices([ONE], backend=failing(heard.backend, [BleakError("odd")]))
+    with pytest.raises(BluetoothError):
+        await broken.__aenter__()
+    async with broken:
+        assert times(await hear(broken, 3.0), "strap/beat")
 
 
 def slowly(beneath: Backend) -> Backend:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
-from airs import hear, in_virtual_time, others
-from belts import STRAP, address, asked
+from airs import others, received, troubles
+from belts import ONE, PELVIS, address, asked, times
 from bleak.exc import (
     BleakBluetoothNotAvailableError,
     BleakBluetoothNotAvailableReason,
@@ -17,14 +18,13 @@ from bleak.exc import (
 )
 from memory_radio import MemoryRadio
 from strap import Strap
+from virtual import virtually
 
 from solepath.ble import Backend, BluetoothError, Devices, Wanted, scan
 from solepath.ble.trouble import sentence
 from solepath.emulate.devices.attributes import Outgoing
 from solepath.link.devices.cc2650 import PROFILE as CC2650
-from solepath.types import Packet, Site
 
-PELVIS = Site.PELVIS
 REASONS = BleakBluetoothNotAvailableReason
 UNAVAILABLE = [
     *(BleakBluetoothNotAvailableError("no", reason) for reason in REASONS),
@@ -53,22 +53,17 @@ def without_bluetooth(error: Exception) -> Backend:
 
 
 @pytest.mark.parametrize("error", UNAVAILABLE, ids=lambda error: " ".join(map(str, error.args))[:50])
-def test_to_enter_or_to_scan_without_bluetooth_is_an_error_that_says_what_to_do(error: Exception) -> None:
-    async def main() -> list[str]:
-        said = []
-        with pytest.raises(BluetoothError) as entered:
-            async with Devices([Wanted(PELVIS, "any")], backend=without_bluetooth(error)):
-                pass
-        said.append(str(entered.value))
-        assert entered.value.__cause__ is error
-        with pytest.raises(BluetoothError) as scanned:
-            await scan(1.0, backend=without_bluetooth(error))
-        said.append(str(scanned.value))
-        assert not others()
-        return said
-
-    one, other = in_virtual_time(main)
-    assert one == other and "\n" not in one
+@virtually
+async def test_to_enter_or_to_scan_without_bluetooth_is_an_error_that_says_what_to_do(error: Exception) -> None:
+    with pytest.raises(BluetoothError) as entered:
+        async with Devices([Wanted(PELVIS, "any")], backend=without_bluetooth(error)):
+            pass
+    one = str(entered.value)
+    assert entered.value.__cause__ is error
+    with pytest.raises(BluetoothError, match=f"^{re.escape(one)}$"):
+        await scan(1.0, backend=without_bluetooth(error))
+    assert not others()
+    assert "\n" not in one
     assert any(words in one for words in DO)
 
 
@@ -111,29 +106,21 @@ class Fleeting(Strap):
         return [b - a for a, b in zip(self.begun, self.begun[1:], strict=False)]
 
 
-def used(device: Fleeting, wanted: Wanted, seconds: float) -> list[Packet]:
-    async def main() -> list[Packet]:
-        async with Devices([wanted], backend=asked(device).backend) as devices:
-            return await hear(devices, seconds)
-
-    return in_virtual_time(main)
-
-
 def test_a_device_that_fails_again_and_again_is_tried_less_and_less_often_and_never_given_up() -> None:
     device = Fleeting()
-    packets = used(device, Wanted(PELVIS, address(1), CC2650), 120.0)
+    packets = received(asked(device).backend, Wanted(PELVIS, address(1), CC2650), seconds=120.0)
     pauses = device.pauses()
     assert pauses[0] < 0.6
     assert pauses[:5] == sorted(pauses[:5])
     assert all(8.0 <= pause < 8.6 for pause in pauses[6:]) and len(pauses) > 12
-    told = [packet.t for packet in packets if packet.channel == "receiver/trouble"]
+    told = times(packets, "receiver/trouble")
     assert [round(b - a) for a, b in zip(told, told[1:], strict=False)] == pytest.approx([60] * (len(told) - 1), abs=9)
 
 
 def test_links_that_break_before_anything_comes_are_made_less_and_less_often_until_one_holds() -> None:
     device = Fleeting(*[0.3] * 5, 3.0, 3.0)
     device.silent = 5
-    used(device, Wanted(PELVIS, address(1), STRAP), 30.0)
+    received(asked(device).backend, ONE, seconds=30.0)
     pauses = device.pauses()
     assert pauses[0] < pauses[1] < pauses[2] < pauses[3] < pauses[4] < 5.0
     assert pauses[5:] == [pytest.approx(3.1, abs=0.3)] * 2
@@ -145,12 +132,6 @@ def test_a_request_that_is_never_answered_ends_the_attempt() -> None:
         def read(self, channel: str, now: float) -> bytes | None:
             return None if now < 8.0 else super().read(channel, now)
 
-    async def main() -> list[Packet]:
-        device = Mute("strap 1", address(1))
-        async with Devices([Wanted(PELVIS, address(1), STRAP)], backend=MemoryRadio([device]).backend) as devices:
-            return await hear(devices, 20.0)
-
-    packets = in_virtual_time(main)
-    [said] = [packet.data.decode() for packet in packets if packet.channel == "receiver/trouble"]
-    assert said == NOT_IN_TIME
-    assert [packet for packet in packets if packet.channel == "strap/beat"]
+    packets = received(asked(Mute("strap 1", address(1))).backend, ONE, seconds=20.0)
+    assert troubles(packets) == [NOT_IN_TIME]
+    assert times(packets, "strap/beat")

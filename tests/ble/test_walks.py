@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 import pytest
-from airs import bumble, hear, in_virtual_time
+from airs import bumble, hear, in_virtual_time, whole
 from attrs import evolve
+from walks import said
 
 from solepath import (
     Event,
@@ -18,7 +19,6 @@ from solepath import (
     PacketRejected,
     PacketsLost,
     SampleGap,
-    Session,
     StrideTaken,
     ToeOff,
 )
@@ -33,10 +33,8 @@ from solepath.link.devices.cc2541 import PROFILE as CC2541
 from solepath.link.devices.cc2541 import PROFILE_20HZ as CC2541_20HZ
 from solepath.link.devices.cc2650 import PROFILE as CC2650
 from solepath.link.devices.insole import PROFILE as INSOLE
-from solepath.link.devices.reassembly import Reassembly
 from solepath.link.profile import Profile
 from solepath.types import Foot, Packet, Site
-from solepath.wire.fragment import is_fragment, parse_fragment
 
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 MINUTE = Route().stand(3.0).walk(20.0).turn(1.5, radius=1.5).walk(40.0, speed=1.2).stop(7.0)
@@ -63,26 +61,6 @@ def heard(
             return await hear(devices, 5.0 + seconds), began
 
     return in_virtual_time(listen)
-
-
-def whole(packets: list[Packet]) -> list[Packet]:
-    """The same with fragments put together, each frame at the arrival of its last."""
-    under_way = {site: Reassembly() for site in FEET}
-    found = []
-    for packet in packets:
-        if packet.channel == "insole/frame" and is_fragment(packet.data):
-            frame, dropped = under_way[packet.site].feed(parse_fragment(packet.data))
-            assert dropped is None
-            if frame is not None:
-                found.append(evolve(packet, data=bytes(frame)))
-        else:
-            found.append(packet)
-    return found
-
-
-def events_of(packets: list[Packet]) -> list[Event]:
-    session = Session(poses=True)
-    return [*session.feed(packets), *session.finish()]
 
 
 @pytest.mark.parametrize(
@@ -127,8 +105,8 @@ def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_
         fed += [packet for packet in arrived if packet.site is site and id(packet) not in known]
     fed.sort(key=lambda packet: packet.t)
 
-    events = events_of(packets)
-    assert events == events_of(fed)
+    events = said(packets, poses=True)
+    assert events == said(fed, poses=True)
     assert {event.foot for event in events if isinstance(event, StrideTaken)} == set(Foot)
     assert not [event for event in events if isinstance(event, PacketsLost | PacketRejected | SampleGap)]
     if mtu == 23:
@@ -156,7 +134,7 @@ def test_insoles_whose_links_wait_for_connection_events_give_the_same_steps_at_t
         if waits is not None:  # they came in threes, as they do from a radio
             assert min(apart) > 0.99 * interval
             assert len(frames) > 2.9 * len(apart)
-        events = events_of([evolve(packet, t=packet.t - began) for packet in packets])
+        events = said([evolve(packet, t=packet.t - began) for packet in packets], poses=True)
         assert not [event for event in events if isinstance(event, PacketsLost | PacketRejected | SampleGap)]
         found.append([event for event in events if isinstance(event, HeelStrike | FootFlat | HeelOff | ToeOff)])
     for foot in Foot:
@@ -189,7 +167,7 @@ def test_sensortags_give_the_steps_of_a_walk_end_to_end(
         packets, began = heard(bench, wanted, bench.truth().duration, interval)
         shifted = [evolve(packet, t=packet.t - began) for packet in packets]
         gathering = Gathering()
-        for event in events_of(shifted):
+        for event in said(shifted, poses=True):
             gathering.add(event)
         for foot in compare(bench.truth(), {foot: gathering.foot(foot) for foot in Foot}):
             true += foot.steps_true

@@ -1,6 +1,5 @@
 """The commands, run as a person or a script runs them: as processes of their own, with their output piped."""
 
-import csv
 import os
 import re
 import subprocess
@@ -8,51 +7,8 @@ import sys
 from pathlib import Path
 
 import pytest
-
-from solepath.cli import main
-from solepath.emulate.radio import Radio
-from solepath.emulate.routes.route import Route
-from solepath.emulate.walk import emulate
-from solepath.recording import PacketWriter
-
-ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
-
-
-def solepath(*arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
-    clean = {key: value for key, value in os.environ.items() if key != "SOLEPATH_DATA"}
-    return subprocess.run(
-        [sys.executable, "-m", "solepath", *map(str, arguments)],
-        capture_output=True,
-        stdin=subprocess.DEVNULL,
-        text=True,
-        env=clean | environment,
-        check=False,
-    )
-
-
-def no_control_codes(text: str) -> bool:
-    return all(c.isprintable() or c == "\n" for c in text)
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory) -> Path:
-    return tmp_path_factory.mktemp("recordings")
-
-
-@pytest.fixture(scope="module")
-def packets(folder) -> Path:
-    """8 m in two insoles over a radio that loses some."""
-    walk = emulate(ROUTE, radio=Radio(loss=0.02, corrupt=0.01), seed=3)
-    with PacketWriter(folder / "walk.jsonl") as writer:
-        for packet in walk.packets:
-            writer.write(packet)
-    return folder / "walk.jsonl"
-
-
-def rows_in(path: Path) -> list[dict[str, str]]:
-    with path.open(newline="") as file:
-        return list(csv.DictReader(file))
-
+from commands import no_control_codes, rows_in, run, solepath
+from programs import TAKES, drawn, started
 
 # --- the command line itself ------------------------------------------------------------------------------------------
 
@@ -78,7 +34,7 @@ def test_no_command_prints_the_help_and_the_version_is_told():
 
 
 @pytest.fixture(scope="module")
-def demo(folder) -> subprocess.CompletedProcess[str]:
+def demo(folder: Path) -> subprocess.CompletedProcess[str]:
     return solepath("demo", "--seed", "5", "--record", folder / "demo.jsonl")
 
 
@@ -122,10 +78,9 @@ def test_a_straight_demo_is_as_long_and_as_lossy_as_one_asks():
         ("--jitter", "inf", "'inf' is not a number of seconds"),
     ],
 )
-def test_a_demo_of_nonsense_is_refused(option, value, complaint, capsys):
-    with pytest.raises(SystemExit) as stop:
-        main(["demo", option, value])
-    assert stop.value.code == 2 and complaint in capsys.readouterr().err
+def test_a_demo_of_nonsense_is_refused(option, value, complaint):
+    done = run("demo", option, value)
+    assert done.returncode == 2 and complaint in done.stderr
 
 
 # --- in a terminal ----------------------------------------------------------------------------------------------------
@@ -135,18 +90,12 @@ def test_in_a_terminal_the_demo_is_drawn_as_it_goes_and_ends_with_the_same_table
     pty = pytest.importorskip("pty")
     pytest.importorskip("rich")
     ours, theirs = pty.openpty()
-    command = [sys.executable, "-m", "solepath", "demo", "--terminal", "--speed", "200"]
-    terminal = {"TERM": "xterm", "COLUMNS": "100", "LINES": "60"}
-    with subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs, env=os.environ | terminal) as process:
+    terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs)
+    terminal["env"] = os.environ | {"TERM": "xterm", "COLUMNS": "100", "LINES": "60"}
+    with started("demo", "--terminal", "--speed", "200", **terminal) as process:
         os.close(theirs)
-        seen = b""
-        try:
-            while part := os.read(ours, 65536):
-                seen += part
-        except OSError:  # how Linux says that the other end of a terminal was closed
-            pass
+        pictures, table = drawn(ours).split("against the truth")
+        assert process.wait(TAKES) == 0
     os.close(ours)
-    assert process.returncode == 0
-    drawn, table = seen.decode().split("against the truth")
-    assert drawn.count("200 times real time") > 1 and "\x1b[" in drawn
+    assert pictures.count("200 times real time") > 1 and "\x1b[" in pictures
     assert "steps invented" in table

@@ -4,32 +4,14 @@ from __future__ import annotations
 
 import signal
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
-import pytest
-from programs import emulator, run, started
+from programs import TAKES, emulator, run, started, wait_for
+from walks import said
 
-from solepath import Connected, Disconnected, Session, StrideTaken
+from solepath import Connected, Disconnected, StrideTaken
 from solepath.recording import read_packets
-from solepath.types import Packet, Site
-
-TAKES = 30.0
-"""s that a program may take to say or do something before the test gives up."""
-
-
-def wait_for(path: Path, what: str) -> None:
-    """Until `what` stands in the file."""
-    end = time.monotonic() + TAKES
-    while not path.exists() or what not in path.read_text(encoding="utf-8"):
-        assert time.monotonic() < end, f"{what} did not come"
-        time.sleep(0.05)
-
-
-@pytest.fixture(scope="module")
-def insoles() -> Iterator[str]:
-    with emulator("--distance", 20) as (_, where):
-        yield where
+from solepath.types import Site
 
 
 def test_scan_lists_the_insoles_that_are_there(insoles: str) -> None:
@@ -62,12 +44,11 @@ def test_what_record_writes_is_replayed_as_it_was_heard_live(insoles: str, tmp_p
     assert devices == {(Site.LEFT_FOOT, "F0:5E:00:00:00:01"), (Site.RIGHT_FOOT, "F0:5E:00:00:00:02")}
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=["ctrl-c", "sigterm"])
-def test_record_ends_cleanly_when_it_is_told_to(insoles: str, tmp_path: Path, number: int) -> None:
+def test_record_ends_cleanly_when_it_is_told_to(insoles: str, tmp_path: Path) -> None:
     file = tmp_path / "walk.jsonl"
     with started("record", "--via", insoles, "--left", "solepath L", "--out", file, "--duration", 60) as process:
         wait_for(file, "insole/frame")
-        process.send_signal(number)
+        process.send_signal(signal.SIGTERM)
         out, err = process.communicate(timeout=TAKES)
     assert (process.returncode, err) == (0, "")
     assert f"recorded in {file}" in out
@@ -81,11 +62,6 @@ def test_emulate_ends_cleanly_when_it_is_told_to() -> None:
         assert (process.returncode, err) == (0, "")
 
 
-def events_of(packets: list[Packet]) -> list[object]:
-    session = Session()
-    return [*session.feed(packets), *session.finish()]
-
-
 def test_an_emulator_that_is_killed_is_a_lost_link_and_is_found_again_when_it_is_back(tmp_path: Path) -> None:
     file = tmp_path / "walk.jsonl"
     with emulator("--distance", 5) as (process, where):
@@ -95,15 +71,12 @@ def test_an_emulator_that_is_killed_is_a_lost_link_and_is_found_again_when_it_is
             process.kill()
             wait_for(file, "receiver/disconnected")
             with emulator("--distance", 5, port=port):
-                end = time.monotonic() + TAKES
-                while file.read_text().count("receiver/connected") < 2:
-                    assert time.monotonic() < end, "it was not found again"
-                    time.sleep(0.05)
+                wait_for(file, "receiver/connected", times=2)
                 time.sleep(1.0)
                 recorder.send_signal(signal.SIGINT)
                 recorder.communicate(timeout=TAKES)
     assert recorder.returncode == 0
-    events = events_of(list(read_packets(file)))
+    events = said(read_packets(file))
     links = [type(event) for event in events if isinstance(event, Connected | Disconnected)]
     assert links[:3] == [Connected, Disconnected, Connected]
 
@@ -116,7 +89,7 @@ def test_sensortags_are_told_apart_by_their_addresses(tmp_path: Path) -> None:
         sides = ["--left", "F0:5E:00:00:00:01", "--right", "F0:5E:00:00:00:02"]
         profile = ["--profile", "cc2541-20hz"]
         run("record", "--via", where, *sides, *profile, "--out", file, "--duration", 9)
-    steps = [event for event in events_of(list(read_packets(file))) if isinstance(event, StrideTaken)]
+    steps = [event for event in said(read_packets(file)) if isinstance(event, StrideTaken)]
     assert {event.foot.value for event in steps} == {"left", "right"}
 
 
@@ -125,6 +98,6 @@ def test_faults_come_from_a_script(tmp_path: Path) -> None:
     script.write_text("1.0 left_foot disconnect\n2.0 left_foot drop 3\n")
     with emulator("--distance", 5, "--faults", script) as (_, where):
         run("record", "--via", where, "--left", "solepath L", "--out", file, "--duration", 5)
-    names = [type(event).__name__ for event in events_of(list(read_packets(file)))]
+    names = [type(event).__name__ for event in said(read_packets(file))]
     assert [name for name in names if "onnected" in name][:3] == ["Connected", "Disconnected", "Connected"]
     assert "PacketsLost" in names

@@ -9,27 +9,16 @@ import socket
 import subprocess
 import threading
 import time
-from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from programs import emulator, run, started
+from programs import TAKES, emulator, run, started, wait_for
+from walks import of, said
 
-from solepath import Connected, Session
+from solepath import Connected
 from solepath.recording import read_packets
-from solepath.types import Packet, Site
-
-TAKES = 30.0
-"""s that a program may take to say or do something before the test gives up."""
-
-
-def wait_for(path: Path, what: str) -> None:
-    """Until `what` stands in the file."""
-    end = time.monotonic() + TAKES
-    while not path.exists() or what not in path.read_text(encoding="utf-8"):
-        assert time.monotonic() < end, f"{what} did not come"
-        time.sleep(0.05)
+from solepath.types import Site
 
 
 def is_socket(file: Path) -> bool:
@@ -51,20 +40,6 @@ def wait_for_sockets(process: subprocess.Popen[str]) -> None:
         assert time.monotonic() < end, "nothing was connected"
         time.sleep(0.05)
     time.sleep(0.3)
-
-
-@pytest.fixture(scope="module")
-def insoles() -> Iterator[str]:
-    with emulator("--distance", 20) as (_, where):
-        yield where
-
-
-def events_of(packets: list[Packet]) -> list[object]:
-    session = Session()
-    return [*session.feed(packets), *session.finish()]
-
-
-# --- what is wrong is said in one line ---
 
 
 def complaint(*arguments: object) -> str:
@@ -228,8 +203,7 @@ def test_an_insole_that_is_not_heard_at_first_is_taken_when_it_comes(tmp_path: P
             time.sleep(2.0)
             first.kill()
         run("record", "--via", where, "--out", file, "--duration", 10)
-    events = events_of(list(read_packets(file)))
-    assert {event.site for event in events if isinstance(event, Connected)} == {Site.LEFT_FOOT, Site.RIGHT_FOOT}
+    assert {event.site for event in of(Connected, said(read_packets(file)))} == {Site.LEFT_FOOT, Site.RIGHT_FOOT}
 
 
 def test_the_emulator_tells_who_is_connected_and_what_goes_wrong(tmp_path: Path) -> None:

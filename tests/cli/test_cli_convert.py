@@ -1,37 +1,27 @@
 """`solepath convert`: a phone's log to a recording, either to MCAP; what is wrong is one line."""
 
-import io
 import struct
 import subprocess
 import sys
-from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import pytest
 import walks
+from commands import one_line, run
+from recordings import recorded
 from snooped import LEFT, RIGHT, TAG, Log, insoles_log
 
 from solepath import Site
-from solepath.cli import main
-from solepath.recording import PacketWriter, read_header, read_packets
+from solepath.recording import read_header, read_packets
 
 
 def convert(*arguments: object) -> subprocess.CompletedProcess[str]:
-    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
-        try:
-            status = main(["convert", *map(str, arguments)])
-        except SystemExit as stop:  # of argparse
-            status = int(stop.code or 0)
-    return subprocess.CompletedProcess(arguments, status, out.getvalue(), err.getvalue())
+    return run("convert", *arguments)
 
 
 def complaint(*arguments: object) -> str:
     """The one line on stderr of a conversion that failed."""
-    done = convert(*arguments)
-    assert done.returncode == 2, done.stdout
-    line, end = done.stderr[:-1], done.stderr[-1:]
-    assert end == "\n" and line.isprintable() and line.startswith("solepath: "), done.stderr
-    return line.removeprefix("solepath: ")
+    return one_line(convert(*arguments)).removeprefix("solepath: ")
 
 
 @pytest.fixture(scope="module")
@@ -39,11 +29,8 @@ def log(tmp_path_factory) -> Path:
     return insoles_log(walks.insoles().packets).save(tmp_path_factory.mktemp("phone") / "btsnoop_hci.log")
 
 
-def recording(path: Path, count: int = 100) -> Path:
-    with PacketWriter(path, {"began": "2026-11-21T09:30:00Z"}) as writer:
-        for packet in walks.insoles().packets[:count]:
-            writer.write(packet)
-    return path
+def recording(path: Path) -> Path:
+    return recorded(path, walks.insoles().packets[:100], {"began": "2026-11-21T09:30:00Z"})
 
 
 def test_a_phones_log_becomes_a_recording_that_track_takes(log, tmp_path):
@@ -61,9 +48,8 @@ def test_a_phones_log_becomes_a_recording_that_track_takes(log, tmp_path):
     assert [p.data for p in packets if p.channel == "insole/frame"] == [p.data for p in frames]
     assert read_header(out)["began"] == "2026-09-21T14:13:20.251000Z"
     assert list(tmp_path.iterdir()) == [out], "nothing else is left"
-    with redirect_stdout(io.StringIO()) as told:
-        assert main(["track", str(out)]) == 0
-    assert "limitation" in told.getvalue() and "5" in told.getvalue()
+    tracked = run("track", out)
+    assert tracked.returncode == 0 and "limitation" in tracked.stdout and "5" in tracked.stdout
 
 
 def test_either_becomes_mcap(log, tmp_path):
@@ -94,19 +80,11 @@ def test_the_site_and_the_channel_can_be_told(tmp_path):
     assert "there is no channel 'cc2650/moment'; there are: " in complaint(path, out, "--handle", "0x2b=cc2650/moment")
 
 
-@pytest.mark.parametrize(
-    "wish",
-    [
-        ("--site", "left_foot"),
-        ("--site", f"{TAG}=hand"),
-        ("--handle", "0x2b"),
-        ("--handle", "x=y"),
-        ("--handle", "0=a/b"),
-    ],
-)
-def test_a_wish_that_cannot_be_understood_is_named(log, tmp_path, wish):
-    done = convert(log, tmp_path / "walk.jsonl", *wish)
-    assert done.returncode == 2 and f"argument {wish[0]}: {wish[1]!r} is not " in done.stderr
+def test_a_wish_that_cannot_be_understood_is_named(log, tmp_path):
+    for option, wishes in (("--site", ("left_foot", f"{TAG}=hand")), ("--handle", ("0x2b", "x=y", "0=a/b"))):
+        for wish in wishes:
+            done = convert(log, tmp_path / "walk.jsonl", option, wish)
+            assert done.returncode == 2 and f"argument {option}: {wish!r} is not " in done.stderr
 
 
 def test_wishes_that_are_of_no_use_are_errors_and_nothing_is_written(log, tmp_path):

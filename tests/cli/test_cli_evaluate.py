@@ -6,24 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import in_this_process, no_control_codes, one_line, solepath
+from commands import no_control_codes, refused, run, solepath
+from walks import columns_of
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory) -> Path:
-    return tmp_path_factory.mktemp("recordings")
-
-
-def columns_of(walker: Walker, foot: Foot) -> dict[str, np.ndarray]:
-    samples = walker.samples(foot, 100.0)
-    return {key: np.array([getattr(s, key) for s in samples]) for key in ("t", "acc", "gyro")}
-
-
-# --- evaluate ---------------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -70,25 +58,25 @@ def test_evaluate_in_short_is_a_markdown_table(data):
 def test_evaluate_says_what_figures_were(data, tmp_path):
     old = tmp_path / "old.json"
     command = ("evaluate", data, "--recipe", "default", "--processes", "1")
-    assert in_this_process(*command, "--json", old).returncode == 0
+    assert run(*command, "--json", old).returncode == 0
     scores = json.loads(old.read_text())
     scores["default"]["xio_closed_walks"]["summary"]["all"]["mean"]["end_error_2d"] *= 2.0
     old.write_text(json.dumps(scores))
-    told = in_this_process(*command, "--compare", old)
+    told = run(*command, "--compare", old)
     assert told.returncode == 0 and "xio_closed_walks, default, compared: 1 better, 0 worse" in told.stdout
     (line,) = (line for line in told.stdout.splitlines() if line.startswith("end_error_2d (mean)"))
     was, now, word = line.split()[-3:]
     assert float(was) == pytest.approx(2.0 * float(now), rel=0.02) and word == "better"
     old.write_text("{")
-    assert "old.json: is not JSON" in one_line(in_this_process(*command, "--compare", old))
+    assert "old.json: is not JSON" in refused(*command, "--compare", old)
 
 
 def test_evaluate_says_what_it_needs(data, tmp_path, monkeypatch):
     monkeypatch.delenv("SOLEPATH_DATA", raising=False)
     needs = "evaluate needs DIR, or the environment variable SOLEPATH_DATA, or --emulated"
-    assert needs in one_line(in_this_process("evaluate"))
-    assert "does not hold any of the data sets" in one_line(in_this_process("evaluate", tmp_path))
-    assert "is not a directory" in one_line(in_this_process("evaluate", tmp_path / "none"))
-    assert "mars is not one of the data sets" in one_line(in_this_process("evaluate", data, "--only", "mars"))
-    assert "does not hold pyshoe_vicon" in one_line(in_this_process("evaluate", data, "--only", "pyshoe_vicon"))
-    assert "there is no recipe 'secret'" in one_line(in_this_process("evaluate", data, "--recipe", "secret"))
+    assert needs in refused("evaluate")
+    assert "does not hold any of the data sets" in refused("evaluate", tmp_path)
+    assert "is not a directory" in refused("evaluate", tmp_path / "none")
+    assert "mars is not one of the data sets" in refused("evaluate", data, "--only", "mars")
+    assert "does not hold pyshoe_vicon" in refused("evaluate", data, "--only", "pyshoe_vicon")
+    assert "there is no recipe 'secret'" in refused("evaluate", data, "--recipe", "secret")

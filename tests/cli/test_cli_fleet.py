@@ -34,6 +34,7 @@ from solepath.fleet.demo.wearers import Wearers
 from solepath.fleet.parquet import PartFiles
 from solepath.types import Foot
 
+Kept = tuple[subprocess.CompletedProcess[str], Path]
 SMALL = ("--wearers", "12", "--seconds", "4", "--processes", "1")
 
 
@@ -47,15 +48,13 @@ def test_the_memory_of_a_process_is_not_that_of_who_started_it() -> None:
 
 
 @pytest.fixture(scope="module")
-def kept(tmp_path_factory: pytest.TempPathFactory) -> tuple[subprocess.CompletedProcess[str], Path]:
+def kept(tmp_path_factory: pytest.TempPathFactory) -> Kept:
     """What a whole demonstration printed, and where it left what it wrote."""
     out = tmp_path_factory.mktemp("fleet") / "out"
     return run("fleet-demo", *SMALL, "--kills", "2", "--out", out, "--json", out.with_suffix(".json"), "--keep"), out
 
 
-def test_a_fleet_that_is_killed_tells_what_one_tells_that_is_not(
-    kept: tuple[subprocess.CompletedProcess[str], Path],
-) -> None:
+def test_a_fleet_that_is_killed_tells_what_one_tells_that_is_not(kept: Kept) -> None:
     done, out = kept
     assert (done.returncode, done.stderr) == (0, "")
     assert "sessions alone: the same events" in done.stdout
@@ -68,9 +67,7 @@ def test_a_fleet_that_is_killed_tells_what_one_tells_that_is_not(
     assert figures["engine"]["events"] == int(rows["events"]) == read_told(out / "told").num_rows > 100
 
 
-def test_kills_hit_reading_and_wearers_go_on_from_states_that_were_read_back(
-    kept: tuple[subprocess.CompletedProcess[str], Path],
-) -> None:
+def test_kills_hit_reading_and_wearers_go_on_from_states_that_were_read_back(kept: Kept) -> None:
     figures = json.loads(kept[1].with_suffix(".json").read_text())
     assert all(kill["started"] and 0.0 < kill["read"] < 1.0 for kill in figures["kills"])
     assert any(kill["replayed"] > 0.0 for kill in figures["kills"])
@@ -79,9 +76,7 @@ def test_kills_hit_reading_and_wearers_go_on_from_states_that_were_read_back(
     assert re.search(r"^of 2 kills [12] had something read again, and [12] had wearers go on", kept[0].stdout, re.M)
 
 
-def test_a_fleet_that_does_not_say_what_it_refused_or_what_is_missing_is_found_out(
-    kept: tuple[subprocess.CompletedProcess[str], Path],
-) -> None:
+def test_a_fleet_that_does_not_say_what_it_refused_or_what_is_missing_is_found_out(kept: Kept) -> None:
     expected = {wearer.name: wearer.remarks() for wearer in Wearers.read(kept[1] / "runs").all}
     assert {name for name, remarks in expected.items() if remarks} == {"w00003", "w00005"}
     missing, late = expected["w00005"]
@@ -97,7 +92,7 @@ def test_a_fleet_that_does_not_say_what_it_refused_or_what_is_missing_is_found_o
     assert line.startswith("w00005, SentRejected (late) of run ") and line.endswith(" was not expected")
 
 
-def test_the_query_that_is_printed_counts_the_events(kept: tuple[subprocess.CompletedProcess[str], Path]) -> None:
+def test_the_query_that_is_printed_counts_the_events(kept: Kept) -> None:
     pytest.importorskip("duckdb")
     (line,) = (line for line in kept[0].stdout.splitlines() if line.startswith("python -c"))
     done = subprocess.run([sys.executable, *shlex.split(line)[1:]], capture_output=True, text=True, check=True)
@@ -105,7 +100,7 @@ def test_the_query_that_is_printed_counts_the_events(kept: tuple[subprocess.Comp
 
 
 def test_one_event_less_in_one_part_is_named_and_the_status_is_1(
-    kept: tuple[subprocess.CompletedProcess[str], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    kept: Kept, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
     runs = kept[1] / "runs"
@@ -122,7 +117,7 @@ def test_one_event_less_in_one_part_is_named_and_the_status_is_1(
     assert f"killed run 1: {found}" in capsys.readouterr().out
 
 
-def test_a_part_that_is_damaged_is_named(kept: tuple[subprocess.CompletedProcess[str], Path], tmp_path: Path) -> None:
+def test_a_part_that_is_damaged_is_named(kept: Kept, tmp_path: Path) -> None:
     told = shutil.copytree(kept[1] / "told", tmp_path / "told")
     expected, part = read_told(told), files(told)[0]
     part.write_bytes(part.read_bytes()[:-40])

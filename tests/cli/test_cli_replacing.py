@@ -1,12 +1,21 @@
-"""Files that take an earlier run's place: nothing of them is left, whenever the run is ended."""
+"""Files that take an earlier run's place, and where they may lie: nothing is left of a run that is ended."""
 
 from __future__ import annotations
 
+import json
 import os
+import re
+import signal
+import subprocess
 from itertools import count
 from pathlib import Path
+from time import sleep
 
 import pytest
+from commands import run
+from programs import TAKES, started
+from recordings import into, written
+from watchers import ANYWHERE, address
 
 from solepath.cli.common.files import Replacing
 
@@ -52,3 +61,83 @@ def test_another_programs_file_is_not_thrown_away(tmp_path: Path, monkeypatch: p
         files.beside(tmp_path / "track.csv")
     files.drop()
     assert another.read_text() == "half of a track"
+
+
+# --- runs that are ended, and where they write ---
+
+
+@pytest.fixture(scope="module")
+def long_recording(recording: Path) -> Path:
+    """The same over and over: some seconds of computing."""
+    header, *packets = map(json.loads, recording.read_text().splitlines())
+    length = packets[-1]["t"]
+    file = recording.parent / "long.jsonl"
+    again = [packet | {"t": packet["t"] + k * length} for k in range(30) for packet in packets]
+    file.write_text("".join(f"{json.dumps(line)}\n" for line in [header, *again]))
+    return file
+
+
+@pytest.fixture
+def earlier(tmp_path: Path) -> dict[str, bytes]:
+    """What an earlier run wrote."""
+    (tmp_path / "out").mkdir()
+    for name in ("r.html", "out/events.jsonl", "out/track.csv"):
+        (tmp_path / name).write_text(f"an earlier {name}")
+    return written(tmp_path)
+
+
+def test_another_ctrl_c_gives_the_rest_up_and_what_an_earlier_run_wrote_stays(
+    long_recording: Path, earlier: dict[str, bytes], tmp_path: Path
+):
+    pytest.importorskip("aiohttp")
+    with started("track", long_recording, *ANYWHERE, *into(tmp_path)) as process:
+        address(process)
+        assert process.stdout is not None
+        process.send_signal(signal.SIGINT)
+        while "Ctrl-C again gives it up" not in process.stdout.readline():
+            pass
+        process.send_signal(signal.SIGINT)
+        said, err = process.communicate(timeout=TAKES)
+    assert process.returncode == 130 and said == ""
+    assert re.fullmatch(r"solepath: given up after \d+\.\d of .* s: .* what was written before stays as it is\n", err)
+    assert written(tmp_path) == earlier
+
+
+@pytest.mark.parametrize("how", ["SIGHUP", "SIGTERM", "SIGINT"])
+def test_a_run_that_is_ended_leaves_what_an_earlier_one_wrote(
+    how: str, long_recording: Path, earlier: dict[str, bytes], tmp_path: Path
+):
+    out = tmp_path / "out"
+    with started("track", long_recording, *into(tmp_path)) as process:
+        while len(list(out.iterdir())) < 6 and process.poll() is None:
+            sleep(0.01)
+        process.send_signal(getattr(signal, how))
+        assert process.wait(TAKES) == 130
+    assert written(tmp_path) == earlier
+
+
+def test_a_run_writes_through_links_and_into_pipes_and_leaves_who_may_read(recording: Path, tmp_path: Path):
+    kept, link, pipe = tmp_path / "kept.html", tmp_path / "link.html", tmp_path / "pipe"
+    kept.write_text("")
+    kept.chmod(0o600)
+    link.symlink_to(kept)
+    os.mkfifo(pipe)
+    assert run("track", recording, "--report", link).returncode == 0
+    assert link.is_symlink() and kept.stat().st_mode & 0o777 == 0o600
+    with subprocess.Popen(["cat", str(pipe)], stdout=subprocess.PIPE) as reader:
+        assert run("track", recording, "--report", pipe).returncode == 0
+        assert reader.communicate(timeout=TAKES)[0] == kept.read_bytes() != b""
+    assert pipe.is_fifo()
+
+
+def test_names_that_are_no_text_and_hold_control_codes_are_shown_without(recording: Path, tmp_path: Path):
+    here = Path(os.fsdecode(os.fsencode(tmp_path) + b"/\xff\x1b[31m"))
+    here.mkdir()
+    walk = here / recording.name.replace("walk", "\x1b]0;\udcff")
+    walk.write_bytes(recording.read_bytes())
+    done = run("track", walk, "--out", here / "out", "--report", here / "r.html")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "\x1b" not in done.stdout and done.stdout.encode("utf-8")
+    assert "\x1b" not in (here / "r.html").read_text(encoding="utf-8")
+    done = run("demo", "--terminal", "--distance", 1, "--record", here / "demo.jsonl")
+    assert done.returncode == 0 and "\x1b" not in done.stdout and done.stdout.encode("utf-8")

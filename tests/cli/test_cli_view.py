@@ -2,30 +2,26 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import signal
 import socket
-import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import ExitStack, suppress
 from pathlib import Path
-from time import sleep
 from typing import Any
 
 import pytest
 from commands import refused, run
+from programs import TAKES, drawn, emulator, started
+from recordings import into, written
 from shown import frame
 from walks import insoles
-from watchers import ANYWHERE, TAKES, Watcher, address, started, watch
+from watchers import ANYWHERE, Watcher, address, watch
 
 from solepath import ActivityChanged, Session
 from solepath.cli.bluetooth.live_run import LiveFiles, LiveSession
-from solepath.emulate.routes.route import Route
-from solepath.emulate.walk import emulate
-from solepath.recording import PacketWriter
 from solepath.show.page.scene.scene import Scene
 
 pytest.importorskip("aiohttp")
@@ -34,32 +30,12 @@ ALONE = "import sys; sys.modules.update(dict.fromkeys(['bleak', 'bumble', 'rich'
 """Nothing but the extra `view`."""
 
 
-@pytest.fixture(autouse=True)
-def nobody_at_a_terminal(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    with open(os.devnull) as nothing:
-        monkeypatch.setattr(sys, "stdin", nothing)
-        yield
-
-
 @pytest.fixture(scope="module")
-def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Some steps in two insoles."""
-    file = tmp_path_factory.mktemp("view") / "walk.jsonl"
-    with PacketWriter(file) as writer:
-        for packet in emulate(Route().stand(0.5).walk(2.5, speed=1.3).stop(0.5), seed=4).packets:
-            writer.write(packet)
-    return file
-
-
-@pytest.fixture(scope="module")
-def long_recording(recording: Path) -> Path:
-    """The same over and over: some seconds of computing."""
-    header, *packets = map(json.loads, recording.read_text().splitlines())
-    length = packets[-1]["t"]
-    file = recording.parent / "long.jsonl"
-    again = [packet | {"t": packet["t"] + k * length} for k in range(30) for packet in packets]
-    file.write_text("".join(f"{json.dumps(line)}\n" for line in [header, *again]))
-    return file
+def plain(recording: Path) -> tuple[Path, str]:
+    """Where `track` wrote without a page, and what it printed."""
+    folder = recording.with_name("plain")
+    folder.mkdir()
+    return folder, run("track", recording, *into(folder)).stdout
 
 
 def test_in_a_terminal_the_demo_opens_a_browser_is_steered_there_and_ends_with_the_same_table_at_ctrl_c(tmp_path: Path):
@@ -94,19 +70,13 @@ def test_in_a_terminal_the_demo_opens_a_browser_is_steered_there_and_ends_with_t
     terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs) | {"env": environment}
     with started("demo", "--distance", 3, code=ALONE, **terminal) as process:
         os.close(theirs)
-        seen = ""
-        while "Ctrl-C ends it" not in seen:
-            seen += os.read(ours, 65536).decode()
+        seen = drawn(ours, until="Ctrl-C ends it")
         url = re.search(r"the page: (\S+)", seen)
         assert url is not None and opened.read_text() == url[1]
         watch(url[1], steer)
         assert process.poll() is None
         process.send_signal(signal.SIGINT)
-        try:
-            while part := os.read(ours, 65536):
-                seen += part.decode()
-        except OSError:  # how Linux says that the other end of a terminal was closed
-            pass
+        seen += drawn(ours)
         assert process.wait(TAKES) == 0
     os.close(ours)
     table = "against the truth"
@@ -126,11 +96,8 @@ def test_without_a_terminal_the_demo_plays_to_its_end_by_itself_at_a_port_that_i
 
 
 def test_what_track_writes_does_not_depend_on_the_page_which_is_there_before_anything_is_computed(
-    recording: Path, tmp_path: Path
+    recording: Path, plain: tuple[Path, str], tmp_path: Path
 ):
-    plain, viewed = tmp_path / "plain", tmp_path / "viewed"
-    said = run("track", recording, "--out", plain, "--report", tmp_path / "plain.html")
-
     async def steer(page: Watcher) -> None:
         await page.until(lambda frame: True)
         assert (page.scene["title"], page.scene["source"]) == ("walk.jsonl", "recording")
@@ -140,101 +107,32 @@ def test_what_track_writes_does_not_depend_on_the_page_which_is_there_before_any
         await page.ask("seek", 1.0)
         await page.until(lambda frame: 1.0 <= frame["playback"]["t"] < 3.0)
 
-    with started("track", recording, *ANYWHERE, "--out", viewed, "--report", tmp_path / "viewed.html") as process:
+    with started("track", recording, *ANYWHERE, *into(tmp_path)) as process:
         watch(address(process), steer)
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=TAKES)
     assert (process.returncode, err) == (0, "")
-    for name in ("events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"):
-        assert (plain / name).read_bytes() == (viewed / name).read_bytes()
-    assert (tmp_path / "plain.html").read_bytes() == (tmp_path / "viewed.html").read_bytes()
+    assert written(tmp_path) == written(plain[0]) and len(written(tmp_path)) == 5
     ended, rest, summed_up = out.partition("the rest of the recording")
     assert "computed" not in ended and rest
-    assert summed_up.partition("\n")[2].partition("written to")[0] == said.stdout.partition("computed in")[0]
+    assert summed_up.partition("\n")[2].partition("written to")[0] == plain[1].partition("computed in")[0]
 
 
-def test_another_ctrl_c_gives_the_rest_up_and_what_an_earlier_run_wrote_stays(long_recording: Path, tmp_path: Path):
-    out, report = tmp_path / "out", tmp_path / "r.html"
-    out.mkdir()
-    earlier = {report: "a report", out / "events.jsonl": "events", out / "track.csv": "a track"}
-    for file, text in earlier.items():
-        file.write_text(text)
-    with started("track", long_recording, *ANYWHERE, "--out", out, "--report", report) as process:
-        address(process)
-        assert process.stdout is not None
-        process.send_signal(signal.SIGINT)
-        while "Ctrl-C again gives it up" not in process.stdout.readline():
-            pass
-        process.send_signal(signal.SIGINT)
-        said, err = process.communicate(timeout=TAKES)
-    assert process.returncode == 130 and said == ""
-    assert re.fullmatch(r"solepath: given up after \d+\.\d of .* s: .* what was written before stays as it is\n", err)
-    assert {*out.iterdir(), report} == set(earlier)
-    assert {file: file.read_text() for file in earlier} == earlier
-
-
-def test_closing_the_terminal_ends_the_page_as_ctrl_c_does_and_all_is_written(recording: Path, tmp_path: Path):
+def test_closing_the_terminal_ends_the_page_as_ctrl_c_does_and_all_is_written(
+    recording: Path, plain: tuple[Path, str], tmp_path: Path
+):
     pty = pytest.importorskip("pty")
-    plain, closed = tmp_path / "plain", tmp_path / "closed"
-    run("track", recording, "--out", plain, "--report", tmp_path / "plain.html")
     ours, theirs = pty.openpty()
     terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs) | {"start_new_session": True}
     owned = f"import fcntl, termios; fcntl.ioctl({theirs}, termios.TIOCSCTTY, 0); "  # to be told when it is closed
     terminal["pass_fds"] = (theirs,)
-    command = ("track", recording, *ANYWHERE, "--no-browser", "--out", closed, "--report", tmp_path / "closed.html")
+    command = ("track", recording, *ANYWHERE, "--no-browser", *into(tmp_path))
     with started(*command, code=owned, **terminal) as process:
         os.close(theirs)
-        seen = ""
-        while "Ctrl-C ends it" not in seen:
-            seen += os.read(ours, 65536).decode()
+        drawn(ours, until="Ctrl-C ends it")
         os.close(ours)
         assert process.wait(TAKES) == 0
-    for name in ("events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"):
-        assert (plain / name).read_bytes() == (closed / name).read_bytes()
-    assert (tmp_path / "plain.html").read_bytes() == (tmp_path / "closed.html").read_bytes()
-    assert len(list(closed.iterdir())) == 4
-
-
-@pytest.mark.parametrize("how", ["SIGHUP", "SIGTERM", "SIGINT"])
-def test_a_run_that_is_ended_leaves_what_an_earlier_one_wrote(how: str, long_recording: Path, tmp_path: Path):
-    out, report = tmp_path / "out", tmp_path / "r.html"
-    out.mkdir()
-    (out / "track.csv").write_text("a track")
-    report.write_text("a report")
-    with started("track", long_recording, "--out", out, "--report", report) as process:
-        while len(list(out.iterdir())) < 5 and process.poll() is None:
-            sleep(0.01)
-        process.send_signal(getattr(signal, how))
-        assert process.wait(TAKES) == 130
-    assert {*tmp_path.iterdir()} == {out, report} and [*out.iterdir()] == [out / "track.csv"]
-    assert (out / "track.csv").read_text() == "a track" and report.read_text() == "a report"
-
-
-def test_a_run_writes_through_links_and_into_pipes_and_leaves_who_may_read(recording: Path, tmp_path: Path):
-    kept, link, pipe = tmp_path / "kept.html", tmp_path / "link.html", tmp_path / "pipe"
-    kept.write_text("")
-    kept.chmod(0o600)
-    link.symlink_to(kept)
-    os.mkfifo(pipe)
-    assert run("track", recording, "--report", link).returncode == 0
-    assert link.is_symlink() and kept.stat().st_mode & 0o777 == 0o600
-    with subprocess.Popen(["cat", str(pipe)], stdout=subprocess.PIPE) as reader:
-        assert run("track", recording, "--report", pipe).returncode == 0
-        assert reader.communicate(timeout=TAKES)[0] == kept.read_bytes() != b""
-    assert pipe.is_fifo()
-
-
-def test_names_that_are_no_text_and_hold_control_codes_are_shown_without(recording: Path, tmp_path: Path):
-    here = Path(os.fsdecode(os.fsencode(tmp_path) + b"/\xff\x1b[31m"))
-    here.mkdir()
-    walk = here / recording.name.replace("walk", "\x1b]0;\udcff")
-    walk.write_bytes(recording.read_bytes())
-    done = run("track", walk, "--out", here / "out", "--report", here / "r.html")
-    assert (done.returncode, done.stderr) == (0, "")
-    assert "\x1b" not in done.stdout and done.stdout.encode("utf-8")
-    assert "\x1b" not in (here / "r.html").read_text(encoding="utf-8")
-    done = run("demo", "--terminal", "--distance", 1, "--record", here / "demo.jsonl")
-    assert done.returncode == 0 and "\x1b" not in done.stdout and done.stdout.encode("utf-8")
+    assert written(tmp_path) == written(plain[0])
 
 
 def test_a_damaged_recording_is_played_up_to_the_damage_and_a_page_for_other_machines_is_said_to_be_one(
@@ -290,16 +188,14 @@ def test_live_sensors_and_their_silence_are_seen_on_the_page(tmp_path: Path):
         assert (page.scene["source"], page.scene["control"]) == ("live", False)
         await page.until(all_are("ok"))
         await page.until(lambda frame: frame["feet"]["right"] is not None and frame["feet"]["right"]["force"] > 100.0)
-        emulator.send_signal(signal.SIGSTOP)  # from nobody anything comes
+        walking.send_signal(signal.SIGSTOP)  # from nobody anything comes
         await page.until(all_are("silent"))
         assert page.frame["feet"]["left"]["cells"] is None
         await page.until(lambda frame: all(link["silent_for"] > 1.6 for link in frame["links"].values()))
-        emulator.send_signal(signal.SIGCONT)
+        walking.send_signal(signal.SIGCONT)
         await page.until(all_are("ok"))
 
-    with started("emulate", "--listen", "127.0.0.1:0", "--distance", 5) as emulator:
-        assert emulator.stdout is not None
-        where = emulator.stdout.readline().split()[-1]
+    with emulator("--distance", 5) as (walking, where):
         named = ("--left", "solepath L", "--right", "solepath R", "--via", where)
         with started("live", *named, *ANYWHERE, "--out", tmp_path, "--duration", 60) as process:
             watch(address(process), look)

@@ -2,7 +2,6 @@
 
 from itertools import pairwise
 from math import hypot, pi
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,11 +19,9 @@ from solepath.emulate.routes.laps import (
     modes,
     rectangle,
     square,
-    write_marks,
 )
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
-from solepath.papers.walking_modes.calibrate import read_marks
 from solepath.types import Foot, WalkingMode
 
 
@@ -81,13 +78,8 @@ def test_steps_are_labelled_by_the_bend_they_come_down_in() -> None:
     found = modes(walker)
     for foot in Foot:
         labels = [label for label, before in zip(found[foot], [None, *found[foot]], strict=False) if label != before]
-        assert labels[:5] == [
-            WalkingMode.STRAIGHT,
-            WalkingMode.LEFT_TIGHT,
-            WalkingMode.STRAIGHT,
-            WalkingMode.RIGHT_WIDE,
-            WalkingMode.STRAIGHT,
-        ]
+        straight, bends = WalkingMode.STRAIGHT, (WalkingMode.LEFT_TIGHT, WalkingMode.RIGHT_WIDE)
+        assert labels[:5] == [straight, bends[0], straight, bends[1], straight]
         assert len(found[foot]) == len(walker.truth().steps(foot))
         assert WalkingMode.STANDING in found[foot][-3:]
 
@@ -107,11 +99,3 @@ def test_the_corners_of_the_rectangle_are_passed_in_order_and_a_is_stood_on() ->
             assert hypot(corner.feet[foot][0] - corner.body[0], corner.feet[foot][1] - corner.body[1]) < 0.7
     (a,) = found[3:]
     assert hypot(a.body[0], a.body[1]) < 0.08
-
-
-def test_marks_are_written_as_the_calibration_reads_them(tmp_path: Path) -> None:
-    walker = Walker(marked(WalkingMode.LEFT_TIGHT, steps=12), seed=5)
-    write_marks(tmp_path / "marks.csv", marks(walker))
-    read = read_marks(tmp_path / "marks.csv")
-    assert [(mark.foot, mark.mode) for mark in read] == [(mark.foot, mark.mode) for mark in marks(walker)]
-    assert [mark.t for mark in read] == pytest.approx([mark.t for mark in marks(walker)], abs=1e-3)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from strides import in_order
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.routes.styles import Manner
@@ -96,11 +97,7 @@ def test_whatever_is_run_the_events_of_a_foot_keep_their_order_and_it_ends_there
 ) -> None:
     route = Route().stand(1.0).jog(distance, speed)
     walker = Walker((route.walk(2.0) if on else route).stop(1.0), seed=seed)
-    for foot in Foot:
-        before = 0.0
-        for stride in walker.plan.strides[foot]:
-            assert before < stride.heel_off < stride.toe_off < stride.heel_strike < stride.foot_flat < walker.duration
-            before = stride.foot_flat
+    in_order(walker)
     load = walker.loads.body(np.arange(0.0, walker.duration, 0.01)) / walker.loads.weight
     assert load.min() >= -1e-9 and load.max() < 3.6
     assert walker.kinematics(Foot.LEFT, np.array([walker.duration]), IN_SOLE).position[0, 0] == pytest.approx(

@@ -4,6 +4,7 @@ import json
 import sys
 
 import pytest
+from strides import stride
 
 from solepath import to_frame
 from solepath.events import (
@@ -15,15 +16,13 @@ from solepath.events import (
     SampleGap,
     StrideFeatures,
     StrideFused,
-    StrideTaken,
     TouchedDown,
 )
 from solepath.types import Activity, Cell, Foot, Layout, Phase, Site, WalkingMode
 
-STRIDE = StrideTaken(
-    t=2.0, known_at=2.0625, foot=Foot.LEFT, number=1, t_start=1.0, t_end=2.0, displacement=(1.25, 0.0, 0.0),
-    position=(1.25, 0.5, 0.0), length=1.25, heading_change=0.0, height_change=0.0,
-    covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4), degraded=True, features=StrideFeatures(0.125, 4.0, 1.0),
+STRIDE = stride(
+    Foot.LEFT, 2.0, (1.25, 0.0, 0.0), known_at=2.0625, position=(1.25, 0.5, 0.0), degraded=True,
+    features=StrideFeatures(0.125, 4.0, 1.0),
 )  # fmt: skip
 STRIKE = HeelStrike(t=1.75, known_at=1.8125, foot=Foot.RIGHT)
 

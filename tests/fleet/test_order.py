@@ -118,7 +118,6 @@ def test_what_was_given_up_long_ago_is_forgotten_but_nothing_is_used_twice() -> 
 
 # --- runs that do not grow --------------------------------------------------------------------------------------------
 
-FLEET, NARROW = Fleet(), Fleet(window=3)
 AHEAD, NOW = 4_000_000_000_000, 1_790_000_000_000
 
 

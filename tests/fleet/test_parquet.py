@@ -24,6 +24,8 @@ from solepath.fleet.parquet import GROUPS, PartFiles
 from solepath.types import Activity, Foot
 
 FIRST = "part-0-00000000.parquet"
+Place = tuple[int, int]
+"""Run and number of a part, which an engine remembers."""
 
 
 def told(count: int, wearers: int = 3) -> list[NumberedEvent]:
@@ -39,6 +41,12 @@ def told(count: int, wearers: int = 3) -> list[NumberedEvent]:
 def rows(directory: Path) -> list[dict[str, Any]]:
     """What a reader finds, in the order of the files."""
     return list(parquet.read_table(directory).to_pylist())
+
+
+def put(parts: PartFiles, events: list[Any]) -> Place:
+    """A part of them, and what the engine is to remember of it."""
+    parts.write(events)
+    return parts.close()
 
 
 def by_identity(found: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -83,8 +91,7 @@ def test_parts_from_the_resumed_number_on_are_removed_and_no_other_file_is(tmp_p
     for partition in ("0", "1"):
         parts = PartFiles(tmp_path, partition)
         for one in told(3):
-            parts.write([one])
-            parts.close()
+            put(parts, [one])
         runs[partition] = parts.run
     mine = [".part-1-00000009.parquet.writing", "notes.txt"]
     for name in (".part-1-7-00000009.parquet.writing", ".part-0-7-00000003.parquet.writing", "notes.txt"):
@@ -97,9 +104,7 @@ def test_who_remembers_nothing_sets_the_parts_of_a_run_before_aside_and_says_so(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     for count in (1, 2, 3):
-        parts = PartFiles(tmp_path)
-        parts.write(told(count))
-        parts.close()
+        put(PartFiles(tmp_path), told(count))
         assert rows(tmp_path) == by_identity([told_row(one) for one in told(count)])
     assert names(tmp_path) == [f".{FIRST}.replaced"] * 2 + [FIRST]
     kept = [parquet.ParquetFile(path).metadata.num_rows for path in sorted(tmp_path.iterdir())]
@@ -112,18 +117,13 @@ def test_who_forgot_once_what_was_remembered_has_it_all_back_with_the_next_start
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     parts, all_told = PartFiles(tmp_path), told(4)
-    for one in all_told[:3]:
-        parts.write([one])
-        known = parts.close()
-    forgetful = PartFiles(tmp_path)
-    forgetful.write(all_told[:1])
-    forgetful.close()
+    known = [put(parts, [one]) for one in all_told[:3]]
+    put(PartFiles(tmp_path), all_told[:1])
     assert rows(tmp_path) == [told_row(all_told[0])]
     caplog.clear()
-    parts = PartFiles(tmp_path, "0", (known[0], 2))
+    parts = PartFiles(tmp_path, "0", (known[0][0], 2))
     assert rows(tmp_path) == [told_row(one) for one in all_told[:2]]
-    parts.write(all_told[2:])
-    parts.close()
+    put(parts, all_told[2:])
     assert by_identity(rows(tmp_path)) == by_identity([told_row(one) for one in all_told])
     assert caplog.messages == [
         f"{tmp_path}: an earlier run goes on, and its parts are back (2); those of another are hidden (1)"
@@ -148,17 +148,14 @@ def files_of_at_most(size: int) -> Iterator[None]:
 
 def test_a_part_that_cannot_be_written_is_named_and_leaves_nothing(tmp_path: Path) -> None:
     parts = PartFiles(tmp_path)
-    parts.write(told(1))
-    number = parts.close()
+    number = put(parts, told(1))
     parts.write(told(20)[1:])
     with files_of_at_most(1000), pytest.raises(OSError) as refused:
         parts.close()
     assert refused.value.errno == errno.EFBIG
     assert refused.value.filename == str(tmp_path / f"part-0-{parts.run}-00000001.parquet")
     assert names(tmp_path) == [FIRST]
-    again = PartFiles(tmp_path, "0", number)
-    again.write(told(20)[1:])
-    again.close()
+    put(PartFiles(tmp_path, "0", number), told(20)[1:])
     assert by_identity(rows(tmp_path)) == by_identity([told_row(one) for one in told(20)])
 
 
@@ -180,24 +177,20 @@ def test_however_often_it_crashes_each_event_is_there_once(steps: list[str]) -> 
             else:
                 number = parts.close()
                 counts = (number, at) if step == "count" else counts
-        parts.write(all_told[at:])
-        parts.close()
+        put(parts, all_told[at:])
         assert by_identity(rows(Path(name))) == by_identity([told_row(one) for one in all_told])
 
 
 # --- beside what else is in the directory -----------------------------------------------------------------------------
 
 STRIKE = HeelStrike(t=0.1, known_at=0.12, foot=Foot.LEFT)
-Place = tuple[int, int]
 
 
 def written(directory: Path, resumes: list[Place | None], number: int = 0) -> list[Place]:
     """A job of so many partitions: wearers of the same names as ever, one event each."""
     partitions = [str(n) for n in range(len(resumes))]
     parts = [PartFiles(directory, name, resumes[int(name)], partitions=partitions) for name in partitions]
-    for part in parts:
-        part.write([NumberedEvent(f"w{part.partition}", number, STRIKE)])
-    return [part.close() for part in parts]
+    return [put(part, [NumberedEvent(f"w{part.partition}", number, STRIKE)]) for part in parts]
 
 
 def listed(directory: Path) -> list[tuple[str, int]]:
@@ -236,8 +229,7 @@ def test_a_directory_with_the_name_of_a_part_is_no_part_and_is_named_where_it_is
     tmp_path: Path, name: str
 ) -> None:
     parts = PartFiles(tmp_path)
-    parts.write([NumberedEvent("w", 0, STRIKE)])
-    place = parts.close()
+    place = put(parts, [NumberedEvent("w", 0, STRIKE)])
     strange = tmp_path / name.format(run=parts.run)
     strange.mkdir()
     parts = PartFiles(tmp_path, "0", place)
@@ -246,9 +238,7 @@ def test_a_directory_with_the_name_of_a_part_is_no_part_and_is_named_where_it_is
         parts.close()
     assert refused.value.filename == str(tmp_path / f"part-0-{parts.run}-00000001.parquet")
     strange.rmdir()
-    parts = PartFiles(tmp_path, "0", place)
-    parts.write([NumberedEvent("w", 1, STRIKE)])
-    parts.close()
+    put(PartFiles(tmp_path, "0", place), [NumberedEvent("w", 1, STRIKE)])
     assert listed(tmp_path) == [("w", 0), ("w", 1)]
 
 
@@ -258,8 +248,6 @@ def test_a_directory_with_the_name_of_a_part_is_no_part_and_is_named_where_it_is
 def test_a_wearer_of_any_name_ends_no_job(tmp_path: Path, wearer: str, name: str) -> None:
     """A key may hold half a character, as JSON lets it; a table holds UTF-8."""
     told: list[Any] = [NumberedEvent(wearer, 0, STRIKE), NumberedEvent("w", 0, STRIKE)]
-    parts = PartFiles(tmp_path)
-    parts.write(told)
-    parts.close()
+    put(PartFiles(tmp_path), told)
     assert listed(tmp_path) == sorted([(name, 0), ("w", 0)])
     assert told_row(told[0])["wearer"] == name

@@ -18,9 +18,9 @@ from random import Random
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from walks import ROUGH, insoles
+from walks import ROUGH, insoles, said
 
-from solepath import Session, recipes
+from solepath import recipes
 from solepath.emulate.radio import CLEAN
 from solepath.fleet import End, Fleet, NumberedEvent, Once, Sent, sent_line, told_row
 
@@ -52,8 +52,7 @@ def sent_by(wearer: str) -> tuple[Sent, ...]:
 @cache
 def sessions_tell(wearer: str, recipe: str) -> list[dict[str, Any]]:
     """Rows of what a session of his own says."""
-    session = Session(recipes.by_name(recipe))
-    events = session.feed([sent.what for sent in sent_by(wearer)[:-1]]) + session.finish()
+    events = said([sent.what for sent in sent_by(wearer)[:-1]], recipes.by_name(recipe))
     return [told_row(NumberedEvent(wearer, number, event)) for number, event in enumerate(events)]
 
 
@@ -98,6 +97,15 @@ def once(told: list[Message]) -> dict[str, list[dict[str, Any]]]:
     return kept
 
 
+def each_once(told: list[Message]) -> int:
+    """All that was to be told was, under an identity that means one thing; of how many."""
+    by_identity = identities(told)
+    assert by_identity.keys() == expected()
+    assert all(len(same) == 1 for same in by_identity.values())
+    assert once(told) == {wearer: sessions_tell(wearer, "default") for wearer in WEARERS}
+    return len(by_identity)
+
+
 @pytest.mark.parametrize("recipe", ["default", "kupt-dfpc"])
 def test_events_through_kafka_are_those_of_a_session_wearer_by_wearer(kafka: Broker, recipe: str) -> None:
     with kafka.topics(f"whole-{recipe}", recipe=recipe) as topics:
@@ -135,11 +143,7 @@ def test_a_job_that_is_killed_tells_everything_again_under_the_same_identity_and
                 shutil.rmtree(topics.directory / topics.name / "state")
         topics.send(walks[kills * len(walks) // (kills + 1) :])
         told = topics.finish(topics.start())
-    by_identity = identities(told)
-    assert by_identity.keys() == expected()
-    assert all(len(same) == 1 for same in by_identity.values())
-    assert len(told) > len(by_identity), "no kill fell between a commit and what was told after it"
-    assert once(told) == {wearer: sessions_tell(wearer, "default") for wearer in WEARERS}
+    assert len(told) > each_once(told), "no kill fell between a commit and what was told after it"
 
 
 TAKEN_OVER = "Recovery process complete"
@@ -163,11 +167,7 @@ def test_a_partition_that_moves_to_another_machine_and_back_goes_on_where_it_was
         wait_for(topics, 40)
         kill(second)
         topics.send(walks[2 * len(walks) // 3 :])
-        told = topics.finish(first, "one")
-    by_identity = identities(told)
-    assert by_identity.keys() == expected()
-    assert all(len(same) == 1 for same in by_identity.values())
-    assert once(told) == {wearer: sessions_tell(wearer, "default") for wearer in WEARERS}
+        each_once(topics.finish(first, "one"))
 
 
 LONGEST = 999_900

@@ -12,7 +12,7 @@ from attrs import evolve
 from fleets import WEARER, shown, uses, walked
 from here import PROTOCOL
 
-from solepath import SnapshotError
+from solepath import SnapshotError, recipes
 from solepath.fleet import End, Fleet, NumbersMissing, Sent, SentRejected, StateRefused, Tick, Unreadable
 from solepath.fleet.step.order import HELD
 from solepath.fleet.step.sent import LONGEST_DATA, MOST
@@ -61,11 +61,6 @@ def test_a_state_that_holds_what_cannot_be_held_is_refused(held: list[tuple[int,
     assert FLEET.open(WEARER, after).state() == after
 
 
-# --- at the edges -----------------------------------------------------------------------------------------------------
-
-FLEET = Fleet()
-
-
 # --- what is the caller's mistake -------------------------------------------------------------------------------------
 
 
@@ -85,9 +80,14 @@ def finished() -> Session:
     return session
 
 
-def test_a_session_that_is_finished_is_not_adopted_and_no_state_goes_on_from_it() -> None:
-    with pytest.raises(SnapshotError, match="finished"):
-        FLEET.adopt(finished().snapshot())
+def test_a_session_that_cannot_go_on_is_not_adopted_and_no_state_goes_on_from_a_finished_one() -> None:
+    for snapshot, why in (
+        (finished().snapshot(), "finished"),
+        (Session(recipes.by_name("zupt")).snapshot(), "zupt"),
+        ({"solepath": 1}, None),
+    ):
+        with pytest.raises(SnapshotError, match=why):
+            FLEET.adopt(snapshot)
     state = write_state(Identity(-1, 0, 0, 1.0), OtherState(session=finished().pack()))
     _, (refused, *rest) = FLEET.step(WEARER, state, [shown(0)])
     assert isinstance(refused.event, StateRefused) and "finished" in refused.event.detail

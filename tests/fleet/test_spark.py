@@ -7,7 +7,6 @@ python -m pytest -m "spark and soak" -s tests/fleet/test_spark*.py             #
 
 from __future__ import annotations
 
-import json
 import os
 import random
 import sys
@@ -18,7 +17,7 @@ from typing import Any
 
 import pytest
 from here import HELPERS
-from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, of_sessions, put, says, sent, told
+from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, of_sessions, put, sent, told
 from toys import BASE
 
 from solepath.fleet import TOLD_COLUMNS, Fleet, NumberedEvent, Sent, sent_line, sent_row, told_row
@@ -222,9 +221,3 @@ def test_states_of_a_checkpoint_go_on_in_a_job_of_more_partitions(spark, tmp_pat
     finally:
         spark.conf.set("spark.sql.shuffle.partitions", CONF["spark.sql.shuffle.partitions"])
     assert before and after and in_order(before + after) == expected(4)
-
-
-def test_events_of_a_wearer_have_one_number_each():
-    numbers = [row["number"] for row in says(0, "default")]
-    assert numbers == list(range(len(numbers)))
-    assert all(isinstance(json.loads(row["fields"]), dict) for row in says(0, "default"))

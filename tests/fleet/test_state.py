@@ -15,7 +15,7 @@ from here import PROTOCOL
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath import SnapshotError, recipes
+from solepath import recipes
 from solepath.emulate.routes.building import BUILDING
 from solepath.fleet import End, Fleet, Sent, StateRefused, Tick, Unreadable
 from solepath.fleet.step.keyed import first_number
@@ -210,10 +210,3 @@ def test_a_phone_hands_its_wearer_over() -> None:
     _, told = FLEET.step(WEARER, state, rest)
     assert (*first, *[one.event for one in told]) == walked().events
     assert [one.number for one in told] == list(range(len(told)))
-
-
-def test_a_snapshot_that_cannot_go_on_is_not_adopted() -> None:
-    with pytest.raises(SnapshotError):
-        FLEET.adopt({"solepath": 1})
-    with pytest.raises(SnapshotError, match="zupt"):
-        FLEET.adopt(Session(recipes.by_name("zupt")).snapshot())

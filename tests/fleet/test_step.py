@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import inf, nan
-from random import Random
 from typing import Any
 
 import pytest
@@ -36,18 +35,6 @@ def test_what_is_told_of_a_wearer_is_what_a_session_says_to_the_same_packets(rec
     keyed = fleet.open(WEARER, None)
     assert [one for piece in pieces for one in keyed.feed(piece)] == told
     assert keyed.state() == state
-
-
-@pytest.mark.parametrize("recipe", BOTH, ids=lambda recipe: recipe.name)
-def test_a_walk_that_comes_late_twice_and_in_another_order_gives_the_same_events_and_the_same_state(
-    recipe: Recipe,
-) -> None:
-    sent, random, fleet = walked(recipe.name).sent, Random(3), Fleet(recipe)
-    late = sorted([*sent, *sent[::7]], key=lambda one: one.number + 200 * random.random())
-    halves = [late[: len(late) // 2], late[len(late) // 2 :]]
-    assert stepped(fleet, halves) == stepped(fleet, [sent])
-    part = sorted(sent[:450], key=lambda one: one.number + 200 * random.random())
-    assert stepped(fleet, [part]) == stepped(fleet, [sent[:450]])
 
 
 @pytest.mark.parametrize("recipe", recipes.NAMES)

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
 
 SOLEPATH = [sys.executable, "-m", "solepath"]
+TAKES = 30.0
+"""s that a program may take to say or do something before the test gives up."""
 
 
 @contextmanager
-def started(*arguments: object) -> Iterator[subprocess.Popen[str]]:
-    """A command that runs until the test is through with it."""
-    command = [*SOLEPATH, *map(str, arguments)]
-    process = subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
+def started(*arguments: object, code: str = "", **options: Any) -> Iterator[subprocess.Popen[str]]:
+    """A command that runs until the test is through with it; `code` runs before it."""
+    words = [str(argument) for argument in arguments]
+    program = ["-c", f"{code}from solepath.cli import main; raise SystemExit(main({words!r}))"]
+    piped = dict.fromkeys(("stdout", "stderr"), subprocess.PIPE) | {"stdin": subprocess.DEVNULL}
+    command = [sys.executable, *program] if code else [*SOLEPATH, *words]
+    process = subprocess.Popen(command, text=True, **(piped | options))
     try:
         yield process
     finally:
@@ -39,3 +46,22 @@ def run(*arguments: object, expect: int = 0) -> subprocess.CompletedProcess[str]
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == expect, done.stderr
     return done
+
+
+def wait_for(path: Path, what: str, times: int = 1) -> None:
+    """Until `what` stands in the file, so many times."""
+    end = time.monotonic() + TAKES
+    while not path.exists() or path.read_text(encoding="utf-8").count(what) < times:
+        assert time.monotonic() < end, f"{what} did not come"
+        time.sleep(0.05)
+
+
+def drawn(terminal: int, until: str = "") -> str:
+    """What comes on a terminal, up to these words or until nobody writes to it any more."""
+    seen = b""
+    try:
+        while (not until or until not in seen.decode()) and (part := os.read(terminal, 65536)):
+            seen += part
+    except OSError:  # how Linux says that the other end of a terminal was closed
+        pass
+    return seen.decode()

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache, partial
 from math import radians
 from typing import Any
 
 import declared
+import numpy as np
 from attrs import evolve, frozen
 
 from solepath import recipes
@@ -17,7 +18,7 @@ from solepath.emulate.routes.building import BUILDING, COLUMNS
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.insoles import layout
-from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.sensors.parts import LSM6DSOX, Imu
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.emulate.sensors.suit import limb_samples
 from solepath.emulate.walk import EmulatedWalk, emulate
@@ -54,17 +55,33 @@ def insoles(route: Route = SHORT, radio: Radio = CLEAN, seed: int = 1, cells: in
 @cache
 def samples(route: Route = SHORT, cells: int = 24, rate: float = 100.0, seed: int = 1) -> tuple[Sample, ...]:
     """Samples of both feet in the order of time, with the errors of a named part; without a radio or a wire."""
-    walker = Walker(route, seed=seed)
+    return both_feet(Walker(route, seed=seed), rate, LSM6DSOX, cells)
+
+
+def both_feet(walker: Walker, rate: float, part: Imu, cells: int = 0, **more: Any) -> tuple[Sample, ...]:
+    """What two sensors have of a walker, in the order of time."""
     both = [
         sample
         for foot in Foot
-        for sample in walker.samples(foot, rate, LSM6DSOX, layout=layout(cells, foot) if cells else None)
+        for sample in walker.samples(foot, rate, part, layout=layout(cells, foot) if cells else None, **more)
     ]
     return tuple(sorted(both, key=_time))
 
 
 def _time(sample: Sample) -> float:
     return sample.t
+
+
+def columns_of(walker: Walker, foot: Foot) -> dict[str, np.ndarray]:
+    """Exact samples of a foot at 100 Hz, as a file of samples has them."""
+    found = walker.samples(foot, 100.0)
+    return {key: np.array([getattr(s, key) for s in found]) for key in ("t", "acc", "gyro")}
+
+
+def said(items: Iterable[Item], recipe: Recipe = DEFAULT, **given: Any) -> list[Any]:
+    """All that a session says of these items, and at the end."""
+    session = Session(recipe, **given)
+    return session.feed(items) + session.finish()
 
 
 # --- every machine ----------------------------------------------------------------------------------------------------

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 from commands import refused, run
 
-from solepath.cli import main
 from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes import ways
 from solepath.lab.processes import each
@@ -125,20 +124,8 @@ def test_ours_and_the_papers_stand_beside_each_other_and_ours_is_said_to_be_emul
     first, _, header, _, row, other, _, note = reproduced(TWO_ROWS).splitlines()
     assert "ours is emulated" in first and "a paper, table I" in first
     assert header.split() == ["m", "ours:", *FIVE, "paper:", *FIVE]
-    assert row.split() == [
-        "ZUPT-L",
-        "20.00",
-        "1.41",
-        "19.50",
-        "20.00",
-        "20.50",
-        "20.97",
-        "1.84",
-        "19.74",
-        "21.17",
-        "22.56",
-    ]
-    assert other.split() == ["other", "1.00", "-", "1.00", "1.00", "1.00", "3.00", "-", "-", "-", "-"]
+    assert " ".join(row.split()) == "ZUPT-L 20.00 1.41 19.50 20.00 20.50 20.97 1.84 19.74 21.17 22.56"
+    assert " ".join(other.split()) == "other 1.00 - 1.00 1.00 1.00 3.00 - - - -"
     assert note == "A note."
 
 
@@ -195,10 +182,9 @@ def test_an_experiment_that_there_is_not_is_refused_in_one_line():
 
 
 @pytest.mark.parametrize("walks", ["0", "-1", "many", "1.5"])
-def test_no_walks_are_refused(walks, capsys):
-    with pytest.raises(SystemExit) as stop:
-        main(["reproduce", "kupt-dfpc", f"--walks={walks}"])
-    assert stop.value.code == 2 and f"'{walks}' is not a number of 1 or more" in capsys.readouterr().err
+def test_no_walks_are_refused(walks):
+    done = run("reproduce", "kupt-dfpc", f"--walks={walks}")
+    assert done.returncode == 2 and f"'{walks}' is not a number of 1 or more" in done.stderr
 
 
 def test_what_cannot_be_written_is_said_before_anybody_walks(tmp_path):

@@ -10,23 +10,21 @@ import pytest
 from bleak import BleakClient, BleakScanner
 from bleak.exc import BleakError, BleakGATTProtocolError
 from strap import BATTERY, BEAT, BOOK, CONTROL, HEART_RATE, LEVEL, LOG, PAGE, standard
-from virtual import ONE, TWO, Host, find, linked, now, run, strap
+from virtual import ONE, TWO, Host, find, linked, now, strap, virtually
 
 from solepath.emulate.controllers.gatt import advertisement
 from solepath.emulate.controllers.server import virtual_air
 
 
-def test_a_scan_hears_names_services_and_addresses_of_all_who_advertise() -> None:
-    async def main() -> None:
-        async with virtual_air([strap(), strap("two", TWO, advertised=[HEART_RATE, LOG])]) as backend:
-            heard = await BleakScanner.discover(1.0, return_adv=True, backend=backend.scanner)
-            assert {address: said.local_name for address, (_, said) in heard.items()} == {ONE: "one", TWO: "two"}
-            assert heard[ONE][1].service_uuids == [HEART_RATE]
-            assert set(heard[TWO][1].service_uuids) == {HEART_RATE, LOG}
-            only = await BleakScanner.discover(1.0, service_uuids=[LOG], backend=backend.scanner)
-            assert [device.address for device in only] == [TWO]
-
-    run(main)
+@virtually
+async def test_a_scan_hears_names_services_and_addresses_of_all_who_advertise() -> None:
+    async with virtual_air([strap(), strap("two", TWO, advertised=[HEART_RATE, LOG])]) as backend:
+        heard = await BleakScanner.discover(1.0, return_adv=True, backend=backend.scanner)
+        assert {address: said.local_name for address, (_, said) in heard.items()} == {ONE: "one", TWO: "two"}
+        assert heard[ONE][1].service_uuids == [HEART_RATE]
+        assert set(heard[TWO][1].service_uuids) == {HEART_RATE, LOG}
+        only = await BleakScanner.discover(1.0, service_uuids=[LOG], backend=backend.scanner)
+        assert [device.address for device in only] == [TWO]
 
 
 @pytest.mark.parametrize("services", [[], [standard(0xAA80), standard(0xFFE0)], [LOG], [LOG, standard(0x180F)]])
@@ -39,162 +37,146 @@ def test_an_advertisement_is_legal_with_and_without_room_for_flags(services: lis
         assert (bare != said) == (len(flags + bare) <= 31), "flags wherever there is room"
 
 
-def test_discovery_shows_the_services_characteristics_and_descriptors_of_the_device() -> None:
-    async def main() -> None:
-        async with linked(strap()) as (host, _):
-            services = {service.uuid: service for service in host.client.services}
-            assert {HEART_RATE, BATTERY, LOG} <= services.keys()
-            beat, control = services[HEART_RATE].characteristics
-            assert (beat.uuid, beat.properties) == (BEAT, ["notify"])
-            assert (control.uuid, set(control.properties)) == (CONTROL, {"read", "write", "write-without-response"})
-            assert [each.uuid for each in beat.descriptors] == [standard(0x2901), standard(0x2902)]
-            assert [each.uuid for each in control.descriptors] == [standard(0x2901)]
-            assert await host.client.read_gatt_descriptor(beat.descriptors[0]) == b"strap/beat"
-            assert await host.client.read_gatt_descriptor(beat.descriptors[1]) == b"\x00\x00"
-            assert await host.client.read_gatt_char(LEVEL) == b"\x57"
-            assert await host.client.read_gatt_char(PAGE) == BOOK
-            assert host.client.name == "one"
-
-    run(main)
+@virtually
+async def test_discovery_shows_the_services_characteristics_and_descriptors_of_the_device() -> None:
+    async with linked(strap()) as (host, _):
+        services = {service.uuid: service for service in host.client.services}
+        assert {HEART_RATE, BATTERY, LOG} <= services.keys()
+        beat, control = services[HEART_RATE].characteristics
+        assert (beat.uuid, beat.properties) == (BEAT, ["notify"])
+        assert (control.uuid, set(control.properties)) == (CONTROL, {"read", "write", "write-without-response"})
+        assert [each.uuid for each in beat.descriptors] == [standard(0x2901), standard(0x2902)]
+        assert [each.uuid for each in control.descriptors] == [standard(0x2901)]
+        assert await host.client.read_gatt_descriptor(beat.descriptors[0]) == b"strap/beat"
+        assert await host.client.read_gatt_descriptor(beat.descriptors[1]) == b"\x00\x00"
+        assert await host.client.read_gatt_char(LEVEL) == b"\x57"
+        assert await host.client.read_gatt_char(PAGE) == BOOK
+        assert host.client.name == "one"
 
 
 @pytest.mark.parametrize(("of_device", "of_host", "agreed"), [(247, 185, 185), (185, 247, 185), (23, 247, 23)])
-def test_the_smaller_mtu_holds_and_a_longer_notification_is_cut_without_a_word(
+@virtually
+async def test_the_smaller_mtu_holds_and_a_longer_notification_is_cut_without_a_word(
     of_device: int, of_host: int, agreed: int
 ) -> None:
-    async def main() -> None:
-        device = strap(mtu=of_device)
-        device.size = 240
-        async with linked(device, of_host) as (host, _):
-            assert host.client.mtu_size == agreed
-            assert await host.client.read_gatt_char(PAGE) == BOOK
-            await host.count(50)
-            await asyncio.sleep(1.0)
-            assert len(host.heard) >= 50
-            assert {len(value) for _, value in host.heard} == {agreed - 3}
-
-    run(main)
+    device = strap(mtu=of_device)
+    device.size = 240
+    async with linked(device, of_host) as (host, _):
+        assert host.client.mtu_size == agreed
+        assert await host.client.read_gatt_char(PAGE) == BOOK
+        await host.count(50)
+        await asyncio.sleep(1.0)
+        assert len(host.heard) >= 50
+        assert {len(value) for _, value in host.heard} == {agreed - 3}
 
 
-def test_the_device_obeys_writes_with_and_without_response() -> None:
-    async def main() -> None:
-        device = strap()
-        async with linked(device) as (host, _):
+@virtually
+async def test_the_device_obeys_writes_with_and_without_response() -> None:
+    device = strap()
+    async with linked(device) as (host, _):
+        await host.count(10)
+        assert await host.client.read_gatt_char(CONTROL) == b"\x0a"
+        await asyncio.sleep(10.0)
+        assert len(host.heard) in (100, 101)
+        await host.client.write_gatt_char(CONTROL, b"\x00", response=False)
+        await asyncio.sleep(10.0)
+        assert len(host.heard) in (100, 101)
+        assert device.rate == 0
+        with pytest.raises(BleakError, match="do not fit"):
+            await host.client.write_gatt_char(CONTROL, bytes(245), response=False)
+
+
+@virtually
+async def test_notifications_stop_when_they_are_no_longer_wanted() -> None:
+    async with linked(strap()) as (host, _):
+        await host.count(10)
+        with pytest.raises(BleakError):
             await host.count(10)
-            assert await host.client.read_gatt_char(CONTROL) == b"\x0a"
-            await asyncio.sleep(10.0)
-            assert len(host.heard) in (100, 101)
+        with pytest.raises(BleakError):
+            await host.client.start_notify(LEVEL, lambda *_: None)
+        await asyncio.sleep(2.0)
+        await host.client.stop_notify(BEAT)
+        heard = len(host.heard)
+        await asyncio.sleep(2.0)
+        assert len(host.heard) == heard >= 20
+        await host.client.start_notify(BEAT, lambda _, value: host.heard.append((now(), bytes(value))))
+        await asyncio.sleep(2.0)
+        assert len(host.heard) >= heard + 20
+
+
+@virtually
+async def test_a_refusal_is_an_att_error_and_the_link_goes_on() -> None:
+    async with linked(strap(faults="0 * refuse strap/control 2")) as (host, _):
+        codes = []
+        requests: list[Callable[[], Awaitable[object]]] = [
+            lambda: host.client.write_gatt_char(CONTROL, b"\x01", response=True),
+            lambda: host.client.read_gatt_char(CONTROL),
+            lambda: host.client.write_gatt_char(CONTROL, b"\x01\x02", response=True),
+            lambda: host.client.write_gatt_char(LEVEL, b"\x01", response=True),
+            lambda: host.client.read_gatt_char(BEAT),
+        ]
+        for request in requests:
+            with pytest.raises(BleakGATTProtocolError) as refused:
+                await request()
+            codes.append(int(refused.value.code))
+        assert codes == [0x80, 0x80, 0x0D, 0x03, 0x02]
+        assert await host.client.read_gatt_char(LEVEL) == b"\x57"
+        assert not host.lost
+
+
+@virtually
+async def test_an_error_of_the_apps_callback_is_reported_and_the_next_notification_comes() -> None:
+    async with linked(strap()) as (host, _):
+        reported: list[dict[str, Any]] = []
+        asyncio.get_running_loop().set_exception_handler(lambda loop, context: reported.append(context))
+        await host.client.start_notify(BEAT, lambda *_: 1 // 0)
+        await host.client.write_gatt_char(CONTROL, b"\x0a", response=True)
+        await asyncio.sleep(1.0)
+        assert len(reported) >= 10
+        assert isinstance(reported[0]["exception"], ZeroDivisionError)
+
+
+@virtually
+async def test_a_link_with_an_interval_says_everything_at_its_events_in_order() -> None:
+    interval = 0.03
+    async with virtual_air([strap()], interval=interval) as backend:
+        host = Host(backend, await find(backend))
+        async with host.client:
+            for _ in range(5):
+                begun = now()
+                assert await host.client.read_gatt_char(LEVEL) == b"\x57"
+                assert interval < now() - begun < 2.1 * interval  # goes at the next event, is answered at the one after
+                await asyncio.sleep(0.011)
+            await host.count(100)
+            await asyncio.sleep(9.0)
+            assert len(host.heard) in range(890, 901)
+            assert host.numbers == list(range(host.numbers[0], host.numbers[0] + len(host.heard)))
+            first = host.heard[0][0]
+            for (t, _), number in zip(host.heard, host.numbers, strict=True):
+                assert (t - first) / interval == pytest.approx(round((t - first) / interval), abs=1e-3)
+                assert -1e-3 < t - number / 100 < interval + 1e-3
             await host.client.write_gatt_char(CONTROL, b"\x00", response=False)
-            await asyncio.sleep(10.0)
-            assert len(host.heard) in (100, 101)
-            assert device.rate == 0
-            with pytest.raises(BleakError, match="do not fit"):
-                await host.client.write_gatt_char(CONTROL, bytes(245), response=False)
-
-    run(main)
-
-
-def test_notifications_stop_when_they_are_no_longer_wanted() -> None:
-    async def main() -> None:
-        async with linked(strap()) as (host, _):
-            await host.count(10)
-            with pytest.raises(BleakError):
-                await host.count(10)
-            with pytest.raises(BleakError):
-                await host.client.start_notify(LEVEL, lambda *_: None)
-            await asyncio.sleep(2.0)
-            await host.client.stop_notify(BEAT)
-            heard = len(host.heard)
-            await asyncio.sleep(2.0)
-            assert len(host.heard) == heard >= 20
-            await host.client.start_notify(BEAT, lambda _, value: host.heard.append((now(), bytes(value))))
-            await asyncio.sleep(2.0)
-            assert len(host.heard) >= heard + 20
-
-    run(main)
-
-
-def test_a_refusal_is_an_att_error_and_the_link_goes_on() -> None:
-    async def main() -> None:
-        async with linked(strap(faults="0 * refuse strap/control 2")) as (host, _):
-            codes = []
-            requests: list[Callable[[], Awaitable[object]]] = [
-                lambda: host.client.write_gatt_char(CONTROL, b"\x01", response=True),
-                lambda: host.client.read_gatt_char(CONTROL),
-                lambda: host.client.write_gatt_char(CONTROL, b"\x01\x02", response=True),
-                lambda: host.client.write_gatt_char(LEVEL, b"\x01", response=True),
-                lambda: host.client.read_gatt_char(BEAT),
-            ]
-            for request in requests:
-                with pytest.raises(BleakGATTProtocolError) as refused:
-                    await request()
-                codes.append(int(refused.value.code))
-            assert codes == [0x80, 0x80, 0x0D, 0x03, 0x02]
-            assert await host.client.read_gatt_char(LEVEL) == b"\x57"
-            assert not host.lost
-
-    run(main)
-
-
-def test_an_error_of_the_apps_callback_is_reported_and_the_next_notification_comes() -> None:
-    async def main() -> None:
-        async with linked(strap()) as (host, _):
-            reported: list[dict[str, Any]] = []
-            asyncio.get_running_loop().set_exception_handler(lambda loop, context: reported.append(context))
-            await host.client.start_notify(BEAT, lambda *_: 1 // 0)
-            await host.client.write_gatt_char(CONTROL, b"\x0a", response=True)
-            await asyncio.sleep(1.0)
-            assert len(reported) >= 10
-            assert isinstance(reported[0]["exception"], ZeroDivisionError)
-
-    run(main)
-
-
-def test_a_link_with_an_interval_says_everything_at_its_events_in_order() -> None:
-    async def main() -> None:
-        interval = 0.03
-        async with virtual_air([strap()], interval=interval) as backend:
-            host = Host(backend, await find(backend))
-            async with host.client:
-                for _ in range(5):
-                    begun = now()
-                    assert await host.client.read_gatt_char(LEVEL) == b"\x57"
-                    assert (
-                        interval < now() - begun < 2.1 * interval
-                    )  # goes at the next event, is answered at the one after
-                    await asyncio.sleep(0.011)
-                await host.count(100)
-                await asyncio.sleep(9.0)
-                assert len(host.heard) in range(890, 901)
-                assert host.numbers == list(range(host.numbers[0], host.numbers[0] + len(host.heard)))
-                first = host.heard[0][0]
-                for (t, _), number in zip(host.heard, host.numbers, strict=True):
-                    assert (t - first) / interval == pytest.approx(round((t - first) / interval), abs=1e-3)
-                    assert -1e-3 < t - number / 100 < interval + 1e-3
-                await host.client.write_gatt_char(CONTROL, b"\x00", response=False)
-            # what was said before the link ended was heard
-            assert len(host.lost) == 1
-            heard = len(host.heard)
-            async with host.client:
-                assert await host.client.read_gatt_char(CONTROL) == b"\0"
-                assert len(host.heard) == heard
-
-    run(main)
+        # what was said before the link ended was heard
+        assert len(host.lost) == 1
+        heard = len(host.heard)
+        async with host.client:
+            assert await host.client.read_gatt_char(CONTROL) == b"\0"
+            assert len(host.heard) == heard
 
 
 @pytest.mark.parametrize("at", [1.15, 1.2, 1.25, 1.3, 1.4])
-def test_a_link_that_is_lost_while_it_is_paired_or_discovered_is_an_error_and_the_next_one_stands(at: float) -> None:
-    async def main() -> None:
-        device = strap(faults=f"0 * pairing; {at} * disconnect")
-        async with virtual_air([device], interval=0.03) as backend:
-            found = await find(backend)
-            await asyncio.sleep(1.0 - now())
-            client = BleakClient(found, backend=backend.client, pair=True)
-            with pytest.raises(BleakError, match="lost"):
-                await client.connect()
-            assert at - 0.01 < now() < at + 0.05
-            assert not client.is_connected
-            async with client:
-                assert await client.read_gatt_char(CONTROL) == b"\0"
-
-    run(main)
+@virtually
+async def test_a_link_that_is_lost_while_it_is_paired_or_discovered_is_an_error_and_the_next_one_stands(
+    at: float,
+) -> None:
+    device = strap(faults=f"0 * pairing; {at} * disconnect")
+    async with virtual_air([device], interval=0.03) as backend:
+        found = await find(backend)
+        await asyncio.sleep(1.0 - now())
+        client = BleakClient(found, backend=backend.client, pair=True)
+        with pytest.raises(BleakError, match="lost"):
+            await client.connect()
+        assert at - 0.01 < now() < at + 0.05
+        assert not client.is_connected
+        async with client:
+            assert await client.read_gatt_char(CONTROL) == b"\0"

@@ -11,79 +11,71 @@ from bleak import BleakClient
 from bleak.exc import BleakError
 from here import HELPERS
 from strap import CONTROL, LEVEL, PAGE
-from virtual import ONE, TWO, Host, find, linked, now, run, strap
+from virtual import ONE, TWO, Host, find, linked, now, run, strap, virtually
 
 from solepath.emulate.controllers.server import virtual_air
 
 
-def test_a_request_that_its_caller_gives_up_does_not_have_its_answer_taken_for_the_next() -> None:
-    async def main() -> None:
-        async with linked(strap()) as (host, _):
-            given_up = asyncio.create_task(host.client.read_gatt_char(PAGE))
-            await asyncio.sleep(0)
-            await asyncio.sleep(0)
-            given_up.cancel()
-            assert await host.client.read_gatt_char(LEVEL) == b"\x57"
-            assert await host.client.read_gatt_char(CONTROL) == b"\x00"
-            with pytest.raises(asyncio.CancelledError):
-                await given_up
-
-    run(main)
+@virtually
+async def test_a_request_that_its_caller_gives_up_does_not_have_its_answer_taken_for_the_next() -> None:
+    async with linked(strap()) as (host, _):
+        given_up = asyncio.create_task(host.client.read_gatt_char(PAGE))
+        await asyncio.sleep(0)
+        await asyncio.sleep(0)
+        given_up.cancel()
+        assert await host.client.read_gatt_char(LEVEL) == b"\x57"
+        assert await host.client.read_gatt_char(CONTROL) == b"\x00"
+        with pytest.raises(asyncio.CancelledError):
+            await given_up
 
 
-def test_who_is_still_connected_when_the_air_closes_is_told() -> None:
-    async def main() -> None:
-        device = strap()
-        async with virtual_air([device]) as backend:
-            host = Host(backend, await find(backend))
-            await host.client.connect()
+@virtually
+async def test_who_is_still_connected_when_the_air_closes_is_told() -> None:
+    device = strap()
+    async with virtual_air([device]) as backend:
+        host = Host(backend, await find(backend))
+        await host.client.connect()
+    await asyncio.sleep(0.1)
+    assert len(host.lost) == 1
+    assert not device.is_connected
+    with pytest.raises(BleakError, match="closed"):
+        await host.client.connect()
+
+
+@virtually
+async def test_a_device_that_does_not_answer_holds_up_the_others_for_seconds_only() -> None:
+    gone, there = strap("one", ONE, "1 * vanish 12"), strap("two", TWO)
+    async with virtual_air([gone, there]) as backend:
+        first, second = await find(backend, "one"), await find(backend, "two")
+        await asyncio.sleep(1.0)
+        slow, quick = (BleakClient(device, backend=backend.client, timeout=20.0) for device in (first, second))
+        waiting = asyncio.create_task(slow.connect())
         await asyncio.sleep(0.1)
-        assert len(host.lost) == 1
-        assert not device.is_connected
-        with pytest.raises(BleakError, match="closed"):
-            await host.client.connect()
+        asked = now()
+        await quick.connect()
+        assert now() - asked < 2.5
+        assert not waiting.done()
+        await waiting
+        assert 13.0 <= now() < 16.0
+        assert slow.is_connected and quick.is_connected
 
-    run(main)
 
-
-def test_a_device_that_does_not_answer_holds_up_the_others_for_seconds_only() -> None:
-    async def main() -> None:
-        gone, there = strap("one", ONE, "1 * vanish 12"), strap("two", TWO)
-        async with virtual_air([gone, there]) as backend:
-            first, second = await find(backend, "one"), await find(backend, "two")
-            await asyncio.sleep(1.0)
-            slow, quick = (BleakClient(device, backend=backend.client, timeout=20.0) for device in (first, second))
-            waiting = asyncio.create_task(slow.connect())
-            await asyncio.sleep(0.1)
-            asked = now()
-            await quick.connect()
-            assert now() - asked < 2.5
-            assert not waiting.done()
+@virtually
+async def test_a_connection_that_its_caller_gives_up_leaves_nothing_behind() -> None:
+    gone, there = strap("one", ONE, "1 * vanish 10"), strap("two", TWO)
+    async with virtual_air([gone, there]) as backend:
+        first, second = await find(backend, "one"), await find(backend, "two")
+        await asyncio.sleep(1.0)
+        waiting = asyncio.create_task(BleakClient(first, backend=backend.client).connect())
+        await asyncio.sleep(0.5)
+        waiting.cancel()
+        with pytest.raises(asyncio.CancelledError):
             await waiting
-            assert 13.0 <= now() < 16.0
-            assert slow.is_connected and quick.is_connected
-
-    run(main)
-
-
-def test_a_connection_that_its_caller_gives_up_leaves_nothing_behind() -> None:
-    async def main() -> None:
-        gone, there = strap("one", ONE, "1 * vanish 10"), strap("two", TWO)
-        async with virtual_air([gone, there]) as backend:
-            first, second = await find(backend, "one"), await find(backend, "two")
-            await asyncio.sleep(1.0)
-            waiting = asyncio.create_task(BleakClient(first, backend=backend.client).connect())
-            await asyncio.sleep(0.5)
-            waiting.cancel()
-            with pytest.raises(asyncio.CancelledError):
-                await waiting
-            asked = now()
-            async with BleakClient(second, backend=backend.client):
-                assert now() - asked < 0.5
-            await asyncio.sleep(15.0)
-            assert not gone.is_connected
-
-    run(main)
+        asked = now()
+        async with BleakClient(second, backend=backend.client):
+            assert now() - asked < 0.5
+        await asyncio.sleep(15.0)
+        assert not gone.is_connected
 
 
 def test_the_same_air_tells_the_same_at_the_same_times() -> None:

@@ -8,13 +8,15 @@ import socket
 import sys
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontextmanager, suppress
+from functools import wraps
+from typing import Any
 
 import pytest
 from bleak import BleakClient, BleakScanner
-from bleak.backends.device import BLEDevice
 from bleak.exc import BleakError
 from here import HELPERS
 from strap import BEAT, CONTROL, LEVEL, Strap
+from virtual import find
 
 from solepath.ble.air import Backend
 from solepath.emulate.controllers import radio
@@ -26,7 +28,6 @@ HERE = HELPERS / "radio"
 LISTEN = """
 import asyncio, sys
 from bleak import BleakClient, BleakScanner
-from solepath.emulate.controllers import radio
 from solepath.emulate.controllers.tcp import reach
 from strap import BEAT, CONTROL
 
@@ -42,16 +43,20 @@ asyncio.run(main())
 """
 
 
-def run(main: Callable[[], Awaitable[None]]) -> None:
-    """In real time; nothing may be left running when it is over."""
+def really(test: Callable[..., Awaitable[None]]) -> Callable[..., None]:
+    """An async test, run in real time; nothing may be left running when it is over."""
 
-    async def whole() -> None:
-        async with asyncio.timeout(30.0):
-            await main()
-        await asyncio.sleep(0.01)
-        assert asyncio.all_tasks() == {asyncio.current_task()}
+    @wraps(test)
+    def run_it(**given: Any) -> None:
+        async def whole() -> None:
+            async with asyncio.timeout(30.0):
+                await test(**given)
+            await asyncio.sleep(0.01)
+            assert asyncio.all_tasks() == {asyncio.current_task()}
 
-    asyncio.run(whole())
+        asyncio.run(whole())
+
+    return run_it
 
 
 @asynccontextmanager
@@ -74,10 +79,12 @@ async def line(process: asyncio.subprocess.Process) -> str:
     return (await process.stdout.readline()).decode().strip()
 
 
-async def find(backend: Backend, name: str = "one") -> BLEDevice:
-    found = await BleakScanner.find_device_by_name(name, 5.0, backend=backend.scanner)
-    assert found is not None
-    return found
+async def connected(backend: Backend) -> tuple[BleakClient, asyncio.Event]:
+    """A client, and whether it has lost its link."""
+    lost = asyncio.Event()
+    client = BleakClient(await find(backend), lambda _: lost.set(), backend=backend.client)
+    await client.connect()
+    return client, lost
 
 
 async def beats(client: BleakClient, count: int = 50) -> list[int]:
@@ -96,149 +103,130 @@ async def beats(client: BleakClient, count: int = 50) -> list[int]:
     return heard
 
 
-def test_another_processs_devices_are_found_and_stream_until_it_is_killed_and_again_when_it_is_back() -> None:
-    async def main() -> None:
-        async with program("strap.py", "0") as server:
-            port = await line(server)
-            async with reach(f"tcp:127.0.0.1:{port}", mtu=185) as backend:
-                lost = asyncio.Event()
-                client = BleakClient(await find(backend), lambda _: lost.set(), backend=backend.client)
-                await client.connect()
-                assert client.mtu_size == 185
-                heard = await beats(client)
-                assert heard == list(range(heard[0], heard[0] + len(heard)))
+@really
+async def test_another_processs_devices_are_found_and_stream_until_it_is_killed_and_again_when_it_is_back() -> None:
+    async with program("strap.py", "0") as server:
+        port = await line(server)
+        async with reach(f"tcp:127.0.0.1:{port}", mtu=185) as backend:
+            client, lost = await connected(backend)
+            assert client.mtu_size == 185
+            heard = await beats(client)
+            assert heard == list(range(heard[0], heard[0] + len(heard)))
 
+            server.kill()
+            await asyncio.wait_for(lost.wait(), 5.0)
+            assert not client.is_connected
+            with pytest.raises(BleakError, match=port):
+                await BleakScanner.discover(0.1, backend=backend.scanner)
+            with pytest.raises(BleakError, match=port):
+                await client.connect()
+            await server.wait()
+
+            async with program("strap.py", port) as restarted:
+                assert await line(restarted) == port
+                await client.connect()
+                assert await client.read_gatt_char(LEVEL) == b"\x57"
+                await client.disconnect()
+
+
+@really
+async def test_a_scan_that_goes_on_hears_the_devices_of_a_server_that_was_restarted() -> None:
+    async with program("strap.py", "0") as server:
+        port = await line(server)
+        async with reach(f"tcp:127.0.0.1:{port}") as backend:
+            heard = asyncio.Event()
+            async with BleakScanner(lambda device, said: heard.set(), backend=backend.scanner):
+                await asyncio.wait_for(heard.wait(), 5.0)
                 server.kill()
-                await asyncio.wait_for(lost.wait(), 5.0)
-                assert not client.is_connected
+                await server.wait()
+                await asyncio.sleep(0.1)
+                heard.clear()
+                async with program("strap.py", port) as restarted:
+                    await line(restarted)
+                    await asyncio.wait_for(heard.wait(), 5.0)
+
+
+@really
+async def test_a_server_that_hangs_is_an_error_until_it_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(radio, "PATIENCE", 0.3)
+    async with program("strap.py", "0") as server:
+        port = await line(server)
+        async with reach(f"tcp:127.0.0.1:{port}") as backend:
+            client, lost = await connected(backend)
+            server.send_signal(signal.SIGSTOP)
+            await client.disconnect()
+            assert not client.is_connected
+            await asyncio.wait_for(lost.wait(), 1.0)
+            for _ in range(2):
                 with pytest.raises(BleakError, match=port):
                     await BleakScanner.discover(0.1, backend=backend.scanner)
-                with pytest.raises(BleakError, match=port):
-                    await client.connect()
-                await server.wait()
-
-                async with program("strap.py", port) as restarted:
-                    assert await line(restarted) == port
-                    await client.connect()
-                    assert await client.read_gatt_char(LEVEL) == b"\x57"
-                    await client.disconnect()
-
-    run(main)
+            server.send_signal(signal.SIGCONT)
+            async with BleakClient(await find(backend), backend=backend.client) as again:
+                assert await again.read_gatt_char(LEVEL) == b"\x57"
 
 
-def test_a_scan_that_goes_on_hears_the_devices_of_a_server_that_was_restarted() -> None:
-    async def main() -> None:
-        async with program("strap.py", "0") as server:
-            port = await line(server)
-            async with reach(f"tcp:127.0.0.1:{port}") as backend:
-                heard = asyncio.Event()
-                async with BleakScanner(lambda device, said: heard.set(), backend=backend.scanner):
-                    await asyncio.wait_for(heard.wait(), 5.0)
-                    server.kill()
-                    await server.wait()
-                    await asyncio.sleep(0.1)
-                    heard.clear()
-                    async with program("strap.py", port) as restarted:
-                        await line(restarted)
-                        await asyncio.wait_for(heard.wait(), 5.0)
-
-    run(main)
-
-
-def test_a_server_that_hangs_is_an_error_until_it_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(radio, "PATIENCE", 0.3)
-
-    async def main() -> None:
-        async with program("strap.py", "0") as server:
-            port = await line(server)
-            async with reach(f"tcp:127.0.0.1:{port}") as backend:
-                lost = asyncio.Event()
-                client = BleakClient(await find(backend), lambda _: lost.set(), backend=backend.client)
-                await client.connect()
-                server.send_signal(signal.SIGSTOP)
-                await client.disconnect()
-                assert not client.is_connected
-                await asyncio.wait_for(lost.wait(), 1.0)
-                for _ in range(2):
-                    with pytest.raises(BleakError, match=port):
-                        await BleakScanner.discover(0.1, backend=backend.scanner)
-                server.send_signal(signal.SIGCONT)
-                async with BleakClient(await find(backend), backend=backend.client) as again:
-                    assert await again.read_gatt_char(LEVEL) == b"\x57"
-
-    run(main)
+@really
+async def test_a_killed_clients_device_advertises_again_and_the_next_client_connects() -> None:
+    strap = Strap("one", "F0:00:00:00:00:01")
+    async with serve([strap], "127.0.0.1", 0) as (_, port):
+        where = f"tcp:127.0.0.1:{port}"
+        async with program("-c", LISTEN, where) as first:
+            assert len(await line(first)) == 40
+            assert strap.is_connected
+            async with reach(where) as backend:
+                assert await BleakScanner.find_device_by_name("one", 0.5, backend=backend.scanner) is None
+                first.kill()
+                async with BleakClient(await find(backend), backend=backend.client) as client:
+                    await beats(client)
+            assert not strap.is_connected
+        async with reach(where) as backend, BleakClient(await find(backend), backend=backend.client) as client:
+            assert await client.read_gatt_char(LEVEL) == b"\x57"
 
 
-def test_a_killed_clients_device_advertises_again_and_the_next_client_connects() -> None:
-    async def main() -> None:
-        strap = Strap("one", "F0:00:00:00:00:01")
-        async with serve([strap], "127.0.0.1", 0) as (_, port):
-            where = f"tcp:127.0.0.1:{port}"
-            async with program("-c", LISTEN, where) as first:
-                assert len(await line(first)) == 40
-                assert strap.is_connected
-                async with reach(where) as backend:
-                    assert await BleakScanner.find_device_by_name("one", 0.5, backend=backend.scanner) is None
-                    first.kill()
-                    async with BleakClient(await find(backend), backend=backend.client) as client:
-                        await beats(client)
-                assert not strap.is_connected
-            async with reach(where) as backend, BleakClient(await find(backend), backend=backend.client) as client:
-                assert await client.read_gatt_char(LEVEL) == b"\x57"
-
-    run(main)
-
-
-def test_a_device_that_has_forgotten_its_pairing_is_an_error_until_it_is_unpaired_here_too() -> None:
+@really
+async def test_a_device_that_has_forgotten_its_pairing_is_an_error_until_it_is_unpaired_here_too() -> None:
     def serving(port: int) -> AbstractAsyncContextManager[tuple[str, int]]:
         strap = Strap("one", "F0:00:00:00:00:01", faults=parse_faults("0 * pairing"))
         return serve([strap], "127.0.0.1", port)
 
-    async def main() -> None:
-        async with AsyncExitStack() as host:
-            async with serving(0) as (_, port):
-                backend = await host.enter_async_context(reach(f"tcp:127.0.0.1:{port}"))
-                device = await find(backend)
-                async with BleakClient(device, backend=backend.client, pair=True) as client:
-                    assert await client.read_gatt_char(CONTROL) == b"\0"
-            async with serving(port):
-                client = BleakClient(device, backend=backend.client, pair=True)
-                with pytest.raises(BleakError, match="has forgotten the pairing"):
-                    await client.connect()
-                await client.unpair()
-                async with client:
-                    assert await client.read_gatt_char(CONTROL) == b"\0"
-
-    run(main)
+    async with AsyncExitStack() as host:
+        async with serving(0) as (_, port):
+            backend = await host.enter_async_context(reach(f"tcp:127.0.0.1:{port}"))
+            device = await find(backend)
+            async with BleakClient(device, backend=backend.client, pair=True) as client:
+                assert await client.read_gatt_char(CONTROL) == b"\0"
+        async with serving(port):
+            client = BleakClient(device, backend=backend.client, pair=True)
+            with pytest.raises(BleakError, match="has forgotten the pairing"):
+                await client.connect()
+            await client.unpair()
+            async with client:
+                assert await client.read_gatt_char(CONTROL) == b"\0"
 
 
-def test_nobody_at_the_port_is_one_clear_error() -> None:
-    async def main() -> None:
-        with socket.create_server(("127.0.0.1", 0)) as taken:
-            port = taken.getsockname()[1]
-        with pytest.raises(BleakError, match=f"nothing answers at tcp:127.0.0.1:{port}"):
-            async with reach(f"tcp:127.0.0.1:{port}"):
-                pass
-
-    run(main)
+@really
+async def test_nobody_at_the_port_is_one_clear_error() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+    with pytest.raises(BleakError, match=f"nothing answers at tcp:127.0.0.1:{port}"):
+        async with reach(f"tcp:127.0.0.1:{port}"):
+            pass
 
 
-def test_bytes_that_are_no_hci_end_that_connection_and_no_other() -> None:
-    async def main() -> None:
-        nonsense = (b"GET / HTTP/1.1\r\n\r\n", b"\x01\x01\x04\x00", b"\x02\x01\x00\xff\xff" + bytes(70000))
-        strap = Strap("one", "F0:00:00:00:00:01")
-        async with serve([strap], "127.0.0.1", 0) as (host, port), reach(f"tcp:{host}:{port}") as backend:
-            for sent in nonsense:
-                reader, writer = await asyncio.open_connection(host, port)
-                writer.write(sent)
-                writer.write_eof()
-                with suppress(ConnectionError):
-                    await asyncio.wait_for(reader.read(), 2.0)
-                writer.close()
-            async with BleakClient(await find(backend), backend=backend.client) as client:
-                assert await client.read_gatt_char(LEVEL) == b"\x57"
-
-    run(main)
+@really
+async def test_bytes_that_are_no_hci_end_that_connection_and_no_other() -> None:
+    nonsense = (b"GET / HTTP/1.1\r\n\r\n", b"\x01\x01\x04\x00", b"\x02\x01\x00\xff\xff" + bytes(70000))
+    strap = Strap("one", "F0:00:00:00:00:01")
+    async with serve([strap], "127.0.0.1", 0) as (host, port), reach(f"tcp:{host}:{port}") as backend:
+        for sent in nonsense:
+            reader, writer = await asyncio.open_connection(host, port)
+            writer.write(sent)
+            writer.write_eof()
+            with suppress(ConnectionError):
+                await asyncio.wait_for(reader.read(), 2.0)
+            writer.close()
+        async with BleakClient(await find(backend), backend=backend.client) as client:
+            assert await client.read_gatt_char(LEVEL) == b"\x57"
 
 
 def test_an_address_has_a_scheme_a_host_and_a_port() -> None:

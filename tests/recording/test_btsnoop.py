@@ -54,9 +54,7 @@ def test_a_walk_in_two_insoles_gives_the_same_steps_as_the_walk_itself(tmp_path)
     path = log.save(tmp_path / "phone.log")
 
     def steps(packets) -> list[tuple[Foot, int, float]]:
-        session = Session()
-        events = [event for packet in packets for event in session.feed(packet)] + session.finish()
-        taken = [event for event in events if isinstance(event, StrideTaken)]
+        taken = walks.of(StrideTaken, walks.said(packets))
         return [(step.foot, step.number, round(step.length, 2)) for step in taken]
 
     assert steps(open_btsnoop(path, report=pytest.fail)) == steps(walk.packets) != []
@@ -116,11 +114,8 @@ def test_sensortags_share_characteristics_and_are_told_apart_by_the_others(tmp_p
     log.notify(0x41, 0x37, bytes(6))
     found, reports = read(log, tmp_path, sites={LEFT: Site.LEFT_FOOT, RIGHT: Site.RIGHT_FOOT})
     assert [(site, channel) for _, site, channel, _ in found if not channel.startswith("receiver/")] == [
-        ("left_foot", "cc2541/gyroscope-config"),
-        ("left_foot", "cc2541/accelerometer"),
-        ("left_foot", "cc2541/barometer"),
-        ("right_foot", "cc2650/movement"),
-        ("right_foot", "cc2650/barometer"),
+        *(("left_foot", f"cc2541/{name}") for name in ("gyroscope-config", "accelerometer", "barometer")),
+        *(("right_foot", f"cc2650/{name}") for name in ("movement", "barometer")),
     ]
     assert reports == []
 

@@ -24,8 +24,6 @@ from solepath.recording import RecordingError
 from solepath.recording.btsnoop import is_btsnoop, open_btsnoop
 from solepath.recording.btsnoop.att import Op
 
-# --- what is missing or wrong -----------------------------------------------------------------------------------------
-
 
 def test_pieces_that_were_not_logged_cost_their_packet_and_are_counted(tmp_path):
     log = begin(Log(piece=50))

@@ -6,6 +6,7 @@ import asyncio
 import shutil
 import struct
 import subprocess
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
@@ -109,19 +110,19 @@ def test_other_ways_to_discover_to_read_and_to_notify(tmp_path):
 needs_tshark = pytest.mark.skipif(shutil.which("tshark") is None, reason="tshark is not installed (apt install tshark)")
 
 
+def tshark(path: Path, only: str, fields: Iterable[str]) -> list[list[str]]:
+    """These fields of every record that it lets through, as it says them."""
+    wanted = [word for name in fields for word in ("-e", name)]
+    command = ["tshark", "-r", path, "-Y", only, "-T", "fields", *wanted]
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    return [line.split("\t") for line in said.splitlines()]
+
+
 def heard_by_tshark(path: Path) -> list[tuple[int, int, int, bytes]]:
     """(us since 1970, connection handle, attribute handle, value) of every notification."""
     fields = ("frame.time_epoch", "bthci_acl.chandle", "btatt.handle", "btatt.value", "btatt.battery_level")
-    wanted = [word for name in fields for word in ("-e", name)]
-    told = subprocess.run(
-        ["tshark", "-r", path, "-Y", "btatt.opcode == 0x1b", "-T", "fields", *wanted],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
     heard = []
-    for line in told.stdout.splitlines():
-        t, connection, attribute, value, battery = line.split("\t")
+    for t, connection, attribute, value, battery in tshark(path, "btatt.opcode == 0x1b", fields):
         seconds, _, parts = t.partition(".")
         us = int(seconds) * 1_000_000 + int(parts[:6])
         data = bytes([int(battery)]) if battery else bytes.fromhex(value)
@@ -166,13 +167,11 @@ def told_by_tshark(path: Path) -> list[tuple[AttOperation, int, bytes]]:
     their own."""
     fields = ("opcode", "handle", "value", "offset", "battery_level", "firmware_revision_string")
     fields += ("characteristic_configuration_client",)
-    wanted = [word for name in fields for word in ("-e", f"btatt.{name}")]
     only = "btatt.opcode in {0x0a, 0x0b, 0x0c, 0x0d, 0x12, 0x13, 0x52}"
-    command = ["tshark", "-r", path, "-Y", only, "-T", "fields", *wanted]
     told: list[tuple[AttOperation, int, bytes]] = []
     offset, pending = 0, b""
-    for line in subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines():
-        opcode, attribute, plain, at, battery, firmware, client = line.split("\t")
+    for row in tshark(path, only, [f"btatt.{name}" for name in fields]):
+        opcode, attribute, plain, at, battery, firmware, client = row
         data = bytes.fromhex(plain) + firmware.encode()
         data += bytes([int(battery)]) if battery else struct.pack("<H", int(client, 16)) if client else b""
         handle = int(attribute, 16)

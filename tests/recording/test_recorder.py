@@ -8,16 +8,10 @@ import sys
 from datetime import UTC, datetime
 
 import pytest
+from recordings import PACKETS, recorded
 
 from solepath.recording import PacketWriter, RecordingError, began, read_header, read_packets
-from solepath.types import Packet, Site
-
-PACKETS = [
-    Packet(12.5, Site.LEFT_FOOT, "device/battery", b"\x63"),
-    Packet(12.5, Site.RIGHT_FOOT, "insole/frame", bytes(range(256))),
-    Packet(0.1 + 12.65, Site.PELVIS, "cc2650/keys", b""),
-]
-
+from solepath.types import Packet
 
 # --- a recorder that dies ---------------------------------------------------------------------------------------------
 
@@ -130,21 +124,15 @@ def test_a_pipe_whose_reader_left_is_a_clear_error():
     ],
 )
 def test_a_header_may_say_what_oclock_it_was(tmp_path, keys, moment):
-    path = tmp_path / "walk.jsonl"
-    with PacketWriter(path, keys):
-        pass
-    assert began(read_header(path)) == moment
+    assert began(read_header(recorded(tmp_path / "walk.jsonl", [], keys))) == moment
 
 
 def test_the_header_of_one_recording_can_be_that_of_another_whatever_its_keys(tmp_path):
     keys = {"path": "x", "self": 1, "header": {"a": [None]}, "": "T\ud800r", "began": "never"}
-    with PacketWriter(tmp_path / "one.jsonl", keys):
-        pass
-    said = read_header(tmp_path / "one.jsonl")
-    assert said == {"format": "solepath-packets", "version": 1, **keys}
-    with PacketWriter(tmp_path / "other.jsonl", said):
-        pass
-    assert (tmp_path / "other.jsonl").read_bytes() == (tmp_path / "one.jsonl").read_bytes()
+    one = recorded(tmp_path / "one.jsonl", [], keys)
+    assert read_header(one) == {"format": "solepath-packets", "version": 1, **keys}
+    other = recorded(tmp_path / "other.jsonl", [], read_header(one))
+    assert other.read_bytes() == one.read_bytes()
 
 
 def test_what_is_recorded_live_may_have_anothers_header_but_its_own_beginning(tmp_path):

@@ -9,23 +9,18 @@ import walks
 from here import PROTOCOL
 from hypothesis import given
 from hypothesis import strategies as st
+from recordings import PACKETS, recorded
 
-from solepath import Session
 from solepath.recording import PacketWriter, RecordingError, began, read_header, read_packets
 from solepath.types import Packet, Site
 
 HEADER = '{"format": "solepath-packets", "version": 1}\n'
-PACKETS = [
-    Packet(12.5, Site.LEFT_FOOT, "device/battery", b"\x63"),
-    Packet(12.5, Site.RIGHT_FOOT, "insole/frame", bytes(range(256))),
-    Packet(0.1 + 12.65, Site.PELVIS, "cc2650/keys", b""),
-]
 
 
-def written(path: Path, packets=PACKETS) -> Path:
-    with PacketWriter(path) as writer:
-        for packet in packets:
-            writer.write(packet)
+def file(tmp_path: Path, text: str) -> Path:
+    """A recording of this text."""
+    path = tmp_path / "walk.jsonl"
+    path.write_text(text)
     return path
 
 
@@ -59,14 +54,13 @@ def read_what_there_is(path: Path) -> tuple[list[Packet], str]:
 )
 def test_any_packets_survive_writing_and_reading(tmp_path_factory, times, contents):
     packets = [Packet(t, *content) for t, content in zip(times, contents, strict=False)]
-    path = written(tmp_path_factory.mktemp("recordings") / "any.jsonl", packets)
+    path = recorded(tmp_path_factory.mktemp("recordings") / "any.jsonl", packets)
     assert list(read_packets(path)) == packets
 
 
 def test_the_example_of_the_specification_is_read(tmp_path):
     text = (PROTOCOL / "recording.md").read_text()
-    path = tmp_path / "example.jsonl"
-    path.write_text(text.split("## Example")[1].split("```")[1].strip() + "\n")
+    path = file(tmp_path, text.split("## Example")[1].split("```")[1].strip() + "\n")
     battery, keys = read_packets(path)
     assert battery == Packet(12.5, Site.LEFT_FOOT, "device/battery", b"c")
     assert keys == Packet(12.75, Site.RIGHT_FOOT, "cc2650/keys", b"\x01", "C3:9F:02:5E:71:AA")
@@ -82,20 +76,18 @@ def test_every_line_is_on_its_way_to_the_disk_before_the_next_packet(tmp_path):
 
 
 def test_unknown_keys_are_ignored_in_header_and_packets(tmp_path):
-    path = tmp_path / "walk.jsonl"
-    path.write_text('{"version": 1, "note": "x", "format": "solepath-packets"}\n' + line_of(rssi=-60, t=2))
+    path = file(tmp_path, '{"version": 1, "note": "x", "format": "solepath-packets"}\n' + line_of(rssi=-60, t=2))
     assert list(read_packets(path)) == [Packet(2.0, Site.LEFT_FOOT, "insole/frame", b"\xf5")]
 
 
 def test_upper_case_digits_and_blank_lines_are_read(tmp_path):
-    path = tmp_path / "walk.jsonl"
-    path.write_text(HEADER + "\n  \n" + line_of(data="F5aB"))
+    path = file(tmp_path, HEADER + "\n  \n" + line_of(data="F5aB"))
     assert [packet.data for packet in read_packets(path)] == [b"\xf5\xab"]
 
 
 @given(cut=st.integers(min_value=1, max_value=10_000))
 def test_cut_anywhere_after_the_header_no_packet_before_the_cut_is_lost(tmp_path_factory, cut):
-    path = written(tmp_path_factory.mktemp("recordings") / "walk.jsonl")
+    path = recorded(tmp_path_factory.mktemp("recordings") / "walk.jsonl", PACKETS)
     whole = path.read_bytes()
     first = whole.index(b"\n") + 1
     kept = whole[: first + cut % (len(whole) - first)]
@@ -134,9 +126,7 @@ def test_cut_anywhere_after_the_header_no_packet_before_the_cut_is_lost(tmp_path
     ],
 )
 def test_a_bad_line_is_named_after_everything_before_it_was_read(tmp_path, line, complaint):
-    path = tmp_path / "walk.jsonl"
-    path.write_text(HEADER + line_of(t=0.5) + line + line_of(t=9.0))
-    packets, sentence = read_what_there_is(path)
+    packets, sentence = read_what_there_is(file(tmp_path, HEADER + line_of(t=0.5) + line + line_of(t=9.0)))
     assert [packet.t for packet in packets] == [0.5]
     assert f": line 3: {complaint}" in sentence
     assert sentence.isprintable() and len(sentence) < 400
@@ -150,25 +140,20 @@ def test_bytes_that_are_not_text_are_named(tmp_path):
 
 @pytest.mark.parametrize("version", [2, 0, "1", 1.0, True, None])
 def test_an_unknown_version_is_refused(tmp_path, version):
-    path = tmp_path / "walk.jsonl"
-    path.write_text(json.dumps({"format": "solepath-packets", "version": version}) + "\n" + line_of())
-    packets, sentence = read_what_there_is(path)
+    header = json.dumps({"format": "solepath-packets", "version": version})
+    packets, sentence = read_what_there_is(file(tmp_path, f"{header}\n{line_of()}"))
     assert packets == []
     assert f"line 1: is of version {json.dumps(version)}; this release reads version 1" in sentence
 
 
 @pytest.mark.parametrize("first", ['{"format": "solepath-pack', line_of(), "hello", '"x"\n'])
 def test_a_file_without_a_whole_header_is_refused(tmp_path, first):
-    path = tmp_path / "walk.jsonl"
-    path.write_text(first)
-    assert "line 1: " in read_what_there_is(path)[1]
+    assert "line 1: " in read_what_there_is(file(tmp_path, first))[1]
 
 
 @pytest.mark.parametrize("nothing", ["", "\n\n"])
 def test_an_empty_file_is_called_empty(tmp_path, nothing):
-    path = tmp_path / "walk.jsonl"
-    path.write_text(nothing)
-    assert read_what_there_is(path)[1].endswith("is empty")
+    assert read_what_there_is(file(tmp_path, nothing))[1].endswith("is empty")
 
 
 def test_a_missing_file_and_a_directory_are_named(tmp_path):
@@ -177,13 +162,12 @@ def test_a_missing_file_and_a_directory_are_named(tmp_path):
 
 
 def test_a_receivers_clock_that_was_set_back_is_left_to_the_decoder(tmp_path):
-    path = tmp_path / "walk.jsonl"
-    path.write_text(HEADER + line_of(t=9.0) + line_of(t=0.5))
+    path = file(tmp_path, HEADER + line_of(t=9.0) + line_of(t=0.5))
     assert [packet.t for packet in read_packets(path)] == [9.0, 0.5]
 
 
 def test_progress_ends_at_the_size_of_the_file(tmp_path):
-    path = written(tmp_path / "walk.jsonl")
+    path = recorded(tmp_path / "walk.jsonl", PACKETS)
     read = []
     list(read_packets(path, progress=read.append))
     assert read == sorted(read) and read[-1] == path.stat().st_size
@@ -205,7 +189,7 @@ def test_packets_that_no_recording_can_hold_are_refused_and_leave_it_whole(tmp_p
 
 def test_a_device_that_nobody_knows_is_not_written(tmp_path):
     named = Packet(1.0, Site.LEFT_FOOT, "insole/frame", b"", "C3:9F:02:5E:71:AA")
-    path = written(tmp_path / "walk.jsonl", [PACKETS[0], named])
+    path = recorded(tmp_path / "walk.jsonl", [PACKETS[0], named])
     first, second = (json.loads(line) for line in path.read_text().splitlines()[1:])
     assert "device" not in first and second["device"] == "C3:9F:02:5E:71:AA"
 
@@ -222,10 +206,10 @@ def test_a_recording_gives_the_same_events_bit_for_bit(tmp_path, name):
     packets += [Packet(end + 0.1 * k, Site.LEFT_FOOT, "receiver/tick", b"") for k in range(30)]
 
     def events(stream) -> list[str]:
-        session = Session(poses=True)
-        told = [event for packet in stream for event in session.feed(packet)] + session.finish()
-        return [repr(event) for event in told]  # repr tells every bit of a float, and -0.0 from 0.0
+        return [
+            repr(event) for event in walks.said(stream, poses=True)
+        ]  # repr tells every bit of a float, and -0.0 from 0.0
 
-    recorded = events(read_packets(written(tmp_path / "walk.jsonl", packets)))
-    assert recorded == events(packets)
-    assert sum(line.startswith(("Connected", "StreamStale")) for line in recorded) >= 2
+    told = events(read_packets(recorded(tmp_path / "walk.jsonl", packets)))
+    assert told == events(packets)
+    assert sum(line.startswith(("Connected", "StreamStale")) for line in told) >= 2

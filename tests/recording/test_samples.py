@@ -195,17 +195,15 @@ def test_whatever_bytes_of_an_archive_are_damaged_only_recording_error_is_raised
         assert str(error).isprintable()
 
 
-@pytest.mark.parametrize("name", ["empty.npz", "empty.csv"])
-def test_an_empty_file_is_called_empty(tmp_path, name):
-    (tmp_path / name).write_bytes(b"")
-    assert refusal(tmp_path / name)[1].endswith("is empty")
-
-
 @pytest.mark.parametrize("name", ["walk.npz", "walk.csv"])
-def test_a_missing_file_and_a_directory_are_named(tmp_path, name):
-    assert refusal(tmp_path / name)[1].endswith("no such file or directory")
-    (tmp_path / name).mkdir()
-    assert refusal(tmp_path / name)[1].endswith("is a directory, not a recording")
+def test_a_missing_or_empty_file_and_a_directory_are_named(tmp_path, name):
+    path = tmp_path / name
+    assert refusal(path)[1].endswith("no such file or directory")
+    path.write_bytes(b"")
+    assert refusal(path)[1].endswith("is empty")
+    path.unlink()
+    path.mkdir()
+    assert refusal(path)[1].endswith("is a directory, not a recording")
 
 
 def test_the_foot_that_a_file_does_not_hold_is_missed(tmp_path):

@@ -15,7 +15,8 @@ from floors import LOW, OFFICE, Pedestrian, office
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from pages import Node, parsed, read
-from walks import insoles
+from shown import later
+from walks import insoles, of, said
 
 from solepath import Connected, LinkTrouble, PacketsLost, PlaceLost, Session, Site
 from solepath.body.gait.means import GaitMeans
@@ -38,8 +39,12 @@ NO_NUMBER = re.compile(r"\b(nan|inf)\b", re.IGNORECASE)
 @cache
 def walked() -> tuple[Event, ...]:
     """All that a session with insoles says of a walk round a corner."""
-    session = Session(poses=True, pressures=True)
-    return (*session.feed(insoles(CORNER, cells=24).packets), *session.finish())
+    return tuple(said(insoles(CORNER, cells=24).packets, poses=True, pressures=True))
+
+
+def of_the_left_foot() -> list[Event]:
+    """The same, without what is said of the right one."""
+    return [event for event in walked() if getattr(event, "foot", Foot.LEFT) is Foot.LEFT]
 
 
 def told(*events: Event, title: str = "a walk", **more: str) -> Report:
@@ -50,10 +55,6 @@ def told(*events: Event, title: str = "a walk", **more: str) -> Report:
 
 def shown(report: Report) -> Node:
     return parsed(report.text())
-
-
-def headings(page: Node) -> list[str]:
-    return [one.text for tag in ("h1", "h2") for one in page.all(tag)]
 
 
 def captions(page: Node) -> list[str]:
@@ -71,9 +72,8 @@ def rows_of(page: Node) -> dict[str, list[str]]:
 
 def test_the_gait_table_has_the_numbers_of_the_session() -> None:
     means = GaitMeans(memory=10**9)
-    for event in walked():
-        if isinstance(event, GaitCycleMeasured):
-            means.hear(event)
+    for event in of(GaitCycleMeasured, walked()):
+        means.hear(event)
     parameters = means.of(False)
     assert parameters is not None
     rows = rows_of(shown(told(*walked())))
@@ -87,16 +87,15 @@ def test_the_gait_table_has_the_numbers_of_the_session() -> None:
 
 
 def test_the_summary_says_how_long_how_far_and_what_was_done() -> None:
-    report = told(*walked(), when="on Monday")
-    page = shown(report)
+    page = shown(told(*walked(), when="on Monday"))
     sentences = [one.text for one in page.first("ul").all("li")]
     for foot in Foot:
-        taken = [event for event in walked() if isinstance(event, StrideTaken) and event.foot is foot]
+        taken = [event for event in of(StrideTaken, walked()) if event.foot is foot]
         distance = sum(event.length for event in taken)
         assert f"The {foot.value} foot took {len(taken)} strides over {distance:.1f} m." in sentences
     assert any(one.startswith("Activities: standing ") and " walking " in one for one in sentences)
     assert "Turns: 1 to the left." in sentences
-    samples = [event.t for event in walked() if isinstance(event, FootMoved)]
+    samples = [event.t for event in of(FootMoved, walked())]
     facts = page.named("facts").text
     assert "on Monday" in facts and "default" in facts and "solepath 1.0" in facts
     assert f"{min(samples):.1f} to {max(samples):.1f} s" in facts
@@ -105,17 +104,14 @@ def test_the_summary_says_how_long_how_far_and_what_was_done() -> None:
 
 
 def test_runs_and_walks_have_a_table_each() -> None:
-    strides = [event for event in walked() if isinstance(event, GaitCycleMeasured)]
-    later = [
-        evolve(one, t=one.t + 60.0, t_start=one.t_start + 60.0, t_toe_off=one.t_toe_off + 60.0, stance_time=0.3)
-        for one in strides
-    ]
-    told_of = [one.first("caption").text for one in shown(told(*strides, *later)).all("table")]
+    strides = of(GaitCycleMeasured, walked())
+    runs = [evolve(later(one, 60.0), stance_time=0.3) for one in strides]
+    told_of = [one.first("caption").text for one in shown(told(*strides, *runs)).all("table")]
     assert [one.partition(":")[0] for one in told_of if "steady" in one] == ["Walking", "Running"]
 
 
 def test_a_recording_whose_clock_began_long_ago_is_told_from_its_beginning() -> None:
-    moved = [evolve(event, t=event.t + 1.7e9) for event in walked() if isinstance(event, FootMoved)]
+    moved = [later(event, 1.7e9) for event in of(FootMoved, walked())]
     assert "time from the beginning, s" in shown(told(*moved)).text
 
 
@@ -130,21 +126,18 @@ def test_what_was_wrong_is_said_in_words_and_in_the_table_of_links() -> None:
     assert "11" in health.text and "the battery is nearly empty" in health.text
     assert "left foot (sole 7)" in page.named("facts").text
     assert "Nothing was wrong" not in health.text
-    quiet = Report("quiet")
-    assert "Nothing was wrong" in shown(quiet).text
+    assert "Nothing was wrong" in shown(Report("quiet")).text
 
 
 def heard_after(silence: float, back: float) -> Report:
-    """Of a walk with insoles in whose middle nothing is heard for so long, s, and then comes at times so much
-    earlier."""
+    """Of a walk in whose middle nothing is heard for so long, s, and then at times so much earlier."""
     session, report = Session(poses=True, pressures=True), Report("a walk")
     now = 0.0
     for packet in insoles(Route().stand(1.5).walk(12.0, 1.3).stop(1.0), cells=24).packets:
         t = packet.t + 5000.0 + (silence - back if packet.t > 6.0 else 0.0)
         if now and t - now > 1.0:
             report.take(None, session.advance(t - 0.1))
-        now = t
-        packet = evolve(packet, t=t)
+        now, packet = t, evolve(packet, t=t)
         report.take(packet, session.feed(packet))
     report.take(None, session.finish())
     return report
@@ -176,8 +169,7 @@ def test_a_long_name_hides_nothing_else() -> None:
 
 def test_the_file_leads_nowhere_and_runs_nothing(tmp_path: Path) -> None:
     path = tmp_path / "report.html"
-    report = told(*walked())
-    report.write(path)
+    told(*walked()).write(path)
     text = path.read_text(encoding="utf-8")
     assert text.startswith('<!DOCTYPE html>\n<html lang="en">')
     page = read(path)
@@ -214,8 +206,9 @@ def test_a_file_that_cannot_be_written_is_named(tmp_path: Path) -> None:
 def test_a_screen_reader_finds_its_way() -> None:
     page = shown(told(*walked()))
     assert page.first("html").attributes["lang"] == "en"
-    assert headings(page)[0] == "a walk"
-    assert {"Summary", "Gait", "Track", "Pressure", "Activities", "Sensors and links"} < set(headings(page))
+    assert [one.text for one in page.all("h1")] == ["a walk"]
+    headings = {one.text for one in page.all("h2")}
+    assert {"Summary", "Gait", "Track", "Pressure", "Activities", "Sensors and links"} <= headings
     ids = [one.attributes["id"] for one in page.all() if "id" in one.attributes]
     assert len(ids) == len(set(ids))
     named = [name for one in page.all() for name in one.attributes.get("aria-labelledby", "").split()]
@@ -233,49 +226,34 @@ def test_a_screen_reader_finds_its_way() -> None:
 
 def test_there_is_a_figure_for_what_there_is() -> None:
     assert captions(shown(told(*walked()))) == [
-        "Mean gait cycle, walking",
-        "Stride length over time",
-        "Stride time over time",
-        "Speed over time",
-        "Track from above",
-        "Height of the feet over time",
-        "Mean load of a contact",
-        "Peak load of a contact",
-        "Mean force over a contact",
-        "Activities over time",
-    ]
+        "Mean gait cycle, walking", "Stride length over time", "Stride time over time", "Speed over time",
+        "Track from above", "Height of the feet over time", "Mean load of a contact", "Peak load of a contact",
+        "Mean force over a contact", "Activities over time",
+    ]  # fmt: skip
 
 
 def test_there_is_a_sentence_for_what_there_is_not() -> None:
     page = shown(Report("nothing"))
     assert not page.all("svg") and not page.all("table")
     for sentence in (
-        "Nothing was heard of either foot.",
-        "No stride was measured",
-        "There is no track",
-        "There is no pressure",
+        "Nothing was heard of either foot.", "No stride was measured", "There is no track", "There is no pressure",
         "No activity was told",
-    ):
+    ):  # fmt: skip
         assert sentence in page.text
-    planned = Report("nothing", BUILDING)
-    assert "Where on the floor plan the wearer was is not known." in shown(planned).text
+    planned = shown(Report("nothing", BUILDING))
+    assert "Where on the floor plan the wearer was is not known." in planned.text
 
 
 def test_one_foot_alone_has_its_own_report() -> None:
-    mine = [event for event in walked() if getattr(event, "foot", Foot.LEFT) is Foot.LEFT]
-    page = shown(told(*[event for event in mine if not isinstance(event, WearerMoved)]))
+    page = shown(told(*[event for event in of_the_left_foot() if not isinstance(event, WearerMoved)]))
     assert {"Mean gait cycle, walking", "Track from above", "Mean load of a contact"} <= set(captions(page))
     assert all(cells[1] == "-" for name, cells in rows_of(page).items() if name != "parameter")
 
 
 def test_pressure_alone_has_times_and_no_track() -> None:
-    only = (GaitCycleMeasured, FootPressed, LayoutKnown)
+    only = of((GaitCycleMeasured, FootPressed, LayoutKnown), walked())
     lost = {"stride_length": None, "speed": None, "clearance": None, "turning_angle": None, "rise": None}
-    events = [
-        evolve(event, **lost) if isinstance(event, GaitCycleMeasured) else event
-        for event in walked()
-        if isinstance(event, only)
-    ]
+    events = [evolve(event, **lost) if isinstance(event, GaitCycleMeasured) else event for event in only]
     page = shown(told(*events))
     assert "Stride time over time" in captions(page) and "Stride length over time" not in captions(page)
     assert "There is no track" in page.text and "how far is not known" in page.text
@@ -308,9 +286,8 @@ def test_any_events_in_any_order_make_a_page_without_a_number_that_is_none(
 
 
 def test_memory_does_not_grow_with_the_time_walked() -> None:
-    mine = [event for event in walked() if getattr(event, "foot", Foot.LEFT) is Foot.LEFT]
     kinds = (GaitCycleMeasured, StrideTaken, WearerMoved)
-    events = [event for kind in kinds for event in [one for one in mine if isinstance(one, kind)][-4:]]
+    events = [event for kind in kinds for event in of(kind, of_the_left_foot())[-4:]]
     report, sizes = told(*walked()), []
     for k in range(1, 501):
         report.take(None, [evolve(event, t=event.t + 20.0 * k) for event in events])

@@ -3,6 +3,7 @@
 from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
+from strides import stride
 
 from solepath.events import (
     CellFault,
@@ -18,9 +19,7 @@ from solepath.events import (
     Rejection,
     SampleGap,
     ScaleSuspect,
-    StrideFeatures,
     StrideFused,
-    StrideTaken,
     TouchedDown,
 )
 from solepath.session import Session
@@ -30,10 +29,9 @@ from solepath.show.tables.summary import link_health, status, summary, worn
 from solepath.show.tables.table import milliseconds, number, percent, table
 from solepath.types import Foot, Packet, Sample, Site, WalkingMode
 
-STEP = StrideTaken(
-    t=2.0, known_at=2.0625, foot=Foot.LEFT, number=1, t_start=1.0, t_end=2.0, displacement=(1.25, 0.0, 0.0),
-    position=(1.25, 0.0, 0.0), length=1.25, heading_change=0.0, height_change=0.0,
-    covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4), degraded=True, features=StrideFeatures(0.125, 4.0, 1.0),
+STEP = stride(
+    Foot.LEFT, 2.0, (1.25, 0.0, 0.0), known_at=2.0625, position=(1.25, 0.0, 0.0), degraded=True,
+    covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4),
 )  # fmt: skip
 
 

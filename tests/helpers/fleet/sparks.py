@@ -13,13 +13,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from walks import insoles
+from walks import insoles, said
 
 from solepath.emulate.routes.route import Route
 from solepath.fleet import End, NumberedEvent, Sent, sent_row, told_row
 from solepath.fleet.spark_files import committed
 from solepath.recipes import DEFAULT, by_name
-from solepath.session import Session
 
 ROUTE = Route().stand(1.0).walk(3.0, 1.3).stop(0.5)
 CONF = {
@@ -72,8 +71,7 @@ def sent(wearer: int, walk: int) -> list[Sent]:
 @cache
 def says(walk: int, recipe: str) -> tuple[Row, ...]:
     """Rows of what a bare session says of the same walk."""
-    session = Session(by_name(recipe))
-    events = session.feed(insoles(ROUTE, seed=walk, cells=48).packets) + session.finish()
+    events = said(insoles(ROUTE, seed=walk, cells=48).packets, by_name(recipe))
     return tuple(told_row(NumberedEvent("", number, event)) for number, event in enumerate(events))
 
 

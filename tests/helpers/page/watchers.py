@@ -1,4 +1,4 @@
-"""Commands that serve the page as programs of their own, and who watches it as a browser does."""
+"""Commands that serve the page, and who watches it as a browser does."""
 
 from __future__ import annotations
 
@@ -6,30 +6,16 @@ import asyncio
 import json
 import re
 import subprocess
-import sys
-from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
-from contextlib import asynccontextmanager, contextmanager
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING, Any
+
+from programs import TAKES
 
 if TYPE_CHECKING:
     import aiohttp
 
-TAKES = 30.0
-"""s that a program may take to say or do something before the test gives up."""
 ANYWHERE = ("--view", "127.0.0.1:0")
-
-
-@contextmanager
-def started(*arguments: object, code: str = "", **options: Any) -> Iterator[subprocess.Popen[str]]:
-    """A command as a program of its own, until the test is through with it."""
-    program = f"{code}from solepath.cli import main; raise SystemExit(main({[str(one) for one in arguments]!r}))"
-    piped = dict.fromkeys(("stdout", "stderr"), subprocess.PIPE) | {"stdin": subprocess.DEVNULL}
-    process = subprocess.Popen([sys.executable, "-c", program], text=True, **(piped | options))
-    try:
-        yield process
-    finally:
-        process.kill()
-        process.communicate()
 
 
 def address(process: subprocess.Popen[str]) -> str:

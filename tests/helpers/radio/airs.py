@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import asyncio
+from collections import defaultdict
 from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from typing import Any, TypeVar
 
 import looptime
+from attrs import evolve
 from memory_radio import MemoryRadio
 
-from solepath.ble import Backend, Devices
+from solepath.ble import Backend, Devices, Wanted
 from solepath.emulate.controllers.server import virtual_air
 from solepath.emulate.devices.bench import Bench
-from solepath.types import Packet
+from solepath.link.devices.reassembly import Reassembly
+from solepath.types import Packet, Site
+from solepath.wire.fields import parse_text
+from solepath.wire.fragment import is_fragment, parse_fragment
 
 T = TypeVar("T")
 
@@ -47,6 +52,38 @@ async def hear(devices: Devices, seconds: float) -> list[Packet]:
             break
         heard.append(packet)
     return heard
+
+
+def received(backend: Backend, *wanted: Wanted, seconds: float, **more: Any) -> list[Packet]:
+    """What an app gets that wants these, in so many seconds of virtual time; it leaves nothing running."""
+
+    async def main() -> list[Packet]:
+        async with Devices(wanted, backend=backend, **more) as devices:
+            found = await hear(devices, seconds)
+        assert not others()
+        return found
+
+    return in_virtual_time(main)
+
+
+def troubles(packets: list[Packet]) -> list[str]:
+    """What it is told of."""
+    return [parse_text(packet.data) for packet in packets if packet.channel == "receiver/trouble"]
+
+
+def whole(packets: list[Packet]) -> list[Packet]:
+    """The same with fragments put together, each frame at the arrival of its last."""
+    under_way = defaultdict[Site, Reassembly](Reassembly)
+    found = []
+    for packet in packets:
+        if packet.channel == "insole/frame" and is_fragment(packet.data):
+            frame, dropped = under_way[packet.site].feed(parse_fragment(packet.data))
+            assert dropped is None
+            if frame is not None:
+                found.append(evolve(packet, data=bytes(frame)))
+        else:
+            found.append(packet)
+    return found
 
 
 def others() -> set[asyncio.Task[Any]]:

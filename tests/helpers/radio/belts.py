@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from typing import Any
 
 from attrs import define, evolve, field
@@ -109,10 +108,6 @@ def asked(*devices: Peripheral) -> Asked:
 
 PELVIS = Site.PELVIS
 ONE = Wanted(PELVIS, address(1), STRAP)
-
-
-def now() -> float:
-    return asyncio.get_running_loop().time()
 
 
 def times(packets: list[Packet], channel: str) -> list[float]:

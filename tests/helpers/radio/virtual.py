@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
+from functools import wraps
 from typing import Any
 
 import looptime
@@ -33,6 +34,16 @@ def run(main: Callable[[], Awaitable[None]]) -> None:
         runner.get_loop().set_exception_handler(lambda loop, context: troubles.append(context))
         runner.run(whole())
     assert not troubles
+
+
+def virtually(test: Callable[..., Awaitable[None]]) -> Callable[..., None]:
+    """An async test that runs so."""
+
+    @wraps(test)
+    def run_it(*given: Any, **named: Any) -> None:
+        run(lambda: test(*given, **named))
+
+    return run_it
 
 
 def now() -> float:

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from views import fed
 
+from solepath.emulate.wearers.turning import matrices
 from solepath.events import ActivityChanged, LiftRidden
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
@@ -26,7 +27,7 @@ from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.saving.codec import save
 from solepath.show.timeline import Timeline
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample
-from solepath.types.vector import GRAVITY
+from solepath.types.vector import GRAVITY, normalise
 
 RATE = 20.0
 FEET = {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in Foot}
@@ -86,14 +87,7 @@ turns = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: sum(x * x for x in q
 
 @given(quat=turns)
 def test_however_a_sensor_is_mounted_its_windows_are_the_same(quat):
-    w, x, y, z = np.array(quat) / np.linalg.norm(quat)
-    turn = np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    turn = matrices(np.array([normalise(quat)]))[0]
     k = np.arange(100)
     accs = np.column_stack([2.0 * np.sin(k), np.cos(1.7 * k), GRAVITY + 3.0 * np.sin(0.8 * k)])
     for a, b in zip(windows(accs.tolist()), windows((accs @ turn.T).tolist()), strict=True):
@@ -185,7 +179,7 @@ def test_no_second_pulse_for_a_minute_means_that_there_was_no_ride():
 
 def test_a_foot_that_falls_silent_is_not_waited_for():
     both = samples(lambda t: 0.0, 6.0)
-    one = [attrs.evolve(item, t=item.t) for item in samples(lambda t: ride(t, 6.0, 16.0), 24.0, feet=(Foot.LEFT,))]
+    one = samples(lambda t: ride(t, 6.0, 16.0), 24.0, feet=(Foot.LEFT,))
     events = told(both + [item for item in one if item.t >= 6.0])
     assert [event.up for event in events if isinstance(event, LiftRidden)] == [True]
 
@@ -193,19 +187,16 @@ def test_a_foot_that_falls_silent_is_not_waited_for():
 # --- the hidden Markov model ------------------------------------------------------------------------------------------
 
 
-def model(**changes):
+def model():
     """Three states of the same width whose means differ by 1 in the log variance."""
 
     def at(middle):
         width = tuple(tuple(1.0 if k == row else 0.0 for k in range(row + 1)) for row in range(len(FEATURES)))
         return (Gaussian(1.0, (middle, 0.0, GRAVITY, log(1e-6), 0.0), width),)
 
-    known = {
-        "trained_on": "nothing", "moving": 1.0, "pulse": 0.2,
-        "walking": at(3.0), "stairs_up": at(4.0), "stairs_down": at(2.0),
-        "transitions": ((0.9, 0.06, 0.04), (0.1, 0.9, 0.0), (0.2, 0.0, 0.8)),
-    }  # fmt: skip
-    return WindowModel(**(known | changes))
+    transitions = ((0.9, 0.06, 0.04), (0.1, 0.9, 0.0), (0.2, 0.0, 0.8))
+    middles = {"walking": at(3.0), "stairs_up": at(4.0), "stairs_down": at(2.0)}
+    return WindowModel(trained_on="nothing", moving=1.0, pulse=0.2, transitions=transitions, **middles)
 
 
 def test_a_gaussian_is_the_density_of_its_covariance():

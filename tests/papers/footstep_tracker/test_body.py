@@ -8,47 +8,33 @@ from pathlib import Path
 
 import pytest
 from attrs import evolve
-from walks import LEFT, RIGHT, of
+from commands import refused, run
+from recordings import recorded
+from strides import stride
+from walks import LEFT, RIGHT, of, said
 
 from solepath import Session
 from solepath.body.gait.direction import Direction, TurnProcess
 from solepath.body.gait.turns import WEIGHTS, classified
 from solepath.calibration import Calibration, CalibrationError
 from solepath.calibration.file import read_calibration
-from solepath.cli.main import main
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.emulate.wearers.shoe import IN_SOLE
-from solepath.events import StrideFeatures, StrideTaken, TurnMade
+from solepath.events import StrideTaken, TurnMade
 from solepath.lab.train.turns import ANGLES, read, trained, walk
 from solepath.papers.footstep_tracker.footsteps import Footsteps
 from solepath.papers.footstep_tracker.projection import Projection
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.papers.footstep_tracker.toe_out import learnt, toe_out
 from solepath.recipes import DEFAULT, Recipe
-from solepath.recording import PacketWriter
 from solepath.types import Foot, Turn
 
 
 def step(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.0, 0.0)) -> StrideTaken:
     """A step that ends at `t` s and turns by `turn` rad."""
-    x, y = way
-    return StrideTaken(
-        t=t,
-        known_at=t,
-        foot=foot,
-        number=1,
-        t_start=t - 1.0,
-        t_end=t,
-        displacement=(x, y, 0.0),
-        position=(x, y, 0.0),
-        length=hypot(x, y),
-        heading_change=turn,
-        height_change=0.0,
-        covariance=(0.0,) * 6,
-        features=StrideFeatures(clearance=0.0, peak_speed=0.0, swing_pitch=0.0),
-    )
+    return stride(foot, t, (*way, 0.0), heading_change=turn)
 
 
 def heard() -> Footsteps:
@@ -56,6 +42,15 @@ def heard() -> Footsteps:
     body = Footsteps()
     for way in body.ways.values():
         way.heard = True
+    return body
+
+
+def gone(count: int, left: float, right: float) -> Footsteps:
+    """After so many steps of both feet, each m ahead."""
+    body = heard()
+    for k in range(count):
+        body.step(step(Foot.LEFT, k + 0.5, way=(left, 0.0)))
+        body.step(step(Foot.RIGHT, k + 1.0, way=(right, 0.0)))
     return body
 
 
@@ -68,18 +63,11 @@ def base(body: Footsteps) -> tuple[float, float]:
 
 
 def test_the_wearer_is_at_the_mean_of_what_both_feet_went() -> None:
-    body = heard()
-    for k in range(4):
-        body.step(step(Foot.LEFT, k + 0.5, way=(1.2, 0.0)))
-        body.step(step(Foot.RIGHT, k + 1.0, way=(1.0, 0.0)))
-    assert base(body) == pytest.approx((4.4, 0.0))
+    assert base(gone(4, 1.2, 1.0)) == pytest.approx((4.4, 0.0))
 
 
 def test_feet_that_are_more_than_a_metre_apart_begin_anew_at_their_mean() -> None:
-    body = heard()
-    for k in range(6):
-        body.step(step(Foot.LEFT, k + 0.5, way=(1.4, 0.0)))
-        body.step(step(Foot.RIGHT, k + 1.0, way=(1.0, 0.0)))
+    body = gone(6, 1.4, 1.0)
     assert body.restarts > 0
     assert base(body) == pytest.approx((0.5 * 6 * 2.4, 0.0))
     assert hypot(body.ways[Foot.LEFT].here[0] - body.ways[Foot.RIGHT].here[0], 0.0) < 2.0
@@ -94,10 +82,7 @@ def test_half_a_stride_between_healthy_feet_is_no_difference() -> None:
 
 
 def test_a_foot_that_falls_silent_does_not_hold_the_wearer_back() -> None:
-    body = heard()
-    for k in range(5):
-        body.step(step(Foot.LEFT, k + 0.5))
-        body.step(step(Foot.RIGHT, k + 1.0))
+    body = gone(5, 1.0, 1.0)
     for k in range(5, 15):
         body.step(step(Foot.LEFT, k + 0.5))
     assert base(body) == pytest.approx((15.0, 0.0))
@@ -199,8 +184,7 @@ def test_a_wearer_who_turns_is_told_to_have_turned() -> None:
     right = 0
     for seed in range(3, 7):
         for turn in ANGLES:
-            session = Session(FOOTSTEP_TRACKER)
-            events = session.feed(walk(seed, turn).packets) + session.finish()
+            events = said(walk(seed, turn).packets, FOOTSTEP_TRACKER)
             right += [made.turn for made in of(TurnMade, events) if made.turn is not None] == [turn]
     assert right >= 11  # of 12: who swings a foot round by 170 degrees at once does so too fast for its gyroscope
 
@@ -236,8 +220,7 @@ def test_who_turns_on_the_spot_has_turned_though_the_feet_hardly_leave_the_groun
     device = CC2541(rate=20.0, mounting=IN_SOLE)
     route = Route().stand(2.0).walk(3.0, 1.2).turn(radians(degrees_)).walk(3.0).stop(2.0)
     walked = emulate(route, devices={LEFT: device, RIGHT: evolve(device)}, seed=109)
-    session = Session(recipe)
-    (made,) = of(TurnMade, session.feed(walked.packets) + session.finish())
+    (made,) = of(TurnMade, said(walked.packets, recipe))
     assert made.turn is turn
     assert abs(degrees(made.angle) - degrees_) < 30.0
 
@@ -276,16 +259,14 @@ def test_the_angle_of_a_calibration_is_the_one_that_the_foot_uses() -> None:
     assert (right.toe_out, right.outwards, left.toe_out, left.outwards) == (0.2, -1.0, 0.0, 1.0)
 
 
-def test_calibrate_toe_out_writes_what_a_walk_tells(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    file, out = tmp_path / "corridor.jsonl", tmp_path / "me.json"
-    with PacketWriter(file) as writer:
-        for packet in corridor(15.0).packets:
-            writer.write(packet)
-    assert main(["calibrate", "toe-out", str(file), "--distance", "12", "--out", str(out)]) == 0
-    assert "toe-out degrees" in capsys.readouterr().out
+def test_calibrate_toe_out_writes_what_a_walk_tells_and_nothing_where_it_tells_none(tmp_path: Path) -> None:
+    file, out, other = recorded(tmp_path / "walk.jsonl", corridor(15.0).packets), tmp_path / "me.json", tmp_path / "no"
+    done = run("calibrate", "toe-out", file, "--distance", "12", "--out", out)
+    assert done.returncode == 0 and "toe-out degrees" in done.stdout
     assert set(read_calibration(out).toe_out) == set(Foot)
-    assert main(["calibrate", "toe-out", str(file), "--distance", "20", "--out", str(out)]) == 2
-    assert "nothing is learnt" in capsys.readouterr().err
-    assert main(["calibrate", "toe-out", str(file), "--distance", "3", "--out", str(out)]) == 2
-    with pytest.raises(SystemExit):
-        main(["calibrate", "toe-out", str(file), "--distance", "-3", "--out", str(out)])
+    for distance in ("20", "80", "1e308"):
+        said_of_it = refused("calibrate", "toe-out", file, "--distance", distance, "--out", other)
+        assert "nothing is learnt: the steps come to " in said_of_it and "m of the left foot and " in said_of_it
+    for distance in ("3", "-3"):
+        assert run("calibrate", "toe-out", file, "--distance", distance, "--out", other).returncode == 2
+    assert not other.exists()

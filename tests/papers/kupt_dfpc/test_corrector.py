@@ -204,7 +204,7 @@ def fresh(slide: float = 0.0) -> SwingDedrift:
     return SwingDedrift(slide=slide, tilt_rate=0.0)
 
 
-def test_only_the_swing_loses_a_line_as_in_equation_8() -> None:
+def test_only_the_swing_loses_a_line_as_in_equation_8_and_the_error_index_is_that_of_equation_10() -> None:
     # drift rate (0.15 - 0.04) / (0.55 - 0.15) = 0.275 m/s^2
     # up to toe-off     (0.01 + 0.11) x 0.1 = 0.012
     # swing 0.2 to 0.5  raw 0.35 x 0.3 = 0.105, less 0.04 x 0.3 + 0.275 (0.35^2 - 0.05^2) / 2 = 0.012 + 0.0165
@@ -212,6 +212,7 @@ def test_only_the_swing_loses_a_line_as_in_equation_8() -> None:
     corrector = moved(fresh())
     assert corrector.position[0] == pytest.approx(0.012 + 0.0765 + 0.15)
     assert corrector.velocity == ZERO
+    assert corrector.error_index == pytest.approx(0.04 + 0.15)
 
 
 def test_a_heel_that_never_rolls_leaves_the_line_to_run_to_motion_end() -> None:
@@ -239,11 +240,6 @@ def test_a_roll_that_is_believed_up_to_a_good_toe_off_stays_believed() -> None:
     """The foot that goes on to contradict it had left the ground."""
     early = (STEP[0], STEP[1], (rolling(0.9, Phase.PUSH_OFF), Cue.CLEAR), *STEP[3:])
     assert moved(fresh(), early).error_index == pytest.approx(0.19)
-
-
-def test_the_error_index_is_that_of_equation_10() -> None:
-    # |0.04 + 0.15|
-    assert moved(fresh()).error_index == pytest.approx(0.19)
 
 
 def test_a_heel_that_slides_first_is_compared_once_it_rolls() -> None:

@@ -7,8 +7,10 @@ from math import isfinite
 from typing import Any
 
 import pytest
+from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from strides import stride
 from views import fed
 from walks import insoles, of
 
@@ -39,23 +41,10 @@ def step(
     number: int = 1,
 ) -> StrideTaken:
     """A step that ends at `end` s, of which the last 40 % are swing."""
-    return StrideTaken(
-        t=end,
-        known_at=end,
-        foot=foot,
-        number=number,
-        t_start=end - lasts,
-        t_end=end,
-        displacement=(length * direction[0], length * direction[1], 0.0),
-        position=(0.0, 0.0, 0.0),
-        length=length,
-        heading_change=0.0,
-        height_change=0.0,
-        covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4),
-        t_toe_off=end - 0.5 * lasts,
-        t_heel_strike=end - 0.1 * lasts,
-        features=StrideFeatures(0.1, 4.0, 1.0, 400.0, cop, index),
-    )
+    features = StrideFeatures(0.1, 4.0, 1.0, 400.0, cop, index)
+    way, off, strike = (length * direction[0], length * direction[1], 0.0), end - 0.5 * lasts, end - 0.1 * lasts
+    made = stride(foot, end, way, number=number, t_start=end - lasts, t_toe_off=off, t_heel_strike=strike)
+    return evolve(made, covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4), features=features)
 
 
 def walked(*steps: StrideTaken) -> tuple[DoubleFoot, list[StrideFused]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import cos, pi, sin, tan
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 from solepath.calibration import ShoeGeometry
 from solepath.emulate.wearers.shoe import Shoe
 from solepath.papers.kupt_dfpc.kinematics import Sagittal, forefoot_place, heel_place, velocity
-from solepath.types import Quat
+from solepath.types import Quat, Vec3
 from solepath.types.vector import IDENTITY, conjugate, from_rotation_vector, from_yaw, multiply, normalise, rotate
 
 STRAIGHT = ShoeGeometry(forefoot_radius=(0.070, 0.025), pivot_to_toe=(0.090, -0.025), steepest=1.2)
@@ -41,17 +42,6 @@ def test_on_its_heel_the_sensor_is_where_equation_4_has_it() -> None:
     assert heel_place(STRAIGHT, 0.0) == pytest.approx((0.125, 0.029))
 
 
-def test_on_its_heel_it_moves_as_equation_5_has_it() -> None:
-    # 20 degrees: P_h = 0.125 x 0.9396926 - 0.029 x 0.3420201 = 0.1075430; P_z = 0.0427525 + 0.0272511 = 0.0700036
-    # in 0.02 s: (0.1075430 - 0.0937532) / 0.02 = 0.689 ahead, (0.0700036 - 0.0876147) / 0.02 = -0.881 down
-    sagittal = taught()
-    places = []
-    for degrees in (30.0, 20.0):
-        sagittal.see(pitched(degrees * pi / 180.0))
-        places.append(sagittal.heel_place(STRAIGHT))
-    assert velocity(*places, 0.02) == pytest.approx((0.68949, 0.0, -0.88056), abs=1e-4)
-
-
 def test_on_its_forefoot_the_sensor_is_where_equation_6_has_it() -> None:
     # 0.4 rad: L_r = 0.070 + 0.025 x 0.4 = 0.080, L_p2t = 0.090 - 0.010 = 0.080
     # P_h = 0.080 x 0.9210610 - 0.029 x 0.3894183 = 0.0736849 - 0.0112931 = 0.0623918, and 0.080 more to the toe
@@ -59,24 +49,28 @@ def test_on_its_forefoot_the_sensor_is_where_equation_6_has_it() -> None:
     assert forefoot_place(STRAIGHT, 0.4) == pytest.approx((0.1423918, 0.0578643), abs=1e-7)
 
 
-def test_on_its_forefoot_it_moves_as_equation_7_has_it() -> None:
+def rolled(place: Callable[[Sagittal, ShoeGeometry], Vec3], *pitches: float, dt: float, yaw: float = 0.0) -> Vec3:
+    """The velocity of a sensor whose foot pitches from one to the other within `dt` s."""
+    sagittal, places = taught(), []
+    for pitch in pitches:
+        sagittal.see(pitched(pitch, yaw))
+        places.append(place(sagittal, STRAIGHT))
+    return velocity(*places, dt)
+
+
+def test_on_its_heel_it_moves_as_equation_5_has_it() -> None:
+    # 20 degrees: P_h = 0.125 x 0.9396926 - 0.029 x 0.3420201 = 0.1075430; P_z = 0.0427525 + 0.0272511 = 0.0700036
+    # in 0.02 s: (0.1075430 - 0.0937532) / 0.02 = 0.689 ahead, (0.0700036 - 0.0876147) / 0.02 = -0.881 down
+    found = rolled(Sagittal.heel_place, pi / 6, pi / 9, dt=0.02)
+    assert found == pytest.approx((0.68949, 0.0, -0.88056), abs=1e-4)
+
+
+def test_on_its_forefoot_it_moves_as_equation_7_has_it_where_the_foot_points() -> None:
     # 0.5 rad: L_r = 0.0825, L_p2t = 0.0775; P_h = 0.0724006 - 0.0139033 = 0.0584973; P_z = 0.0395526 + 0.0254499
     # in 0.01 s: -(0.1359973 - 0.1423918) / 0.01 = 0.639 ahead, (0.0650025 - 0.0578643) / 0.01 = 0.714 up
-    sagittal = taught()
-    places = []
-    for heel_up in (0.4, 0.5):
-        sagittal.see(pitched(-heel_up))
-        places.append(sagittal.forefoot_place(STRAIGHT))
-    assert velocity(*places, 0.01) == pytest.approx((0.63945, 0.0, 0.71382), abs=1e-4)
-
-
-def test_velocities_point_where_the_foot_does() -> None:
-    sagittal = taught()
-    places = []
-    for heel_up in (0.4, 0.5):
-        sagittal.see(pitched(-heel_up, yaw=pi / 2))
-        places.append(sagittal.forefoot_place(STRAIGHT))
-    assert velocity(*places, 0.01) == pytest.approx((0.0, 0.63945, 0.71382), abs=1e-4)
+    ahead, aside = (rolled(Sagittal.forefoot_place, -0.4, -0.5, dt=0.01, yaw=yaw) for yaw in (0.0, pi / 2))
+    assert ahead == pytest.approx((0.63945, 0.0, 0.71382), abs=1e-4)
+    assert aside == pytest.approx((0.0, 0.63945, 0.71382), abs=1e-4)
 
 
 def test_beyond_the_steepest_posture_the_curves_stay_as_they_are() -> None:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from walks import of
+from walks import of, said
 
-from solepath import Session, StrideTaken
+from solepath import StrideTaken
 from solepath.calibration import Calibration
 from solepath.lab.evaluate.insoles import in_dataset
 from solepath.papers.pressure_contour.recipe import GYROSCOPE, PRESSURE_CONTOUR
@@ -19,8 +19,7 @@ LONGEST = 2.0
 
 
 def steps(recipe: Recipe, file: Path, calibration: Calibration) -> list[StrideTaken]:
-    session = Session(recipe, calibration=calibration)
-    return of(StrideTaken, [*session.feed(load_samples(file)), *session.finish()])
+    return of(StrideTaken, said(load_samples(file), recipe, calibration=calibration))
 
 
 @pytest.mark.parametrize("name", ["shape_C1", "shape_C3", "shape_I2", "shape_L1", "shape_L3", "both_20241113_105919"])

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 from attrs import evolve
+from walks import of, said
 
-from solepath import Session, StrideTaken
+from solepath import StrideTaken
 from solepath.calibration import Calibration, CalibrationError
 from solepath.emulate.routes.laps import square
 from solepath.emulate.routes.route import Route
@@ -68,9 +69,8 @@ def test_a_drift_that_all_laps_agree_on_is_kept_and_then_taken_off() -> None:
     assert found.agreed and found.kept == found.slope
 
     def end(recipe: Recipe, calibration: Calibration) -> StrideTaken:
-        session = Session(recipe, calibration=calibration)
-        steps = [event for event in session.feed(samples()) + session.finish() if isinstance(event, StrideTaken)]
-        return steps[-1]
+        last: StrideTaken = of(StrideTaken, said(samples(), recipe, calibration=calibration))[-1]
+        return last
 
     # what the recipe adds, the calibration takes off again, but for the stands, in which nothing is taken off
     plain, mended = end(GYROSCOPE, Calibration()), end(GYROSCOPE, Calibration(drift={LEFT: fast}))
@@ -106,8 +106,7 @@ def test_the_slope_is_the_mean_of_the_marks_lines() -> None:
 
 
 def test_marks_by_time_say_the_same_as_counted_steps() -> None:
-    session = Session(GYROSCOPE)
-    steps = [event for event in session.feed(samples()) + session.finish() if isinstance(event, StrideTaken)]
+    steps = of(StrideTaken, said(samples(), GYROSCOPE))
     marks = [CornerMark(str(k % PER_LAP), step.t + 0.1) for k, step in enumerate(steps)]
     counted = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
     assert square_drift(samples(), marks=marks, recipe=GYROSCOPE) == counted

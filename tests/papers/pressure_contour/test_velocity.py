@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from solepath.emulate.sensors.insoles import heel_array, layout
 from solepath.papers.pressure_contour.contour import FIGURE_4, Contours
-from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Layout
 
 LENGTH = 0.28
@@ -106,32 +105,19 @@ def test_half_a_contour_is_followed_where_the_other_half_lies_beyond_the_cells()
     assert seen[0] == pytest.approx(0.002 / STEP, rel=0.3)
 
 
-def test_looks_too_far_apart_are_not_compared() -> None:
-    where = grid()
-    contours = Contours()
+@pytest.mark.parametrize("again", [1.2, -98.0], ids=["too long after", "of a clock that begins anew"])
+def test_looks_that_are_not_to_be_compared_are_not_and_the_next_one_is(again: float) -> None:
+    where, contours = grid(), Contours()
     contours.wear(where)
     contours.velocity(1.0, cone(where, 0.046, 0.0))
-    assert contours.velocity(1.2, cone(where, 0.046, 0.0)) is None
-    assert contours.velocity(1.25, cone(where, 0.046, 0.0)) == pytest.approx((0.0, 0.0))
+    assert contours.velocity(again, cone(where, 0.046, 0.0)) is None
+    assert contours.velocity(again + STEP, cone(where, 0.046, 0.0)) == pytest.approx((0.0, 0.0))
 
 
-def test_a_clock_that_begins_anew_is_not_waited_for() -> None:
-    where = grid()
-    contours = Contours()
-    contours.wear(where)
-    contours.velocity(100.0, cone(where, 0.046, 0.0))
-    assert contours.velocity(1.0, cone(where, 0.046, 0.0)) is None
-    assert contours.velocity(1.05, cone(where, 0.046, 0.0)) is not None
-
-
-@pytest.mark.parametrize("cells", [24, 35, 96, 99])
 @pytest.mark.parametrize("foot", list(Foot))
-def test_insoles_of_many_layouts_have_contours(cells: int, foot: Foot) -> None:
-    assert Contours().wear(layout(cells, foot)) is None
-
-
-def test_the_array_under_the_heel_has_contours() -> None:
-    assert Contours().wear(heel_array(Foot.RIGHT)) is None
+def test_insoles_of_many_layouts_and_the_array_under_the_heel_have_contours(foot: Foot) -> None:
+    for cells in (*(layout(count, foot) for count in (24, 35, 96, 99)), heel_array(foot)):
+        assert Contours().wear(cells) is None
 
 
 def test_too_few_cells_under_the_heel_have_none() -> None:
@@ -160,13 +146,3 @@ def test_no_cells_and_no_loads_are_too_odd(where: list[tuple[float, float, float
         loads = data.draw(st.lists(numbers, min_size=len(contours.cells), max_size=len(contours.cells)))
         found = contours.velocity(t, loads)
         assert found is None or all(abs(value) < inf for value in found)
-
-
-def test_it_goes_on_from_a_snapshot() -> None:
-    where = layout(35, Foot.LEFT)
-    ours = Contours()
-    ours.wear(where)
-    ours.velocity(0.0, [cone(where, 0.05, 0.0)[i] for i in ours.cells])
-    theirs = machine.load(Contours, machine.save(ours))
-    later = [cone(where, 0.051, 0.0)[i] for i in ours.cells]
-    assert ours.velocity(0.05, later) == theirs.velocity(0.05, later)

@@ -3,38 +3,25 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from strides import stride
 
 from solepath.body.activity.flights import Flights
 from solepath.body.activity.steepness import HIGHEST_RISE
-from solepath.events import FlightClimbed, StrideFeatures, StrideTaken
+from solepath.events import FlightClimbed, StrideTaken
 from solepath.saving import codec as machine
-from solepath.types import Foot
+from solepath.types import Foot, Vec3
 
 RISER = 0.16
 FEET = (Foot.LEFT, Foot.RIGHT)
 
 
-def step(foot: Foot, t: float, height: float, ground: float = 0.6, degraded: bool = False) -> StrideTaken:
-    return StrideTaken(
-        t=t,
-        known_at=t,
-        foot=foot,
-        number=1,
-        t_start=t - 1.0,
-        t_end=t,
-        displacement=(ground, 0.0, height),
-        position=(0.0, 0.0, 0.0),
-        length=ground,
-        heading_change=0.0,
-        height_change=height,
-        covariance=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-        degraded=degraded,
-        features=StrideFeatures(0.1, 2.0, 1.0),
-    )
+def step(foot: Foot, t: float, height: float, degraded: bool = False) -> StrideTaken:
+    return stride(foot, t, (0.6, 0.0, height), degraded=degraded)
 
 
 def flights_of(risers: list[int], *, feet: tuple[Foot, ...] = FEET, last: bool = True) -> list[FlightClimbed]:
@@ -87,23 +74,33 @@ def test_a_kerb_is_no_flight() -> None:
     assert flights_of([0, 0, 1, 1, 1, 1, 0, 0, 0]) == []
 
 
+def judged(strides: Iterable[tuple[float, int | None]], degraded: bool = False) -> list[FlightClimbed]:
+    """Strides of alternating feet, how high each is, m, and what its judge says of it; and a rest at the end."""
+    flights, told = Flights(), list[FlightClimbed]()
+    for k, (height, way) in enumerate(strides):
+        told += flights.stepped(step(FEET[k % 2], 0.6 * k, height, degraded=degraded), way)
+    return told + flights.finish(60.0)
+
+
 def test_one_misjudged_stride_of_two_feet_does_not_part_a_flight() -> None:
-    flights = Flights()
-    told: list[FlightClimbed] = []
-    for k in range(12):
-        told += flights.stepped(step(FEET[k % 2], 0.6 * k, 2 * RISER), 0 if k == 5 else 1)
-    told += flights.waited(20.0, 20.0)
-    assert len(told) == 1
+    (flight,) = judged((2 * RISER, 0 if k == 5 else 1) for k in range(12))
     # the misjudged stride's rise is the flight's all the same
-    assert told[0].height == pytest.approx(6 * 2 * RISER)
+    assert flight.height == pytest.approx(6 * 2 * RISER)
 
 
-def test_the_long_stride_onto_the_first_tread_belongs_to_the_flight() -> None:
+@pytest.mark.parametrize(
+    ("first", "last", "risers"),
+    [((1.1, 0.0, RISER), (1.2, 0.0, 0.0), 9), ((20.0, 0.0, 5.0), (20.0, 0.0, 5.0), 8)],
+    ids=["onto the first tread", "of an impossible height"],
+)
+def test_a_long_level_stride_before_a_flight_is_its_first_riser_if_it_can_be_one(
+    first: Vec3, last: Vec3, risers: int
+) -> None:
     flights = Flights()
-    told = flights.stepped(step(Foot.LEFT, 1.0, RISER, 1.1), 0)
+    told = flights.stepped(stride(Foot.LEFT, 1.0, first), 0)
     told += [event for k in range(4) for event in flights.stepped(step(Foot.LEFT, 2.0 + k, 2 * RISER), 1)]
-    told += flights.stepped(step(Foot.LEFT, 7.0, 0.0, 1.2), 0)
-    assert told[0].height == pytest.approx(9 * RISER)
+    told += flights.stepped(stride(Foot.LEFT, 7.0, last), 0)
+    assert told[0].height == pytest.approx(risers * RISER)
 
 
 def test_who_rests_with_a_foot_on_each_tread_is_not_there_yet() -> None:
@@ -133,12 +130,8 @@ def test_a_clock_that_begins_anew_gives_up_the_flight() -> None:
 
 
 def climbed(heights: list[float], *, degraded: bool = False) -> list[FlightClimbed]:
-    """Strides upstairs of alternating feet, one after the other, and a rest at the top."""
-    flights = Flights()
-    told: list[FlightClimbed] = []
-    for k, height in enumerate(heights):
-        told += flights.stepped(step(FEET[k % 2], 0.6 * k, height, degraded=degraded), 1)
-    return told + flights.finish(60.0)
+    """Strides upstairs."""
+    return judged([(height, 1) for height in heights], degraded)
 
 
 def test_a_stride_higher_than_any_stairs_rises_by_what_the_others_do() -> None:
@@ -171,12 +164,8 @@ def test_where_most_strides_are_not_believed_there_is_no_height_to_tell() -> Non
 
 
 def unjudged(ways: list[int | None]) -> list[FlightClimbed]:
-    """Strides of alternating feet whose judge says so of them; None: of 5 m, so the judge cannot tell."""
-    flights = Flights()
-    told: list[FlightClimbed] = []
-    for k, way in enumerate(ways):
-        told += flights.stepped(step(FEET[k % 2], 0.6 * k, 5.0 if way is None else 0.32 * way), way)
-    return told + flights.finish(60.0)
+    """Strides whose judge says so of them; None: of 5 m, so the judge cannot tell."""
+    return judged([(5.0 if way is None else 0.32 * way, way) for way in ways])
 
 
 def test_a_stride_that_nobody_can_judge_is_of_the_flight_when_the_next_one_is() -> None:
@@ -191,14 +180,6 @@ def test_strides_that_nobody_can_judge_end_a_flight_as_level_ones_do() -> None:
     first, second = unjudged([1, 1, 1, 1, None, None, 1, 1, 1, 1])
     assert (first.steps, second.steps) == (4, 4)
     assert first.known_at == pytest.approx(0.6 * 5)
-
-
-def test_a_level_stride_of_an_impossible_height_is_not_the_first_riser() -> None:
-    flights = Flights()
-    told = flights.stepped(step(Foot.LEFT, 1.0, 5.0, 20.0), 0)
-    told += [event for k in range(4) for event in flights.stepped(step(Foot.LEFT, 2.0 + k, 2 * RISER), 1)]
-    told += flights.stepped(step(Foot.LEFT, 7.0, 5.0, 20.0), 0)
-    assert told[0].height == pytest.approx(8 * RISER)
 
 
 def test_who_rests_after_a_stride_of_unknown_height_has_arrived() -> None:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 from attrs import evolve
+from strides import stride
 
 from solepath.emulate.wearers.truth import TrueStep
-from solepath.events import StrideFeatures, StrideTaken
+from solepath.events import StrideTaken
 from solepath.lab.reproduce import shoe_sensing, shoe_walks
 from solepath.lab.reproduce.published import NORMALISED
 from solepath.lab.reproduce.published import SHOE_SENSING as PAPER
@@ -15,22 +16,8 @@ from solepath.lab.reproduce.walks import heard
 from solepath.papers.shoe_sensing.recipe import SHOE_SENSING
 
 
-def step(t: float, lasting: float = 1.0, length: float = 1.2) -> StrideTaken:
-    return StrideTaken(
-        t=t,
-        known_at=t,
-        foot=FOOT,
-        number=1,
-        t_start=t - lasting,
-        t_end=t,
-        displacement=(length, 0.0, 0.0),
-        position=(0.0, 0.0, 0.0),
-        length=length,
-        heading_change=0.0,
-        height_change=0.0,
-        covariance=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-        features=StrideFeatures(0.1, 2.0, 1.0),
-    )
+def step(t: float) -> StrideTaken:
+    return stride(FOOT, t)
 
 
 def true(t: float) -> TrueStep:

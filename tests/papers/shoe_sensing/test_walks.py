@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import cache
-from math import radians
+from math import inf, radians
 from pathlib import Path
+from typing import Any
 
 import pytest
 from attrs import evolve
 from views import fed
+from walks import both_feet, said
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import MPU6050
@@ -36,22 +38,20 @@ DOWN = Route().stand(3.0).walk(5.0, 1.2).stairs(9, up=False).walk(1.3).stairs(9,
 @cache
 def worn(route: Route, seed: int, rate: float = 100.0) -> tuple[tuple[Sample, ...], Truth]:
     walker = Walker(route, seed=seed)
-    samples = [one for foot in Foot for one in walker.samples(foot, rate, MPU6050, mounting=ON_INSTEP)]
-    return tuple(sorted(samples, key=_time)), walker.truth(dict.fromkeys(Foot, ON_INSTEP))
-
-
-def _time(sample: Sample) -> float:
-    return sample.t
+    return both_feet(walker, rate, MPU6050, mounting=ON_INSTEP), walker.truth(dict.fromkeys(Foot, ON_INSTEP))
 
 
 @cache
 def heard(route: Route, seed: int, rate: float = 100.0, energy: bool = True) -> tuple[Event, ...]:
-    session = Session(SHOE_SENSING if energy else SHOE_MAGNITUDE)
-    return tuple(session.feed(worn(route, seed, rate)[0]) + session.finish())
+    return tuple(said(worn(route, seed, rate)[0], SHOE_SENSING if energy else SHOE_MAGNITUDE))
 
 
 def steps(events: tuple[Event, ...], foot: Foot) -> list[StrideTaken]:
     return [event for event in events if isinstance(event, StrideTaken) and event.foot is foot]
+
+
+def changes(events: Iterable[Event]) -> list[tuple[float, Activity]]:
+    return [(event.t, event.activity) for event in events if isinstance(event, ActivityChanged)]
 
 
 @pytest.mark.parametrize(
@@ -102,34 +102,35 @@ def test_states_are_those_of_the_steps(route: Route, stairs: Activity) -> None:
     assert any(abs(event.t - begun[0]) < 1.5 for event in told if event.activity is stairs)
 
 
+def by_the_left_foot(
+    part: AnglePerMetre, change: Callable[[Event], Event | None] = lambda one: one, until: float = inf
+) -> list[Any]:
+    """What it says of the left foot's level walk up to `until` s, hearing of its events as they are changed."""
+    foot, told = FootTracker(Foot.LEFT, ShortTimeEnergy(), ShoeSensing()), []
+    for sample in worn(LEVEL, 1)[0]:
+        if sample.site.foot is Foot.LEFT and sample.t < until:
+            events = [one for event in foot.feed(sample) if (one := change(event)) is not None]
+            told += fed(part, foot, sample, events)
+    return told
+
+
 def test_a_foot_that_only_fidgets_is_in_the_end_unknown() -> None:
-    part, foot = AnglePerMetre(), FootTracker(Foot.LEFT, ShortTimeEnergy(), ShoeSensing())
-    samples = [one for one in worn(LEVEL, 1)[0] if one.site.foot is Foot.LEFT]
-    told: list[Event] = []
-    for sample in samples[:1200]:
-        events = foot.feed(sample)
-        # the steps are kept from it, as if the foot had come down where it stood
-        told += fed(part, foot, sample, [event for event in events if not isinstance(event, StrideTaken)])
-    kinds = [event.activity for event in told if isinstance(event, ActivityChanged)]
-    assert kinds == [Activity.STANDING, Activity.UNKNOWN]
+    # the steps are kept from it, as if the foot had come down where it stood
+    told = by_the_left_foot(AnglePerMetre(), lambda one: None if isinstance(one, StrideTaken) else one, until=12.0)
+    assert [what for _, what in changes(told)] == [Activity.STANDING, Activity.UNKNOWN]
 
 
 def test_who_has_stood_for_long_and_sets_out_is_not_unknown() -> None:
     samples, _ = worn(Route().stand(12.0).walk(6.0, 1.3).stop(2.0), 1)
-    session = Session(SHOE_SENSING)
-    told = session.feed(samples) + session.finish()
-    kinds = [event.activity for event in told if isinstance(event, ActivityChanged)]
-    assert kinds == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
+    told = changes(said(samples, SHOE_SENSING))
+    assert [what for _, what in told] == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
 
 
 def test_a_clock_that_begins_anew_is_told_on_the_new_one() -> None:
     part = AnglePerMetre()
     part.since, part.moved_at, part.stepped_at = 1000.0, 1000.0, 1000.0
     part.reset(worn(LEVEL, 1)[0][0].site)
-    foot, told = FootTracker(Foot.LEFT, ShortTimeEnergy(), ShoeSensing()), []
-    for sample in worn(LEVEL, 1)[0][:800]:
-        if sample.site.foot is Foot.LEFT:
-            told += fed(part, foot, sample, foot.feed(sample))
+    told = by_the_left_foot(part, until=4.0)
     assert told[0].activity is Activity.STANDING and told[0].t < 3.0
     assert load(AnglePerMetre, save(part)) == part
 
@@ -153,10 +154,6 @@ def rebound(shifts: dict[Foot, float], *, silent: Foot | None = None) -> tuple[l
     return before, after + session.finish()
 
 
-def changes(events: Iterable[Event]) -> list[tuple[float, Activity]]:
-    return [(event.t, event.activity) for event in events if isinstance(event, ActivityChanged)]
-
-
 @pytest.mark.parametrize("shift", [-1e9, -40.0, 0.0, 1e9])
 def test_a_foot_whose_clock_restarts_dates_nothing_while_the_other_goes_on(shift: float) -> None:
     before, after = rebound({Foot.LEFT: shift})
@@ -177,15 +174,10 @@ def test_a_restarted_clock_dates_what_is_told_once_the_other_foot_has_fallen_sil
 
 @pytest.mark.parametrize("height", [-11.46, 2.31])
 def test_a_step_higher_than_stairs_have_is_neither_upstairs_nor_downstairs(height: float) -> None:
-    part, foot = AnglePerMetre(), FootTracker(Foot.LEFT, ShortTimeEnergy(), ShoeSensing())
-    told: list[Event] = []
-    for sample in worn(LEVEL, 1)[0]:
-        if sample.site.foot is Foot.LEFT:
-            events = [
-                evolve(one, height_change=height) if isinstance(one, StrideTaken) and one.number % 3 == 0 else one
-                for one in foot.feed(sample)
-            ]
-            told += fed(part, foot, sample, events)
+    def raised(one: Event) -> Event:
+        return evolve(one, height_change=height) if isinstance(one, StrideTaken) and one.number % 3 == 0 else one
+
+    told = by_the_left_foot(AnglePerMetre(), raised)
     assert [what for _, what in changes(told)] == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
     assert not any(isinstance(event, FlightClimbed) for event in told)
 
@@ -198,8 +190,7 @@ def test_recorded_stairs_are_two_flights_upwards_with_a_landing_between(path: st
     file = data_dir / f"{path}.npz"
     if not file.exists():
         pytest.skip(f"no {path} among the recorded data")
-    session = Session(SHOE_SENSING)
-    told = [event for sample in load_samples(file) for event in session.feed(sample)] + session.finish()
+    told = said(load_samples(file), SHOE_SENSING)
     flights = [event.up for event in told if isinstance(event, FlightClimbed)]
     assert flights == [True, True]
     assert Activity.STAIRS_UP in {event.activity for event in told if isinstance(event, ActivityChanged)}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Sequence
 from functools import cache
 from math import hypot, pi
 
@@ -19,7 +19,8 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.suit import limb_samples
 from solepath.emulate.wearers.walker import Walker
-from solepath.events import Event, Limitation, TouchedDown, WalkingModeChanged
+from solepath.events import Event, TouchedDown, WalkingModeChanged
+from solepath.foot.world import Covariance3
 from solepath.papers.walking_modes.compensation import TABLE_1
 from solepath.papers.walking_modes.modes import Modes
 from solepath.papers.walking_modes.recipe import WALKING_MODES
@@ -48,6 +49,15 @@ def suit(route: Route = AROUND, north: float = 0.0, seed: int = 101) -> tuple[Sa
 def told(heading: float | None = None, north: float = 0.0) -> list[Event]:
     session = Session(III.exchanged(Track, Modes(heading=heading)), calibration=KNOWN)
     return [*session.feed(suit(north=north)), *session.finish()]
+
+
+def off(modes: Modes, samples: Sequence[Sample]) -> tuple[tuple[float, float], Covariance3]:
+    """How far from the end of the way the wearer is said to be in the end, m, and with which covariance."""
+    session = Session(III.exchanged(Track, modes), calibration=KNOWN)
+    session.feed(samples)
+    position, end = session.position, walker().route.end
+    assert position is not None
+    return (position.position[0] - end.x, position.position[1] - end.y), position.covariance
 
 
 def test_every_step_is_a_touchdown_where_the_foot_came_down() -> None:
@@ -80,20 +90,11 @@ def test_touchdowns_are_final_once_the_first_heading_is() -> None:
 
 @pytest.mark.parametrize("method", [Height(), NetAcceleration()])
 def test_the_other_methods_go_the_same_way_less_well(method: Height | NetAcceleration) -> None:
-    session = Session(III.exchanged(Track, Modes(method, heading=0.0)), calibration=KNOWN)
-    session.feed(suit())
-    position, end = session.position, walker().route.end
-    assert position is not None
-    assert hypot(position.position[0] - end.x, position.position[1] - end.y) < 0.1 * walker().route.length
+    assert hypot(*off(Modes(method, heading=0.0), suit())[0]) < 0.1 * walker().route.length
 
 
 def test_the_position_is_midway_between_the_feet_and_says_how_far_it_may_be_off() -> None:
-    session = Session(III.exchanged(Track, Modes(heading=0.0)), calibration=KNOWN)
-    session.feed(suit())
-    position, end = session.position, walker().route.end
-    assert position is not None
-    dx, dy = position.position[0] - end.x, position.position[1] - end.y
-    xx, xy, _, yy, _, _ = position.covariance
+    (dx, dy), (xx, xy, _, yy, _, _) = off(Modes(heading=0.0), suit())
     assert hypot(dx, dy) < 0.15
     assert (yy * dx * dx - 2.0 * xy * dx * dy + xx * dy * dy) / (xx * yy - xy * xy) < 9.2  # 99 % of a normal pair
 
@@ -141,43 +142,15 @@ def test_a_wearers_own_compensation_takes_the_place_of_table_1_mode_by_mode() ->
     assert Modes().calibrated(own).compensation is None
 
 
-def test_without_body_sensors_the_feet_are_where_their_own_tracks_have_them_and_that_is_said_once() -> None:
-    session = Session(III, calibration=KNOWN)
-    feet = [evolve(sample, quat=None) for sample in suit() if sample.site.foot is not None]
-    events = session.feed(feet)
-    said = [event.what for event in of(Limitation, events) if "own inertial tracks" in event.what]
-    assert len(said) == 1 and "pelvis" in said[0]
-    assert len(of(TouchedDown, events)) == sum(len(strides) for strides in walker().plan.strides.values())
-    end = walker().route.end
-    assert session.position is not None
-    x, y, _ = session.position.position
-    assert hypot(x - end.x, y - end.y) < 0.1 * walker().route.length
-
-
 def test_sensors_without_attitudes_are_taken_upright_by_gravity() -> None:
     bare = [evolve(sample, quat=None) for sample in suit()]
-    session = Session(III, calibration=KNOWN)
-    session.feed(bare)
-    body, end = session.position, walker().route.end
-    assert body is not None
-    assert hypot(body.position[0] - end.x, body.position[1] - end.y) < 0.15 * walker().route.length
+    assert hypot(*off(Modes(), bare)[0]) < 0.15 * walker().route.length
 
 
 def test_a_sensor_that_falls_silent_leaves_the_feet_to_their_own_tracks() -> None:
     session = Session(III.exchanged(Track, Modes(heading=0.0)), calibration=KNOWN)
     events = session.feed([s for s in suit() if s.site is not Site.LEFT_SHANK or s.t < 5.0])
     assert len(of(TouchedDown, events)) == sum(len(strides) for strides in walker().plan.strides.values())
-
-
-def test_a_walk_saved_in_the_middle_goes_on_the_same() -> None:
-    samples = suit()
-    for cut in (1, len(samples) // 3, len(samples) // 2 + 1):
-        whole, first = Session(WALKING_MODES, calibration=KNOWN), Session(WALKING_MODES, calibration=KNOWN)
-        straight = [*whole.feed(samples[:cut]), *whole.feed(samples[cut:])]
-        before = first.feed(samples[:cut])
-        second = Session.restore(json.loads(json.dumps(first.snapshot(), allow_nan=False)))
-        assert [*before, *second.feed(samples[cut:])] == straight
-        assert second.position == whole.position
 
 
 SITES = st.sampled_from(list(Site))

@@ -42,15 +42,11 @@ def gauge(path: Path, counts: list[float], lines: tuple[str, ...] = ()) -> Path:
     return path
 
 
-def test_a_cubic_is_found_again(tmp_path: Path) -> None:
+def test_a_cubic_is_found_again_below_5_newtons_is_nothing_and_more_than_200_is_200(tmp_path: Path) -> None:
     found = fit_gauge(gauge(tmp_path / "g.csv", [1000.0 * k for k in range(17)]))
     assert found.points == 17 and found.residual < 1e-6 and found.worst < 1e-6
     for count in (2500.0, 9000.0, 15500.0):
         assert in_newtons(found.newtons, (count,))[0] == pytest.approx(cubic(count))
-
-
-def test_what_is_below_5_newtons_is_nothing_and_more_than_200_is_200(tmp_path: Path) -> None:
-    found = fit_gauge(gauge(tmp_path / "g.csv", [1000.0 * k for k in range(17)]))
     low, high = in_newtons(found.newtons, (1000.0, 20000.0))
     assert cubic(1000.0) < 5.0 and low == 0.0 and high == 200.0
 

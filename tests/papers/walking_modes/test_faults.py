@@ -9,7 +9,7 @@ from math import hypot, pi
 import pytest
 import spoiled
 from attrs import evolve
-from walks import of
+from walks import both_feet, of
 
 from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import Track
@@ -25,6 +25,7 @@ from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
+LAYOUTS = {SITE_OF_FOOT[foot]: layout(96, foot) for foot in Foot}
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(96, foot)) for foot in Foot})
 FAR = 25.0
 TRACKS = DEFAULT.exchanged(Track, MeanOfFeet())
@@ -40,19 +41,13 @@ def walker() -> Walker:
 @cache
 def feet() -> tuple[Sample, ...]:
     """Both insoles of a straight walk, 50 Hz."""
-    told = [s for foot in Foot for s in walker().samples(foot, 50.0, LSM6DSOX, layout=layout(96, foot))]
-    return tuple(sorted(told, key=_time))
+    return both_feet(walker(), 50.0, LSM6DSOX, 96)
 
 
 @cache
 def seven() -> tuple[Sample, ...]:
     """Seven sensors with attitudes of the same walk."""
-    layouts = {SITE_OF_FOOT[foot]: layout(96, foot) for foot in Foot}
-    return tuple(limb_samples(walker(), 50.0, seed=1, layouts=layouts))
-
-
-def _time(sample: Sample) -> float:
-    return sample.t
+    return tuple(limb_samples(walker(), 50.0, seed=1, layouts=LAYOUTS))
 
 
 def without_numbers(samples: Sequence[Sample], since: float) -> list[Sample]:
@@ -116,6 +111,8 @@ def test_the_feet_alone_go_all_the_way_by_any_method(recipe: str) -> None:
     assert hypot(x - FAR, y) < 2.0
     strides = sum(len(strides) for strides in walker().plan.strides.values())
     assert strides - 2 <= len(of(TouchedDown, events)) <= strides + 1
+    (said,) = [what for what in sentences(events) if "own inertial tracks" in what]
+    assert "pelvis" in said
 
 
 def lagging(samples: Sequence[Sample]) -> list[Sample]:
@@ -172,10 +169,8 @@ def test_with_the_chain_too() -> None:
 def round_a_bend() -> tuple[Walker, tuple[Sample, ...], tuple[Sample, ...]]:
     """Ten metres, a quarter to the left, fifteen metres: by two insoles, and by seven sensors."""
     walked = Walker(Route().stand(2.0).walk(10.0, 1.2).turn(pi / 2, 3.0).walk(15.0).stop(2.0), seed=2)
-    layouts = {foot: layout(96, foot) for foot in Foot}
-    two = [s for foot in Foot for s in walked.samples(foot, 50.0, LSM6DSOX, layout=layouts[foot])]
-    sites = {SITE_OF_FOOT[foot]: one for foot, one in layouts.items()}
-    return walked, tuple(sorted(two, key=_time)), tuple(limb_samples(walked, 50.0, seed=2, layouts=sites))
+    seven = limb_samples(walked, 50.0, seed=2, layouts=LAYOUTS)
+    return walked, both_feet(walked, 50.0, LSM6DSOX, 96), tuple(seven)
 
 
 @pytest.mark.parametrize(("site", "end"), [(LEFT, 13.3), (RIGHT, 15.3), (RIGHT, 100.0)])

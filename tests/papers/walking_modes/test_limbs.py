@@ -99,17 +99,22 @@ def stood(chain: LowerLimbs, mounted: dict[Site, Quat], segments: dict[Site, Qua
 MOUNTED = {site: normalise((1.0, 0.1 * k, -0.2 * k, 0.3)) for k, site in enumerate(SEGMENTS)}
 
 
+def swing_back(chain: LowerLimbs, t: float, world: Quat = IDENTITY) -> None:
+    """The left leg as one, by 30 degrees, which the chain knows; `world`: how that of the thigh's sensor is turned."""
+    for site in (Site.LEFT_THIGH, Site.LEFT_SHANK, Site.LEFT_FOOT):
+        told = multiply(pitched(30), MOUNTED[site])
+        chain.told(site, t, multiply(world, told) if site is Site.LEFT_THIGH else told)
+    end = foot_end(IDENTITY, pitched(30), pitched(30), pitched(30), HIP, LIMBS)
+    assert chain.end(Foot.LEFT, t) == pytest.approx(end)
+
+
 def test_standing_tells_how_every_sensor_sits_on_its_segment() -> None:
     chain = LowerLimbs(LIMBS)
     stood(chain, MOUNTED)
     assert chain.aligned
     assert chain.end(Foot.LEFT, 0.6) == pytest.approx((0.2, 0.1, -0.95))
     assert chain.end(Foot.RIGHT, 0.6) == pytest.approx((0.2, -0.1, -0.95))
-    # the left leg swings back as one, by 30 degrees
-    for site in (Site.LEFT_THIGH, Site.LEFT_SHANK, Site.LEFT_FOOT):
-        chain.told(site, 0.62, multiply(pitched(30), MOUNTED[site]))
-    x, y, z = foot_end(IDENTITY, pitched(30), pitched(30), pitched(30), HIP, LIMBS)
-    assert chain.end(Foot.LEFT, 0.62) == pytest.approx((x, y, z))
+    swing_back(chain, 0.62)
     assert chain.height(Foot.LEFT, 0.62) == pytest.approx(-0.95 * cos(pi / 6))
 
 
@@ -194,12 +199,7 @@ def test_a_sensor_that_began_anew_is_used_again_in_its_new_world_once_it_stood_s
     again(chain, Site.LEFT_THIGH, world, 0.64)
     assert chain.current(1.24)
     assert chain.end(Foot.LEFT, 1.24) == pytest.approx((0.2, 0.1, -0.95))
-    # the left leg swings back as one, by 30 degrees
-    for site in (Site.LEFT_THIGH, Site.LEFT_SHANK, Site.LEFT_FOOT):
-        told = multiply(pitched(30), MOUNTED[site])
-        chain.told(site, 1.26, multiply(world, told) if site is Site.LEFT_THIGH else told)
-    x, y, z = foot_end(IDENTITY, pitched(30), pitched(30), pitched(30), HIP, LIMBS)
-    assert chain.end(Foot.LEFT, 1.26) == pytest.approx((x, y, z))
+    swing_back(chain, 1.26, world)
 
 
 def test_why_the_chain_is_not_known_names_the_site() -> None:

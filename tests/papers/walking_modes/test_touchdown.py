@@ -24,19 +24,13 @@ from solepath.types import Foot
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 
 
-def test_while_the_right_foot_is_down_the_left_one_is_seen_from_it() -> None:
+def test_while_one_foot_is_down_the_other_is_seen_from_it() -> None:
     assert v_change((0.5, 0.1, 0.2), (0.1, -0.1, 0.0), RIGHT) == pytest.approx((0.4, 0.2, 0.2))  # (1)
-
-
-def test_while_the_left_foot_is_down_the_right_one_is_seen_from_it() -> None:
     assert v_change((0.5, 0.1, 0.2), (0.1, -0.1, 0.0), LEFT) == pytest.approx((-0.4, -0.2, -0.2))  # (2)
 
 
-def test_the_foot_in_the_air_is_the_change_away_from_the_one_that_is_down() -> None:
+def test_the_foot_in_the_air_is_the_change_and_the_compensation_away_from_the_one_that_is_down() -> None:
     assert suspended((1.0, 2.0, 0.0), (0.4, 0.2, 0.2)) == pytest.approx((1.4, 2.2, 0.2))  # (3)
-
-
-def test_the_compensation_is_added_to_it() -> None:
     assert suspended((1.0, 2.0, 0.0), (0.4, 0.2, 0.2), (0.0055, -0.0034, 0.0)) == pytest.approx((1.4055, 2.1966, 0.2))
 
 

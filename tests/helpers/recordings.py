@@ -1,0 +1,35 @@
+"""Recordings of packets that tests write, and the files that come of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from solepath.recording import PacketWriter
+from solepath.types import Packet, Site
+
+PACKETS = [
+    Packet(12.5, Site.LEFT_FOOT, "device/battery", b"\x63"),
+    Packet(12.5, Site.RIGHT_FOOT, "insole/frame", bytes(range(256))),
+    Packet(0.1 + 12.65, Site.PELVIS, "cc2650/keys", b""),
+]
+"""Some, of which one says nothing."""
+
+
+def recorded(path: Path, packets: Iterable[Packet], header: dict[str, Any] | None = None) -> Path:
+    """The file, which holds them."""
+    with PacketWriter(path, {} if header is None else header) as writer:
+        for packet in packets:
+            writer.write(packet)
+    return path
+
+
+def into(folder: Path) -> tuple[object, ...]:
+    """Options of a command that writes all that it can there."""
+    return ("--out", folder / "out", "--report", folder / "r.html")
+
+
+def written(folder: Path) -> dict[str, bytes]:
+    """All files below it, by their names there."""
+    return {str(file.relative_to(folder)): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
